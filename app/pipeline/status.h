@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "hal/fault.h"
+#include "proc/signals/signals.h"
+
+namespace orbwatch::app {
+
+inline constexpr std::size_t kMaxCameras = 4;
+inline constexpr std::size_t kMaxViews = 8;
+
+/// The daemon as a whole. The numbers go to PLC and controller: append, never renumber.
+enum class SystemState : std::uint8_t {
+  Starting = 0,  ///< no frame set yet
+  Running = 1,   ///< every camera delivers
+  Degraded = 2,  ///< some camera has a fault; what the others see is still measured
+  Fault = 3,     ///< no camera delivers
+};
+
+/// The name of a state in logs and manuals.
+constexpr std::string_view name_of(SystemState state) {
+  constexpr std::array<std::string_view, 4> kNames{"starting", "running", "degraded", "fault"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+/// Figures of one camera since start; rates and latencies over the last full second.
+struct CameraStatus {
+  hal::Fault fault = hal::Fault::None;
+  std::uint64_t frames = 0;   ///< delivered
+  std::uint64_t lost = 0;     ///< gaps in the sequence
+  std::uint64_t dropped = 0;  ///< delivered, but replaced by a newer one before it was used
+  double frames_per_second = 0;
+};
+
+/// Figures of one view since start; rates and latencies over the last full second.
+struct ViewStatus {
+  std::uint64_t published = 0;
+  std::uint64_t skipped = 0;  ///< frame sets without this view: display slowed down, or no buffer
+  double frames_per_second = 0;
+  double latency_p50_ms = 0;  ///< exposure start to hand-over to the sinks
+  double latency_p99_ms = 0;
+};
+
+/// One consistent copy of everything the outside may know at one moment. Fixed size, no heap: it is
+/// copied to every sink.
+struct Status {
+  SystemState state = SystemState::Starting;
+  std::uint64_t heartbeat = 0;  ///< advances with the pipeline, at least ten times a second
+  std::uint64_t frame_set = 0;  ///< number of the newest frame set; 0: none yet
+  hal::TimePoint stamp;         ///< exposure start of that frame set
+  std::uint64_t overruns = 0;   ///< frame sets that took longer than their deadline
+  std::uint64_t unmatched = 0;  ///< frame sets in which a camera's frame was older than the window
+  double load = 0;              ///< share of the deadline the slowest set of the last second took
+  std::size_t selected_view = 0;
+  std::size_t camera_count = 0;
+  std::size_t view_count = 0;
+  std::array<CameraStatus, kMaxCameras> cameras;
+  std::array<ViewStatus, kMaxViews> views;
+  signals::Signals signals;
+};
+
+}  // namespace orbwatch::app
