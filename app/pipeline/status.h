@@ -7,11 +7,12 @@
 
 #include "hal/clock.h"
 #include "hal/fault.h"
+#include "hal/frame_sync.h"
 #include "proc/signals/signals.h"
 
 namespace orbwatch::app {
 
-inline constexpr std::size_t kMaxCameras = 4;
+using hal::kMaxCameras;
 inline constexpr std::size_t kMaxViews = 8;
 
 /// The daemon as a whole. The numbers go to PLC and controller: append, never renumber.

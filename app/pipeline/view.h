@@ -7,15 +7,9 @@
 
 #include "hal/clock.h"
 #include "proc/image/image_view.h"
+#include "proc/image/validity.h"
 
 namespace orbwatch::app {
-
-/// Why a pixel of a view is or is not known.
-enum class Validity : std::uint8_t {
-  Outside = 0,  ///< the direction's place on the ball lies outside every camera's picture
-  Blind = 1,    ///< no camera sees the direction on the ball, or the one that does has a fault
-  Seen = 255,
-};
 
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
 /// memory comes from the view's pool and returns to it with the last ViewPtr.
