@@ -13,8 +13,8 @@
 namespace orbwatch::app::tests {
 
 /// A DDS network of the test's own on the loopback interface: two domains of this process that are
-/// one domain on the wire. Sink and reader get one each, so all that they exchange crosses UDP as it
-/// would between two machines, and a tag keeps out every other test.
+/// one domain on the wire. Sink and reader get one each, so all that they exchange crosses UDP as
+/// it would between two machines, and a tag keeps out every other test.
 class DdsNetwork {
  public:
   static constexpr int kSinkDomain = 1;
@@ -38,8 +38,12 @@ class DdsNetwork {
     const std::string domain = std::to_string(1 + getpid() % 100);
     return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
            "<AllowMulticast>false</AllowMulticast></General><Discovery>"
-           "<ExternalDomainId>" + domain + "</ExternalDomainId>"
-           "<Tag>orbwatch_tests_" + std::to_string(getpid()) + "</Tag>"
+           "<ExternalDomainId>" +
+           domain +
+           "</ExternalDomainId>"
+           "<Tag>orbwatch_tests_" +
+           std::to_string(getpid()) +
+           "</Tag>"
            "<ParticipantIndex>auto</ParticipantIndex>"
            "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
            "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";

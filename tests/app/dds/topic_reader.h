@@ -44,7 +44,9 @@ class TopicReader {
     EXPECT_GE(count, 0) << dds_strretcode(count);
     const bool valid = count > 0 && info.valid_data;
     if (valid) look(*static_cast<const Message*>(sample));
-    if (count > 0) EXPECT_EQ(dds_return_loan(reader_.get(), &sample, count), DDS_RETCODE_OK);
+    if (count > 0) {
+      EXPECT_EQ(dds_return_loan(reader_.get(), &sample, count), DDS_RETCODE_OK);
+    }
     return valid;
   }
 

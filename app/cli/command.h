@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// A subcommand of `orbwatch`. `arguments` begin with its name.
+using CommandFunction = Result<> (*)(const std::vector<std::string>& arguments);
+
+Result<> project_command(const std::vector<std::string>& arguments);
+Result<> describe_command(const std::vector<std::string>& arguments);
+Result<> subscribe_command(const std::vector<std::string>& arguments);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/dds/dds_sink.h"
+#include "app/modbus/modbus_settings.h"
+#include "app/pipeline/view_renderer.h"
+#include "hal/fault_script.h"
+#include "proc/optics/ball_model.h"
+#include "proc/optics/view_projection.h"
+#include "proc/remap/remap.h"
+
+namespace orbwatch::app {
+
+/// What the file of `orbwatchd --config` says, checked. Which keys there are, what they may be and
+/// what they mean stands in schema.h; this is where their values live and what they are by default.
+
+using Numbers2 = std::array<double, 2>;
+using Numbers3 = std::array<double, 3>;
+using Numbers9 = std::array<double, 9>;
+
+struct BallSettings {
+  Numbers2 centre{};
+  std::optional<double> radius;
+  std::optional<Numbers2> radii;
+  double angle = 0;
+  optics::BallModel::Kind model = optics::BallModel::Kind::Exact;
+  std::optional<double> alpha;
+  std::optional<double> distance;
+  std::optional<Numbers3> rotation;
+  std::optional<Numbers9> rotation_matrix;
+};
+
+struct SimulatedCameraPart {
+  enum class Kind { Colour, Thermal };
+  Kind kind = Kind::Colour;
+  Numbers3 position{};
+  double h_fov = 0;
+  double noise = 1;
+};
+
+struct ReplayPart {
+  std::filesystem::path source;
+  bool loop = true;
+};
+
+struct V4l2Part {
+  std::string device;
+  std::string pixel_format = "auto";
+};
+
+enum class BackEnd { Simulated, Replay, V4l2 };
+
+struct CameraSettings {
+  int line = 0;  ///< in the file, for messages
+  std::string name;
+  BackEnd back_end = BackEnd::Simulated;
+  int width = 0;
+  int height = 0;
+  double frame_rate = 0;
+  double kelvin_per_count = 0;
+  BallSettings ball;
+  std::optional<SimulatedCameraPart> simulated;
+  std::optional<ReplayPart> replay;
+  std::optional<V4l2Part> v4l2;
+  std::vector<hal::ScriptedFault> faults;
+};
+
+struct SourceSettings {
+  int line = 0;
+  std::string camera;
+  double weight = 1;
+  std::string colour_map = "grey";
+  std::optional<Numbers2> range;
+};
+
+struct ViewSettings {
+  int line = 0;
+  std::string name;
+  optics::ViewKind kind = optics::ViewKind::Perspective;
+  double yaw = 0;
+  double pitch = 0;
+  double roll = 0;
+  std::optional<double> h_fov;
+  std::optional<double> v_fov;
+  int width = 0;
+  int height = 0;
+  Combine combine = Combine::Mix;
+  remap::Interpolation interpolation = remap::Interpolation::Bilinear;
+  std::vector<SourceSettings> sources;
+};
+
+struct ProcessSettings {
+  int line = 0;
+  std::string view;
+  std::string camera;
+  double threshold = 0;
+};
+
+struct PipelineSettings {
+  double deadline_ms = 0;
+  double sync_window_ms = 10;
+  int workers = -1;
+};
+
+struct SimulationSettings {
+  int seed = 1;
+  double spark_rate = 60;
+  double pool_radius = 10;
+  double pool_temperature = 2000;
+};
+
+struct ConsoleSettings {
+  bool enabled = false;
+  double period = 1;
+};
+
+struct Configuration {
+  PipelineSettings pipeline;
+  SimulationSettings simulation;
+  std::vector<CameraSettings> cameras;
+  std::vector<ViewSettings> views;
+  std::optional<ProcessSettings> process;
+  ConsoleSettings console;
+  ModbusSettings modbus;
+  DdsSettings dds;
+};
+
+/// Reads and checks a configuration file. Relative paths in it count from the file's folder.
+/// The error says file, line, key, what is wrong and what is allowed.
+Result<Configuration> load_configuration(const std::filesystem::path& file);
+
+/// The same for text that stands in for a file named `name`, with paths relative to `folder`.
+Result<Configuration> parse_configuration(const std::string& text, const std::string& name,
+                                          const std::filesystem::path& folder);
+
+/// The manual of all keys in Markdown, generated from the same declaration that the loader checks.
+std::string configuration_manual();
+
+}  // namespace orbwatch::app

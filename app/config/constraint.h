@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace orbwatch::app {
+
+/// The numbers that a key may have. Not-a-number is never among them.
+struct Range {
+  double low = -std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::max();
+  bool low_allowed = true;
+  bool high_allowed = true;
+
+  static constexpr Range above(double low, double high = std::numeric_limits<double>::max()) {
+    return {low, high, false, true};
+  }
+  static constexpr Range between(double low, double high) { return {low, high, true, true}; }
+  static constexpr Range inside(double low, double high) { return {low, high, false, false}; }
+
+  bool contains(double value) const {
+    return std::isfinite(value) && (low_allowed ? value >= low : value > low) &&
+           (high_allowed ? value <= high : value < high);
+  }
+
+  /// "above 180, at most 360"
+  std::string text() const {
+    const auto number = [](double value) {
+      char buffer[32];
+      std::snprintf(buffer, sizeof buffer, "%.10g", value);
+      return std::string(buffer);
+    };
+    const bool has_low = low > -std::numeric_limits<double>::max();
+    const bool has_high = high < std::numeric_limits<double>::max();
+    if (has_low && has_high && low_allowed && high_allowed) return number(low) + " to " + number(high);
+    std::string text;
+    if (has_low) text += (low_allowed ? "at least " : "above ") + number(low);
+    if (has_low && has_high) text += ", ";
+    if (has_high) text += (high_allowed ? "at most " : "below ") + number(high);
+    return text.empty() ? "any number" : text;
+  }
+};
+
+/// One of the words that a key may have, and what it stands for.
+template <class T>
+struct Word {
+  std::string_view name;
+  T value;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,220 @@
+#pragma once
+
+#include <array>
+
+#include "app/config/configuration.h"
+#include "app/config/constraint.h"
+#include "app/pictures/colour_maps.h"
+#include "app/pipeline/status.h"
+
+/// The one declaration of every key of the configuration file: name, where its value lives, what is
+/// allowed, what it means. visit() is called with a loader, which reads and checks, or with a
+/// writer of the manual. A visitor offers
+///   required(key, value, constraint, text), optional(key, value, constraint, text):
+///     a number with a Range, a string or a file without constraint, a word out of a list;
+///   table(key, value, text), tables(key, values, least, most, text): nested keys;
+///   require(truth, key, message): a rule between keys; line(number): where the table stands.
+namespace orbwatch::app {
+
+inline constexpr std::array kModels{Word{"exact", optics::BallModel::Kind::Exact},
+                                    Word{"paper", optics::BallModel::Kind::Paper},
+                                    Word{"classical", optics::BallModel::Kind::Classical}};
+inline constexpr std::array kViewKinds{
+    Word{"perspective", optics::ViewKind::Perspective},
+    Word{"equirectangular", optics::ViewKind::Equirectangular}};
+inline constexpr std::array kInterpolations{Word{"bilinear", remap::Interpolation::Bilinear},
+                                            Word{"nearest", remap::Interpolation::Nearest}};
+inline constexpr std::array kCombines{Word{"mix", Combine::Mix}, Word{"switch", Combine::Switch}};
+inline constexpr std::array kBackEnds{Word{"simulated", BackEnd::Simulated},
+                                      Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2}};
+inline constexpr std::array kFaults{Word{"unplugged", hal::Fault::Unplugged},
+                                    Word{"stalled", hal::Fault::Stalled},
+                                    Word{"read_error", hal::Fault::ReadError},
+                                    Word{"corrupt_frame", hal::Fault::CorruptFrame},
+                                    Word{"wrong_format", hal::Fault::WrongFormat}};
+inline constexpr std::array kSimulatedKinds{Word{"colour", SimulatedCameraPart::Kind::Colour},
+                                            Word{"thermal", SimulatedCameraPart::Kind::Thermal}};
+
+inline constexpr Range kAnyNumber{};
+inline constexpr Range kSide = Range::between(1, optics::kMaxSide);
+
+template <class Visitor>
+void visit(Visitor& v, BallSettings& ball) {
+  v.required("centre", ball.centre, kAnyNumber, "Ball's centre in the picture, px: [u, v]");
+  v.optional("radius", ball.radius, Range::above(0), "Radius of its limb, px; for a circle");
+  v.optional("radii", ball.radii, Range::above(0), "Semi-axes of its limb, px; for an ellipse");
+  v.optional("angle", ball.angle, kAnyNumber, "Of the first semi-axis, deg, from u towards v");
+  v.optional("model", ball.model, kModels, "Projection");
+  v.optional("alpha", ball.alpha, Range::above(180, 360),
+             "Reflected field of view, deg: 360 minus the ball's apparent diameter");
+  v.optional("distance", ball.distance, Range::above(1),
+             "Camera to ball's centre, ball radii; instead of alpha");
+  v.optional("rotation", ball.rotation, kAnyNumber,
+             "Registration to the reference, deg: [yaw, pitch, roll]");
+  v.optional("rotation_matrix", ball.rotation_matrix, kAnyNumber,
+             "The same as 3x3 matrix by rows: v_reference = R v_camera");
+  v.require(ball.radius.has_value() != ball.radii.has_value(), "radius",
+            "give either radius or radii");
+  const bool classical = ball.model == optics::BallModel::Kind::Classical;
+  v.require(classical ? !ball.alpha && !ball.distance
+                      : ball.alpha.has_value() != ball.distance.has_value(),
+            "alpha",
+            classical ? "the classical model takes neither alpha nor distance"
+                      : "give either alpha or distance");
+  v.require(!ball.rotation || !ball.rotation_matrix, "rotation_matrix",
+            "give either rotation or rotation_matrix");
+}
+
+template <class Visitor>
+void visit(Visitor& v, SimulatedCameraPart& part) {
+  v.required("kind", part.kind, kSimulatedKinds, "8-bit RGB, or 16-bit radiometric");
+  v.required("position", part.position, kAnyNumber, "In the machine frame, mm; it looks at the ball");
+  v.required("h_fov", part.h_fov, Range::inside(0, 180), "Horizontal field of view, deg");
+  v.optional("noise", part.noise, Range::between(0, 1000), "Standard deviation, counts");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ReplayPart& part) {
+  v.required("source", part.source, "Folder of numbered JPEG or PNG pictures, or a video");
+  v.optional("loop", part.loop, "Begin again at the end");
+}
+
+template <class Visitor>
+void visit(Visitor& v, V4l2Part& part) {
+  v.required("device", part.device, "Device node; a /dev/v4l/by-id path survives replugging");
+  v.optional("pixel_format", part.pixel_format, "auto, yuyv, grey or mjpeg");
+}
+
+template <class Visitor>
+void visit(Visitor& v, hal::ScriptedFault& fault) {
+  v.required("fault", fault.fault, kFaults, "What fails");
+  v.required("from", fault.from, Range::between(0, 1e15), "First frame that fails");
+  v.required("until", fault.until, Range::between(0, 1e15), "First frame that works again");
+}
+
+template <class Visitor>
+void visit(Visitor& v, CameraSettings& camera) {
+  v.line(camera.line);
+  v.required("name", camera.name, "What views and messages call it");
+  v.required("back_end", camera.back_end, kBackEnds, "Where its frames come from");
+  v.optional("width", camera.width, kSide, "Picture width, px; else the camera's own");
+  v.optional("height", camera.height, kSide, "Picture height, px; else the camera's own");
+  v.optional("frame_rate", camera.frame_rate, Range::between(0.01, 1000),
+             "Frames per second; else the camera's own");
+  v.optional("kelvin_per_count", camera.kelvin_per_count, Range::above(0, 10),
+             "Radiometric scale of a 16-bit thermal camera; else it is none");
+  v.table("ball", camera.ball, "The mirror ball in this camera's picture");
+  v.table("simulated", camera.simulated, "For back_end simulated");
+  v.table("replay", camera.replay, "For back_end replay");
+  v.table("v4l2", camera.v4l2, "For back_end v4l2");
+  v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
+  v.require(camera.back_end != BackEnd::Simulated || camera.simulated, "back_end",
+            "simulated needs a table [camera.simulated]");
+  v.require(camera.back_end != BackEnd::Simulated || (camera.width && camera.height), "back_end",
+            "simulated needs width and height");
+  v.require(camera.back_end != BackEnd::Replay || camera.replay, "back_end",
+            "replay needs a table [camera.replay]");
+  v.require(camera.back_end != BackEnd::V4l2 || camera.v4l2, "back_end",
+            "v4l2 needs a table [camera.v4l2]");
+}
+
+template <class Visitor>
+void visit(Visitor& v, SourceSettings& source) {
+  v.line(source.line);
+  v.required("camera", source.camera, "Name of the camera");
+  v.optional("weight", source.weight, Range::above(0, 1000),
+             "Share in a mixed view where other cameras see too");
+  v.optional("colour_map", source.colour_map, kColourMapNames,
+             "Colours of a one-channel camera");
+  v.optional("range", source.range, kAnyNumber,
+             "First and last colour: degC for a radiometric camera, else percent of full scale");
+  v.require(!source.range || (*source.range)[0] < (*source.range)[1], "range",
+            "the first number must be below the second");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ViewSettings& view) {
+  v.line(view.line);
+  v.required("name", view.name, "Part of its DDS topic: letters, digits and _");
+  v.optional("kind", view.kind, kViewKinds, "Projection");
+  v.optional("yaw", view.yaw, kAnyNumber, "deg, from +Y towards +X");
+  v.optional("pitch", view.pitch, kAnyNumber, "deg, up positive");
+  v.optional("roll", view.roll, kAnyNumber, "deg, the right side dips");
+  v.optional("h_fov", view.h_fov, Range::above(0, 360),
+             "deg, edge to edge; perspective below 180, else 90; equirectangular else 360");
+  v.optional("v_fov", view.v_fov, Range::above(0, 180),
+             "deg; perspective else from square pixels; equirectangular else 180");
+  v.required("width", view.width, kSide, "px");
+  v.required("height", view.height, kSide, "px");
+  v.optional("combine", view.combine, kCombines,
+             "mix: cameras by weight; switch: the first listed that sees and delivers");
+  v.optional("interpolation", view.interpolation, kInterpolations, "Between source pixels");
+  v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ProcessSettings& process) {
+  v.line(process.line);
+  v.required("view", process.view, "Name of the view that is measured; it is never slowed down");
+  v.required("camera", process.camera, "Which of its cameras is measured");
+  v.required("threshold", process.threshold, Range::between(-273, 10000),
+             "Where the hot spot begins: degC for a radiometric camera, else percent of full scale");
+}
+
+template <class Visitor>
+void visit(Visitor& v, PipelineSettings& pipeline) {
+  v.optional("deadline_ms", pipeline.deadline_ms, Range::between(0, 60000),
+             "For one frame set; 0: the first camera's frame period");
+  v.optional("sync_window_ms", pipeline.sync_window_ms, Range::between(0, 10000),
+             "Largest difference of exposure starts in a set, and longest wait for a partner");
+  v.optional("workers", pipeline.workers, Range::between(-1, 64),
+             "Threads besides the pipeline's own; -1: one less than there are cores");
+}
+
+template <class Visitor>
+void visit(Visitor& v, SimulationSettings& simulation) {
+  v.optional("seed", simulation.seed, Range::between(0, 2147483647), "Of sparks and noise");
+  v.optional("spark_rate", simulation.spark_rate, Range::between(0, 150), "Per second, mean");
+  v.optional("pool_radius", simulation.pool_radius, Range::between(1, 20),
+             "Of the molten pool, mm, mean");
+  v.optional("pool_temperature", simulation.pool_temperature, Range::between(1500, 2300),
+             "In the pool's centre, degC, mean");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ConsoleSettings& console) {
+  v.optional("enabled", console.enabled, "Print a line of figures to standard output");
+  v.optional("period", console.period, Range::between(0.1, 3600), "Seconds between lines");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ModbusSettings& modbus) {
+  v.optional("enabled", modbus.enabled, "Serve Modbus TCP");
+  v.optional("address", modbus.address, "Numeric address to listen on");
+  v.optional("port", modbus.port, Range::between(0, 65535), "0: any free port");
+  v.optional("max_connections", modbus.max_connections, Range::between(1, 1000),
+             "One more client drops the one that was quiet for longest");
+  v.optional("writers", modbus.writers, "Numeric addresses of clients that may write; []: all");
+}
+
+template <class Visitor>
+void visit(Visitor& v, DdsSettings& dds) {
+  v.optional("enabled", dds.enabled, "Publish views and process state over DDS");
+  v.optional("domain", dds.domain, Range::between(0, 230), "ROS_DOMAIN_ID of ROS 2");
+  v.optional("prefix", dds.prefix, "Topics are rt/<prefix>/...");
+}
+
+template <class Visitor>
+void visit(Visitor& v, Configuration& configuration) {
+  v.table("pipeline", configuration.pipeline, "Frame budget and threads");
+  v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
+  v.tables("camera", configuration.cameras, 1, kMaxCameras,
+           "Cameras; the first that delivers sets the pace");
+  v.tables("view", configuration.views, 1, kMaxViews, "Virtual cameras in the ball's centre");
+  v.table("process", configuration.process, "What is measured");
+  v.table("console", configuration.console, "Figures on standard output");
+  v.table("modbus", configuration.modbus, "Towards the PLC");
+  v.table("dds", configuration.dds, "Towards the machine controller");
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <toml++/toml.h>
+#include <vector>
+
+#include "app/config/constraint.h"
+
+namespace orbwatch::app {
+
+/// What is wrong with a file; only the first finding counts, since later ones often follow from it.
+struct Finding {
+  std::string file;
+  std::filesystem::path folder;  ///< relative paths in the file count from here
+  std::optional<std::string> message;
+
+  void note(int line, const std::string& key, const std::string& text) {
+    if (!message) message = file + ":" + std::to_string(line) + ": " + key + ": " + text;
+  }
+};
+
+/// Reads one table of a TOML file into a struct: the visitor of schema.h that loads. Checks types,
+/// ranges and words, and in the end that no key is left over. Thread-bound.
+class TomlReader {
+ public:
+  /// `path`: the table's name in messages, empty at the top.
+  TomlReader(const toml::table& table, std::string path, Finding& finding)
+      : table_(table), path_(std::move(path)), finding_(finding) {}
+
+  template <class T, class... Constraint>
+  void required(const char* key, T& value, const Constraint&... rest) {
+    if (!table_.contains(key)) {
+      known_.emplace_back(key);
+      finding_.note(line_of(table_), name(key), "is missing; it must be given");
+      return;
+    }
+    optional(key, value, rest...);
+  }
+
+  /// A string, a file, true or false, or a list of strings.
+  template <class T>
+  void optional(const char* key, T& value, const char* /*text*/) {
+    if (const toml::node* node = find(key)) read(*node, name(key), value);
+  }
+
+  /// A number or a list of numbers in a range.
+  template <class T>
+  void optional(const char* key, T& value, const Range& range, const char* /*text*/) {
+    if (const toml::node* node = find(key)) read(*node, name(key), value, range);
+  }
+
+  /// A word that stands for something.
+  template <class T, std::size_t N>
+  void optional(const char* key, T& value, const std::array<Word<T>, N>& words,
+                const char* /*text*/) {
+    const toml::node* node = find(key);
+    if (!node) return;
+    std::string allowed;
+    const auto given = node->value<std::string>();
+    for (const Word<T>& word : words) {
+      if (given == word.name) {
+        value = word.value;
+        return;
+      }
+      allowed += (allowed.empty() ? "" : ", ") + std::string(word.name);
+    }
+    finding_.note(line_of(*node), name(key), describe(*node) + " is not allowed; use one of: " + allowed);
+  }
+
+  /// A word that stands for itself.
+  template <std::size_t N>
+  void optional(const char* key, std::string& value,
+                const std::array<std::string_view, N>& words, const char* text) {
+    std::array<Word<std::string_view>, N> named;
+    for (std::size_t i = 0; i < N; ++i) named[i] = {words[i], words[i]};
+    std::string_view chosen = value;
+    optional(key, chosen, named, text);
+    if (chosen != value) value = std::string(chosen);
+  }
+
+  template <class T>
+  void table(const char* key, T& value, const char* /*text*/) {
+    if (const toml::table* nested = find_table(key)) read_table(*nested, name(key), value);
+  }
+
+  template <class T>
+  void table(const char* key, std::optional<T>& value, const char* /*text*/) {
+    if (const toml::table* nested = find_table(key)) {
+      read_table(*nested, name(key), value.emplace());
+    }
+  }
+
+  template <class T>
+  void tables(const char* key, std::vector<T>& values, std::size_t least, std::size_t most,
+              const char* /*text*/) {
+    for (const toml::table* nested : find_tables(key, least, most)) {
+      read_table(*nested, name(key), values.emplace_back());
+    }
+  }
+
+  /// A rule between keys; the message stands at `key` if it is there, else at the table.
+  void require(bool truth, const char* key, const std::string& message);
+
+  void line(int& number) const { number = line_of(table_); }
+
+  /// Called last: refuses keys that nobody asked for.
+  void refuse_unknown_keys();
+
+ private:
+  static int line_of(const toml::node& node) {
+    return static_cast<int>(node.source().begin.line);
+  }
+  static std::string describe(const toml::node& node);
+
+  template <class T>
+  void read_table(const toml::table& nested, const std::string& path, T& value) {
+    TomlReader reader(nested, path, finding_);
+    visit(reader, value);
+    reader.refuse_unknown_keys();
+  }
+
+  std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  const toml::node* find(const char* key);
+  const toml::table* find_table(const char* key);
+  std::vector<const toml::table*> find_tables(const char* key, std::size_t least, std::size_t most);
+
+  void read(const toml::node& node, const std::string& key, bool& value);
+  void read(const toml::node& node, const std::string& key, std::string& value);
+  void read(const toml::node& node, const std::string& key, std::filesystem::path& value);
+  void read(const toml::node& node, const std::string& key, std::vector<std::string>& value);
+  void read(const toml::node& node, const std::string& key, double& value, const Range& range);
+  void read(const toml::node& node, const std::string& key, int& value, const Range& range);
+  void read(const toml::node& node, const std::string& key, std::uint64_t& value,
+            const Range& range);
+  std::optional<std::int64_t> read_integer(const toml::node& node, const std::string& key,
+                                           const Range& range);
+
+  template <std::size_t N>
+  void read(const toml::node& node, const std::string& key, std::array<double, N>& value,
+            const Range& range) {
+    const toml::array* list = node.as_array();
+    if (!list || list->size() != N) {
+      finding_.note(line_of(node), key, "must be a list of " + std::to_string(N) + " numbers");
+      return;
+    }
+    for (std::size_t i = 0; i < N; ++i) read((*list)[i], key, value[i], range);
+  }
+
+  template <class T>
+  void read(const toml::node& node, const std::string& key, std::optional<T>& value,
+            const Range& range) {
+    read(node, key, value.emplace(), range);
+  }
+
+  const toml::table& table_;
+  std::string path_;
+  Finding& finding_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace orbwatch::app

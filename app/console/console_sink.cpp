@@ -1,0 +1,111 @@
+#include "app/console/console_sink.h"
+
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <utility>
+
+namespace orbwatch::app {
+namespace {
+
+std::string number(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+/// One entry per signal that has a value, in the list's order.
+std::string signals_text(const signals::Signals& signals) {
+  std::string text;
+  for (const auto& signal : signals::kSignals) {
+    const double value = signals.*signal.member;
+    if (!signals::is_valid(value)) continue;
+    text += (text.empty() ? "" : ", ") + std::string(signal.name) + " " +
+            number(value, signal.scale < 0.01 ? 3 : 1) + " " + std::string(signal.unit);
+  }
+  return text.empty() ? "no measurement" : text;
+}
+
+std::string camera_text(const std::string& name, const CameraStatus& camera) {
+  std::string text = name + " " + number(camera.frames_per_second, 1) + " fps, lost " +
+                     std::to_string(camera.lost) + ", dropped " + std::to_string(camera.dropped);
+  if (camera.fault != hal::Fault::None) text += ", " + std::string(operator_text(camera.fault));
+  return text;
+}
+
+std::string view_text(const std::string& name, const ViewStatus& view) {
+  return name + " " + number(view.frames_per_second, 1) + " fps, p50/p99 " +
+         number(view.latency_p50_ms, 0) + "/" + number(view.latency_p99_ms, 0) + " ms, skipped " +
+         std::to_string(view.skipped);
+}
+
+}  // namespace
+
+ConsoleSink::ConsoleSink(ConsoleSettings settings, std::vector<std::string> cameras,
+                         std::vector<std::string> views, std::ostream& out)
+    : settings_(settings), cameras_(std::move(cameras)), views_(std::move(views)), out_(out) {}
+
+ConsoleSink::~ConsoleSink() { stop(); }
+
+Result<> ConsoleSink::start() {
+  started_ = hal::Clock::now();
+  thread_ = std::thread([this] { run(); });
+  return {};
+}
+
+void ConsoleSink::accept(const Status& status) {
+  const std::lock_guard lock(mutex_);
+  status_ = status;
+}
+
+Status ConsoleSink::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+void ConsoleSink::run() {
+  const auto period = std::chrono::duration_cast<hal::Clock::duration>(
+      std::chrono::duration<double>(settings_.period));
+  for (auto due = started_ + period;; due += period) {
+    {
+      std::unique_lock lock(mutex_);
+      if (wake_.wait_until(lock, due, [this] { return stopping_; })) return;
+    }
+    const Status now = status();
+    std::string line = number(std::chrono::duration<double>(due - started_).count(), 0) + " s " +
+                       std::string(name_of(now.state));
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      line += " | " + camera_text(cameras_[i], now.cameras[i]);
+    }
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      line += " | " + view_text(views_[i], now.views[i]);
+    }
+    line += " | load " + number(100 * now.load, 0) + " %, overruns " + std::to_string(now.overruns);
+    out_ << line << " | " << signals_text(now.signals) << std::endl;
+  }
+}
+
+void ConsoleSink::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+  const Status last = status();
+  out_ << "summary: " << last.frame_set << " frame sets, " << last.unmatched << " unmatched, "
+       << last.overruns << " overruns\n";
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const CameraStatus& camera = last.cameras[i];
+    out_ << "  camera " << cameras_[i] << ": " << camera.frames << " frames, " << camera.lost
+         << " lost, " << camera.dropped << " dropped\n";
+  }
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    out_ << "  view " << views_[i] << ": " << last.views[i].published << " published, "
+         << last.views[i].skipped << " skipped\n";
+  }
+  out_ << "  process: " << signals_text(last.signals) << std::endl;
+}
+
+}  // namespace orbwatch::app

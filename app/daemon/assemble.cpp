@@ -1,0 +1,164 @@
+#include "app/daemon/assemble.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "app/daemon/cameras.h"
+#include "app/log.h"
+#include "app/pictures/colour_maps.h"
+#include "proc/optics/rotation.h"
+
+namespace orbwatch::app {
+namespace {
+
+Result<std::shared_ptr<const simulation::Machine>> make_machine(
+    const SimulationSettings& simulation) {
+  simulation::MachineSettings settings;
+  settings.seed = static_cast<std::uint64_t>(simulation.seed);
+  settings.sparks.rate = simulation.spark_rate;
+  settings.pool.radius = simulation.pool_radius;
+  settings.pool.peak = simulation.pool_temperature;
+  return simulation::Machine::make(settings, hal::Clock::now());
+}
+
+Result<optics::BallModel> ball_model(const BallSettings& ball) {
+  if (ball.model == optics::BallModel::Kind::Classical) return optics::BallModel::classical();
+  Result<double> alpha = ball.alpha ? Result<double>(*ball.alpha)
+                                    : optics::BallModel::alpha_from_distance(*ball.distance);
+  if (!alpha) return tl::unexpected(alpha.error());
+  return ball.model == optics::BallModel::Kind::Exact ? optics::BallModel::exact(*alpha)
+                                                      : optics::BallModel::paper(*alpha);
+}
+
+optics::Mat3 registration(const BallSettings& ball) {
+  if (ball.rotation_matrix) {
+    const Numbers9& m = *ball.rotation_matrix;
+    return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+  }
+  const Numbers3 angles = ball.rotation.value_or(Numbers3{});
+  return optics::rotation({angles[0], angles[1], angles[2]});
+}
+
+Result<optics::BallProjection> ball_projection(const CameraSettings& camera,
+                                               const hal::StreamFormat& format) {
+  const BallSettings& ball = camera.ball;
+  const Numbers2 radii = ball.radii.value_or(Numbers2{ball.radius.value_or(0), ball.radius.value_or(0)});
+  const optics::Outline outline{{ball.centre[0], ball.centre[1]}, radii[0], radii[1], ball.angle};
+  if (auto placed = optics::check_outline(outline, format.width, format.height); !placed) {
+    return fail("camera " + camera.name + ": " + placed.error().message);
+  }
+  auto projection = ball_model(ball).and_then([&](const optics::BallModel& model) {
+    return optics::BallProjection::make(model, outline, registration(ball));
+  });
+  if (!projection) return fail("camera " + camera.name + ": " + projection.error().message);
+  return projection;
+}
+
+/// The file's numbers (degC, or percent of full scale) as the camera's counts.
+double counts(double value, const CameraSettings& camera, const hal::StreamFormat& format) {
+  const signals::RadiometricScale scale{camera.kelvin_per_count};
+  if (scale.is_radiometric()) return scale.counts(value);
+  const double full_scale = info(format.format).bytes_per_sample == 2 ? 65535 : 255;
+  return value / 100 * full_scale;
+}
+
+remap::ColourMap colour_map(const SourceSettings& source, const CameraSettings& camera,
+                            const hal::StreamFormat& format) {
+  const Numbers2 range = source.range.value_or(Numbers2{0, 100});
+  return {colour_map_table(source.colour_map), counts(range[0], camera, format),
+          counts(range[1], camera, format)};
+}
+
+std::size_t index_of(const std::vector<CameraSettings>& cameras, const std::string& name) {
+  const auto it = std::find_if(cameras.begin(), cameras.end(),
+                               [&](const CameraSettings& c) { return c.name == name; });
+  return static_cast<std::size_t>(it - cameras.begin());
+}
+
+Result<ViewPlan> plan_view(const Configuration& configuration, std::size_t index,
+                           const PipelinePlan& plan) {
+  const ViewSettings& view = configuration.views[index];
+  auto projection = optics::ViewProjection::make(
+      {view.kind, {view.yaw, view.pitch, view.roll}, view.h_fov, view.v_fov, view.width, view.height});
+  if (!projection) return fail("view " + view.name + ": " + projection.error().message);
+  ViewPlan planned{index, view.name, *projection, {}, view.combine, view.interpolation, {}};
+  for (const SourceSettings& source : view.sources) {
+    const std::size_t number = index_of(configuration.cameras, source.camera);
+    const CameraSettings& camera = configuration.cameras[number];
+    const hal::StreamFormat& format = plan.formats[number];
+    auto ball = ball_projection(camera, format);
+    if (!ball) return tl::unexpected(ball.error());
+    if (configuration.process && configuration.process->view == view.name &&
+        configuration.process->camera == source.camera) {
+      planned.measured = planned.sources.size();
+    }
+    planned.sources.push_back(
+        {number, format, *ball, source.weight, colour_map(source, camera, format)});
+  }
+  return planned;
+}
+
+Result<> open_camera(const CameraSettings& settings,
+                     const std::shared_ptr<const simulation::Machine>& machine,
+                     PipelinePlan& plan) {
+  auto camera = make_camera(settings, machine);
+  auto format = camera->configure({settings.width, settings.height, settings.frame_rate});
+  if (!format) return fail("camera " + settings.name + ": " + format.error().message);
+  if (!ViewRenderer::is_supported(format->format)) {
+    return fail("camera " + settings.name + ": delivers " + std::string(info(format->format).name) +
+                "; views take grey, y16, yuyv and rgb");
+  }
+  if (settings.kelvin_per_count > 0 && format->format != PixelFormat::Y16) {
+    return fail("camera " + settings.name + ": has kelvin_per_count but delivers " +
+                std::string(info(format->format).name) + "; a radiometric camera delivers y16");
+  }
+  plan.cameras.push_back(std::move(camera));
+  plan.formats.push_back(*format);
+  return {};
+}
+
+MeasurementPlan plan_measurement(const Configuration& configuration, const PipelinePlan& plan) {
+  const ProcessSettings& process = *configuration.process;
+  MeasurementPlan measurement;
+  while (configuration.views[measurement.view].name != process.view) ++measurement.view;
+  const std::size_t number = index_of(configuration.cameras, process.camera);
+  const CameraSettings& camera = configuration.cameras[number];
+  measurement.scale = {camera.kelvin_per_count};
+  measurement.threshold = counts(process.threshold, camera, plan.formats[number]);
+  return measurement;
+}
+
+std::size_t worker_count(int asked) {
+  if (asked >= 0) return static_cast<std::size_t>(asked);
+  return std::max(1U, std::thread::hardware_concurrency()) - 1;
+}
+
+hal::Clock::duration milliseconds(double value) {
+  return std::chrono::duration_cast<hal::Clock::duration>(
+      std::chrono::duration<double, std::milli>(value));
+}
+
+}  // namespace
+
+Result<PipelinePlan> assemble(const Configuration& configuration) {
+  auto machine = make_machine(configuration.simulation);
+  if (!machine) return tl::unexpected(machine.error());
+  PipelinePlan plan;
+  for (const CameraSettings& settings : configuration.cameras) {
+    if (auto opened = open_camera(settings, *machine, plan); !opened) {
+      return tl::unexpected(opened.error());
+    }
+  }
+  for (std::size_t i = 0; i < configuration.views.size(); ++i) {
+    auto view = plan_view(configuration, i, plan);
+    if (!view) return tl::unexpected(view.error());
+    plan.views.push_back(std::move(*view));
+  }
+  if (configuration.process) plan.measurement = plan_measurement(configuration, plan);
+  plan.deadline = milliseconds(configuration.pipeline.deadline_ms);
+  plan.sync_window = milliseconds(configuration.pipeline.sync_window_ms);
+  plan.workers = worker_count(configuration.pipeline.workers);
+  return plan;
+}
+
+}  // namespace orbwatch::app

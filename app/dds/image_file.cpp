@@ -1,0 +1,63 @@
+#include "app/dds/image_file.h"
+
+#include <unistd.h>
+
+#include <bit>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+namespace orbwatch::app {
+
+namespace {
+
+/// The image as OpenCV wants it: blue first, the host's byte order.
+cv::Mat to_mat(const ReceivedImage& image) {
+  const int type = CV_MAKETYPE(image.encoding.bytes_per_sample == 2 ? CV_16U : CV_8U,
+                               static_cast<int>(image.encoding.channels));
+  const cv::Mat received(static_cast<int>(image.height), static_cast<int>(image.width), type,
+                         const_cast<std::uint8_t*>(image.data), image.step);
+  cv::Mat result;
+  if (image.encoding.name == kRgb8.name) {
+    cv::cvtColor(received, result, cv::COLOR_RGB2BGR);
+  } else {
+    received.copyTo(result);
+  }
+  if (image.swapped) {
+    result.forEach<std::uint16_t>([](std::uint16_t& sample, const int*) {
+      sample = static_cast<std::uint16_t>(sample << 8 | sample >> 8);
+    });
+  }
+  return result;
+}
+
+Result<std::vector<std::uint8_t>> encode(const ReceivedImage& image) try {
+  std::vector<std::uint8_t> png;
+  if (!cv::imencode(".png", to_mat(image), png)) return fail("image: cannot be encoded as PNG");
+  return png;
+} catch (const cv::Exception& error) {
+  return fail("image: cannot be encoded as PNG: " + error.err);
+}
+
+}  // namespace
+
+Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path) {
+  const auto png = encode(image);
+  if (!png) return tl::unexpected(png.error());
+  auto temporary = path;
+  temporary += "." + std::to_string(getpid()) + ".part";
+  std::ofstream file(temporary, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(temporary, path, error);
+  if (file && !error) return {};
+  std::error_code ignored;  // the write has failed already, and that is what is said
+  std::filesystem::remove(temporary, ignored);
+  return fail(path.string() + ": cannot be written" + (error ? ": " + error.message() : "") +
+              "; does the folder exist, and is there space?");
+}
+
+}  // namespace orbwatch::app

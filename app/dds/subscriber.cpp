@@ -1,0 +1,164 @@
+#include "app/dds/subscriber.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <set>
+
+#include "app/dds/dds_log.h"
+#include "app/dds/topic_names.h"
+#include "hal/clock.h"
+
+namespace orbwatch::app {
+
+namespace {
+
+constexpr std::chrono::milliseconds kCancelPeriod{100};
+constexpr std::chrono::seconds kLinePeriod{1};
+constexpr hal::Clock::duration kNoTime{0};
+
+using Subscriptions = std::vector<std::unique_ptr<Subscription>>;
+
+Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
+  std::vector<std::string> topics = options.topics;
+  if (topics.empty()) {
+    topics = {image_topic(options.prefix, kSelectedView), process_state_topic(options.prefix)};
+  }
+  Subscriptions subscriptions;
+  std::set<std::string> stems;
+  for (const auto& name : topics) {
+    const std::string topic = full_topic(name);
+    if (!stems.insert(file_stem(topic, options.prefix)).second) {
+      return fail("DDS: topic " + topic + " is named twice, or its file name is another's");
+    }
+    if (is_process_state_topic(topic)) {
+      subscriptions.push_back(std::make_unique<ProcessStateSubscription>(topic));
+    } else {
+      subscriptions.push_back(std::make_unique<ImageSubscription>(topic, !options.save.empty()));
+    }
+  }
+  return subscriptions;
+}
+
+/// Wakes when any of the readers has data.
+class Readers {
+ public:
+  Result<> open(const Entity& participant, const Subscriptions& subscriptions) {
+    waitset_ = Entity(dds_create_waitset(participant.get()));
+    for (const auto& subscription : subscriptions) {
+      if (const auto opened = subscription->open(participant); !opened) return opened;
+      const dds_entity_t condition =
+          dds_create_readcondition(subscription->reader().get(), DDS_ANY_STATE);
+      const dds_return_t code = dds_waitset_attach(waitset_.get(), condition, 0);
+      if (code < 0) return tl::unexpected(dds_error("wait set", code));
+    }
+    return {};
+  }
+
+  Result<> wait(hal::Clock::duration timeout) const {
+    const auto nanoseconds = std::chrono::nanoseconds(timeout).count();
+    const dds_return_t code =
+        dds_waitset_wait(waitset_.get(), nullptr, 0, std::max<dds_duration_t>(nanoseconds, 0));
+    if (code < 0) return tl::unexpected(dds_error("wait", code));
+    return {};
+  }
+
+ private:
+  Entity waitset_;
+};
+
+/// When something is due next.
+class Schedule {
+ public:
+  explicit Schedule(double seconds) : start_(hal::Clock::now()), line_(start_) {
+    if (seconds > 0) {
+      end_ = start_ + std::chrono::duration_cast<hal::Clock::duration>(
+                          std::chrono::duration<double>(seconds));
+    }
+  }
+
+  bool over(hal::TimePoint now) const { return end_ && now >= *end_; }
+
+  hal::Clock::duration wait(hal::TimePoint now) const {
+    const hal::Clock::duration next =
+        std::min<hal::Clock::duration>(kCancelPeriod, line_ + kLinePeriod - now);
+    return end_ ? std::min(next, *end_ - now) : next;
+  }
+
+  /// Seconds since the last line when one is due.
+  std::optional<double> line_due(hal::TimePoint now) {
+    if (now - line_ < kLinePeriod) return std::nullopt;
+    const std::chrono::duration<double> passed = now - line_;
+    line_ = now;
+    return passed.count();
+  }
+
+ private:
+  hal::TimePoint start_;
+  hal::TimePoint line_;
+  std::optional<hal::TimePoint> end_;
+};
+
+Result<> read(const Subscriptions& subscriptions, const Readers& readers,
+              const SubscribeOptions& options, const std::atomic<bool>& cancelled,
+              std::ostream& out) {
+  Schedule schedule(options.seconds);
+  for (bool last = false; !last;) {
+    const auto now = hal::Clock::now();
+    // Once more after the end: what has arrived by then counts.
+    last = cancelled || schedule.over(now);
+    if (const auto waited = readers.wait(last ? kNoTime : schedule.wait(now)); !waited) {
+      return waited;
+    }
+    for (const auto& subscription : subscriptions) {
+      if (const auto taken = subscription->take(); !taken) return taken;
+    }
+    const auto seconds = schedule.line_due(hal::Clock::now());
+    if (!seconds || !options.stats) continue;
+    for (const auto& subscription : subscriptions) out << subscription->line(*seconds) << '\n';
+    out.flush();
+  }
+  return {};
+}
+
+Result<> save(const Subscriptions& subscriptions, const SubscribeOptions& options) {
+  if (options.save.empty()) return {};
+  for (const auto& subscription : subscriptions) {
+    if (const auto saved = subscription->save(options.save, options.prefix); !saved) return saved;
+  }
+  return {};
+}
+
+Result<> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) return fail(folder.string() + ": cannot be made: " + error.message());
+  return {};
+}
+
+}  // namespace
+
+Result<SubscribeReport> subscribe(const SubscribeOptions& options,
+                                  const std::atomic<bool>& cancelled, std::ostream& out) {
+  limit_dds_log();
+  if (const auto made = make_folder(options.save); !made) return tl::unexpected(made.error());
+  const auto participant = make_participant(options.domain);
+  if (!participant) return tl::unexpected(participant.error());
+  const auto subscriptions = make_subscriptions(options);
+  if (!subscriptions) return tl::unexpected(subscriptions.error());
+
+  Readers readers;
+  const auto done =
+      readers.open(*participant, *subscriptions)
+          .and_then([&] { return read(*subscriptions, readers, options, cancelled, out); })
+          .and_then([&] { return save(*subscriptions, options); });
+  if (!done) return tl::unexpected(done.error());
+
+  SubscribeReport report;
+  for (const auto& subscription : *subscriptions) report.topics.push_back(subscription->report());
+  return report;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,157 @@
+#include "app/dds/subscription.h"
+
+#include <array>
+#include <cstdio>
+
+#include "app/dds/image_file.h"
+#include "app/dds/topic_names.h"
+
+namespace orbwatch::app {
+
+namespace {
+
+/// Samples that a topic holds for a reader that is busy, so that none is missed for a hiccup.
+constexpr std::int32_t kDepth = 8;
+
+Qos deep(Qos qos) {
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kDepth);
+  return qos;
+}
+
+/// In floating point: a sender may stamp its samples with any time.
+double milliseconds_between(dds_time_t earlier, dds_time_t later) {
+  return (static_cast<double>(later) - static_cast<double>(earlier)) * 1e-6;
+}
+
+dds_time_t to_dds_time(const builtin_interfaces_msg_dds__Time_& time) {
+  return time.sec * DDS_NSECS_IN_SEC + time.nanosec;
+}
+
+}  // namespace
+
+Subscription::Subscription(std::string topic, const dds_topic_descriptor_t& type, Qos qos)
+    : type_(type), qos_(std::move(qos)) {
+  report_.topic = std::move(topic);
+}
+
+Result<> Subscription::open(const Entity& participant) {
+  auto reader = make_topic(participant, type_, report_.topic).and_then([&](Entity topic) {
+    topic_ = std::move(topic);
+    return make_reader(participant, topic_, qos_);
+  });
+  if (!reader) return fail(reader.error().message + " (" + report_.topic + ")");
+  reader_ = std::move(*reader);
+  return {};
+}
+
+Result<> Subscription::take() {
+  for (;;) {
+    std::array<void*, kDepth> samples{};  // empty: DDS lends its own
+    std::array<dds_sample_info_t, kDepth> infos{};
+    const dds_return_t count =
+        dds_take(reader_.get(), samples.data(), infos.data(), samples.size(), kDepth);
+    if (count < 0) return tl::unexpected(dds_error("take from " + report_.topic, count));
+    if (count == 0) break;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      if (infos[i].valid_data) this->count(samples[i], infos[i]);
+    }
+    const dds_return_t returned = dds_return_loan(reader_.get(), samples.data(), count);
+    if (returned < 0) return tl::unexpected(dds_error("return to " + report_.topic, returned));
+  }
+  dds_sample_lost_status_t lost{};
+  const dds_return_t code = dds_get_sample_lost_status(reader_.get(), &lost);
+  if (code < 0) return tl::unexpected(dds_error("losses of " + report_.topic, code));
+  report_.lost = lost.total_count;
+  return {};
+}
+
+void Subscription::count(const void* sample, const dds_sample_info_t& info) {
+  if (const auto accepted = accept(sample); !accepted) {
+    ++report_.refused;
+    report_.refusal = accepted.error().message;
+    return;
+  }
+  ++report_.received;
+  ++interval_.samples;
+  const dds_time_t now = dds_time();
+  interval_.since_write_ms += milliseconds_between(info.source_timestamp, now);
+  interval_.since_exposure_ms += milliseconds_between(to_dds_time(stamp(sample)), now);
+}
+
+std::string Subscription::line(double seconds) {
+  const Interval interval = std::exchange(interval_, {});
+  std::string text = report_.topic + ": ";
+  if (interval.samples == 0) {
+    text += "nothing";
+  } else {
+    const auto count = static_cast<double>(interval.samples);
+    std::array<char, 128> figures{};
+    std::snprintf(figures.data(), figures.size(),
+                  "%.1f/s, latency %.1f ms from writing, %.1f ms from exposure, ", count / seconds,
+                  interval.since_write_ms / count, interval.since_exposure_ms / count);
+    text += figures.data() + describe();
+  }
+  text += ", lost " + std::to_string(report_.lost);
+  if (report_.refused > 0) {
+    text += ", refused " + std::to_string(report_.refused) + " (" + report_.refusal + ")";
+  }
+  return text;
+}
+
+Result<> Subscription::save(const std::filesystem::path&, const std::string&) { return {}; }
+
+ImageSubscription::ImageSubscription(std::string topic, bool keep)
+    : Subscription(std::move(topic), sensor_msgs_msg_dds__Image__desc, deep(frame_qos())),
+      keep_(keep) {}
+
+Result<> ImageSubscription::accept(const void* sample) {
+  const auto& message = *static_cast<const ImageMessage*>(sample);
+  const auto image = check_image(message);
+  if (!image) return tl::unexpected(image.error());
+  newest_ = *image;
+  newest_.data = nullptr;
+  if (!keep_) return {};
+  bytes_.assign(image->data, image->data + message.data._length);
+  newest_.data = bytes_.data();
+  return {};
+}
+
+builtin_interfaces_msg_dds__Time_ ImageSubscription::stamp(const void* sample) const {
+  return static_cast<const ImageMessage*>(sample)->header.stamp;
+}
+
+std::string ImageSubscription::describe() const {
+  return std::to_string(newest_.width) + "x" + std::to_string(newest_.height) + " " +
+         std::string(newest_.encoding.name);
+}
+
+Result<> ImageSubscription::save(const std::filesystem::path& folder, const std::string& prefix) {
+  if (newest_.data == nullptr) return {};
+  const auto path = folder / (file_stem(report_.topic, prefix) + ".png");
+  if (const auto saved = save_png(newest_, path); !saved) return saved;
+  report_.saved = path;
+  return {};
+}
+
+ProcessStateSubscription::ProcessStateSubscription(std::string topic)
+    : Subscription(std::move(topic), orbwatch_msgs_msg_dds__ProcessState__desc, deep(state_qos())) {
+}
+
+Result<> ProcessStateSubscription::accept(const void* sample) {
+  const auto& state = *static_cast<const ProcessStateMessage*>(sample);
+  if (state.system_state > static_cast<std::uint8_t>(SystemState::Fault)) {
+    return fail("process state: system state " + std::to_string(state.system_state) +
+                ", 0 to 3 are known");
+  }
+  newest_ = std::string(name_of(static_cast<SystemState>(state.system_state))) + ", frame set " +
+            std::to_string(state.frame_set) + ", heartbeat " + std::to_string(state.heartbeat);
+  return {};
+}
+
+builtin_interfaces_msg_dds__Time_ ProcessStateSubscription::stamp(const void* sample) const {
+  return static_cast<const ProcessStateMessage*>(sample)->stamp;
+}
+
+std::string ProcessStateSubscription::describe() const { return newest_; }
+
+}  // namespace orbwatch::app

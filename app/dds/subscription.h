@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/dds/entity.h"
+#include "app/dds/image_message.h"
+#include "app/dds/process_state.h"
+
+namespace orbwatch::app {
+
+/// What came in on one topic.
+struct TopicReport {
+  std::string topic;
+  std::uint64_t received = 0;   ///< samples that were in order
+  std::uint64_t lost = 0;       ///< samples that DDS knows it missed
+  std::uint64_t refused = 0;    ///< samples whose content cannot be believed
+  std::string refusal;          ///< why the newest refused one was
+  std::filesystem::path saved;  ///< the picture file; empty when none was written
+};
+
+/// One topic that is read. Thread-bound.
+class Subscription {
+ public:
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
+  virtual ~Subscription() = default;
+
+  Result<> open(const Entity& participant);
+  const Entity& reader() const { return reader_; }
+
+  /// Takes all that has arrived, without waiting. Error: DDS refuses.
+  Result<> take();
+
+  /// One line on the time since the last call, `seconds` long: rate, latest content, latency.
+  std::string line(double seconds);
+
+  /// Saves the newest image into `folder`; does nothing for other content, or when none came.
+  virtual Result<> save(const std::filesystem::path& folder, const std::string& prefix);
+
+  const TopicReport& report() const { return report_; }
+
+ protected:
+  Subscription(std::string topic, const dds_topic_descriptor_t& type, Qos qos);
+
+  /// Checks and keeps what is needed of a sample, which is valid during the call only.
+  virtual Result<> accept(const void* sample) = 0;
+  /// When the newest sample's exposure began.
+  virtual builtin_interfaces_msg_dds__Time_ stamp(const void* sample) const = 0;
+  /// The newest sample in a few words.
+  virtual std::string describe() const = 0;
+
+  TopicReport report_;
+
+ private:
+  void count(const void* sample, const dds_sample_info_t& info);
+
+  /// Sums over the samples since the last line().
+  struct Interval {
+    std::uint64_t samples = 0;
+    double since_write_ms = 0;
+    double since_exposure_ms = 0;
+  };
+
+  const dds_topic_descriptor_t& type_;
+  Qos qos_;
+  Entity topic_;
+  Entity reader_;
+  Interval interval_;
+};
+
+/// A topic of sensor_msgs/Image.
+class ImageSubscription final : public Subscription {
+ public:
+  /// `keep`: the newest image is wanted by save().
+  ImageSubscription(std::string topic, bool keep);
+  Result<> save(const std::filesystem::path& folder, const std::string& prefix) override;
+
+ private:
+  Result<> accept(const void* sample) override;
+  builtin_interfaces_msg_dds__Time_ stamp(const void* sample) const override;
+  std::string describe() const override;
+
+  bool keep_;
+  ReceivedImage newest_;  ///< its data, if kept, are bytes_
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// A topic of process states.
+class ProcessStateSubscription final : public Subscription {
+ public:
+  explicit ProcessStateSubscription(std::string topic);
+
+ private:
+  Result<> accept(const void* sample) override;
+  builtin_interfaces_msg_dds__Time_ stamp(const void* sample) const override;
+  std::string describe() const override;
+
+  std::string newest_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// DDS topic names as ROS 2 derives them from its own: "rt/" before the ROS name. The topics:
+///   rt/<prefix>/<view>/image_raw              what people look at, rgb8
+///   rt/<prefix>/<view>/radiometric/image_raw  what is measured, mono16 counts
+///   rt/<prefix>/selected/image_raw            the view that Status::selected_view names
+///   rt/<prefix>/process_state                 the process state
+std::string image_topic(std::string_view prefix, std::string_view view);
+std::string radiometric_topic(std::string_view prefix, std::string_view view);
+std::string process_state_topic(std::string_view prefix);
+
+/// The place of a view in the topics that carries whichever view is selected.
+inline constexpr std::string_view kSelectedView = "selected";
+
+/// Whether the topic of that name carries process states (else images).
+bool is_process_state_topic(std::string_view topic);
+
+/// The DDS name of a topic that a person wrote with or without "rt/" or a leading "/".
+std::string full_topic(std::string_view topic);
+
+/// Checks one part of a topic against the rules of ROS 2: letters, digits and underscores, no digit
+/// first. `what` names it in the error.
+Result<> check_topic_part(std::string_view part, std::string_view what);
+/// The same for parts with '/' between them.
+Result<> check_topic_path(std::string_view path, std::string_view what);
+
+/// The file name, without extension, under which the newest image of `topic` is saved: "front" of
+/// rt/<prefix>/front/image_raw, "front-radiometric" of rt/<prefix>/front/radiometric/image_raw.
+/// Holds letters, digits, '_', '-' and '.' only and never starts with a dot, whatever the topic.
+std::string file_stem(std::string_view topic, std::string_view prefix);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,268 @@
+#include "app/modbus/modbus_front.h"
+
+#include <netinet/tcp.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace orbwatch::app::modbus {
+namespace {
+
+// What an epoll event is about. Connections have numbers of their own instead of their sockets':
+// those are used again, and an event of the same round may be about the one before.
+constexpr std::uint64_t kStop = 0;
+constexpr std::uint64_t kListener = 1;
+constexpr std::uint64_t kFirstConnection = 2;
+
+constexpr std::size_t kPrefix = 6;    // transaction, protocol and length
+constexpr std::size_t kShortest = 2;  // unit and function code: what the length counts
+constexpr std::size_t kLongest = 254;
+
+/// Answers that a client has not taken yet, at most; the kernel doubles it for its bookkeeping.
+constexpr int kSendBuffer = 16384;
+
+/// After the process has run out of file descriptors.
+constexpr std::chrono::seconds kAcceptPause{1};
+
+std::string text_of(int error) { return std::system_category().message(error); }
+
+std::string advice(int error) {
+  switch (error) {
+    case EADDRINUSE:
+      return "stop the program that uses it or set another port";
+    case EACCES:
+      return "ports below 1024 need CAP_NET_BIND_SERVICE, 1502 does not";
+    case EADDRNOTAVAIL:
+      return "set an address of this machine, or 0.0.0.0 for all of them";
+    default:
+      return "check address and port";
+  }
+}
+
+Result<> check(const ModbusSettings& settings) {
+  if (settings.port < 0 || settings.port > 65535) {
+    return fail("modbus: port " + std::to_string(settings.port) + " is not in 0 to 65535");
+  }
+  if (settings.max_connections < 1) {
+    return fail("modbus: max_connections " + std::to_string(settings.max_connections) +
+                " leaves no client; set 1 or more");
+  }
+  return {};
+}
+
+int watch_file(int epoll, int operation, int file, std::uint64_t id, std::uint32_t events) {
+  epoll_event event{};
+  event.events = events;
+  event.data.u64 = id;
+  return ::epoll_ctl(epoll, operation, file, &event);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ModbusFront>> ModbusFront::open(const ModbusSettings& settings,
+                                                       Answer answer, Counters& counters) {
+  if (auto checked = check(settings); !checked) return tl::unexpected(checked.error());
+  std::unique_ptr<ModbusFront> front(new ModbusFront(settings, std::move(answer), counters));
+  for (const std::string& writer : settings.writers) {
+    const auto address = parse_address(writer, 0);
+    if (!address) return fail("modbus: writer '" + writer + "' is not a numeric IP address");
+    front->writers_.push_back(host_of(*address));
+  }
+  if (auto listening = front->listen(); !listening) return tl::unexpected(listening.error());
+  if (auto watching = front->watch(); !watching) return tl::unexpected(watching.error());
+  return front;
+}
+
+Result<> ModbusFront::listen() {
+  auto address = parse_address(settings_.address, settings_.port);
+  if (!address) {
+    return fail("modbus: address '" + settings_.address +
+                "' is not a numeric IP address; set one of this machine, or 0.0.0.0 for all");
+  }
+  const auto refused = [this] {
+    const int error = errno;
+    return fail("modbus: cannot listen on " + settings_.address + " port " +
+                std::to_string(settings_.port) + ": " + text_of(error) + "; " + advice(error));
+  };
+  listener_ = hal::FileDescriptor(
+      ::socket(address->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!listener_.is_open()) return refused();
+  // A restart must not wait for the connections of the run before to time out.
+  const int on = 1;
+  if (::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) != 0 ||
+      ::bind(listener_.get(), address->get(), address->length) != 0 ||
+      ::listen(listener_.get(), settings_.max_connections) != 0 ||
+      ::getsockname(listener_.get(), address->get(), &address->length) != 0) {
+    return refused();
+  }
+  port_ = port_of(*address);
+  return {};
+}
+
+Result<> ModbusFront::watch() {
+  epoll_ = hal::FileDescriptor(::epoll_create1(EPOLL_CLOEXEC));
+  stop_ = hal::FileDescriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  if (!epoll_.is_open() || !stop_.is_open() ||
+      watch_file(epoll_.get(), EPOLL_CTL_ADD, stop_.get(), kStop, EPOLLIN) != 0 ||
+      watch_file(epoll_.get(), EPOLL_CTL_ADD, listener_.get(), kListener, EPOLLIN) != 0) {
+    return fail("modbus: cannot watch the sockets: " + text_of(errno));
+  }
+  next_id_ = kFirstConnection;
+  connections_.reserve(static_cast<std::size_t>(settings_.max_connections));
+  return {};
+}
+
+void ModbusFront::stop() {
+  // Fails only when the count is full, and then run() has been told often enough.
+  [[maybe_unused]] const int told = ::eventfd_write(stop_.get(), 1);
+}
+
+void ModbusFront::run() {
+  std::array<epoll_event, 32> events;
+  for (;;) {
+    const int count = ::epoll_wait(epoll_.get(), events.data(), static_cast<int>(events.size()),
+                                   milliseconds_to_wait());
+    for (int i = 0; i < count; ++i) {
+      const std::uint64_t id = events[static_cast<std::size_t>(i)].data.u64;
+      if (id == kStop) return;
+      if (id == kListener) {
+        accept_client();
+      } else {
+        serve(id);
+      }
+    }
+    drop_overdue();
+    if (!accepting_ && hal::Clock::now() >= accept_again_) {
+      accepting_ =
+          watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, EPOLLIN) == 0;
+    }
+  }
+}
+
+/// One client per round, so that a flood of them does not keep the others from being served.
+void ModbusFront::accept_client() {
+  SocketAddress peer;
+  hal::FileDescriptor socket(
+      ::accept4(listener_.get(), peer.get(), &peer.length, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!socket.is_open()) {
+    // Anything else is one client's failure (it went away), or nothing to take after all.
+    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
+      pause_accepting();
+    }
+    return;
+  }
+  make_room();
+  const int on = 1;
+  const std::uint64_t id = next_id_++;
+  if (::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on)) != 0 ||
+      ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof(kSendBuffer)) != 0 ||
+      watch_file(epoll_.get(), EPOLL_CTL_ADD, socket.get(), id, EPOLLIN) != 0) {
+    ++counters_.dropped;
+    return;
+  }
+  const bool may_write =
+      writers_.empty() || std::ranges::find(writers_, host_of(peer)) != writers_.end();
+  connections_.push_back({.id = id,
+                          .socket = std::move(socket),
+                          .may_write = may_write,
+                          .last_request = hal::Clock::now()});
+  counters_.connections = connections_.size();
+}
+
+/// Without this the waiting client would wake epoll again at once, for as long as it lasts.
+void ModbusFront::pause_accepting() {
+  accepting_ = watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, 0) != 0;
+  accept_again_ = hal::Clock::now() + kAcceptPause;
+}
+
+/// The oldest unused connection goes (Modbus Messaging on TCP/IP Implementation Guide): first
+/// those that never asked anything, so that empty connections cannot push a PLC out.
+void ModbusFront::make_room() {
+  if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return;
+  ++counters_.dropped;
+  drop(std::ranges::min_element(connections_, {}, [](const Connection& connection) {
+    return std::pair(connection.has_asked, connection.last_request);
+  }));
+}
+
+void ModbusFront::serve(std::uint64_t id) {
+  const auto connection = std::ranges::find(connections_, id, &Connection::id);
+  if (connection == connections_.end()) return;  // dropped in this round
+  const auto now = hal::Clock::now();
+  const std::size_t filled = connection->filled;
+  const ssize_t received = ::recv(connection->socket.get(), connection->buffer.data() + filled,
+                                  connection->buffer.size() - filled, 0);
+  if (received < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (received <= 0) return drop(connection);  // the client's own wish or failure
+  if (filled == 0) connection->frame_begin = now;
+  connection->filled += static_cast<std::size_t>(received);
+  if (answer_frames(*connection)) return;
+  ++counters_.dropped;
+  drop(connection);
+}
+
+/// Answers the whole frames in the buffer; false when the connection is of no more use.
+bool ModbusFront::answer_frames(Connection& connection) {
+  std::size_t done = 0;
+  const std::span<const std::uint8_t> bytes(connection.buffer.data(), connection.filled);
+  while (bytes.size() - done >= kPrefix) {
+    const auto frame = bytes.subspan(done);
+    const int protocol = frame[2] << 8 | frame[3];
+    const auto length = static_cast<std::size_t>(frame[4] << 8 | frame[5]);
+    if (protocol != 0 || length < kShortest || length > kLongest) {
+      ++counters_.refused;
+      return false;
+    }
+    if (frame.size() < kPrefix + length) break;
+    const Answered answered =
+        answer_(connection.socket.get(), frame.first(kPrefix + length), connection.may_write);
+    if (answered != Answered::Broken) ++counters_.answered;
+    if (answered != Answered::Done) ++counters_.refused;
+    if (answered == Answered::Broken) return false;
+    done += kPrefix + length;
+  }
+  if (done == 0) return true;
+  std::copy(connection.buffer.begin() + static_cast<std::ptrdiff_t>(done),
+            connection.buffer.begin() + static_cast<std::ptrdiff_t>(connection.filled),
+            connection.buffer.begin());
+  connection.filled -= done;
+  connection.has_asked = true;
+  connection.last_request = connection.frame_begin = hal::Clock::now();
+  return true;
+}
+
+void ModbusFront::drop(Connections::iterator connection) {
+  connections_.erase(connection);  // closes the socket, which also takes it out of epoll
+  counters_.connections = connections_.size();
+}
+
+hal::TimePoint ModbusFront::deadline(const Connection& connection) const {
+  const auto idle = connection.last_request + settings_.idle_timeout;
+  if (connection.filled == 0) return idle;
+  return std::min(idle, connection.frame_begin + settings_.frame_timeout);
+}
+
+void ModbusFront::drop_overdue() {
+  const auto now = hal::Clock::now();
+  const auto overdue = [&](const Connection& connection) { return deadline(connection) <= now; };
+  counters_.dropped += std::erase_if(connections_, overdue);
+  counters_.connections = connections_.size();
+}
+
+/// Until the next connection is overdue, rounded up; -1: no limit.
+int ModbusFront::milliseconds_to_wait() const {
+  auto next = hal::TimePoint::max();
+  for (const Connection& connection : connections_) next = std::min(next, deadline(connection));
+  if (!accepting_) next = std::min(next, accept_again_);
+  if (next == hal::TimePoint::max()) return -1;
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - hal::Clock::now());
+  return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60000));
+}
+
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/modbus/modbus_settings.h"
+#include "app/modbus/responder.h"
+#include "app/modbus/snapshot.h"
+#include "app/modbus/socket_address.h"
+#include "hal/clock.h"
+#include "hal/v4l2/file_descriptor.h"
+
+namespace orbwatch::app::modbus {
+
+/// Counts of Statistics; written by the serving thread, read by any.
+struct Counters {
+  std::atomic<std::uint64_t> answered{0};
+  std::atomic<std::uint64_t> refused{0};
+  std::atomic<std::uint64_t> dropped{0};
+  std::atomic<std::uint64_t> connections{0};
+
+  Statistics read() const { return {answered, refused, dropped, connections}; }
+};
+
+/// The sockets before libmodbus: takes clients, cuts what they send into frames by the MBAP header,
+/// and ends every connection that is too slow, too quiet, takes no answers, or sends something else
+/// than Modbus. No client can delay another: nothing here waits for one.
+/// Thread rule: open, run and the destructor by one owner each after the other; stop is
+/// thread-safe.
+class ModbusFront {
+ public:
+  /// Answers one whole frame on a socket that does not block.
+  using Answer =
+      std::function<Answered(int socket, std::span<const std::uint8_t> frame, bool may_write)>;
+
+  /// Listens; clients can connect from now on. Errors: address or port cannot be used. `counters`
+  /// outlives the front.
+  static Result<std::unique_ptr<ModbusFront>> open(const ModbusSettings& settings, Answer answer,
+                                                   Counters& counters);
+
+  /// The port that is listened on.
+  int port() const { return port_; }
+
+  /// Serves until stop().
+  void run();
+
+  void stop();
+
+ private:
+  static constexpr std::size_t kLongestFrame = 260;
+
+  struct Connection {
+    std::uint64_t id = 0;
+    hal::FileDescriptor socket{};
+    bool may_write = false;
+    bool has_asked = false;         ///< at least one whole request
+    hal::TimePoint last_request{};  ///< or when it was opened
+    hal::TimePoint frame_begin{};   ///< when the first byte in the buffer came
+    std::size_t filled = 0;
+    std::array<std::uint8_t, kLongestFrame> buffer{};
+  };
+  using Connections = std::vector<Connection>;
+
+  ModbusFront(const ModbusSettings& settings, Answer answer, Counters& counters)
+      : settings_(settings), answer_(std::move(answer)), counters_(counters) {}
+
+  Result<> listen();
+  Result<> watch();
+  void accept_client();
+  void pause_accepting();
+  void make_room();
+  void serve(std::uint64_t id);
+  bool answer_frames(Connection& connection);
+  void drop(Connections::iterator connection);
+  void drop_overdue();
+  hal::TimePoint deadline(const Connection& connection) const;
+  int milliseconds_to_wait() const;
+
+  const ModbusSettings settings_;
+  const Answer answer_;
+  Counters& counters_;
+  std::vector<HostAddress> writers_;
+  hal::FileDescriptor listener_;
+  hal::FileDescriptor epoll_;
+  hal::FileDescriptor stop_;
+  int port_ = 0;
+  bool accepting_ = true;
+  hal::TimePoint accept_again_;  ///< while not accepting
+  std::uint64_t next_id_ = 0;
+  Connections connections_;
+};
+
+}  // namespace orbwatch::app::modbus

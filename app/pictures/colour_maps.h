@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "proc/remap/colour_map.h"
+
+namespace orbwatch::app {
+
+/// The colour maps there are: OpenCV's of these names, and plain grey.
+inline constexpr std::array<std::string_view, 5> kColourMapNames{"grey", "inferno", "turbo",
+                                                                 "hot", "viridis"};
+
+/// The 256 entries of a map. `name` is one of kColourMapNames.
+remap::ColourMap::Table colour_map_table(std::string_view name);
+
+}  // namespace orbwatch::app

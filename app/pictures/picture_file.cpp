@@ -1,0 +1,117 @@
+#include "app/pictures/picture_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "proc/image/validity.h"
+
+namespace orbwatch::app {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool write_all(int file, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+tl::unexpected<Error> cannot_write(const std::filesystem::path& path) {
+  return fail(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+/// OpenCV's order: blue first.
+cv::Mat to_bgr(const Picture& picture) {
+  const PixelFormatInfo& format = info(picture.format);
+  const int type = CV_MAKETYPE(format.bytes_per_sample == 2 ? CV_16U : CV_8U, format.channels);
+  // OpenCV has no view of constant data; the matrix is only read.
+  const cv::Mat whole(picture.height, picture.width, type, const_cast<std::byte*>(picture.data),
+                      static_cast<std::size_t>(picture.stride));
+  if (format.channels == 1) return whole;
+  cv::Mat bgr;
+  cv::cvtColor(whole, bgr, cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
+cv::Mat with_alpha(const cv::Mat& picture, const ImageView<const std::uint8_t>& validity) {
+  cv::Mat bgra;
+  cv::cvtColor(picture, bgra, picture.channels() == 1 ? cv::COLOR_GRAY2BGRA : cv::COLOR_BGR2BGRA);
+  const cv::Mat seen(validity.height, validity.width, CV_8U, const_cast<std::uint8_t*>(validity.data),
+                     static_cast<std::size_t>(validity.stride));
+  cv::Mat alpha;
+  cv::Mat(seen == static_cast<int>(Validity::Seen))
+      .convertTo(alpha, bgra.depth(), bgra.depth() == CV_16U ? 257 : 1);
+  cv::insertChannel(alpha, bgra, 3);
+  return bgra;
+}
+
+}  // namespace
+
+Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  static std::atomic<unsigned> serial{0};
+  const std::string temporary = path.string() + "." + std::to_string(::getpid()) + "-" +
+                                std::to_string(serial++) + ".part";
+  const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) return cannot_write(path);
+  const bool whole = write_all(file, bytes) && ::fsync(file) == 0;
+  const int reason = errno;
+  const bool closed = ::close(file) == 0;
+  if (whole && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return {};
+  if (!whole) errno = reason;
+  auto error = cannot_write(path);
+  ::unlink(temporary.c_str());
+  return error;
+}
+
+Result<> check_picture_name(const std::filesystem::path& path, PixelFormat format,
+                            bool transparency) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".png") return {};
+  if (extension != ".jpg" && extension != ".jpeg") {
+    return fail(path.string() + ": unknown kind of picture; its name must end in .png, .jpg or .jpeg");
+  }
+  if (transparency) return fail(path.string() + ": JPEG has no transparency; write a .png");
+  if (info(format).bytes_per_sample == 2) {
+    return fail(path.string() + ": JPEG holds 8 bit, the picture has 16; write a .png");
+  }
+  return {};
+}
+
+Result<> write_picture(const std::filesystem::path& path, const Picture& picture,
+                       const ImageView<const std::uint8_t>& validity) {
+  if (auto named = check_picture_name(path, picture.format, !validity.empty()); !named) return named;
+  std::vector<std::uint8_t> bytes;
+  try {
+    const cv::Mat bgr = to_bgr(picture);
+    const cv::Mat whole = validity.empty() ? bgr : with_alpha(bgr, validity);
+    const bool jpeg = lower_extension(path) != ".png";
+    const std::vector<int> options =
+        jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95} : std::vector<int>{};
+    if (!cv::imencode(jpeg ? ".jpg" : ".png", whole, bytes, options)) {
+      return fail(path.string() + ": the picture cannot be encoded");
+    }
+  } catch (const cv::Exception& error) {
+    return fail(path.string() + ": the picture cannot be encoded: " + error.err);
+  }
+  return write_file(path, bytes);
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/pipeline/display_throttle.h"
+#include "app/pipeline/second_meter.h"
+#include "app/pipeline/status.h"
+#include "app/pipeline/view.h"
+#include "app/pipeline/view_renderer.h"
+#include "app/pipeline/worker_pool.h"
+#include "app/sink.h"
+#include "hal/buffer_pool.h"
+#include "hal/camera.h"
+#include "hal/frame_sync.h"
+#include "proc/signals/hot_spot.h"
+#include "proc/signals/measure.h"
+
+namespace orbwatch::app {
+
+/// What is measured, and where.
+struct MeasurementPlan {
+  std::size_t view = 0;  ///< index of the view whose measured plane counts
+  signals::RadiometricScale scale;
+  double threshold = 0;  ///< counts at which a pixel belongs to the hot spot
+};
+
+/// Everything the pipeline needs; cameras are configured already.
+struct PipelinePlan {
+  std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< 1..kMaxCameras; the first one paces
+  std::vector<hal::StreamFormat> formats;             ///< by camera
+  std::vector<ViewPlan> views;                        ///< 1..kMaxViews, by index
+  std::optional<MeasurementPlan> measurement;
+  hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
+  hal::Clock::duration sync_window = std::chrono::milliseconds(10);
+  std::size_t workers = 1;      ///< threads besides the pipeline's own
+  std::size_t view_buffers = 6; ///< per view, shared with the sinks
+};
+
+/// Frames in, views and status out, on one thread and its workers. Nothing here waits for a sink.
+/// Thread rule: start and stop on the main thread, command on any.
+class Pipeline {
+ public:
+  explicit Pipeline(PipelinePlan plan);
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  /// Sinks are the caller's, started, and outlive the run.
+  Result<> start(std::vector<Sink*> sinks);
+  void stop();
+
+  /// Takes effect at the next frame set.
+  CommandResult command(const Command& command);
+
+ private:
+  void on_frame(std::size_t camera, hal::Frame frame);
+  void on_fault(std::size_t camera, const hal::FaultReport& report);
+  void run();
+  void process(const hal::FrameSet& set);
+  bool is_measured(std::size_t view) const {
+    return plan_.measurement && plan_.measurement->view == view;
+  }
+  void make_view(std::size_t index, const hal::FrameSet& set);
+  void measure(const View& view, bool delivered);
+  void note_timing(hal::Clock::duration took);
+  void publish_status();
+  void roll_figures(hal::TimePoint now);
+  hal::Clock::duration deadline() const;
+  SystemState state() const;
+
+  PipelinePlan plan_;
+  hal::FrameSync sync_;
+  WorkerPool workers_;
+  std::vector<std::unique_ptr<ViewRenderer>> renderers_;
+  std::vector<std::size_t> order_;            ///< of rendering: what is measured comes first
+  std::vector<hal::BufferPool<View>> pools_;  ///< by view
+  std::optional<View> unshared_;              ///< to measure in when sinks hold every buffer
+  std::optional<signals::HotSpotDetector> detector_;
+  DisplayThrottle throttle_;
+  std::vector<SecondMeter> view_meters_;
+  std::array<std::atomic<hal::Fault>, kMaxCameras> faults_;
+  std::array<std::uint64_t, kMaxCameras> frames_at_roll_{};
+  std::atomic<std::size_t> selected_view_{0};
+  std::atomic<bool> stopping_{false};
+  Status status_;
+  double load_of_second_ = 0;
+  hal::TimePoint last_roll_;
+  std::vector<Sink*> sinks_;
+  std::thread thread_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,166 @@
+#include "app/pipeline/view_renderer.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "proc/image/validity.h"
+#include "proc/remap/colour_conversion.h"
+#include "proc/remap/remap.h"
+
+namespace orbwatch::app {
+namespace {
+
+bool is_one_channel(PixelFormat format) { return remap::remapped_channels(format) == 1; }
+bool is_sixteen_bit(PixelFormat format) { return info(format).bytes_per_sample == 2; }
+
+void clear_measured(const View& view, int first, int last) {
+  for (int y = first; y < last; ++y) {
+    if (!view.luminance.empty()) std::fill_n(view.luminance.row(y), view.luminance.width, 0);
+    if (!view.radiometric.empty()) std::fill_n(view.radiometric.row(y), view.radiometric.width, 0);
+  }
+}
+
+void write_luma(const ImageView<std::uint8_t>& rgb, const ImageView<std::uint8_t>& luminance,
+                remap::TileRows rows) {
+  const int last = std::min(rows.last * remap::kTile, rgb.height);
+  for (int y = rows.first * remap::kTile; y < last; ++y) {
+    for (int x = 0; x < rgb.width; ++x) luminance.row(y)[x] = remap::luma(rgb.at(x, y));
+  }
+}
+
+}  // namespace
+
+bool ViewRenderer::is_supported(PixelFormat format) { return format != PixelFormat::Rgb16; }
+
+ViewRenderer::ViewRenderer(ViewPlan plan) : plan_(std::move(plan)) {
+  const auto pixels =
+      static_cast<std::size_t>(plan_.projection.width()) * plan_.projection.height();
+  for (const ViewSource& source : plan_.sources) {
+    Source compiled{remap::CoordinateGrid(plan_.projection, source.ball, source.format.width,
+                                          source.format.height),
+                    {}, {}, {}};
+    if (plan_.sources.size() > 1) compiled.rgb.resize(pixels * 3);
+    if (is_one_channel(source.format.format)) {
+      is_sixteen_bit(source.format.format) ? compiled.counts.resize(pixels)
+                                           : compiled.grey.resize(pixels);
+    }
+    sources_.push_back(std::move(compiled));
+  }
+  compile_coverage();
+  compile_weights();
+}
+
+template <class T>
+ImageView<T> ViewRenderer::plane(std::vector<T>& storage, int channels) const {
+  const int width = plan_.projection.width();
+  return {storage.data(), width, plan_.projection.height(), channels, width * channels};
+}
+
+void ViewRenderer::compile_coverage() {
+  const auto pixels =
+      static_cast<std::size_t>(plan_.projection.width()) * plan_.projection.height();
+  coverage_.assign(pixels, 0);
+  unseen_.assign(pixels, static_cast<std::uint8_t>(Validity::Outside));
+  std::vector<std::uint8_t> validity(pixels);
+  for (std::size_t n = 0; n < sources_.size(); ++n) {
+    sources_[n].grid.write_validity(plane(validity, 1));
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (validity[i] == static_cast<std::uint8_t>(Validity::Seen)) {
+        coverage_[i] = static_cast<std::uint8_t>(coverage_[i] | 1U << n);
+      }
+      if (validity[i] != static_cast<std::uint8_t>(Validity::Outside)) {
+        unseen_[i] = static_cast<std::uint8_t>(Validity::Blind);
+      }
+    }
+  }
+}
+
+void ViewRenderer::compile_weights() {
+  const std::size_t count = sources_.size();
+  for (std::size_t delivering = 0; delivering < std::size_t{1} << count; ++delivering) {
+    std::array<double, remap::kMaxSources> weights{};
+    for (std::size_t n = 0; n < count; ++n) {
+      // A ratio that no 8-bit share can show makes the first source win alone.
+      const double weight =
+          plan_.combine == Combine::Mix ? plan_.sources[n].weight : 1.0 / (1ULL << 16 * n);
+      weights[n] = (delivering >> n & 1) ? weight : 0;
+    }
+    weights_.emplace_back(std::span(weights.data(), count));
+  }
+}
+
+View ViewRenderer::make_view() const {
+  const int width = plan_.projection.width(), height = plan_.projection.height();
+  const auto pixels = static_cast<std::size_t>(width) * height;
+  const bool wide =
+      plan_.measured && is_sixteen_bit(plan_.sources[*plan_.measured].format.format);
+  const bool narrow = plan_.measured && !wide;
+  View view;
+  view.index = plan_.index;
+  view.name = plan_.name;
+  view.bytes.resize(pixels * (narrow ? 5 : 4));
+  view.words.resize(wide ? pixels : 0);
+  view.colour = {view.bytes.data(), width, height, 3, 3 * width};
+  view.validity = {view.bytes.data() + 3 * pixels, width, height, 1, width};
+  if (narrow) view.luminance = {view.bytes.data() + 4 * pixels, width, height, 1, width};
+  if (wide) view.radiometric = {view.words.data(), width, height, 1, width};
+  return view;
+}
+
+void ViewRenderer::render(const hal::FrameSet& set, View& view, WorkerPool& workers) {
+  view.frame_set = set.id;
+  view.stamp = set.stamp;
+  delivering_ = 0;
+  for (std::size_t n = 0; n < sources_.size(); ++n) {
+    if (set.frames[plan_.sources[n].camera]) delivering_ |= std::size_t{1} << n;
+  }
+  measured_delivers_ = plan_.measured && (delivering_ >> *plan_.measured & 1) != 0;
+  const int tile_rows = sources_.front().grid.tiles_y();
+  auto work = [&](int row) { render_rows(set, view, {row, row + 1}); };
+  workers.run(tile_rows, work);
+}
+
+void ViewRenderer::render_rows(const hal::FrameSet& set, View& view, remap::TileRows rows) {
+  const int first = rows.first * remap::kTile;
+  const int last = std::min(rows.last * remap::kTile, plan_.projection.height());
+  const std::ptrdiff_t width = plan_.projection.width();
+  std::copy_n(unseen_.data() + first * width, (last - first) * width, view.validity.row(first));
+
+  std::array<ImageView<const std::uint8_t>, remap::kMaxSources> pictures;
+  for (std::size_t n = 0; n < sources_.size(); ++n) {
+    const auto& frame = set.frames[plan_.sources[n].camera];
+    const auto rgb = sources_.size() > 1 ? plane(sources_[n].rgb, 3) : view.colour;
+    if (frame) {
+      render_source(n, frame->picture, view, rgb, rows);
+    } else if (plan_.measured == n) {
+      clear_measured(view, first, last);
+    }
+    pictures[n] = rgb;
+  }
+  const int in_width = plan_.projection.width(), in_height = plan_.projection.height();
+  const ImageView<const std::uint8_t> coverage{coverage_.data(), in_width, in_height, 1, in_width};
+  remap::merge(std::span(pictures.data(), sources_.size()), coverage, weights_[delivering_],
+               view.colour, view.validity, rows);
+}
+
+void ViewRenderer::render_source(std::size_t n, const Picture& picture, View& view,
+                                 const ImageView<std::uint8_t>& rgb, remap::TileRows rows) {
+  Source& source = sources_[n];
+  const bool measured = plan_.measured == n;
+  const remap::ColourMap& colours = plan_.sources[n].colour_map;
+  if (!is_one_channel(picture.format)) {
+    remap::remap(source.grid, picture, plan_.interpolation, rgb, rows);
+    if (measured) write_luma(rgb, view.luminance, rows);
+  } else if (is_sixteen_bit(picture.format)) {
+    const auto counts = measured ? view.radiometric : plane(source.counts, 1);
+    remap::remap(source.grid, picture, plan_.interpolation, counts, rows);
+    colours.apply(counts, rgb, rows);
+  } else {
+    const auto grey = measured ? view.luminance : plane(source.grey, 1);
+    remap::remap(source.grid, picture, plan_.interpolation, grey, rows);
+    colours.apply(grey, rgb, rows);
+  }
+}
+
+}  // namespace orbwatch::app

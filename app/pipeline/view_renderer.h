@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/pipeline/view.h"
+#include "app/pipeline/worker_pool.h"
+#include "hal/camera.h"
+#include "hal/frame_sync.h"
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/view_projection.h"
+#include "proc/remap/colour_map.h"
+#include "proc/remap/coordinate_grid.h"
+#include "proc/remap/merge.h"
+
+namespace orbwatch::app {
+
+/// How the sources of a view are joined where several see a pixel.
+enum class Combine {
+  Mix,     ///< blended by weight
+  Switch,  ///< the first source that sees it and delivers
+};
+
+/// One camera as a view uses it.
+struct ViewSource {
+  std::size_t camera = 0;  ///< index into FrameSet::frames
+  hal::StreamFormat format;
+  optics::BallProjection ball;
+  double weight = 1;
+  remap::ColourMap colour_map;  ///< for one-channel formats
+};
+
+/// A view, ready to be compiled.
+struct ViewPlan {
+  std::size_t index = 0;
+  std::string name;
+  optics::ViewProjection projection;
+  std::vector<ViewSource> sources;  ///< 1..remap::kMaxSources
+  Combine combine = Combine::Mix;
+  remap::Interpolation interpolation = remap::Interpolation::Bilinear;
+  /// Which of `sources` is measured, raw; nothing for a view that is only looked at.
+  std::optional<std::size_t> measured;
+};
+
+/// Turns frame sets into one view. Everything that depends on calibration or view is compiled when
+/// it is made. Thread-bound: the pipeline's thread, which shares the work with the pool.
+class ViewRenderer {
+ public:
+  /// Every source's format is Grey, Y16, Yuyv or Rgb (see is_supported).
+  explicit ViewRenderer(ViewPlan plan);
+
+  static bool is_supported(PixelFormat format);
+
+  /// A buffer of the view's size and planes, for the view's pool.
+  View make_view() const;
+
+  /// Fills `view` from the frames of `set`; a missing frame leaves its part blind.
+  void render(const hal::FrameSet& set, View& view, WorkerPool& workers);
+
+  /// The measured source delivered in the set that was rendered last.
+  bool is_measured() const { return measured_delivers_; }
+
+  const ViewPlan& plan() const { return plan_; }
+
+ private:
+  struct Source {
+    remap::CoordinateGrid grid;
+    std::vector<std::uint8_t> rgb;       ///< its own picture when several are merged
+    std::vector<std::uint8_t> grey;      ///< one-channel values before the colour map
+    std::vector<std::uint16_t> counts;   ///< the same, 16 bit
+  };
+
+  void render_rows(const hal::FrameSet& set, View& view, remap::TileRows rows);
+  void render_source(std::size_t n, const Picture& picture, View& view,
+                     const ImageView<std::uint8_t>& rgb, remap::TileRows rows);
+  template <class T>
+  ImageView<T> plane(std::vector<T>& storage, int channels) const;
+  void compile_coverage();
+  void compile_weights();
+
+  ViewPlan plan_;
+  std::vector<Source> sources_;
+  std::vector<std::uint8_t> coverage_;  ///< per pixel the mask of sources that see it
+  std::vector<std::uint8_t> unseen_;    ///< per pixel the Validity when no camera delivers
+  std::vector<remap::MergeWeights> weights_;  ///< by the mask of sources that deliver
+  std::size_t delivering_ = 0;                ///< that mask for the set under way
+  bool measured_delivers_ = false;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "app/simulation/ray.h"
+#include "hal/clock.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::simulation {
+
+/// Sparks that can be in the air at once.
+inline constexpr std::size_t kMaxSparks = 64;
+
+/// A value is drawn evenly from lo to hi.
+struct Range {
+  double lo = 0;
+  double hi = 0;
+};
+
+/// The molten pool on the workpiece's top: it runs on a circle, its size and heat vary slowly.
+struct PoolSettings {
+  double path_x = -110;         ///< mm, centre of the circle
+  double path_y = -50;          ///< mm
+  double path_radius = 40;      ///< mm
+  double lap_time = 12;         ///< s for one round, counter-clockwise seen from above
+  double radius = 10;           ///< mm, mean molten radius
+  double radius_swing = 0.25;   ///< share of the radius by which it varies, with a period of 7 s
+  double peak = 2000;           ///< degC in the centre, mean
+  double peak_swing = 150;      ///< degC by which the peak varies, with a period of 11 s
+  double melting_point = 1400;  ///< degC, where molten ends
+};
+
+/// Drops of metal that leave the pool and fly ballistically.
+struct SparkSettings {
+  double rate = 60;               ///< per second, mean; 0: none
+  Range speed{600, 1800};         ///< mm/s at the start
+  Range lifetime{0.12, 0.35};     ///< s, unless it lands earlier
+  Range radius{2.5, 5};           ///< mm
+  Range temperature{1500, 1900};  ///< degC at the start
+  double end_temperature = 1250;  ///< degC at the end of its lifetime, reached linearly
+};
+
+/// The processing head above the pool: a cone with its tip down, and a column up to the ceiling.
+struct NozzleSettings {
+  double standoff = 15;       ///< mm between pool and tip
+  double tip_radius = 5;      ///< mm
+  double cone_height = 60;    ///< mm
+  double column_radius = 25;  ///< mm
+  double temperature = 70;    ///< degC
+};
+
+/// A laser-cladding machine with a mirror ball. Machine frame: right-handed, X right, Y forward, Z
+/// up, mm; the operator stands at the front, the side of lower Y.
+struct MachineSettings {
+  Sphere ball{{120, 60, 430}, 50};  ///< reflects everything, without loss
+  Box enclosure{{-600, -500, 0}, {600, 500, 800}};
+  Box table{{-250, -200, 100}, {250, 200, 140}};
+  Box workpiece{{-190, -130, 140}, {-30, 30, 178}};
+  double workpiece_temperature = 90;  ///< degC, far from the pool
+  PoolSettings pool;
+  SparkSettings sparks;
+  NozzleSettings nozzle;
+  std::uint64_t seed = 1;  ///< of everything random: same seed, same sparks and same noise
+};
+
+/// One machine and its clock, shared by all cameras that look into it. Immutable, reentrant.
+class Machine {
+ public:
+  /// The machine whose process time is 0 at `epoch`. Errors: a body outside the enclosure or in
+  /// another, a value out of range, too many sparks.
+  static Result<std::shared_ptr<const Machine>> make(const MachineSettings& settings,
+                                                     hal::TimePoint epoch);
+
+  const MachineSettings& settings() const { return settings_; }
+
+  /// The moment on the process' own clock, s: the argument of process_at().
+  double process_time(hal::TimePoint moment) const {
+    return std::chrono::duration<double>(moment - epoch_).count();
+  }
+
+ private:
+  Machine(const MachineSettings& settings, hal::TimePoint epoch)
+      : settings_(settings), epoch_(epoch) {}
+
+  MachineSettings settings_;
+  hal::TimePoint epoch_;
+};
+
+}  // namespace orbwatch::app::simulation

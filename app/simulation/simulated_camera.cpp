@@ -1,0 +1,132 @@
+#include "app/simulation/simulated_camera.h"
+
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+#include "app/simulation/hash.h"
+
+namespace orbwatch::app::simulation {
+namespace {
+
+constexpr int kMaxSide = 8192;          // pixels
+constexpr double kMaxFrameRate = 1000;  // per second
+
+std::string_view model_of(CameraKind kind) {
+  return kind == CameraKind::Colour ? "ray-traced colour camera" : "ray-traced thermal camera";
+}
+
+std::uint64_t seed_of(std::uint64_t machine_seed, std::string_view name) {
+  std::uint64_t seed = machine_seed;
+  for (const char letter : name) seed = mix(seed ^ static_cast<unsigned char>(letter));
+  return seed;
+}
+
+hal::TimePoint moment_of(std::uint64_t sequence, hal::TimePoint start, double frame_rate) {
+  const std::chrono::duration<double> after(static_cast<double>(sequence) / frame_rate);
+  return start + std::chrono::round<hal::Clock::duration>(after);
+}
+
+template <class Sample>
+void add_to_rows(const SensorNoise& noise, hal::FrameBuffer& buffer) {
+  const auto samples = buffer.picture.samples<Sample>();
+  const auto per_row = static_cast<std::size_t>(samples.stride);
+  auto* const first = reinterpret_cast<Sample*>(buffer.memory);
+  for (int row = 0; row < samples.height; ++row) {
+    const auto number = static_cast<std::size_t>(row);
+    noise.add(std::span(first + number * per_row, per_row), buffer.metadata.sequence, number);
+  }
+}
+
+}  // namespace
+
+SimulatedCamera::SimulatedCamera(std::shared_ptr<const Machine> machine,
+                                 SimulatedCameraSettings settings)
+    : Camera({settings.name, std::string(model_of(settings.kind)), "simulated"}),
+      machine_(std::move(machine)),
+      settings_(std::move(settings)),
+      script_(settings_.faults) {}
+
+SimulatedCamera::~SimulatedCamera() { stop(); }
+
+Result<> SimulatedCamera::check(int width, int height, double frame_rate) const {
+  const auto refuse = [&](const std::string& what) {
+    return fail("camera " + info().id + ": " + what);
+  };
+  const MachineSettings& machine = machine_->settings();
+  if (width < 1 || width > kMaxSide || height < 1 || height > kMaxSide) {
+    return refuse("size " + std::to_string(width) + "x" + std::to_string(height) +
+                  "; both must be from 1 to " + std::to_string(kMaxSide) + " pixels");
+  }
+  if (!(frame_rate > 0 && frame_rate <= kMaxFrameRate)) {
+    return refuse("frame rate " + std::to_string(frame_rate) +
+                  "; it must be above 0 and at most 1000 per second");
+  }
+  if (!(settings_.horizontal_fov > 0 && settings_.horizontal_fov < 180)) {
+    return refuse("horizontal field of view " + std::to_string(settings_.horizontal_fov) +
+                  "; it must be above 0 and below 180 degrees");
+  }
+  if (!(settings_.noise_sigma >= 0) || !(settings_.kelvin_per_count > 0)) {
+    return refuse("the noise must not be below 0 counts, and a count must be above 0 kelvin");
+  }
+  if (!(norm(settings_.position - machine.ball.centre) > machine.ball.radius) ||
+      machine.table.contains(settings_.position) ||
+      machine.workpiece.contains(settings_.position)) {
+    return refuse("its position is inside ball, table or workpiece; it must be in free space");
+  }
+  return {};
+}
+
+Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest& request) {
+  const int width = request.width != 0 ? request.width : settings_.width;
+  const int height = request.height != 0 ? request.height : settings_.height;
+  const double rate = request.frame_rate != 0 ? request.frame_rate : settings_.frame_rate;
+  if (auto checked = check(width, height, rate); !checked) return tl::unexpected(checked.error());
+
+  if (!renderer_ || pinhole_.width != width || pinhole_.height != height) {
+    const MachineSettings& machine = machine_->settings();
+    pinhole_ =
+        look_at(settings_.position, machine.ball.centre, settings_.horizontal_fov, width, height);
+    renderer_ = std::make_unique<const Renderer>(
+        machine_, pinhole_, Sensor{settings_.kind, settings_.kelvin_per_count});
+    const auto row_samples =
+        static_cast<std::size_t>(width * orbwatch::info(renderer_->format()).channels);
+    noise_.emplace(settings_.noise_sigma, seed_of(machine.seed, settings_.name), row_samples);
+    pool_ = hal::make_frame_pool(renderer_->format(), width, height);
+  }
+  format_ = {renderer_->format(), {}, width, height, rate};
+  return format_;
+}
+
+void SimulatedCamera::run(const std::stop_token& stop) {
+  const hal::TimePoint start = hal::Clock::now();
+  const auto moment = [&](std::uint64_t n) { return moment_of(n, start, format_.frame_rate); };
+  for (std::uint64_t n = 0; wait_until(stop, moment(n)); ++n) {
+    // Faults are shown in order even when frames are late, so that a script always plays in full.
+    if (const hal::Fault fault = script_.at(n); fault != hal::Fault::None) {
+      report(fault, "as scripted");
+    } else if (hal::Clock::now() < moment(n + 1)) {
+      expose(n, moment(n));
+    }
+  }
+}
+
+void SimulatedCamera::expose(std::uint64_t sequence, hal::TimePoint moment) {
+  const auto buffer = pool_->acquire();
+  if (!buffer) return;  // lost: everybody holds on to earlier frames
+  buffer->metadata = {.sequence = sequence, .exposure_start = moment};
+  renderer_->render(machine_->process_time(moment), buffer->memory);
+  add_noise(*buffer);
+  report(hal::Fault::None);
+  deliver(buffer);
+}
+
+void SimulatedCamera::add_noise(hal::FrameBuffer& buffer) const {
+  if (settings_.kind == CameraKind::Colour) {
+    add_to_rows<std::uint8_t>(*noise_, buffer);
+  } else {
+    add_to_rows<std::uint16_t>(*noise_, buffer);
+  }
+}
+
+}  // namespace orbwatch::app::simulation

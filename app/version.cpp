@@ -1,0 +1,13 @@
+#include "app/version.h"
+
+#include "hal/libraries.h"
+
+namespace orbwatch::app {
+
+std::string version_text(const std::string& program) {
+  std::string text = program + " " ORBWATCH_VERSION "\n";
+  for (const auto& [name, version] : hal::library_versions()) text += name + " " + version + "\n";
+  return text;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,19 @@
+#include "hal/libraries.h"
+
+#include <gpiod.h>
+#include <libcamera/camera_manager.h>
+
+namespace orbwatch::hal {
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+#ifdef ORBWATCH_GPIOD_2
+  const char* const gpiod = gpiod_api_version();
+#else
+  const char* const gpiod = gpiod_version_string();
+#endif
+  return {{"libcamera", libcamera::CameraManager::version()},
+          {"libgpiod", gpiod},
+          {"libjpeg-turbo", ORBWATCH_LIBJPEG_TURBO_VERSION}};
+}
+
+}  // namespace orbwatch::hal

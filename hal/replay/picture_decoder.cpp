@@ -1,0 +1,138 @@
+#include "hal/replay/picture_decoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <new>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "hal/jpeg/jpeg_decoder.h"
+#include "hal/replay/png_check.h"
+
+namespace orbwatch::hal {
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
+
+/// OpenCV fills in what is missing from a damaged file and says so on stderr only; so the file is
+/// checked first. Returns the longer side.
+Result<std::uint32_t> check_file(std::span<const std::byte> file) {
+  if (is_png(file)) {
+    const auto size = check_png(file);
+    if (!size) return tl::unexpected(size.error());
+    return std::max(size->width, size->height);
+  }
+  constexpr std::array kJpegStart{std::byte{0xff}, std::byte{0xd8}, std::byte{0xff}};
+  if (file.size() < kJpegStart.size() ||
+      !std::equal(kJpegStart.begin(), kJpegStart.end(), file.begin())) {
+    return fail("is neither a JPEG nor a PNG picture");
+  }
+  JpegDecoder decoder;
+  const auto size = decoder.read_size(file);
+  if (!size) return tl::unexpected(size.error());
+  const auto side = static_cast<std::uint32_t>(std::max(size->width, size->height));
+  if (side > kMaxPictureSide) return side;
+  if (auto whole = decoder.check(file); !whole) return tl::unexpected(whole.error());
+  return side;
+}
+
+Result<DecodedPicture> to_picture(const cv::Mat& image) {
+  DecodedPicture decoded;
+  Picture& picture = decoded.picture;
+  switch (image.type()) {
+    case CV_8UC1:
+      picture.format = PixelFormat::Grey;
+      break;
+    case CV_16UC1:
+      picture.format = PixelFormat::Y16;
+      break;
+    case CV_8UC3:
+      picture.format = PixelFormat::Rgb;
+      break;
+    case CV_16UC3:
+      picture.format = PixelFormat::Rgb16;
+      break;
+    default:
+      return fail("has pixels of type " + cv::typeToString(image.type()) +
+                  "; 1 or 3 channels of 8 or 16 bit are read");
+  }
+  picture.colour_space.range = ColourRange::Full;
+  picture.width = image.cols;
+  picture.height = image.rows;
+  picture.stride = row_bytes(picture.format, picture.width);
+  const auto stride = static_cast<std::size_t>(picture.stride);
+  decoded.storage = std::make_unique_for_overwrite<std::byte[]>(
+      stride * static_cast<std::size_t>(picture.height));
+  picture.data = decoded.storage.get();
+  cv::Mat pixels(image.size(), image.type(), decoded.storage.get(), stride);
+  if (image.channels() == 3) {
+    cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
+  } else {
+    image.copyTo(pixels);
+  }
+  return decoded;
+}
+
+Result<DecodedPicture> decode_checked(std::span<const std::byte> file) {
+  try {
+    const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8UC1,
+                        const_cast<std::byte*>(file.data()));
+    const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
+    if (image.empty()) return fail("damaged picture: cannot be decoded");
+    return to_picture(image);
+  } catch (const cv::Exception& error) {
+    return fail("cannot be decoded: " + error.err);
+  } catch (const std::bad_alloc&) {
+    return fail("cannot be decoded: out of memory");
+  }
+}
+
+}  // namespace
+
+bool has_picture_name(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
+}
+
+Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::string_view name) {
+  const auto named = [name](const std::string& message) {
+    return fail(std::string(name) + ": " + message);
+  };
+  if (file.size() > kMaxFileBytes) return named("is larger than 1 GiB");
+  const auto side = check_file(file);
+  if (!side) return named(side.error().message);
+  if (*side > kMaxPictureSide) {
+    return named("is " + std::to_string(*side) + " pixels long or wide; at most " +
+                 std::to_string(kMaxPictureSide) + " are read");
+  }
+  auto decoded = decode_checked(file);
+  if (!decoded) return named(decoded.error().message);
+  return decoded;
+}
+
+Result<DecodedPicture> read_picture(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (error) return fail(path.string() + ": " + error.message());
+  if (!std::filesystem::is_regular_file(status)) return fail(path.string() + ": is not a file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return fail(path.string() + ": " + error.message());
+  if (size > kMaxFileBytes) return fail(path.string() + ": is larger than 1 GiB");
+  std::vector<std::byte> file(size);
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(size));
+  if (!stream) {
+    return fail(path.string() + ": cannot be read: " + std::generic_category().message(errno));
+  }
+  return decode_picture(file, path.string());
+}
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,93 @@
+#include "hal/replay/replay_camera.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace orbwatch::hal {
+namespace {
+
+constexpr double kFolderFrameRate = 30.0;
+constexpr double kMaxFrameRate = 1000.0;
+constexpr std::chrono::seconds kLateEnoughToTell{1};
+
+Clock::duration offset(std::uint64_t exposure, double frame_rate) {
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(static_cast<double>(exposure) / frame_rate));
+}
+
+/// The exposure that was due last when `elapsed` has passed since the start.
+std::uint64_t exposure_at(Clock::duration elapsed, double frame_rate) {
+  return static_cast<std::uint64_t>(std::chrono::duration<double>(elapsed).count() * frame_rate);
+}
+
+std::string to_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+ReplayCamera::ReplayCamera(ReplaySettings settings)
+    : Camera({settings.name, settings.source.filename().string(), "replay"}),
+      settings_(std::move(settings)),
+      script_(settings_.faults) {}
+
+ReplayCamera::~ReplayCamera() { stop(); }
+
+Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
+  const std::string who = "camera " + info().id + ": ";
+  auto recording = open_recording(settings_.source, settings_.loop);
+  if (!recording) return fail(who + recording.error().message);
+  StreamFormat format = (*recording)->format();
+  if ((request.width != 0 && request.width != format.width) ||
+      (request.height != 0 && request.height != format.height)) {
+    return fail(who + "asked for " + to_text(request.width, request.height) +
+                ", the recording has " + to_text(format.width, format.height));
+  }
+  for (const double rate :
+       {kFolderFrameRate, format.frame_rate, settings_.frame_rate, request.frame_rate}) {
+    if (rate != 0) format.frame_rate = rate;
+  }
+  if (!(format.frame_rate > 0 && format.frame_rate <= kMaxFrameRate)) {
+    return fail(who + "frame rate " + std::to_string(format.frame_rate) +
+                "; it must be above 0 and at most 1000 per second");
+  }
+  recording_ = std::move(*recording);
+  format_ = format;
+  pool_ = make_frame_pool(format.format, format.width, format.height);
+  return format;
+}
+
+void ReplayCamera::run(const std::stop_token& stop) {
+  const TimePoint start = Clock::now();
+  std::uint64_t exposure = 0;
+  for (TimePoint due = start; wait_until(stop, due);) {
+    if (!expose(exposure, due, stop)) return;
+    exposure = std::max(exposure + 1, exposure_at(Clock::now() - start, format_.frame_rate));
+    due = start + offset(exposure, format_.frame_rate);
+  }
+}
+
+/// One exposure; false when the recording is over.
+bool ReplayCamera::expose(std::uint64_t exposure, TimePoint due, const std::stop_token& stop) {
+  if (const Fault fault = script_.at(exposure); fault != Fault::None) {
+    report(fault, "scripted at frame " + std::to_string(exposure));
+    return true;
+  }
+  const auto buffer = pool_->acquire();
+  if (!buffer) return true;  // lost: everybody holds on to earlier frames
+  if (const auto shown = recording_->show(exposure, *buffer, stop); !shown) {
+    report(shown.error().fault, shown.error().detail);
+    return shown.error().fault != Fault::Unplugged;
+  }
+  if (Clock::now() - due > kLateEnoughToTell) {
+    report(Fault::Stalled, "the recording decodes slower than it is played");
+  }
+  buffer->picture.colour_space = format_.colour_space;
+  buffer->metadata = {.sequence = exposure, .exposure_start = due};
+  report(Fault::None);
+  deliver(buffer);
+  return true;
+}
+
+}  // namespace orbwatch::hal

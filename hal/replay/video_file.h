@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/replay/recording.h"
+
+namespace orbwatch::hal {
+
+/// A video file, decoded by FFmpeg through OpenCV: 8 bit colour. Pictures are decoded in their
+/// order; one with a number further on is reached by decoding those in between, an earlier one by
+/// starting over.
+class VideoFile : public Recording {
+ public:
+  /// Errors: not a video, its first picture cannot be decoded.
+  static Result<std::unique_ptr<Recording>> open(const std::filesystem::path& file, bool loop);
+  ~VideoFile() override;
+
+  const StreamFormat& format() const override { return format_; }
+  Shown<> show(std::uint64_t number, FrameBuffer& target, const std::stop_token& stop) override;
+
+ private:
+  struct Decoder;  // keeps OpenCV out of this header
+
+  VideoFile(std::filesystem::path file, bool loop);
+
+  /// Starts over; false when the file can no longer be opened.
+  bool rewind();
+  /// Decodes forward up to picture `number`; false when the recording ends before it.
+  bool skip_to(std::uint64_t number, const std::stop_token& stop);
+  /// Decodes the next picture; false at the end.
+  bool decode_next();
+  Shown<> copy_to(FrameBuffer& target) const;
+
+  std::filesystem::path file_;
+  bool loop_;
+  StreamFormat format_;
+  std::unique_ptr<Decoder> decoder_;
+  std::uint64_t position_ = 0;          ///< number of the picture that is decoded next
+  std::optional<std::uint64_t> count_;  ///< known once the end was met: headers only estimate it
+};
+
+}  // namespace orbwatch::hal

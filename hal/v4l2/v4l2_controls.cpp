@@ -1,0 +1,117 @@
+#include "hal/v4l2/v4l2_controls.h"
+
+#include <linux/v4l2-controls.h>
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <optional>
+
+namespace orbwatch::hal {
+namespace {
+
+/// A GenICam name (SFNC 2.7) for a control of V4L2.
+struct Alias {
+  std::string_view name;
+  std::uint32_t id;
+  double units;  ///< of V4L2's per one of GenICam's
+};
+
+constexpr std::array kAliases{
+    Alias{"ExposureTime", V4L2_CID_EXPOSURE_ABSOLUTE,
+          0.01},  // microseconds; V4L2 counts 100 of them
+    Alias{"Gain", V4L2_CID_GAIN, 1.0},
+};
+
+constexpr std::uint32_t kNotNow = V4L2_CTRL_FLAG_INACTIVE | V4L2_CTRL_FLAG_GRABBED;
+
+const Alias* alias_of(std::string_view name) {
+  for (const Alias& alias : kAliases) {
+    if (alias.name == name) return &alias;
+  }
+  return nullptr;
+}
+
+bool is_number(const v4l2_query_ext_ctrl& control) {
+  switch (control.type) {
+    case V4L2_CTRL_TYPE_INTEGER:
+    case V4L2_CTRL_TYPE_BOOLEAN:
+    case V4L2_CTRL_TYPE_MENU:
+    case V4L2_CTRL_TYPE_INTEGER_MENU:
+    case V4L2_CTRL_TYPE_INTEGER64:
+      return control.nr_of_dims == 0;
+    default:
+      return false;
+  }
+}
+
+Result<v4l2_query_ext_ctrl> find(const V4l2Device& device, std::string_view name) {
+  const Alias* const alias = alias_of(name);
+  const std::string variable = control_variable(name);
+  std::string known;
+  std::optional<v4l2_query_ext_ctrl> control = device.next_control(0);
+  for (; control; control = device.next_control(control->id)) {
+    if (alias != nullptr ? control->id == alias->id : control_variable(control->name) == variable) {
+      return *control;
+    }
+    if (is_number(*control)) known += (known.empty() ? "" : ", ") + control_variable(control->name);
+  }
+  return fail("no control \"" + std::string(name) +
+              "\"; there are: " + (known.empty() ? "none" : known));
+}
+
+Result<> check(const v4l2_query_ext_ctrl& control, double units) {
+  const std::string name = control_variable(control.name);
+  if (!is_number(control)) return fail("control " + name + " does not take a number");
+  if ((control.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0)
+    return fail("control " + name + " is read only");
+  if ((control.flags & kNotNow) != 0) {
+    return fail("control " + name + " cannot be set now; switch its automatism off first");
+  }
+  if (!(units >= static_cast<double>(control.minimum) &&
+        units <= static_cast<double>(control.maximum))) {
+    return fail("control " + name + " cannot be " + std::to_string(units) + "; it takes " +
+                std::to_string(control.minimum) + " to " + std::to_string(control.maximum));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string control_variable(std::string_view name) {
+  std::string variable;
+  bool gap = false;
+  for (const char letter : name) {
+    const auto c = static_cast<unsigned char>(letter);
+    if (std::isalnum(c) == 0) {
+      gap = !variable.empty();
+      continue;
+    }
+    if (gap) variable += '_';
+    gap = false;
+    variable += static_cast<char>(std::tolower(c));
+  }
+  return variable;
+}
+
+Result<> set_control(V4l2Device& device, std::string_view name, double value) {
+  const auto named = [&device](const std::string& message) {
+    return fail(device.path() + ": " + message);
+  };
+  const auto control = find(device, name);
+  if (!control) return named(control.error().message);
+  const Alias* const alias = alias_of(name);
+  const double units = std::round(alias != nullptr ? value * alias->units : value);
+  if (auto good = check(*control, units); !good) return named(good.error().message);
+  if (auto done = device.set_control(*control, static_cast<std::int64_t>(units)); !done) {
+    return fail(done.error().detail);
+  }
+  return {};
+}
+
+bool is_inactive(const V4l2Device& device, std::string_view name) {
+  const auto control = find(device, name);
+  return control && (control->flags & kNotNow) != 0;
+}
+
+}  // namespace orbwatch::hal

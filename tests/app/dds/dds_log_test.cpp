@@ -1,0 +1,42 @@
+#include "app/dds/dds_log.h"
+
+#include <dds/dds.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <chrono>
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::seconds;
+
+TEST(LineBudgetTest, AdmitsTheLimitPerMinuteAndTellsWhatItWithheld) {
+  LineBudget budget(2);
+  const hal::TimePoint start = hal::Clock::now();
+  EXPECT_EQ(budget.admit(start), 0u);
+  EXPECT_EQ(budget.admit(start + seconds(1)), 0u);
+  for (int i = 0; i < 1400; ++i) EXPECT_EQ(budget.admit(start + seconds(2)), std::nullopt);
+  EXPECT_EQ(budget.admit(start + seconds(59)), std::nullopt);
+  EXPECT_EQ(budget.admit(start + seconds(60)), 1401u);
+  EXPECT_EQ(budget.admit(start + seconds(61)), 0u);
+  EXPECT_EQ(budget.admit(start + seconds(62)), std::nullopt);
+}
+
+TEST(LimitDdsLogTest, WhatCycloneLogsArrivesAndIsLimited) {
+  limit_dds_log();
+  testing::internal::CaptureStderr();
+  // Each of these makes Cyclone DDS log at least one error.
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_LT(
+        dds_create_domain(static_cast<dds_domainid_t>(100 + i), "<CycloneDDS><Domain><Unknown/>"),
+        0);
+  }
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 20) << log;
+  EXPECT_EQ(log.rfind("DDS: ", 0), 0u) << log;
+}
+
+}  // namespace
+}  // namespace orbwatch::app

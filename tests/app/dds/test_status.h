@@ -1,0 +1,35 @@
+#pragma once
+
+#include "app/pipeline/status.h"
+
+namespace orbwatch::app::tests {
+
+/// A status in which no two figures are equal.
+inline Status make_status() {
+  Status status;
+  status.state = SystemState::Degraded;
+  status.heartbeat = 1'000'000'000'001;
+  status.frame_set = 1'000'000'000'002;
+  status.stamp = hal::Clock::now();
+  status.overruns = 3;
+  status.unmatched = 4;
+  status.load = 0.625;
+  status.selected_view = 1;
+  status.camera_count = 2;
+  status.view_count = 2;
+  std::uint64_t next = 100;
+  for (auto& camera : status.cameras) {
+    camera = {hal::Fault::Stalled, next, next + 1, next + 2, static_cast<double>(next) + 0.5};
+    next += 10;
+  }
+  for (auto& view : status.views) {
+    const auto base = static_cast<double>(next);
+    view = {next, next + 1, base + 0.25, base + 0.5, base + 0.75};
+    next += 10;
+  }
+  double value = -7.125;
+  for (const auto& signal : signals::kSignals) status.signals.*signal.member = value *= -1.5;
+  return status;
+}
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,163 @@
+#include "hal/jpeg/jpeg_decoder.h"
+
+#include <gtest/gtest.h>
+#include <turbojpeg.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace orbwatch::hal {
+namespace {
+
+constexpr int kWidth = 53;  // odd: neither blocks nor pairs fit
+constexpr int kHeight = 37;
+constexpr std::size_t kSamples = std::size_t{kWidth} * kHeight * 3;
+
+std::vector<std::uint8_t> gradient() {
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      pixels.push_back(static_cast<std::uint8_t>(4 * x));
+      pixels.push_back(static_cast<std::uint8_t>(6 * y));
+      pixels.push_back(static_cast<std::uint8_t>(2 * (x + y)));
+    }
+  }
+  return pixels;
+}
+
+std::vector<std::byte> encode(int flags = 0) {
+  const auto pixels = gradient();
+  unsigned char* file = nullptr;
+  unsigned long size = 0;
+  tjhandle encoder = tjInitCompress();
+  EXPECT_EQ(tjCompress2(encoder, pixels.data(), kWidth, 0, kHeight, TJPF_RGB, &file, &size,
+                        TJSAMP_444, 98, flags),
+            0);
+  const auto* first = reinterpret_cast<const std::byte*>(file);
+  std::vector<std::byte> jpeg(first, first + size);
+  tjFree(file);
+  tjDestroy(encoder);
+  return jpeg;
+}
+
+struct Target {
+  std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(kSamples);
+  ImageView<std::uint8_t> view{pixels.data(), kWidth, kHeight, 3, std::ptrdiff_t{kWidth} * 3};
+};
+
+/// Cuts out one marker segment.
+std::vector<std::byte> without_segment(const std::vector<std::byte>& jpeg, int marker) {
+  std::vector<std::byte> kept(jpeg.begin(), jpeg.begin() + 2);
+  std::size_t at = 2;
+  for (;;) {
+    const int found = std::to_integer<int>(jpeg[at + 1]);
+    const std::size_t length = 2 + std::to_integer<std::size_t>(jpeg[at + 2]) * 256 +
+                               std::to_integer<std::size_t>(jpeg[at + 3]);
+    const auto begin = jpeg.begin() + static_cast<std::ptrdiff_t>(at);
+    if (found == 0xda) {
+      kept.insert(kept.end(), begin, jpeg.end());
+      return kept;
+    }
+    if (found != marker)
+      kept.insert(kept.end(), begin, begin + static_cast<std::ptrdiff_t>(length));
+    at += length;
+  }
+}
+
+TEST(JpegDecoder, DecodesAWholePicture) {
+  JpegDecoder decoder;
+  const auto jpeg = encode();
+  const auto size = decoder.read_size(jpeg);
+  ASSERT_TRUE(size) << size.error().message;
+  EXPECT_EQ(size->width, kWidth);
+  EXPECT_EQ(size->height, kHeight);
+  EXPECT_TRUE(decoder.check(jpeg));
+  Target target;
+  const auto done = decoder.decode_rgb(jpeg, target.view);
+  ASSERT_TRUE(done) << done.error().message;
+  const auto truth = gradient();
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    ASSERT_LE(std::abs(int{target.pixels[i]} - int{truth[i]}), 4) << "sample " << i;
+  }
+}
+
+TEST(JpegDecoder, HonoursTheStrideOfItsTarget) {
+  JpegDecoder decoder;
+  constexpr std::ptrdiff_t kStride = kWidth * 3 + 11;
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kStride) * kHeight, 0xee);
+  ASSERT_TRUE(decoder.decode_rgb(encode(), {pixels.data(), kWidth, kHeight, 3, kStride}));
+  Target packed;
+  ASSERT_TRUE(decoder.decode_rgb(encode(), packed.view));
+  for (int y = 0; y < kHeight; ++y) {
+    const auto* row = pixels.data() + y * kStride;
+    EXPECT_TRUE(std::equal(row, row + kWidth * 3, packed.view.row(y))) << "row " << y;
+    EXPECT_EQ(row[kWidth * 3], 0xee) << "wrote beyond row " << y;
+  }
+}
+
+TEST(JpegDecoder, DecodesWithoutHuffmanTablesAsUsbCamerasSend) {
+  JpegDecoder decoder;
+  const auto jpeg = encode();
+  const auto bare = without_segment(jpeg, 0xc4);
+  ASSERT_LT(bare.size(), jpeg.size() - 400);
+  Target with;
+  Target without;
+  ASSERT_TRUE(decoder.decode_rgb(jpeg, with.view));
+  const auto done = decoder.decode_rgb(bare, without.view);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(with.pixels, without.pixels);
+}
+
+TEST(JpegDecoder, RefusesEveryTruncation) {
+  for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
+    const auto jpeg = encode(flags);
+    JpegDecoder decoder;
+    Target target;
+    for (std::size_t length = 0; length < jpeg.size(); ++length) {
+      const std::span part(jpeg.data(), length);
+      ASSERT_FALSE(decoder.decode_rgb(part, target.view)) << length << " of " << jpeg.size();
+      ASSERT_FALSE(decoder.check(part)) << length << " of " << jpeg.size();
+    }
+    const auto done = decoder.decode_rgb(jpeg, target.view);
+    EXPECT_TRUE(done) << "must recover from errors: " << done.error().message;
+  }
+}
+
+TEST(JpegDecoder, CheckAgreesWithDecodingOnDamagedData) {
+  const auto whole = encode();
+  JpegDecoder decoder;
+  Target target;
+  int refused = 0;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    auto jpeg = whole;
+    jpeg[at] ^= std::byte{0x55};
+    const auto size = decoder.read_size(jpeg);
+    if (!size || size->width != kWidth || size->height != kHeight) continue;
+    const bool decoded = decoder.decode_rgb(jpeg, target.view).has_value();
+    EXPECT_EQ(decoder.check(jpeg).has_value(), decoded) << "byte " << at;
+    refused += decoded ? 0 : 1;
+  }
+  EXPECT_GT(refused, 0);
+}
+
+TEST(JpegDecoder, RefusesGarbage) {
+  JpegDecoder decoder;
+  Target target;
+  const std::vector<std::byte> garbage(5000, std::byte{0x5a});
+  EXPECT_FALSE(decoder.read_size({}));
+  EXPECT_FALSE(decoder.read_size(garbage));
+  EXPECT_FALSE(decoder.check(garbage));
+  EXPECT_FALSE(decoder.decode_rgb(garbage, target.view));
+}
+
+TEST(JpegDecoder, RefusesAnotherSizeAndNamesBoth) {
+  JpegDecoder decoder;
+  std::vector<std::uint8_t> small(30 * 20 * 3);
+  const auto done = decoder.decode_rgb(encode(), {small.data(), 30, 20, 3, 90});
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("53x37"), std::string::npos) << done.error().message;
+  EXPECT_NE(done.error().message.find("30x20"), std::string::npos) << done.error().message;
+}
+
+}  // namespace
+}  // namespace orbwatch::hal

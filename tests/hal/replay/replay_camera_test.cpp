@@ -1,0 +1,261 @@
+#include "hal/replay/replay_camera.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/hal/replay/temporary_folder.h"
+#include "tests/hal/replay/test_video.h"
+
+namespace orbwatch::hal {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::TemporaryFolder;
+
+constexpr auto kGuard = 60s;
+
+/// What a camera sent, seen from the test's thread.
+class Listener {
+ public:
+  void start(Camera& camera) {
+    const auto started = camera.start(
+        [this](const Frame& frame) {
+          note([&] {
+            frames_.push_back(frame->metadata);
+            values_.push_back(value_of(*frame));
+          });
+        },
+        [this](const FaultReport& fault) { note([&] { faults_.push_back(fault); }); });
+    ASSERT_TRUE(started) << started.error().message;
+  }
+
+  void wait_for_frames(std::size_t count) {
+    wait([&] { return frames_.size() >= count; });
+  }
+  void wait_for_faults(std::size_t count) {
+    wait([&] { return faults_.size() >= count; });
+  }
+
+  // To be read after Camera::stop().
+  const std::vector<FrameMetadata>& frames() const { return frames_; }
+  const std::vector<int>& values() const { return values_; }
+  const std::vector<FaultReport>& faults() const { return faults_; }
+
+ private:
+  static int value_of(const FrameBuffer& frame) {
+    return frame.picture.format == PixelFormat::Y16
+               ? frame.picture.samples<std::uint16_t>().at(0, 0)[0]
+               : frame.picture.samples<std::uint8_t>().at(0, 0)[0];
+  }
+  template <class Change>
+  void note(Change change) {
+    const std::lock_guard lock(mutex_);
+    change();
+    changed_.notify_all();
+  }
+  template <class Condition>
+  void wait(Condition condition) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, kGuard, condition));
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<FrameMetadata> frames_;
+  std::vector<int> values_;
+  std::vector<FaultReport> faults_;
+};
+
+/// Value of every pixel of picture k of a test folder: needs all 16 bits.
+int value_of(std::uint64_t picture) { return static_cast<int>(picture) * 9001 + 12345; }
+
+void write_pictures(const TemporaryFolder& folder, int count) {
+  for (int k = 0; k < count; ++k) {
+    const cv::Mat image(6, 8, CV_16UC1, cv::Scalar(value_of(static_cast<std::uint64_t>(k))));
+    ASSERT_TRUE(cv::imwrite((folder / ("f" + std::to_string(k) + ".png")).string(), image));
+  }
+}
+
+ReplaySettings settings_for(const std::filesystem::path& source) {
+  return {.name = "east", .source = source, .frame_rate = 200};
+}
+
+TEST(ReplayCamera, PlaysEachPictureAtItsSequenceNumber) {
+  const TemporaryFolder folder;
+  write_pictures(folder, 5);
+  ReplayCamera camera(settings_for(folder.path()));
+  const auto format = camera.configure({});
+  ASSERT_TRUE(format) << format.error().message;
+  EXPECT_EQ(format->format, PixelFormat::Y16);
+  EXPECT_EQ(format->width, 8);
+  EXPECT_EQ(format->height, 6);
+  EXPECT_EQ(format->frame_rate, 200);
+  Listener listener;
+  listener.start(camera);
+  listener.wait_for_frames(30);
+  camera.stop();
+  const auto& frames = listener.frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(listener.values()[i], value_of(frames[i].sequence % 5)) << i;
+    if (i == 0) continue;
+    ASSERT_GT(frames[i].sequence, frames[i - 1].sequence);
+    const auto numbers = static_cast<std::int64_t>(frames[i].sequence - frames[i - 1].sequence);
+    const auto elapsed = frames[i].exposure_start - frames[i - 1].exposure_start;
+    EXPECT_LE(std::chrono::abs(elapsed - numbers * 5ms), 1us) << "exposures must be nominal";
+  }
+  EXPECT_TRUE(listener.faults().empty());
+}
+
+TEST(ReplayCamera, UsesTheRateAskedForElseTheSettingsElseTheVideosOwn) {
+  const TemporaryFolder folder;
+  write_pictures(folder, 1);
+  tests::write_video(folder / "recording.avi", 2);
+  const auto rate = [](const std::filesystem::path& source, double set, double asked) {
+    ReplayCamera camera({.name = "east", .source = source, .frame_rate = set});
+    const auto format = camera.configure({.frame_rate = asked});
+    return format ? format->frame_rate : -1.0;
+  };
+  EXPECT_EQ(rate(folder.path(), 0, 0), 30);
+  EXPECT_EQ(rate(folder.path(), 12, 0), 12);
+  EXPECT_EQ(rate(folder.path(), 12, 50), 50);
+  EXPECT_NEAR(rate(folder / "recording.avi", 0, 0), tests::kVideoRate, 0.01);
+  EXPECT_EQ(rate(folder / "recording.avi", 10, 0), 10);
+  EXPECT_EQ(rate(folder.path(), -1, 0), -1) << "refused";
+  EXPECT_EQ(rate(folder.path(), 1001, 0), -1) << "refused";
+  EXPECT_EQ(rate(folder.path(), std::nan(""), 0), -1) << "refused";
+}
+
+TEST(ReplayCamera, EndsUnpluggedAfterPlayingOnce) {
+  const TemporaryFolder folder;
+  write_pictures(folder, 3);
+  auto settings = settings_for(folder.path());
+  settings.loop = false;
+  ReplayCamera camera(settings);
+  ASSERT_TRUE(camera.configure({}));
+  for (int round = 0; round < 2; ++round) {
+    Listener listener;
+    listener.start(camera);
+    listener.wait_for_faults(1);
+    camera.stop();
+    ASSERT_EQ(listener.faults().size(), 1U);
+    EXPECT_EQ(listener.faults()[0].fault, Fault::Unplugged);
+    EXPECT_EQ(listener.faults()[0].detail, "end of recording");
+    ASSERT_FALSE(listener.frames().empty());
+    EXPECT_EQ(listener.frames()[0].sequence, 0U) << "a restart begins with the first picture";
+    EXPECT_LE(listener.frames().back().sequence, 2U);
+  }
+}
+
+TEST(ReplayCamera, PlaysOnAfterADamagedPicture) {
+  const TemporaryFolder folder;
+  write_pictures(folder, 4);
+  tests::truncate_file(folder / "f2.png", 0.8);
+  ReplayCamera camera(settings_for(folder.path()));
+  ASSERT_TRUE(camera.configure({}));
+  Listener listener;
+  listener.start(camera);
+  listener.wait_for_faults(2);
+  listener.wait_for_frames(10);
+  camera.stop();
+  EXPECT_EQ(listener.faults()[0].fault, Fault::CorruptFrame);
+  EXPECT_THAT(listener.faults()[0].detail, HasSubstr("f2.png"));
+  EXPECT_EQ(listener.faults()[1].fault, Fault::None);
+  for (const auto& frame : listener.frames()) EXPECT_NE(frame.sequence % 4, 2U);
+}
+
+TEST(ReplayCamera, ShowsScriptedFaults) {
+  const TemporaryFolder folder;
+  write_pictures(folder, 3);
+  auto settings = settings_for(folder.path());
+  settings.faults = {
+      {Fault::Unplugged, 20, 60}, {Fault::CorruptFrame, 100, 140}, {Fault::WrongFormat, 140, 180}};
+  ReplayCamera camera(settings);
+  ASSERT_TRUE(camera.configure({}));
+  Listener listener;
+  listener.start(camera);
+  listener.wait_for_faults(5);
+  camera.stop();
+  std::vector<Fault> faults;
+  for (const auto& report : listener.faults()) faults.push_back(report.fault);
+  EXPECT_THAT(faults, ElementsAre(Fault::Unplugged, Fault::None, Fault::CorruptFrame,
+                                  Fault::WrongFormat, Fault::None));
+  for (std::size_t i = 0; i < listener.frames().size(); ++i) {
+    const std::uint64_t n = listener.frames()[i].sequence;
+    EXPECT_TRUE(n < 20 || (n >= 60 && n < 100) || n >= 180) << n;
+    EXPECT_EQ(listener.values()[i], value_of(n % 3)) << "keeps its place in the recording";
+  }
+}
+
+TEST(ReplayCamera, PlaysAVideo) {
+  const TemporaryFolder folder;
+  tests::write_video(folder / "recording.avi", 8);
+  ReplayCamera camera(settings_for(folder / "recording.avi"));
+  const auto format = camera.configure({});
+  ASSERT_TRUE(format) << format.error().message;
+  EXPECT_EQ(format->format, PixelFormat::Rgb);
+  Listener listener;
+  listener.start(camera);
+  listener.wait_for_frames(20);
+  camera.stop();
+  for (std::size_t i = 0; i < listener.frames().size(); ++i) {
+    EXPECT_NEAR(listener.values()[i], tests::red_of(listener.frames()[i].sequence % 8), 6) << i;
+  }
+}
+
+TEST(ReplayCamera, LosesFramesWhenAllAreHeldAndComesBack) {
+  const TemporaryFolder folder;
+  write_pictures(folder, 3);
+  ReplayCamera camera(settings_for(folder.path()));
+  ASSERT_TRUE(camera.configure({}));
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<Frame> held;
+  bool holding = true;
+  std::uint64_t last = 0;
+  const auto on_frame = [&](const Frame& frame) {
+    const std::lock_guard lock(mutex);
+    if (holding) held.push_back(frame);
+    last = frame->metadata.sequence;
+    changed.notify_all();
+  };
+  const TimePoint begin = Clock::now();
+  ASSERT_TRUE(camera.start(on_frame, [](const FaultReport&) {}));
+  std::unique_lock lock(mutex);
+  ASSERT_TRUE(changed.wait_for(lock, kGuard, [&] { return held.size() == kFramesPerCamera; }));
+  // Some exposures must pass by with no buffer to go to.
+  EXPECT_FALSE(
+      changed.wait_until(lock, begin + 200ms, [&] { return held.size() > kFramesPerCamera; }));
+  const std::uint64_t last_held = last;
+  EXPECT_EQ(held[0]->picture.samples<std::uint16_t>().at(0, 0)[0],
+            value_of(held[0]->metadata.sequence % 3))
+      << "held frames stay as they are";
+  holding = false;
+  held.clear();
+  ASSERT_TRUE(changed.wait_for(lock, kGuard, [&] { return last > last_held + 1; }));
+  lock.unlock();
+  camera.stop();
+}
+
+TEST(ReplayCamera, SaysWhyItCannotPlay) {
+  const TemporaryFolder folder;
+  const auto error = [](const std::filesystem::path& source, const StreamRequest& request) {
+    const auto format = ReplayCamera(settings_for(source)).configure(request);
+    return format ? std::string() : format.error().message;
+  };
+  EXPECT_THAT(error(folder / "missing", {}), HasSubstr("No such file"));
+  EXPECT_THAT(error(folder.path(), {}), HasSubstr("*.jpg"));
+  EXPECT_THAT(error("/dev/null", {}), HasSubstr("neither"));
+  write_pictures(folder, 1);
+  EXPECT_THAT(error(folder.path(), {.width = 9}), HasSubstr("8x6"));
+  EXPECT_EQ(error(folder.path(), {.width = 8, .height = 6}), "");
+}
+
+}  // namespace
+}  // namespace orbwatch::hal
