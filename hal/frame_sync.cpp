@@ -109,7 +109,7 @@ FrameSet FrameSync::assemble(std::size_t pacer) {
       if (inbox.pending) inbox.held = std::exchange(inbox.pending, nullptr);
     }
     set.frames[i] = inbox.held;
-    set.matched &= !inbox.delivers || matches(inbox.held, set.stamp);
+    set.matched &= !inbox.held || matches(inbox.held, set.stamp);
   }
   return set;
 }

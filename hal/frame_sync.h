@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxCameras = 4;
 struct FrameSet {
   std::uint64_t id = 0;  ///< counts sets from 1
   TimePoint stamp;       ///< exposure start of the pacing camera's frame
-  std::array<Frame, kMaxCameras> frames;  ///< by camera; null while a camera has a fault
+  std::array<Frame, kMaxCameras> frames;  ///< by camera; null while one has a fault or before its first
   bool matched = true;   ///< all exposures began within the window
 };
 
@@ -29,7 +29,7 @@ struct FrameCounts {
 };
 
 /// Joins the frames of free-running cameras into sets. Queue per camera: depth 1, newest wins. The
-/// first camera that delivers sets the pace; a set is its frame and, of each other camera, the
+/// first camera without a fault sets the pace; a set is its frame and, of each other camera, the
 /// frame whose exposure began within `window` of it, or else the newest older one, held from set to
 /// set. Thread rule: put and clear on any thread, next on one, close and counts on any.
 class FrameSync {
@@ -58,7 +58,7 @@ class FrameSync {
     Frame pending;        ///< newest, not used yet
     TimePoint arrived;    ///< of pending
     Frame held;           ///< last used
-    bool delivers = false;
+    bool delivers = true;  ///< until a fault says otherwise
     bool started = false;
     std::uint64_t last_sequence = 0;
     FrameCounts counts;

@@ -90,6 +90,15 @@ void check_references(const Configuration& configuration, Finding& finding) {
 
 }  // namespace
 
+optics::Mat3 registration(const BallSettings& ball) {
+  if (ball.rotation_matrix) {
+    const Numbers9& m = *ball.rotation_matrix;
+    return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+  }
+  const Numbers3 angles = ball.rotation.value_or(Numbers3{});
+  return optics::rotation({angles[0], angles[1], angles[2]});
+}
+
 Result<Configuration> parse_configuration(const std::string& text, const std::string& name,
                                           const std::filesystem::path& folder) {
   Finding finding{name, folder, std::nullopt};

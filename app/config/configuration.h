@@ -36,6 +36,9 @@ struct BallSettings {
   std::optional<Numbers9> rotation_matrix;
 };
 
+/// The registration that the settings give in one form or the other; none is the identity.
+optics::Mat3 registration(const BallSettings& ball);
+
 struct SimulatedCameraPart {
   enum class Kind { Colour, Thermal };
   Kind kind = Kind::Colour;

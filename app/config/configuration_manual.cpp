@@ -112,8 +112,16 @@ class ManualWriter {
     }
     return "";
   }
-  template <class T, class Constraint>
-  static std::string default_of(const T& value, const Constraint&) {
+  template <class T>
+  static std::string default_of(const T& value, const Range& range) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      if (!range.contains(static_cast<double>(value))) return "none";
+    }
+    return show(value);
+  }
+  template <std::size_t N>
+  static std::string default_of(const std::string& value,
+                                const std::array<std::string_view, N>&) {
     return show(value);
   }
 

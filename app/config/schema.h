@@ -63,6 +63,8 @@ void visit(Visitor& v, BallSettings& ball) {
                       : "give either alpha or distance");
   v.require(!ball.rotation || !ball.rotation_matrix, "rotation_matrix",
             "give either rotation or rotation_matrix");
+  const auto rotation = optics::checked_rotation(registration(ball));
+  v.require(rotation.has_value(), "rotation_matrix", rotation ? "" : rotation.error().message);
 }
 
 template <class Visitor>
@@ -209,7 +211,7 @@ void visit(Visitor& v, Configuration& configuration) {
   v.table("pipeline", configuration.pipeline, "Frame budget and threads");
   v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,
-           "Cameras; the first that delivers sets the pace");
+           "Cameras; the first without a fault sets the pace");
   v.tables("view", configuration.views, 1, kMaxViews, "Virtual cameras in the ball's centre");
   v.table("process", configuration.process, "What is measured");
   v.table("console", configuration.console, "Figures on standard output");

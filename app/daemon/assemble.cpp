@@ -6,7 +6,6 @@
 #include "app/daemon/cameras.h"
 #include "app/log.h"
 #include "app/pictures/colour_maps.h"
-#include "proc/optics/rotation.h"
 
 namespace orbwatch::app {
 namespace {
@@ -28,15 +27,6 @@ Result<optics::BallModel> ball_model(const BallSettings& ball) {
   if (!alpha) return tl::unexpected(alpha.error());
   return ball.model == optics::BallModel::Kind::Exact ? optics::BallModel::exact(*alpha)
                                                       : optics::BallModel::paper(*alpha);
-}
-
-optics::Mat3 registration(const BallSettings& ball) {
-  if (ball.rotation_matrix) {
-    const Numbers9& m = *ball.rotation_matrix;
-    return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
-  }
-  const Numbers3 angles = ball.rotation.value_or(Numbers3{});
-  return optics::rotation({angles[0], angles[1], angles[2]});
 }
 
 Result<optics::BallProjection> ball_projection(const CameraSettings& camera,

@@ -2,7 +2,7 @@
 
 #include <unistd.h>
 
-#include <bit>
+#include <algorithm>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +12,15 @@
 namespace orbwatch::app {
 
 namespace {
+
+void swap_bytes(cv::Mat& words) {
+  for (int y = 0; y < words.rows; ++y) {
+    auto* row = words.ptr<std::uint16_t>(y);
+    std::transform(row, row + words.cols, row, [](std::uint16_t word) {
+      return static_cast<std::uint16_t>(word << 8 | word >> 8);
+    });
+  }
+}
 
 /// The image as OpenCV wants it: blue first, the host's byte order.
 cv::Mat to_mat(const ReceivedImage& image) {
@@ -25,11 +34,7 @@ cv::Mat to_mat(const ReceivedImage& image) {
   } else {
     received.copyTo(result);
   }
-  if (image.swapped) {
-    result.forEach<std::uint16_t>([](std::uint16_t& sample, const int*) {
-      sample = static_cast<std::uint16_t>(sample << 8 | sample >> 8);
-    });
-  }
+  if (image.swapped) swap_bytes(result);
   return result;
 }
 

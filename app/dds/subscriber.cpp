@@ -18,6 +18,8 @@ namespace {
 constexpr std::chrono::milliseconds kCancelPeriod{100};
 constexpr std::chrono::seconds kLinePeriod{1};
 constexpr hal::Clock::duration kNoTime{0};
+/// Thirty years: longer ones might not fit the clock, and mean the same.
+constexpr double kMaxSeconds = 1e9;
 
 using Subscriptions = std::vector<std::unique_ptr<Subscription>>;
 
@@ -73,18 +75,18 @@ class Readers {
 class Schedule {
  public:
   explicit Schedule(double seconds) : start_(hal::Clock::now()), line_(start_) {
-    if (seconds > 0) {
+    if (seconds > 0 && seconds < kMaxSeconds) {
       end_ = start_ + std::chrono::duration_cast<hal::Clock::duration>(
                           std::chrono::duration<double>(seconds));
     }
   }
 
-  bool over(hal::TimePoint now) const { return end_ && now >= *end_; }
+  bool over(hal::TimePoint now) const { return now >= end_; }
 
   hal::Clock::duration wait(hal::TimePoint now) const {
     const hal::Clock::duration next =
         std::min<hal::Clock::duration>(kCancelPeriod, line_ + kLinePeriod - now);
-    return end_ ? std::min(next, *end_ - now) : next;
+    return std::min(next, end_ - now);
   }
 
   /// Seconds since the last line when one is due.
@@ -98,7 +100,7 @@ class Schedule {
  private:
   hal::TimePoint start_;
   hal::TimePoint line_;
-  std::optional<hal::TimePoint> end_;
+  hal::TimePoint end_ = hal::TimePoint::max();
 };
 
 Result<> read(const Subscriptions& subscriptions, const Readers& readers,

@@ -97,7 +97,7 @@ Result<> ModbusFront::listen() {
   const int on = 1;
   if (::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) != 0 ||
       ::bind(listener_.get(), address->get(), address->length) != 0 ||
-      ::listen(listener_.get(), settings_.max_connections) != 0 ||
+      ::listen(listener_.get(), SOMAXCONN) != 0 ||
       ::getsockname(listener_.get(), address->get(), &address->length) != 0) {
     return refused();
   }

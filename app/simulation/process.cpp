@@ -69,6 +69,13 @@ double fall_to(const Launch& flight, double height) {
   return (v + std::sqrt(v * v + 2 * kGravity * (flight.position.z - height))) / kGravity;
 }
 
+/// The age at which the flight rises to `height` above its start; kNever when it stays below.
+double rise_to(const Launch& flight, double height) {
+  const double v = flight.velocity.z;
+  const double discriminant = v * v - 2 * kGravity * (height - flight.position.z);
+  return discriminant > 0 ? (v - std::sqrt(discriminant)) / kGravity : kNever;
+}
+
 double landing_on(const Launch& flight, const Box& body) {
   if (body.hi.z > flight.position.z) return kNever;
   const double age = fall_to(flight, body.hi.z);
@@ -84,7 +91,7 @@ double reach_of_wall(double start, double velocity, double lo, double hi) {
 double end_of_flight(const MachineSettings& settings, const Launch& flight) {
   const Box& walls = settings.enclosure;
   return std::min({landing_on(flight, settings.workpiece), landing_on(flight, settings.table),
-                   fall_to(flight, walls.lo.z),
+                   fall_to(flight, walls.lo.z), rise_to(flight, walls.hi.z),
                    reach_of_wall(flight.position.x, flight.velocity.x, walls.lo.x, walls.hi.x),
                    reach_of_wall(flight.position.y, flight.velocity.y, walls.lo.y, walls.hi.y)});
 }

@@ -38,7 +38,8 @@ struct ProcessTruth {
   std::size_t spark_count = 0;
   std::array<Spark, kMaxSparks> spark_slots;
 
-  std::span<const Spark> sparks() const { return {spark_slots.data(), spark_count}; }
+  std::span<const Spark> sparks() const& { return {spark_slots.data(), spark_count}; }
+  void sparks() const&& = delete;  // the span would outlive its sparks
 };
 
 /// The process `seconds` after the machine's epoch: a pure function of its arguments. Settings are

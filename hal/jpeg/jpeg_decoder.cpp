@@ -3,6 +3,7 @@
 #include <turbojpeg.h>
 
 #include <string>
+#include <utility>
 
 namespace orbwatch::hal {
 namespace {
@@ -21,6 +22,15 @@ JpegDecoder::JpegDecoder() : decoder_(tjInitDecompress()) {}
 
 void JpegDecoder::Close::operator()(void* decoder) const { tjDestroy(decoder); }
 
+/// libjpeg-turbo 2.1 stays in the middle of a header that it could not read and takes the next
+/// picture for its rest; and it keeps the tables of damaged ones. So after an error it is made
+/// anew.
+tl::unexpected<Error> JpegDecoder::failed(const char* what) {
+  std::string message = std::string(what) + tjGetErrorStr2(decoder_.get());
+  decoder_.reset(tjInitDecompress());
+  return fail(std::move(message));
+}
+
 Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
   if (!decoder_) return fail("JPEG decoder: out of memory");
   JpegSize size;
@@ -28,7 +38,7 @@ Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
   int colours = 0;
   if (tjDecompressHeader3(decoder_.get(), bytes(jpeg), jpeg.size(), &size.width, &size.height,
                           &subsampling, &colours) != 0) {
-    return fail(std::string("not a JPEG picture: ") + tjGetErrorStr2(decoder_.get()));
+    return failed("not a JPEG picture: ");
   }
   if (size.width == 0 || size.height == 0) return fail("not a JPEG picture: ends before its size");
   if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
@@ -62,7 +72,7 @@ Result<> JpegDecoder::decode_rgb(std::span<const std::byte> jpeg, ImageView<std:
 Result<> JpegDecoder::decompress(std::span<const std::byte> jpeg, ImageView<std::uint8_t> target) {
   if (tjDecompress2(decoder_.get(), bytes(jpeg), jpeg.size(), target.data, target.width,
                     static_cast<int>(target.stride), target.height, TJPF_RGB, kStrict) != 0) {
-    return fail(std::string("damaged JPEG picture: ") + tjGetErrorStr2(decoder_.get()));
+    return failed("damaged JPEG picture: ");
   }
   return {};
 }

@@ -41,6 +41,7 @@ class JpegDecoder {
     void operator()(void* decoder) const;
   };
 
+  tl::unexpected<Error> failed(const char* what);
   Result<> decompress(std::span<const std::byte> jpeg, ImageView<std::uint8_t> target);
 
   std::unique_ptr<void, Close> decoder_;

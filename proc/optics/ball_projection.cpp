@@ -1,11 +1,22 @@
 #include "proc/optics/ball_projection.h"
 
 #include <cmath>
+#include <string>
 
 #include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
 
 namespace orbwatch::optics {
+
+Result<> check_outline(const Outline& outline, int picture_width, int picture_height) {
+  const Vec2& c = outline.centre;
+  if (c.u >= -0.5 && c.u <= picture_width - 0.5 && c.v >= -0.5 && c.v <= picture_height - 0.5) {
+    return {};
+  }
+  return fail("the ball's centre (" + std::to_string(c.u) + ", " + std::to_string(c.v) +
+              ") is outside of the picture, which is " + std::to_string(picture_width) + "x" +
+              std::to_string(picture_height));
+}
 
 Result<BallProjection> BallProjection::make(const BallModel& model, const Outline& outline,
                                             const Mat3& registration) {

@@ -17,6 +17,10 @@ struct Outline {
   double angle = 0;
 };
 
+/// Refuses an outline whose centre lies outside of a picture of this size. A ball that the picture
+/// cuts is allowed: what it shows beyond the border is undefined.
+Result<> check_outline(const Outline& outline, int picture_width, int picture_height);
+
 /// Where one camera shows a direction: ball model, the limb in that camera's picture and the
 /// camera's registration. Reentrant, immutable.
 ///

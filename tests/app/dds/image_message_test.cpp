@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ struct Damage {
   std::function<void(OwnedImage&)> apply;
   const char* message;
 };
+
+void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 
 class CheckImageDamageTest : public testing::TestWithParam<Damage> {};
 

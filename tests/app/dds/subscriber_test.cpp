@@ -8,7 +8,6 @@
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <ostream>
-#include <regex>
 #include <streambuf>
 
 #include "app/dds/dds_sink.h"
@@ -35,7 +34,7 @@ class SharedText : public std::streambuf {
     return text_;
   }
   bool matches(const std::string& pattern) const {
-    return std::regex_search(text(), std::regex(pattern));
+    return testing::Value(text(), testing::ContainsRegex(pattern));
   }
 
  private:
@@ -148,13 +147,11 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
     sink.accept(tests::make_status());
     const auto& printed = subscriber.printed();
     const std::string figures =
-        ": \\d+\\.\\d/s, latency [-\\d.]+ ms from writing, [-\\d.]+ ms from "
-        "exposure, ";
-    return printed.matches("front/image_raw" + figures + "64x48 rgb8, lost \\d+\n") &&
-           printed.matches("radiometric/image_raw" + figures + "64x48 mono16, lost \\d+\n") &&
+        ": [0-9.]+/s, latency [-0-9.]+ ms from writing, [-0-9.]+ ms from exposure, ";
+    return printed.matches("front/image_raw" + figures + "64x48 rgb8, lost [0-9]+\n") &&
+           printed.matches("radiometric/image_raw" + figures + "64x48 mono16, lost [0-9]+\n") &&
            printed.matches("process_state" + figures +
-                           "degraded, frame set 1000000000002, "
-                           "heartbeat 1000000000001, lost \\d+\n");
+                           "degraded, frame set 1000000000002, heartbeat 1000000000001, lost");
   })) << subscriber.printed().text();
   const auto report = subscriber.cancel();
   ASSERT_TRUE(report) << report.error().message;

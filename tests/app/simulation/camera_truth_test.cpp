@@ -75,7 +75,8 @@ TEST(CameraTruth, OutlineHoldsEveryPointOfTheLimb) {
       // On the limb the line of sight is perpendicular to the radius.
       const Vec3 side = normalized(cross(to_camera, random.direction()));
       const Vec3 limb = kBall.centre + (to_camera * (1 / norm(to_camera)) * (1 / d) +
-                                        side * std::sqrt(1 - 1 / (d * d))) * kBall.radius;
+                                        side * std::sqrt(1 - 1 / (d * d))) *
+                                           kBall.radius;
       ASSERT_NEAR(dot(limb - kBall.centre, limb - camera.position), 0, 1e-8);
       const Vec2 pixel = project(camera, limb);
       ASSERT_NEAR(std::hypot(pixel.u - truth.outline.cx, pixel.v - truth.outline.cy),
@@ -86,10 +87,11 @@ TEST(CameraTruth, OutlineHoldsEveryPointOfTheLimb) {
 
 TEST(CameraTruth, AlphaIsTheKnownOneAtKnownDistances) {
   // Distance in radii and alpha in degrees, as printed beside the reference renders.
-  for (const auto& [d, alpha] : {std::pair{12.0, 350.4396163056017}, {8.0, 345.6384884370834},
-                                 {7.0, 343.57357859652365}, {24.0, 355.22396907346246}}) {
-    const Pinhole camera =
-        look_at(kBall.centre + Vec3{0, -50 * d, 0}, kBall.centre, 30, 640, 480);
+  for (const auto& [d, alpha] : {std::pair{12.0, 350.4396163056017},
+                                 {8.0, 345.6384884370834},
+                                 {7.0, 343.57357859652365},
+                                 {24.0, 355.22396907346246}}) {
+    const Pinhole camera = look_at(kBall.centre + Vec3{0, -50 * d, 0}, kBall.centre, 30, 640, 480);
     EXPECT_NEAR(truth_of(camera, kBall).alpha, alpha, 1e-9);
   }
 }
@@ -142,14 +144,17 @@ TEST(CameraTruth, AnglesComposeToTheRotation) {
     // The camera whose registration this is: its axes are -X, -Z and -Y of the turned frame.
     const Pinhole camera{kBall.centre + wanted.column1() * 400,
                          {-wanted.column0(), -wanted.column2(), -wanted.column1()},
-                         640, 480, 1000};
+                         640,
+                         480,
+                         1000};
     const CameraTruth truth = truth_of(camera, kBall);
     expect_equal(matrix(truth.rotation), wanted);
     expect_equal(composed(truth.yaw, truth.pitch, truth.roll), wanted);
   }
-  expect_equal(composed(0, 0, 10), Mat3{{std::cos(std::numbers::pi / 18), 0, std::sin(std::numbers::pi / 18)},
-                                        {0, 1, 0},
-                                        {-std::sin(std::numbers::pi / 18), 0, std::cos(std::numbers::pi / 18)}});
+  expect_equal(composed(0, 0, 10),
+               Mat3{{std::cos(std::numbers::pi / 18), 0, std::sin(std::numbers::pi / 18)},
+                    {0, 1, 0},
+                    {-std::sin(std::numbers::pi / 18), 0, std::cos(std::numbers::pi / 18)}});
 }
 
 TEST(CameraTruth, AnglesComposeAtThePolesToo) {

@@ -40,7 +40,10 @@ TEST(Machine, RefusesWhatCannotBe) {
       {"swing", [](MachineSettings& s) { s.pool.radius_swing = 1; }},
       {"melting point", [](MachineSettings& s) { s.pool.peak = 1400; }},
       {"melting point", [](MachineSettings& s) { s.workpiece_temperature = 1500; }},
-      {"ranges", [](MachineSettings& s) { s.sparks.speed = {2, 1}; }},
+      {"ranges",
+       [](MachineSettings& s) {
+         s.sparks.speed = {2, 1};
+       }},
       {"rate", [](MachineSettings& s) { s.sparks.rate = 1000; }},
       {"rate", [&](MachineSettings& s) { s.sparks.rate = nan; }},
       {"nozzle", [](MachineSettings& s) { s.nozzle.tip_radius = 30; }},

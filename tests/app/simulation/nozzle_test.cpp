@@ -28,8 +28,8 @@ TEST(Nozzle, IsEnteredWhereItBegins) {
     // Half of the rays aim at the cone.
     Ray ray = random.ray(kSpace);
     if (i % 2 == 0) {
-      const Vec3 aim = kTip + Vec3{random.number(-20, 20), random.number(-20, 20),
-                                   random.number(-10, 80)};
+      const Vec3 aim =
+          kTip + Vec3{random.number(-20, 20), random.number(-20, 20), random.number(-10, 80)};
       ray.direction = normalized(aim - ray.origin);
     }
     if (inside(ray.origin)) continue;

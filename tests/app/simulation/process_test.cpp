@@ -74,11 +74,9 @@ TEST(Sparks, FallFreelyAndCool) {
       const Spark* const later = find(after, spark.radius);
       if (!earlier || !later) continue;
       ++followed;
-      const Vec3 acceleration = (later->position - spark.position * 2 + earlier->position) *
-                                (1 / (kStep * kStep));
+      const Vec3 acceleration =
+          (later->position - spark.position * 2 + earlier->position) * (1 / (kStep * kStep));
       EXPECT_NEAR(norm(acceleration - Vec3{0, 0, -9810}), 0, 1e-3);
-      const double speed = norm(later->position - earlier->position) / (2 * kStep);
-      EXPECT_LT(speed, settings.sparks.speed.hi * 2);
       EXPECT_LT(later->temperature, spark.temperature);
       EXPECT_GE(spark.temperature, settings.sparks.end_temperature);
       EXPECT_LE(spark.temperature, settings.sparks.temperature.hi);
@@ -108,16 +106,18 @@ TEST(Sparks, LeaveThePoolUpwards) {
 TEST(Sparks, LandAndStayInsideTheMachine) {
   MachineSettings settings;
   settings.sparks.lifetime = {0.5, 1};
-  settings.sparks.speed = {1000, 3000};
-  double lowest = kNever;
+  settings.sparks.speed = {1000, 4500};  // up to 1 m: some reach the ceiling
+  double lowest = kNever, highest = 0;
   for (double t = 0; t < 20; t += 0.01) {
-    for (const Spark& spark : process_at(settings, t).sparks()) {
-      ASSERT_TRUE(spark.position.z > settings.enclosure.hi.z ||
-                  settings.enclosure.contains(spark.position));
+    const ProcessTruth now = process_at(settings, t);
+    for (const Spark& spark : now.sparks()) {
+      ASSERT_TRUE(settings.enclosure.contains(spark.position));
       ASSERT_FALSE(settings.workpiece.contains(spark.position - Vec3{0, 0, 1e-9}));
       lowest = std::min(lowest, spark.position.z);
+      highest = std::max(highest, spark.position.z);
     }
   }
+  EXPECT_GT(highest, 780);
   EXPECT_LT(lowest, 40) << "some fly over the table's edge and down to the floor";
 }
 
@@ -135,15 +135,14 @@ TEST(Sparks, HaveTheMeanRate) {
 
 TEST(Sparks, FitTheirSlotsAtTheHighestRate) {
   MachineSettings settings;
-  settings.sparks.lifetime = {1, 1};
-  settings.sparks.rate = kMaxSparks - 2;
-  settings.sparks.speed = {6000, 6000};
+  settings.sparks.lifetime = {0.01, 0.01};  // shorter than any flight
+  settings.sparks.rate = (kMaxSparks - 2) / 0.01;
   ASSERT_TRUE(Machine::make(settings, {}));
   std::size_t most = 0;
-  for (double t = -3; t < 10; t += 0.001) {
+  for (double t = -3; t < 3; t += 0.00037) {
     most = std::max(most, process_at(settings, t).spark_count);
   }
-  EXPECT_GT(most, 10U);
+  EXPECT_GE(most, kMaxSparks - 2);
   EXPECT_LE(most, kMaxSparks);
 }
 

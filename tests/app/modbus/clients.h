@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/modbus/modbus_sink.h"
+#include "hal/v4l2/file_descriptor.h"
+
+struct _modbus;
+
+namespace orbwatch::app::tests {
+
+using Bytes = std::vector<std::uint8_t>;
+using Words = std::vector<std::uint16_t>;
+
+/// A loopback server on a free port. Time-outs are as good as off, so that a slow machine cannot
+/// fail a test that is not about them.
+ModbusSettings loopback();
+
+/// A command handler that takes every command, and remembers nothing.
+CommandResult accept_all(const Command& command);
+
+/// A status whose figures differ from each other and from 0.
+Status example_status();
+
+/// A PLC, by libmodbus. Every answer is an exception code, 0 when there is none, -1 when the
+/// connection failed.
+class Plc {
+ public:
+  explicit Plc(int port, int unit = 1);
+
+  int read_bits(int address, int count);
+  int read_discrete(int address, int count);
+  int read_holding(int address, int count);
+  int read_input(int address, int count);
+  int write(int address, std::uint16_t value);
+  int write(int address, const Words& values);
+  int mask_write(int address, std::uint16_t and_mask, std::uint16_t or_mask);
+  int write_and_read(int write_address, const Words& values, int read_address, int count);
+  int write_coil(int address);
+  int write_coils(int address, int count);
+
+  /// What the last read gave.
+  std::vector<std::uint8_t> bits;
+  Words words;
+  /// 32 bit, high word first, from words[place] on.
+  std::uint32_t u32(std::size_t place) const;
+  std::int32_t i32(std::size_t place) const { return static_cast<std::int32_t>(u32(place)); }
+
+ private:
+  struct Close {
+    void operator()(_modbus* context) const;
+  };
+  int outcome(int result) const;
+  std::unique_ptr<_modbus, Close> context_;
+};
+
+struct Unconnected {};
+
+/// Anybody else: bytes over TCP, right or wrong.
+class RawClient {
+ public:
+  /// `from`: the client's own loopback address. `receive_buffer`: in bytes; 0 leaves it.
+  explicit RawClient(int port, const std::string& from = "127.0.0.1", int receive_buffer = 0);
+  explicit RawClient(Unconnected);
+
+  void connect(int port);
+
+  bool send(const Bytes& bytes);
+  /// Sends as much as goes without waiting; -1 when the connection is broken.
+  long send_some(const Bytes& bytes);
+  /// Waits until all of this can be sent, or the connection is broken.
+  void wait_writable();
+  /// Exactly so many bytes, or fewer when the connection ended.
+  Bytes receive(std::size_t count);
+  /// One whole answer without its MBAP header and unit; empty when the connection ended.
+  Bytes receive_pdu();
+  /// Waits for the server to end the connection; false when it sends something instead.
+  bool is_closed_by_server();
+  void finish_sending();
+
+ private:
+  hal::FileDescriptor socket_;
+};
+
+/// A frame with its MBAP header.
+Bytes frame(const Bytes& pdu, std::uint8_t unit = 1, std::uint16_t transaction = 0x1234);
+
+/// Yields until the condition holds; false after a minute.
+bool eventually(const std::function<bool()>& condition);
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "clients.h"
+#include "tests/support/reference_data.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr const char* kMbpoll = "/usr/bin/mbpoll";
+
+/// How a run of mbpoll ended, and what it read: by address.
+struct Polled {
+  int exit_code = -1;
+  std::string text;
+  std::map<int, long> values;
+};
+
+Polled run(const std::string& command) {
+  Polled polled;
+  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return polled;
+  char line[512];
+  while (std::fgets(line, sizeof(line), pipe)) {
+    polled.text += line;
+    int address = 0;
+    long value = 0;
+    if (std::sscanf(line, "[%d]: %ld", &address, &value) == 2) polled.values[address] = value;
+  }
+  const int status = ::pclose(pipe);
+  polled.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return polled;
+}
+
+/// A server and mbpoll, a client that shares no code with ours beyond libmodbus' encoding.
+class Mbpoll : public testing::Test {
+ protected:
+  void SetUp() override {
+    ORBWATCH_REQUIRE_FILE(kMbpoll);
+    const auto started = sink_.start();
+    ASSERT_TRUE(started) << started.error().message;
+    sink_.accept(tests::example_status());
+  }
+
+  Polled poll(const std::string& options, const std::string& values = {}) {
+    return run(std::string(kMbpoll) + " -0 -1 -o 10 -p " + std::to_string(sink_.port()) + " " +
+               options + " 127.0.0.1 " + values);
+  }
+
+  ModbusSink sink_{tests::loopback(), [](const Command& command) {
+                     return command.argument == 2 ? CommandResult::Done
+                                                  : CommandResult::ArgumentOutOfRange;
+                   }};
+};
+
+TEST_F(Mbpoll, ReadsHeartbeatAndInputs) {
+  const Polled polled = poll("-t 3 -r 0 -c 8");
+  ASSERT_EQ(polled.exit_code, 0) << polled.text;
+  const std::map<int, long> expected{{0, 1}, {1, 0x0102}, {2, 2}, {3, 0b100001010},
+                                     {4, 2}, {5, 3},      {6, 2}, {7, 457}};
+  EXPECT_EQ(polled.values, expected) << polled.text;
+  Status status = tests::example_status();
+  ++status.heartbeat;
+  sink_.accept(status);
+  EXPECT_EQ(poll("-t 3 -r 1 -c 1").values[1], 0x0103);
+}
+
+TEST_F(Mbpoll, ReadsDiscreteInputsAndTheirMirror) {
+  const Polled polled = poll("-t 1 -r 0 -c 16");
+  ASSERT_EQ(polled.exit_code, 0) << polled.text;
+  ASSERT_EQ(polled.values.size(), 16U);
+  for (const auto& [address, value] : polled.values) {
+    EXPECT_EQ(value, address == 1 || address == 3 || address == 8 ? 1 : 0) << address;
+  }
+  EXPECT_EQ(poll("-t 0 -r 1003 -c 1").values[1003], 1);
+}
+
+TEST_F(Mbpoll, ReadsSignalsAsDoubleWordsAlsoFromTheMirror) {
+  const Polled polled = poll("-t 3:int -B -r 32 -c 1");
+  ASSERT_EQ(polled.exit_code, 0) << polled.text;
+  EXPECT_EQ(polled.values.at(32), -12346);
+  EXPECT_EQ(poll("-t 4:int -B -r 1032 -c 1").values[1032], -12346);
+  EXPECT_EQ(poll("-t 4:int -B -r 1044 -c 1").values[1044], -2147483648L);
+}
+
+TEST_F(Mbpoll, GivesACommandAndSeesItAcknowledged) {
+  ASSERT_EQ(poll("-t 4 -r 0", "0 2 1 41").exit_code, 0);
+  Polled polled = poll("-t 4 -r 4 -c 3");
+  const std::map<int, long> done{{4, 41}, {5, 0}, {6, 1}};
+  EXPECT_EQ(polled.values, done) << polled.text;
+  ASSERT_EQ(poll("-t 4 -r 0", "0 7 1 42").exit_code, 0);
+  polled = poll("-t 4 -r 4 -c 3");
+  const std::map<int, long> refused{{4, 42}, {5, 2}, {6, 1}};
+  EXPECT_EQ(polled.values, refused) << polled.text;
+}
+
+TEST_F(Mbpoll, SeesExceptions) {
+  EXPECT_NE(poll("-t 3 -r 99 -c 1").text.find("Illegal data address"), std::string::npos);
+  EXPECT_NE(poll("-t 4 -r 0", "5").text.find("Illegal data address"), std::string::npos);
+  EXPECT_NE(poll("-t 4 -r 2", "99").text.find("Illegal data value"), std::string::npos);
+}
+
+TEST_F(Mbpoll, TheManualsExamplesWork) {
+  std::ifstream manual(std::string(ORBWATCH_SOURCE_DIR) + "/app/modbus/registers.md");
+  const std::string port = std::to_string(ModbusSettings{}.port);
+  int examples = 0;
+  for (std::string line; std::getline(manual, line);) {
+    if (!line.starts_with("mbpoll ")) continue;
+    line.resize(std::min(line.find('#'), line.size()));
+    ASSERT_NE(line.find(port), line.npos) << line;
+    line.replace(line.find(port), port.size(), std::to_string(sink_.port()));
+    ASSERT_NE(line.find("<host>"), line.npos) << line;
+    line.replace(line.find("<host>"), 6, "127.0.0.1");
+    const Polled polled = run(line);
+    EXPECT_EQ(polled.exit_code, 0) << line << "\n" << polled.text;
+    ++examples;
+  }
+  EXPECT_GE(examples, 5);
+}
+
+}  // namespace
+}  // namespace orbwatch::app

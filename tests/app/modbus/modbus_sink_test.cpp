@@ -1,0 +1,252 @@
+#include "app/modbus/modbus_sink.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "clients.h"
+
+namespace orbwatch::app {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::accept_all;
+using tests::eventually;
+using tests::loopback;
+using tests::Plc;
+
+std::string start_error(const ModbusSettings& settings) {
+  ModbusSink sink(settings, accept_all);
+  const auto started = sink.start();
+  return started ? "" : started.error().message;
+}
+
+TEST(ModbusSink, ServesSignalsScaledSignedOrNotValid) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  sink.accept(tests::example_status());
+  Plc plc(sink.port());
+  ASSERT_EQ(plc.read_input(32, 28), 0);
+  EXPECT_EQ(plc.i32(0), -12346);  // -123.456 deg by 0.01
+  EXPECT_EQ(plc.words[2], 1);
+  EXPECT_EQ(plc.i32(4), 1234);
+  EXPECT_EQ(plc.i32(8), 700);  // 0.7 msr by 0.001
+  EXPECT_EQ(plc.u32(12), 0x80000000U);
+  EXPECT_EQ(plc.words[14], 0);
+  EXPECT_EQ(plc.i32(20), -200);  // -20.04 degC by 0.1
+  EXPECT_EQ(plc.words[22], 1);
+  EXPECT_EQ(plc.u32(24), 0x80000000U);
+  EXPECT_EQ(plc.words[26], 0);
+}
+
+TEST(ModbusSink, BeforeTheFirstFrameSetNothingIsValidAndTheAgeIsEndless) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  Plc plc(sink.port());
+  ASSERT_EQ(plc.read_input(0, 96), 0);
+  EXPECT_EQ(plc.words[0], 1);
+  EXPECT_EQ(plc.words[2], 0);  // starting
+  EXPECT_EQ(plc.u32(8), 0U);
+  EXPECT_EQ(plc.u32(10), 0x7fffffffU);
+  EXPECT_EQ(plc.u32(12), 0U);
+  EXPECT_EQ(plc.u32(14), 0U);
+  EXPECT_EQ(plc.u32(32), 0x80000000U);
+}
+
+TEST(ModbusSink, TheAgeIsOfTheMomentOfTheAnswer) {
+  using std::chrono::milliseconds;
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  Status status;
+  status.frame_set = 1;
+  status.stamp = hal::Clock::now() - std::chrono::hours(1);
+  sink.accept(status);
+  Plc plc(sink.port());
+  const auto age = [&] { return duration_cast<milliseconds>(hal::Clock::now() - status.stamp); };
+  const auto before = age();
+  ASSERT_EQ(plc.read_input(10, 2), 0);
+  const std::uint32_t first = plc.u32(0);
+  EXPECT_GE(first, before.count());
+  EXPECT_LE(first, age().count());
+  // It grows although nobody tells the server anything.
+  EXPECT_TRUE(eventually([&] { return plc.read_input(10, 2) == 0 && plc.u32(0) > first; }));
+}
+
+TEST(ModbusSink, TheUtcStampOfAFrameSetIsTrueAndStays) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  Status status;
+  status.frame_set = 1;
+  status.stamp = hal::Clock::now();
+  const auto utc = std::chrono::system_clock::now().time_since_epoch();
+  sink.accept(status);
+  Plc plc(sink.port());
+  ASSERT_EQ(plc.read_input(12, 4), 0);
+  const double seconds = plc.u32(0) + plc.u32(2) * 1e-6;
+  EXPECT_NEAR(seconds, std::chrono::duration<double>(utc).count(), 0.5);
+  const tests::Words first = plc.words;
+  for (int i = 0; i < 100; ++i) {
+    ++status.heartbeat;
+    sink.accept(status);
+    ASSERT_EQ(plc.read_input(12, 4), 0);
+    ASSERT_EQ(plc.words, first);
+  }
+}
+
+TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
+  ModbusSettings settings = loopback();
+  settings.status_timeout = std::chrono::milliseconds(1);
+  ModbusSink sink(settings, accept_all);
+  ASSERT_TRUE(sink.start());
+  Status status = tests::example_status();
+  status.state = SystemState::Running;
+  sink.accept(status);
+  Plc plc(sink.port());
+  ASSERT_TRUE(eventually([&] { return plc.read_discrete(4, 1) == 0 && plc.bits[0] == 1; }));
+  ASSERT_EQ(plc.read_input(0, 96), 0);
+  EXPECT_EQ(plc.words[2], 3);
+  EXPECT_EQ(plc.words[3], 0b10100);
+  EXPECT_EQ(plc.u32(8), 0x80010203U);  // the last frame set is still the last one
+  EXPECT_EQ(plc.u32(32), 0x80000000U);
+  EXPECT_EQ(plc.words[34], 0);
+}
+
+/// Every figure follows from the number of the frame set.
+Status status_of(std::uint32_t number) {
+  Status status;
+  status.frame_set = number;
+  status.heartbeat = number;
+  status.overruns = number;
+  status.camera_count = kMaxCameras;
+  for (auto& camera : status.cameras) camera.frames = number;
+  for (const auto& signal : signals::kSignals) {
+    status.signals.*signal.member = (number % 9000) * signal.scale;
+  }
+  return status;
+}
+
+TEST(ModbusSink, NoAnswerMixesTwoFrameSets) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  const std::jthread pipeline([&](const std::stop_token& stop) {
+    for (std::uint32_t number = 1; !stop.stop_requested(); ++number) sink.accept(status_of(number));
+  });
+  Plc plc(sink.port());
+  ASSERT_TRUE(eventually([&] { return plc.read_input(8, 2) == 0 && plc.u32(0) > 0; }));
+  std::uint32_t last = 0;
+  int changes = 0;
+  for (int i = 0; i < 3000; ++i) {
+    ASSERT_EQ(plc.read_input(0, 96), 0);
+    const std::uint32_t number = plc.u32(8);
+    ASSERT_EQ(plc.words[1], number & 0xffff);
+    ASSERT_EQ(plc.u32(16), number);
+    for (std::size_t signal = 0; signal < signals::kSignals.size(); ++signal) {
+      ASSERT_EQ(plc.u32(32 + 4 * signal), number % 9000);
+    }
+    changes += number != last ? 1 : 0;
+    last = number;
+    ASSERT_EQ(plc.read_input(100, 64), 0);
+    for (std::size_t camera = 1; camera < kMaxCameras; ++camera) {
+      ASSERT_EQ(plc.u32(16 * camera + 2), plc.u32(2));
+    }
+  }
+  EXPECT_GT(changes, 10);
+}
+
+TEST(ModbusSink, EveryMappedPlaceIsReadableAndNoOther) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  Plc plc(sink.port());
+  const modbus::RegisterMap map;
+  using modbus::Table;
+  for (int address = 0; address < 2000; ++address) {
+    const auto expected = [&](Table table) { return map.find(table, address) ? 0 : 2; };
+    ASSERT_EQ(plc.read_bits(address, 1), expected(Table::Coil)) << address;
+    ASSERT_EQ(plc.read_discrete(address, 1), expected(Table::Discrete)) << address;
+    ASSERT_EQ(plc.read_holding(address, 1), expected(Table::Holding)) << address;
+    ASSERT_EQ(plc.read_input(address, 1), expected(Table::Input)) << address;
+  }
+  EXPECT_EQ(plc.read_input(0, 97), 2);  // one more than the system block and the signals
+  EXPECT_EQ(plc.read_input(65535, 2), 2);
+}
+
+TEST(ModbusSink, CountsWhatItServes) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  Plc plc(sink.port());
+  ASSERT_EQ(plc.read_input(0, 1), 0);
+  ASSERT_EQ(plc.read_input(99, 1), 2);
+  ASSERT_EQ(plc.read_input(20, 7), 0);
+  EXPECT_EQ(plc.u32(0), 2U);  // answered before this request
+  EXPECT_EQ(plc.u32(2), 1U);
+  EXPECT_EQ(plc.u32(4), 0U);
+  EXPECT_EQ(plc.words[6], 1);
+  ASSERT_TRUE(eventually([&] { return sink.statistics().answered == 3; }));
+  EXPECT_EQ(sink.statistics().refused, 1U);
+  EXPECT_EQ(sink.statistics().connections, 1U);
+}
+
+TEST(ModbusSink, StartsAndStopsAgain) {
+  ModbusSink sink(loopback(), accept_all);
+  EXPECT_EQ(sink.port(), 0);
+  sink.stop();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(sink.start());
+    ASSERT_TRUE(sink.start());
+    tests::RawClient client(sink.port());
+    ASSERT_TRUE(client.send(tests::frame({4, 0, 0, 0, 1})));
+    EXPECT_EQ(client.receive_pdu(), (tests::Bytes{4, 2, 0, 1}));
+    sink.stop();
+    EXPECT_TRUE(client.is_closed_by_server());
+    EXPECT_EQ(sink.statistics().connections, 0U);
+  }
+}
+
+TEST(ModbusSink, OpensNothingWhenDisabled) {
+  ModbusSettings settings = loopback();
+  settings.enabled = false;
+  ModbusSink sink(settings, accept_all);
+  ASSERT_TRUE(sink.start());
+  sink.accept(tests::example_status());
+  EXPECT_EQ(sink.port(), 0);
+}
+
+TEST(ModbusSink, NamesThePortThatIsInUse) {
+  ModbusSink first(loopback(), accept_all);
+  ASSERT_TRUE(first.start());
+  ModbusSettings settings = loopback();
+  settings.port = first.port();
+  const std::string error = start_error(settings);
+  EXPECT_THAT(error, HasSubstr("127.0.0.1 port " + std::to_string(first.port())));
+  EXPECT_THAT(error, HasSubstr("already in use"));
+  EXPECT_THAT(error, HasSubstr("another port"));
+  // The first one is not disturbed, and the port is free again once it stops.
+  EXPECT_EQ(Plc(first.port()).read_input(0, 1), 0);
+  first.stop();
+  EXPECT_EQ(start_error(settings), "");
+}
+
+TEST(ModbusSink, NamesTheSettingThatCannotBe) {
+  ModbusSettings settings = loopback();
+  settings.address = "machine7";
+  EXPECT_THAT(start_error(settings), HasSubstr("'machine7' is not a numeric IP address"));
+  settings.address = "192.0.2.1";  // for documentation: nobody's
+  EXPECT_THAT(start_error(settings), HasSubstr("192.0.2.1 port 0"));
+  settings = loopback();
+  settings.port = 65536;
+  EXPECT_THAT(start_error(settings), HasSubstr("port 65536"));
+  settings.port = -1;
+  EXPECT_THAT(start_error(settings), HasSubstr("port -1"));
+  settings = loopback();
+  settings.max_connections = 0;
+  EXPECT_THAT(start_error(settings), HasSubstr("max_connections 0"));
+  settings = loopback();
+  settings.writers = {"127.0.0.1", "plc"};
+  EXPECT_THAT(start_error(settings), HasSubstr("'plc'"));
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,154 @@
+#include "app/modbus/responder.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <random>
+
+#include "clients.h"
+
+namespace orbwatch::app::modbus {
+namespace {
+
+using tests::Bytes;
+using tests::frame;
+
+/// A responder with a snapshot that does not change, on one end of a socket pair.
+class ResponderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, sockets_), 0);
+    ends_[0] = hal::FileDescriptor(sockets_[0]);
+    ends_[1] = hal::FileDescriptor(sockets_[1]);
+    snapshot_.status = tests::example_status();
+    snapshot_.age = std::chrono::milliseconds(0x0012'0034);
+    snapshot_.utc = std::chrono::microseconds(1'700'000'000'654'321);
+    snapshot_.server = {0x0011'0001, 0x0022'0002, 0x0033'0003, 4};
+    auto responder = Responder::create(map_, tests::accept_all, [this] { return snapshot_; });
+    ASSERT_TRUE(responder) << responder.error().message;
+    responder_ = std::move(*responder);
+  }
+
+  /// The answer to a whole frame; empty when there is none.
+  Bytes exchange(const Bytes& request) {
+    answered_ = responder_->answer(sockets_[0], request, true);
+    Bytes answer(300);
+    const auto got = ::recv(sockets_[1], answer.data(), answer.size(), MSG_DONTWAIT);
+    answer.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    return answer;
+  }
+
+  /// Registers as they came over the wire.
+  Bytes read(std::uint8_t function, int address, int count) {
+    const Bytes answer =
+        exchange(frame({function, static_cast<std::uint8_t>(address >> 8),
+                        static_cast<std::uint8_t>(address), 0, static_cast<std::uint8_t>(count)}));
+    EXPECT_EQ(answered_, Answered::Done) << address;
+    return answer.size() > 9 ? Bytes(answer.begin() + 9, answer.end()) : Bytes{};
+  }
+
+  RegisterMap map_;
+  Snapshot snapshot_;
+  std::unique_ptr<Responder> responder_;
+  Answered answered_ = Answered::Broken;
+  int sockets_[2] = {-1, -1};
+  hal::FileDescriptor ends_[2];
+};
+
+TEST_F(ResponderTest, EveryRowIsReadableAndItsMirrorReadsTheSame) {
+  int not_zero = 0;
+  for (const Row& row : map_.rows()) {
+    if (row.table != Table::Input && row.table != Table::Discrete) continue;
+    const bool input = row.table == Table::Input;
+    const Bytes direct = read(input ? 4 : 2, row.address, row.count);
+    const Bytes mirror = read(input ? 3 : 1, row.address + 1000, row.count);
+    ASSERT_EQ(direct.size(), static_cast<std::size_t>(input ? 2 * row.count : 1)) << row.name;
+    EXPECT_EQ(direct, mirror) << row.name;
+    not_zero += direct != Bytes(direct.size(), 0) ? 1 : 0;
+  }
+  EXPECT_GT(not_zero, 30);
+}
+
+TEST_F(ResponderTest, BytesStandHighWordFirstAtTheDocumentedPlaces) {
+  EXPECT_EQ(read(4, 0, 8), (Bytes{0, 1, 1, 2, 0, 2, 1, 10, 0, 2, 0, 3, 0, 2, 1, 201}));
+  EXPECT_EQ(read(4, 8, 4), (Bytes{0x80, 0x01, 0x02, 0x03, 0, 0x12, 0, 0x34}));
+  EXPECT_EQ(read(4, 12, 4), (Bytes{0x65, 0x53, 0xf1, 0, 0, 9, 0xfb, 0xf1}));
+  EXPECT_EQ(read(4, 16, 4), (Bytes{0, 0x11, 3, 4, 0, 0x22, 4, 5}));
+  EXPECT_EQ(read(4, 20, 7), (Bytes{0, 0x11, 0, 1, 0, 0x22, 0, 2, 0, 0x33, 0, 3, 0, 4}));
+  EXPECT_EQ(read(4, 116, 8), (Bytes{0, 2, 4, 226, 0, 0x66, 8, 9, 0, 0x77, 9, 10, 0, 0x88, 10, 11}));
+  EXPECT_EQ(read(4, 148, 1), (Bytes{0xff, 0xff}));  // there is no camera 3
+  EXPECT_EQ(read(4, 332, 7), (Bytes{0, 0x99, 11, 12, 0, 0xaa, 12, 13, 9, 196, 1, 157, 3, 108}));
+  EXPECT_EQ(read(2, 0, 16), (Bytes{0b00001010, 0b00000001}));
+}
+
+TEST_F(ResponderTest, AnswersUnits0And1And255Only) {
+  for (int unit = 0; unit < 256; ++unit) {
+    const Bytes answer = exchange(frame({4, 0, 0, 0, 1}, static_cast<std::uint8_t>(unit)));
+    const bool ours = unit == 0 || unit == 1 || unit == 255;
+    ASSERT_EQ(answer.size(), ours ? 11U : 9U) << unit;
+    EXPECT_EQ(answer[6], unit);
+    if (!ours) {
+      EXPECT_EQ(Bytes(answer.begin() + 7, answer.end()), (Bytes{0x84, 11}));
+      EXPECT_EQ(answered_, Answered::Refused);
+    }
+  }
+}
+
+TEST_F(ResponderTest, AnswersDeviceIdentification) {
+  const Bytes answer = exchange(frame({43, 14, 4, 1}, 1, 0xabcd));
+  EXPECT_EQ(answered_, Answered::Done);
+  const Bytes expected = {0xab, 0xcd, 0, 0, 0,   18,  1,   43,  14,  4,   0x81, 0,
+                          0,    1,    1, 8, 'o', 'r', 'b', 'w', 'a', 't', 'c',  'h'};
+  EXPECT_EQ(answer, expected);
+  EXPECT_EQ(exchange(frame({43, 14, 4, 9})), frame({0xab, 2}));
+  EXPECT_EQ(answered_, Answered::Refused);
+}
+
+TEST_F(ResponderTest, AFrameThatIsAnAnswerIsNotModbus) {
+  EXPECT_TRUE(exchange(frame({0x84, 2})).empty());
+  EXPECT_EQ(answered_, Answered::Broken);
+}
+
+TEST_F(ResponderTest, SaysWhenTheClientIsGone) {
+  ends_[1] = hal::FileDescriptor();  // by swap: closed at the end of this statement
+  EXPECT_EQ(responder_->answer(sockets_[0], frame({4, 0, 0, 0, 1}), true), Answered::Broken);
+  EXPECT_EQ(responder_->answer(sockets_[0], frame({4, 9, 9, 0, 1}), true), Answered::Broken);
+  EXPECT_EQ(responder_->answer(sockets_[0], frame({43, 14, 1, 0}), true), Answered::Broken);
+}
+
+TEST_F(ResponderTest, EveryAnswerToDamagedRequestsIsWellFormed) {
+  const Bytes requests[] = {{1, 3, 232, 0, 12},
+                            {2, 0, 0, 0, 16},
+                            {3, 4, 8, 0, 96},
+                            {4, 0, 0, 0, 96},
+                            {5, 3, 232, 255, 0},
+                            {6, 0, 3, 0, 1},
+                            {15, 3, 232, 0, 9, 2, 1, 1},
+                            {16, 0, 0, 0, 4, 8, 0, 0, 0, 1, 0, 1, 0, 7},
+                            {22, 0, 3, 255, 0, 0, 1},
+                            {23, 0, 0, 0, 7, 0, 2, 0, 2, 4, 0, 1, 0, 9},
+                            {43, 14, 1, 0}};
+  std::mt19937 random(20240502);
+  std::uniform_int_distribution<std::size_t> any(0, 1000000);
+  int done = 0;
+  int refused = 0;
+  for (int i = 0; i < 50000; ++i) {
+    Bytes pdu = requests[any(random) % std::size(requests)];
+    pdu[any(random) % pdu.size()] ^= static_cast<std::uint8_t>(1U << any(random) % 8);
+    pdu[any(random) % pdu.size()] ^= static_cast<std::uint8_t>(any(random) & any(random) & 0x11);
+    if (any(random) % 8 == 0) pdu.resize(1 + any(random) % 16);
+    pdu[0] &= 0x7f;
+    const Bytes answer = exchange(frame(pdu));
+    ASSERT_GE(answer.size(), 9U);
+    ASSERT_LE(answer.size(), 260U);
+    EXPECT_EQ(Bytes(answer.begin(), answer.begin() + 4), (Bytes{0x12, 0x34, 0, 0}));
+    EXPECT_EQ(static_cast<std::size_t>(answer[4] << 8 | answer[5]), answer.size() - 6);
+    EXPECT_EQ(answer[7], answered_ == Answered::Done ? pdu[0] : pdu[0] | 0x80);
+    ++(answered_ == Answered::Done ? done : refused);
+  }
+  EXPECT_GT(done, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::modbus

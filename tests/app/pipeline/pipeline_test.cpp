@@ -1,0 +1,262 @@
+#include "app/pipeline/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+#include "app/pictures/colour_maps.h"
+#include "hal/frame_pool.h"
+#include "proc/optics/rotation.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr int kSize = 100;
+
+/// A camera that delivers exactly when the test says so.
+class HandCamera : public hal::Camera {
+ public:
+  HandCamera(std::string name, PixelFormat format)
+      : Camera({std::move(name), "hand", "test"}),
+        format_(format),
+        pool_(hal::make_frame_pool(format, kSize, kSize)) {}
+  ~HandCamera() override { stop(); }
+
+  /// A frame with a bright square, delivered before it returns.
+  void expose(std::uint16_t bright, hal::TimePoint moment = hal::Clock::now()) {
+    act([this, bright, moment] {
+      auto buffer = pool_.acquire();
+      if (!buffer) return;
+      paint(*buffer, bright);
+      buffer->metadata.sequence = sequence_++;
+      buffer->metadata.exposure_start = moment;
+      report(hal::Fault::None);
+      deliver(buffer);
+    });
+  }
+  void fail_with(hal::Fault fault) {
+    act([this, fault] { report(fault); });
+  }
+  void deliver_wrong_size() {
+    act([this] { deliver(hal::make_frame_pool(format_, 8, 8, 1).acquire()); });
+  }
+
+ private:
+  Result<hal::StreamFormat> do_configure(const hal::StreamRequest&) override {
+    return hal::StreamFormat{format_, {}, kSize, kSize, 100};
+  }
+  void run(const std::stop_token& stop) override {
+    std::unique_lock lock(mutex_);
+    while (work_.wait(lock, stop, [this] { return static_cast<bool>(action_); })) {
+      action_();
+      action_ = nullptr;
+      done_.notify_all();
+    }
+  }
+  void act(std::function<void()> action) {
+    std::unique_lock lock(mutex_);
+    action_ = std::move(action);
+    work_.notify_all();
+    done_.wait(lock, [this] { return !action_; });
+  }
+  void paint(hal::FrameBuffer& buffer, std::uint16_t bright) const {
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const bool inside = x > 25 && x < 40 && y > 45 && y < 55;
+        const auto value = static_cast<std::uint16_t>(inside ? bright : 10);
+        const std::size_t at = static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x);
+        if (format_ == PixelFormat::Y16) {
+          reinterpret_cast<std::uint16_t*>(buffer.memory)[at] = value;
+        } else {
+          buffer.memory[at] = static_cast<std::byte>(value);
+        }
+      }
+    }
+  }
+
+  PixelFormat format_;
+  hal::FramePool pool_;
+  std::uint64_t sequence_ = 0;
+  std::mutex mutex_;
+  std::condition_variable_any work_, done_;
+  std::function<void()> action_;
+};
+
+/// Keeps what the pipeline hands over; the test waits for what it expects.
+class RecordingSink : public Sink {
+ public:
+  Result<> start() override { return {}; }
+  void stop() override {}
+  void accept(const ViewPtr& view) override {
+    const std::lock_guard lock(mutex_);
+    if (hold_) held_.push_back(view);
+    views_.push_back(std::string(view->name));
+  }
+  void accept(const Status& status) override {
+    const std::lock_guard lock(mutex_);
+    status_ = status;
+    changed_.notify_all();
+  }
+  void hold_views() {
+    const std::lock_guard lock(mutex_);
+    hold_ = true;
+  }
+  template <class Condition>
+  Status wait_for(Condition condition) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30), [&] { return condition(status_); }));
+    return status_;
+  }
+  std::vector<std::string> views() {
+    const std::lock_guard lock(mutex_);
+    return views_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Status status_;
+  std::vector<std::string> views_;
+  std::vector<ViewPtr> held_;
+  bool hold_ = false;
+};
+
+class PipelineTest : public testing::Test {
+ protected:
+  PipelineTest() {
+    add_camera("thermal", PixelFormat::Y16);
+    add_camera("grey", PixelFormat::Grey);
+    plan.workers = 1;
+    plan.deadline = std::chrono::seconds(20);
+    plan.sync_window = std::chrono::milliseconds(1);
+    add_view("seen", {1}, std::nullopt);
+    add_view("measured", {0, 1}, 0);
+    plan.measurement = MeasurementPlan{1, {0.04}, 30000};
+  }
+
+  void add_camera(const std::string& name, PixelFormat format) {
+    auto camera = std::make_unique<HandCamera>(name, format);
+    plan.formats.push_back(camera->configure({}).value());
+    cameras.push_back(camera.get());
+    plan.cameras.push_back(std::move(camera));
+  }
+  void add_view(const std::string& name, const std::vector<std::size_t>& sources,
+                std::optional<std::size_t> measured) {
+    const auto projection = optics::ViewProjection::make(
+        {optics::ViewKind::Perspective, {}, 120, {}, 96, 64}).value();
+    ViewPlan view{plan.views.size(), name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear, measured};
+    for (const std::size_t n : sources) {
+      const auto ball = optics::BallProjection::make(optics::BallModel::exact(350).value(),
+                                                     {{49.5, 49.5}, 48, 48, 0}, {}).value();
+      const double high = plan.formats[n].format == PixelFormat::Y16 ? 65535 : 255;
+      view.sources.push_back({n, plan.formats[n], ball, 1, {colour_map_table("hot"), 0, high}});
+    }
+    plan.views.push_back(std::move(view));
+  }
+  void start() {
+    pipeline.emplace(std::move(plan));
+    ASSERT_TRUE(pipeline->start({&sink}));
+  }
+  void expose_both(std::uint16_t bright) {
+    const auto moment = hal::Clock::now();
+    cameras[1]->expose(200, moment);
+    cameras[0]->expose(bright, moment);
+  }
+
+  PipelinePlan plan;
+  std::vector<HandCamera*> cameras;
+  RecordingSink sink;
+  std::optional<Pipeline> pipeline;
+};
+
+TEST_F(PipelineTest, MakesViewsAndMeasuresThem) {
+  start();
+  expose_both(40000);
+  const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 1; });
+  EXPECT_EQ(status.state, SystemState::Running);
+  EXPECT_EQ(sink.views(), (std::vector<std::string>{"measured", "seen"})) << "measured comes first";
+  EXPECT_NEAR(status.signals.hot_spot_peak_temperature, 40000 * 0.04 - 273.15, 0.1);
+  EXPECT_GT(status.signals.hot_spot_yaw, 20) << "left in the ball's picture is +X";
+  EXPECT_GT(status.signals.hot_spot_area, 0);
+  EXPECT_EQ(status.views[0].published, 1U);
+  EXPECT_EQ(status.cameras[0].frames, 1U);
+}
+
+TEST_F(PipelineTest, TheHeartbeatGoesOnWithoutFrames) {
+  start();
+  const Status status = sink.wait_for([](const Status& s) { return s.heartbeat >= 3; });
+  EXPECT_EQ(status.state, SystemState::Starting);
+  EXPECT_FALSE(signals::is_valid(status.signals.hot_spot_area));
+}
+
+TEST_F(PipelineTest, AMissingCameraIsAStateAndTheOtherGoesOn) {
+  start();
+  expose_both(40000);
+  sink.wait_for([](const Status& s) { return s.frame_set == 1; });
+  cameras[0]->fail_with(hal::Fault::Unplugged);
+  cameras[1]->expose(200);
+  Status status = sink.wait_for([](const Status& s) { return s.frame_set == 2; });
+  EXPECT_EQ(status.state, SystemState::Degraded);
+  EXPECT_EQ(status.cameras[0].fault, hal::Fault::Unplugged);
+  EXPECT_FALSE(signals::is_valid(status.signals.hot_spot_area)) << "the measured camera is away";
+  cameras[1]->fail_with(hal::Fault::Stalled);
+  sink.wait_for([](const Status& s) { return s.state == SystemState::Fault; });
+  expose_both(40000);
+  status = sink.wait_for([](const Status& s) { return s.state == SystemState::Running && signals::is_valid(s.signals.hot_spot_yaw); });
+  EXPECT_EQ(status.cameras[0].fault, hal::Fault::None);
+}
+
+TEST_F(PipelineTest, AFrameOfAnotherSizeIsAFaultNotACrash) {
+  start();
+  cameras[0]->deliver_wrong_size();
+  const Status status = sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::WrongFormat; });
+  EXPECT_EQ(status.frame_set, 0U);
+}
+
+TEST_F(PipelineTest, ASinkThatHoldsAllViewsLosesThemButNotTheMeasurement) {
+  sink.hold_views();
+  start();
+  for (std::uint64_t n = 1; n <= 10; ++n) {
+    expose_both(static_cast<std::uint16_t>(40000 + n));
+    const Status status = sink.wait_for([n](const Status& s) { return s.frame_set == n; });
+    EXPECT_NEAR(status.signals.hot_spot_peak_temperature, (40000.0 + n) * 0.04 - 273.15, 0.021);
+  }
+  const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 10; });
+  EXPECT_EQ(status.views[1].published, 6U);
+  EXPECT_EQ(status.views[1].skipped, 4U);
+}
+
+TEST_F(PipelineTest, OverrunsAreCountedAndSlowDisplayViewsOnly) {
+  plan.deadline = std::chrono::nanoseconds(1);
+  start();
+  for (std::uint64_t n = 1; n <= 16; ++n) {
+    expose_both(40000);
+    sink.wait_for([n](const Status& s) { return s.frame_set == n; });
+  }
+  const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 16; });
+  EXPECT_EQ(status.overruns, 16U);
+  EXPECT_EQ(status.views[1].published, 16U) << "what is measured is never slowed down";
+  EXPECT_EQ(status.views[0].published, 4U) << "1, then 2, then 8 and 16";
+  EXPECT_EQ(status.views[0].published + status.views[0].skipped, 16U);
+}
+
+TEST_F(PipelineTest, SelectsAViewOnCommand) {
+  start();
+  EXPECT_EQ(pipeline->command({CommandCode::SelectView, 1}), CommandResult::Done);
+  sink.wait_for([](const Status& s) { return s.selected_view == 1; });
+  EXPECT_EQ(pipeline->command({CommandCode::SelectView, 2}), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->command({CommandCode::SelectView, -1}), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->command({static_cast<CommandCode>(99), 0}), CommandResult::UnknownCommand);
+}
+
+TEST_F(PipelineTest, StopsTwiceAndWithoutAStart) {
+  start();
+  expose_both(40000);
+  pipeline->stop();
+  pipeline->stop();
+}
+
+}  // namespace
+}  // namespace orbwatch::app

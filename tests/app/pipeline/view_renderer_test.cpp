@@ -1,0 +1,131 @@
+#include "app/pipeline/view_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include "app/pictures/colour_maps.h"
+#include "hal/frame_pool.h"
+#include "proc/image/validity.h"
+#include "proc/optics/rotation.h"
+
+namespace orbwatch::app {
+namespace {
+
+using optics::BallModel;
+using optics::BallProjection;
+using optics::ViewKind;
+using optics::ViewProjection;
+
+constexpr int kSize = 200;
+
+/// A camera whose registration turns it `yaw` degrees around the ball.
+ViewSource source(std::size_t camera, PixelFormat format, double yaw, double weight = 1) {
+  const auto ball = BallProjection::make(BallModel::exact(340).value(), {{99.5, 99.5}, 95, 95, 0},
+                                         optics::rotation({yaw, 0, 0}));
+  return {camera, {format, {}, kSize, kSize, 30}, ball.value(), weight,
+          remap::ColourMap(colour_map_table("grey"), 0, info(format).bytes_per_sample == 2 ? 65535 : 255)};
+}
+
+ViewPlan panorama(std::vector<ViewSource> sources, Combine combine = Combine::Mix) {
+  return {3, "all", ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 360, 180}).value(),
+          std::move(sources), combine, remap::Interpolation::Bilinear, std::nullopt};
+}
+
+/// A picture of one colour, or of one count for 16 bit.
+hal::Frame plain(PixelFormat format, std::uint16_t value) {
+  auto buffer = hal::make_frame_pool(format, kSize, kSize, 1).acquire();
+  const std::size_t samples = buffer->capacity / static_cast<std::size_t>(info(format).bytes_per_sample);
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (info(format).bytes_per_sample == 2) {
+      reinterpret_cast<std::uint16_t*>(buffer->memory)[i] = value;
+    } else {
+      buffer->memory[i] = static_cast<std::byte>(value);
+    }
+  }
+  return buffer;
+}
+
+int red(const View& view, int lon) { return view.colour.at(lon + 180, 90)[0]; }
+Validity validity(const View& view, int lon) {
+  return static_cast<Validity>(*view.validity.at(lon + 180, 90));
+}
+
+class ViewRendererTest : public testing::Test {
+ protected:
+  WorkerPool workers{1};
+  hal::FrameSet set;
+};
+
+TEST_F(ViewRendererTest, ASecondCameraFillsTheBlindConeAndIsMixedElsewhere) {
+  ViewRenderer renderer(panorama({source(0, PixelFormat::Rgb, 0, 3), source(1, PixelFormat::Rgb, 180, 1)}));
+  View view = renderer.make_view();
+  set.id = 7;
+  set.frames = {plain(PixelFormat::Rgb, 100), plain(PixelFormat::Rgb, 200)};
+  renderer.render(set, view, workers);
+  EXPECT_EQ(view.frame_set, 7U);
+  EXPECT_EQ(view.index, 3U);
+  EXPECT_EQ(red(view, 90), 125) << "3 to 1";
+  EXPECT_EQ(red(view, 179), 200) << "blind for the first";
+  EXPECT_EQ(red(view, 0), 100) << "blind for the second";
+  for (int lon = -180; lon < 180; ++lon) EXPECT_EQ(validity(view, lon), Validity::Seen);
+}
+
+TEST_F(ViewRendererTest, SwitchedViewsShowTheFirstCameraThatSees) {
+  ViewRenderer renderer(panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 180)}, Combine::Switch));
+  View view = renderer.make_view();
+  set.frames = {plain(PixelFormat::Rgb, 100), plain(PixelFormat::Rgb, 200)};
+  renderer.render(set, view, workers);
+  EXPECT_EQ(red(view, 90), 100);
+  EXPECT_EQ(red(view, 179), 200);
+  set.frames[0] = nullptr;
+  renderer.render(set, view, workers);
+  EXPECT_EQ(red(view, 90), 200) << "the first has a fault";
+  EXPECT_EQ(validity(view, 0), Validity::Blind) << "only the missing one sees it";
+  EXPECT_EQ(red(view, 0), 0);
+}
+
+TEST_F(ViewRendererTest, KeepsRawCountsBesideTheColours) {
+  ViewPlan plan = panorama({source(0, PixelFormat::Grey, 0), source(1, PixelFormat::Y16, 90)});
+  plan.measured = 1;
+  ViewRenderer renderer(plan);
+  View view = renderer.make_view();
+  set.frames = {plain(PixelFormat::Grey, 50), plain(PixelFormat::Y16, 40000)};
+  renderer.render(set, view, workers);
+  EXPECT_TRUE(renderer.is_measured());
+  EXPECT_TRUE(view.luminance.empty());
+  EXPECT_EQ(*view.radiometric.at(180, 90), 40000);
+  EXPECT_EQ(*view.radiometric.at(90, 90), 0) << "blind for the measured camera";
+  EXPECT_EQ(red(view, 90), (50 + 156) / 2) << "both see it; 156 is 40000 of 65535";
+  set.frames[1] = nullptr;
+  renderer.render(set, view, workers);
+  EXPECT_FALSE(renderer.is_measured());
+  EXPECT_EQ(*view.radiometric.at(180, 90), 0) << "no stale counts";
+}
+
+TEST_F(ViewRendererTest, MeasuresTheLuminanceOfColour) {
+  ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 0)});
+  plan.measured = 0;
+  ViewRenderer renderer(plan);
+  View view = renderer.make_view();
+  set.frames[0] = plain(PixelFormat::Rgb, 77);
+  renderer.render(set, view, workers);
+  EXPECT_TRUE(view.radiometric.empty());
+  EXPECT_EQ(*view.luminance.at(180, 90), 77);
+}
+
+TEST_F(ViewRendererTest, GivesTheSameBytesForAnyNumberOfThreads) {
+  const auto plan = panorama({source(0, PixelFormat::Rgb, 10), source(1, PixelFormat::Y16, 170)});
+  set.frames = {plain(PixelFormat::Rgb, 90), plain(PixelFormat::Y16, 30000)};
+  std::vector<std::vector<std::uint8_t>> results;
+  for (const std::size_t threads : {0, 1, 3}) {
+    WorkerPool pool(threads);
+    ViewRenderer renderer(plan);
+    View view = renderer.make_view();
+    for (int i = 0; i < 20; ++i) renderer.render(set, view, pool);
+    results.push_back(view.bytes);
+  }
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[0], results[2]);
+}
+
+}  // namespace
+}  // namespace orbwatch::app
