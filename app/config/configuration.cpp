@@ -101,7 +101,7 @@ optics::Mat3 registration(const BallSettings& ball) {
 
 Result<Configuration> parse_configuration(const std::string& text, const std::string& name,
                                           const std::filesystem::path& folder) {
-  Finding finding{name, folder, std::nullopt};
+  Finding finding{name, folder, std::nullopt, false};
   Configuration configuration;
   try {
     const toml::table table = toml::parse(text, name);

@@ -17,7 +17,7 @@ void TomlReader::refuse_unknown_keys() {
     if (std::find(known_.begin(), known_.end(), given) != known_.end()) continue;
     std::string allowed;
     for (const auto& known : known_) allowed += (allowed.empty() ? "" : ", ") + known;
-    finding_.note(line_of(node), name(std::string(given)), "is no key; there are: " + allowed);
+    finding_.note_unknown(line_of(node), name(std::string(given)), "is no key; there are: " + allowed);
   }
 }
 

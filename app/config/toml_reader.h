@@ -13,14 +13,23 @@
 
 namespace orbwatch::app {
 
-/// What is wrong with a file; only the first finding counts, since later ones often follow from it.
+/// What is wrong with a file. Only the first finding counts, since later ones often follow from it;
+/// but a key that nobody knows goes before, since a misspelt key is also a missing one.
 struct Finding {
   std::string file;
   std::filesystem::path folder;  ///< relative paths in the file count from here
   std::optional<std::string> message;
 
+  bool unknown_key = false;
+
   void note(int line, const std::string& key, const std::string& text) {
     if (!message) message = file + ":" + std::to_string(line) + ": " + key + ": " + text;
+  }
+  void note_unknown(int line, const std::string& key, const std::string& text) {
+    if (unknown_key) return;
+    message.reset();
+    unknown_key = true;
+    note(line, key, text);
   }
 };
 

@@ -69,14 +69,14 @@ Result<> DdsSink::check_names() const {
 }
 
 Result<> DdsSink::open() {
-  auto participant = make_participant(settings_.domain);
+  auto participant = Participant::join(settings_.domain);
   if (!participant) return tl::unexpected(participant.error());
   participant_ = std::move(*participant);
   for (const auto& channel : channels_) {
-    if (const auto opened = channel->colour.open(participant_); !opened) return opened;
+    if (const auto opened = channel->colour.open(participant_.entity()); !opened) return opened;
   }
-  if (const auto opened = selected_.open(participant_); !opened) return opened;
-  return state_.open(participant_, state_qos());
+  if (const auto opened = selected_.open(participant_.entity()); !opened) return opened;
+  return state_.open(participant_.entity(), state_qos());
 }
 
 void DdsSink::close() {
@@ -88,7 +88,7 @@ void DdsSink::close() {
   status_.try_take();
   selected_.close();
   state_.close();
-  participant_.reset();
+  participant_.leave();
 }
 
 const TimeMessage& DdsSink::utc(hal::TimePoint stamp) {
@@ -135,7 +135,7 @@ void DdsSink::publish(Channel& channel, std::size_t index, const StampedView& st
   channel.colour.publish(colour, channel.name, stamped.stamp);
   if (index == selected_view_) selected_.publish(colour, channel.name, stamped.stamp);
   if (view.radiometric.empty()) return;
-  if (channel.radiometric.open(participant_)) {
+  if (channel.radiometric.open(participant_.entity())) {
     channel.radiometric.publish(radiometric_plane(view.radiometric), channel.name, stamped.stamp);
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/dds/image_topic.h"
+#include "app/dds/participant.h"
 #include "app/dds/process_state.h"
 #include "app/dds/topic_writer.h"
 #include "app/sink.h"
@@ -95,7 +96,7 @@ class DdsSink : public Sink {
   TimeMessage utc_{};
 
   // The sink's thread while it runs, else the owner's.
-  Entity participant_;
+  Participant participant_;
   ImageTopic selected_;
   TopicWriter state_;
   ProcessStateComposer composer_;

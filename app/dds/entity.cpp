@@ -4,10 +4,6 @@ namespace orbwatch::app {
 
 namespace {
 
-/// The highest domain whose ports lie below 65536 (DDSI-RTPS 2.5, 9.6.2.3: 7400 + 250 per domain),
-/// with room for participants.
-constexpr int kMaxDomain = 230;
-
 Result<Entity> checked(std::string_view what, dds_entity_t handle) {
   if (handle < 0) return tl::unexpected(dds_error(what, handle));
   return Entity(handle);
@@ -43,20 +39,6 @@ Qos state_qos() {
   Qos qos = newest_reliably();
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   return qos;
-}
-
-Result<Entity> make_participant(int domain) {
-  const std::string what = "domain " + std::to_string(domain);
-  if (domain < 0 || domain > kMaxDomain) {
-    return fail("DDS " + what + ": out of range, 0 to " + std::to_string(kMaxDomain));
-  }
-  const dds_entity_t handle =
-      dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
-  if (handle < 0) {
-    return fail(dds_error(what, handle).message +
-                "; is a network interface up, and CYCLONEDDS_URI, if set, valid?");
-  }
-  return Entity(handle);
 }
 
 Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,

@@ -2,6 +2,7 @@
 
 #include <dds/dds.h>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -47,8 +48,6 @@ Qos frame_qos();
 Qos state_qos();
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{100};
 
-/// Joins a domain. Error: out of range (0 to 230), or no usable network interface.
-Result<Entity> make_participant(int domain);
 Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
                           const std::string& name);
 Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos);

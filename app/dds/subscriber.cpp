@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/dds/dds_log.h"
+#include "app/dds/participant.h"
 #include "app/dds/topic_names.h"
 #include "hal/clock.h"
 
@@ -146,14 +147,14 @@ Result<SubscribeReport> subscribe(const SubscribeOptions& options,
                                   const std::atomic<bool>& cancelled, std::ostream& out) {
   limit_dds_log();
   if (const auto made = make_folder(options.save); !made) return tl::unexpected(made.error());
-  const auto participant = make_participant(options.domain);
+  const auto participant = Participant::join(options.domain);
   if (!participant) return tl::unexpected(participant.error());
   const auto subscriptions = make_subscriptions(options);
   if (!subscriptions) return tl::unexpected(subscriptions.error());
 
   Readers readers;
   const auto done =
-      readers.open(*participant, *subscriptions)
+      readers.open(participant->entity(), *subscriptions)
           .and_then([&] { return read(*subscriptions, readers, options, cancelled, out); })
           .and_then([&] { return save(*subscriptions, options); });
   if (!done) return tl::unexpected(done.error());

@@ -1,5 +1,6 @@
 #include "app/dds/subscription.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -73,6 +74,12 @@ void Subscription::count(const void* sample, const dds_sample_info_t& info) {
   }
   ++report_.received;
   ++interval_.samples;
+  if (last_written_) {
+    const double gap = milliseconds_between(*last_written_, info.source_timestamp);
+    interval_.longest_gap_ms = std::max(interval_.longest_gap_ms, gap);
+    report_.longest_gap_ms = std::max(report_.longest_gap_ms, gap);
+  }
+  last_written_ = info.source_timestamp;
   const dds_time_t now = dds_time();
   interval_.since_write_ms += milliseconds_between(info.source_timestamp, now);
   interval_.since_exposure_ms += milliseconds_between(to_dds_time(stamp(sample)), now);
@@ -85,10 +92,12 @@ std::string Subscription::line(double seconds) {
     text += "nothing";
   } else {
     const auto count = static_cast<double>(interval.samples);
-    std::array<char, 128> figures{};
+    std::array<char, 160> figures{};
     std::snprintf(figures.data(), figures.size(),
-                  "%.1f/s, latency %.1f ms from writing, %.1f ms from exposure, ", count / seconds,
-                  interval.since_write_ms / count, interval.since_exposure_ms / count);
+                  "%.1f/s, longest gap %.0f ms, latency %.1f ms from writing, %.1f ms from "
+                  "exposure, ",
+                  count / seconds, interval.longest_gap_ms, interval.since_write_ms / count,
+                  interval.since_exposure_ms / count);
     text += figures.data() + describe();
   }
   text += ", lost " + std::to_string(report_.lost);

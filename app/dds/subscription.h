@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,11 @@ namespace orbwatch::app {
 /// What came in on one topic.
 struct TopicReport {
   std::string topic;
-  std::uint64_t received = 0;   ///< samples that were in order
-  std::uint64_t lost = 0;       ///< samples that DDS knows it missed
+  std::uint64_t received = 0;  ///< samples that were in order
+  /// Samples that DDS knows it missed (SAMPLE_LOST). Not among them: those that a KEEP_LAST writer
+  /// replaced before they came through; they show as gaps.
+  std::uint64_t lost = 0;
+  double longest_gap_ms = 0;    ///< between two samples, by the writer's clock
   std::uint64_t refused = 0;    ///< samples whose content cannot be believed
   std::string refusal;          ///< why the newest refused one was
   std::filesystem::path saved;  ///< the picture file; empty when none was written
@@ -62,6 +66,7 @@ class Subscription {
     std::uint64_t samples = 0;
     double since_write_ms = 0;
     double since_exposure_ms = 0;
+    double longest_gap_ms = 0;
   };
 
   const dds_topic_descriptor_t& type_;
@@ -69,6 +74,7 @@ class Subscription {
   Entity topic_;
   Entity reader_;
   Interval interval_;
+  std::optional<dds_time_t> last_written_;
 };
 
 /// A topic of sensor_msgs/Image.

@@ -17,7 +17,7 @@ struct Candidates {
   bool nozzle = false;
   bool pool = false;
   std::size_t spark_count = 0;
-  std::array<std::uint8_t, kMaxSparks> sparks;  ///< indices into the process' sparks
+  std::array<std::uint8_t, kMaxSparks> sparks{};  ///< indices into the process' sparks
 
   bool empty() const { return !nozzle && !pool && spark_count == 0; }
 };

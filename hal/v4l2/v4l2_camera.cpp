@@ -11,7 +11,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kMaxSide = 16384;
 constexpr int kMaxFrameRate = 1000;
 constexpr Clock::duration kFirstPause = 1s;
 constexpr Clock::duration kLongestPause = 10s;
@@ -65,9 +64,9 @@ Result<> V4l2Camera::check(const StreamRequest& request) const {
                 "\"; it must be one of " + names);
   }
   if (std::min(request.width, request.height) < 0 ||
-      std::max(request.width, request.height) > kMaxSide) {
+      std::max(request.width, request.height) > kMaxV4l2Side) {
     return fail(settings_.device + ": asked for " + std::to_string(request.width) + "x" +
-                std::to_string(request.height) + "; at most " + std::to_string(kMaxSide) +
+                std::to_string(request.height) + "; at most " + std::to_string(kMaxV4l2Side) +
                 " pixels a side");
   }
   if (!(request.frame_rate >= 0 && request.frame_rate <= kMaxFrameRate)) {

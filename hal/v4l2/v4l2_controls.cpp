@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 namespace orbwatch::hal {
 namespace {
@@ -70,8 +71,10 @@ Result<> check(const v4l2_query_ext_ctrl& control, double units) {
   }
   if (!(units >= static_cast<double>(control.minimum) &&
         units <= static_cast<double>(control.maximum))) {
-    return fail("control " + name + " cannot be " + std::to_string(units) + "; it takes " +
-                std::to_string(control.minimum) + " to " + std::to_string(control.maximum));
+    std::ostringstream message;
+    message << "control " << name << " cannot be " << units << "; it takes " << control.minimum
+            << " to " << control.maximum;
+    return fail(message.str());
   }
   return {};
 }

@@ -19,17 +19,33 @@ std::string fourcc_text(std::uint32_t code) {
   return text;
 }
 
+bool is_read(std::uint32_t fourcc) {
+  return std::any_of(kV4l2Formats.begin(), kV4l2Formats.end(),
+                     [fourcc](const V4l2Format& format) { return format.fourcc == fourcc; });
+}
+
+/// "YUYV 640x480, 1280x720; MJPG 1920x1080; not read: H264": sizes only where they can be used.
 std::string offers_of(const V4l2Device& device) {
-  std::string text;
+  std::string offers;
+  std::string others;
   for (const std::uint32_t fourcc : device.formats()) {
+    std::string& text = is_read(fourcc) ? offers : others;
     text += (text.empty() ? "" : "; ") + fourcc_text(fourcc);
+    if (!is_read(fourcc)) continue;
     std::string_view separator = " ";
     for (const std::string& size : device.sizes(fourcc)) {
       text.append(separator).append(size);
       separator = ", ";
     }
   }
-  return text.empty() ? "nothing" : text;
+  if (offers.empty()) offers = "no format that is read";
+  return others.empty() ? offers : offers + "; not read: " + others;
+}
+
+bool has_sound_size(const v4l2_pix_format& format) {
+  const auto [shorter, longer] = std::minmax(format.width, format.height);
+  const bool whole_pairs = format.pixelformat != V4L2_PIX_FMT_YUYV || format.width % 2 == 0;
+  return shorter > 0 && longer <= kMaxV4l2Side && whole_pairs;
 }
 
 /// What the driver made of one candidate; nothing when that is of no use here.
@@ -44,8 +60,7 @@ DeviceResult<std::optional<V4l2Agreement>> try_format(V4l2Device& device, const 
   ask.field = V4L2_FIELD_NONE;
   const auto got = device.set_format(ask);
   if (!got) return tl::unexpected(got.error());
-  const bool whole_pairs = pixels.format != PixelFormat::Yuyv || got->width % 2 == 0;
-  if (got->pixelformat != pixels.fourcc || got->field != V4L2_FIELD_NONE || !whole_pairs ||
+  if (got->pixelformat != pixels.fourcc || got->field != V4L2_FIELD_NONE || !has_sound_size(*got) ||
       (request.width != 0 && got->width != ask.width) ||
       (request.height != 0 && got->height != ask.height)) {
     return std::nullopt;
@@ -54,7 +69,11 @@ DeviceResult<std::optional<V4l2Agreement>> try_format(V4l2Device& device, const 
   if (!rate) return tl::unexpected(rate.error());
   V4l2Agreement agreement;
   agreement.pixels = pixels;
-  agreement.stream = {pixels.format, colour_space_of(*got), static_cast<int>(got->width),
+  // MJPEG becomes R G B here, and what the driver says of the YCbCr inside is then of no use.
+  const ColourSpace colours = pixels.format == PixelFormat::Rgb
+                                  ? ColourSpace{ColourMatrix::Bt601, ColourRange::Full}
+                                  : colour_space_of(*got);
+  agreement.stream = {pixels.format, colours, static_cast<int>(got->width),
                       static_cast<int>(got->height), *rate};
   const auto packed = static_cast<std::size_t>(row_bytes(pixels.format, agreement.stream.width));
   agreement.stride = std::max<std::size_t>(got->bytesperline, packed);

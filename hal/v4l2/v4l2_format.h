@@ -26,6 +26,9 @@ inline constexpr std::array kV4l2Formats{
     V4l2Format{"y16", V4L2_PIX_FMT_Y16, PixelFormat::Y16},
 };
 
+/// Larger pictures are neither asked for nor taken.
+inline constexpr int kMaxV4l2Side = 16384;
+
 /// What a device agreed to deliver.
 struct V4l2Agreement {
   V4l2Format pixels;

@@ -34,7 +34,7 @@ inline double reference_exact_rho(double phi, double alpha) {
   const double d = 1 / std::sin(alpha / 2 * std::numbers::pi / 180);
   double low = 0, high = std::asin(1 / d);
   const double limb = std::tan(high);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 45; ++i) {
     const double middle = (low + high) / 2;
     (traced_phi(middle, d) < phi ? low : high) = middle;
   }

@@ -271,7 +271,8 @@ TEST_F(DdsSinkTest, UnreadTopicsAreNotWritten) {
   const auto wide = make_view(kWide, "wide", 1, kWidth, kHeight, true);
   sink_.accept(wide);
   ASSERT_TRUE(publish_until_any(make_view(kFront, "front", 1, kWidth, kHeight), reader));
-  EXPECT_GT(of_topic(sink_, "rt/orbwatch/front/image_raw").written, 0u);
+  EXPECT_TRUE(
+      eventually([&] { return of_topic(sink_, "rt/orbwatch/front/image_raw").written > 0; }));
   for (const auto* topic :
        {"rt/orbwatch/wide/image_raw", "rt/orbwatch/wide/radiometric/image_raw"}) {
     ASSERT_TRUE(eventually([&] { return of_topic(sink_, topic).unread == 1; })) << topic;

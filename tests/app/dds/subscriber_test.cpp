@@ -11,6 +11,7 @@
 #include <streambuf>
 
 #include "app/dds/dds_sink.h"
+#include "app/dds/participant.h"
 #include "tests/app/dds/dds_network.h"
 #include "tests/app/dds/temporary_folder.h"
 #include "tests/app/dds/test_status.h"
@@ -81,10 +82,10 @@ class Subscriber {
 class ForeignWriter {
  public:
   ForeignWriter(const dds_topic_descriptor_t& type, const std::string& topic, Qos qos)
-      : participant_(make_participant(tests::DdsNetwork::kSinkDomain).value()),
-        topic_(make_topic(participant_, type, topic).value()) {
+      : participant_(Participant::join(tests::DdsNetwork::kSinkDomain).value()),
+        topic_(make_topic(participant_.entity(), type, topic).value()) {
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 100);
-    writer_ = make_writer(participant_, topic_, qos).value();
+    writer_ = make_writer(participant_.entity(), topic_, qos).value();
   }
 
   bool wait_for_reader() const {
@@ -97,7 +98,7 @@ class ForeignWriter {
   bool flush() const { return dds_wait_for_acks(writer_.get(), DDS_SECS(60)) == DDS_RETCODE_OK; }
 
  private:
-  Entity participant_;
+  Participant participant_;
   Entity topic_;
   Entity writer_;
 };
@@ -147,7 +148,8 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
     sink.accept(tests::make_status());
     const auto& printed = subscriber.printed();
     const std::string figures =
-        ": [0-9.]+/s, latency [-0-9.]+ ms from writing, [-0-9.]+ ms from exposure, ";
+        ": [0-9.]+/s, longest gap [0-9]+ ms, latency [-0-9.]+ ms from writing, [-0-9.]+ ms from "
+        "exposure, ";
     return printed.matches("front/image_raw" + figures + "64x48 rgb8, lost [0-9]+\n") &&
            printed.matches("radiometric/image_raw" + figures + "64x48 mono16, lost [0-9]+\n") &&
            printed.matches("process_state" + figures +

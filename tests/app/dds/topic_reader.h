@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "app/dds/entity.h"
+#include "app/dds/participant.h"
 #include "tests/app/dds/dds_network.h"
 
 namespace orbwatch::app::tests {
@@ -22,11 +22,11 @@ class TopicReader {
   using Look = std::function<void(const Message&)>;
 
   TopicReader(const dds_topic_descriptor_t& type, const std::string& topic, const Qos& qos)
-      : participant_(make_participant(DdsNetwork::kReaderDomain).value()),
-        topic_(make_topic(participant_, type, topic).value()),
-        reader_(make_reader(participant_, topic_, qos).value()),
+      : participant_(Participant::join(DdsNetwork::kReaderDomain).value()),
+        topic_(make_topic(participant_.entity(), type, topic).value()),
+        reader_(make_reader(participant_.entity(), topic_, qos).value()),
         condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE)),
-        waitset_(dds_create_waitset(participant_.get())) {
+        waitset_(dds_create_waitset(participant_.entity().get())) {
     EXPECT_EQ(dds_waitset_attach(waitset_.get(), condition_.get(), 0), DDS_RETCODE_OK);
   }
 
@@ -57,7 +57,7 @@ class TopicReader {
   }
 
  private:
-  Entity participant_;
+  Participant participant_;
   Entity topic_;
   Entity reader_;
   Entity condition_;

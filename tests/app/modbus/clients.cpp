@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <stdexcept>
@@ -195,10 +196,13 @@ void RawClient::finish_sending() { ::shutdown(socket_.get(), SHUT_WR); }
 
 Bytes frame(const Bytes& pdu, std::uint8_t unit, std::uint16_t transaction) {
   const std::size_t length = pdu.size() + 1;
-  Bytes bytes{
-      static_cast<std::uint8_t>(transaction >> 8), static_cast<std::uint8_t>(transaction), 0,   0,
-      static_cast<std::uint8_t>(length >> 8),      static_cast<std::uint8_t>(length),      unit};
-  bytes.insert(bytes.end(), pdu.begin(), pdu.end());
+  Bytes bytes(6 + length);
+  bytes[0] = static_cast<std::uint8_t>(transaction >> 8);
+  bytes[1] = static_cast<std::uint8_t>(transaction);
+  bytes[4] = static_cast<std::uint8_t>(length >> 8);
+  bytes[5] = static_cast<std::uint8_t>(length);
+  bytes[6] = unit;
+  std::ranges::copy(pdu, bytes.begin() + 7);
   return bytes;
 }
 

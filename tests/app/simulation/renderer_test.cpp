@@ -187,6 +187,35 @@ TEST(Renderer, TheBallFillsItsOutline) {
   }
 }
 
+TEST(Renderer, APixelFullOfSparkHasItsGlow) {
+  MachineSettings settings;
+  settings.sparks.radius = {8, 9};
+  const Tone tone;
+  constexpr int kSide = 300;
+  const Pinhole camera = camera_at(kStands[1], kSide, kSide);
+  const Renderer renderer(machine(settings), camera, {});
+  const auto pixels = picture<std::uint8_t>(renderer, 3.3);
+  const MarchingTracer tracer(settings, 3.3);
+  const auto end = [&](double u, double v) {
+    return tracer.trace(camera.position, camera.ray_through(u, v).direction);
+  };
+  int full = 0;
+  for (int v = 0; v < kSide; ++v) {
+    for (int u = 0; u < kSide; ++u) {
+      const auto corner = end(u - 0.5, v - 0.5);
+      if (corner.body != Body::Spark || end(u + 0.5, v - 0.5).body != Body::Spark ||
+          end(u - 0.5, v + 0.5).body != Body::Spark || end(u + 0.5, v + 0.5).body != Body::Spark) {
+        continue;
+      }
+      ++full;
+      const Rgb8 glow = tone.encode(tone.incandescence(tracer.temperature(corner)));
+      const auto* const rgb = &pixels[static_cast<std::size_t>((v * kSide + u) * 3)];
+      ASSERT_TRUE(std::equal(glow.begin(), glow.end(), rgb)) << u << ", " << v;
+    }
+  }
+  EXPECT_GT(full, 20);
+}
+
 TEST(Renderer, ThePoolGlowsWhiteAndTheRestIsLitModerately) {
   MachineSettings settings;
   settings.sparks.rate = 0;

@@ -282,7 +282,7 @@ std::vector<std::pair<std::uint64_t, std::vector<int>>> noise_of(
   Audience audience;
   EXPECT_TRUE(audience.start(camera));
   EXPECT_TRUE(audience.wait([](const Audience& a) {
-    return !a.shots.empty() && a.shots.back().metadata.sequence >= 40;
+    return a.shots.size() >= 2 && a.shots.back().metadata.sequence >= 40;
   }));
   camera.stop();
   const Renderer renderer(shared, camera.pinhole(), {CameraKind::Thermal});

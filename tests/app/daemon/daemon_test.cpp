@@ -1,0 +1,295 @@
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <opencv2/imgcodecs.hpp>
+#include <thread>
+
+#include "tests/support/reference_data.h"
+#include "tests/support/registers.h"
+#include "tests/support/subprocess.h"
+#include "tests/support/temporary_folder.h"
+
+/// `orbwatchd` as it is installed: the program, a file, and clients of its own kind on the network.
+namespace orbwatch::tests {
+namespace {
+
+/// A port that nobody uses at this moment.
+int free_port() {
+  const int s = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  EXPECT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), size), 0);
+  EXPECT_EQ(getsockname(s, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  close(s);
+  return ntohs(address.sin_port);
+}
+
+class Daemon : public testing::Test {
+ protected:
+  Daemon() {
+    // DDS on the loopback interface only, apart from everybody else's.
+    setenv("CYCLONEDDS_URI",
+           ("<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+            "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>orbwatch_" +
+            std::to_string(getpid()) +
+            "</Tag><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
+            "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
+            "</Domain></CycloneDDS>")
+               .c_str(),
+           1);
+  }
+
+  std::string write_config(const std::string& text) const {
+    const auto path = folder.path() / "site.toml";
+    std::ofstream(path) << "[modbus]\nport = " << port << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain
+                        << "\n" << text;
+    return path.string();
+  }
+  Subprocess start(const std::string& config) const {
+    return Subprocess({ORBWATCHD_PROGRAM, "--config", config}, folder.path() / "daemon.log");
+  }
+
+  /// Reads until `condition` holds or the daemon ends.
+  bool eventually(Subprocess& daemon, const std::function<bool()>& condition) const {
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(90);
+    while (daemon.runs() && std::chrono::steady_clock::now() < give_up) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polls a real server
+    }
+    return false;
+  }
+  std::int64_t read(const std::string& name) const { return read_register(port, name); }
+
+  TemporaryFolder folder;
+  int port = free_port();
+  int domain = 1 + getpid() % 100;
+};
+
+const std::string kSmallMachine = R"(
+[[camera]]
+name = "colour"
+back_end = "simulated"
+width = 200
+height = 200
+frame_rate = 20
+[camera.ball]
+centre = [99.5, 99.5]
+radius = 95.58
+alpha = 350.440
+rotation = [171.467, 5.643, 0]
+[camera.simulated]
+kind = "colour"
+position = [208.6, -530.5, 489.0]
+h_fov = 10
+[[camera]]
+name = "thermal"
+back_end = "simulated"
+width = 160
+height = 128
+frame_rate = 20
+kelvin_per_count = 0.04
+[camera.ball]
+centre = [79.5, 63.5]
+radius = 58.06
+alpha = 343.571
+rotation = [-11.887, 11.639, 0]
+[camera.simulated]
+kind = "thermal"
+position = [49.4, 395.4, 500.6]
+h_fov = 22.5
+FAULTS
+[[view]]
+name = "process"
+yaw = -115
+pitch = -40
+width = 160
+height = 120
+[[view.source]]
+camera = "colour"
+[[view.source]]
+camera = "thermal"
+colour_map = "inferno"
+range = [20, 800]
+[[view]]
+name = "room"
+kind = "equirectangular"
+width = 200
+height = 100
+[[view.source]]
+camera = "colour"
+[process]
+view = "process"
+camera = "thermal"
+threshold = 1400
+)";
+
+std::string small_machine(const std::string& faults = "") {
+  std::string text = kSmallMachine;
+  return text.replace(text.find("FAULTS"), 6, faults);
+}
+
+TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
+  Subprocess daemon = start(write_config(small_machine()));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 5; })) << daemon.output();
+  const auto heartbeat = read("heartbeat");
+  EXPECT_TRUE(eventually(daemon, [&] { return read("heartbeat") != heartbeat; }));
+  EXPECT_EQ(read("system_state"), 1) << "running";
+  // The pool's truth: 2000 degC in the centre, somewhere around its path's bearing.
+  ASSERT_TRUE(eventually(daemon, [&] { return read("hot_spot_peak_temperature") > 17000; }));
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -115, 25);
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -43, 12);
+
+  Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
+                     "orbwatch/process/image_raw", "--topic", "orbwatch/room/image_raw", "--topic",
+                     "orbwatch/process_state", "--save", folder.path().string(), "--seconds", "5"},
+                    folder.path() / "reader.log");
+  EXPECT_EQ(reader.wait(), 0) << reader.output();
+  EXPECT_EQ(cv::imread((folder.path() / "process.png").string()).size(), cv::Size(160, 120));
+  EXPECT_EQ(cv::imread((folder.path() / "room.png").string()).size(), cv::Size(200, 100));
+
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
+  Subprocess daemon = start(write_config(small_machine()));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 0; })) << daemon.output();
+  EXPECT_EQ(read("selected_view"), 0);
+  write_command(port, 1, 1, 7);
+  EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 7 && read("selected_view") == 1; }));
+  write_command(port, 1, 9, 8);
+  EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 8; }));
+  EXPECT_EQ(read("selected_view"), 1) << "there is no view 9";
+  daemon.send(SIGINT);
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+TEST_F(Daemon, LivesThroughAnUnpluggedCamera) {
+  const std::string faults =
+      "[[camera.fault]]\nfault = \"unplugged\"\nfrom = 20\nuntil = 60\n";
+  Subprocess daemon = start(write_config(small_machine(faults)));
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_state") == 2; })) << daemon.output();
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_state") == 1; })) << daemon.output();
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0);
+  EXPECT_NE(daemon.output().find("thermal: camera is not connected"), std::string::npos) << daemon.output();
+}
+
+TEST_F(Daemon, ReplaysARecordingAndMergesItsCameras) {
+  const auto renders = reference_data() / "renders";
+  ORBWATCH_REQUIRE_FILE(renders / "seq_spark");
+  ORBWATCH_REQUIRE_FILE(renders / "seq_thermal");
+  // Outlines, alpha and registrations follow from the poses in the recording's scene.json.
+  const std::string config = R"(
+[[camera]]
+name = "colour"
+back_end = "replay"
+frame_rate = 15
+[camera.replay]
+source = ")" + (renders / "seq_spark").string() + R"("
+[camera.ball]
+centre = [418.0, 388.41]
+radius = 352.007
+distance = 12
+rotation = [171.530, 5.646, 0]
+[[camera]]
+name = "thermal"
+back_end = "replay"
+frame_rate = 15
+kelvin_per_count = 0.04
+[camera.replay]
+source = ")" + (renders / "seq_thermal").string() + R"("
+[camera.ball]
+centre = [166.603, 131.779]
+radius = 115.21
+distance = 7
+rotation = [-11.888, 11.644, 0]
+[[view]]
+name = "merged"
+yaw = -115
+pitch = -40
+h_fov = 100
+width = 400
+height = 300
+[[view.source]]
+camera = "colour"
+[[view.source]]
+camera = "thermal"
+colour_map = "hot"
+range = [20, 400]
+[process]
+view = "merged"
+camera = "thermal"
+threshold = 500
+)";
+  Subprocess daemon = start(write_config(config));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 24 && read("hot_spot_area") > 0; })) << daemon.output();
+  Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
+                     "orbwatch/merged/image_raw", "--save", folder.path().string(), "--seconds", "4"},
+                    folder.path() / "reader.log");
+  EXPECT_EQ(reader.wait(), 0) << reader.output();
+  // The melt pool runs around (-110, -50, 178), seen from the ball at (120, 60, 430). Taking the
+  // room for far away costs up to asin(1/L), 8 degrees at its distance of 7 ball radii.
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -115, 18);
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -44, 12);
+  const cv::Mat merged = cv::imread((folder.path() / "merged.png").string());
+  ASSERT_EQ(merged.size(), cv::Size(400, 300));
+  cv::Mat grey;
+  cv::extractChannel(merged, grey, 1);
+  EXPECT_GT(cv::countNonZero(grey), 400 * 300 * 9 / 10) << "both cameras see most of this view";
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+TEST_F(Daemon, RefusesAPortInUseInOneLine) {
+  const int s = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  ASSERT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(s, 1), 0);
+  Subprocess daemon = start(write_config(small_machine()));
+  EXPECT_GT(daemon.wait(), 0);
+  const std::string said = daemon.output();
+  EXPECT_NE(said.find(std::to_string(port)), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  close(s);
+}
+
+TEST_F(Daemon, RefusesBadFilesAndArgumentsInOneLine) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
+    std::vector<std::string> all{ORBWATCHD_PROGRAM};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    Subprocess program(all, folder.path() / "said");
+    EXPECT_GT(program.wait(), 0);
+    const std::string said = program.output();
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  };
+  refused({}, "--config");
+  refused({"--config", "/no/such.toml"}, "/no/such.toml");
+  refused({"--config", write_config("[cameras]\n")}, "site.toml:6: cameras");
+  const auto replay = [](std::string text) {
+    const std::size_t begin = text.find("[camera.simulated]"), end = text.find("[[camera]]", begin);
+    text.replace(begin, end - begin, "[camera.replay]\nsource = \"nothing\"\n");
+    return text.replace(text.find("\"simulated\""), 11, "\"replay\"");
+  };
+  refused({"--config", write_config(replay(small_machine()))}, "camera colour: ");
+}
+
+TEST_F(Daemon, ChecksAFileWithoutRunning) {
+  Subprocess program({ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine())},
+                     folder.path() / "said");
+  EXPECT_EQ(program.wait(), 0) << program.output();
+}
+
+}  // namespace
+}  // namespace orbwatch::tests

@@ -1,0 +1,80 @@
+#include "app/dds/participant.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "app/dds/dds_sink.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr int kDomain = 3;
+
+void configure(const std::string& interface, const std::string& more = "") {
+  const std::string uri = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"" +
+                          interface + "\"/></Interfaces><AllowMulticast>false</AllowMulticast>" +
+                          "</General>" + more + "</Domain></CycloneDDS>";
+  ASSERT_EQ(setenv("CYCLONEDDS_URI", uri.c_str(), 1), 0);
+}
+
+bool exists(dds_entity_t participant) {
+  dds_guid_t guid{};
+  return dds_get_guid(participant, &guid) == DDS_RETCODE_OK;
+}
+
+TEST(ParticipantTest, DomainsOutOfRangeAreNamed) {
+  EXPECT_EQ(Participant::join(231).error().message, "DDS domain 231: out of range, 0 to 230");
+  EXPECT_EQ(Participant::join(-1).error().message, "DDS domain -1: out of range, 0 to 230");
+}
+
+TEST(ParticipantTest, ThoseOfADomainComeAndGoByThemselves) {
+  configure("lo");
+  auto first = Participant::join(kDomain);
+  auto second = Participant::join(kDomain);
+  ASSERT_TRUE(first && second);
+  const dds_entity_t handle = first->entity().get();
+  EXPECT_TRUE(exists(handle));
+  first->leave();
+  EXPECT_FALSE(exists(handle));
+  EXPECT_TRUE(exists(second->entity().get())) << "the other one stays";
+  *first = std::move(*Participant::join(kDomain));
+  EXPECT_TRUE(exists(first->entity().get()));
+}
+
+TEST(ParticipantTest, TheLastToLeaveClosesTheDomain) {
+  configure("lo");
+  auto participant = Participant::join(kDomain);
+  ASSERT_TRUE(participant) << participant.error().message;
+  // A configuration that cannot work is only seen by a domain that starts afresh.
+  configure("absent0");
+  EXPECT_TRUE(Participant::join(kDomain));
+  participant->leave();
+  EXPECT_FALSE(Participant::join(kDomain));
+}
+
+TEST(ParticipantTest, TheEnvironmentOverridesOurDefaults) {
+  configure("lo", "<Internal><SocketReceiveBufferSize min=\"1MB\" max=\"2MB\"/></Internal>");
+  const auto participant = Participant::join(kDomain);
+  EXPECT_TRUE(participant) << participant.error().message;
+  // More than any system grants: only refused if it is the minimum that counts.
+  configure("lo", "<Internal><SocketReceiveBufferSize min=\"2GB\" max=\"2GB\"/></Internal>");
+  EXPECT_FALSE(Participant::join(kDomain + 1));
+}
+
+TEST(ParticipantTest, MissingInterfaceIsReportedInOneLineAndMayComeBack) {
+  configure("absent0");
+  DdsSink sink({.enabled = true, .domain = kDomain, .prefix = "orbwatch"}, {"front"});
+  const auto started = sink.start();
+  ASSERT_FALSE(started);
+  EXPECT_THAT(started.error().message, testing::StartsWith("DDS domain 3: "));
+  EXPECT_THAT(started.error().message, testing::Not(testing::HasSubstr("\n")));
+
+  configure("lo");
+  const auto again = sink.start();
+  EXPECT_TRUE(again) << again.error().message;
+}
+
+}  // namespace
+}  // namespace orbwatch::app

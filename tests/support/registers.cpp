@@ -1,0 +1,77 @@
+#include "tests/support/registers.h"
+
+#include <gtest/gtest.h>
+#include <modbus/modbus.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace orbwatch::tests {
+namespace {
+
+struct Row {
+  std::string table, type;
+  int address = 0;
+  int count = 0;
+};
+
+/// The first row of that name: table,address,count,type,access,name,...
+Row find_row(const std::string& name) {
+  std::ifstream map(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/modbus/registers.csv");
+  for (std::string line; std::getline(map, line);) {
+    std::istringstream fields(line);
+    std::array<std::string, 6> field;
+    for (auto& f : field) std::getline(fields, f, ',');
+    if (field[5] == name && (field[0] == "input" || field[0] == "holding")) {
+      return {field[0], field[3], std::stoi(field[1]), std::stoi(field[2])};
+    }
+  }
+  ADD_FAILURE() << "no register " << name;
+  return {};
+}
+
+struct Close {
+  void operator()(modbus_t* context) const {
+    modbus_close(context);
+    modbus_free(context);
+  }
+};
+using Connection = std::unique_ptr<modbus_t, Close>;
+
+Connection connect_to(int port) {
+  Connection context(modbus_new_tcp("127.0.0.1", port));
+  modbus_set_slave(context.get(), 1);
+  if (modbus_connect(context.get()) != 0) return nullptr;
+  return context;
+}
+
+}  // namespace
+
+std::int64_t read_register(int port, const std::string& name) {
+  constexpr auto kNothing = std::numeric_limits<std::int64_t>::min();
+  const Row row = find_row(name);
+  const Connection connection = connect_to(port);
+  if (!connection) return kNothing;
+  std::array<std::uint16_t, 2> words{};
+  const auto read = row.table == "input" ? modbus_read_input_registers : modbus_read_registers;
+  if (read(connection.get(), row.address, row.count, words.data()) != row.count) return kNothing;
+  if (row.count == 1) return words[0];
+  const std::uint32_t value = std::uint32_t{words[0]} << 16 | words[1];
+  return row.type == "i32" ? std::int64_t{static_cast<std::int32_t>(value)} : std::int64_t{value};
+}
+
+void write_command(int port, std::uint16_t code, std::int32_t argument, std::uint16_t sequence) {
+  const Connection connection = connect_to(port);
+  ASSERT_TRUE(connection);
+  const auto bits = static_cast<std::uint32_t>(argument);
+  const std::array<std::uint16_t, 4> words{static_cast<std::uint16_t>(bits >> 16),
+                                           static_cast<std::uint16_t>(bits & 0xFFFF), code, sequence};
+  ASSERT_EQ(find_row("command_sequence").address - find_row("argument").address, 3);
+  EXPECT_EQ(modbus_write_registers(connection.get(), find_row("argument").address, 4, words.data()), 4);
+}
+
+}  // namespace orbwatch::tests
