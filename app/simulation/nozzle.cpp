@@ -45,6 +45,7 @@ Nozzle::Nozzle(const NozzleSettings& settings, const Vec3& tip, double ceiling)
     : tip_(tip),
       tip_radius_(settings.tip_radius),
       slope_((settings.column_radius - settings.tip_radius) / settings.cone_height),
+      cone_cosine_(1 / std::sqrt(1 + slope_ * slope_)),
       cone_top_(tip.z + settings.cone_height),
       column_radius_(settings.column_radius),
       ceiling_(ceiling) {
@@ -75,8 +76,11 @@ double Nozzle::entry(const Ray& ray) const {
 Vec3 Nozzle::normal_at(const Vec3& point) const {
   constexpr double kOnTip = 1e-6;  // mm
   if (point.z - tip_.z < kOnTip) return {0, 0, -1};
-  const Vec3 outward{point.x - tip_.x, point.y - tip_.y, 0};
-  return normalized(normalized(outward) - Vec3{0, 0, is_cone(point) ? slope_ : 0});
+  const double x = point.x - tip_.x;
+  const double y = point.y - tip_.y;
+  const double level = is_cone(point) ? cone_cosine_ : 1;
+  const double scale = level / std::sqrt(x * x + y * y);
+  return {x * scale, y * scale, is_cone(point) ? -slope_ * cone_cosine_ : 0};
 }
 
 }  // namespace orbwatch::app::simulation

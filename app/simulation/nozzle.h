@@ -29,7 +29,8 @@ class Nozzle {
  private:
   Vec3 tip_;
   double tip_radius_;
-  double slope_;  ///< radius per height of the cone
+  double slope_;        ///< radius per height of the cone
+  double cone_cosine_;  ///< of the angle between the cone's normal and the horizontal
   double cone_top_;
   double column_radius_;
   double ceiling_;

@@ -128,6 +128,23 @@ TEST_F(ModbusAbuse, HalfAFrameIsDroppedInTime) {
   EXPECT_TRUE(plc_is_served());
 }
 
+TEST_F(ModbusAbuse, AStreamOfRequestsThatIsNeverAtRestIsNoPartialFrame) {
+  ModbusSettings settings = loopback();
+  settings.frame_timeout = std::chrono::seconds(2);
+  start(settings);
+  RawClient streaming(port());
+  const Bytes first_half(kRead.begin(), kRead.begin() + 5);
+  Bytes next(kRead.begin() + 5, kRead.end());
+  next.insert(next.end(), first_half.begin(), first_half.end());
+  ASSERT_TRUE(streaming.send(first_half));
+  // In the server there is the beginning of some request all the time, but never an old one.
+  const auto end = hal::Clock::now() + std::chrono::milliseconds(2500);
+  while (hal::Clock::now() < end) {
+    ASSERT_TRUE(streaming.send(next));
+    ASSERT_EQ(streaming.receive_pdu(), kAnswer);
+  }
+}
+
 TEST_F(ModbusAbuse, QuietConnectionsAreDropped) {
   ModbusSettings settings = loopback();
   settings.idle_timeout = std::chrono::milliseconds(50);

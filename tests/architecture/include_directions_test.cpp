@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+/// Who may include whom: the folders of the architecture, read from the sources themselves.
+namespace orbwatch::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Rule {
+  std::string folder;                ///< files below it ...
+  std::vector<std::string> allowed;  ///< ... include our headers below these only,
+  std::vector<std::string> foreign;  ///< and libraries whose headers start like this
+};
+
+// The most specific rule counts. The standard library and the C library are allowed everywhere.
+const std::vector<Rule> kRules{
+    {"proc/image", {"proc/image"}, {"tl/expected"}},
+    {"proc/optics", {"proc/image", "proc/optics"}, {"tl/expected"}},
+    {"proc/remap", {"proc/image", "proc/optics", "proc/remap"}, {"tl/expected"}},
+    {"proc/signals", {"proc/image", "proc/optics", "proc/signals"}, {"tl/expected", "opencv2/"}},
+    {"hal", {"proc/image", "hal"}, {"tl/expected", "libcamera/", "gpiod", "linux/"}},
+    {"hal/jpeg", {"proc/image", "hal"}, {"tl/expected", "turbojpeg"}},
+    {"hal/replay", {"proc/image", "hal"}, {"tl/expected", "opencv2/"}},
+    {"hal/v4l2", {"proc/image", "hal"}, {"tl/expected", "linux/"}},
+    {"app", {"proc", "hal", "app"}, {"opencv2/", "toml++/", "dds/", "modbus/", "tl/expected"}},
+    {"app/dds", {"proc", "hal", "app"}, {"dds/", "opencv2/", "tl/expected"}},
+    {"app/modbus", {"proc", "hal", "app"}, {"modbus/", "tl/expected"}},
+    {"app/pipeline", {"proc", "hal", "app"}, {"tl/expected"}},
+};
+
+bool is_below(const std::string& path, const std::string& folder) {
+  return path.starts_with(folder + "/");
+}
+
+const Rule* rule_for(const std::string& file) {
+  const Rule* best = nullptr;
+  for (const Rule& rule : kRules) {
+    if (is_below(file, rule.folder) && (!best || rule.folder.size() > best->folder.size())) {
+      best = &rule;
+    }
+  }
+  return best;
+}
+
+struct Include {
+  std::string file;    ///< from the project's root
+  std::string header;  ///< as written
+  bool quoted = false;
+};
+
+std::vector<Include> includes_of(const fs::path& root, const fs::path& file) {
+  static const std::regex kPattern(R"rx(^\s*#\s*include\s*(["<])([^">]+)[">])rx");
+  std::vector<Include> found;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, kPattern)) {
+      found.push_back({fs::relative(file, root).string(), match[2], match[1] == "\""});
+    }
+  }
+  return found;
+}
+
+std::vector<Include> all_includes() {
+  const fs::path root = ORBWATCH_SOURCE_DIR;
+  std::vector<Include> all;
+  for (const char* top : {"proc", "hal", "app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp" && extension != ".idl") continue;
+      const auto found = includes_of(root, entry.path());
+      all.insert(all.end(), found.begin(), found.end());
+    }
+  }
+  return all;
+}
+
+/// Headers without a folder or with one of the system's are the C and C++ libraries'.
+bool is_standard(const std::string& header) {
+  static const std::vector<std::string> kSystem{"sys/", "netinet/", "arpa/"};
+  if (std::any_of(kSystem.begin(), kSystem.end(),
+                  [&](const auto& s) { return header.starts_with(s); })) {
+    return true;
+  }
+  return header.find('/') == std::string::npos && header != "gpiod.h" && header != "turbojpeg.h";
+}
+
+TEST(IncludeDirections, FollowTheArchitecture) {
+  const auto includes = all_includes();
+  EXPECT_GT(includes.size(), 300U);
+  for (const Include& include : includes) {
+    const Rule* rule = rule_for(include.file);
+    ASSERT_TRUE(rule) << include.file << " is in no folder of the architecture";
+    const auto& allowed = include.quoted ? rule->allowed : rule->foreign;
+    const bool good = std::any_of(allowed.begin(), allowed.end(), [&](const std::string& prefix) {
+      return include.quoted ? is_below(include.header, prefix) : include.header.starts_with(prefix);
+    });
+    // idlc writes headers without a folder.
+    const bool generated = include.quoted && is_below(include.file, "app/dds") && is_standard(include.header);
+    const bool standard = !include.quoted && is_standard(include.header);
+    EXPECT_TRUE(good || standard || generated) << include.file << " includes " << include.header;
+  }
+}
+
+TEST(IncludeDirections, TheSimulationSeesNoBallModel) {
+  // Its truth must stay independent of what it is the truth for.
+  for (const Include& include : all_includes()) {
+    if (is_below(include.file, "app/simulation") && is_below(include.header, "proc/optics")) {
+      EXPECT_TRUE(include.header == "proc/optics/vec.h" || include.header == "proc/optics/angle.h")
+          << include.file << " includes " << include.header;
+    }
+  }
+}
+
+TEST(Folders, AreThoseOfTheArchitecture) {
+  std::vector<std::string> unexpected;
+  const std::vector<std::string> known{"app", "build", "hal", "out", "platform", "proc", "tests", "toolchains"};
+  for (const auto& entry : fs::directory_iterator(ORBWATCH_SOURCE_DIR)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && !name.starts_with(".") &&
+        std::find(known.begin(), known.end(), name) == known.end()) {
+      unexpected.push_back(name);
+    }
+  }
+  EXPECT_TRUE(unexpected.empty()) << unexpected.front();
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
