@@ -17,8 +17,9 @@ inline constexpr std::size_t kMaxCameras = 4;
 struct FrameSet {
   std::uint64_t id = 0;  ///< counts sets from 1
   TimePoint stamp;       ///< exposure start of the pacing camera's frame
-  std::array<Frame, kMaxCameras> frames;  ///< by camera; null while one has a fault or before its first
-  bool matched = true;   ///< all exposures began within the window
+  std::array<Frame, kMaxCameras>
+      frames;           ///< by camera; null while one has a fault or before its first
+  bool matched = true;  ///< all exposures began within the window
 };
 
 /// What FrameSync counted of one camera.
@@ -55,9 +56,9 @@ class FrameSync {
 
  private:
   struct Inbox {
-    Frame pending;        ///< newest, not used yet
-    TimePoint arrived;    ///< of pending
-    Frame held;           ///< last used
+    Frame pending;         ///< newest, not used yet
+    TimePoint arrived;     ///< of pending
+    Frame held;            ///< last used
     bool delivers = true;  ///< until a fault says otherwise
     bool started = false;
     std::uint64_t last_sequence = 0;

@@ -17,7 +17,10 @@ Result<> describe_command(const std::vector<std::string>& arguments) {
          if (value == "csv" || value == "markdown") return {};
          return fail("--format is \"" + value + "\"; use csv or markdown");
        }},
-      {"help", 'h', "", "this text", [&](const std::string&) -> Result<> { help = true; return {}; }}};
+      {"help", 'h', "", "this text", [&](const std::string&) -> Result<> {
+         help = true;
+         return {};
+       }}};
   const auto rest = parse_options(arguments, options);
   if (!rest) return tl::unexpected(rest.error());
   if (help) {

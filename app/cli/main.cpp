@@ -48,7 +48,8 @@ Result<> dispatch(const std::vector<std::string>& arguments) {
   for (const Named& command : kCommandTable) {
     if (command.name == name) return command.call(arguments);
   }
-  return fail(name.empty() ? "say what to do; see --help" : "there is no command " + name + "; see --help");
+  return fail(name.empty() ? "say what to do; see --help"
+                           : "there is no command " + name + "; see --help");
 }
 
 }  // namespace

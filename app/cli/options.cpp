@@ -51,7 +51,8 @@ std::string options_help(const std::vector<Option>& options) {
     line += o.name + (o.argument.empty() ? "" : " " + o.argument);
     line += line.size() + 2 <= kColumn ? std::string(kColumn - line.size(), ' ')
                                        : "\n" + std::string(kColumn, ' ');
-    for (const char c : o.text) line += c == '\n' ? "\n" + std::string(kColumn, ' ') : std::string(1, c);
+    for (const char c : o.text)
+      line += c == '\n' ? "\n" + std::string(kColumn, ' ') : std::string(1, c);
     help += line + "\n";
   }
   return help;
@@ -60,15 +61,18 @@ std::string options_help(const std::vector<Option>& options) {
 Result<double> parse_number(std::string_view name, std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return value;
-  return fail("--" + std::string(name) + " is \"" + std::string(text) + "\"; it must be a finite number");
+  if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value))
+    return value;
+  return fail("--" + std::string(name) + " is \"" + std::string(text) +
+              "\"; it must be a finite number");
 }
 
 Result<int> parse_whole(std::string_view name, std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
-  return fail("--" + std::string(name) + " is \"" + std::string(text) + "\"; it must be a whole number");
+  return fail("--" + std::string(name) + " is \"" + std::string(text) +
+              "\"; it must be a whole number");
 }
 
 Result<std::vector<double>> parse_numbers(std::string_view name, std::string_view text) {

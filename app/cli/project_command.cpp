@@ -91,16 +91,22 @@ std::vector<Option> declare(ProjectOptions& o) {
   static constexpr std::array kUndefined{Word{"black", false}, Word{"transparent", true}};
   return {
       {"output", 'o', "OUT", "picture to write",
-       [&o](const std::string& v) -> Result<> { o.output = v; return {}; }},
+       [&o](const std::string& v) -> Result<> {
+         o.output = v;
+         return {};
+       }},
       {"ball", 0, "CX,CY,R | CX,CY,RX,RY,ANGLE",
-       "limb of the ball in IN, pixels (centres at integers);\nANGLE in degrees turns RX from right "
+       "limb of the ball in IN, pixels (centres at integers);\nANGLE in degrees turns RX from "
+       "right "
        "to down",
        [&o](const std::string& v) { return set_ball(v, o.ball); }},
-      {"alpha", 0, "DEG", "reflected field of view, above 180 to 360:\n360 minus the ball's apparent diameter",
+      {"alpha", 0, "DEG",
+       "reflected field of view, above 180 to 360:\n360 minus the ball's apparent diameter",
        number_option("alpha", o.alpha)},
       {"distance", 0, "RADII", "camera to ball's centre in ball radii, above 1",
        number_option("distance", o.distance)},
-      {"model", 0, "MODEL", "exact (default), paper, or classical, which takes\nneither alpha nor distance",
+      {"model", 0, "MODEL",
+       "exact (default), paper, or classical, which takes\nneither alpha nor distance",
        word_option("model", kModels, o.model)},
       {"view", 0, "KIND", "perspective (default) or equirectangular",
        word_option("view", kViewKinds, o.view.kind)},
@@ -109,25 +115,32 @@ std::vector<Option> declare(ProjectOptions& o) {
       {"pitch", 0, "DEG", "positive up", number_option("pitch", o.view.orientation.pitch)},
       {"roll", 0, "DEG", "positive: the right side dips",
        number_option("roll", o.view.orientation.roll)},
-      {"h-fov", 0, "DEG", "edge to edge; perspective below 180 (default 90),\nequirectangular to 360 (default)",
+      {"h-fov", 0, "DEG",
+       "edge to edge; perspective below 180 (default 90),\nequirectangular to 360 (default)",
        number_option("h-fov", o.view.h_fov)},
       {"v-fov", 0, "DEG", "default: square pixels, or 180 for equirectangular",
        number_option("v-fov", o.view.v_fov)},
       {"size", 0, "WxH", "of OUT, 1x1 to 16384x16384 (default 1280x720)",
        [&o](const std::string& v) { return set_size(v, o.view); }},
-      {"rotation", 0, "YAW,PITCH,ROLL", "registration: turns the ball's picture into the\nreference frame",
+      {"rotation", 0, "YAW,PITCH,ROLL",
+       "registration: turns the ball's picture into the\nreference frame",
        [&o](const std::string& v) { return set_rotation(v, o.rotation); }},
       {"undefined", 0, "black|transparent", "what the ball does not show (default black)",
        word_option("undefined", kUndefined, o.transparent)},
       {"interpolation", 0, "bilinear|nearest", "between pixels (default bilinear)",
        word_option("interpolation", kInterpolations, o.interpolation)},
-      {"help", 'h', "", "this text", [&o](const std::string&) -> Result<> { o.help = true; return {}; }},
+      {"help", 'h', "", "this text",
+       [&o](const std::string&) -> Result<> {
+         o.help = true;
+         return {};
+       }},
   };
 }
 
 Result<optics::BallModel> ball_model(const ProjectOptions& o) {
   if (o.model == optics::BallModel::Kind::Classical) {
-    if (o.alpha || o.distance) return fail("the classical model takes neither --alpha nor --distance");
+    if (o.alpha || o.distance)
+      return fail("the classical model takes neither --alpha nor --distance");
     return optics::BallModel::classical();
   }
   if (o.alpha.has_value() == o.distance.has_value()) {
@@ -144,8 +157,8 @@ Result<optics::BallModel> ball_model(const ProjectOptions& o) {
 struct Canvas {
   Canvas(const Picture& source, int width, int height)
       : bytes(static_cast<std::size_t>(row_bytes(source.format, width)) * height),
-        picture{source.format, source.colour_space, width, height, bytes.data(),
-                row_bytes(source.format, width)} {}
+        picture{source.format, source.colour_space, width,
+                height,        bytes.data(),        row_bytes(source.format, width)} {}
 
   template <class T>
   ImageView<T> samples() {

@@ -16,8 +16,13 @@ void cancel(int) { cancelled = true; }
 
 std::vector<Option> declare(SubscribeOptions& o, bool& help) {
   return {
-      {"topic", 0, "TOPIC", "to read, with or without rt/; may be repeated\n(default: the selected view and the process state)",
-       [&o](const std::string& v) -> Result<> { o.topics.push_back(v); return {}; }},
+      {"topic", 0, "TOPIC",
+       "to read, with or without rt/; may be repeated\n(default: the selected view and the process "
+       "state)",
+       [&o](const std::string& v) -> Result<> {
+         o.topics.push_back(v);
+         return {};
+       }},
       {"domain", 0, "N", "DDS domain, 0 to 230 (default 0)",
        [&o](const std::string& v) {
          return parse_whole("domain", v).and_then([&o](int n) -> Result<> {
@@ -27,11 +32,22 @@ std::vector<Option> declare(SubscribeOptions& o, bool& help) {
          });
        }},
       {"save", 0, "DIR", "save the newest image of each topic as PNG",
-       [&o](const std::string& v) -> Result<> { o.save = v; return {}; }},
-      {"seconds", 0, "N", "end after this time (default: Ctrl-C)", number_option("seconds", o.seconds)},
+       [&o](const std::string& v) -> Result<> {
+         o.save = v;
+         return {};
+       }},
+      {"seconds", 0, "N", "end after this time (default: Ctrl-C)",
+       number_option("seconds", o.seconds)},
       {"stats", 0, "", "print rate, size, latency and gaps every second",
-       [&o](const std::string&) -> Result<> { o.stats = true; return {}; }},
-      {"help", 'h', "", "this text", [&help](const std::string&) -> Result<> { help = true; return {}; }},
+       [&o](const std::string&) -> Result<> {
+         o.stats = true;
+         return {};
+       }},
+      {"help", 'h', "", "this text",
+       [&help](const std::string&) -> Result<> {
+         help = true;
+         return {};
+       }},
   };
 }
 
@@ -55,7 +71,8 @@ Result<> subscribe_command(const std::vector<std::string>& arguments) {
   const auto report = subscribe(o, cancelled, std::cout);
   if (!report) return tl::unexpected(report.error());
   for (const TopicReport& topic : report->topics) {
-    if (topic.received == 0) return fail(topic.topic + ": nothing was received; does orbwatchd run in this domain?");
+    if (topic.received == 0)
+      return fail(topic.topic + ": nothing was received; does orbwatchd run in this domain?");
   }
   return {};
 }

@@ -13,7 +13,8 @@ namespace {
 
 template <class Named>
 const Named* by_name(const std::vector<Named>& list, const std::string& name) {
-  const auto it = std::find_if(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
+  const auto it =
+      std::find_if(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
   return it == list.end() ? nullptr : &*it;
 }
 
@@ -38,8 +39,9 @@ void check_names(const std::vector<Named>& list, const std::string& key, Finding
   for (const Named& item : list) {
     if (!is_plain_name(item.name)) {
       finding.note(item.line, key + ".name",
-                   "\"" + item.name + "\" is not allowed; it must be letters, digits and single _, "
-                   "a letter first");
+                   "\"" + item.name +
+                       "\" is not allowed; it must be letters, digits and single _, "
+                       "a letter first");
     }
     if (!seen.insert(item.name).second) {
       finding.note(item.line, key + ".name", "\"" + item.name + "\" is there twice");
@@ -51,7 +53,8 @@ void check_view(const ViewSettings& view, const Configuration& configuration, Fi
   if (view.name == "selected") {
     finding.note(view.line, "view.name", "\"selected\" is the topic of the selected view");
   }
-  const optics::ViewSpec spec{view.kind, {view.yaw, view.pitch, view.roll}, view.h_fov, view.v_fov,
+  const optics::ViewSpec spec{view.kind,  {view.yaw, view.pitch, view.roll},
+                              view.h_fov, view.v_fov,
                               view.width, view.height};
   if (const auto projection = optics::ViewProjection::make(spec); !projection) {
     finding.note(view.line, "view", projection.error().message);
@@ -59,8 +62,8 @@ void check_view(const ViewSettings& view, const Configuration& configuration, Fi
   for (const SourceSettings& source : view.sources) {
     if (!by_name(configuration.cameras, source.camera)) {
       finding.note(source.line, "view.source.camera",
-                   "there is no camera \"" + source.camera + "\"; there are: " +
-                       names(configuration.cameras));
+                   "there is no camera \"" + source.camera +
+                       "\"; there are: " + names(configuration.cameras));
     }
   }
 }
@@ -69,8 +72,9 @@ void check_process(const ProcessSettings& process, const Configuration& configur
                    Finding& finding) {
   const ViewSettings* view = by_name(configuration.views, process.view);
   if (!view) {
-    finding.note(process.line, "process.view",
-                 "there is no view \"" + process.view + "\"; there are: " + names(configuration.views));
+    finding.note(
+        process.line, "process.view",
+        "there is no view \"" + process.view + "\"; there are: " + names(configuration.views));
     return;
   }
   const bool has_camera = std::any_of(view->sources.begin(), view->sources.end(),
@@ -109,8 +113,8 @@ Result<Configuration> parse_configuration(const std::string& text, const std::st
     visit(reader, configuration);
     reader.refuse_unknown_keys();
   } catch (const toml::parse_error& error) {
-    return fail(name + ":" + std::to_string(error.source().begin.line) + ": not valid TOML: " +
-                std::string(error.description()));
+    return fail(name + ":" + std::to_string(error.source().begin.line) +
+                ": not valid TOML: " + std::string(error.description()));
   }
   if (!finding.message) check_references(configuration, finding);
   if (finding.message) return fail(*finding.message);

@@ -43,9 +43,9 @@ class ManualWriter {
   void tables(const char* key, std::vector<T>&, std::size_t least, std::size_t most,
               const char* text) {
     T value{};
-    nested_ += section(key, value, "[[" + full(key) + "]]",
-                       std::string(text) + " (" + std::to_string(least) + " to " +
-                           std::to_string(most) + ")");
+    nested_ += section(
+        key, value, "[[" + full(key) + "]]",
+        std::string(text) + " (" + std::to_string(least) + " to " + std::to_string(most) + ")");
   }
   void require(bool, const char*, const std::string&) {}
   void line(int&) {}
@@ -54,7 +54,8 @@ class ManualWriter {
   std::string finish() {
     std::string text;
     if (!rows_.empty()) {
-      text = heading_ + "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows_ + "\n";
+      text =
+          heading_ + "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows_ + "\n";
     } else {
       text = heading_;
     }
@@ -65,7 +66,8 @@ class ManualWriter {
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   template <class T>
-  std::string section(const char* key, T& value, const std::string& title, const std::string& text) {
+  std::string section(const char* key, T& value, const std::string& title,
+                      const std::string& text) {
     ManualWriter writer(full(key), "## `" + title + "`\n" + text + ".\n");
     visit(writer, value);
     return writer.finish();
@@ -80,7 +82,8 @@ class ManualWriter {
   template <class T, std::size_t N>
   static std::string allowed(const std::array<Word<T>, N>& words) {
     std::string text;
-    for (const auto& word : words) text += (text.empty() ? "`" : ", `") + std::string(word.name) + "`";
+    for (const auto& word : words)
+      text += (text.empty() ? "`" : ", `") + std::string(word.name) + "`";
     return text;
   }
   template <std::size_t N>
@@ -120,8 +123,7 @@ class ManualWriter {
     return show(value);
   }
   template <std::size_t N>
-  static std::string default_of(const std::string& value,
-                                const std::array<std::string_view, N>&) {
+  static std::string default_of(const std::string& value, const std::array<std::string_view, N>&) {
     return show(value);
   }
 

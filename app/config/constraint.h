@@ -35,7 +35,8 @@ struct Range {
     };
     const bool has_low = low > -std::numeric_limits<double>::max();
     const bool has_high = high < std::numeric_limits<double>::max();
-    if (has_low && has_high && low_allowed && high_allowed) return number(low) + " to " + number(high);
+    if (has_low && has_high && low_allowed && high_allowed)
+      return number(low) + " to " + number(high);
     std::string text;
     if (has_low) text += (low_allowed ? "at least " : "above ") + number(low);
     if (has_low && has_high) text += ", ";

@@ -19,19 +19,17 @@ namespace orbwatch::app {
 inline constexpr std::array kModels{Word{"exact", optics::BallModel::Kind::Exact},
                                     Word{"paper", optics::BallModel::Kind::Paper},
                                     Word{"classical", optics::BallModel::Kind::Classical}};
-inline constexpr std::array kViewKinds{
-    Word{"perspective", optics::ViewKind::Perspective},
-    Word{"equirectangular", optics::ViewKind::Equirectangular}};
+inline constexpr std::array kViewKinds{Word{"perspective", optics::ViewKind::Perspective},
+                                       Word{"equirectangular", optics::ViewKind::Equirectangular}};
 inline constexpr std::array kInterpolations{Word{"bilinear", remap::Interpolation::Bilinear},
                                             Word{"nearest", remap::Interpolation::Nearest}};
 inline constexpr std::array kCombines{Word{"mix", Combine::Mix}, Word{"switch", Combine::Switch}};
 inline constexpr std::array kBackEnds{Word{"simulated", BackEnd::Simulated},
                                       Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2}};
-inline constexpr std::array kFaults{Word{"unplugged", hal::Fault::Unplugged},
-                                    Word{"stalled", hal::Fault::Stalled},
-                                    Word{"read_error", hal::Fault::ReadError},
-                                    Word{"corrupt_frame", hal::Fault::CorruptFrame},
-                                    Word{"wrong_format", hal::Fault::WrongFormat}};
+inline constexpr std::array kFaults{
+    Word{"unplugged", hal::Fault::Unplugged}, Word{"stalled", hal::Fault::Stalled},
+    Word{"read_error", hal::Fault::ReadError}, Word{"corrupt_frame", hal::Fault::CorruptFrame},
+    Word{"wrong_format", hal::Fault::WrongFormat}};
 inline constexpr std::array kSimulatedKinds{Word{"colour", SimulatedCameraPart::Kind::Colour},
                                             Word{"thermal", SimulatedCameraPart::Kind::Thermal}};
 
@@ -70,7 +68,8 @@ void visit(Visitor& v, BallSettings& ball) {
 template <class Visitor>
 void visit(Visitor& v, SimulatedCameraPart& part) {
   v.required("kind", part.kind, kSimulatedKinds, "8-bit RGB, or 16-bit radiometric");
-  v.required("position", part.position, kAnyNumber, "In the machine frame, mm; it looks at the ball");
+  v.required("position", part.position, kAnyNumber,
+             "In the machine frame, mm; it looks at the ball");
   v.required("h_fov", part.h_fov, Range::inside(0, 180), "Horizontal field of view, deg");
   v.optional("noise", part.noise, Range::between(0, 1000), "Standard deviation, counts");
 }
@@ -126,8 +125,7 @@ void visit(Visitor& v, SourceSettings& source) {
   v.required("camera", source.camera, "Name of the camera");
   v.optional("weight", source.weight, Range::above(0, 1000),
              "Share in a mixed view where other cameras see too");
-  v.optional("colour_map", source.colour_map, kColourMapNames,
-             "Colours of a one-channel camera");
+  v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
   v.optional("range", source.range, kAnyNumber,
              "First and last colour: degC for a radiometric camera, else percent of full scale");
   v.require(!source.range || (*source.range)[0] < (*source.range)[1], "range",
@@ -159,8 +157,9 @@ void visit(Visitor& v, ProcessSettings& process) {
   v.line(process.line);
   v.required("view", process.view, "Name of the view that is measured; it is never slowed down");
   v.required("camera", process.camera, "Which of its cameras is measured");
-  v.required("threshold", process.threshold, Range::between(-273, 10000),
-             "Where the hot spot begins: degC for a radiometric camera, else percent of full scale");
+  v.required(
+      "threshold", process.threshold, Range::between(-273, 10000),
+      "Where the hot spot begins: degC for a radiometric camera, else percent of full scale");
 }
 
 template <class Visitor>

@@ -17,7 +17,8 @@ void TomlReader::refuse_unknown_keys() {
     if (std::find(known_.begin(), known_.end(), given) != known_.end()) continue;
     std::string allowed;
     for (const auto& known : known_) allowed += (allowed.empty() ? "" : ", ") + known;
-    finding_.note_unknown(line_of(node), name(std::string(given)), "is no key; there are: " + allowed);
+    finding_.note_unknown(line_of(node), name(std::string(given)),
+                          "is no key; there are: " + allowed);
   }
 }
 
@@ -36,7 +37,8 @@ const toml::node* TomlReader::find(const char* key) {
 const toml::table* TomlReader::find_table(const char* key) {
   const toml::node* node = find(key);
   if (!node) return nullptr;
-  if (!node->is_table()) finding_.note(line_of(*node), name(key), "must be a table: [" + name(key) + "]");
+  if (!node->is_table())
+    finding_.note(line_of(*node), name(key), "must be a table: [" + name(key) + "]");
   return node->as_table();
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <toml++/toml.h>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
 
 #include "app/config/constraint.h"
@@ -78,13 +78,14 @@ class TomlReader {
       }
       allowed += (allowed.empty() ? "" : ", ") + std::string(word.name);
     }
-    finding_.note(line_of(*node), name(key), describe(*node) + " is not allowed; use one of: " + allowed);
+    finding_.note(line_of(*node), name(key),
+                  describe(*node) + " is not allowed; use one of: " + allowed);
   }
 
   /// A word that stands for itself.
   template <std::size_t N>
-  void optional(const char* key, std::string& value,
-                const std::array<std::string_view, N>& words, const char* text) {
+  void optional(const char* key, std::string& value, const std::array<std::string_view, N>& words,
+                const char* text) {
     std::array<Word<std::string_view>, N> named;
     for (std::size_t i = 0; i < N; ++i) named[i] = {words[i], words[i]};
     std::string_view chosen = value;
@@ -121,9 +122,7 @@ class TomlReader {
   void refuse_unknown_keys();
 
  private:
-  static int line_of(const toml::node& node) {
-    return static_cast<int>(node.source().begin.line);
-  }
+  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
   static std::string describe(const toml::node& node);
 
   template <class T>

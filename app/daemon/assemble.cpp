@@ -32,7 +32,8 @@ Result<optics::BallModel> ball_model(const BallSettings& ball) {
 Result<optics::BallProjection> ball_projection(const CameraSettings& camera,
                                                const hal::StreamFormat& format) {
   const BallSettings& ball = camera.ball;
-  const Numbers2 radii = ball.radii.value_or(Numbers2{ball.radius.value_or(0), ball.radius.value_or(0)});
+  const Numbers2 radii =
+      ball.radii.value_or(Numbers2{ball.radius.value_or(0), ball.radius.value_or(0)});
   const optics::Outline outline{{ball.centre[0], ball.centre[1]}, radii[0], radii[1], ball.angle};
   if (auto placed = optics::check_outline(outline, format.width, format.height); !placed) {
     return fail("camera " + camera.name + ": " + placed.error().message);
@@ -68,8 +69,12 @@ std::size_t index_of(const std::vector<CameraSettings>& cameras, const std::stri
 Result<ViewPlan> plan_view(const Configuration& configuration, std::size_t index,
                            const PipelinePlan& plan) {
   const ViewSettings& view = configuration.views[index];
-  auto projection = optics::ViewProjection::make(
-      {view.kind, {view.yaw, view.pitch, view.roll}, view.h_fov, view.v_fov, view.width, view.height});
+  auto projection = optics::ViewProjection::make({view.kind,
+                                                  {view.yaw, view.pitch, view.roll},
+                                                  view.h_fov,
+                                                  view.v_fov,
+                                                  view.width,
+                                                  view.height});
   if (!projection) return fail("view " + view.name + ": " + projection.error().message);
   ViewPlan planned{index, view.name, *projection, {}, view.combine, view.interpolation, {}};
   for (const SourceSettings& source : view.sources) {

@@ -10,7 +10,7 @@ namespace orbwatch::app {
 
 /// The list of camera back-ends: makes the camera that `settings` describe. Simulated ones look
 /// into `machine`.
-std::unique_ptr<hal::Camera> make_camera(
-    const CameraSettings& settings, const std::shared_ptr<const simulation::Machine>& machine);
+std::unique_ptr<hal::Camera> make_camera(const CameraSettings& settings,
+                                         const std::shared_ptr<const simulation::Machine>& machine);
 
 }  // namespace orbwatch::app

@@ -52,8 +52,9 @@ std::optional<Arguments> parse(int argc, char** argv, int& exit_code) {
     if (option == '?') exit_code = 2;
   }
   if (exit_code == 0 && (!arguments.config || optind < argc)) {
-    log_line(LogLevel::Error, !arguments.config ? "--config FILE is missing; see --help"
-                                                : std::string("unexpected argument ") + argv[optind]);
+    log_line(LogLevel::Error, !arguments.config
+                                  ? "--config FILE is missing; see --help"
+                                  : std::string("unexpected argument ") + argv[optind]);
     exit_code = 2;
   }
   return exit_code == 0 ? std::optional(arguments) : std::nullopt;

@@ -1,23 +1,11 @@
 #include "app/dds/dds_sink.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/dds/dds_log.h"
 #include "app/dds/topic_names.h"
 
 namespace orbwatch::app {
-
-namespace {
-
-TimeMessage to_message(std::chrono::system_clock::time_point utc) {
-  const auto second = std::chrono::floor<std::chrono::seconds>(utc);
-  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(utc - second);
-  return {static_cast<std::int32_t>(second.time_since_epoch().count()),
-          static_cast<std::uint32_t>(rest.count())};
-}
-
-}  // namespace
 
 DdsSink::Channel::Channel(const std::string& prefix, const std::string& view_name)
     : name(view_name),

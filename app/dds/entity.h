@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dds/dds.h>
+
 #include <chrono>
 #include <cstdint>
 #include <memory>

@@ -4,12 +4,11 @@
 #include <vector>
 
 #include "app/dds/image_message.h"
+#include "app/dds/time_message.h"
 #include "app/dds/topic_writer.h"
 #include "proc/image/image_view.h"
 
 namespace orbwatch::app {
-
-using TimeMessage = builtin_interfaces_msg_dds__Time_;
 
 /// One plane of a view as an image topic wants it.
 struct ImagePlane {

@@ -26,8 +26,8 @@ orbwatch_msgs_msg_dds__Signals_ signals_message(const signals::Signals& signals)
 
 }  // namespace
 
-const ProcessStateMessage& ProcessStateComposer::compose(
-    const Status& status, const builtin_interfaces_msg_dds__Time_& stamp) {
+const ProcessStateMessage& ProcessStateComposer::compose(const Status& status,
+                                                         const TimeMessage& stamp) {
   const std::size_t cameras = std::min(status.camera_count, kMaxCameras);
   for (std::size_t i = 0; i < cameras; ++i) cameras_[i] = camera_message(status.cameras[i]);
   const std::size_t views = std::min({status.view_count, kMaxViews, view_names_.size()});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/dds/idl/process_state.h"
+#include "app/dds/time_message.h"
 #include "app/pipeline/status.h"
 
 namespace orbwatch::app {
@@ -20,8 +21,7 @@ class ProcessStateComposer {
       : view_names_(std::move(view_names)) {}
 
   /// The message; valid until the next call. `stamp` is the Status' stamp in UTC.
-  const ProcessStateMessage& compose(const Status& status,
-                                     const builtin_interfaces_msg_dds__Time_& stamp);
+  const ProcessStateMessage& compose(const Status& status, const TimeMessage& stamp);
 
  private:
   std::vector<std::string> view_names_;

@@ -24,10 +24,6 @@ double milliseconds_between(dds_time_t earlier, dds_time_t later) {
   return (static_cast<double>(later) - static_cast<double>(earlier)) * 1e-6;
 }
 
-dds_time_t to_dds_time(const builtin_interfaces_msg_dds__Time_& time) {
-  return time.sec * DDS_NSECS_IN_SEC + time.nanosec;
-}
-
 }  // namespace
 
 Subscription::Subscription(std::string topic, const dds_topic_descriptor_t& type, Qos qos)
@@ -46,16 +42,15 @@ Result<> Subscription::open(const Entity& participant) {
 }
 
 Result<> Subscription::take() {
-  for (;;) {
-    std::array<void*, kDepth> samples{};  // empty: DDS lends its own
-    std::array<dds_sample_info_t, kDepth> infos{};
-    const dds_return_t count =
-        dds_take(reader_.get(), samples.data(), infos.data(), samples.size(), kDepth);
-    if (count < 0) return tl::unexpected(dds_error("take from " + report_.topic, count));
-    if (count == 0) break;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      if (infos[i].valid_data) this->count(samples[i], infos[i]);
-    }
+  std::array<void*, kDepth> samples{};  // empty: DDS lends its own
+  std::array<dds_sample_info_t, kDepth> infos{};
+  const dds_return_t count =
+      dds_take(reader_.get(), samples.data(), infos.data(), samples.size(), kDepth);
+  if (count < 0) return tl::unexpected(dds_error("take from " + report_.topic, count));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    if (infos[i].valid_data) this->count(samples[i], infos[i]);
+  }
+  if (count > 0) {
     const dds_return_t returned = dds_return_loan(reader_.get(), samples.data(), count);
     if (returned < 0) return tl::unexpected(dds_error("return to " + report_.topic, returned));
   }
@@ -82,7 +77,7 @@ void Subscription::count(const void* sample, const dds_sample_info_t& info) {
   last_written_ = info.source_timestamp;
   const dds_time_t now = dds_time();
   interval_.since_write_ms += milliseconds_between(info.source_timestamp, now);
-  interval_.since_exposure_ms += milliseconds_between(to_dds_time(stamp(sample)), now);
+  interval_.since_exposure_ms += milliseconds_between(since_epoch(stamp(sample)).count(), now);
 }
 
 std::string Subscription::line(double seconds) {
@@ -125,7 +120,7 @@ Result<> ImageSubscription::accept(const void* sample) {
   return {};
 }
 
-builtin_interfaces_msg_dds__Time_ ImageSubscription::stamp(const void* sample) const {
+TimeMessage ImageSubscription::stamp(const void* sample) const {
   return static_cast<const ImageMessage*>(sample)->header.stamp;
 }
 
@@ -157,7 +152,7 @@ Result<> ProcessStateSubscription::accept(const void* sample) {
   return {};
 }
 
-builtin_interfaces_msg_dds__Time_ ProcessStateSubscription::stamp(const void* sample) const {
+TimeMessage ProcessStateSubscription::stamp(const void* sample) const {
   return static_cast<const ProcessStateMessage*>(sample)->stamp;
 }
 

@@ -9,6 +9,7 @@
 #include "app/dds/entity.h"
 #include "app/dds/image_message.h"
 #include "app/dds/process_state.h"
+#include "app/dds/time_message.h"
 
 namespace orbwatch::app {
 
@@ -35,7 +36,7 @@ class Subscription {
   Result<> open(const Entity& participant);
   const Entity& reader() const { return reader_; }
 
-  /// Takes all that has arrived, without waiting. Error: DDS refuses.
+  /// Takes what DDS holds at this moment, without waiting. Error: DDS refuses.
   Result<> take();
 
   /// One line on the time since the last call, `seconds` long: rate, latest content, latency.
@@ -52,7 +53,7 @@ class Subscription {
   /// Checks and keeps what is needed of a sample, which is valid during the call only.
   virtual Result<> accept(const void* sample) = 0;
   /// When the newest sample's exposure began.
-  virtual builtin_interfaces_msg_dds__Time_ stamp(const void* sample) const = 0;
+  virtual TimeMessage stamp(const void* sample) const = 0;
   /// The newest sample in a few words.
   virtual std::string describe() const = 0;
 
@@ -86,7 +87,7 @@ class ImageSubscription final : public Subscription {
 
  private:
   Result<> accept(const void* sample) override;
-  builtin_interfaces_msg_dds__Time_ stamp(const void* sample) const override;
+  TimeMessage stamp(const void* sample) const override;
   std::string describe() const override;
 
   bool keep_;
@@ -101,7 +102,7 @@ class ProcessStateSubscription final : public Subscription {
 
  private:
   Result<> accept(const void* sample) override;
-  builtin_interfaces_msg_dds__Time_ stamp(const void* sample) const override;
+  TimeMessage stamp(const void* sample) const override;
   std::string describe() const override;
 
   std::string newest_;

@@ -222,9 +222,9 @@ bool ModbusFront::answer_frames(Connection& connection) {
     if (frame.size() < kPrefix + length) break;
     const Answered answered =
         answer_(connection.socket.get(), frame.first(kPrefix + length), connection.may_write);
-    if (answered != Answered::Broken) ++counters_.answered;
-    if (answered != Answered::Done) ++counters_.refused;
-    if (answered == Answered::Broken) return false;
+    if (answered == Answered::NotModbus || answered == Answered::Refused) ++counters_.refused;
+    if (answered == Answered::NotModbus || answered == Answered::NotTaken) return false;
+    ++counters_.answered;
     done += kPrefix + length;
   }
   if (done == 0) return true;

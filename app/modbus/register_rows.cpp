@@ -154,7 +154,7 @@ std::vector<Row> system_block() {
             "Requests answered, with or without an exception",
             [](S s, Index) { return low_word(s.server.answered); }),
       input(kBase + 22, Type::U32, "modbus_refused", kCounter,
-            "Requests answered with an exception, and frames that were not Modbus",
+            "Requests answered with an exception, or not at all because they were not Modbus",
             [](S s, Index) { return low_word(s.server.refused); }),
       input(kBase + 24, Type::U32, "modbus_dropped", kCounter,
             "Connections the server ended: too many, too slow, or garbage",

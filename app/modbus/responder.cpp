@@ -51,7 +51,7 @@ Responder::Responder(const RegisterMap& map, CommandHandler handler, TakeSnapsho
 
 Answered Responder::answer(int socket, std::span<const std::uint8_t> frame, bool may_write) {
   const auto pdu = frame.subspan(kHeader);
-  if (pdu[0] >= 0x80) return Answered::Broken;  // marks an answer, not a request
+  if (pdu[0] >= 0x80) return Answered::NotModbus;  // marks an answer, not a request
   modbus_set_socket(context_.get(), socket);
   if (!is_ours(frame[kUnit])) return refuse(frame, Exception::GatewayTargetFailed);
   if (pdu[0] == kEncapsulatedInterface) return answer_identification(socket, frame);
@@ -71,7 +71,7 @@ Answered Responder::answer(int socket, std::span<const std::uint8_t> frame, bool
   fill_image(snapshot);
   const int sent =
       modbus_reply(context_.get(), frame.data(), static_cast<int>(frame.size()), image_.get());
-  return sent < 0 ? Answered::Broken : Answered::Done;
+  return sent < 0 ? Answered::NotTaken : Answered::Done;
 }
 
 std::optional<Exception> Responder::check_access(const Request& request, bool may_write) const {
@@ -85,7 +85,7 @@ std::optional<Exception> Responder::check_access(const Request& request, bool ma
 Answered Responder::refuse(std::span<const std::uint8_t> frame, Exception exception) {
   const int sent =
       modbus_reply_exception(context_.get(), frame.data(), static_cast<unsigned int>(exception));
-  return sent < 0 ? Answered::Broken : Answered::Refused;
+  return sent < 0 ? Answered::NotTaken : Answered::Refused;
 }
 
 Answered Responder::answer_identification(int socket, std::span<const std::uint8_t> frame) {
@@ -97,7 +97,7 @@ Answered Responder::answer_identification(int socket, std::span<const std::uint8
   answer[5] = static_cast<std::uint8_t>(length);
   answer.insert(answer.end(), pdu->begin(), pdu->end());
   const ssize_t sent = ::send(socket, answer.data(), answer.size(), MSG_NOSIGNAL);
-  return sent == static_cast<ssize_t>(answer.size()) ? Answered::Done : Answered::Broken;
+  return sent == static_cast<ssize_t>(answer.size()) ? Answered::Done : Answered::NotTaken;
 }
 
 void Responder::fill_image(const Snapshot& snapshot) {

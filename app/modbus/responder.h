@@ -18,7 +18,9 @@ namespace orbwatch::app::modbus {
 enum class Answered : std::uint8_t {
   Done,
   Refused,  ///< with an exception
-  Broken,   ///< not: no Modbus, or the client does not take answers; its connection is of no use
+  // Not, and the connection is of no more use:
+  NotModbus,
+  NotTaken,  ///< the client does not read, or it is gone
 };
 
 /// Answers one request after the other. libmodbus encodes and sends; it is only ever handed

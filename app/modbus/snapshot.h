@@ -11,7 +11,7 @@ namespace orbwatch::app::modbus {
 /// What the server has done since it was started.
 struct Statistics {
   std::uint64_t answered = 0;     ///< requests, with or without an exception
-  std::uint64_t refused = 0;      ///< requests answered with an exception, and frames not of Modbus
+  std::uint64_t refused = 0;      ///< answered with an exception, or not at all: no Modbus
   std::uint64_t dropped = 0;      ///< connections the server ended: too many, too slow, or garbage
   std::uint64_t connections = 0;  ///< open now
 };

@@ -10,8 +10,9 @@ remap::ColourMap::Table colour_map_table(std::string_view name) {
     std::string_view name;
     int code;
   };
-  constexpr std::array kMaps{Named{"inferno", cv::COLORMAP_INFERNO}, Named{"turbo", cv::COLORMAP_TURBO},
-                             Named{"hot", cv::COLORMAP_HOT}, Named{"viridis", cv::COLORMAP_VIRIDIS}};
+  constexpr std::array kMaps{Named{"inferno", cv::COLORMAP_INFERNO},
+                             Named{"turbo", cv::COLORMAP_TURBO}, Named{"hot", cv::COLORMAP_HOT},
+                             Named{"viridis", cv::COLORMAP_VIRIDIS}};
   static_assert(kMaps.size() + 1 == kColourMapNames.size());
 
   cv::Mat ramp(1, 256, CV_8U), bgr;

@@ -8,8 +8,8 @@
 namespace orbwatch::app {
 
 /// The colour maps there are: OpenCV's of these names, and plain grey.
-inline constexpr std::array<std::string_view, 5> kColourMapNames{"grey", "inferno", "turbo",
-                                                                 "hot", "viridis"};
+inline constexpr std::array<std::string_view, 5> kColourMapNames{"grey", "inferno", "turbo", "hot",
+                                                                 "viridis"};
 
 /// The 256 entries of a map. `name` is one of kColourMapNames.
 remap::ColourMap::Table colour_map_table(std::string_view name);

@@ -54,7 +54,8 @@ cv::Mat to_bgr(const Picture& picture) {
 cv::Mat with_alpha(const cv::Mat& picture, const ImageView<const std::uint8_t>& validity) {
   cv::Mat bgra;
   cv::cvtColor(picture, bgra, picture.channels() == 1 ? cv::COLOR_GRAY2BGRA : cv::COLOR_BGR2BGRA);
-  const cv::Mat seen(validity.height, validity.width, CV_8U, const_cast<std::uint8_t*>(validity.data),
+  const cv::Mat seen(validity.height, validity.width, CV_8U,
+                     const_cast<std::uint8_t*>(validity.data),
                      static_cast<std::size_t>(validity.stride));
   cv::Mat alpha;
   cv::Mat(seen == static_cast<int>(Validity::Seen))
@@ -67,8 +68,8 @@ cv::Mat with_alpha(const cv::Mat& picture, const ImageView<const std::uint8_t>& 
 
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   static std::atomic<unsigned> serial{0};
-  const std::string temporary = path.string() + "." + std::to_string(::getpid()) + "-" +
-                                std::to_string(serial++) + ".part";
+  const std::string temporary =
+      path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
   const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (file < 0) return cannot_write(path);
   const bool whole = write_all(file, bytes) && ::fsync(file) == 0;
@@ -86,7 +87,8 @@ Result<> check_picture_name(const std::filesystem::path& path, PixelFormat forma
   const std::string extension = lower_extension(path);
   if (extension == ".png") return {};
   if (extension != ".jpg" && extension != ".jpeg") {
-    return fail(path.string() + ": unknown kind of picture; its name must end in .png, .jpg or .jpeg");
+    return fail(path.string() +
+                ": unknown kind of picture; its name must end in .png, .jpg or .jpeg");
   }
   if (transparency) return fail(path.string() + ": JPEG has no transparency; write a .png");
   if (info(format).bytes_per_sample == 2) {
@@ -97,7 +99,8 @@ Result<> check_picture_name(const std::filesystem::path& path, PixelFormat forma
 
 Result<> write_picture(const std::filesystem::path& path, const Picture& picture,
                        const ImageView<const std::uint8_t>& validity) {
-  if (auto named = check_picture_name(path, picture.format, !validity.empty()); !named) return named;
+  if (auto named = check_picture_name(path, picture.format, !validity.empty()); !named)
+    return named;
   std::vector<std::uint8_t> bytes;
   try {
     const cv::Mat bgr = to_bgr(picture);

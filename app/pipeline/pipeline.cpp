@@ -51,9 +51,9 @@ Result<> Pipeline::start(std::vector<Sink*> sinks) {
   last_roll_ = hal::Clock::now();
   thread_ = std::thread([this] { run(); });
   for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    auto started = plan_.cameras[i]->start(
-        [this, i](hal::Frame frame) { on_frame(i, std::move(frame)); },
-        [this, i](const hal::FaultReport& report) { on_fault(i, report); });
+    auto started =
+        plan_.cameras[i]->start([this, i](hal::Frame frame) { on_frame(i, std::move(frame)); },
+                                [this, i](const hal::FaultReport& report) { on_fault(i, report); });
     if (!started) {
       stop();
       return started;
@@ -148,8 +148,8 @@ void Pipeline::measure(const View& view, bool delivered) {
   const signals::HotSpot spot =
       wide ? detector_->measure(view.radiometric, view.validity, plan.threshold)
            : detector_->measure(view.luminance, view.validity, plan.threshold);
-  const double full_scale = wide ? std::numeric_limits<std::uint16_t>::max()
-                                 : std::numeric_limits<std::uint8_t>::max();
+  const double full_scale =
+      wide ? std::numeric_limits<std::uint16_t>::max() : std::numeric_limits<std::uint8_t>::max();
   status_.signals = signals::hot_spot_signals(spot, plan.scale, full_scale);
 }
 
@@ -161,11 +161,13 @@ hal::Clock::duration Pipeline::deadline() const {
 }
 
 void Pipeline::note_timing(hal::Clock::duration took) {
-  const double load = std::chrono::duration<double>(took) / std::chrono::duration<double>(deadline());
+  const double load =
+      std::chrono::duration<double>(took) / std::chrono::duration<double>(deadline());
   load_of_second_ = std::max(load_of_second_, load);
   const bool overran = load > 1;
   if (overran && status_.overruns++ == 0) {
-    log_line(LogLevel::Warning, "a frame set took longer than its deadline; display views slow down");
+    log_line(LogLevel::Warning,
+             "a frame set took longer than its deadline; display views slow down");
   }
   const double sets_per_second = 1 / std::chrono::duration<double>(deadline()).count();
   throttle_.note(overran, load < 0.5, sets_per_second);

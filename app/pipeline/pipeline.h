@@ -39,8 +39,8 @@ struct PipelinePlan {
   std::optional<MeasurementPlan> measurement;
   hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
   hal::Clock::duration sync_window = std::chrono::milliseconds(10);
-  std::size_t workers = 1;      ///< threads besides the pipeline's own
-  std::size_t view_buffers = 6; ///< per view, shared with the sinks
+  std::size_t workers = 1;       ///< threads besides the pipeline's own
+  std::size_t view_buffers = 6;  ///< per view, shared with the sinks
 };
 
 /// Frames in, views and status out, on one thread and its workers. Nothing here waits for a sink.

@@ -42,7 +42,8 @@ class SecondMeter {
   /// Nearest rank among the first `kept` samples; 0 without any.
   double percentile(std::size_t kept, double share) {
     if (kept == 0) return 0;
-    const auto rank = std::min(kept - 1, static_cast<std::size_t>(share * static_cast<double>(kept)));
+    const auto rank =
+        std::min(kept - 1, static_cast<std::size_t>(share * static_cast<double>(kept)));
     const auto at = samples_.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(samples_.begin(), at, samples_.begin() + static_cast<std::ptrdiff_t>(kept));
     return static_cast<double>(*at);

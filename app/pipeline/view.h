@@ -14,19 +14,19 @@ namespace orbwatch::app {
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
 /// memory comes from the view's pool and returns to it with the last ViewPtr.
 struct View {
-  std::size_t index = 0;      ///< place in the configuration's list of views
-  std::string_view name;      ///< lives as long as the pipeline
+  std::size_t index = 0;  ///< place in the configuration's list of views
+  std::string_view name;  ///< lives as long as the pipeline
   std::uint64_t frame_set = 0;
-  hal::TimePoint stamp;       ///< exposure start of the frame set
+  hal::TimePoint stamp;  ///< exposure start of the frame set
 
-  ImageView<std::uint8_t> colour;     ///< RGB, what people look at: blended, colour-mapped
-  ImageView<std::uint8_t> validity;   ///< one Validity per pixel
+  ImageView<std::uint8_t> colour;    ///< RGB, what people look at: blended, colour-mapped
+  ImageView<std::uint8_t> validity;  ///< one Validity per pixel
   /// What is measured, one of the two, raw and never colour-mapped; empty unless the view measures.
-  ImageView<std::uint8_t> luminance;      ///< 8 bit
-  ImageView<std::uint16_t> radiometric;   ///< 16 bit counts as the camera gave them
+  ImageView<std::uint8_t> luminance;     ///< 8 bit
+  ImageView<std::uint16_t> radiometric;  ///< 16 bit counts as the camera gave them
 
-  std::vector<std::uint8_t> bytes;    ///< behind colour, validity and luminance
-  std::vector<std::uint16_t> words;   ///< behind radiometric
+  std::vector<std::uint8_t> bytes;   ///< behind colour, validity and luminance
+  std::vector<std::uint16_t> words;  ///< behind radiometric
 };
 
 using ViewPtr = std::shared_ptr<const View>;

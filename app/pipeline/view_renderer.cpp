@@ -39,7 +39,9 @@ ViewRenderer::ViewRenderer(ViewPlan plan) : plan_(std::move(plan)) {
   for (const ViewSource& source : plan_.sources) {
     Source compiled{remap::CoordinateGrid(plan_.projection, source.ball, source.format.width,
                                           source.format.height),
-                    {}, {}, {}};
+                    {},
+                    {},
+                    {}};
     if (plan_.sources.size() > 1) compiled.rgb.resize(pixels * 3);
     if (is_one_channel(source.format.format)) {
       is_sixteen_bit(source.format.format) ? compiled.counts.resize(pixels)
@@ -93,8 +95,7 @@ void ViewRenderer::compile_weights() {
 View ViewRenderer::make_view() const {
   const int width = plan_.projection.width(), height = plan_.projection.height();
   const auto pixels = static_cast<std::size_t>(width) * height;
-  const bool wide =
-      plan_.measured && is_sixteen_bit(plan_.sources[*plan_.measured].format.format);
+  const bool wide = plan_.measured && is_sixteen_bit(plan_.sources[*plan_.measured].format.format);
   const bool narrow = plan_.measured && !wide;
   View view;
   view.index = plan_.index;

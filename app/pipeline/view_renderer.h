@@ -68,9 +68,9 @@ class ViewRenderer {
  private:
   struct Source {
     remap::CoordinateGrid grid;
-    std::vector<std::uint8_t> rgb;       ///< its own picture when several are merged
-    std::vector<std::uint8_t> grey;      ///< one-channel values before the colour map
-    std::vector<std::uint16_t> counts;   ///< the same, 16 bit
+    std::vector<std::uint8_t> rgb;      ///< its own picture when several are merged
+    std::vector<std::uint8_t> grey;     ///< one-channel values before the colour map
+    std::vector<std::uint16_t> counts;  ///< the same, 16 bit
   };
 
   void render_rows(const hal::FrameSet& set, View& view, remap::TileRows rows);
@@ -83,8 +83,8 @@ class ViewRenderer {
 
   ViewPlan plan_;
   std::vector<Source> sources_;
-  std::vector<std::uint8_t> coverage_;  ///< per pixel the mask of sources that see it
-  std::vector<std::uint8_t> unseen_;    ///< per pixel the Validity when no camera delivers
+  std::vector<std::uint8_t> coverage_;        ///< per pixel the mask of sources that see it
+  std::vector<std::uint8_t> unseen_;          ///< per pixel the Validity when no camera delivers
   std::vector<remap::MergeWeights> weights_;  ///< by the mask of sources that deliver
   std::size_t delivering_ = 0;                ///< that mask for the set under way
   bool measured_delivers_ = false;

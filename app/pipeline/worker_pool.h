@@ -22,7 +22,8 @@ class WorkerPool {
   /// work must not throw. Does not allocate.
   template <class Work>
   void run(int bands, Work& work) {
-    run_bands(bands, [](void* context, int band) { (*static_cast<Work*>(context))(band); }, &work);
+    run_bands(
+        bands, [](void* context, int band) { (*static_cast<Work*>(context))(band); }, &work);
   }
 
   std::size_t threads() const { return threads_.size(); }

@@ -5,9 +5,9 @@
 
 namespace orbwatch {
 
-/// A picture that somebody else owns: `height` rows of `width` pixels, each of `channels` samples of
-/// type T, interleaved. `stride` is the distance between rows in samples (not bytes) and may exceed
-/// width * channels. Copying copies the reference, never the samples. Reentrant.
+/// A picture that somebody else owns: `height` rows of `width` pixels, each of `channels` samples
+/// of type T, interleaved. `stride` is the distance between rows in samples (not bytes) and may
+/// exceed width * channels. Copying copies the reference, never the samples. Reentrant.
 template <class T>
 struct ImageView {
   T* data = nullptr;
@@ -21,8 +21,7 @@ struct ImageView {
   bool empty() const { return data == nullptr; }
 
   operator ImageView<const T>() const  // NOLINT(google-explicit-constructor): as T* to const T*
-    requires(!std::is_const_v<T>)
-  {
+      requires(!std::is_const_v<T>) {
     return {data, width, height, channels, stride};
   }
 };

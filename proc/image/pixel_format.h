@@ -41,7 +41,8 @@ constexpr int row_bytes(PixelFormat format, int width) {
   return width * info(format).channels * info(format).bytes_per_sample;
 }
 
-/// From Y'CbCr to R'G'B' as a camera states it (ITU-R BT.601 or BT.709; limited 16..235 or full 0..255).
+/// From Y'CbCr to R'G'B' as a camera states it (ITU-R BT.601 or BT.709; limited 16..235 or full
+/// 0..255).
 enum class ColourMatrix : std::uint8_t { Bt601, Bt709 };
 enum class ColourRange : std::uint8_t { Limited, Full };
 struct ColourSpace {

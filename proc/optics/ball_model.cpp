@@ -58,8 +58,8 @@ double BallModel::exact_rho(double phi) const {
   const double q = inverse_distance_;
   // Closed form within 1 degree of the root from d = 3 on, then Newton on
   // f(i) = 2i - asin(q sin i) - phi, which is monotone.
-  const double psi = 2 * std::atan2(closed_form_ * std::sin(phi / 2),
-                                    1 - closed_form_ * std::cos(phi / 2));
+  const double psi =
+      2 * std::atan2(closed_form_ * std::sin(phi / 2), 1 - closed_form_ * std::cos(phi / 2));
   double i = std::min((phi + psi) / 2, std::numbers::pi / 2);
   for (int step = 0; step < 8; ++step) {
     const double sin_psi = q * std::sin(i);

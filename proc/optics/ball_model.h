@@ -9,8 +9,8 @@ namespace orbwatch::optics {
 /// How a direction in space and a place on the ball's picture belong together for a camera that
 /// looks at the ball's centre: a law between two numbers, because everything turns about that axis.
 ///
-/// phi, radians: angle of the direction in which the ball shows the room, from the direction ball ->
-/// camera. rho: distance from the centre of the ball's picture as a share of its limb's radius.
+/// phi, radians: angle of the direction in which the ball shows the room, from the direction ball
+/// -> camera. rho: distance from the centre of the ball's picture as a share of its limb's radius.
 /// The room is taken to be far away compared with the ball's radius. Reentrant, immutable.
 class BallModel {
  public:
@@ -48,10 +48,10 @@ class BallModel {
   double exact_rho(double phi) const;
 
   Kind kind_;
-  double limit_;              ///< alpha / 2, radians
-  double inverse_distance_;   ///< ball radius / distance of the camera; 0 for an orthographic one
-  double closed_form_;        ///< cos(alpha/4)
-  double stretch_;            ///< the paper's sin(alpha/4)
+  double limit_;             ///< alpha / 2, radians
+  double inverse_distance_;  ///< ball radius / distance of the camera; 0 for an orthographic one
+  double closed_form_;       ///< cos(alpha/4)
+  double stretch_;           ///< the paper's sin(alpha/4)
 };
 
 }  // namespace orbwatch::optics

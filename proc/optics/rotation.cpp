@@ -31,13 +31,14 @@ Result<Mat3> checked_rotation(const Mat3& matrix) {
   constexpr double kTolerance = 1e-6;
   const Mat3 product = matrix * transposed(matrix);
   const Mat3 identity;
-  const double deviation = std::max({norm(product.row0 - identity.row0),
-                                     norm(product.row1 - identity.row1),
-                                     norm(product.row2 - identity.row2)});
+  const double deviation =
+      std::max({norm(product.row0 - identity.row0), norm(product.row1 - identity.row1),
+                norm(product.row2 - identity.row2)});
   const double determinant = dot(matrix.row0, cross(matrix.row1, matrix.row2));
   if (!(deviation <= kTolerance) || !(determinant > 0)) {
-    return fail("the matrix is no rotation: its rows must be unit vectors, perpendicular and "
-                "right-handed, to 1e-6");
+    return fail(
+        "the matrix is no rotation: its rows must be unit vectors, perpendicular and "
+        "right-handed, to 1e-6");
   }
   return matrix;
 }

@@ -13,8 +13,7 @@ Result<> check_size(const ViewSpec& spec) {
   const auto good = [](int side) { return side >= 1 && side <= kMaxSide; };
   if (good(spec.width) && good(spec.height)) return {};
   return fail("the view's size is " + std::to_string(spec.width) + "x" +
-              std::to_string(spec.height) + "; each side must be 1 to " +
-              std::to_string(kMaxSide));
+              std::to_string(spec.height) + "; each side must be 1 to " + std::to_string(kMaxSide));
 }
 
 Result<> check_angle(const char* name, double value, double limit, bool limit_allowed) {

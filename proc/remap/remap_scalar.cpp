@@ -16,7 +16,10 @@ class TileWriter {
 
   TileWriter(const CoordinateGrid& grid, const Picture& source, Interpolation interpolation,
              const ImageView<Sample>& out)
-      : grid_(grid), sampler_(source), nearest_(interpolation == Interpolation::Nearest), out_(out) {
+      : grid_(grid),
+        sampler_(source),
+        nearest_(interpolation == Interpolation::Nearest),
+        out_(out) {
     assert(source.width == grid.source_width() && source.height == grid.source_height());
     assert(out.width == grid.width() && out.height == grid.height());
     assert(out.channels == Sampler::kChannels);

@@ -76,8 +76,8 @@ struct YuyvSampler {
   void bilinear(const Neighbours& n, std::uint8_t* out) const {
     const std::uint8_t* top = source.row(n.v0);
     const std::uint8_t* bottom = source.row(n.v1);
-    const auto luminance = interpolate(top[2 * n.u0], top[2 * n.u1], bottom[2 * n.u0],
-                                       bottom[2 * n.u1], n.wu, n.wv);
+    const auto luminance =
+        interpolate(top[2 * n.u0], top[2 * n.u1], bottom[2 * n.u0], bottom[2 * n.u1], n.wu, n.wv);
     const int left = n.u0 / 2, right = std::min(left + 1, source.width / 2 - 1);
     constexpr std::int32_t kUnit = 1 << kFractionBits;
     const std::int32_t weight = (n.u0 % 2 * kUnit + n.wu) / 2;

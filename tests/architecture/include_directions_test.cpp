@@ -103,7 +103,8 @@ TEST(IncludeDirections, FollowTheArchitecture) {
       return include.quoted ? is_below(include.header, prefix) : include.header.starts_with(prefix);
     });
     // idlc writes headers without a folder.
-    const bool generated = include.quoted && is_below(include.file, "app/dds") && is_standard(include.header);
+    const bool generated =
+        include.quoted && is_below(include.file, "app/dds") && is_standard(include.header);
     const bool standard = !include.quoted && is_standard(include.header);
     EXPECT_TRUE(good || standard || generated) << include.file << " includes " << include.header;
   }
@@ -121,7 +122,8 @@ TEST(IncludeDirections, TheSimulationSeesNoBallModel) {
 
 TEST(Folders, AreThoseOfTheArchitecture) {
   std::vector<std::string> unexpected;
-  const std::vector<std::string> known{"app", "build", "hal", "out", "platform", "proc", "tests", "toolchains"};
+  const std::vector<std::string> known{"app",      "build", "hal",   "out",
+                                       "platform", "proc",  "tests", "toolchains"};
   for (const auto& entry : fs::directory_iterator(ORBWATCH_SOURCE_DIR)) {
     const std::string name = entry.path().filename().string();
     if (entry.is_directory() && !name.starts_with(".") &&

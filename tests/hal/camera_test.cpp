@@ -48,8 +48,11 @@ TEST(Camera, DeliversAgainAfterARestartAndNothingAfterStop) {
   for (int round = 0; round < 3; ++round) {
     std::promise<void> reached;
     std::atomic<int> frames{0};
-    ASSERT_TRUE(camera.start([&](const Frame&) { if (++frames == 10) reached.set_value(); },
-                             ignore_fault));
+    ASSERT_TRUE(camera.start(
+        [&](const Frame&) {
+          if (++frames == 10) reached.set_value();
+        },
+        ignore_fault));
     EXPECT_FALSE(camera.start([](const Frame&) {}, ignore_fault)) << "started twice";
     EXPECT_FALSE(camera.configure({})) << "configured while running";
     reached.get_future().wait();
@@ -84,12 +87,11 @@ TEST(Camera, ReportsAFaultOncePerChange) {
   ASSERT_TRUE(camera.configure({}));
   std::vector<Fault> faults;
   std::promise<void> reached;
-  ASSERT_TRUE(camera.start(
-      [](const Frame&) {},
-      [&](const FaultReport& report) {
-        faults.push_back(report.fault);
-        if (faults.size() == 4) reached.set_value();
-      }));
+  ASSERT_TRUE(camera.start([](const Frame&) {},
+                           [&](const FaultReport& report) {
+                             faults.push_back(report.fault);
+                             if (faults.size() == 4) reached.set_value();
+                           }));
   reached.get_future().wait();
   camera.stop();
   EXPECT_EQ(faults[0], Fault::ReadError);

@@ -76,7 +76,8 @@ struct ReferenceBall {
     const double right = image->u, down = -image->v;
     const double along = (right * c + down * s) * outline.rx;
     const double across = (-right * s + down * c) * outline.ry;
-    return Vec2{outline.centre.u + along * c - across * s, outline.centre.v + along * s + across * c};
+    return Vec2{outline.centre.u + along * c - across * s,
+                outline.centre.v + along * s + across * c};
   }
 };
 

@@ -19,10 +19,10 @@ inline bool acceptance_mode() { return std::getenv("ORBWATCH_ACCEPTANCE") != nul
 }  // namespace orbwatch::tests
 
 /// Ends the test when `path` is missing: skipped with the reason, or failed in acceptance mode.
-#define ORBWATCH_REQUIRE_FILE(path)                                                  \
-  do {                                                                               \
-    if (!std::filesystem::exists(path)) {                                            \
-      if (orbwatch::tests::acceptance_mode()) FAIL() << "missing: " << (path);       \
-      GTEST_SKIP() << "skipped, missing: " << (path);                                \
-    }                                                                                \
+#define ORBWATCH_REQUIRE_FILE(path)                                            \
+  do {                                                                         \
+    if (!std::filesystem::exists(path)) {                                      \
+      if (orbwatch::tests::acceptance_mode()) FAIL() << "missing: " << (path); \
+      GTEST_SKIP() << "skipped, missing: " << (path);                          \
+    }                                                                          \
   } while (false)

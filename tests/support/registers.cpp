@@ -69,9 +69,11 @@ void write_command(int port, std::uint16_t code, std::int32_t argument, std::uin
   ASSERT_TRUE(connection);
   const auto bits = static_cast<std::uint32_t>(argument);
   const std::array<std::uint16_t, 4> words{static_cast<std::uint16_t>(bits >> 16),
-                                           static_cast<std::uint16_t>(bits & 0xFFFF), code, sequence};
+                                           static_cast<std::uint16_t>(bits & 0xFFFF), code,
+                                           sequence};
   ASSERT_EQ(find_row("command_sequence").address - find_row("argument").address, 3);
-  EXPECT_EQ(modbus_write_registers(connection.get(), find_row("argument").address, 4, words.data()), 4);
+  EXPECT_EQ(modbus_write_registers(connection.get(), find_row("argument").address, 4, words.data()),
+            4);
 }
 
 }  // namespace orbwatch::tests

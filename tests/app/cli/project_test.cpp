@@ -51,7 +51,8 @@ class Project : public testing::Test {
   }
   std::string path(const std::string& name) const { return (folder.path() / name).string(); }
 
-  cv::Mat projected(const std::vector<std::string>& arguments, const std::string& name = "out.png") {
+  cv::Mat projected(const std::vector<std::string>& arguments,
+                    const std::string& name = "out.png") {
     std::vector<std::string> all = arguments;
     all.insert(all.end(), {"-o", path(name)});
     EXPECT_EQ(run(all), 0) << said;
@@ -122,11 +123,25 @@ class ProjectModels : public Project {
         for (const double pitch : {0, -70, 50}) {
           const optics::ViewSpec spec{ViewKind::Perspective, {yaw, pitch, 12}, 85, {}, 160, 120};
           std::vector<std::string> arguments{
-              photo.file.string(), "--model", name, "--ball",
+              photo.file.string(),
+              "--model",
+              name,
+              "--ball",
               text(photo.ball.centre.u) + "," + text(photo.ball.centre.v) + "," +
                   text(photo.ball.rx) + "," + text(photo.ball.ry) + "," + text(photo.ball.angle),
-              "--rotation", text(photo.rotation.yaw) + "," + text(photo.rotation.pitch) + "," + text(photo.rotation.roll),
-              "--yaw", text(yaw), "--pitch", text(pitch), "--roll", "12", "--h-fov", "85", "--size", "160x120"};
+              "--rotation",
+              text(photo.rotation.yaw) + "," + text(photo.rotation.pitch) + "," +
+                  text(photo.rotation.roll),
+              "--yaw",
+              text(yaw),
+              "--pitch",
+              text(pitch),
+              "--roll",
+              "12",
+              "--h-fov",
+              "85",
+              "--size",
+              "160x120"};
           if (kind != BallModel::Kind::Classical) {
             arguments.insert(arguments.end(), {"--alpha", text(photo.alpha)});
           }
@@ -134,7 +149,8 @@ class ProjectModels : public Project {
           ASSERT_EQ(mine.size(), cv::Size(160, 120));
           const Score score = compare(mine, photo, source, kind, spec);
           EXPECT_GT(score.compared, 20000) << name << " yaw " << yaw << " pitch " << pitch;
-          EXPECT_LE(score.off, score.compared / 1000) << name << " yaw " << yaw << " pitch " << pitch;
+          EXPECT_LE(score.off, score.compared / 1000)
+              << name << " yaw " << yaw << " pitch " << pitch;
         }
       }
     }
@@ -169,8 +185,10 @@ TEST_F(Project, KeepsDepthAndChannelsOfThePicture) {
     int type;
     cv::Scalar value;
   };
-  for (const Case& c : {Case{"g8.png", CV_8UC1, {200}}, {"g16.png", CV_16UC1, {40001}},
-                        {"c8.png", CV_8UC3, {10, 120, 250}}, {"c16.png", CV_16UC3, {1, 30000, 65535}},
+  for (const Case& c : {Case{"g8.png", CV_8UC1, {200}},
+                        {"g16.png", CV_16UC1, {40001}},
+                        {"c8.png", CV_8UC3, {10, 120, 250}},
+                        {"c16.png", CV_16UC3, {1, 30000, 65535}},
                         {"g8.jpg", CV_8UC1, {90}}}) {
     const std::string input = write(c.name, cv::Mat(80, 100, c.type, c.value));
     const cv::Mat out = projected(with_input(input));
@@ -197,11 +215,13 @@ TEST_F(Project, DistanceAndAlphaAreTwoWordsForOneThing) {
   const double alpha = BallModel::alpha_from_distance(12).value();
   std::ostringstream exact;
   exact << std::setprecision(17) << alpha;
-  std::vector<std::string> view{kOwnPhoto.string(), "--ball", "400,400,384", "--size", "200x100", "--yaw", "120"};
+  std::vector<std::string> view{kOwnPhoto.string(), "--ball", "400,400,384", "--size",
+                                "200x100",          "--yaw",  "120"};
   auto by_alpha = view, by_distance = view;
   by_alpha.insert(by_alpha.end(), {"--alpha", exact.str()});
   by_distance.insert(by_distance.end(), {"--distance", "12"});
-  EXPECT_EQ(cv::norm(projected(by_alpha, "a.png"), projected(by_distance, "b.png"), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(projected(by_alpha, "a.png"), projected(by_distance, "b.png"), cv::NORM_INF),
+            0);
 }
 
 TEST_F(Project, WritesJpegByTheNamesEnding) {
@@ -214,8 +234,9 @@ TEST_F(Project, WritesJpegByTheNamesEnding) {
 
 TEST_F(Project, HelpNamesEveryOption) {
   EXPECT_EQ(run({"--help"}), 0);
-  for (const char* option : {"--ball", "--alpha", "--distance", "--model", "--view", "--yaw", "--pitch",
-                             "--roll", "--h-fov", "--size", "--rotation", "--undefined", "--interpolation", "-o"}) {
+  for (const char* option :
+       {"--ball", "--alpha", "--distance", "--model", "--view", "--yaw", "--pitch", "--roll",
+        "--h-fov", "--size", "--rotation", "--undefined", "--interpolation", "-o"}) {
     EXPECT_NE(said.find(option), std::string::npos) << option;
   }
 }
@@ -257,7 +278,8 @@ TEST_P(ProjectMistake, IsOneLineAndNoFile) {
 
 std::vector<std::string> call(const std::string& input, const std::string& output,
                               std::vector<std::string> rest) {
-  rest.insert(rest.begin(), {"DIR/" + input, "-o", output.starts_with("/") ? output : "DIR/" + output});
+  rest.insert(rest.begin(),
+              {"DIR/" + input, "-o", output.starts_with("/") ? output : "DIR/" + output});
   return rest;
 }
 
@@ -265,38 +287,84 @@ INSTANTIATE_TEST_SUITE_P(
     All, ProjectMistake,
     testing::Values(
         Mistake{"NoSuchPicture", call("none.png", "o.png", kCentre), {"none.png"}},
-        Mistake{"TruncatedJpeg", call("cut.jpg", "o.png", {"--ball", "400,400,380", "--alpha", "346"}), {"cut.jpg"}},
+        Mistake{"TruncatedJpeg",
+                call("cut.jpg", "o.png", {"--ball", "400,400,380", "--alpha", "346"}),
+                {"cut.jpg"}},
         Mistake{"TruncatedPng", call("cut.png", "o.png", kCentre), {"cut.png"}},
         Mistake{"NoPicture", call("text.png", "o.png", kCentre), {"text.png", "JPEG", "PNG"}},
         Mistake{"EmptyPicture", call("empty.jpg", "o.png", kCentre), {"empty.jpg"}},
-        Mistake{"BallOutside", call("good.png", "o.png", {"--ball", "500,40,30", "--alpha", "340"}),
+        Mistake{"BallOutside",
+                call("good.png", "o.png", {"--ball", "500,40,30", "--alpha", "340"}),
                 {"outside of the picture", "100x80"}},
-        Mistake{"NoRadius", call("good.png", "o.png", {"--ball", "50,40,0", "--alpha", "340"}), {"radius"}},
-        Mistake{"NanBall", call("good.png", "o.png", {"--ball", "50,nan,30", "--alpha", "340"}), {"--ball", "nan"}},
-        Mistake{"TwoNumbers", call("good.png", "o.png", {"--ball", "50,40", "--alpha", "340"}), {"CX,CY,R"}},
-        Mistake{"AlphaTooSmall", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "180"}), {"(180, 360]"}},
-        Mistake{"AlphaTooLarge", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "361"}), {"(180, 360]"}},
-        Mistake{"AlphaNan", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "nan"}), {"--alpha", "finite"}},
-        Mistake{"CameraInBall", call("good.png", "o.png", {"--ball", "50,40,30", "--distance", "0.9"}), {"above 1"}},
-        Mistake{"NeitherAlphaNorDistance", call("good.png", "o.png", {"--ball", "50,40,30"}), {"--alpha", "--distance"}},
-        Mistake{"ClassicalWithAlpha", call("good.png", "o.png", {"--ball", "50,40,30", "--model", "classical", "--alpha", "340"}), {"neither"}},
-        Mistake{"SizeZero", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--size", "0x48"}), {"0x48", "16384"}},
-        Mistake{"SizeHuge", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--size", "16385x48"}), {"16384"}},
-        Mistake{"SizeWithoutCross", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--size", "640"}), {"WxH"}},
-        Mistake{"FovTooWide", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--h-fov", "180"}), {"h_fov", "below 180"}},
-        Mistake{"FovZero", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--h-fov", "0"}), {"h_fov"}},
-        Mistake{"YawNan", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--yaw", "nan"}), {"--yaw"}},
-        Mistake{"UnknownModel", call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--model", "best"}), {"exact, paper, classical"}},
+        Mistake{"NoRadius",
+                call("good.png", "o.png", {"--ball", "50,40,0", "--alpha", "340"}),
+                {"radius"}},
+        Mistake{"NanBall",
+                call("good.png", "o.png", {"--ball", "50,nan,30", "--alpha", "340"}),
+                {"--ball", "nan"}},
+        Mistake{"TwoNumbers",
+                call("good.png", "o.png", {"--ball", "50,40", "--alpha", "340"}),
+                {"CX,CY,R"}},
+        Mistake{"AlphaTooSmall",
+                call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "180"}),
+                {"(180, 360]"}},
+        Mistake{"AlphaTooLarge",
+                call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "361"}),
+                {"(180, 360]"}},
+        Mistake{"AlphaNan",
+                call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "nan"}),
+                {"--alpha", "finite"}},
+        Mistake{"CameraInBall",
+                call("good.png", "o.png", {"--ball", "50,40,30", "--distance", "0.9"}),
+                {"above 1"}},
+        Mistake{"NeitherAlphaNorDistance",
+                call("good.png", "o.png", {"--ball", "50,40,30"}),
+                {"--alpha", "--distance"}},
+        Mistake{"ClassicalWithAlpha",
+                call("good.png", "o.png",
+                     {"--ball", "50,40,30", "--model", "classical", "--alpha", "340"}),
+                {"neither"}},
+        Mistake{
+            "SizeZero",
+            call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--size", "0x48"}),
+            {"0x48", "16384"}},
+        Mistake{"SizeHuge",
+                call("good.png", "o.png",
+                     {"--ball", "50,40,30", "--alpha", "340", "--size", "16385x48"}),
+                {"16384"}},
+        Mistake{
+            "SizeWithoutCross",
+            call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--size", "640"}),
+            {"WxH"}},
+        Mistake{
+            "FovTooWide",
+            call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--h-fov", "180"}),
+            {"h_fov", "below 180"}},
+        Mistake{"FovZero",
+                call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--h-fov", "0"}),
+                {"h_fov"}},
+        Mistake{"YawNan",
+                call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--yaw", "nan"}),
+                {"--yaw"}},
+        Mistake{
+            "UnknownModel",
+            call("good.png", "o.png", {"--ball", "50,40,30", "--alpha", "340", "--model", "best"}),
+            {"exact, paper, classical"}},
         Mistake{"UnknownOption", call("good.png", "o.png", {"--bell", "50,40,30"}), {"--bell"}},
         Mistake{"MissingValue", call("good.png", "o.png", {"--ball"}), {"--ball"}},
         Mistake{"NoBall", call("good.png", "o.png", {"--alpha", "340"}), {"--ball"}},
         Mistake{"NoOutput", {"DIR/good.png", "--ball", "50,40,30", "--alpha", "340"}, {"-o"}},
         Mistake{"NoInput", {"-o", "DIR/o.png", "--ball", "50,40,30", "--alpha", "340"}, {"IN"}},
-        Mistake{"NoSuchFolder", call("good.png", "no/such/o.png", kCentre), {"no/such/o.png", "No such file"}},
+        Mistake{"NoSuchFolder",
+                call("good.png", "no/such/o.png", kCentre),
+                {"no/such/o.png", "No such file"}},
         Mistake{"OutputIsAFolder", call("good.png", "/proc/o.png", kCentre), {"/proc/o.png"}},
         Mistake{"UnknownEnding", call("good.png", "o.tiff", kCentre), {".png"}},
         Mistake{"DeepJpeg", call("deep.png", "o.jpg", kCentre), {"8 bit"}},
-        Mistake{"TransparentJpeg", call("good.png", "o.jpg", {"--ball", "50,40,30", "--alpha", "340", "--undefined", "transparent"}), {"transparency"}}),
+        Mistake{"TransparentJpeg",
+                call("good.png", "o.jpg",
+                     {"--ball", "50,40,30", "--alpha", "340", "--undefined", "transparent"}),
+                {"transparency"}}),
     [](const auto& mistake) { return mistake.param.name; });
 
 }  // namespace

@@ -70,42 +70,58 @@ TEST_P(ConfigurationRefusal, SaysFileLineKeyAndWhatIsAllowed) {
 INSTANTIATE_TEST_SUITE_P(
     All, ConfigurationRefusal,
     testing::Values(
-        Refusal{"UnknownKey", replaced("radius = 9", "radius = 9\nradios = 3"),
+        Refusal{"UnknownKey",
+                replaced("radius = 9", "radius = 9\nradios = 3"),
                 {"site.toml:8:", "camera.ball.radios", "radius"}},
         Refusal{"UnknownTable", "[bogus]\n" + kValid, {"site.toml:1:", "bogus", "modbus"}},
-        Refusal{"WrongType", replaced("alpha = 340", "alpha = \"wide\""),
+        Refusal{"WrongType",
+                replaced("alpha = 340", "alpha = \"wide\""),
                 {"site.toml:8:", "camera.ball.alpha", "above 180, at most 360"}},
         Refusal{"OutOfRange", replaced("alpha = 340", "alpha = 180"), {"site.toml:8:", "180"}},
         Refusal{"NotANumber", replaced("alpha = 340", "alpha = nan"), {"camera.ball.alpha", "nan"}},
         Refusal{"Infinite", replaced("[10, 10]", "[inf, 10]"), {"camera.ball.centre", "inf"}},
-        Refusal{"FractionForWhole", replaced("width = 64", "width = 64.5"),
+        Refusal{"FractionForWhole",
+                replaced("width = 64", "width = 64.5"),
                 {"view.width", "whole number, 1 to 16384"}},
         Refusal{"HugeSize", replaced("width = 64", "width = 16385"), {"view.width", "16384"}},
         Refusal{"ListTooShort", replaced("[10, 10]", "[10]"), {"camera.ball.centre", "2 numbers"}},
         Refusal{"Missing", replaced("radius = 9\n", ""), {"camera.ball.radius", "either"}},
-        Refusal{"BothAlphaAndDistance", replaced("alpha = 340", "alpha = 340\ndistance = 9"),
+        Refusal{"BothAlphaAndDistance",
+                replaced("alpha = 340", "alpha = 340\ndistance = 9"),
                 {"site.toml:8:", "either alpha or distance"}},
-        Refusal{"UnknownWord", replaced("\"replay\"", "\"webcam\""),
+        Refusal{"UnknownWord",
+                replaced("\"replay\"", "\"webcam\""),
                 {"site.toml:4:", "back_end", "webcam", "simulated, replay, v4l2"}},
-        Refusal{"BackEndWithoutTable", replaced("\"replay\"", "\"v4l2\""), {"back_end", "[camera.v4l2]"}},
-        Refusal{"NoSuchCamera", replaced("camera = \"a\"", "camera = \"b\""),
+        Refusal{"BackEndWithoutTable",
+                replaced("\"replay\"", "\"v4l2\""),
+                {"back_end", "[camera.v4l2]"}},
+        Refusal{"NoSuchCamera",
+                replaced("camera = \"a\"", "camera = \"b\""),
                 {"site.toml:16:", "\"b\"", "there are: a"}},
         Refusal{"BadName", replaced("\"front\"", "\"front door\""), {"view.name", "front door"}},
         Refusal{"ReservedName", replaced("\"front\"", "\"selected\""), {"view.name", "selected"}},
         Refusal{"NoCamera", "[console]\nenabled = true\n", {"camera", "1 to 4"}},
-        Refusal{"WideView", kValid + "[[view]]\nname='w'\nh_fov=200\nwidth=9\nheight=9\n[[view.source]]\ncamera='a'\n",
-                {"site.toml:18:", "h_fov", "below 180"}},
-        Refusal{"TwiceTheSameView", kValid + "[[view]]\nname='front'\nwidth=9\nheight=9\n[[view.source]]\ncamera='a'\n",
+        Refusal{
+            "WideView",
+            kValid +
+                "[[view]]\nname='w'\nh_fov=200\nwidth=9\nheight=9\n[[view.source]]\ncamera='a'\n",
+            {"site.toml:18:", "h_fov", "below 180"}},
+        Refusal{"TwiceTheSameView",
+                kValid + "[[view]]\nname='front'\nwidth=9\nheight=9\n[[view.source]]\ncamera='a'\n",
                 {"site.toml:18:", "twice"}},
-        Refusal{"NoRotation", replaced("alpha = 340", "alpha = 340\nrotation_matrix = [1,0,0, 0,1,0, 0,0,-1]"),
+        Refusal{"NoRotation",
+                replaced("alpha = 340", "alpha = 340\nrotation_matrix = [1,0,0, 0,1,0, 0,0,-1]"),
                 {"site.toml:9:", "rotation_matrix", "no rotation"}},
-        Refusal{"RangeUpsideDown", replaced("camera = \"a\"", "camera = \"a\"\nrange = [9, 3]"),
+        Refusal{"RangeUpsideDown",
+                replaced("camera = \"a\"", "camera = \"a\"\nrange = [9, 3]"),
                 {"view.source.range", "below"}},
-        Refusal{"ProcessWithoutView", kValid + "[process]\nview='x'\ncamera='a'\nthreshold=50\n",
+        Refusal{"ProcessWithoutView",
+                kValid + "[process]\nview='x'\ncamera='a'\nthreshold=50\n",
                 {"process.view", "\"x\"", "front"}},
-        Refusal{"PortOutOfRange", kValid + "[modbus]\nport = 70000\n", {"site.toml:19:", "0 to 65535"}},
+        Refusal{
+            "PortOutOfRange", kValid + "[modbus]\nport = 70000\n", {"site.toml:19:", "0 to 65535"}},
         Refusal{"NotToml", "[[camera\n", {"site.toml:1:", "not valid TOML"}},
-        Refusal{"TableExpected", "camera = 3\n" , {"site.toml:1:", "[[camera]]"}}),
+        Refusal{"TableExpected", "camera = 3\n", {"site.toml:1:", "[[camera]]"}}),
     [](const auto& refusal) { return refusal.param.name; });
 
 TEST(Configuration, MissingFileIsRefusedByName) {
@@ -115,7 +131,8 @@ TEST(Configuration, MissingFileIsRefusedByName) {
 }
 
 TEST(Configuration, ShippedFilesAreValid) {
-  const std::filesystem::path folder = std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
+  const std::filesystem::path folder =
+      std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;

@@ -48,8 +48,9 @@ class Daemon : public testing::Test {
 
   std::string write_config(const std::string& text) const {
     const auto path = folder.path() / "site.toml";
-    std::ofstream(path) << "[modbus]\nport = " << port << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain
-                        << "\n" << text;
+    std::ofstream(path) << "[modbus]\nport = " << port
+                        << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain << "\n"
+                        << text;
     return path.string();
   }
   Subprocess start(const std::string& config) const {
@@ -163,7 +164,8 @@ TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
   ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 0; })) << daemon.output();
   EXPECT_EQ(read("selected_view"), 0);
   write_command(port, 1, 1, 7);
-  EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 7 && read("selected_view") == 1; }));
+  EXPECT_TRUE(eventually(
+      daemon, [&] { return read("acknowledged_sequence") == 7 && read("selected_view") == 1; }));
   write_command(port, 1, 9, 8);
   EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 8; }));
   EXPECT_EQ(read("selected_view"), 1) << "there is no view 9";
@@ -172,14 +174,14 @@ TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
 }
 
 TEST_F(Daemon, LivesThroughAnUnpluggedCamera) {
-  const std::string faults =
-      "[[camera.fault]]\nfault = \"unplugged\"\nfrom = 20\nuntil = 60\n";
+  const std::string faults = "[[camera.fault]]\nfault = \"unplugged\"\nfrom = 20\nuntil = 60\n";
   Subprocess daemon = start(write_config(small_machine(faults)));
   EXPECT_TRUE(eventually(daemon, [&] { return read("system_state") == 2; })) << daemon.output();
   EXPECT_TRUE(eventually(daemon, [&] { return read("system_state") == 1; })) << daemon.output();
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0);
-  EXPECT_NE(daemon.output().find("thermal: camera is not connected"), std::string::npos) << daemon.output();
+  EXPECT_NE(daemon.output().find("thermal: camera is not connected"), std::string::npos)
+      << daemon.output();
 }
 
 TEST_F(Daemon, ReplaysARecordingAndMergesItsCameras) {
@@ -193,7 +195,8 @@ name = "colour"
 back_end = "replay"
 frame_rate = 15
 [camera.replay]
-source = ")" + (renders / "seq_spark").string() + R"("
+source = ")" + (renders / "seq_spark").string() +
+                             R"("
 [camera.ball]
 centre = [418.0, 388.41]
 radius = 352.007
@@ -205,7 +208,8 @@ back_end = "replay"
 frame_rate = 15
 kelvin_per_count = 0.04
 [camera.replay]
-source = ")" + (renders / "seq_thermal").string() + R"("
+source = ")" + (renders / "seq_thermal").string() +
+                             R"("
 [camera.ball]
 centre = [166.603, 131.779]
 radius = 115.21
@@ -230,10 +234,13 @@ camera = "thermal"
 threshold = 500
 )";
   Subprocess daemon = start(write_config(config));
-  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 24 && read("hot_spot_area") > 0; })) << daemon.output();
-  Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
-                     "orbwatch/merged/image_raw", "--save", folder.path().string(), "--seconds", "4"},
-                    folder.path() / "reader.log");
+  ASSERT_TRUE(eventually(daemon, [&] {
+    return read("frame_set") > 24 && read("hot_spot_area") > 0;
+  })) << daemon.output();
+  Subprocess reader(
+      {ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
+       "orbwatch/merged/image_raw", "--save", folder.path().string(), "--seconds", "4"},
+      folder.path() / "reader.log");
   EXPECT_EQ(reader.wait(), 0) << reader.output();
   // The melt pool runs around (-110, -50, 178), seen from the ball at (120, 60, 430). Taking the
   // room for far away costs up to asin(1/L), 8 degrees at its distance of 7 ball radii.

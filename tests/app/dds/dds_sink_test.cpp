@@ -55,10 +55,6 @@ std::uint64_t sum(const TopicStatistics& topic) {
   return topic.written + topic.unread + topic.blocked + topic.failed;
 }
 
-std::chrono::nanoseconds utc(const TimeMessage& stamp) {
-  return std::chrono::seconds(stamp.sec) + std::chrono::nanoseconds(stamp.nanosec);
-}
-
 class DdsSinkTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -99,7 +95,8 @@ TEST_F(DdsSinkTest, ColourArrivesBitExact) {
     EXPECT_EQ(message.data._length, view->bytes.size());
     EXPECT_EQ(std::memcmp(message.data._buffer, view->bytes.data(), view->bytes.size()), 0);
     const auto expected = hal::to_utc(view->stamp).time_since_epoch();
-    EXPECT_LT(std::chrono::abs(utc(message.header.stamp) - expected), std::chrono::seconds(1));
+    EXPECT_LT(std::chrono::abs(since_epoch(message.header.stamp) - expected),
+              std::chrono::seconds(1));
     return true;
   }));
 }
@@ -139,7 +136,7 @@ TEST_F(DdsSinkTest, CountsArriveAsMeasuredWithTheStampOfTheColour) {
     return true;
   }));
   ASSERT_TRUE(publish_until(sink_, view, colour, [&](const ImageMessage& message) {
-    EXPECT_EQ(utc(message.header.stamp), utc(stamp)) << "one frame set, one stamp";
+    EXPECT_EQ(since_epoch(message.header.stamp), since_epoch(stamp)) << "one frame set, one stamp";
     return true;
   }));
 }
@@ -192,7 +189,7 @@ TEST_F(DdsSinkTest, StateRoundTripsForALateJoiner) {
   const StateReader late;
   const auto look = [&](const ProcessStateMessage& state) {
     const auto expected = hal::to_utc(status.stamp).time_since_epoch();
-    EXPECT_LT(std::chrono::abs(utc(state.stamp) - expected), std::chrono::seconds(1));
+    EXPECT_LT(std::chrono::abs(since_epoch(state.stamp) - expected), std::chrono::seconds(1));
     EXPECT_EQ(state.frame_set, status.frame_set);
     EXPECT_EQ(state.system_state, 2);
     EXPECT_EQ(state.heartbeat, status.heartbeat);
@@ -214,7 +211,7 @@ TEST_F(DdsSinkTest, WhatIsNotValidStaysSo) {
   const StateReader reader;
   const auto look = [](const ProcessStateMessage& state) {
     EXPECT_EQ(state.heartbeat, 9u);
-    EXPECT_EQ(utc(state.stamp).count(), 0);
+    EXPECT_EQ(since_epoch(state.stamp).count(), 0);
     expect_no_signals(state);
   };
   ASSERT_TRUE(eventually([&] { return reader.take(look); }));
@@ -226,7 +223,7 @@ TEST_F(DdsSinkTest, StateHasTheStampOfItsImages) {
   const auto view = make_view(kFront, "front", 5, kWidth, kHeight);
   std::chrono::nanoseconds image_stamp{0};
   ASSERT_TRUE(publish_until(sink_, view, images, [&](const ImageMessage& message) {
-    image_stamp = utc(message.header.stamp);
+    image_stamp = since_epoch(message.header.stamp);
     return true;
   }));
   Status status;
@@ -234,8 +231,9 @@ TEST_F(DdsSinkTest, StateHasTheStampOfItsImages) {
   status.stamp = view->stamp;
   sink_.accept(status);
   ASSERT_TRUE(eventually([&] {
-    return states.take(
-        [&](const ProcessStateMessage& state) { EXPECT_EQ(utc(state.stamp), image_stamp); });
+    return states.take([&](const ProcessStateMessage& state) {
+      EXPECT_EQ(since_epoch(state.stamp), image_stamp);
+    });
   }));
 }
 

@@ -50,7 +50,7 @@ class ResponderTest : public testing::Test {
   RegisterMap map_;
   Snapshot snapshot_;
   std::unique_ptr<Responder> responder_;
-  Answered answered_ = Answered::Broken;
+  Answered answered_ = Answered::NotTaken;
   int sockets_[2] = {-1, -1};
   hal::FileDescriptor ends_[2];
 };
@@ -106,14 +106,14 @@ TEST_F(ResponderTest, AnswersDeviceIdentification) {
 
 TEST_F(ResponderTest, AFrameThatIsAnAnswerIsNotModbus) {
   EXPECT_TRUE(exchange(frame({0x84, 2})).empty());
-  EXPECT_EQ(answered_, Answered::Broken);
+  EXPECT_EQ(answered_, Answered::NotModbus);
 }
 
 TEST_F(ResponderTest, SaysWhenTheClientIsGone) {
   ends_[1] = hal::FileDescriptor();  // by swap: closed at the end of this statement
-  EXPECT_EQ(responder_->answer(sockets_[0], frame({4, 0, 0, 0, 1}), true), Answered::Broken);
-  EXPECT_EQ(responder_->answer(sockets_[0], frame({4, 9, 9, 0, 1}), true), Answered::Broken);
-  EXPECT_EQ(responder_->answer(sockets_[0], frame({43, 14, 1, 0}), true), Answered::Broken);
+  EXPECT_EQ(responder_->answer(sockets_[0], frame({4, 0, 0, 0, 1}), true), Answered::NotTaken);
+  EXPECT_EQ(responder_->answer(sockets_[0], frame({4, 9, 9, 0, 1}), true), Answered::NotTaken);
+  EXPECT_EQ(responder_->answer(sockets_[0], frame({43, 14, 1, 0}), true), Answered::NotTaken);
 }
 
 TEST_F(ResponderTest, EveryAnswerToDamagedRequestsIsWellFormed) {

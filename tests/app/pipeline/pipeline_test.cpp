@@ -106,7 +106,8 @@ class RecordingSink : public Sink {
   template <class Condition>
   Status wait_for(Condition condition) {
     std::unique_lock lock(mutex_);
-    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30), [&] { return condition(status_); }));
+    EXPECT_TRUE(
+        changed_.wait_for(lock, std::chrono::seconds(30), [&] { return condition(status_); }));
     return status_;
   }
   std::vector<std::string> views() {
@@ -144,12 +145,15 @@ class PipelineTest : public testing::Test {
   }
   void add_view(const std::string& name, const std::vector<std::size_t>& sources,
                 std::optional<std::size_t> measured) {
-    const auto projection = optics::ViewProjection::make(
-        {optics::ViewKind::Perspective, {}, 120, {}, 96, 64}).value();
-    ViewPlan view{plan.views.size(), name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear, measured};
+    const auto projection =
+        optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 120, {}, 96, 64}).value();
+    ViewPlan view{
+        plan.views.size(), name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear,
+        measured};
     for (const std::size_t n : sources) {
       const auto ball = optics::BallProjection::make(optics::BallModel::exact(350).value(),
-                                                     {{49.5, 49.5}, 48, 48, 0}, {}).value();
+                                                     {{49.5, 49.5}, 48, 48, 0}, {})
+                            .value();
       const double high = plan.formats[n].format == PixelFormat::Y16 ? 65535 : 255;
       view.sources.push_back({n, plan.formats[n], ball, 1, {colour_map_table("hot"), 0, high}});
     }
@@ -204,14 +208,17 @@ TEST_F(PipelineTest, AMissingCameraIsAStateAndTheOtherGoesOn) {
   cameras[1]->fail_with(hal::Fault::Stalled);
   sink.wait_for([](const Status& s) { return s.state == SystemState::Fault; });
   expose_both(40000);
-  status = sink.wait_for([](const Status& s) { return s.state == SystemState::Running && signals::is_valid(s.signals.hot_spot_yaw); });
+  status = sink.wait_for([](const Status& s) {
+    return s.state == SystemState::Running && signals::is_valid(s.signals.hot_spot_yaw);
+  });
   EXPECT_EQ(status.cameras[0].fault, hal::Fault::None);
 }
 
 TEST_F(PipelineTest, AFrameOfAnotherSizeIsAFaultNotACrash) {
   start();
   cameras[0]->deliver_wrong_size();
-  const Status status = sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::WrongFormat; });
+  const Status status =
+      sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::WrongFormat; });
   EXPECT_EQ(status.frame_set, 0U);
 }
 

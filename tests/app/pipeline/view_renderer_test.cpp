@@ -21,19 +21,29 @@ constexpr int kSize = 200;
 ViewSource source(std::size_t camera, PixelFormat format, double yaw, double weight = 1) {
   const auto ball = BallProjection::make(BallModel::exact(340).value(), {{99.5, 99.5}, 95, 95, 0},
                                          optics::rotation({yaw, 0, 0}));
-  return {camera, {format, {}, kSize, kSize, 30}, ball.value(), weight,
-          remap::ColourMap(colour_map_table("grey"), 0, info(format).bytes_per_sample == 2 ? 65535 : 255)};
+  return {camera,
+          {format, {}, kSize, kSize, 30},
+          ball.value(),
+          weight,
+          remap::ColourMap(colour_map_table("grey"), 0,
+                           info(format).bytes_per_sample == 2 ? 65535 : 255)};
 }
 
 ViewPlan panorama(std::vector<ViewSource> sources, Combine combine = Combine::Mix) {
-  return {3, "all", ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 360, 180}).value(),
-          std::move(sources), combine, remap::Interpolation::Bilinear, std::nullopt};
+  return {3,
+          "all",
+          ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 360, 180}).value(),
+          std::move(sources),
+          combine,
+          remap::Interpolation::Bilinear,
+          std::nullopt};
 }
 
 /// A picture of one colour, or of one count for 16 bit.
 hal::Frame plain(PixelFormat format, std::uint16_t value) {
   auto buffer = hal::make_frame_pool(format, kSize, kSize, 1).acquire();
-  const std::size_t samples = buffer->capacity / static_cast<std::size_t>(info(format).bytes_per_sample);
+  const std::size_t samples =
+      buffer->capacity / static_cast<std::size_t>(info(format).bytes_per_sample);
   for (std::size_t i = 0; i < samples; ++i) {
     if (info(format).bytes_per_sample == 2) {
       reinterpret_cast<std::uint16_t*>(buffer->memory)[i] = value;
@@ -56,7 +66,8 @@ class ViewRendererTest : public testing::Test {
 };
 
 TEST_F(ViewRendererTest, ASecondCameraFillsTheBlindConeAndIsMixedElsewhere) {
-  ViewRenderer renderer(panorama({source(0, PixelFormat::Rgb, 0, 3), source(1, PixelFormat::Rgb, 180, 1)}));
+  ViewRenderer renderer(
+      panorama({source(0, PixelFormat::Rgb, 0, 3), source(1, PixelFormat::Rgb, 180, 1)}));
   View view = renderer.make_view();
   set.id = 7;
   set.frames = {plain(PixelFormat::Rgb, 100), plain(PixelFormat::Rgb, 200)};
@@ -70,7 +81,8 @@ TEST_F(ViewRendererTest, ASecondCameraFillsTheBlindConeAndIsMixedElsewhere) {
 }
 
 TEST_F(ViewRendererTest, SwitchedViewsShowTheFirstCameraThatSees) {
-  ViewRenderer renderer(panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 180)}, Combine::Switch));
+  ViewRenderer renderer(panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 180)},
+                                 Combine::Switch));
   View view = renderer.make_view();
   set.frames = {plain(PixelFormat::Rgb, 100), plain(PixelFormat::Rgb, 200)};
   renderer.render(set, view, workers);

@@ -33,10 +33,13 @@ TEST(BallProjection, ShowsTheRoomUnmirrored) {
 
 TEST(BallProjection, EqualsTheReferenceWithEllipseAndRegistration) {
   std::mt19937 random(2);
-  const tests::ReferenceBall reference{BallModel::Kind::Exact, BallModel::alpha_from_distance(8).value(),
-                                       {{700, 500}, 420, 400, 25}, rotation({60, -20, 5})};
+  const tests::ReferenceBall reference{BallModel::Kind::Exact,
+                                       BallModel::alpha_from_distance(8).value(),
+                                       {{700, 500}, 420, 400, 25},
+                                       rotation({60, -20, 5})};
   const auto ball = BallProjection::make(BallModel::exact(reference.alpha).value(),
-                                         reference.outline, reference.registration).value();
+                                         reference.outline, reference.registration)
+                        .value();
   for (int i = 0; i < 3000; ++i) {
     const Vec3 v = random_direction(random);
     const auto mine = ball.pixel(v), truth = reference.pixel(v);

@@ -17,9 +17,9 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
 
 TEST(Rotation, FollowsTheConventions) {
   const double c = std::cos(radians(10)), s = std::sin(radians(10));
-  expect_near(rotation({0, 0, 10}).column0(), {c, 0, -s});   // the right side dips
-  expect_near(rotation({10, 0, 0}).column1(), {s, c, 0});    // yaw towards +X
-  expect_near(rotation({0, 10, 0}).column1(), {0, c, s});    // pitch up
+  expect_near(rotation({0, 0, 10}).column0(), {c, 0, -s});  // the right side dips
+  expect_near(rotation({10, 0, 0}).column1(), {s, c, 0});   // yaw towards +X
+  expect_near(rotation({0, 10, 0}).column1(), {0, c, s});   // pitch up
   expect_near(rotation({90, 20, 0}).column1(), {std::cos(radians(20)), 0, std::sin(radians(20))});
 }
 

@@ -17,8 +17,8 @@ using optics::ViewProjection;
 constexpr double kOne = 1 << kFractionBits;
 
 struct Found {
-  double worst = 0;        ///< largest distance of a defined pixel from the exact map, px
-  int wrongly_defined = 0; ///< pixels whose definedness differs
+  double worst = 0;         ///< largest distance of a defined pixel from the exact map, px
+  int wrongly_defined = 0;  ///< pixels whose definedness differs
   int dense_tiles = 0;
 };
 
@@ -66,15 +66,19 @@ TEST(CoordinateGrid, IsExactToASixtyFourthOfAPixel) {
   const std::array models{BallModel::exact(348.5).value(), BallModel::exact(300).value(),
                           BallModel::exact(360).value(), BallModel::paper(346).value(),
                           BallModel::classical()};
-  const std::array<std::array<double, 4>, 7> views{{{0, 0, 0, 90}, {40, 20, 10, 90},
-                                                    {110, -30, 45, 90}, {180, 0, 0, 90},
-                                                    {170, 60, 30, 120}, {10, 0, 0, 5},
+  const std::array<std::array<double, 4>, 7> views{{{0, 0, 0, 90},
+                                                    {40, 20, 10, 90},
+                                                    {110, -30, 45, 90},
+                                                    {180, 0, 0, 90},
+                                                    {170, 60, 30, 120},
+                                                    {10, 0, 0, 5},
                                                     {-90, -90, 0, 160}}};
   for (const BallModel& model : models) {
     const auto ball = centred_ball(model, 3000, 1490);
     for (const auto& [yaw, pitch, roll, h_fov] : views) {
-      const auto view = ViewProjection::make(
-          {ViewKind::Perspective, {yaw, pitch, roll}, h_fov, {}, 333, 250}).value();
+      const auto view =
+          ViewProjection::make({ViewKind::Perspective, {yaw, pitch, roll}, h_fov, {}, 333, 250})
+              .value();
       const CoordinateGrid grid(view, ball, 3000, 3000);
       const Found found = compare(grid, view, ball);
       EXPECT_LE(found.worst, kPatchTolerance) << yaw << ' ' << pitch << ' ' << roll << ' ' << h_fov;
@@ -105,11 +109,18 @@ TEST(CoordinateGrid, FollowsACutAndTurnedBall) {
   std::uniform_real_distribution<double> angle(-180, 180), radius(40, 600), centre(0, 640);
   for (int i = 0; i < 30; ++i) {
     const auto ball =
-        BallProjection::make(BallModel::exact(345).value(),
-                             {{centre(random), centre(random)}, radius(random), radius(random), angle(random)},
-                             optics::rotation({angle(random), angle(random) / 2, angle(random)}))
+        BallProjection::make(
+            BallModel::exact(345).value(),
+            {{centre(random), centre(random)}, radius(random), radius(random), angle(random)},
+            optics::rotation({angle(random), angle(random) / 2, angle(random)}))
             .value();
-    const auto view = ViewProjection::make({ViewKind::Perspective, {angle(random), angle(random) / 2, angle(random)}, 100, {}, 129, 97}).value();
+    const auto view = ViewProjection::make({ViewKind::Perspective,
+                                            {angle(random), angle(random) / 2, angle(random)},
+                                            100,
+                                            {},
+                                            129,
+                                            97})
+                          .value();
     const CoordinateGrid grid(view, ball, 640, 480);
     const Found found = compare(grid, view, ball);
     EXPECT_LE(found.worst, kPatchTolerance);
@@ -119,15 +130,16 @@ TEST(CoordinateGrid, FollowsACutAndTurnedBall) {
 }
 
 TEST(CoordinateGrid, TellsBlindFromOutside) {
-  const auto ball = BallProjection::make(BallModel::exact(300).value(), {{0, 50}, 40, 40, 0}, {}).value();
+  const auto ball =
+      BallProjection::make(BallModel::exact(300).value(), {{0, 50}, 40, 40, 0}, {}).value();
   const auto view = ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 360, 180}).value();
   const CoordinateGrid grid(view, ball, 100, 100);
   std::vector<std::uint8_t> storage(360 * 180);
   const ImageView<std::uint8_t> validity{storage.data(), 360, 180, 1, 360};
   grid.write_validity(validity);
   const auto at = [&](int lon) { return static_cast<Validity>(*validity.at(lon + 180, 90)); };
-  EXPECT_EQ(at(-90), Validity::Seen);     // -X is on the right half of the ball's picture
-  EXPECT_EQ(at(90), Validity::Outside);   // +X falls left of the picture
+  EXPECT_EQ(at(-90), Validity::Seen);    // -X is on the right half of the ball's picture
+  EXPECT_EQ(at(90), Validity::Outside);  // +X falls left of the picture
   EXPECT_EQ(at(-178), Validity::Blind);
   EXPECT_EQ(at(178), Validity::Blind);
 }

@@ -60,7 +60,8 @@ TEST_F(Merge, BlendsWhereSeveralSeeAndFillsWhereOneIsBlind) {
     EXPECT_EQ(validity[i], static_cast<int>(mask ? Validity::Seen : Validity::Blind));
     for (int k = 0; k < 3; ++k) {
       const std::size_t s = 3 * i + k;
-      const double mean = (mask & 1) * 0.5 * a[s] + (mask >> 1 & 1) * 0.25 * b[s] + (mask >> 2 & 1) * 1.0 * c[s];
+      const double mean =
+          (mask & 1) * 0.5 * a[s] + (mask >> 1 & 1) * 0.25 * b[s] + (mask >> 2 & 1) * 1.0 * c[s];
       EXPECT_NEAR(out[s], total > 0 ? mean / total : 0, 1.0);
     }
   }

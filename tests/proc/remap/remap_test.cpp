@@ -28,7 +28,11 @@ struct Storage {
   Storage(PixelFormat format, int width, int height, int padding = 0) {
     const int row = row_bytes(format, width) / static_cast<int>(sizeof(T)) + padding;
     samples.resize(static_cast<std::size_t>(row) * height);
-    picture = {format, {}, width, height, reinterpret_cast<const std::byte*>(samples.data()),
+    picture = {format,
+               {},
+               width,
+               height,
+               reinterpret_cast<const std::byte*>(samples.data()),
                static_cast<std::ptrdiff_t>(row * sizeof(T))};
   }
   std::vector<T> samples;
@@ -47,7 +51,8 @@ void paint_room(const ImageView<T>& out) {
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
       for (int k = 0; k < out.channels; ++k) {
-        const double wave = std::sin(x * 0.071 + k) * std::cos(y * 0.053) + std::sin((x + y) * 0.31);
+        const double wave =
+            std::sin(x * 0.071 + k) * std::cos(y * 0.053) + std::sin((x + y) * 0.31);
         const bool bright = (x / 61 + y / 47 + k) % 2 != 0;
         out.at(x, y)[k] = static_cast<T>(full * (0.4 + 0.12 * wave + (bright ? 0.2 : 0)));
       }
@@ -115,7 +120,8 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
   const double alpha = 348.5;
   const std::array models{BallModel::exact(alpha).value(), BallModel::paper(alpha).value(),
                           BallModel::classical()};
-  const tests::ReferenceBall base{BallModel::Kind::Exact, alpha, {{497.3, 502.8}, 480, 480, 0}, optics::rotation({15, -8, 3})};
+  const tests::ReferenceBall base{
+      BallModel::Kind::Exact, alpha, {{497.3, 502.8}, 480, 480, 0}, optics::rotation({15, -8, 3})};
   for (const BallModel& model : models) {
     tests::ReferenceBall reference = base;
     reference.kind = model.kind();
@@ -123,14 +129,16 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
     for (const double yaw : {0, 60, 120, 180, 240, 300}) {
       for (const double pitch : {-60, 0, 60}) {
         const ViewSpec spec{ViewKind::Perspective, {yaw, pitch, yaw / 7}, 80, {}, 213, 160};
-        const Agreement a = compare<std::uint8_t>(spec, reference, model, PixelFormat::Rgb, 1000, 1);
+        const Agreement a =
+            compare<std::uint8_t>(spec, reference, model, PixelFormat::Rgb, 1000, 1);
         total.compared += a.compared;
         total.off_by_more_than_one += a.off_by_more_than_one;
         EXPECT_LE(a.off_by_more_than_one, a.compared / 1000) << "yaw " << yaw << " pitch " << pitch;
       }
     }
     const ViewSpec panorama{ViewKind::Equirectangular, {}, {}, {}, 400, 200};
-    const Agreement a = compare<std::uint8_t>(panorama, reference, model, PixelFormat::Grey, 1000, 1);
+    const Agreement a =
+        compare<std::uint8_t>(panorama, reference, model, PixelFormat::Grey, 1000, 1);
     EXPECT_LE(a.off_by_more_than_one, a.compared / 1000);
     EXPECT_GT(total.compared, 1000000);
   }
@@ -149,8 +157,10 @@ TEST(Remap, KeepsSixteenBits) {
 }
 
 struct SmallScene {
-  ViewProjection view = ViewProjection::make({ViewKind::Perspective, {20, 5, 3}, 100, {}, 70, 45}).value();
-  BallProjection ball = BallProjection::make(BallModel::exact(340).value(), {{30, 33}, 40, 40, 0}, {}).value();
+  ViewProjection view =
+      ViewProjection::make({ViewKind::Perspective, {20, 5, 3}, 100, {}, 70, 45}).value();
+  BallProjection ball =
+      BallProjection::make(BallModel::exact(340).value(), {{30, 33}, 40, 40, 0}, {}).value();
   CoordinateGrid grid{view, ball, 64, 48};  // the picture cuts the ball
 };
 
@@ -158,7 +168,8 @@ TEST(Remap, NearestTakesTheClosestPixel) {
   const SmallScene scene;
   Storage<std::uint16_t> source(PixelFormat::Y16, 64, 48), result(PixelFormat::Y16, 70, 45);
   for (int i = 0; i < 64 * 48; ++i) source.samples[i] = static_cast<std::uint16_t>(i + 1);
-  remap(scene.grid, source.picture, Interpolation::Nearest, result.view(), {0, scene.grid.tiles_y()});
+  remap(scene.grid, source.picture, Interpolation::Nearest, result.view(),
+        {0, scene.grid.tiles_y()});
   int compared = 0;
   for (int y = 0; y < 45; ++y) {
     for (int x = 0; x < 70; ++x) {
@@ -183,7 +194,8 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
   std::mt19937 random(5);
   for (auto& sample : source.samples) sample = static_cast<std::uint8_t>(random());
   Storage<std::uint8_t> result(PixelFormat::Rgb, 70, 45);
-  remap(scene.grid, source.picture, Interpolation::Bilinear, result.view(), {0, scene.grid.tiles_y()});
+  remap(scene.grid, source.picture, Interpolation::Bilinear, result.view(),
+        {0, scene.grid.tiles_y()});
   const auto in = source.picture.samples<std::uint8_t>();
   const YuvToRgb convert(ColourSpace{});
   int compared = 0;
@@ -195,7 +207,8 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
       const auto plane = [&](double u, int step, int offset) {
         const double a = std::floor(u), b = std::floor(p->v), wu = u - a, wv = p->v - b;
         const auto at = [&](double i, double j) {
-          return static_cast<double>(in.row(static_cast<int>(j))[static_cast<int>(i) * step + offset]);
+          return static_cast<double>(
+              in.row(static_cast<int>(j))[static_cast<int>(i) * step + offset]);
         };
         return (at(a, b) * (1 - wu) + at(a + 1, b) * wu) * (1 - wv) +
                (at(a, b + 1) * (1 - wu) + at(a + 1, b + 1) * wu) * wv;
@@ -217,11 +230,13 @@ TEST(Remap, RowsMayBeSharedByThreads) {
   Storage<std::uint8_t> source(PixelFormat::Rgb, 64, 48), whole(PixelFormat::Rgb, 70, 45, 5),
       shared(PixelFormat::Rgb, 70, 45, 5);
   paint_room(source.view());
-  remap(scene.grid, source.picture, Interpolation::Bilinear, whole.view(), {0, scene.grid.tiles_y()});
+  remap(scene.grid, source.picture, Interpolation::Bilinear, whole.view(),
+        {0, scene.grid.tiles_y()});
   std::thread other([&] {
     remap(scene.grid, source.picture, Interpolation::Bilinear, shared.view(), {0, 1});
   });
-  remap(scene.grid, source.picture, Interpolation::Bilinear, shared.view(), {1, scene.grid.tiles_y()});
+  remap(scene.grid, source.picture, Interpolation::Bilinear, shared.view(),
+        {1, scene.grid.tiles_y()});
   other.join();
   EXPECT_EQ(whole.samples, shared.samples);
 }

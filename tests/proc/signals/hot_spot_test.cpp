@@ -83,7 +83,8 @@ TEST(HotSpot, JoinsWhatTouchesInAnyShape) {
   const HotSpot spot = scene.measure(1500);
   EXPECT_EQ(spot.peak, 4000);
   double area = 0;
-  for (int y = 5; y < 20; ++y) area += scene.view.solid_angle(10, y) + scene.view.solid_angle(20, y);
+  for (int y = 5; y < 20; ++y)
+    area += scene.view.solid_angle(10, y) + scene.view.solid_angle(20, y);
   for (int x = 10; x <= 20; ++x) area += scene.view.solid_angle(x, 20);
   area += scene.view.solid_angle(21, 21);
   EXPECT_NEAR(spot.solid_angle, area, 1e-6);
@@ -107,7 +108,8 @@ TEST(HotSpot, EqualsAFloodFillOnRandomPictures) {
         done[i] = true;
         area += scene.view.solid_angle(x, y);
         for (int v = std::max(0, y - 1); v <= std::min(32, y + 1); ++v) {
-          for (int u = std::max(0, x - 1); u <= std::min(46, x + 1); ++u) open.push_back(v * 47 + u);
+          for (int u = std::max(0, x - 1); u <= std::min(46, x + 1); ++u)
+            open.push_back(v * 47 + u);
         }
       }
       largest = std::max(largest, area);
