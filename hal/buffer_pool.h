@@ -21,9 +21,9 @@ class BufferPool {
 
   /// Takes the buffers. `released`, if given, is told of each slot that became free, on the thread
   /// that released it; it must not block and must not throw.
-  explicit BufferPool(std::vector<std::unique_ptr<T>> buffers, Released released = nullptr)
+  explicit BufferPool(std::vector<std::unique_ptr<T>> buffers, const Released& released = nullptr)
       : state_(std::make_shared<State>()) {
-    state_->released = std::move(released);
+    state_->released = released;
     for (auto& buffer : buffers) {
       auto slot = std::make_unique<Slot>();
       slot->buffer = std::move(buffer);

@@ -51,5 +51,7 @@ struct Word {
   std::string_view name;
   T value;
 };
+template <class T>
+Word(const char*, T) -> Word<T>;
 
 }  // namespace orbwatch::app

@@ -1,13 +1,12 @@
 #include "app/dds/image_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
+
+#include "app/pictures/picture_file.h"
 
 namespace orbwatch::app {
 
@@ -51,18 +50,7 @@ Result<std::vector<std::uint8_t>> encode(const ReceivedImage& image) try {
 Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path) {
   const auto png = encode(image);
   if (!png) return tl::unexpected(png.error());
-  auto temporary = path;
-  temporary += "." + std::to_string(getpid()) + ".part";
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(temporary, path, error);
-  if (file && !error) return {};
-  std::error_code ignored;  // the write has failed already, and that is what is said
-  std::filesystem::remove(temporary, ignored);
-  return fail(path.string() + ": cannot be written" + (error ? ": " + error.message() : "") +
-              "; does the folder exist, and is there space?");
+  return write_file(path, *png);
 }
 
 }  // namespace orbwatch::app

@@ -14,7 +14,7 @@
 #include "app/modbus/snapshot.h"
 #include "app/modbus/socket_address.h"
 #include "hal/clock.h"
-#include "hal/v4l2/file_descriptor.h"
+#include "hal/file_descriptor.h"
 
 namespace orbwatch::app::modbus {
 

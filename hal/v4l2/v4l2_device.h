@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hal/fault.h"
-#include "hal/v4l2/file_descriptor.h"
+#include "hal/file_descriptor.h"
 
 namespace orbwatch::hal {
 

@@ -44,6 +44,12 @@ cv::Mat source_picture(PixelFormat format) {
 }
 
 template <class T>
+void remap_all(const remap::CoordinateGrid& grid, const Picture& source, cv::Mat& out) {
+  const ImageView<T> target{out.ptr<T>(), out.cols, out.rows, out.channels(),
+                            static_cast<std::ptrdiff_t>(out.step1())};
+  remap::remap(grid, source, remap::Interpolation::Bilinear, target, {0, grid.tiles_y()});
+}
+
 void remap_ours(benchmark::State& state, PixelFormat format) {
   const Scene scene = scene_of(state);
   const remap::CoordinateGrid grid(scene.view, scene.ball, kSource, kSource);
@@ -55,10 +61,12 @@ void remap_ours(benchmark::State& state, PixelFormat format) {
                         kSource,
                         reinterpret_cast<const std::byte*>(source.data),
                         static_cast<std::ptrdiff_t>(source.step)};
-  const ImageView<T> target{out.ptr<T>(), 1920, 1080, out.channels(),
-                            static_cast<std::ptrdiff_t>(out.step1())};
   for (auto _ : state) {
-    remap::remap(grid, picture, remap::Interpolation::Bilinear, target, {0, grid.tiles_y()});
+    if (format == PixelFormat::Y16) {
+      remap_all<std::uint16_t>(grid, picture, out);
+    } else {
+      remap_all<std::uint8_t>(grid, picture, out);
+    }
     benchmark::DoNotOptimize(out.data);
   }
   state.counters["grid_KB"] = static_cast<double>(grid.bytes()) / 1024;
@@ -91,13 +99,24 @@ void build_grid(benchmark::State& state) {
   }
 }
 
-#define ORBWATCH_BENCH(name, T, format)                                                            \
-  BENCHMARK_CAPTURE(remap_ours<T>, name, format)->DenseRange(0, 2)->Unit(benchmark::kMillisecond); \
-  BENCHMARK_CAPTURE(remap_opencv, name, format)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)
-
-ORBWATCH_BENCH(grey, std::uint8_t, PixelFormat::Grey);
-ORBWATCH_BENCH(rgb, std::uint8_t, PixelFormat::Rgb);
-ORBWATCH_BENCH(y16, std::uint16_t, PixelFormat::Y16);
+BENCHMARK_CAPTURE(remap_ours, grey, PixelFormat::Grey)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(remap_opencv, grey, PixelFormat::Grey)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(remap_ours, rgb, PixelFormat::Rgb)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(remap_opencv, rgb, PixelFormat::Rgb)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(remap_ours, y16, PixelFormat::Y16)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(remap_opencv, y16, PixelFormat::Y16)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(build_grid)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 
 }  // namespace

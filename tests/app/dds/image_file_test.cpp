@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "tests/app/dds/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -27,7 +27,7 @@ class ImageFileTest : public testing::Test {
     return cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   }
 
-  tests::TemporaryFolder folder_;
+  orbwatch::tests::TemporaryFolder folder_;
 };
 
 TEST_F(ImageFileTest, RedIsRedInEitherOrder) {

@@ -13,9 +13,9 @@
 #include "app/dds/dds_sink.h"
 #include "app/dds/participant.h"
 #include "tests/app/dds/dds_network.h"
-#include "tests/app/dds/temporary_folder.h"
 #include "tests/app/dds/test_status.h"
 #include "tests/app/dds/test_views.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -129,7 +129,7 @@ class SubscriberTest : public testing::Test {
   void SetUp() override { ASSERT_TRUE(network_.valid()); }
 
   tests::DdsNetwork network_;
-  tests::TemporaryFolder folder_;
+  orbwatch::tests::TemporaryFolder folder_;
 };
 
 TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/modbus/modbus_sink.h"
-#include "hal/v4l2/file_descriptor.h"
+#include "hal/file_descriptor.h"
 
 struct _modbus;
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "tests/hal/replay/temporary_folder.h"
+#include "tests/hal/replay/picture_files.h"
 
 namespace orbwatch::hal {
 namespace {

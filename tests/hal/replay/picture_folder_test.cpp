@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "hal/frame_pool.h"
-#include "tests/hal/replay/temporary_folder.h"
+#include "tests/hal/replay/picture_files.h"
 
 namespace orbwatch::hal {
 namespace {

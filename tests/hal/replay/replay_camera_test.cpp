@@ -8,7 +8,7 @@
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/hal/replay/temporary_folder.h"
+#include "tests/hal/replay/picture_files.h"
 #include "tests/hal/replay/test_video.h"
 
 namespace orbwatch::hal {

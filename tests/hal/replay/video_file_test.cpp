@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/frame_pool.h"
-#include "tests/hal/replay/temporary_folder.h"
+#include "tests/hal/replay/picture_files.h"
 #include "tests/hal/replay/test_video.h"
 
 namespace orbwatch::hal {
