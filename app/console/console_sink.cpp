@@ -27,8 +27,10 @@ std::string signals_text(const signals::Signals& signals) {
 }
 
 std::string camera_text(const std::string& name, const CameraStatus& camera) {
-  std::string text = name + " " + number(camera.frames_per_second, 1) + " fps, lost " +
-                     std::to_string(camera.lost) + ", dropped " + std::to_string(camera.dropped);
+  std::string text = name + " " + number(camera.frames_per_second, 1) + " fps, p50/p99 " +
+                     number(camera.latency_p50_ms, 0) + "/" + number(camera.latency_p99_ms, 0) +
+                     " ms, lost " + std::to_string(camera.lost) + ", dropped " +
+                     std::to_string(camera.dropped);
   if (camera.fault != hal::Fault::None) text += ", " + std::string(operator_text(camera.fault));
   return text;
 }

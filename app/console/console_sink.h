@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/config/configuration.h"
-#include "app/sink.h"
+#include "app/pipeline/sink.h"
 
 namespace orbwatch::app {
 

@@ -11,7 +11,7 @@
 #include "app/dds/participant.h"
 #include "app/dds/process_state.h"
 #include "app/dds/topic_writer.h"
-#include "app/sink.h"
+#include "app/pipeline/sink.h"
 #include "hal/mailbox.h"
 
 namespace orbwatch::app {

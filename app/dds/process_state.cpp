@@ -7,8 +7,13 @@ namespace orbwatch::app {
 namespace {
 
 orbwatch_msgs_msg_dds__CameraStatus_ camera_message(const CameraStatus& camera) {
-  return {static_cast<std::uint8_t>(camera.fault), camera.frames, camera.lost, camera.dropped,
-          camera.frames_per_second};
+  return {static_cast<std::uint8_t>(camera.fault),
+          camera.frames,
+          camera.lost,
+          camera.dropped,
+          camera.frames_per_second,
+          camera.latency_p50_ms,
+          camera.latency_p99_ms};
 }
 
 orbwatch_msgs_msg_dds__ViewStatus_ view_message(const ViewStatus& view, std::string& name) {

@@ -11,7 +11,7 @@
 #include "app/modbus/register_map.h"
 #include "app/modbus/responder.h"
 #include "app/modbus/snapshot.h"
-#include "app/sink.h"
+#include "app/pipeline/sink.h"
 
 namespace orbwatch::app {
 

@@ -221,7 +221,15 @@ std::vector<Row> camera_block() {
         base + 6, Type::U32, name + "_dropped", kCounter,
         "Frames that a newer one replaced before they were used",
         [](S s, Index n) { return low_word(s.status.cameras[n].dropped); }, i));
-    rows.push_back(reserved(Table::Input, base + 8, base + kCameraStride));
+    rows.push_back(input(
+        base + 8, Type::U16, name + "_latency_p50", kLatency,
+        "Exposure start to arrival, median of the last full second",
+        [](S s, Index n) { return saturated(s.status.cameras[n].latency_p50_ms, 0.1); }, i));
+    rows.push_back(input(
+        base + 9, Type::U16, name + "_latency_p99", kLatency,
+        "Exposure start to arrival, 99 of 100 are faster",
+        [](S s, Index n) { return saturated(s.status.cameras[n].latency_p99_ms, 0.1); }, i));
+    rows.push_back(reserved(Table::Input, base + 10, base + kCameraStride));
   }
   return rows;
 }

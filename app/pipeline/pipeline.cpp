@@ -86,6 +86,10 @@ void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
     on_fault(camera, {hal::Fault::WrongFormat, {}});
     return;
   }
+  {
+    const std::lock_guard lock(camera_meters_[camera].mutex);
+    camera_meters_[camera].meter.add(hal::Clock::now() - frame->metadata.exposure_start);
+  }
   sync_.put(camera, std::move(frame));
 }
 
@@ -204,10 +208,11 @@ void Pipeline::publish_status() {
 void Pipeline::roll_figures(hal::TimePoint now) {
   const auto elapsed = now - std::exchange(last_roll_, now);
   for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    CameraStatus& camera = status_.cameras[i];
-    const std::uint64_t fresh = camera.frames - std::exchange(frames_at_roll_[i], camera.frames);
-    camera.frames_per_second =
-        static_cast<double>(fresh) / std::chrono::duration<double>(elapsed).count();
+    const std::lock_guard lock(camera_meters_[i].mutex);
+    const auto figures = camera_meters_[i].meter.roll(elapsed);
+    status_.cameras[i].frames_per_second = figures.per_second;
+    status_.cameras[i].latency_p50_ms = figures.p50_ms;
+    status_.cameras[i].latency_p99_ms = figures.p99_ms;
   }
   for (std::size_t i = 0; i < view_meters_.size(); ++i) {
     const auto figures = view_meters_[i].roll(elapsed);

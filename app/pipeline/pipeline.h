@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -11,11 +12,11 @@
 #include "app/commands.h"
 #include "app/pipeline/display_throttle.h"
 #include "app/pipeline/second_meter.h"
+#include "app/pipeline/sink.h"
 #include "app/pipeline/status.h"
 #include "app/pipeline/view.h"
 #include "app/pipeline/view_renderer.h"
 #include "app/pipeline/worker_pool.h"
-#include "app/sink.h"
 #include "hal/buffer_pool.h"
 #include "hal/camera.h"
 #include "hal/frame_sync.h"
@@ -60,6 +61,12 @@ class Pipeline {
   CommandResult command(const Command& command);
 
  private:
+  /// Fed by the camera's thread, read once a second by the pipeline's.
+  struct CameraMeter {
+    std::mutex mutex;
+    SecondMeter meter;
+  };
+
   void on_frame(std::size_t camera, hal::Frame frame);
   void on_fault(std::size_t camera, const hal::FaultReport& report);
   void run();
@@ -86,7 +93,7 @@ class Pipeline {
   DisplayThrottle throttle_;
   std::vector<SecondMeter> view_meters_;
   std::array<std::atomic<hal::Fault>, kMaxCameras> faults_;
-  std::array<std::uint64_t, kMaxCameras> frames_at_roll_{};
+  std::array<CameraMeter, kMaxCameras> camera_meters_;
   std::atomic<std::size_t> selected_view_{0};
   std::atomic<bool> stopping_{false};
   Status status_;

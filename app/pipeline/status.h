@@ -36,6 +36,8 @@ struct CameraStatus {
   std::uint64_t lost = 0;     ///< gaps in the sequence
   std::uint64_t dropped = 0;  ///< delivered, but replaced by a newer one before it was used
   double frames_per_second = 0;
+  double latency_p50_ms = 0;  ///< exposure start to arrival
+  double latency_p99_ms = 0;
 };
 
 /// Figures of one view since start; rates and latencies over the last full second.

@@ -19,7 +19,8 @@ inline Status make_status() {
   status.view_count = 2;
   std::uint64_t next = 100;
   for (auto& camera : status.cameras) {
-    camera = {hal::Fault::Stalled, next, next + 1, next + 2, static_cast<double>(next) + 0.5};
+    const auto base = static_cast<double>(next);
+    camera = {hal::Fault::Stalled, next, next + 1, next + 2, base + 0.5, base + 0.25, base + 0.75};
     next += 10;
   }
   for (auto& view : status.views) {

@@ -194,6 +194,7 @@ TEST_F(WireFormatTest, StateIsPlainCdr) {
     const auto& camera = status.cameras[i];
     expected.number<std::uint8_t>(2).number(camera.frames).number(camera.lost);
     expected.number(camera.dropped).number(camera.frames_per_second);
+    expected.number(camera.latency_p50_ms).number(camera.latency_p99_ms);
   }
   const auto& view = status.views[0];
   expected.number<std::uint32_t>(1).text("front").number(view.published).number(view.skipped);
