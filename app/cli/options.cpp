@@ -18,6 +18,7 @@ tl::unexpected<Error> refuse(const std::string& what) { return fail(what + "; se
 Result<std::vector<std::string>> parse_options(std::vector<std::string> arguments,
                                                const std::vector<Option>& options) {
   std::vector<option> table;
+  table.reserve(options.size() + 1);
   std::string letters = ":";  // errors are reported here, not by getopt
   for (std::size_t i = 0; i < options.size(); ++i) {
     const int takes = options[i].argument.empty() ? no_argument : required_argument;
@@ -26,6 +27,7 @@ Result<std::vector<std::string>> parse_options(std::vector<std::string> argument
   }
   table.push_back({nullptr, 0, nullptr, 0});
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (auto& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
 

@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 
 /// Prints a line of figures per period, and a summary when it stops.
-class ConsoleSink : public Sink {
+class ConsoleSink final : public Sink {
  public:
   ConsoleSink(ConsoleSettings settings, std::vector<std::string> cameras,
               std::vector<std::string> views, std::ostream& out);

@@ -63,6 +63,7 @@ std::optional<Arguments> parse(int argc, char** argv, int& exit_code) {
 template <class Named>
 std::vector<std::string> names(const std::vector<Named>& list) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const Named& item : list) names.push_back(item.name);
   return names;
 }

@@ -36,7 +36,7 @@ struct DdsStatistics {
 /// topic_names.h. One UTC stamp serves everything of a frame set, so that readers can pair images
 /// and state exactly.
 /// Thread rule: as Sink; statistics() is thread-safe; start may come while views are handed over.
-class DdsSink : public Sink {
+class DdsSink final : public Sink {
  public:
   /// `view_names` in the order of View::index; each is a topic part and the frame_id of its images.
   DdsSink(DdsSettings settings, std::vector<std::string> view_names);

@@ -19,7 +19,7 @@ namespace orbwatch::app {
 /// the PLC's commands out. One thread of its own for all clients; the newest status wins, nothing
 /// is queued.
 /// Thread rule: as Sink; statistics() is thread-safe, port() is for the thread of start().
-class ModbusSink : public Sink {
+class ModbusSink final : public Sink {
  public:
   /// `handler` is called on the sink's thread.
   ModbusSink(ModbusSettings settings, CommandHandler handler);

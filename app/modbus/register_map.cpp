@@ -10,7 +10,7 @@ RegisterMap::RegisterMap() : rows_(register_rows()) {
   for (const Row& row : rows_) {
     auto& addresses = by_address_[static_cast<std::size_t>(row.table)];
     addresses.resize(static_cast<std::size_t>(row.address), nullptr);
-    addresses.resize(static_cast<std::size_t>(row.address + row.count), &row);
+    addresses.resize(addresses.size() + static_cast<std::size_t>(row.count), &row);
   }
 }
 

@@ -9,8 +9,9 @@
 #include "app/modbus/register_map.h"
 #include "app/modbus/request.h"
 
-struct _modbus;
-struct _modbus_mapping_t;
+// libmodbus' own names for what its header declares.
+struct _modbus;            // NOLINT(bugprone-reserved-identifier)
+struct _modbus_mapping_t;  // NOLINT(bugprone-reserved-identifier)
 
 namespace orbwatch::app::modbus {
 

@@ -9,7 +9,7 @@
 #include "app/modbus/modbus_sink.h"
 #include "hal/file_descriptor.h"
 
-struct _modbus;
+struct _modbus;  // NOLINT(bugprone-reserved-identifier): libmodbus' own name
 
 namespace orbwatch::app::tests {
 
