@@ -31,6 +31,12 @@ std::vector<Option> declare(SubscribeOptions& o, bool& help) {
            return fail("--domain is " + std::to_string(n) + "; it must be 0 to 230");
          });
        }},
+      {"prefix", 0, "NAME",
+       "of the default topics, as in the configuration's\n[dds] (default orbwatch)",
+       [&o](const std::string& v) -> Result<> {
+         o.prefix = v;
+         return {};
+       }},
       {"save", 0, "DIR", "save the newest image of each topic as PNG",
        [&o](const std::string& v) -> Result<> {
          o.save = v;

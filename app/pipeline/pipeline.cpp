@@ -86,6 +86,7 @@ void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
     on_fault(camera, {hal::Fault::WrongFormat, {}});
     return;
   }
+  if (faults_[camera] != hal::Fault::None) on_fault(camera, {});
   {
     const std::lock_guard lock(camera_meters_[camera].mutex);
     camera_meters_[camera].meter.add(hal::Clock::now() - frame->metadata.exposure_start);

@@ -220,6 +220,9 @@ TEST_F(PipelineTest, AFrameOfAnotherSizeIsAFaultNotACrash) {
   const Status status =
       sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::WrongFormat; });
   EXPECT_EQ(status.frame_set, 0U);
+  expose_both(40000);
+  sink.wait_for(
+      [](const Status& s) { return s.cameras[0].fault == hal::Fault::None && s.frame_set > 0; });
 }
 
 TEST_F(PipelineTest, ASinkThatHoldsAllViewsLosesThemButNotTheMeasurement) {
