@@ -18,6 +18,7 @@ inline void parallel_for(int count, const std::function<void(int)>& work) {
   const int others =
       std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, count) - 1;
   std::vector<std::jthread> threads;
+  threads.reserve(static_cast<std::size_t>(others));
   for (int i = 0; i < others; ++i) threads.emplace_back(take_turns);
   take_turns();
 }

@@ -45,8 +45,8 @@ const Light& Tone::incandescence(double celsius) const {
 }
 
 std::uint8_t Tone::encode(double linear) const {
-  return encoded_[static_cast<std::size_t>(std::clamp(linear, 0.0, 1.0) * (kEncodedSteps - 1) +
-                                           0.5)];
+  const long step = std::lround(std::clamp(linear, 0.0, 1.0) * (kEncodedSteps - 1));
+  return encoded_[static_cast<std::size_t>(step)];
 }
 
 }  // namespace orbwatch::app::simulation
