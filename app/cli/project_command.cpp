@@ -137,22 +137,6 @@ std::vector<Option> declare(ProjectOptions& o) {
   };
 }
 
-Result<optics::BallModel> ball_model(const ProjectOptions& o) {
-  if (o.model == optics::BallModel::Kind::Classical) {
-    if (o.alpha || o.distance)
-      return fail("the classical model takes neither --alpha nor --distance");
-    return optics::BallModel::classical();
-  }
-  if (o.alpha.has_value() == o.distance.has_value()) {
-    return fail("give either --alpha or --distance; see --help");
-  }
-  const Result<double> alpha =
-      o.alpha ? Result<double>(*o.alpha) : optics::BallModel::alpha_from_distance(*o.distance);
-  if (!alpha) return tl::unexpected(alpha.error());
-  return o.model == optics::BallModel::Kind::Exact ? optics::BallModel::exact(*alpha)
-                                                   : optics::BallModel::paper(*alpha);
-}
-
 /// A picture in memory of its own, of the format that remapping `source` yields.
 struct Canvas {
   Canvas(const Picture& source, int width, int height)
@@ -172,7 +156,7 @@ struct Canvas {
 };
 
 Result<> project(const ProjectOptions& o) {
-  const auto model = ball_model(o);
+  const auto model = optics::BallModel::make(o.model, o.alpha, o.distance);
   if (!model) return tl::unexpected(model.error());
   const auto view = optics::ViewProjection::make(o.view);
   if (!view) return tl::unexpected(view.error());

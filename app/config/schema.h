@@ -34,7 +34,7 @@ inline constexpr std::array kSimulatedKinds{Word{"colour", SimulatedCameraPart::
                                             Word{"thermal", SimulatedCameraPart::Kind::Thermal}};
 
 inline constexpr Range kAnyNumber{};
-inline constexpr Range kSide = Range::between(1, optics::kMaxSide);
+inline constexpr Range kSide = Range::between(1, kMaxSide);
 
 template <class Visitor>
 void visit(Visitor& v, BallSettings& ball) {
@@ -53,12 +53,8 @@ void visit(Visitor& v, BallSettings& ball) {
              "The same as 3x3 matrix by rows: v_reference = R v_camera");
   v.require(ball.radius.has_value() != ball.radii.has_value(), "radius",
             "give either radius or radii");
-  const bool classical = ball.model == optics::BallModel::Kind::Classical;
-  v.require(classical ? !ball.alpha && !ball.distance
-                      : ball.alpha.has_value() != ball.distance.has_value(),
-            "alpha",
-            classical ? "the classical model takes neither alpha nor distance"
-                      : "give either alpha or distance");
+  const auto model = optics::BallModel::make(ball.model, ball.alpha, ball.distance);
+  v.require(model.has_value(), "alpha", model ? "" : model.error().message);
   v.require(!ball.rotation || !ball.rotation_matrix, "rotation_matrix",
             "give either rotation or rotation_matrix");
   const auto rotation = optics::checked_rotation(registration(ball));

@@ -20,15 +20,6 @@ Result<std::shared_ptr<const simulation::Machine>> make_machine(
   return simulation::Machine::make(settings, hal::Clock::now());
 }
 
-Result<optics::BallModel> ball_model(const BallSettings& ball) {
-  if (ball.model == optics::BallModel::Kind::Classical) return optics::BallModel::classical();
-  Result<double> alpha = ball.alpha ? Result<double>(*ball.alpha)
-                                    : optics::BallModel::alpha_from_distance(*ball.distance);
-  if (!alpha) return tl::unexpected(alpha.error());
-  return ball.model == optics::BallModel::Kind::Exact ? optics::BallModel::exact(*alpha)
-                                                      : optics::BallModel::paper(*alpha);
-}
-
 Result<optics::BallProjection> ball_projection(const CameraSettings& camera,
                                                const hal::StreamFormat& format) {
   const BallSettings& ball = camera.ball;
@@ -38,9 +29,10 @@ Result<optics::BallProjection> ball_projection(const CameraSettings& camera,
   if (auto placed = optics::check_outline(outline, format.width, format.height); !placed) {
     return fail("camera " + camera.name + ": " + placed.error().message);
   }
-  auto projection = ball_model(ball).and_then([&](const optics::BallModel& model) {
-    return optics::BallProjection::make(model, outline, registration(ball));
-  });
+  auto projection = optics::BallModel::make(ball.model, ball.alpha, ball.distance)
+                        .and_then([&](const optics::BallModel& model) {
+                          return optics::BallProjection::make(model, outline, registration(ball));
+                        });
   if (!projection) return fail("camera " + camera.name + ": " + projection.error().message);
   return projection;
 }

@@ -9,8 +9,8 @@
 namespace orbwatch::app::simulation {
 namespace {
 
-constexpr int kMaxSide = 8192;          // pixels
-constexpr double kMaxFrameRate = 1000;  // per second
+constexpr int kMaxSimulatedSide = 8192;  // pixels
+constexpr double kMaxFrameRate = 1000;   // per second
 
 std::string_view model_of(CameraKind kind) {
   return kind == CameraKind::Colour ? "ray-traced colour camera" : "ray-traced thermal camera";
@@ -54,9 +54,9 @@ Result<> SimulatedCamera::check(int width, int height, double frame_rate) const 
     return fail("camera " + info().id + ": " + what);
   };
   const MachineSettings& machine = machine_->settings();
-  if (width < 1 || width > kMaxSide || height < 1 || height > kMaxSide) {
+  if (width < 1 || width > kMaxSimulatedSide || height < 1 || height > kMaxSimulatedSide) {
     return refuse("size " + std::to_string(width) + "x" + std::to_string(height) +
-                  "; both must be from 1 to " + std::to_string(kMaxSide) + " pixels");
+                  "; both must be from 1 to " + std::to_string(kMaxSimulatedSide) + " pixels");
   }
   if (!(frame_rate > 0 && frame_rate <= kMaxFrameRate)) {
     return refuse("frame rate " + std::to_string(frame_rate) +

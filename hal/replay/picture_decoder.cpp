@@ -37,7 +37,7 @@ Result<std::uint32_t> check_file(std::span<const std::byte> file) {
   const auto size = decoder.read_size(file);
   if (!size) return tl::unexpected(size.error());
   const auto side = static_cast<std::uint32_t>(std::max(size->width, size->height));
-  if (side > kMaxPictureSide) return side;
+  if (side > kMaxSide) return side;
   if (auto whole = decoder.check(file); !whole) return tl::unexpected(whole.error());
   return side;
 }
@@ -109,9 +109,9 @@ Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::stri
   if (file.size() > kMaxFileBytes) return named("is larger than 1 GiB");
   const auto side = check_file(file);
   if (!side) return named(side.error().message);
-  if (*side > kMaxPictureSide) {
+  if (*side > kMaxSide) {
     return named("is " + std::to_string(*side) + " pixels long or wide; at most " +
-                 std::to_string(kMaxPictureSide) + " are read");
+                 std::to_string(kMaxSide) + " are read");
   }
   auto decoded = decode_checked(file);
   if (!decoded) return named(decoded.error().message);

@@ -11,9 +11,6 @@
 
 namespace orbwatch::hal {
 
-/// Larger pictures are refused: no camera makes them, and a forged header must not eat the memory.
-inline constexpr int kMaxPictureSide = 16384;
-
 /// A picture that owns its pixels.
 struct DecodedPicture {
   Picture picture;  ///< Grey, Y16, Rgb or Rgb16, rows without padding
@@ -25,7 +22,7 @@ bool has_picture_name(const std::filesystem::path& path);
 
 /// Decodes a whole JPEG or PNG file that was read into memory. Grey stays grey and 16 bit stay 16
 /// bit; alpha is dropped; EXIF orientation is applied. `name` stands in messages. Errors: another
-/// kind of file, ends early or damaged in any way, a side above kMaxPictureSide. Reentrant.
+/// kind of file, ends early or damaged in any way, a side above kMaxSide. Reentrant.
 Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::string_view name);
 
 /// Reads and decodes one file. Errors as decode_picture, and no such file or not readable.

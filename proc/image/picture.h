@@ -8,6 +8,10 @@
 
 namespace orbwatch {
 
+/// Largest side of a picture or view, pixels: no camera makes larger ones, and a forged size must
+/// not eat the memory. Fixed-point coordinates rely on it.
+inline constexpr int kMaxSide = 16384;
+
 /// A picture in a camera's own format that somebody else owns. All formats so far have one plane;
 /// `stride` is the distance between rows in bytes. Reentrant.
 struct Picture {

@@ -40,6 +40,18 @@ Result<BallModel> BallModel::paper(double alpha) {
 
 BallModel BallModel::classical() { return {Kind::Classical, 360}; }
 
+Result<BallModel> BallModel::make(Kind kind, std::optional<double> alpha,
+                                  std::optional<double> distance) {
+  if (kind == Kind::Classical) {
+    if (alpha || distance) return fail("the classical model takes neither alpha nor distance");
+    return classical();
+  }
+  if (alpha.has_value() == distance.has_value()) return fail("give either alpha or distance");
+  const Result<double> given = alpha ? Result<double>(*alpha) : alpha_from_distance(*distance);
+  if (!given) return tl::unexpected(given.error());
+  return kind == Kind::Exact ? exact(*given) : paper(*given);
+}
+
 Result<double> BallModel::alpha_from_distance(double distance) {
   if (!(distance > 1)) {
     return fail("distance is " + std::to_string(distance) +

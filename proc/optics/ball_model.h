@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string_view>
+#include <optional>
 
 #include "proc/image/result.h"
 
@@ -27,6 +27,11 @@ class BallModel {
 
   /// The orthographic camera: rho = sin(phi/2), the whole sphere.
   static BallModel classical();
+
+  /// The model of that kind from what a user gives. Error: the classical model takes neither alpha
+  /// nor distance, the others exactly one of them.
+  static Result<BallModel> make(Kind kind, std::optional<double> alpha,
+                                std::optional<double> distance);
 
   /// alpha in degrees for a camera `distance` ball radii away from the ball's centre, > 1.
   static Result<double> alpha_from_distance(double distance);

@@ -2,14 +2,12 @@
 
 #include <optional>
 
+#include "proc/image/picture.h"
 #include "proc/image/result.h"
 #include "proc/optics/rotation.h"
 #include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
-
-/// Largest side of a picture or view, pixels.
-inline constexpr int kMaxSide = 16384;
 
 enum class ViewKind { Perspective, Equirectangular };
 

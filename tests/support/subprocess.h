@@ -13,8 +13,6 @@
 #include <string>
 #include <vector>
 
-extern char** environ;
-
 namespace orbwatch::tests {
 
 /// A program that runs beside the test; what it says on both streams goes to a file. Killed when
@@ -24,6 +22,7 @@ class Subprocess {
   Subprocess(std::vector<std::string> arguments, const std::filesystem::path& output)
       : output_(output) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t files;

@@ -319,7 +319,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"above 1"}},
         Mistake{"NeitherAlphaNorDistance",
                 call("good.png", "o.png", {"--ball", "50,40,30"}),
-                {"--alpha", "--distance"}},
+                {"alpha", "distance"}},
         Mistake{"ClassicalWithAlpha",
                 call("good.png", "o.png",
                      {"--ball", "50,40,30", "--model", "classical", "--alpha", "340"}),

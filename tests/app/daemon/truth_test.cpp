@@ -129,9 +129,11 @@ class PoolTruth : public testing::Test {
     const auto& settings = machine->settings();
     const auto truth = simulation::process_at(settings, seconds);
     Vec3 sum;
-    for (double v = 0; v < kHeight; v += 0.25) {
-      for (double u = 0; u < kWidth; u += 0.25) {
-        const auto sight = simulation::sight_along(pinhole.ray_through(u, v), settings.ball);
+    constexpr int kFine = 4;  // sights per pixel and axis
+    for (int v = 0; v < kHeight * kFine; ++v) {
+      for (int u = 0; u < kWidth * kFine; ++u) {
+        const auto ray = pinhole.ray_through(1.0 * u / kFine, 1.0 * v / kFine);
+        const auto sight = simulation::sight_along(ray, settings.ball);
         if (!sight.on_ball()) continue;
         const auto end = simulation::static_end(settings, sight);
         if (end.hit.surface != simulation::Surface::Workpiece || end.hit.normal.z < 0.5) continue;

@@ -74,6 +74,19 @@ TEST(BallModel, BlindConeIsUndefined) {
   EXPECT_FALSE(std::isnan(BallModel::classical().rho(radians(180))));
 }
 
+TEST(BallModel, TakesAlphaOrDistanceUnlessClassical) {
+  using Kind = BallModel::Kind;
+  for (const Kind kind : {Kind::Exact, Kind::Paper}) {
+    EXPECT_EQ(BallModel::make(kind, 340, {})->kind(), kind);
+    EXPECT_NEAR(BallModel::make(kind, {}, 12)->limit(), radians(alpha_of(12) / 2), 1e-12);
+    EXPECT_FALSE(BallModel::make(kind, {}, {}));
+    EXPECT_FALSE(BallModel::make(kind, 340, 12));
+    EXPECT_FALSE(BallModel::make(kind, {}, 0.9));
+  }
+  EXPECT_TRUE(BallModel::make(Kind::Classical, {}, {}));
+  EXPECT_FALSE(BallModel::make(Kind::Classical, 340, {}));
+}
+
 TEST(BallModel, RefusesWhatIsNoBall) {
   for (const double alpha : {180.0, 0.0, -20.0, 360.001, std::nan(""), 1e300}) {
     EXPECT_FALSE(BallModel::exact(alpha)) << alpha;
