@@ -11,7 +11,6 @@
 namespace orbwatch::app {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::accept_all;
 using tests::eventually;
