@@ -12,7 +12,7 @@ FrameSync::FrameSync(std::size_t cameras, Clock::duration window)
 }
 
 void FrameSync::put(std::size_t camera, Frame frame) {
-  Frame replaced;  // released after the lock: its last release may call into a driver
+  Frame replaced;  // goes after the lock: its last release may call into a driver
   {
     const std::lock_guard lock(mutex_);
     Inbox& inbox = inboxes_[camera];
@@ -45,13 +45,14 @@ void FrameSync::clear(std::size_t camera) {
 }
 
 std::optional<FrameSet> FrameSync::next(TimePoint until) {
+  std::array<Frame, kMaxCameras> released;  // go after the lock
   std::unique_lock lock(mutex_);
   while (!closed_) {
     const std::size_t pacer = pacing();
     TimePoint wake = until;
     if (pacer < cameras_ && inboxes_[pacer].pending) {
       const TimePoint patience = inboxes_[pacer].arrived + window_;
-      if (complete(pacer) || Clock::now() >= patience) return assemble(pacer);
+      if (complete(pacer) || Clock::now() >= patience) return assemble(pacer, released);
       wake = std::min(until, patience);
     }
     if (changed_.wait_until(lock, wake) == std::cv_status::timeout && Clock::now() >= until) {
@@ -97,7 +98,7 @@ bool FrameSync::complete(std::size_t pacer) const {
   return true;
 }
 
-FrameSet FrameSync::assemble(std::size_t pacer) {
+FrameSet FrameSync::assemble(std::size_t pacer, std::array<Frame, kMaxCameras>& released) {
   FrameSet set;
   set.id = ++sets_;
   set.stamp = inboxes_[pacer].pending->metadata.exposure_start;
@@ -106,7 +107,9 @@ FrameSet FrameSync::assemble(std::size_t pacer) {
     // A partner from after the window belongs to a later set.
     const bool due = inbox.pending && inbox.pending->metadata.exposure_start <= set.stamp + window_;
     if (i == pacer || due || !inbox.held) {
-      if (inbox.pending) inbox.held = std::exchange(inbox.pending, nullptr);
+      if (inbox.pending) {
+        released[i] = std::exchange(inbox.held, std::exchange(inbox.pending, nullptr));
+      }
     }
     set.frames[i] = inbox.held;
     set.matched &= !inbox.held || matches(inbox.held, set.stamp);

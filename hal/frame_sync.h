@@ -68,7 +68,7 @@ class FrameSync {
   std::size_t pacing() const;
   bool complete(std::size_t pacer) const;
   bool matches(const Frame& frame, TimePoint moment) const;
-  FrameSet assemble(std::size_t pacer);
+  FrameSet assemble(std::size_t pacer, std::array<Frame, kMaxCameras>& released);
 
   const std::size_t cameras_;
   const Clock::duration window_;

@@ -14,6 +14,12 @@ namespace orbwatch::app {
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
 /// memory comes from the view's pool and returns to it with the last ViewPtr.
 struct View {
+  View() = default;
+  View(View&&) = default;
+  View& operator=(View&&) = default;
+  View(const View&) = delete;  // its planes point into its own memory
+  View& operator=(const View&) = delete;
+
   std::size_t index = 0;  ///< place in the configuration's list of views
   std::string_view name;  ///< lives as long as the pipeline
   std::uint64_t frame_set = 0;
