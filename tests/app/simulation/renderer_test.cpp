@@ -129,7 +129,8 @@ TEST(Renderer, HottestThermalPixelShowsThePoolsCentre) {
     const auto pixels = picture<std::uint16_t>(renderer, t);
     const auto hottest = std::max_element(pixels.begin(), pixels.end()) - pixels.begin();
     const auto u = static_cast<double>(hottest % 640);
-    const auto v = static_cast<double>(hottest / 640);
+    const auto row = hottest / 640;
+    const auto v = static_cast<double>(row);
     const MeltPool pool = process_at(settings, t).pool;
     const Vec3 shown = mirrored_on_workpiece(settings, camera, u, v);
     // The footprint of the pixel: as far as its corners reach.
@@ -169,8 +170,9 @@ TEST(Renderer, TheBallFillsItsOutline) {
     int inside = 0, inside_differs = 0, outside_differs = 0;
     double farthest = 0;
     for (std::size_t i = 0; i < kSide * kSide; ++i) {
-      const double radius = std::hypot(static_cast<double>(i % kSide) - outline.cx,
-                                       static_cast<double>(i / kSide) - outline.cy);
+      const std::size_t u = i % kSide, v = i / kSide;
+      const double radius =
+          std::hypot(static_cast<double>(u) - outline.cx, static_cast<double>(v) - outline.cy);
       const bool differs = !std::equal(&with[i * 3], &with[i * 3] + 3, &without[i * 3]);
       if (differs) farthest = std::max(farthest, radius);
       if (radius < outline.radius) {
