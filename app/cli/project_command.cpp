@@ -43,15 +43,11 @@ struct ProjectOptions {
 template <class T, std::size_t N>
 auto word_option(const char* name, const std::array<Word<T>, N>& words, T& target) {
   return [name, &words, &target](const std::string& value) -> Result<> {
-    std::string allowed;
-    for (const auto& word : words) {
-      if (word.name == value) {
-        target = word.value;
-        return {};
-      }
-      allowed += (allowed.empty() ? "" : ", ") + std::string(word.name);
+    if (const T* found = find_word(words, value)) {
+      target = *found;
+      return {};
     }
-    return fail("--" + std::string(name) + " is \"" + value + "\"; use one of: " + allowed);
+    return fail("--" + std::string(name) + " is \"" + value + "\"; use one of: " + joined(words));
   };
 }
 
@@ -97,8 +93,7 @@ std::vector<Option> declare(ProjectOptions& o) {
        }},
       {"ball", 0, "CX,CY,R | CX,CY,RX,RY,ANGLE",
        "limb of the ball in IN, pixels (centres at integers);\nANGLE in degrees turns RX from "
-       "right "
-       "to down",
+       "right to down",
        [&o](const std::string& v) { return set_ball(v, o.ball); }},
       {"alpha", 0, "DEG",
        "reflected field of view, above 180 to 360:\n360 minus the ball's apparent diameter",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -53,5 +54,22 @@ struct Word {
 };
 template <class T>
 Word(const char*, T) -> Word<T>;
+
+/// What `name` stands for; nullptr when it is none of the words.
+template <class T, std::size_t N>
+const T* find_word(const std::array<Word<T>, N>& words, std::string_view name) {
+  for (const Word<T>& word : words) {
+    if (word.name == name) return &word.value;
+  }
+  return nullptr;
+}
+
+/// "exact, paper, classical"
+template <class T, std::size_t N>
+std::string joined(const std::array<Word<T>, N>& words) {
+  std::string text;
+  for (const Word<T>& word : words) text += (text.empty() ? "" : ", ") + std::string(word.name);
+  return text;
+}
 
 }  // namespace orbwatch::app

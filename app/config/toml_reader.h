@@ -69,17 +69,13 @@ class TomlReader {
                 const char* /*text*/) {
     const toml::node* node = find(key);
     if (!node) return;
-    std::string allowed;
     const auto given = node->value<std::string>();
-    for (const Word<T>& word : words) {
-      if (given == word.name) {
-        value = word.value;
-        return;
-      }
-      allowed += (allowed.empty() ? "" : ", ") + std::string(word.name);
+    if (const T* found = given ? find_word(words, *given) : nullptr) {
+      value = *found;
+      return;
     }
     finding_.note(line_of(*node), name(key),
-                  describe(*node) + " is not allowed; use one of: " + allowed);
+                  describe(*node) + " is not allowed; use one of: " + joined(words));
   }
 
   /// A word that stands for itself.

@@ -26,8 +26,6 @@ class WorkerPool {
         bands, [](void* context, int band) { (*static_cast<Work*>(context))(band); }, &work);
   }
 
-  std::size_t threads() const { return threads_.size(); }
-
  private:
   using Call = void (*)(void*, int);
 

@@ -41,8 +41,6 @@ class BallProjection {
   /// The direction that `pixel` shows; nothing outside the limb.
   std::optional<Vec3> direction(const Vec2& pixel) const;
 
-  const Outline& outline() const { return outline_; }
-
  private:
   BallProjection(const BallModel& model, const Outline& outline, const Mat3& registration);
 
