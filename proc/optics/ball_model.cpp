@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -11,34 +10,47 @@
 namespace orbwatch::optics {
 namespace {
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-
-// A direction exactly on the limb must not fall outside by rounding.
-constexpr double kLimbTolerance = 1e-12;
-
 Result<double> checked_alpha(double alpha) {
   if (alpha > 180 && alpha <= 360) return alpha;
   return fail("alpha is " + std::to_string(alpha) + " degrees; it must be in (180, 360]");
 }
 
+Result<double> checked_distance(double distance) {
+  if (distance > 1) return distance;
+  return fail("distance is " + std::to_string(distance) +
+              " ball radii; it must be above 1: the camera stands outside the ball");
+}
+
+// sin(alpha/2), exact towards 360 degrees too.
+double inverse_distance(double alpha) { return std::sin(radians((360 - alpha) / 2)); }
+
+CosSin sum(const CosSin& a, const CosSin& b) {
+  return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
+}
+
 }  // namespace
 
-BallModel::BallModel(Kind kind, double alpha)
+BallModel::BallModel(Kind kind, double q)
     : kind_(kind),
-      limit_(radians(alpha / 2)),
-      inverse_distance_(alpha == 360 ? 0 : std::sin(radians(alpha / 2))),
-      closed_form_(std::cos(radians(alpha / 4))),
-      stretch_(std::sin(radians(alpha / 4))) {}
+      q_(q),
+      cos_limb_(std::sqrt((1 - q) * (1 + q))),
+      widest_(std::sqrt((1 + cos_limb_) / 2)) {}
 
 Result<BallModel> BallModel::exact(double alpha) {
-  return checked_alpha(alpha).map([](double a) { return BallModel(Kind::Exact, a); });
+  return checked_alpha(alpha).map(
+      [](double a) { return BallModel(Kind::Exact, inverse_distance(a)); });
 }
 
 Result<BallModel> BallModel::paper(double alpha) {
-  return checked_alpha(alpha).map([](double a) { return BallModel(Kind::Paper, a); });
+  return checked_alpha(alpha).map(
+      [](double a) { return BallModel(Kind::Paper, inverse_distance(a)); });
 }
 
-BallModel BallModel::classical() { return {Kind::Classical, 360}; }
+BallModel BallModel::classical() { return {Kind::Classical, 0}; }
+
+BallModel BallModel::at_distance(Kind kind, double distance) {
+  return kind == Kind::Classical ? classical() : BallModel(kind, 1 / distance);
+}
 
 Result<BallModel> BallModel::make(Kind kind, std::optional<double> alpha,
                                   std::optional<double> distance) {
@@ -47,51 +59,41 @@ Result<BallModel> BallModel::make(Kind kind, std::optional<double> alpha,
     return classical();
   }
   if (alpha.has_value() == distance.has_value()) return fail("give either alpha or distance");
-  const Result<double> given = alpha ? Result<double>(*alpha) : alpha_from_distance(*distance);
-  if (!given) return tl::unexpected(given.error());
-  return kind == Kind::Exact ? exact(*given) : paper(*given);
+  if (alpha) return kind == Kind::Exact ? exact(*alpha) : paper(*alpha);
+  return checked_distance(*distance).map([kind](double d) { return at_distance(kind, d); });
 }
 
 Result<double> BallModel::alpha_from_distance(double distance) {
-  if (!(distance > 1)) {
-    return fail("distance is " + std::to_string(distance) +
-                " ball radii; it must be above 1: the camera stands outside the ball");
-  }
-  return 360 - 2 * degrees(std::asin(1 / distance));
+  return checked_distance(distance).map(
+      [](double d) { return 360 - 2 * degrees(std::asin(1 / d)); });
 }
 
-double BallModel::rho(double phi) const {
-  if (!(phi <= limit_ + kLimbTolerance)) return kUndefined;
-  if (kind_ == Kind::Exact) return std::min(1.0, exact_rho(phi));
-  return std::min(1.0, std::sin(phi / 2) / stretch_);
+Result<double> BallModel::distance_from_alpha(double alpha) {
+  return checked_alpha(alpha).map([](double a) { return 1 / inverse_distance(a); });
 }
 
-double BallModel::exact_rho(double phi) const {
-  const double q = inverse_distance_;
-  // Closed form within 1 degree of the root from d = 3 on, then Newton on
-  // f(i) = 2i - asin(q sin i) - phi, which is monotone.
-  const double psi =
-      2 * std::atan2(closed_form_ * std::sin(phi / 2), 1 - closed_form_ * std::cos(phi / 2));
-  double i = std::min((phi + psi) / 2, std::numbers::pi / 2);
-  for (int step = 0; step < 8; ++step) {
-    const double sin_psi = q * std::sin(i);
-    const double error = 2 * i - std::asin(sin_psi) - phi;
-    const double slope = 2 - q * std::cos(i) / std::sqrt(1 - sin_psi * sin_psi);
-    i -= error / slope;
-    if (std::abs(error) < 1e-14) break;
-  }
-  // rho = tan psi / tan psi_max, written so that it holds for q = 0 too.
-  const double sin_i = std::sin(std::min(i, std::numbers::pi / 2));
-  return sin_i * std::sqrt((1 - q * q) / (1 - q * q * sin_i * sin_i));
-}
+double BallModel::limit() const { return std::numbers::pi - std::asin(q_); }
 
-double BallModel::phi(double rho) const {
-  if (!(rho >= 0 && rho <= 1 + kLimbTolerance)) return kUndefined;
+std::optional<CosSin> BallModel::phi(double rho) const {
+  if (!(rho >= 0 && rho <= 1 + kLimbTolerance)) return std::nullopt;
   const double r = std::min(rho, 1.0);
-  if (kind_ != Kind::Exact) return 2 * std::asin(std::min(1.0, r * stretch_));
-  const double q = inverse_distance_;
-  const double sin_i = r / std::sqrt(1 - q * q + q * q * r * r);
-  return 2 * std::asin(std::min(1.0, sin_i)) - std::asin(std::min(1.0, q * sin_i));
+  if (kind_ == Kind::Exact) return sum(theta(r), incidence(r));
+  const double sine = r * widest_;
+  const CosSin h{std::sqrt((1 - sine) * (1 + sine)), sine};
+  return sum(h, h);
+}
+
+CosSin BallModel::theta(double rho) const {
+  const double r = std::min(rho, 1.0);
+  const CosSin i = incidence(r);
+  // The triangle camera, ball's centre, hit point: theta = i - psi, sin psi = q sin i.
+  return sum(i, {std::sqrt((1 - q_ * i.sin) * (1 + q_ * i.sin)), -q_ * i.sin});
+}
+
+CosSin BallModel::incidence(double rho) const {
+  const double left = (1 - rho) * (1 + rho);
+  const double scale = 1 / std::sqrt(1 - q_ * q_ * left);
+  return {cos_limb_ * std::sqrt(left) * scale, rho * scale};
 }
 
 }  // namespace orbwatch::optics

@@ -1,57 +1,139 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
 #include "proc/image/result.h"
+#include "proc/optics/ball.h"
 #include "proc/optics/ball_model.h"
+#include "proc/optics/lens.h"
+#include "proc/optics/outline.h"
+#include "proc/optics/scene_proxy.h"
 #include "proc/optics/vec.h"
+#include "proc/optics/window.h"
 
 namespace orbwatch::optics {
 
-/// The ball's limb in a picture: an ellipse in pixels (OpenCV convention). `angle`, degrees: of the
-/// rx axis, from u towards v. A circle has rx = ry.
-struct Outline {
-  Vec2 centre;
-  double rx = 0;
-  double ry = 0;
-  double angle = 0;
+/// Where a camera stands: x_camera = rotation (X - position). The rotation's rows are the camera's
+/// axes (right, down, forward) in the machine frame; position in mm.
+struct Pose {
+  Mat3 rotation;
+  Vec3 position;
 };
 
-/// Refuses an outline whose centre lies outside of a picture of this size. A ball that the picture
-/// cuts is allowed: what it shows beyond the border is undefined.
-Result<> check_outline(const Outline& outline, int picture_width, int picture_height);
+/// A camera whose lens and pose are known.
+struct CalibratedCamera {
+  Lens lens;
+  Pose pose;
+  std::optional<Window> window;
+};
 
-/// Where one camera shows a direction: ball model, the limb in that camera's picture and the
-/// camera's registration. Reentrant, immutable.
+/// Where one camera shows the room on the ball. Reentrant, immutable.
 ///
-/// Frames: directions are unit vectors in the reference (machine) frame, X right, Y forward, Z up.
-/// Without a registration the camera stands on +Y of the ball and looks along -Y, image right = -X,
-/// image up = +Z. v_reference = registration v_camera.
+/// Directions are unit vectors from the ball's centre in the reference (machine) frame. With a
+/// scene proxy they stand for the point of the machine that lies there, so that cameras agree; far
+/// away else. The paper's and the classical model take the room to be far away always. That one
+/// part of the scene hides another from the ball's surface, though not from its centre, is not
+/// modelled.
 class BallProjection {
  public:
-  /// Error: an outline that is no ellipse with finite numbers and positive axes, or a registration
-  /// that is no rotation.
+  /// A camera without calibration: the limb in its picture and a registration. It stands on +Y of
+  /// the ball and looks along -Y, image right = -X, image up = +Z; v_reference = registration
+  /// v_camera. Error: no ellipse, no rotation.
   static Result<BallProjection> make(const BallModel& model, const Outline& outline,
-                                     const Mat3& registration);
+                                     const Mat3& registration, const Ball& ball = {},
+                                     const SceneProxy& proxy = {});
 
-  /// The pixel that shows `direction`; nothing in the blind cone. It may lie outside the picture
-  /// when the picture cuts the ball.
+  /// A calibrated camera. Error: no rotation, numbers that are not finite, a camera inside of the
+  /// ball or behind whose lens the ball stands, a bad window.
+  static Result<BallProjection> make(BallModel::Kind kind, const CalibratedCamera& camera,
+                                     const Ball& ball, const SceneProxy& proxy = {});
+
+  /// The pixel that shows what lies in `direction`; nothing in the blind cone. It may lie outside
+  /// the picture when the picture cuts the ball.
   std::optional<Vec2> pixel(const Vec3& direction) const;
 
-  /// The direction that `pixel` shows; nothing outside the limb.
+  /// The same when what lies there stands at `closeness` = ball radius / distance from the ball's
+  /// centre, whatever the proxy says. Smooth in both, also a little beyond closeness 0.
+  std::optional<Vec2> pixel(const Vec3& direction, double closeness) const;
+
+  /// The pixel that shows a point, machine frame, mm. Nothing in the blind cone and within the
+  /// ball.
+  std::optional<Vec2> pixel_of_point(const Vec3& point) const;
+
+  /// The ray that `pixel` sees after its reflection: it starts on the ball, machine frame, mm.
+  /// Nothing outside the limb.
+  std::optional<Ray> ray(const Vec2& pixel) const;
+
+  /// The direction of what `pixel` shows: where its ray meets the scene. Nothing outside the limb.
   std::optional<Vec3> direction(const Vec2& pixel) const;
 
- private:
-  BallProjection(const BallModel& model, const Outline& outline, const Mat3& registration);
+  /// The limb in the picture; nothing when the lens does not show all of it.
+  std::optional<Outline> outline() const;
 
-  BallModel model_;
-  Outline outline_;
-  Mat3 camera_to_reference_;
-  Mat3 reference_to_camera_;
-  // Symmetric map from the unit disc (right, down) to pixels around the centre.
-  double stretch_uu_;
-  double stretch_uv_;
-  double stretch_vv_;
+  /// From the ball's centre towards the camera: the best-resolved direction.
+  const Vec3& facing() const { return viewpoint_.facing; }
+  /// Camera to the ball's centre in ball radii; infinite for an orthographic one.
+  double distance() const { return viewpoint_.distance; }
+  const SceneProxy& proxy() const { return proxy_; }
+  const Ball& ball() const { return ball_; }
+
+ private:
+  /// The camera as the ball sees it; behind a window, where it seems to stand for one of its rays.
+  ///
+  /// What the ball's picture shows is a place across the axis: rho times the unit vector, in the
+  /// machine frame, from the axis towards what lies there. It is the camera ray's offset from the
+  /// axis as a share of the limb's.
+  struct Viewpoint {
+    Vec3 facing;
+    double distance;  ///< ball radii
+    BallModel model;
+    double tan_limb;  ///< tan psi_max; 0 for an orthographic camera
+
+    Viewpoint(const Vec3& unit_facing, double distance_in_radii, const BallModel& ball_model);
+    /// Of a camera at `offset` from the ball's centre, ball radii.
+    Viewpoint(const Vec3& offset, BallModel::Kind kind);
+
+    /// A direction's part across the axis times a number is its place.
+    struct Scaled {
+      Vec3 across;
+      BallModel::Stretch stretch;
+    };
+    std::optional<Scaled> place(const Vec3& direction, double closeness) const;
+    /// Camera ray of any length.
+    Vec3 camera_ray(const Scaled& place) const {
+      return place.across * (place.stretch.across * tan_limb) - facing * place.stretch.along;
+    }
+    std::optional<Vec3> place_of_camera_ray(const Vec3& ray) const;
+    /// The ray that leaves the ball there, relative to its centre, in ball radii.
+    std::optional<Ray> reflected(const Vec3& place) const;
+  };
+
+  /// Places in a picture without calibration: a linear map onto the limb's ellipse.
+  struct LimbPicture {
+    LimbPicture(const Outline& limb, const Mat3& registration);
+
+    Vec2 pixel(const Viewpoint::Scaled& place) const;
+    Vec3 place(const Vec2& pixel) const;
+
+    Outline outline;
+    Vec3 u, v;  ///< pixels per place
+    Vec3 place_per_u, place_per_v;
+  };
+
+  BallProjection(const Viewpoint& viewpoint,
+                 const std::variant<LimbPicture, CalibratedCamera>& picture, const Ball& ball,
+                 const SceneProxy& proxy);
+
+  Viewpoint seen_from(const Vec3& position) const;
+  std::optional<Vec2> pixel_through_window(const CalibratedCamera& camera, const Vec3& direction,
+                                           double closeness) const;
+  std::optional<Ray> reflected(const Vec2& pixel) const;
+
+  Viewpoint viewpoint_;
+  std::variant<LimbPicture, CalibratedCamera> picture_;
+  Ball ball_;
+  SceneProxy proxy_;
 };
 
 }  // namespace orbwatch::optics

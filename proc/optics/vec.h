@@ -28,6 +28,12 @@ inline double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
+/// A half-line in space; `direction` is a unit vector. Same frame and unit as the user states.
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+};
+
 /// A point in a picture: pixels, centres at integers (OpenCV), u right, v down.
 struct Vec2 {
   double u = 0;

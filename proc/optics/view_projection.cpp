@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "proc/optics/angle.h"
@@ -9,72 +10,238 @@
 namespace orbwatch::optics {
 namespace {
 
-Result<> check_size(const ViewSpec& spec) {
-  const auto good = [](int side) { return side >= 1 && side <= kMaxSide; };
-  if (good(spec.width) && good(spec.height)) return {};
-  return fail("the view's size is " + std::to_string(spec.width) + "x" +
-              std::to_string(spec.height) + "; each side must be 1 to " + std::to_string(kMaxSide));
+// Below that a pixel's step would vanish in the directions' rounding.
+constexpr double kLeastFov = 1e-6;
+
+// A Ball view shows this much more than the limb's bounding box: alignment wants to see the limb.
+constexpr double kCropMargin = 1.02;
+
+// A pixel exactly on a fisheye's end must not fall beyond it by rounding.
+constexpr double kHalfTurn = std::numbers::pi * (1 + 1e-12);
+
+struct Limit {
+  double degrees;
+  bool included;
+};
+
+struct FieldOfView {
+  double h_default;
+  Limit h;
+  Limit v;
+};
+
+constexpr FieldOfView field_of_view(ViewKind kind) {
+  switch (kind) {
+    case ViewKind::Perspective:
+      return {90, {180, false}, {180, false}};
+    case ViewKind::Equirectangular:
+      return {360, {360, true}, {180, true}};
+    case ViewKind::Cylindrical:
+      return {360, {360, true}, {180, false}};
+    case ViewKind::Stereographic:
+      return {180, {360, false}, {360, false}};
+    case ViewKind::Fisheye:
+      return {180, {360, true}, {360, true}};
+    case ViewKind::Ball:
+      break;
+  }
+  return {};
 }
 
-Result<> check_angle(const char* name, double value, double limit, bool limit_allowed) {
-  if (value > 0 && (value < limit || (limit_allowed && value == limit))) return {};
-  return fail(std::string("the view's ") + name + " is " + std::to_string(value) +
-              " degrees; it must be above 0 and " + (limit_allowed ? "at most " : "below ") +
-              std::to_string(static_cast<int>(limit)));
+Result<> check_angle(const char* name, std::optional<double> value, Limit limit) {
+  if (!value || (*value >= kLeastFov &&
+                 (*value < limit.degrees || (limit.included && *value == limit.degrees)))) {
+    return {};
+  }
+  return fail(std::string("the view's ") + name + " is " + std::to_string(*value) +
+              " degrees; it must be above 0 and " + (limit.included ? "at most " : "below ") +
+              std::to_string(static_cast<int>(limit.degrees)));
+}
+
+/// How far a picture reaches from its middle, in the projection's own measure.
+double reach(ViewKind kind, bool vertical, double fov) {
+  if (kind == ViewKind::Stereographic) return std::tan(radians(fov / 4));
+  const bool tangent = kind == ViewKind::Perspective || (kind == ViewKind::Cylindrical && vertical);
+  return tangent ? std::tan(radians(fov / 2)) : radians(fov / 2);
+}
+
+Vec3 from_longitude(double longitude, double along, double up) {
+  return {along * std::sin(longitude), along * std::cos(longitude), up};
 }
 
 }  // namespace
 
-Result<ViewProjection> ViewProjection::make(const ViewSpec& spec) {
-  if (auto size = check_size(spec); !size) return tl::unexpected(size.error());
+Result<> check_view(const ViewSpec& spec) {
+  const auto good = [](int side) { return side >= 1 && side <= kMaxSide; };
+  if (!good(spec.width) || !good(spec.height)) {
+    return fail("the view's size is " + std::to_string(spec.width) + "x" +
+                std::to_string(spec.height) + "; each side must be 1 to " +
+                std::to_string(kMaxSide));
+  }
   const YawPitchRoll& angles = spec.orientation;
   if (!std::isfinite(angles.yaw + angles.pitch + angles.roll)) {
     return fail("the view's yaw, pitch and roll must be finite numbers");
   }
-  const bool perspective = spec.kind == ViewKind::Perspective;
-  const double h_fov = spec.h_fov.value_or(perspective ? 90 : 360);
-  if (auto ok = check_angle("h_fov", h_fov, perspective ? 180 : 360, !perspective); !ok) {
-    return tl::unexpected(ok.error());
+  if (spec.kind == ViewKind::Ball) {
+    if (spec.h_fov || spec.v_fov || angles.yaw != 0 || angles.pitch != 0 || angles.roll != 0) {
+      return fail("a ball's own picture takes no yaw, pitch, roll, h_fov or v_fov");
+    }
+    return {};
   }
-  const double square = std::tan(radians(h_fov / 2)) * spec.height / spec.width;
-  const double v_fov = spec.v_fov.value_or(perspective ? 2 * degrees(std::atan(square)) : 180);
-  if (auto ok = check_angle("v_fov", v_fov, 180, !perspective); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  return ViewProjection(spec, h_fov, v_fov);
+  const FieldOfView limits = field_of_view(spec.kind);
+  return check_angle("h_fov", spec.h_fov, limits.h).and_then([&] {
+    return check_angle("v_fov", spec.v_fov, limits.v);
+  });
 }
 
-ViewProjection::ViewProjection(const ViewSpec& spec, double h_fov, double v_fov)
+Result<ViewProjection> ViewProjection::make(const ViewSpec& spec) {
+  if (auto ok = check_view(spec); !ok) return tl::unexpected(ok.error());
+  if (spec.kind == ViewKind::Ball) {
+    return fail("a ball's own picture belongs to a camera: name one");
+  }
+  return ViewProjection(spec);
+}
+
+Result<ViewProjection> ViewProjection::make(const ViewSpec& spec, const BallProjection& ball) {
+  if (spec.kind != ViewKind::Ball) return make(spec);
+  if (auto ok = check_view(spec); !ok) return tl::unexpected(ok.error());
+  ViewProjection view(spec);
+  if (auto ok = view.crop(ball); !ok) return tl::unexpected(ok.error());
+  return view;
+}
+
+ViewProjection::ViewProjection(const ViewSpec& spec)
     : kind_(spec.kind),
       width_(spec.width),
       height_(spec.height),
       orientation_(rotation(spec.orientation)) {
-  if (kind_ == ViewKind::Perspective) {
-    step_u_ = 2 * std::tan(radians(h_fov / 2)) / width_;
-    step_v_ = 2 * std::tan(radians(v_fov / 2)) / height_;
+  if (kind_ == ViewKind::Ball) return;
+  const double h_fov = spec.h_fov.value_or(field_of_view(kind_).h_default);
+  step_u_ = 2 * reach(kind_, false, h_fov) / width_;
+  if (spec.v_fov || kind_ == ViewKind::Equirectangular) {
+    step_v_ = 2 * reach(kind_, true, spec.v_fov.value_or(180)) / height_;
   } else {
-    step_u_ = radians(h_fov) / width_;
-    step_v_ = radians(v_fov) / height_;
+    step_v_ = step_u_;
   }
 }
 
-Vec3 ViewProjection::direction(double u, double v) const {
-  const double right = (u - (width_ - 1) / 2.0) * step_u_;
-  const double up = ((height_ - 1) / 2.0 - v) * step_v_;
-  if (kind_ == ViewKind::Perspective) {
-    return orientation_ * normalized({right, 1, up});
+Result<> ViewProjection::crop(const BallProjection& ball) {
+  const auto limb = ball.outline();
+  if (!limb) return fail("the camera's lens does not show all of the ball's limb");
+  const double c = std::cos(radians(limb->angle)), s = std::sin(radians(limb->angle));
+  const double half_width = std::hypot(limb->rx * c, limb->ry * s);
+  const double half_height = std::hypot(limb->rx * s, limb->ry * c);
+  step_u_ = step_v_ = 2 * kCropMargin * std::max(half_width / width_, half_height / height_);
+  crop_centre_ = limb->centre;
+  ball_ = ball;
+  return {};
+}
+
+Vec2 ViewProjection::camera_pixel(double u, double v) const {
+  return {crop_centre_.u + (u - (width_ - 1) / 2.0) * step_u_,
+          crop_centre_.v + (v - (height_ - 1) / 2.0) * step_v_};
+}
+
+std::optional<Vec3> ViewProjection::direction(double u, double v) const {
+  const double x = (u - (width_ - 1) / 2.0) * step_u_;
+  const double y = ((height_ - 1) / 2.0 - v) * step_v_;
+  switch (kind_) {
+    case ViewKind::Perspective:
+      return orientation_ * normalized({x, 1, y});
+    case ViewKind::Equirectangular:
+      return orientation_ * from_longitude(x, std::cos(y), std::sin(y));
+    case ViewKind::Cylindrical: {
+      const double cosine = 1 / std::sqrt(1 + y * y);
+      return orientation_ * from_longitude(x, cosine, y * cosine);
+    }
+    case ViewKind::Stereographic: {
+      const double r2 = x * x + y * y;
+      return orientation_ * (Vec3{2 * x, 1 - r2, 2 * y} * (1 / (1 + r2)));
+    }
+    case ViewKind::Fisheye: {
+      const double theta = std::hypot(x, y);
+      if (theta > kHalfTurn) return std::nullopt;
+      const double scale = theta > 0 ? std::sin(theta) / theta : 1;
+      return orientation_ * Vec3{x * scale, std::cos(theta), y * scale};
+    }
+    case ViewKind::Ball:
+      break;
   }
-  return orientation_ *
-         Vec3{std::cos(up) * std::sin(right), std::cos(up) * std::cos(right), std::sin(up)};
+  return ball_->direction(camera_pixel(u, v));
+}
+
+std::optional<Vec2> ViewProjection::pixel(const Vec3& direction) const {
+  const auto at = [&](double x, double y) {
+    return Vec2{(width_ - 1) / 2.0 + x / step_u_, (height_ - 1) / 2.0 - y / step_v_};
+  };
+  const Vec3 d = transposed(orientation_) * direction;
+  const double along = std::hypot(d.x, d.y), across = std::hypot(d.x, d.z);
+  switch (kind_) {
+    case ViewKind::Perspective:
+      if (!(d.y > 0)) return std::nullopt;
+      return at(d.x / d.y, d.z / d.y);
+    case ViewKind::Equirectangular:
+      return at(std::atan2(d.x, d.y), std::atan2(d.z, along));
+    case ViewKind::Cylindrical:
+      if (!(along > 0)) return std::nullopt;
+      return at(std::atan2(d.x, d.y), d.z / along);
+    case ViewKind::Stereographic:
+      if (!(d.y > -1)) return std::nullopt;
+      return at(d.x / (1 + d.y), d.z / (1 + d.y));
+    case ViewKind::Fisheye: {
+      if (across == 0 && d.y < 0) return std::nullopt;
+      const double scale = across > 0 ? std::atan2(across, d.y) / across : 0;
+      return at(d.x * scale, d.z * scale);
+    }
+    case ViewKind::Ball:
+      break;
+  }
+  const auto seen = ball_->pixel(direction);
+  if (!seen) return std::nullopt;
+  return at(seen->u - crop_centre_.u, crop_centre_.v - seen->v);
 }
 
 double ViewProjection::solid_angle(double u, double v) const {
-  const double right = (u - (width_ - 1) / 2.0) * step_u_;
-  const double up = ((height_ - 1) / 2.0 - v) * step_v_;
-  if (kind_ == ViewKind::Perspective) {
-    return step_u_ * step_v_ / std::pow(1 + right * right + up * up, 1.5);
+  const double x = (u - (width_ - 1) / 2.0) * step_u_;
+  const double y = ((height_ - 1) / 2.0 - v) * step_v_;
+  const double area = step_u_ * step_v_, r2 = x * x + y * y;
+  switch (kind_) {
+    case ViewKind::Perspective:
+      return area / ((1 + r2) * std::sqrt(1 + r2));
+    case ViewKind::Equirectangular:
+      return step_u_ * 2 * std::sin(step_v_ / 2) * std::max(0.0, std::cos(y));
+    case ViewKind::Cylindrical:
+      return area / ((1 + y * y) * std::sqrt(1 + y * y));
+    case ViewKind::Stereographic:
+      return area * 4 / ((1 + r2) * (1 + r2));
+    case ViewKind::Fisheye: {
+      const double theta = std::sqrt(r2);
+      if (theta > std::numbers::pi) return 0;
+      return theta > 0 ? area * std::sin(theta) / theta : area;
+    }
+    case ViewKind::Ball:
+      break;
   }
-  return step_u_ * 2 * std::sin(step_v_ / 2) * std::max(0.0, std::cos(up));
+  return ball_solid_angle(u, v);
+}
+
+double ViewProjection::ball_solid_angle(double u, double v) const {
+  const auto left = direction(u - 0.5, v), right = direction(u + 0.5, v);
+  const auto above = direction(u, v - 0.5), below = direction(u, v + 0.5);
+  if (!left || !right || !above || !below) return 0;
+  return norm(cross(*right - *left, *below - *above));
+}
+
+std::optional<Intrinsics> ViewProjection::intrinsics() const {
+  if (kind_ != ViewKind::Perspective) return std::nullopt;
+  Intrinsics of_view;
+  of_view.width = width_;
+  of_view.height = height_;
+  of_view.fx = 1 / step_u_;
+  of_view.fy = 1 / step_v_;
+  of_view.cx = (width_ - 1) / 2.0;
+  of_view.cy = (height_ - 1) / 2.0;
+  return of_view;
 }
 
 }  // namespace orbwatch::optics

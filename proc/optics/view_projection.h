@@ -4,51 +4,84 @@
 
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/lens.h"
 #include "proc/optics/rotation.h"
 #include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 
-enum class ViewKind { Perspective, Equirectangular };
+/// FFmpeg v360 calls them flat, equirect, cylindrical, sg, fisheye. Ball is a camera's own picture,
+/// cut to the ball.
+enum class ViewKind { Perspective, Equirectangular, Cylindrical, Stereographic, Fisheye, Ball };
 
 /// A virtual camera in the ball's centre. Angles in degrees, in FFmpeg v360's terms.
 struct ViewSpec {
   ViewKind kind = ViewKind::Perspective;
-  YawPitchRoll orientation;
-  std::optional<double> h_fov;  ///< edge to edge; else 90 perspective, 360 equirectangular
-  std::optional<double> v_fov;  ///< else from square pixels (perspective), 180 (equirectangular)
+  YawPitchRoll orientation;  ///< 0 for Ball, whose picture is not turned
+  /// Edge to edge through the middle. Else 90 perspective, 360 equirectangular and cylindrical, 180
+  /// stereographic and fisheye. Ball has none.
+  std::optional<double> h_fov;
+  std::optional<double> v_fov;  ///< else 180 equirectangular, from square pixels the others
   int width = 0;
   int height = 0;
 };
 
-/// From a view's pixels to directions in the reference frame. Reentrant, immutable.
+/// Refuses sizes outside 1..kMaxSide, angles that are not finite, fields of view that the kind
+/// cannot have, and any angle for Ball.
+Result<> check_view(const ViewSpec& spec);
+
+/// From a view's pixels to directions in the reference frame and back. Reentrant, immutable.
 ///
-/// Perspective: f = (W/2) / tan(h_fov/2), principal point ((W-1)/2, (H-1)/2). Equirectangular:
-/// longitude and latitude linear from the picture's corner, centre straight ahead.
+/// Straight ahead is the picture's middle, ((W-1)/2, (H-1)/2). With x right and y up from there:
+/// Perspective: x, y = f tan. Equirectangular: longitude and latitude are linear in x, y.
+/// Cylindrical: longitude is linear in x, y = f tan(latitude). Stereographic, at the angle theta
+/// from straight ahead: r = 2 f tan(theta/2). Fisheye (equidistant): r = f theta.
 class ViewProjection {
  public:
-  /// Error: sizes outside 1..kMaxSide, angles that are not finite, a perspective h_fov or v_fov
-  /// outside (0, 180), an equirectangular one outside (0, 360] and (0, 180].
+  /// Error: as check_view(). Ball views need a camera: see below.
   static Result<ViewProjection> make(const ViewSpec& spec);
 
-  /// Unit vector of a pixel (OpenCV convention), also a little outside the picture.
-  Vec3 direction(double u, double v) const;
+  /// A view of any kind; a Ball view shows what that camera sees, cut to the limb's bounding box
+  /// and a margin, with square pixels. Error: also a limb that the lens does not show.
+  static Result<ViewProjection> make(const ViewSpec& spec, const BallProjection& ball);
 
-  /// The solid angle that the pixel at (u, v) covers, in steradian.
+  /// Unit vector of a pixel (OpenCV convention), also a little outside the picture. Nothing where
+  /// the projection ends: beyond 180 degrees from a fisheye's axis, outside of the ball's limb.
+  std::optional<Vec3> direction(double u, double v) const;
+
+  /// The pixel that shows a unit vector; it may lie outside of the picture. Nothing for what the
+  /// projection shows nowhere, or not at one place: behind a perspective camera, the poles of a
+  /// cylinder, straight behind the others, the blind cone of a ball's picture.
+  std::optional<Vec2> pixel(const Vec3& direction) const;
+
+  /// The solid angle that the pixel at (u, v) covers, in steradian; 0 where direction() ends.
   double solid_angle(double u, double v) const;
 
+  /// What ROS' camera_info says of a perspective view; nothing for other kinds.
+  std::optional<Intrinsics> intrinsics() const;
+
+  ViewKind kind() const { return kind_; }
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
-  ViewProjection(const ViewSpec& spec, double h_fov, double v_fov);
+  explicit ViewProjection(const ViewSpec& spec);
+
+  Result<> crop(const BallProjection& ball);
+  Vec2 camera_pixel(double u, double v) const;
+  double ball_solid_angle(double u, double v) const;
 
   ViewKind kind_;
   int width_;
   int height_;
   Mat3 orientation_;
-  double step_u_;  ///< perspective: tangent per pixel; equirectangular: radians per pixel
-  double step_v_;
+  /// Per pixel: radians where the projection is linear in an angle, else of the tangent (for
+  /// Stereographic of half the angle), for Ball camera pixels.
+  double step_u_ = 0;
+  double step_v_ = 0;
+  std::optional<BallProjection> ball_;  ///< Ball only
+  Vec2 crop_centre_;                    ///< Ball only, camera pixels
 };
 
 }  // namespace orbwatch::optics

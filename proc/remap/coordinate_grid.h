@@ -2,72 +2,44 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "proc/image/image_view.h"
 #include "proc/image/validity.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
+#include "proc/remap/coordinate.h"
+#include "proc/remap/dense_tile.h"
+#include "proc/remap/patch.h"
 
 namespace orbwatch::remap {
 
-/// Views are cut into tiles of 16x16 pixels; the grid has a node at each tile's corner.
-inline constexpr int kTile = 16;
-/// Source coordinates are fixed point with this many fraction bits (Q13).
-inline constexpr int kFractionBits = 13;
-/// Largest distance in source pixels between a tile's patch and the exact map.
-inline constexpr double kPatchTolerance = 1.0 / 64;
-
-/// A place in the source picture, Q13 pixels. In a dense tile u may be a marker instead.
-struct Coordinate {
-  std::int32_t u = 0;
-  std::int32_t v = 0;
-};
-inline constexpr std::int32_t kBlind = std::numeric_limits<std::int32_t>::min();
-inline constexpr std::int32_t kOutside = kBlind + 1;
-constexpr bool is_defined(const Coordinate& c) { return c.u > kOutside; }
-
-/// How a tile's coordinates are kept.
+/// What a kernel does with a tile.
 enum class TileClass : std::uint8_t {
   Blind,    ///< no pixel is on the ball's picture: filled without reading
   Outside,  ///< every pixel falls outside the source picture: filled without reading
-  Patch,    ///< bilinear between the four nodes plus second differences
-  Dense,    ///< one coordinate or marker per pixel
+  Patch,    ///< one smooth patch
+  Dense,    ///< row by row, each pixel a coordinate or a marker
 };
+
+/// Where a tile's coordinates are kept.
+enum class TileStore : std::uint8_t { Grid, OwnNodes, Split, Fine8, Fine4, Packed, Whole };
 
 struct Tile {
   TileClass kind = TileClass::Blind;
-  bool interior = false;    ///< every pixel and its right and lower neighbour lie in the source
-  std::uint32_t dense = 0;  ///< Dense: index of the tile's first coordinate
-};
-
-/// One row of a patch: source coordinates by forward differences, exact in integers, so that every
-/// kernel on every architecture steps through the same values.
-struct PatchRow {
-  static constexpr int kScaleBits = 11;  ///< values are Q(13 + 11)
-  std::int64_t u, du, ddu;
-  std::int64_t v, dv, ddv;
-
-  Coordinate current() const {
-    constexpr std::int64_t kHalf = std::int64_t{1} << (kScaleBits - 1);
-    return {static_cast<std::int32_t>((u + kHalf) >> kScaleBits),
-            static_cast<std::int32_t>((v + kHalf) >> kScaleBits)};
-  }
-  void step() {
-    u += du;
-    du += ddu;
-    v += dv;
-    dv += ddv;
-  }
+  TileStore store = TileStore::Grid;  ///< Patch: Grid or OwnNodes; Dense: the others
+  bool interior =
+      false;  ///< Patch: every pixel and its right and lower neighbour are in the source
+  std::uint32_t index = 0;  ///< in its store
 };
 
 /// The map from a view's pixels to one source's pixels, compiled so that the frame path needs
-/// neither trigonometry nor a map of full size. Immutable; reentrant.
+/// neither trigonometry nor a map of full size. Every defined pixel is within kTolerance of the
+/// exact map. Immutable; reentrant.
 class CoordinateGrid {
  public:
-  /// Evaluates the exact map at the nodes and checks each tile's patch against it; tiles that are
-  /// off by more than kPatchTolerance go dense. Allocates; not for the frame path.
+  /// Evaluates the exact map at the tiles' corners; tiles whose patch would not be close enough, or
+  /// that an edge of the scene crosses, go dense. Allocates; not for the frame path.
   CoordinateGrid(const optics::ViewProjection& view, const optics::BallProjection& ball,
                  int source_width, int source_height);
 
@@ -81,12 +53,12 @@ class CoordinateGrid {
   const Tile& tile(int tx, int ty) const {
     return tiles_[static_cast<std::size_t>(ty) * tiles_x_ + tx];
   }
-  /// Row `y`, 0..15, of a Patch tile, at the tile's first pixel.
-  PatchRow patch_row(int tx, int ty, int y) const;
-  /// Row `y`, 0..15, of a Dense tile: kTile coordinates.
-  const Coordinate* dense_row(const Tile& tile, int y) const {
-    return dense_.data() + tile.dense + static_cast<std::ptrdiff_t>(y) * kTile;
-  }
+  /// The map within a Patch tile.
+  Patch patch(int tx, int ty) const;
+  /// Row `y`, 0..15, of a Dense tile, with markers. Pixels beyond the view's border are undefined.
+  CoordinateRow dense_row(const Tile& tile, int y) const;
+  /// Row `y`, 0..15, of any tile: for where speed matters less than simplicity.
+  CoordinateRow row(int tx, int ty, int y) const;
 
   /// One Validity per pixel into `out`, which has the view's size.
   void write_validity(const ImageView<std::uint8_t>& out) const;
@@ -95,16 +67,12 @@ class CoordinateGrid {
   std::size_t bytes() const;
 
  private:
-  struct Exact;
+  class Compiler;
 
   const Coordinate& node(int i, int j) const {
     return nodes_[static_cast<std::size_t>(j + 1) * (tiles_x_ + 3) + (i + 1)];
   }
-  Tile classify(const Exact& exact, int tx, int ty);
-  bool patch_is_possible(int tx, int ty) const;
-  bool patch_is_close(const Exact& exact, int tx, int ty) const;
-  Tile patch_tile(int tx, int ty) const;
-  Tile dense_tile(const Exact& exact, int tx, int ty);
+  Stencil stencil(int tx, int ty) const;
 
   int width_;
   int height_;
@@ -114,7 +82,12 @@ class CoordinateGrid {
   int tiles_y_;
   std::vector<Coordinate> nodes_;  ///< (tiles + 1) corners and a ring of one around them
   std::vector<Tile> tiles_;
-  std::vector<Coordinate> dense_;
+  std::vector<Stencil> own_nodes_;
+  std::vector<SplitTile> split_;
+  std::vector<FineTile<8>> fine8_;
+  std::vector<FineTile<4>> fine4_;
+  std::vector<PackedTile> packed_;
+  std::vector<WholeTile> whole_;
 };
 
 }  // namespace orbwatch::remap

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -12,29 +11,28 @@ namespace orbwatch::remap {
 /// Most sources that one view merges.
 inline constexpr std::size_t kMaxSources = 4;
 
-/// The share of each source in a pixel, for every set of sources that can see it. A set is a bit
-/// mask, bit n for source n; shares are Q8 and add up to 256. Where only one camera sees, its share
-/// is whole, whatever its weight: a camera fills the other's blind cone.
-class MergeWeights {
- public:
-  /// `weights`: one per source, >= 0, finite. A source of weight 0 does not count as seeing.
-  explicit MergeWeights(std::span<const double> weights);
-
-  const std::array<std::uint16_t, kMaxSources>& shares(std::size_t mask) const {
-    return shares_[mask];
-  }
-
- private:
-  std::array<std::array<std::uint16_t, kMaxSources>, std::size_t{1} << kMaxSources> shares_{};
+/// One source of a merged picture: what it shows of the view, and how much that counts beside the
+/// others (see blend_weights). Weight 0: it does not see the pixel, whose samples are not used.
+template <class T>
+struct MergeSource {
+  ImageView<const T> picture;
+  ImageView<const std::uint8_t> weights;
 };
 
-/// Blends the tile rows `rows` of up to kMaxSources RGB pictures of the same size into `rgb`.
-/// `coverage` holds per pixel the mask of the sources that see it. Pixels that none sees become 0.
-/// `validity` becomes Seen where some source of weight sees; elsewhere it is left as it was.
-/// Reentrant.
-void merge(std::span<const ImageView<const std::uint8_t>> sources,
-           const ImageView<const std::uint8_t>& coverage, const MergeWeights& weights,
-           const ImageView<std::uint8_t>& rgb, const ImageView<std::uint8_t>& validity,
-           TileRows rows);
+/// Blends the tile rows `rows` of up to kMaxSources pictures into `out`: the mean by weight,
+/// rounded to nearest, exactly. A source that sees a pixel alone passes unchanged, whatever its
+/// weight: a camera fills the other's blind cone. Pixels that none sees become 0. `validity`
+/// becomes Seen where some source sees; elsewhere it is left as it was.
+///
+/// Pictures, weights, `out` and `validity` have one size; pictures and `out` 1 or 3 channels. `out`
+/// may be one of the pictures. T is uint8_t or uint16_t. Reentrant.
+template <class T>
+void merge(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
+           const ImageView<std::uint8_t>& validity, TileRows rows);
+
+/// The same, but the first of `sources` that sees a pixel has it alone.
+template <class T>
+void merge_first(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
+                 const ImageView<std::uint8_t>& validity, TileRows rows);
 
 }  // namespace orbwatch::remap

@@ -27,39 +27,50 @@ class TileWriter {
 
   void write(int tx, int ty) const {
     const Tile& tile = grid_.tile(tx, ty);
-    const int columns = std::min(kTile, out_.width - tx * kTile);
-    const int rows = std::min(kTile, out_.height - ty * kTile);
-    for (int y = 0; y < rows; ++y) {
-      Sample* out = out_.at(tx * kTile, ty * kTile + y);
-      switch (tile.kind) {
-        case TileClass::Blind:
-        case TileClass::Outside:
-          std::fill_n(out, columns * Sampler::kChannels, Sample{0});
-          break;
-        case TileClass::Patch:
-          patch(grid_.patch_row(tx, ty, y), tile.interior, out, columns);
-          break;
-        case TileClass::Dense:
-          dense(grid_.dense_row(tile, y), out, columns);
-          break;
-      }
+    switch (tile.kind) {
+      case TileClass::Blind:
+      case TileClass::Outside:
+        return clear(tx, ty);
+      case TileClass::Patch:
+        return patch(tx, ty, tile.interior);
+      case TileClass::Dense:
+        return dense(tx, ty, tile);
     }
   }
 
  private:
-  void patch(PatchRow row, bool interior, Sample* out, int columns) const {
-    for (int x = 0; x < columns; ++x, row.step(), out += Sampler::kChannels) {
-      const Coordinate c = row.current();
-      sample(interior && !nearest_ ? Neighbours::interior(c) : clamped(c), out);
+  Sample* at(int tx, int ty, int y) const { return out_.at(tx * kTile, ty * kTile + y); }
+  int columns(int tx) const { return std::min(kTile, out_.width - tx * kTile); }
+  int rows(int ty) const { return std::min(kTile, out_.height - ty * kTile); }
+
+  void clear(int tx, int ty) const {
+    for (int y = 0; y < rows(ty); ++y) {
+      std::fill_n(at(tx, ty, y), columns(tx) * Sampler::kChannels, Sample{0});
     }
   }
 
-  void dense(const Coordinate* row, Sample* out, int columns) const {
-    for (int x = 0; x < columns; ++x, out += Sampler::kChannels) {
-      if (is_defined(row[x])) {
-        sample(clamped(row[x]), out);
-      } else {
-        std::fill_n(out, Sampler::kChannels, Sample{0});
+  void patch(int tx, int ty, bool interior) const {
+    const Patch patch = grid_.patch(tx, ty);
+    for (int y = 0; y < rows(ty); ++y) {
+      PatchRow row = patch.row(y);
+      Sample* out = at(tx, ty, y);
+      for (int x = 0; x < columns(tx); ++x, row.step(), out += Sampler::kChannels) {
+        const Coordinate c = row.current();
+        sampler_.bilinear(interior && !nearest_ ? Neighbours::interior(c) : clamped(c), out);
+      }
+    }
+  }
+
+  void dense(int tx, int ty, const Tile& tile) const {
+    for (int y = 0; y < rows(ty); ++y) {
+      const CoordinateRow row = grid_.dense_row(tile, y);
+      Sample* out = at(tx, ty, y);
+      for (int x = 0; x < columns(tx); ++x, out += Sampler::kChannels) {
+        if (is_defined(row[x])) {
+          sampler_.bilinear(clamped(row[x]), out);
+        } else {
+          std::fill_n(out, Sampler::kChannels, Sample{0});
+        }
       }
     }
   }
@@ -71,10 +82,6 @@ class TileWriter {
       c.v = (c.v + kHalf) & ~(2 * kHalf - 1);
     }
     return Neighbours::clamped(c, grid_.source_width(), grid_.source_height());
-  }
-
-  void sample(const Neighbours& neighbours, Sample* out) const {
-    sampler_.bilinear(neighbours, out);
   }
 
   const CoordinateGrid& grid_;

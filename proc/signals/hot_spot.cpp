@@ -14,7 +14,8 @@ HotSpotDetector::HotSpotDetector(const optics::ViewProjection& view)
   pixels_.reserve(static_cast<std::size_t>(width_) * height_);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const Vec3 d = view.direction(x, y);
+      // Where the projection ends there is nothing to measure: such pixels are never Seen.
+      const Vec3 d = view.direction(x, y).value_or(Vec3{});
       pixels_.push_back({static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
                          static_cast<float>(view.solid_angle(x, y))});
     }

@@ -9,17 +9,23 @@
 #include "proc/remap/remap.h"
 
 /// The remap kernel beside OpenCV's, one thread each, on the same map: a 1080p view of a ball of
-/// 1490 px radius in a 3000x3000 picture. Only the ratio means something on another machine.
+/// 1490 px radius in a 3000x3000 picture. And re-pointing such a view, with a machine's walls and
+/// table too, beside what a map of full size takes. Only the ratio means something on another
+/// machine.
 namespace orbwatch {
 namespace {
 
 constexpr int kSource = 3000;
 
+optics::ViewProjection full_hd_view(const optics::YawPitchRoll& orientation) {
+  return optics::ViewProjection::make(
+             {optics::ViewKind::Perspective, orientation, 90, {}, 1920, 1080})
+      .value();
+}
+
 struct Scene {
   explicit Scene(const optics::YawPitchRoll& orientation)
-      : view(optics::ViewProjection::make(
-                 {optics::ViewKind::Perspective, orientation, 90, {}, 1920, 1080})
-                 .value()),
+      : view(full_hd_view(orientation)),
         ball(optics::BallProjection::make(optics::BallModel::exact(348.5).value(),
                                           {{1499.5, 1499.5}, 1490, 1490, 0}, {})
                  .value()) {}
@@ -77,7 +83,7 @@ void remap_opencv(benchmark::State& state, PixelFormat format) {
   cv::Mat map(1080, 1920, CV_32FC2, cv::Scalar(-1, -1)), fixed, weights, out;
   for (int y = 0; y < 1080; ++y) {
     for (int x = 0; x < 1920; ++x) {
-      if (const auto p = scene.ball.pixel(scene.view.direction(x, y))) {
+      if (const auto p = scene.ball.pixel(*scene.view.direction(x, y))) {
         map.at<cv::Vec2f>(y, x) = {static_cast<float>(p->u), static_cast<float>(p->v)};
       }
     }
@@ -91,12 +97,66 @@ void remap_opencv(benchmark::State& state, PixelFormat format) {
   }
 }
 
-void build_grid(benchmark::State& state) {
-  const Scene scene = scene_of(state);
+/// A camera 12 radii from a ball of 100 mm in a machine of 1200 x 1000 x 800 mm with its table.
+struct MachineScene {
+  explicit MachineScene(const optics::YawPitchRoll& orientation)
+      : view(full_hd_view(orientation)), ball(camera_in_machine()) {}
+
+  static optics::BallProjection camera_in_machine() {
+    const optics::Ball mirror{{120, 60, 430}, 50};
+    const optics::Vec3 forward = optics::normalized({-0.1519, 0.9832, -0.1010});
+    const optics::Vec3 right = optics::normalized(optics::cross(forward, {0, 0, 1}));
+    const optics::CalibratedCamera camera{
+        optics::Lens::make({kSource, kSource, 15785, 15785, 1499.5, 1499.5}).value(),
+        {{right, optics::cross(forward, right), forward}, mirror.centre - forward * 600},
+        {}};
+    optics::Scene machine;
+    machine.room = optics::Scene::Room::Box;
+    machine.walls = {{-600, -500, 0}, {600, 500, 800}};
+    machine.obstacles = {{{-250, -200, 100}, {250, 200, 140}}};
+    return optics::BallProjection::make(optics::BallModel::Kind::Exact, camera, mirror,
+                                        optics::SceneProxy::make(machine, mirror).value())
+        .value();
+  }
+
+  optics::ViewProjection view;
+  optics::BallProjection ball;
+};
+
+/// At the table, across the machine, at the ceiling, back at the camera.
+MachineScene machine_of(const benchmark::State& state) {
+  constexpr optics::YawPitchRoll kOrientations[]{
+      {-115, -40, 0}, {110, -30, 45}, {90, 50, 0}, {170, 0, 0}};
+  return MachineScene(kOrientations[state.range(0)]);
+}
+
+template <class AnyScene>
+void build_grid(benchmark::State& state, AnyScene (*scene_for)(const benchmark::State&)) {
+  const AnyScene scene = scene_for(state);
+  std::size_t bytes = 0;
   for (auto _ : state) {
     const remap::CoordinateGrid grid(scene.view, scene.ball, kSource, kSource);
-    benchmark::DoNotOptimize(grid.bytes());
+    benchmark::DoNotOptimize(bytes = grid.bytes());
   }
+  state.counters["KB"] = static_cast<double>(bytes) / 1024;
+}
+
+/// The peer: every pixel once, in double, as cv::remap takes it.
+template <class AnyScene>
+void build_full_map(benchmark::State& state, AnyScene (*scene_for)(const benchmark::State&)) {
+  const AnyScene scene = scene_for(state);
+  cv::Mat map(1080, 1920, CV_32FC2);
+  for (auto _ : state) {
+    for (int y = 0; y < map.rows; ++y) {
+      for (int x = 0; x < map.cols; ++x) {
+        const auto p = scene.ball.pixel(*scene.view.direction(x, y));
+        map.at<cv::Vec2f>(y, x) =
+            p ? cv::Vec2f(static_cast<float>(p->u), static_cast<float>(p->v)) : cv::Vec2f(-1, -1);
+      }
+    }
+    benchmark::DoNotOptimize(map.data);
+  }
+  state.counters["KB"] = static_cast<double>(map.total() * map.elemSize()) / 1024;
 }
 
 BENCHMARK_CAPTURE(remap_ours, grey, PixelFormat::Grey)
@@ -117,7 +177,16 @@ BENCHMARK_CAPTURE(remap_ours, y16, PixelFormat::Y16)
 BENCHMARK_CAPTURE(remap_opencv, y16, PixelFormat::Y16)
     ->DenseRange(0, 2)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(build_grid)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build_grid, far_away, scene_of)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build_full_map, far_away, scene_of)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build_grid, box_and_table, machine_of)
+    ->DenseRange(0, 3)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build_full_map, box_and_table, machine_of)
+    ->DenseRange(0, 3)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace orbwatch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,9 +9,10 @@
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/vec.h"
 
-/// The projection once more, in double precision and by other means: the exact model by tracing
-/// camera rays to the ball and reflecting vectors, with a bisection in place of closed form and
-/// Newton; the others by the paper's equations in its own axes.
+/// The projection once more and by other means: the exact model by tracing rays to the ball and
+/// reflecting vectors, or by the shortest path, with bisections in place of series and Newton; the
+/// others by the paper's equations in its own axes. What product code is measured against at its
+/// limit of precision is in long double.
 namespace orbwatch::tests {
 
 using optics::Vec2;
@@ -80,5 +82,100 @@ struct ReferenceBall {
                 outline.centre.v + along * s + across * c};
   }
 };
+
+using Real = long double;
+
+struct RealVec3 {
+  Real x = 0, y = 0, z = 0;
+
+  RealVec3() = default;
+  RealVec3(Real x_value, Real y_value, Real z_value) : x(x_value), y(y_value), z(z_value) {}
+  explicit RealVec3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
+
+  friend RealVec3 operator+(const RealVec3& a, const RealVec3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend RealVec3 operator-(const RealVec3& a, const RealVec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend RealVec3 operator*(const RealVec3& a, Real s) { return {a.x * s, a.y * s, a.z * s}; }
+};
+
+inline Real dot(const RealVec3& a, const RealVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline RealVec3 cross(const RealVec3& a, const RealVec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Real norm(const RealVec3& a) { return std::sqrt(dot(a, a)); }
+inline RealVec3 normalized(const RealVec3& a) { return a * (1 / norm(a)); }
+inline Vec3 rounded(const RealVec3& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+/// Degrees between two directions.
+inline double deviation(const RealVec3& a, const RealVec3& b) {
+  return static_cast<double>(std::atan2(norm(cross(a, b)), dot(a, b)) * 180 /
+                             std::numbers::pi_v<Real>);
+}
+
+struct RealRay {
+  RealVec3 origin;
+  RealVec3 direction;
+};
+
+/// The ray that leaves the unit ball in the origin where `ray`, of unit direction, first meets it.
+inline std::optional<RealRay> reflected(const RealRay& ray) {
+  const Real along = dot(ray.origin, ray.direction);
+  const Real root = along * along - (dot(ray.origin, ray.origin) - 1);
+  if (!(root >= 0 && along < 0)) return std::nullopt;
+  const RealVec3 hit = ray.origin + ray.direction * (-along - std::sqrt(root));
+  return RealRay{hit, ray.direction - hit * (2 * dot(ray.direction, hit))};
+}
+
+/// A point in that direction from the ball's centre; far away when the distance is infinite.
+struct ScenePoint {
+  RealVec3 direction;
+  Real distance = std::numeric_limits<Real>::infinity();
+};
+
+/// Direction in which a camera at `camera` sees a point mirrored in the unit ball in the origin, by
+/// Fermat's principle: over the arc that both see, the way camera - ball - point is convex, and its
+/// slope is bisected. Nothing when there is no such arc, or when the camera sees the point straight
+/// along the axis.
+inline std::optional<RealVec3> fermat_ray(const RealVec3& camera, const ScenePoint& point) {
+  const RealVec3 facing = normalized(camera);
+  const RealVec3 across = point.direction - facing * dot(point.direction, facing);
+  if (norm(across) == 0) return std::nullopt;
+  const RealVec3 aside = normalized(across);
+  const Real phi = std::atan2(norm(across), dot(point.direction, facing));
+  Real low = std::max(Real{0}, phi - std::acos(1 / point.distance));
+  Real high = std::min(phi, std::acos(1 / norm(camera)));
+  if (!(low <= high)) return std::nullopt;
+  RealVec3 hit;
+  for (int i = 0; i < 70; ++i) {
+    const Real t = (low + high) / 2;
+    hit = facing * std::cos(t) + aside * std::sin(t);
+    const RealVec3 tangent = aside * std::cos(t) - facing * std::sin(t);
+    const bool far = std::isinf(point.distance);
+    const RealVec3 to_point =
+        far ? point.direction : normalized(point.direction * point.distance - hit);
+    const bool shorter_ahead = dot(normalized(camera - hit) + to_point, tangent) > 0;
+    (shorter_ahead ? low : high) = t;
+  }
+  return normalized(hit - camera);
+}
+
+/// Where a ray of unit direction comes out of a plane of glass, traced surface by surface. `normal`
+/// points the way the light goes; the glass begins at `depth` along it.
+inline RealRay through_glass(const RealRay& ray, const RealVec3& normal, Real depth, Real thickness,
+                             Real index) {
+  const auto to_plane = [&](const RealRay& r, Real offset) {
+    return r.origin + r.direction * ((offset - dot(r.origin, normal)) / dot(r.direction, normal));
+  };
+  const auto refracted = [&](const RealVec3& direction, Real ratio) {
+    const RealVec3 along = (direction - normal * dot(direction, normal)) * ratio;
+    return along + normal * std::sqrt(1 - dot(along, along));
+  };
+  const RealRay within{to_plane(ray, depth), refracted(ray.direction, 1 / index)};
+  return {to_plane(within, depth + thickness), refracted(within.direction, index)};
+}
 
 }  // namespace orbwatch::tests

@@ -2,13 +2,60 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numbers>
+
 #include "proc/optics/angle.h"
 #include "tests/proc/reference_optics.h"
 
 namespace orbwatch::optics {
 namespace {
 
+using Kind = BallModel::Kind;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 double alpha_of(double distance) { return BallModel::alpha_from_distance(distance).value(); }
+
+CosSin angle(long double phi) {
+  return {static_cast<double>(std::cos(phi)), static_cast<double>(std::sin(phi))};
+}
+
+double radians_of(const CosSin& angle) { return std::atan2(angle.sin, angle.cos); }
+
+std::optional<double> rho(const BallModel& model, const CosSin& phi, double closeness = 0) {
+  const auto stretch = model.stretch(phi.cos, phi.sin * phi.sin, closeness);
+  if (!stretch) return std::nullopt;
+  return stretch->along == 0 ? 1 : phi.sin * stretch->across / stretch->along;
+}
+
+// The law of reflection by incidence i, in which nothing has to be solved:
+// phi = 2i - asin(q sin i) - asin(p sin i), psi = asin(q sin i).
+TEST(BallModel, ExactSolvesReflectionAtEveryDistance) {
+  constexpr int kIncidences = 200;
+  double worst = 0, worst_close = 0;
+  for (const double d : {1.0001, 1.01, 1.3, 1.5, 2.0, 3.0, 8.0, 12.0, 24.0, 100.0, 1e4}) {
+    const BallModel model = BallModel::at_distance(Kind::Exact, d);
+    const long double q = 1 / static_cast<long double>(d), limb = q / std::sqrt((1 - q) * (1 + q));
+    for (const double p : {0.0, 1e-9, 1 / 40., 0.1, 1 / 3., 1 / 1.5, 0.9, 0.9999, 1.0}) {
+      for (int k = 0; k <= kIncidences; ++k) {
+        const long double i = std::numbers::pi_v<long double> / 2 * k / kIncidences;
+        const long double psi = std::asin(q * std::sin(i));
+        const auto measured = rho(model, angle(2 * i - psi - std::asin(p * std::sin(i))), p);
+        ASSERT_TRUE(measured) << "d " << d << " p " << p << " k " << k;
+        const double error =
+            degrees(static_cast<double>(std::abs(std::atan(*measured * limb) - psi)));
+        (d < 1.3 ? worst_close : worst) = std::max(d < 1.3 ? worst_close : worst, error);
+      }
+    }
+  }
+  std::cout << "worst camera ray: " << worst << " degrees, " << worst_close << " below d = 1.3\n";
+  EXPECT_LT(worst, 1e-10);
+  EXPECT_LT(worst_close, 1e-8);
+}
 
 TEST(BallModel, ExactEqualsTracedReflection) {
   for (const double distance : {1.3, 2.0, 3.0, 6.0, 10.0, 20.0, 100.0}) {
@@ -17,10 +64,10 @@ TEST(BallModel, ExactEqualsTracedReflection) {
     for (int i = 0; i < 500; ++i) {
       const double phi = model.limit() * i / 500;
       // One ten-thousandth of a pixel on a ball of 1500 px radius.
-      EXPECT_NEAR(model.rho(phi), tests::reference_exact_rho(phi, alpha), 7e-8)
+      EXPECT_NEAR(rho(model, angle(phi)).value(), tests::reference_exact_rho(phi, alpha), 7e-8)
           << "distance " << distance << " phi " << degrees(phi);
     }
-    EXPECT_NEAR(model.rho(model.limit()), 1, 1e-12);
+    EXPECT_NEAR(rho(model, angle(model.limit())).value(), 1, 1e-12);
   }
 }
 
@@ -30,10 +77,25 @@ TEST(BallModel, PhiIsTheInverseOfRho) {
                           BallModel::paper(346).value(), BallModel::classical()};
   for (const BallModel& model : models) {
     for (int i = 0; i <= 1000; ++i) {
-      const double rho = i / 1000.0;
-      EXPECT_NEAR(model.rho(model.phi(rho)), rho, 1e-9) << "rho " << rho;
+      const double place = i / 1000.0;
+      const CosSin phi = model.phi(place).value();
+      EXPECT_NEAR(std::hypot(phi.cos, phi.sin), 1, 1e-14);
+      EXPECT_NEAR(rho(model, phi).value(), place, 1e-12) << "rho " << place;
     }
-    EXPECT_NEAR(model.phi(1), model.limit(), 1e-7);
+    EXPECT_NEAR(radians_of(model.phi(1).value()), model.limit(), 1e-12);
+  }
+}
+
+// phi = incidence + theta, and theta = acos(1/d) where the ray grazes the ball.
+TEST(BallModel, ThetaIsWhereTheRayLeavesTheBall) {
+  for (const double d : {1.05, 2.0, 12.0, kInfinity}) {
+    const BallModel model = BallModel::at_distance(Kind::Exact, d);
+    for (double rho = 0; rho <= 1; rho += 0.01) {
+      const double theta = radians_of(model.theta(rho));
+      const double psi = d == kInfinity ? 0 : std::atan(rho / std::sqrt(d * d - 1));
+      EXPECT_NEAR(radians_of(model.phi(rho).value()), 2 * theta + psi, 1e-14);
+    }
+    EXPECT_NEAR(radians_of(model.theta(1)), std::acos(1 / d), 1e-12);
   }
 }
 
@@ -41,9 +103,30 @@ TEST(BallModel, ExactTendsToClassicalFarAway) {
   const BallModel far = BallModel::exact(alpha_of(1e7)).value();
   const BallModel orthographic = BallModel::exact(360).value();
   for (double phi = 0; phi < 3.1; phi += 0.01) {
-    EXPECT_NEAR(far.rho(phi), BallModel::classical().rho(phi), 1e-6);
-    EXPECT_NEAR(orthographic.rho(phi), BallModel::classical().rho(phi), 1e-12);
+    const double classical = rho(BallModel::classical(), angle(phi)).value();
+    EXPECT_NEAR(rho(far, angle(phi)).value(), classical, 1e-6);
+    EXPECT_NEAR(rho(orthographic, angle(phi)).value(), classical, 1e-12);
   }
+}
+
+// Where the cosine alone no longer tells the angle.
+TEST(BallModel, IsPreciseTowardsTheAxis) {
+  for (const double away : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const CosSin ahead{std::cos(away), std::sin(away)}, behind{-std::cos(away), std::sin(away)};
+    for (const BallModel& model : {BallModel::exact(360).value(), BallModel::classical()}) {
+      EXPECT_NEAR(rho(model, ahead).value() / std::sin(away / 2), 1, 1e-12);
+      EXPECT_NEAR(rho(model, behind).value(), std::cos(away / 2), 1e-12);
+    }
+  }
+}
+
+TEST(BallModel, OnlyTheExactModelKnowsHowFarThingsAre) {
+  const CosSin phi = angle(1.2);
+  for (const BallModel& model : {BallModel::paper(346).value(), BallModel::classical()}) {
+    EXPECT_EQ(rho(model, phi, 0.3), rho(model, phi));
+  }
+  const BallModel exact = BallModel::exact(346).value();
+  EXPECT_GT(rho(exact, phi, 0.3).value(), rho(exact, phi).value() + 0.05);
 }
 
 // The published table of the other models' largest errors over the seen solid angle, far field.
@@ -56,9 +139,12 @@ TEST(BallModel, PaperAndClassicalMissByThePublishedErrors) {
     const BallModel exact = BallModel::exact(alpha).value();
     double classical = 0, paper = 0;
     for (int i = 0; i <= 2000; ++i) {
-      const double rho = i / 2000.0, truth = exact.phi(rho);
-      classical = std::max(classical, std::abs(BallModel::classical().phi(rho) - truth));
-      paper = std::max(paper, std::abs(BallModel::paper(alpha)->phi(rho) - truth));
+      const double rho = i / 2000.0;
+      const auto error = [&](const BallModel& model) {
+        return std::abs(radians_of(model.phi(rho).value()) - radians_of(exact.phi(rho).value()));
+      };
+      classical = std::max(classical, error(BallModel::classical()));
+      paper = std::max(paper, error(BallModel::paper(alpha).value()));
     }
     // The classical model is at its worst on the limb, just outside of what the table counts.
     EXPECT_NEAR(degrees(paper), row.paper, 0.06) << "distance " << row.distance;
@@ -68,14 +154,46 @@ TEST(BallModel, PaperAndClassicalMissByThePublishedErrors) {
 
 TEST(BallModel, BlindConeIsUndefined) {
   const BallModel exact = BallModel::exact(300).value();
-  EXPECT_FALSE(std::isnan(exact.rho(radians(149.999))));
-  EXPECT_TRUE(std::isnan(exact.rho(radians(150.001))));
-  EXPECT_TRUE(std::isnan(exact.phi(1.0001)));
-  EXPECT_FALSE(std::isnan(BallModel::classical().rho(radians(180))));
+  EXPECT_TRUE(rho(exact, angle(radians(149.999))));
+  EXPECT_FALSE(rho(exact, angle(radians(150.001))));
+  EXPECT_FALSE(exact.phi(1.0001));
+  EXPECT_TRUE(rho(BallModel::classical(), angle(radians(180))));
+}
+
+// What is near is hidden earlier: a point on the ball's surface as soon as its surface turns away.
+TEST(BallModel, BlindConeGrowsWithCloseness) {
+  const double d = 12;
+  const BallModel model = BallModel::at_distance(Kind::Exact, d);
+  for (const double p : {0.0, 0.01, 0.3, 0.9, 0.9999}) {
+    const double limit = std::acos(p) + std::acos(1 / d);
+    EXPECT_NEAR(rho(model, angle(limit - 1e-9), p).value(), 1, 1e-9) << p;
+    EXPECT_FALSE(rho(model, angle(limit + 1e-9), p)) << p;
+  }
+}
+
+TEST(BallModel, NotANumberIsNotShown) {
+  const double nan = std::nan("");
+  for (const BallModel& model :
+       {BallModel::at_distance(Kind::Exact, 12), BallModel::at_distance(Kind::Paper, 12)}) {
+    EXPECT_FALSE(rho(model, {nan, 0.5}));
+    EXPECT_FALSE(model.phi(nan));
+    EXPECT_FALSE(model.phi(-0.1));
+  }
+  EXPECT_FALSE(rho(BallModel::at_distance(Kind::Exact, 12), {0, 1}, nan));
+  EXPECT_FALSE(rho(BallModel::at_distance(Kind::Exact, 12), {1, 0}, 1.1));
+}
+
+TEST(BallModel, AlphaAndDistanceAreOneFact) {
+  for (const double d : {1.0001, 1.3, 12.0, 1e3, 1e6}) {
+    EXPECT_NEAR(BallModel::distance_from_alpha(alpha_of(d)).value() / d, 1, 1e-8);
+  }
+  EXPECT_NEAR(alpha_of(10), 348.52, 0.005);
+  EXPECT_EQ(BallModel::distance_from_alpha(360).value(), kInfinity);
+  EXPECT_EQ(alpha_of(kInfinity), 360);
+  EXPECT_FALSE(BallModel::distance_from_alpha(180));
 }
 
 TEST(BallModel, TakesAlphaOrDistanceUnlessClassical) {
-  using Kind = BallModel::Kind;
   for (const Kind kind : {Kind::Exact, Kind::Paper}) {
     EXPECT_EQ(BallModel::make(kind, 340, {})->kind(), kind);
     EXPECT_NEAR(BallModel::make(kind, {}, 12)->limit(), radians(alpha_of(12) / 2), 1e-12);

@@ -2,65 +2,116 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 #include "proc/optics/rotation.h"
+#include "tests/proc/optics/random_camera.h"
 
 namespace orbwatch::remap {
 namespace {
 
 using optics::BallModel;
 using optics::BallProjection;
+using optics::Scene;
 using optics::ViewKind;
 using optics::ViewProjection;
+using optics::ViewSpec;
+using optics::YawPitchRoll;
 
 constexpr double kOne = 1 << kFractionBits;
 
 struct Found {
   double worst = 0;         ///< largest distance of a defined pixel from the exact map, px
+  double jump = 0;          ///< largest change of that error between neighbours, px
+  int seen = 0;             ///< defined pixels
   int wrongly_defined = 0;  ///< pixels whose definedness differs
-  int dense_tiles = 0;
 };
 
-Coordinate coordinate(const CoordinateGrid& grid, int x, int y) {
-  const int tx = x / kTile, ty = y / kTile;
-  const Tile& tile = grid.tile(tx, ty);
-  if (tile.kind == TileClass::Blind) return {kBlind, 0};
-  if (tile.kind == TileClass::Outside) return {kOutside, 0};
-  if (tile.kind == TileClass::Dense) return grid.dense_row(tile, y % kTile)[x % kTile];
-  PatchRow row = grid.patch_row(tx, ty, y % kTile);
-  for (int i = 0; i < x % kTile; ++i) row.step();
-  return row.current();
+/// The exact map, where it falls into the source picture.
+std::optional<optics::Vec2> exact(const CoordinateGrid& grid, const ViewProjection& view,
+                                  const BallProjection& ball, int x, int y) {
+  const auto direction = view.direction(x, y);
+  if (!direction) return std::nullopt;
+  const auto inside = [](double c, int size) { return c >= -0.5 && c <= size - 0.5; };
+  const auto pixel = ball.pixel(*direction);
+  if (!pixel || !inside(pixel->u, grid.source_width()) || !inside(pixel->v, grid.source_height())) {
+    return std::nullopt;
+  }
+  return pixel;
 }
 
+/// Every pixel of a grid beside the exact map.
 Found compare(const CoordinateGrid& grid, const ViewProjection& view, const BallProjection& ball) {
   Found found;
+  // What is not defined has no error that could jump.
+  const double nan = std::nan("");
+  std::vector<optics::Vec2> above(grid.width(), {nan, nan}), current(grid.width());
+  const auto look_at_jump = [&](const optics::Vec2& a, const optics::Vec2& b) {
+    const double jump = std::hypot(a.u - b.u, a.v - b.v);
+    if (jump > found.jump) found.jump = jump;
+  };
   for (int y = 0; y < grid.height(); ++y) {
+    CoordinateRow row{};
     for (int x = 0; x < grid.width(); ++x) {
-      const Coordinate mine = coordinate(grid, x, y);
-      const auto truth = ball.pixel(view.direction(x, y));
-      const bool in_picture = truth && truth->u >= -0.5 && truth->u <= grid.source_width() - 0.5 &&
-                              truth->v >= -0.5 && truth->v <= grid.source_height() - 0.5;
-      if (is_defined(mine) != in_picture) {
-        ++found.wrongly_defined;
-      } else if (in_picture) {
-        found.worst = std::max(found.worst, std::hypot(mine.u / kOne - truth->u,  //
-                                                       mine.v / kOne - truth->v));
-      }
+      if (x % kTile == 0) row = grid.row(x / kTile, y / kTile, y % kTile);
+      const Coordinate& mine = row[x % kTile];
+      const auto truth = exact(grid, view, ball, x, y);
+      found.wrongly_defined += is_defined(mine) != truth.has_value();
+      current[x] = {nan, nan};
+      if (!truth || !is_defined(mine)) continue;
+      ++found.seen;
+      current[x] = {mine.u / kOne - truth->u, mine.v / kOne - truth->v};
+      found.worst = std::max(found.worst, std::hypot(current[x].u, current[x].v));
+      if (x > 0) look_at_jump(current[x], current[x - 1]);
+      look_at_jump(current[x], above[x]);
     }
-  }
-  for (int ty = 0; ty < grid.tiles_y(); ++ty) {
-    for (int tx = 0; tx < grid.tiles_x(); ++tx) {
-      found.dense_tiles += grid.tile(tx, ty).kind == TileClass::Dense;
-    }
+    std::swap(above, current);
   }
   return found;
+}
+
+Found compare(const ViewSpec& spec, const BallProjection& ball, int source_width,
+              int source_height) {
+  const auto view = ViewProjection::make(spec, ball).value();
+  const CoordinateGrid grid(view, ball, source_width, source_height);
+  return compare(grid, view, ball);
+}
+
+void expect_exact(const ViewSpec& spec, const BallProjection& ball, int source_width,
+                  int source_height) {
+  const Found found = compare(spec, ball, source_width, source_height);
+  EXPECT_LE(found.worst, kTolerance);
+  EXPECT_LE(found.jump, 1.5 * kTolerance);
+  // In fixed point and in double a pixel may fall on either side of the picture's very border.
+  EXPECT_LE(found.wrongly_defined, 2);
 }
 
 BallProjection centred_ball(const BallModel& model, double size, double radius) {
   return BallProjection::make(model, {{(size - 1) / 2, (size - 1) / 2}, radius, radius, 0}, {})
       .value();
 }
+
+/// The camera of the reference pictures that stands closest, in its machine.
+BallProjection machine(Scene::Room room, bool table) {
+  const optics::Ball ball{{120, 60, 430}, 50};
+  const optics::Vec3 forward = optics::normalized({-0.15189524, 0.98322088, -0.10101755});
+  const optics::Vec3 right = optics::normalized(optics::cross(forward, {0, 0, 1}));
+  const optics::CalibratedCamera camera{
+      optics::Lens::make({1500, 1500, 7892.452, 7892.452, 749.5, 749.5}).value(),
+      {{right, optics::cross(forward, right), forward}, {208.572, -530.481, 489.048}},
+      {}};
+  Scene scene;
+  scene.room = room;
+  scene.walls = {{-600, -500, 0}, {600, 500, 800}};
+  if (table) scene.obstacles = {{{-250, -200, 100}, {250, 200, 140}}};
+  return BallProjection::make(BallModel::Kind::Exact, camera, ball,
+                              optics::SceneProxy::make(scene, ball).value())
+      .value();
+}
+
+constexpr YawPitchRoll kOrientations[]{{0, 0, 0},   {40, 20, 10},  {110, -30, 45},  {-115, -40, 0},
+                                       {180, 0, 0}, {160, -20, 0}, {-150, -60, 30}, {90, -60, 0}};
 
 TEST(CoordinateGrid, IsExactToASixtyFourthOfAPixel) {
   const std::array models{BallModel::exact(348.5).value(), BallModel::exact(300).value(),
@@ -76,31 +127,107 @@ TEST(CoordinateGrid, IsExactToASixtyFourthOfAPixel) {
   for (const BallModel& model : models) {
     const auto ball = centred_ball(model, 3000, 1490);
     for (const auto& [yaw, pitch, roll, h_fov] : views) {
-      const auto view =
-          ViewProjection::make({ViewKind::Perspective, {yaw, pitch, roll}, h_fov, {}, 333, 250})
-              .value();
-      const CoordinateGrid grid(view, ball, 3000, 3000);
-      const Found found = compare(grid, view, ball);
-      EXPECT_LE(found.worst, kPatchTolerance) << yaw << ' ' << pitch << ' ' << roll << ' ' << h_fov;
-      EXPECT_EQ(found.wrongly_defined, 0);
+      SCOPED_TRACE(testing::Message() << yaw << ' ' << pitch << ' ' << roll << ' ' << h_fov);
+      expect_exact({ViewKind::Perspective, {yaw, pitch, roll}, h_fov, {}, 333, 250}, ball, 3000,
+                   3000);
     }
-    const auto panorama =
-        ViewProjection::make({ViewKind::Equirectangular, {20, 10, 5}, {}, {}, 512, 256}).value();
-    const CoordinateGrid grid(panorama, ball, 3000, 3000);
-    const Found found = compare(grid, panorama, ball);
-    EXPECT_LE(found.worst, kPatchTolerance);
-    EXPECT_EQ(found.wrongly_defined, 0);
+    expect_exact({ViewKind::Equirectangular, {20, 10, 5}, {}, {}, 512, 256}, ball, 3000, 3000);
   }
 }
 
-TEST(CoordinateGrid, KeepsThePictureOfAFullHdViewSmall) {
+TEST(CoordinateGrid, IsExactInEveryRoomAndKindOfView) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> angle(-180, 180), share(0, 1);
+  for (const Scene::Room room :
+       {Scene::Room::None, Scene::Room::Sphere, Scene::Room::Plane, Scene::Room::Box}) {
+    for (const bool obstacles : {false, true}) {
+      const auto camera = tests::random_camera(random, 1.5 + 15 * share(random), 10);
+      const auto ball = BallProjection::make(BallModel::Kind::Exact, camera, tests::kBall,
+                                             tests::scene_around_ball(room, obstacles))
+                            .value();
+      for (const ViewKind kind :
+           {ViewKind::Perspective, ViewKind::Equirectangular, ViewKind::Cylindrical,
+            ViewKind::Stereographic, ViewKind::Fisheye, ViewKind::Ball}) {
+        SCOPED_TRACE(testing::Message() << "room " << static_cast<int>(room) << ' ' << obstacles
+                                        << " view " << static_cast<int>(kind));
+        YawPitchRoll turned{angle(random), angle(random) / 2, angle(random)};
+        if (kind == ViewKind::Ball) turned = {};
+        expect_exact({kind, turned, {}, {}, 301, 203}, ball, 4000, 3000);
+      }
+    }
+  }
+}
+
+TEST(CoordinateGrid, FollowsEdgesOfTheMachine) {
+  const auto ball = machine(Scene::Room::Box, true);
+  for (const YawPitchRoll& o : kOrientations) {
+    SCOPED_TRACE(testing::Message() << o.yaw << ' ' << o.pitch << ' ' << o.roll);
+    expect_exact({ViewKind::Perspective, o, 90, {}, 640, 360}, ball, 1500, 1500);
+  }
+}
+
+TEST(CoordinateGrid, SeesThroughDistortionAndGlass) {
+  optics::Intrinsics lens{1500, 1500, 2400, 2380, 749.5, 749.5};
+  lens.distortion = optics::Distortion::Pinhole;
+  lens.coefficients = {-0.2, 0.05, 0.001, -0.0005};
+  const optics::Pose pose{{{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+                          tests::kBall.centre + optics::Vec3{20, 300, -15}};
+  const optics::CalibratedCamera camera{optics::Lens::make(lens).value(), pose,
+                                        optics::Window{{0.2, 1, 0}, 10, 1.52}};
+  const auto ball = BallProjection::make(BallModel::Kind::Exact, camera, tests::kBall,
+                                         tests::scene_around_ball(Scene::Room::Box, true))
+                        .value();
+  expect_exact({ViewKind::Perspective, {30, -30, 0}, 100, {}, 320, 240}, ball, 1500, 1500);
+  expect_exact({ViewKind::Equirectangular, {}, {}, {}, 256, 128}, ball, 1500, 1500);
+}
+
+TEST(CoordinateGrid, KeepsTheMapOfAFullHdViewSmall) {
+  for (const bool table : {false, true}) {
+    const auto ball = machine(table ? Scene::Room::Box : Scene::Room::None, table);
+    for (const YawPitchRoll& o : kOrientations) {
+      const auto view =
+          ViewProjection::make({ViewKind::Perspective, o, 90, {}, 1920, 1080}).value();
+      const CoordinateGrid grid(view, ball, 1500, 1500);
+      EXPECT_LE(grid.bytes(), 600 * 1024U) << o.yaw << ' ' << o.pitch << ' ' << o.roll;
+    }
+  }
+}
+
+TEST(CoordinateGrid, AFullHdViewIsMadeOfPatches) {
   const auto ball = centred_ball(BallModel::exact(348.5).value(), 3000, 1490);
-  for (const optics::YawPitchRoll& o : {optics::YawPitchRoll{0, 0, 0}, {40, 20, 10}}) {
+  for (const YawPitchRoll& o : {YawPitchRoll{0, 0, 0}, {40, 20, 10}}) {
     const auto view = ViewProjection::make({ViewKind::Perspective, o, 90, {}, 1920, 1080}).value();
     const CoordinateGrid grid(view, ball, 3000, 3000);
-    const Found found = compare(grid, view, ball);
-    EXPECT_LE(found.worst, kPatchTolerance);
-    EXPECT_LE(found.dense_tiles, grid.tiles_x() * grid.tiles_y() / 10);
+    int patches = 0;
+    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+      for (int tx = 0; tx < grid.tiles_x(); ++tx) {
+        patches += grid.tile(tx, ty).kind == TileClass::Patch && grid.tile(tx, ty).interior;
+      }
+    }
+    EXPECT_EQ(patches, grid.tiles_x() * grid.tiles_y());
+    EXPECT_LE(compare(grid, view, ball).worst, kTolerance / 10);
+  }
+}
+
+TEST(CoordinateGrid, KeepsEachTileInTheLeastThatDescribesIt) {
+  std::map<TileStore, int> stores;
+  const auto count = [&](const BallProjection& ball, const ViewSpec& spec, int size) {
+    const CoordinateGrid grid(ViewProjection::make(spec).value(), ball, size, size);
+    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+      for (int tx = 0; tx < grid.tiles_x(); ++tx) ++stores[grid.tile(tx, ty).store];
+    }
+  };
+  count(machine(Scene::Room::Box, true), {ViewKind::Perspective, {-115, -40, 0}, 90, {}, 1280, 720},
+        1500);
+  const int crossed = stores[TileStore::Split];
+  EXPECT_GT(crossed, 100);
+  EXPECT_GT(stores[TileStore::OwnNodes], crossed);
+  EXPECT_LT(stores[TileStore::Packed], crossed / 10);  // corners, where three surfaces meet
+  count(centred_ball(BallModel::exact(348.5).value(), 3000, 1490),
+        {ViewKind::Perspective, {180, 0, 0}, 90, {}, 1280, 720}, 3000);
+  for (const TileStore store :
+       {TileStore::Grid, TileStore::Fine8, TileStore::Fine4, TileStore::Packed, TileStore::Whole}) {
+    EXPECT_GT(stores[store], 0) << static_cast<int>(store);
   }
 }
 
@@ -114,19 +241,38 @@ TEST(CoordinateGrid, FollowsACutAndTurnedBall) {
             {{centre(random), centre(random)}, radius(random), radius(random), angle(random)},
             optics::rotation({angle(random), angle(random) / 2, angle(random)}))
             .value();
-    const auto view = ViewProjection::make({ViewKind::Perspective,
-                                            {angle(random), angle(random) / 2, angle(random)},
-                                            100,
-                                            {},
-                                            129,
-                                            97})
-                          .value();
-    const CoordinateGrid grid(view, ball, 640, 480);
-    const Found found = compare(grid, view, ball);
-    EXPECT_LE(found.worst, kPatchTolerance);
-    // The exact map in fixed point and in double may differ on the picture's very border.
-    EXPECT_LE(found.wrongly_defined, 2);
+    expect_exact({ViewKind::Perspective,
+                  {angle(random), angle(random) / 2, angle(random)},
+                  100,
+                  {},
+                  129,
+                  97},
+                 ball, 640, 480);
   }
+}
+
+TEST(CoordinateGrid, FollowsAnyCalibratedCamera) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> angle(-180, 180), share(0, 1);
+  const auto proxy = tests::scene_around_ball(Scene::Room::Box, true);
+  int seen = 0;
+  for (int i = 0; i < 30; ++i) {
+    const auto camera =
+        tests::random_camera(random, 1.3 + 20 * share(random) * share(random), 20 * share(random));
+    const auto ball =
+        BallProjection::make(BallModel::Kind::Exact, camera, tests::kBall, proxy).value();
+    const ViewSpec spec{ViewKind::Perspective,
+                        {angle(random), angle(random) / 2, angle(random)},
+                        20 + 130 * share(random),
+                        {},
+                        161,
+                        129};
+    const Found found = compare(spec, ball, 4000, 3000);
+    EXPECT_LE(found.worst, kTolerance);
+    EXPECT_LE(found.wrongly_defined, 2);
+    seen += found.seen;
+  }
+  EXPECT_GT(seen, 200000);
 }
 
 TEST(CoordinateGrid, TellsBlindFromOutside) {

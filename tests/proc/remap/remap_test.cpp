@@ -93,7 +93,7 @@ Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
   Agreement agreement;
   for (int y = 0; y < spec.height; ++y) {
     for (int x = 0; x < spec.width; ++x) {
-      const Vec3 direction = view.direction(x, y);
+      const Vec3 direction = view.direction(x, y).value();
       const auto truth = reference.pixel(direction);
       if (!truth) {
         EXPECT_EQ(*result.view().at(x, y), 0) << "blind pixel " << x << ' ' << y;
@@ -128,7 +128,7 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
     Agreement total;
     for (const double yaw : {0, 60, 120, 180, 240, 300}) {
       for (const double pitch : {-60, 0, 60}) {
-        const ViewSpec spec{ViewKind::Perspective, {yaw, pitch, yaw / 7}, 80, {}, 213, 160};
+        const ViewSpec spec{ViewKind::Perspective, {yaw, pitch, yaw / 7}, 80, {}, 120, 90};
         const Agreement a =
             compare<std::uint8_t>(spec, reference, model, PixelFormat::Rgb, 1000, 1);
         total.compared += a.compared;
@@ -136,11 +136,11 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
         EXPECT_LE(a.off_by_more_than_one, a.compared / 1000) << "yaw " << yaw << " pitch " << pitch;
       }
     }
-    const ViewSpec panorama{ViewKind::Equirectangular, {}, {}, {}, 400, 200};
+    const ViewSpec panorama{ViewKind::Equirectangular, {}, {}, {}, 240, 120};
     const Agreement a =
         compare<std::uint8_t>(panorama, reference, model, PixelFormat::Grey, 1000, 1);
     EXPECT_LE(a.off_by_more_than_one, a.compared / 1000);
-    EXPECT_GT(total.compared, 1000000);
+    EXPECT_GT(total.compared, 400000);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(Remap, NearestTakesTheClosestPixel) {
   int compared = 0;
   for (int y = 0; y < 45; ++y) {
     for (int x = 0; x < 70; ++x) {
-      const auto p = scene.ball.pixel(scene.view.direction(x, y));
+      const auto p = scene.ball.pixel(*scene.view.direction(x, y));
       if (!p || p->u < -0.5 || p->v < -0.5 || p->u > 63.5 || p->v > 47.5) {
         EXPECT_EQ(*result.view().at(x, y), 0);
         continue;
@@ -201,7 +201,7 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
   int compared = 0;
   for (int y = 0; y < 45; ++y) {
     for (int x = 0; x < 70; ++x) {
-      const auto p = scene.ball.pixel(scene.view.direction(x, y));
+      const auto p = scene.ball.pixel(*scene.view.direction(x, y));
       if (!p || p->u < 0 || p->v < 0 || p->u > 61 || p->v > 46) continue;
       // Chroma as a plane of half width whose samples sit on even pixels.
       const auto plane = [&](double u, int step, int offset) {

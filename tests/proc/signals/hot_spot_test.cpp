@@ -29,7 +29,7 @@ struct Scene {
   void paint(const Vec3& centre, double radius, std::uint16_t value) {
     for (int y = 0; y < view.height(); ++y) {
       for (int x = 0; x < view.width(); ++x) {
-        if (optics::angle_between(view.direction(x, y), centre) < radius) at(x, y) = value;
+        if (optics::angle_between(*view.direction(x, y), centre) < radius) at(x, y) = value;
       }
     }
   }
@@ -52,7 +52,7 @@ const optics::ViewSpec kPanorama{ViewKind::Equirectangular, {}, {}, {}, 720, 360
 TEST(HotSpot, AreaAndDirectionOfADiscAreThoseOfTheSphere) {
   for (const auto& spec : {kPerspective, kPanorama}) {
     Scene scene(spec);
-    const Vec3 centre = scene.view.direction(spec.width * 0.7, spec.height * 0.3);
+    const Vec3 centre = scene.view.direction(spec.width * 0.7, spec.height * 0.3).value();
     scene.paint(centre, 0.1, 5000);
     const HotSpot spot = scene.measure(1000);
     ASSERT_TRUE(spot.present);
@@ -65,7 +65,7 @@ TEST(HotSpot, AreaAndDirectionOfADiscAreThoseOfTheSphere) {
 
 TEST(HotSpot, TheLargestRegionWinsNotTheBrightest) {
   Scene scene(kPerspective);
-  const Vec3 pool = scene.view.direction(100, 200), spark = scene.view.direction(300, 50);
+  const Vec3 pool = *scene.view.direction(100, 200), spark = *scene.view.direction(300, 50);
   scene.paint(pool, 0.08, 3000);
   scene.paint(spark, 0.02, 60000);
   const HotSpot spot = scene.measure(1000);
@@ -120,7 +120,7 @@ TEST(HotSpot, EqualsAFloodFillOnRandomPictures) {
 
 TEST(HotSpot, IgnoresWhatIsNotSeen) {
   Scene scene(kPerspective);
-  scene.paint(scene.view.direction(100, 100), 0.05, 5000);
+  scene.paint(*scene.view.direction(100, 100), 0.05, 5000);
   for (auto& v : scene.validity) v = static_cast<std::uint8_t>(Validity::Blind);
   EXPECT_FALSE(scene.measure(1000).present);
 }

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "proc/image/result.h"
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/rotation.h"
+
+namespace orbwatch::optics {
+
+/// One camera of a rig, as a file or an alignment states it: its place is known by
+/// - intrinsics and pose, or
+/// - intrinsics, outline and registration: the ball's direction and distance follow from the limb;
+///   the registration turns the camera's own axes (X = -right, Y = -forward, Z = -down), or
+/// - outline, registration, and alpha or distance: a camera without calibration.
+struct RigCamera {
+  std::string name;
+  int width = 0;  ///< px, of the pictures that all of this belongs to
+  int height = 0;
+  BallModel::Kind model = BallModel::Kind::Exact;
+  std::optional<Intrinsics> intrinsics;
+  std::optional<Pose> pose;
+  std::optional<Outline> outline;
+  std::optional<double> alpha;     ///< degrees
+  std::optional<double> distance;  ///< ball radii
+  Mat3 registration;
+  std::optional<Window> window;  ///< needs intrinsics
+};
+
+/// Everything that is known about where things stand: written by alignment, read by everybody.
+struct Rig {
+  Ball ball;
+  Scene scene;
+  std::vector<RigCamera> cameras;
+};
+
+/// The projection of one of the rig's cameras. Error: what is missing, too much or impossible, with
+/// the camera's name in front.
+Result<BallProjection> ball_projection(const Rig& rig, const RigCamera& camera);
+
+}  // namespace orbwatch::optics

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "proc/image/result.h"
+#include "proc/optics/ball.h"
+#include "proc/optics/vec.h"
+
+namespace orbwatch::optics {
+
+/// An axis-aligned box, machine frame, mm.
+struct Box {
+  Vec3 low;
+  Vec3 high;
+};
+
+/// The known geometry of the machine, as a user states it. Machine frame, mm.
+struct Scene {
+  enum class Room { None, Sphere, Plane, Box };
+  Room room = Room::None;      ///< None: everything is far away
+  Vec3 centre;                 ///< Sphere
+  double radius = 0;           ///< Sphere
+  Vec3 point;                  ///< Plane: any of its points
+  Vec3 normal;                 ///< Plane: any length, either side
+  Box walls;                   ///< Box, seen from inside
+  std::vector<Box> obstacles;  ///< within any room, seen from outside: table, spindle
+};
+
+/// How far away what the ball shows is, in every direction from the ball's centre: what parallax
+/// needs. Watertight: every direction meets exactly one surface, on edges and corners too.
+/// Reentrant, immutable.
+class SceneProxy {
+ public:
+  /// Everything is far away.
+  SceneProxy() = default;
+
+  /// Error: a ball of radius 0, sizes that are not above 0, a room that does not enclose the ball,
+  /// or anything that cuts it; the message names the part.
+  static Result<SceneProxy> make(const Scene& scene, const Ball& ball);
+
+  /// What lies in a direction.
+  struct Hit {
+    double closeness = 0;  ///< ball radius / distance from the ball's centre, in [0, 1]; 0 is far
+    int surface = -1;      ///< of the smooth surfaces: 0..5 the room, then 6 per obstacle; -1 far
+  };
+  /// `direction`: unit vector.
+  Hit hit(const Vec3& direction) const;
+
+  /// The closeness of one surface, as if it went on smoothly beyond its edges: a face of a box as
+  /// its whole plane, below 0 on the plane's far side. Equals hit().closeness where hit() names it.
+  double closeness(int surface, const Vec3& direction) const;
+
+  /// Where a ray from outside of everything solid first meets the scene; nothing when that is far
+  /// away. Frame: relative to the ball's centre, in ball radii.
+  std::optional<Vec3> meet(const Ray& ray) const;
+
+  bool is_far() const { return room_ == Scene::Room::None && obstacles_.empty(); }
+
+  /// The edges where two of its surfaces meet or one hides another, as pairs of points relative to
+  /// the ball's centre, in ball radii: the boxes' edges, their silhouettes among them. Obstacles
+  /// end at the walls of a box; where they cut other rooms or one another is not looked for.
+  std::vector<std::pair<Vec3, Vec3>> edges() const;
+
+  /// edges() leaves nothing out: no plane's horizon, no obstacle in a sphere or before a plane, and
+  /// no two obstacles in one place.
+  bool lists_every_edge() const;
+
+ private:
+  /// A box by axis, with the inverses of its sides' coordinates.
+  struct Block {
+    Block() = default;
+    explicit Block(const Box& box);
+
+    double closeness(int face, const Vec3& direction) const;
+
+    std::array<double, 3> low{};
+    std::array<double, 3> high{};
+    std::array<double, 3> inverse_low{};
+    std::array<double, 3> inverse_high{};
+  };
+
+  Result<> set_sphere(const Vec3& centre, double radius);
+  Result<> set_plane(const Vec3& point, const Vec3& normal);
+  Result<> set_walls(const Box& walls);
+
+  Hit hit_room(const Vec3& direction) const;
+  Hit hit_walls(const Vec3& direction) const;
+  static Hit hit_obstacle(const Block& box, const Vec3& direction);
+
+  // Along the ray; infinite when it does not meet them.
+  double meet_room(const Ray& ray) const;
+  double meet_walls(const Ray& ray) const;
+  static double meet_obstacle(const Block& box, const Ray& ray);
+
+  // Relative to the ball's centre, in ball radii.
+  Scene::Room room_ = Scene::Room::None;
+  Vec3 centre_;
+  double radius_ = 0;
+  Vec3 plane_;  ///< the plane is where dot(plane_, x) = 1
+  Block walls_;
+  std::vector<Block> obstacles_;
+};
+
+}  // namespace orbwatch::optics

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "proc/remap/coordinate.h"
+#include "proc/remap/patch.h"
+
+namespace orbwatch::remap {
+
+// Four ways to keep a tile that the grid's nodes do not describe; the least memory is tried first.
+// Each gives row `y`, 0..15, as coordinates or markers.
+
+/// A tile that lies on two surfaces of the scene: a patch on nodes of each, and which one a pixel
+/// is on.
+struct SplitTile {
+  std::array<Stencil, 2> sides;
+  std::array<std::uint16_t, kTile> second;  ///< bit x of word y: the pixel is on sides[1]
+
+  CoordinateRow row(int y) const;
+};
+
+/// A tile where the map bends so much that it needs nodes every `Cell` pixels: patches between
+/// (16 / Cell + 1)^2 nodes with a ring of one around them.
+template <int Cell>
+struct FineTile {
+  static constexpr int kCells = kTile / Cell;
+  static constexpr int kNodes = kCells + 3;
+  std::array<std::array<Coordinate, kNodes>, kNodes> nodes;
+
+  /// The nodes of cell (i, j), 0..kCells - 1.
+  Stencil stencil(int i, int j) const;
+  CoordinateRow row(int y) const;
+};
+
+/// A tile's coordinates in four bytes per pixel: distances from the tile's least u and v, in the
+/// finest power of two of Q13 steps that spans the tile.
+class PackedTile {
+ public:
+  /// Nothing when a step would be coarser than 1/256 px: the tile spans more than 255 px then.
+  static std::optional<PackedTile> pack(const CoordinateTile& tile);
+
+  CoordinateRow row(int y) const;
+
+ private:
+  struct Offset {
+    std::uint16_t u;  ///< or a marker
+    std::uint16_t v;
+  };
+  Coordinate least_;
+  int shift_ = 0;
+  std::array<std::array<Offset, kTile>, kTile> offsets_;
+};
+
+/// Whole coordinates: for tiles that span too much of the source to be packed.
+struct WholeTile {
+  CoordinateTile coordinates;
+
+  const CoordinateRow& row(int y) const { return coordinates[y]; }
+};
+
+}  // namespace orbwatch::remap

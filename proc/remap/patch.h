@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "proc/remap/coordinate.h"
+
+namespace orbwatch::remap {
+
+/// One row of a patch: source coordinates by forward differences, exact in integers, so that every
+/// kernel on every architecture steps through the same values.
+struct PatchRow {
+  static constexpr int kScaleBits = 11;  ///< values are Q(13 + 11)
+  std::int64_t u, du, ddu;
+  std::int64_t v, dv, ddv;
+
+  Coordinate current() const {
+    constexpr std::int64_t kHalf = std::int64_t{1} << (kScaleBits - 1);
+    return {static_cast<std::int32_t>((u + kHalf) >> kScaleBits),
+            static_cast<std::int32_t>((v + kHalf) >> kScaleBits)};
+  }
+  /// The same row in steps of `n` sixteenths.
+  PatchRow stride(int n) const {
+    const std::int64_t pairs = std::int64_t{n} * (n - 1) / 2, square = std::int64_t{n} * n;
+    return {u, n * du + pairs * ddu, square * ddu, v, n * dv + pairs * ddv, square * ddv};
+  }
+  void step() {
+    u += du;
+    du += ddu;
+    v += dv;
+    dv += ddv;
+  }
+};
+
+/// The 4x4 nodes that a patch between the middle four is made from.
+struct Stencil {
+  std::array<Coordinate, 16> nodes;
+
+  /// Column i and row j, -1..2; the patch lies between 0 and 1.
+  const Coordinate& at(int i, int j) const { return nodes[(j + 1) * 4 + i + 1]; }
+  Coordinate& at(int i, int j) { return nodes[(j + 1) * 4 + i + 1]; }
+};
+
+/// Calls `good(i, j)` for the twelve nodes that count for a patch, until one is not.
+template <class Good>
+bool all_nodes(const Good& good) {
+  for (int j = -1; j <= 2; ++j) {
+    const bool outer = j == -1 || j == 2;
+    for (int i = outer ? 0 : -1; i <= (outer ? 1 : 2); ++i) {
+      if (!good(i, j)) return false;
+    }
+  }
+  return true;
+}
+
+/// The smooth map between four nodes: bilinear, plus the mean of the second differences along each
+/// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
+class Patch {
+ public:
+  /// The twelve nodes that count are defined; the four outermost corners do not.
+  explicit Patch(const Stencil& stencil);
+
+  /// Row `y`, 0..15, at x = 0.
+  PatchRow row(int y) const;
+
+  /// x, y in 0..15.
+  Coordinate at(int x, int y) const;
+
+  /// Coordinates that the patch stays between; nearly tight.
+  struct Range {
+    Coordinate low;
+    Coordinate high;
+  };
+  Range range() const;
+
+ private:
+  struct Axis {
+    std::int64_t corner, along_x, along_y, along_xy;  ///< of the bilinear part
+    std::int64_t xx, yy;                              ///< second differences over the four corners
+
+    Axis(const Stencil& stencil, std::int32_t Coordinate::*member);
+    void row(int y, std::int64_t& value, std::int64_t& step, std::int64_t& curve) const;
+    std::int32_t low() const;
+    std::int32_t high() const;
+  };
+  Axis u_;
+  Axis v_;
+};
+
+/// How far a patch may be from the map that its nodes were taken from, in Q13 pixels, as far as its
+/// nodes can tell: the terms of third order in the distance between nodes. Along x they are
+/// t (1-t) (2t-1) / 12 of the third difference, at most 0.0081, and t (1-t) / 2 of how far the
+/// second difference in this row is from the mean, at most 1/16 of its change from row to row.
+double third_order_error(const Stencil& stencil);
+
+}  // namespace orbwatch::remap
