@@ -1,40 +1,79 @@
+#include <array>
 #include <iostream>
+#include <string_view>
 
 #include "app/cli/command.h"
+#include "app/cli/describe.h"
 #include "app/cli/options.h"
 #include "app/config/configuration.h"
+#include "app/config/rig_file.h"
 #include "app/modbus/register_manual.h"
 
 namespace orbwatch::app {
+namespace {
 
-Result<> describe_command(const std::vector<std::string>& arguments) {
-  std::string format = "markdown";
-  bool help = false;
+/// A subject that takes no options.
+template <std::string (*manual)()>
+Result<std::string> describe_manual(const std::vector<std::string>& arguments) {
+  if (arguments.size() == 1) return manual();
+  return fail("unexpected argument " + arguments[1] + "; see orbwatch describe --help");
+}
+
+struct Subject {
+  std::string_view name;
+  std::string_view text;
+  Result<std::string> (*describe)(const std::vector<std::string>& arguments);
+};
+
+constexpr std::array kSubjects{
+    Subject{"config", "manual of the configuration file", describe_manual<configuration_manual>},
+    Subject{"rig", "manual of the rig file: cameras, ball and machine",
+            describe_manual<rig_manual>},
+    Subject{"registers", "manual of the Modbus registers", describe_registers},
+    Subject{"view", "what cameras resolve in a view", describe_view},
+    Subject{"camera", "what follows from a rig for one camera; its calibration", describe_camera},
+};
+
+std::string help() {
+  std::string text = "Usage: orbwatch describe SUBJECT [options]\n\nPrints to standard output.\n\n";
+  for (const Subject& subject : kSubjects) {
+    text += "  " + std::string(subject.name) + std::string(12 - subject.name.size(), ' ') +
+            std::string(subject.text) + "\n";
+  }
+  return text + "\n`orbwatch describe SUBJECT --help` explains its options.\n";
+}
+
+}  // namespace
+
+Result<std::string> describe_registers(const std::vector<std::string>& arguments) {
+  static constexpr std::array kFormats{Word{"markdown", false}, Word{"csv", true}};
+  bool csv = false, asks_help = false;
   const std::vector<Option> options{
-      {"format", 0, "csv|markdown", "of the registers (default markdown)",
-       [&](const std::string& value) -> Result<> {
-         format = value;
-         if (value == "csv" || value == "markdown") return {};
-         return fail("--format is \"" + value + "\"; use csv or markdown");
-       }},
-      {"help", 'h', "", "this text", [&](const std::string&) -> Result<> {
-         help = true;
-         return {};
-       }}};
+      {"format", 0, joined(kFormats), "(default markdown)", word_option("format", kFormats, csv)},
+      {"help", 'h', "", "this text", flag_option(asks_help)}};
   const auto rest = parse_options(arguments, options);
   if (!rest) return tl::unexpected(rest.error());
-  if (help) {
-    std::cout << "Usage: orbwatch describe config | registers [options]\n\n"
-                 "Prints the manual of the configuration file or of the Modbus registers.\n\n"
-              << options_help(options);
-  } else if (*rest == std::vector<std::string>{"config"}) {
-    std::cout << configuration_manual();
-  } else if (*rest == std::vector<std::string>{"registers"}) {
-    std::cout << (format == "csv" ? registers_csv() : registers_markdown());
-  } else {
-    return fail("say what to describe: config or registers; see --help");
+  if (asks_help) return "Usage: orbwatch describe registers [options]\n\n" + options_help(options);
+  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
+  return csv ? registers_csv() : registers_markdown();
+}
+
+Result<> describe_command(const std::vector<std::string>& arguments) {
+  const std::string name = arguments.size() > 1 ? arguments[1] : "";
+  if (name == "--help" || name == "-h") {
+    std::cout << help();
+    return {};
   }
-  return {};
+  for (const Subject& subject : kSubjects) {
+    if (subject.name != name) continue;
+    const auto text = subject.describe({arguments.begin() + 1, arguments.end()});
+    if (!text) return tl::unexpected(text.error());
+    std::cout << *text;
+    return {};
+  }
+  std::string known;
+  for (const Subject& s : kSubjects) known += (known.empty() ? "" : ", ") + std::string(s.name);
+  return fail("say what to describe: " + known + "; see --help");
 }
 
 }  // namespace orbwatch::app

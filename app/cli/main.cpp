@@ -19,11 +19,10 @@ struct Named {
 };
 
 constexpr std::array kCommandTable{
-    Named{"project", "turn a picture of a mirror ball into an undistorted view", project_command},
+    Named{"project", "turn pictures of a mirror ball into an undistorted view", project_command},
     Named{"subscribe", "read views and process state of a running orbwatchd over DDS",
           subscribe_command},
-    Named{"describe", "print the manual of the configuration file or of the Modbus registers",
-          describe_command},
+    Named{"describe", "print manuals, and what follows from a rig or a view", describe_command},
 };
 
 void print_help() {

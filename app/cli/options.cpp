@@ -89,4 +89,20 @@ Result<std::vector<double>> parse_numbers(std::string_view name, std::string_vie
   }
 }
 
+Result<Size> parse_size(std::string_view name, std::string_view text) {
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  const auto width = parse_whole(name, text.substr(0, cross));
+  const auto height = parse_whole(name, text.substr(std::min(cross + 1, text.size())));
+  if (width && height) return Size{*width, *height};
+  return fail("--" + std::string(name) + " is \"" + std::string(text) +
+              "\"; it must be WxH, like 1280x720");
+}
+
+std::function<Result<>(const std::string&)> flag_option(bool& target) {
+  return [&target](const std::string&) -> Result<> {
+    target = true;
+    return {};
+  };
+}
+
 }  // namespace orbwatch::app

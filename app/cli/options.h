@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/config/constraint.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -32,6 +34,41 @@ Result<double> parse_number(std::string_view name, std::string_view text);
 Result<int> parse_whole(std::string_view name, std::string_view text);
 /// `text` as numbers with commas between.
 Result<std::vector<double>> parse_numbers(std::string_view name, std::string_view text);
+
+/// Of a picture, pixels.
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+
+/// `text` as WIDTHxHEIGHT.
+Result<Size> parse_size(std::string_view name, std::string_view text);
+
+/// set() for a flag.
+std::function<Result<>(const std::string&)> flag_option(bool& target);
+
+/// set() for an option whose text is taken as it is: a name, a file.
+template <class Text>
+std::function<Result<>(const std::string&)> text_option(Text& target) {
+  return [&target](const std::string& value) -> Result<> {
+    target = value;
+    return {};
+  };
+}
+
+/// set() for an option that is one of some words.
+template <class Value, class T, std::size_t N>
+std::function<Result<>(const std::string&)> word_option(std::string name,
+                                                        const std::array<Word<T>, N>& words,
+                                                        Value& target) {
+  return [name = std::move(name), &words, &target](const std::string& value) -> Result<> {
+    if (const T* found = find_word(words, value)) {
+      target = *found;
+      return {};
+    }
+    return fail("--" + name + " is \"" + value + "\"; use one of: " + joined(words));
+  };
+}
 
 /// set() for an option that is a finite number.
 template <class Number>

@@ -1,182 +1,156 @@
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <optional>
+#include <iterator>
 #include <vector>
 
+#include "app/cli/camera_options.h"
 #include "app/cli/command.h"
+#include "app/cli/merged_view.h"
 #include "app/cli/options.h"
+#include "app/cli/view_options.h"
+#include "app/config/camera_calibration.h"
 #include "app/config/schema.h"
 #include "app/pictures/picture_file.h"
 #include "hal/replay/picture_decoder.h"
-#include "proc/optics/ball_projection.h"
-#include "proc/optics/view_projection.h"
-#include "proc/remap/coordinate_grid.h"
-#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 namespace {
 
 constexpr const char* kUsage =
     "Usage: orbwatch project IN -o OUT --ball CX,CY,R (--alpha DEG | --distance RADII) [options]\n"
+    "       orbwatch project IN -o OUT --rig RIG --camera NAME [options]\n"
+    "       orbwatch project -o OUT --rig RIG --camera NAME=IN [--camera NAME=IN ...] [options]\n"
     "\n"
-    "Turns the picture of a mirror ball into the view of a virtual camera in the ball's centre.\n"
+    "Turns pictures of a mirror ball into the view of a virtual camera in the ball's centre.\n"
+    "Several cameras are merged by resolution: one fills the other's blind cone.\n"
     "IN is a JPEG or PNG, 8 or 16 bit, grey or colour; OUT a .png, .jpg or .jpeg.\n"
-    "Without a rotation, yaw 0 looks back at the camera, positive yaw to the right of that view;\n"
-    "the direction behind the ball (yaw 180) is blind.\n"
+    "Without a rig and a rotation, yaw 0 looks back at the camera, positive yaw to the right of\n"
+    "that view; the direction behind the ball (yaw 180) is blind.\n"
     "\n";
 
 struct ProjectOptions {
   bool help = false;
-  std::filesystem::path input;
   std::filesystem::path output;
-  std::optional<optics::Outline> ball;
-  std::optional<double> alpha;
-  std::optional<double> distance;
-  optics::BallModel::Kind model = optics::BallModel::Kind::Exact;
-  optics::ViewSpec view{optics::ViewKind::Perspective, {}, {}, {}, 1280, 720};
-  optics::YawPitchRoll rotation;
+  std::filesystem::path camera_info;
+  CameraOptions cameras;
+  optics::ViewSpec view = kDefaultView;
+  bool match = true;
   bool transparent = false;
   remap::Interpolation interpolation = remap::Interpolation::Bilinear;
 };
 
-/// set() for an option that is one of some words.
-template <class T, std::size_t N>
-auto word_option(const char* name, const std::array<Word<T>, N>& words, T& target) {
-  return [name, &words, &target](const std::string& value) -> Result<> {
-    if (const T* found = find_word(words, value)) {
-      target = *found;
-      return {};
-    }
-    return fail("--" + std::string(name) + " is \"" + value + "\"; use one of: " + joined(words));
-  };
-}
-
-Result<> set_ball(const std::string& value, std::optional<optics::Outline>& ball) {
-  const auto n = parse_numbers("ball", value);
-  if (!n) return tl::unexpected(n.error());
-  if (n->size() == 3) {
-    ball = optics::Outline{{(*n)[0], (*n)[1]}, (*n)[2], (*n)[2], 0};
-  } else if (n->size() == 5) {
-    ball = optics::Outline{{(*n)[0], (*n)[1]}, (*n)[2], (*n)[3], (*n)[4]};
-  } else {
-    return fail("--ball is \"" + value + "\"; it must be CX,CY,R or CX,CY,RX,RY,ANGLE");
-  }
-  return {};
-}
-
-Result<> set_size(const std::string& value, optics::ViewSpec& view) {
-  const std::size_t cross = value.find('x');
-  const auto width = parse_whole("size", value.substr(0, cross));
-  const auto height =
-      parse_whole("size", cross == std::string::npos ? "" : value.substr(cross + 1));
-  if (!width || !height) return fail("--size is \"" + value + "\"; it must be WxH, like 1280x720");
-  view.width = *width;
-  view.height = *height;
-  return {};
-}
-
-Result<> set_rotation(const std::string& value, optics::YawPitchRoll& rotation) {
-  const auto n = parse_numbers("rotation", value);
-  if (!n) return tl::unexpected(n.error());
-  if (n->size() != 3) return fail("--rotation is \"" + value + "\"; it must be YAW,PITCH,ROLL");
-  rotation = {(*n)[0], (*n)[1], (*n)[2]};
-  return {};
-}
-
 std::vector<Option> declare(ProjectOptions& o) {
   static constexpr std::array kUndefined{Word{"black", false}, Word{"transparent", true}};
-  return {
-      {"output", 'o', "OUT", "picture to write",
-       [&o](const std::string& v) -> Result<> {
-         o.output = v;
-         return {};
-       }},
-      {"ball", 0, "CX,CY,R | CX,CY,RX,RY,ANGLE",
-       "limb of the ball in IN, pixels (centres at integers);\nANGLE in degrees turns RX from "
-       "right to down",
-       [&o](const std::string& v) { return set_ball(v, o.ball); }},
-      {"alpha", 0, "DEG",
-       "reflected field of view, above 180 to 360:\n360 minus the ball's apparent diameter",
-       number_option("alpha", o.alpha)},
-      {"distance", 0, "RADII", "camera to ball's centre in ball radii, above 1",
-       number_option("distance", o.distance)},
-      {"model", 0, "MODEL",
-       "exact (default), paper, or classical, which takes\nneither alpha nor distance",
-       word_option("model", kModels, o.model)},
-      {"view", 0, "KIND", "perspective (default) or equirectangular",
-       word_option("view", kViewKinds, o.view.kind)},
-      {"yaw", 0, "DEG", "of the view, positive to the right",
-       number_option("yaw", o.view.orientation.yaw)},
-      {"pitch", 0, "DEG", "positive up", number_option("pitch", o.view.orientation.pitch)},
-      {"roll", 0, "DEG", "positive: the right side dips",
-       number_option("roll", o.view.orientation.roll)},
-      {"h-fov", 0, "DEG",
-       "edge to edge; perspective below 180 (default 90),\nequirectangular to 360 (default)",
-       number_option("h-fov", o.view.h_fov)},
-      {"v-fov", 0, "DEG", "default: square pixels, or 180 for equirectangular",
-       number_option("v-fov", o.view.v_fov)},
-      {"size", 0, "WxH", "of OUT, 1x1 to 16384x16384 (default 1280x720)",
-       [&o](const std::string& v) { return set_size(v, o.view); }},
-      {"rotation", 0, "YAW,PITCH,ROLL",
-       "registration: turns the ball's picture into the\nreference frame",
-       [&o](const std::string& v) { return set_rotation(v, o.rotation); }},
-      {"undefined", 0, "black|transparent", "what the ball does not show (default black)",
+  static constexpr std::array kMatches{Word{"photometric", true}, Word{"none", false}};
+  std::vector<Option> options{
+      {"output", 'o', "OUT", "picture to write", text_option(o.output)},
+  };
+  const auto append = [&options](std::vector<Option> more) {
+    options.insert(options.end(), std::make_move_iterator(more.begin()),
+                   std::make_move_iterator(more.end()));
+  };
+  append(camera_options(o.cameras));
+  append(view_options(o.view));
+  append({
+      {"undefined", 0, "black|transparent", "what no camera shows (default black)",
        word_option("undefined", kUndefined, o.transparent)},
       {"interpolation", 0, "bilinear|nearest", "between pixels (default bilinear)",
        word_option("interpolation", kInterpolations, o.interpolation)},
-      {"help", 'h', "", "this text",
-       [&o](const std::string&) -> Result<> {
-         o.help = true;
-         return {};
-       }},
-  };
+      {"match", 0, "photometric|none",
+       "bring the cameras to the first one's exposure and\nwhite balance (default photometric)",
+       word_option("match", kMatches, o.match)},
+      {"camera-info", 0, "FILE", "write a perspective view's calibration: ROS camera_info YAML",
+       text_option(o.camera_info)},
+      {"help", 'h', "", "this text", flag_option(o.help)},
+  });
+  return options;
 }
 
-/// A picture in memory of its own, of the format that remapping `source` yields.
-struct Canvas {
-  Canvas(const Picture& source, int width, int height)
-      : bytes(static_cast<std::size_t>(row_bytes(source.format, width)) * height),
-        picture{source.format, source.colour_space, width,
-                height,        bytes.data(),        row_bytes(source.format, width)} {}
-
-  template <class T>
-  ImageView<T> samples() {
-    const int channels = info(picture.format).channels;
-    return {reinterpret_cast<T*>(bytes.data()), picture.width, picture.height, channels,
-            static_cast<std::ptrdiff_t>(picture.width) * channels};
+/// Gives the one picture that stands alone to the one camera, or sees that every camera has one.
+Result<> assign_pictures(const std::vector<std::string>& alone,
+                         std::vector<ChosenCamera>& cameras) {
+  if (cameras.size() == 1 && cameras.front().picture.empty()) {
+    if (alone.size() != 1) return fail("give exactly one picture IN; see --help");
+    cameras.front().picture = alone.front();
+    return {};
   }
+  for (const ChosenCamera& camera : cameras) {
+    if (camera.picture.empty()) {
+      return fail("camera " + camera.name + " has no picture; use --camera " + camera.name + "=IN");
+    }
+  }
+  if (!alone.empty()) return fail(alone.front() + " belongs to no camera; use --camera NAME=IN");
+  return {};
+}
 
-  std::vector<std::byte> bytes;
-  Picture picture;
-};
+std::string depth_and_channels(const Picture& picture) {
+  return std::to_string(8 * info(picture.format).bytes_per_sample) + " bit " +
+         (info(picture.format).channels == 1 ? "grey" : "colour");
+}
 
-Result<> project(const ProjectOptions& o) {
-  const auto model = optics::BallModel::make(o.model, o.alpha, o.distance);
-  if (!model) return tl::unexpected(model.error());
-  const auto view = optics::ViewProjection::make(o.view);
+Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenCamera>& cameras) {
+  std::vector<hal::DecodedPicture> pictures;
+  for (const ChosenCamera& camera : cameras) {
+    auto read = hal::read_picture(camera.picture);
+    if (!read) return tl::unexpected(read.error());
+    const Picture& picture = read->picture;
+    if (auto fits = check_picture_size(camera, {picture.width, picture.height}); !fits) {
+      return fail(camera.picture.string() + ": " + fits.error().message);
+    }
+    pictures.push_back(std::move(*read));
+    const Picture& first = pictures.front().picture;
+    if (picture.format != first.format) {
+      return fail(camera.picture.string() + " has " + depth_and_channels(picture) + ", " +
+                  cameras.front().picture.string() + " " + depth_and_channels(first) +
+                  "; cameras that are merged must be alike");
+    }
+  }
+  return pictures;
+}
+
+/// Tells the user of cameras whose exposure stays as it is.
+void report(const std::vector<remap::PhotometricMatch>& matches,
+            const std::vector<ChosenCamera>& cameras) {
+  using Outcome = remap::PhotometricMatch::Outcome;
+  for (std::size_t n = 0; n < matches.size(); ++n) {
+    const Outcome outcome = matches[n].outcome;
+    if (outcome == Outcome::Reference || outcome == Outcome::Matched) continue;
+    std::fprintf(stderr, "orbwatch: note: camera %s is not matched in exposure: %s\n",
+                 cameras[n].name.c_str(),
+                 outcome == Outcome::TooLittle
+                     ? "it shares too little with the others"
+                     : "it differs from the others more than exposures do");
+  }
+}
+
+Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
+  if (o.camera_info.empty()) return {};
+  const auto intrinsics = view.intrinsics();
+  if (!intrinsics) return fail("--camera-info: only a perspective view has one");
+  return write_calibration(o.camera_info, *intrinsics, "view", CalibrationFormat::Ros);
+}
+
+Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone) {
+  auto cameras = choose_cameras(o.cameras);
+  if (!cameras) return tl::unexpected(cameras.error());
+  if (auto assigned = assign_pictures(alone, *cameras); !assigned) return assigned;
+  const auto view = optics::ViewProjection::make(o.view, cameras->front().ball);
   if (!view) return tl::unexpected(view.error());
-  const auto ball = optics::BallProjection::make(*model, *o.ball, optics::rotation(o.rotation));
-  if (!ball) return tl::unexpected(ball.error());
-  const auto source = hal::read_picture(o.input);
-  if (!source) return tl::unexpected(source.error());
-  const Picture& in = source->picture;
-  if (auto placed = optics::check_outline(*o.ball, in.width, in.height); !placed) {
-    return fail(o.input.string() + ": " + placed.error().message);
-  }
-  if (auto named = check_picture_name(o.output, in.format, o.transparent); !named) return named;
+  const auto pictures = read_pictures(*cameras);
+  if (!pictures) return tl::unexpected(pictures.error());
+  const PixelFormat format = pictures->front().picture.format;
+  if (auto named = check_picture_name(o.output, format, o.transparent); !named) return named;
 
-  const remap::CoordinateGrid grid(*view, *ball, in.width, in.height);
-  Canvas out(in, o.view.width, o.view.height);
-  const remap::TileRows rows{0, grid.tiles_y()};
-  if (info(in.format).bytes_per_sample == 2) {
-    remap::remap(grid, in, o.interpolation, out.samples<std::uint16_t>(), rows);
-  } else {
-    remap::remap(grid, in, o.interpolation, out.samples<std::uint8_t>(), rows);
+  std::vector<ViewedPicture> viewed;
+  for (std::size_t n = 0; n < cameras->size(); ++n) {
+    viewed.push_back({(*pictures)[n].picture, (*cameras)[n].ball});
   }
-  if (!o.transparent) return write_picture(o.output, out.picture);
-  Canvas validity(Picture{}, o.view.width, o.view.height);
-  grid.write_validity(validity.samples<std::uint8_t>());
-  return write_picture(o.output, out.picture, validity.samples<std::uint8_t>());
+  MergedView merged = merge_pictures(*view, viewed, o.interpolation, o.match && viewed.size() > 1);
+  report(merged.matches, *cameras);
+  if (auto written = write_camera_info(o, *view); !written) return written;
+  return write_picture(o.output, merged.picture,
+                       o.transparent ? merged.validity() : ImageView<std::uint8_t>{});
 }
 
 }  // namespace
@@ -184,17 +158,14 @@ Result<> project(const ProjectOptions& o) {
 Result<> project_command(const std::vector<std::string>& arguments) {
   ProjectOptions o;
   const std::vector<Option> options = declare(o);
-  const auto rest = parse_options(arguments, options);
-  if (!rest) return tl::unexpected(rest.error());
+  const auto alone = parse_options(arguments, options);
+  if (!alone) return tl::unexpected(alone.error());
   if (o.help) {
     std::cout << kUsage << options_help(options);
     return {};
   }
-  if (rest->size() != 1) return fail("give exactly one picture IN; see --help");
   if (o.output.empty()) return fail("-o OUT is missing; see --help");
-  if (!o.ball) return fail("--ball is missing; see --help");
-  o.input = rest->front();
-  return project(o);
+  return project(o, *alone);
 }
 
 }  // namespace orbwatch::app

@@ -33,27 +33,12 @@ std::vector<Option> declare(SubscribeOptions& o, bool& help) {
        }},
       {"prefix", 0, "NAME",
        "of the default topics, as in the configuration's\n[dds] (default orbwatch)",
-       [&o](const std::string& v) -> Result<> {
-         o.prefix = v;
-         return {};
-       }},
-      {"save", 0, "DIR", "save the newest image of each topic as PNG",
-       [&o](const std::string& v) -> Result<> {
-         o.save = v;
-         return {};
-       }},
+       text_option(o.prefix)},
+      {"save", 0, "DIR", "save the newest image of each topic as PNG", text_option(o.save)},
       {"seconds", 0, "N", "end after this time (default: Ctrl-C)",
        number_option("seconds", o.seconds)},
-      {"stats", 0, "", "print rate, size, latency and gaps every second",
-       [&o](const std::string&) -> Result<> {
-         o.stats = true;
-         return {};
-       }},
-      {"help", 'h', "", "this text",
-       [&help](const std::string&) -> Result<> {
-         help = true;
-         return {};
-       }},
+      {"stats", 0, "", "print rate, size, latency and gaps every second", flag_option(o.stats)},
+      {"help", 'h', "", "this text", flag_option(help)},
   };
 }
 

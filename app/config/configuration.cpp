@@ -1,11 +1,10 @@
 #include "app/config/configuration.h"
 
 #include <algorithm>
-#include <fstream>
-#include <set>
-#include <sstream>
 
+#include "app/config/plain_names.h"
 #include "app/config/schema.h"
+#include "app/config/text_file.h"
 #include "app/config/toml_reader.h"
 
 namespace orbwatch::app {
@@ -25,27 +24,20 @@ std::string names(const std::vector<Named>& list) {
   return text;
 }
 
-/// Names are parts of topics and file names.
-bool is_plain_name(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), plain) &&
-         std::isalpha(static_cast<unsigned char>(name.front())) && name.back() != '_' &&
-         name.find("__") == std::string::npos;
-}
-
-template <class Named>
-void check_names(const std::vector<Named>& list, const std::string& key, Finding& finding) {
-  std::set<std::string> seen;
-  for (const Named& item : list) {
-    if (!is_plain_name(item.name)) {
-      finding.note(item.line, key + ".name",
-                   "\"" + item.name +
-                       "\" is not allowed; it must be letters, digits and single _, "
-                       "a letter first");
-    }
-    if (!seen.insert(item.name).second) {
-      finding.note(item.line, key + ".name", "\"" + item.name + "\" is there twice");
-    }
+void check_camera(const CameraSettings& camera, const optics::Rig& rig, Finding& finding) {
+  const optics::RigCamera* known = by_name(rig.cameras, camera.name);
+  if (!known) {
+    finding.note(camera.line, "camera.name",
+                 "the rig has no camera \"" + camera.name + "\"; it has: " + names(rig.cameras));
+    return;
+  }
+  const std::string rig_size = ", but the rig is for " + std::to_string(known->width) + "x" +
+                               std::to_string(known->height) + " pictures";
+  if (camera.width && camera.width != known->width) {
+    finding.note(camera.line, "camera.width", std::to_string(camera.width) + rig_size);
+  }
+  if (camera.height && camera.height != known->height) {
+    finding.note(camera.line, "camera.height", std::to_string(camera.height) + rig_size);
   }
 }
 
@@ -56,8 +48,8 @@ void check_view(const ViewSettings& view, const Configuration& configuration, Fi
   const optics::ViewSpec spec{view.kind,  {view.yaw, view.pitch, view.roll},
                               view.h_fov, view.v_fov,
                               view.width, view.height};
-  if (const auto projection = optics::ViewProjection::make(spec); !projection) {
-    finding.note(view.line, "view", projection.error().message);
+  if (const auto possible = optics::check_view(spec); !possible) {
+    finding.note(view.line, "view", possible.error().message);
   }
   for (const SourceSettings& source : view.sources) {
     if (!by_name(configuration.cameras, source.camera)) {
@@ -88,46 +80,29 @@ void check_process(const ProcessSettings& process, const Configuration& configur
 void check_references(const Configuration& configuration, Finding& finding) {
   check_names(configuration.cameras, "camera", finding);
   check_names(configuration.views, "view", finding);
+  for (const CameraSettings& camera : configuration.cameras) {
+    check_camera(camera, configuration.rig, finding);
+  }
   for (const ViewSettings& view : configuration.views) check_view(view, configuration, finding);
   if (configuration.process) check_process(*configuration.process, configuration, finding);
 }
 
 }  // namespace
 
-optics::Mat3 registration(const BallSettings& ball) {
-  if (ball.rotation_matrix) {
-    const Numbers9& m = *ball.rotation_matrix;
-    return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
-  }
-  const Numbers3 angles = ball.rotation.value_or(Numbers3{});
-  return optics::rotation({angles[0], angles[1], angles[2]});
-}
-
 Result<Configuration> parse_configuration(const std::string& text, const std::string& name,
                                           const std::filesystem::path& folder) {
   Finding finding{name, folder, std::nullopt, false};
   Configuration configuration;
-  try {
-    const toml::table table = toml::parse(text, name);
-    TomlReader reader(table, "", finding);
-    visit(reader, configuration);
-    reader.refuse_unknown_keys();
-  } catch (const toml::parse_error& error) {
-    return fail(name + ":" + std::to_string(error.source().begin.line) +
-                ": not valid TOML: " + std::string(error.description()));
-  }
+  read_toml(text, configuration, finding);
   if (!finding.message) check_references(configuration, finding);
   if (finding.message) return fail(*finding.message);
   return configuration;
 }
 
 Result<Configuration> load_configuration(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) {
-    return fail(file.string() + ": cannot be read; it must be a TOML file");
-  }
-  return parse_configuration(text.str(), file.string(), file.parent_path());
+  return read_text_file(file, "a TOML file").and_then([&](const std::string& text) {
+    return parse_configuration(text, file.string(), file.parent_path());
+  });
 }
 
 }  // namespace orbwatch::app

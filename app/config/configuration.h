@@ -11,7 +11,8 @@
 #include "app/modbus/modbus_settings.h"
 #include "app/pipeline/view_renderer.h"
 #include "hal/fault_script.h"
-#include "proc/optics/ball_model.h"
+#include "proc/optics/rig.h"
+#include "proc/optics/vec.h"
 #include "proc/optics/view_projection.h"
 #include "proc/remap/remap.h"
 
@@ -20,29 +21,10 @@ namespace orbwatch::app {
 /// What the file of `orbwatchd --config` says, checked. Which keys there are, what they may be and
 /// what they mean stands in schema.h; this is where their values live and what they are by default.
 
-using Numbers2 = std::array<double, 2>;
-using Numbers3 = std::array<double, 3>;
-using Numbers9 = std::array<double, 9>;
-
-struct BallSettings {
-  Numbers2 centre{};
-  std::optional<double> radius;
-  std::optional<Numbers2> radii;
-  double angle = 0;
-  optics::BallModel::Kind model = optics::BallModel::Kind::Exact;
-  std::optional<double> alpha;
-  std::optional<double> distance;
-  std::optional<Numbers3> rotation;
-  std::optional<Numbers9> rotation_matrix;
-};
-
-/// The registration that the settings give in one form or the other; none is the identity.
-optics::Mat3 registration(const BallSettings& ball);
-
 struct SimulatedCameraPart {
   enum class Kind { Colour, Thermal };
   Kind kind = Kind::Colour;
-  Numbers3 position{};
+  optics::Vec3 position;
   double h_fov = 0;
   double noise = 1;
 };
@@ -67,7 +49,6 @@ struct CameraSettings {
   int height = 0;
   double frame_rate = 0;
   double kelvin_per_count = 0;
-  BallSettings ball;
   std::optional<SimulatedCameraPart> simulated;
   std::optional<ReplayPart> replay;
   std::optional<V4l2Part> v4l2;
@@ -79,7 +60,7 @@ struct SourceSettings {
   std::string camera;
   double weight = 1;
   std::string colour_map = "grey";
-  std::optional<Numbers2> range;
+  std::optional<std::array<double, 2>> range;
 };
 
 struct ViewSettings {
@@ -124,6 +105,7 @@ struct ConsoleSettings {
 };
 
 struct Configuration {
+  optics::Rig rig;  ///< has every camera of `cameras`, by name
   PipelineSettings pipeline;
   SimulationSettings simulation;
   std::vector<CameraSettings> cameras;
@@ -134,8 +116,8 @@ struct Configuration {
   DdsSettings dds;
 };
 
-/// Reads and checks a configuration file. Relative paths in it count from the file's folder.
-/// The error says file, line, key, what is wrong and what is allowed.
+/// Reads and checks a configuration file and the rig file that it names. Relative paths in it count
+/// from the file's folder. The error says file, line, key, what is wrong and what is allowed.
 Result<Configuration> load_configuration(const std::filesystem::path& file);
 
 /// The same for text that stands in for a file named `name`, with paths relative to `folder`.

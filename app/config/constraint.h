@@ -46,6 +46,8 @@ struct Range {
   }
 };
 
+inline constexpr Range kAnyNumber{};
+
 /// One of the words that a key may have, and what it stands for.
 template <class T>
 struct Word {
@@ -62,6 +64,15 @@ const T* find_word(const std::array<Word<T>, N>& words, std::string_view name) {
     if (word.name == name) return &word.value;
   }
   return nullptr;
+}
+
+/// The word for `value`; empty when there is none.
+template <class T, std::size_t N>
+std::string_view word_for(const std::array<Word<T>, N>& words, const T& value) {
+  for (const Word<T>& word : words) {
+    if (word.value == value) return word.name;
+  }
+  return {};
 }
 
 /// "exact, paper, classical"

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "app/config/configuration.h"
 #include "app/config/constraint.h"
+#include "app/config/rig_file.h"
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/status.h"
 
@@ -12,15 +16,18 @@
 /// writer of the manual. A visitor offers
 ///   required(key, value, constraint, text), optional(key, value, constraint, text):
 ///     a number with a Range, a string or a file without constraint, a word out of a list;
+///   required_if(applies, when, key, ...), optional_if(applies, when, key, ...): the same for a key
+///     that only one case has, and refused in the others;
 ///   table(key, value, text), tables(key, values, least, most, text): nested keys;
 ///   require(truth, key, message): a rule between keys; line(number): where the table stands.
 namespace orbwatch::app {
 
-inline constexpr std::array kModels{Word{"exact", optics::BallModel::Kind::Exact},
-                                    Word{"paper", optics::BallModel::Kind::Paper},
-                                    Word{"classical", optics::BallModel::Kind::Classical}};
 inline constexpr std::array kViewKinds{Word{"perspective", optics::ViewKind::Perspective},
-                                       Word{"equirectangular", optics::ViewKind::Equirectangular}};
+                                       Word{"equirectangular", optics::ViewKind::Equirectangular},
+                                       Word{"cylindrical", optics::ViewKind::Cylindrical},
+                                       Word{"stereographic", optics::ViewKind::Stereographic},
+                                       Word{"fisheye", optics::ViewKind::Fisheye},
+                                       Word{"ball", optics::ViewKind::Ball}};
 inline constexpr std::array kInterpolations{Word{"bilinear", remap::Interpolation::Bilinear},
                                             Word{"nearest", remap::Interpolation::Nearest}};
 inline constexpr std::array kCombines{Word{"mix", Combine::Mix}, Word{"switch", Combine::Switch}};
@@ -33,33 +40,7 @@ inline constexpr std::array kFaults{
 inline constexpr std::array kSimulatedKinds{Word{"colour", SimulatedCameraPart::Kind::Colour},
                                             Word{"thermal", SimulatedCameraPart::Kind::Thermal}};
 
-inline constexpr Range kAnyNumber{};
 inline constexpr Range kSide = Range::between(1, kMaxSide);
-
-template <class Visitor>
-void visit(Visitor& v, BallSettings& ball) {
-  v.required("centre", ball.centre, kAnyNumber, "Ball's centre in the picture, px: [u, v]");
-  v.optional("radius", ball.radius, Range::above(0), "Radius of its limb, px; for a circle");
-  v.optional("radii", ball.radii, Range::above(0), "Semi-axes of its limb, px; for an ellipse");
-  v.optional("angle", ball.angle, kAnyNumber, "Of the first semi-axis, deg, from u towards v");
-  v.optional("model", ball.model, kModels, "Projection");
-  v.optional("alpha", ball.alpha, Range::above(180, 360),
-             "Reflected field of view, deg: 360 minus the ball's apparent diameter");
-  v.optional("distance", ball.distance, Range::above(1),
-             "Camera to ball's centre, ball radii; instead of alpha");
-  v.optional("rotation", ball.rotation, kAnyNumber,
-             "Registration to the reference, deg: [yaw, pitch, roll]");
-  v.optional("rotation_matrix", ball.rotation_matrix, kAnyNumber,
-             "The same as 3x3 matrix by rows: v_reference = R v_camera");
-  v.require(ball.radius.has_value() != ball.radii.has_value(), "radius",
-            "give either radius or radii");
-  const auto model = optics::BallModel::make(ball.model, ball.alpha, ball.distance);
-  v.require(model.has_value(), "alpha", model ? "" : model.error().message);
-  v.require(!ball.rotation || !ball.rotation_matrix, "rotation_matrix",
-            "give either rotation or rotation_matrix");
-  const auto rotation = optics::checked_rotation(registration(ball));
-  v.require(rotation.has_value(), "rotation_matrix", rotation ? "" : rotation.error().message);
-}
 
 template <class Visitor>
 void visit(Visitor& v, SimulatedCameraPart& part) {
@@ -92,15 +73,16 @@ void visit(Visitor& v, hal::ScriptedFault& fault) {
 template <class Visitor>
 void visit(Visitor& v, CameraSettings& camera) {
   v.line(camera.line);
-  v.required("name", camera.name, "What views and messages call it");
+  v.required("name", camera.name, "Its name in the rig; views and messages use it too");
   v.required("back_end", camera.back_end, kBackEnds, "Where its frames come from");
-  v.optional("width", camera.width, kSide, "Picture width, px; else the camera's own");
-  v.optional("height", camera.height, kSide, "Picture height, px; else the camera's own");
+  v.optional("width", camera.width, kSide,
+             "Picture width, px, as in the rig; else the camera's own");
+  v.optional("height", camera.height, kSide,
+             "Picture height, px, as in the rig; else the camera's own");
   v.optional("frame_rate", camera.frame_rate, Range::between(0.01, 1000),
              "Frames per second; else the camera's own");
   v.optional("kelvin_per_count", camera.kelvin_per_count, Range::above(0, 10),
              "Radiometric scale of a 16-bit thermal camera; else it is none");
-  v.table("ball", camera.ball, "The mirror ball in this camera's picture");
   v.table("simulated", camera.simulated, "For back_end simulated");
   v.table("replay", camera.replay, "For back_end replay");
   v.table("v4l2", camera.v4l2, "For back_end v4l2");
@@ -120,7 +102,7 @@ void visit(Visitor& v, SourceSettings& source) {
   v.line(source.line);
   v.required("camera", source.camera, "Name of the camera");
   v.optional("weight", source.weight, Range::above(0, 1000),
-             "Share in a mixed view where other cameras see too");
+             "In a mixed view, times (pixels per degree)^4: its share where other cameras see too");
   v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
   v.optional("range", source.range, kAnyNumber,
              "First and last colour: degC for a radiometric camera, else percent of full scale");
@@ -132,14 +114,16 @@ template <class Visitor>
 void visit(Visitor& v, ViewSettings& view) {
   v.line(view.line);
   v.required("name", view.name, "Part of its DDS topic: letters, digits and _");
-  v.optional("kind", view.kind, kViewKinds, "Projection");
+  v.optional("kind", view.kind, kViewKinds,
+             "Projection; ball is the first camera's own picture of it, which takes no angle");
   v.optional("yaw", view.yaw, kAnyNumber, "deg, from +Y towards +X");
   v.optional("pitch", view.pitch, kAnyNumber, "deg, up positive");
   v.optional("roll", view.roll, kAnyNumber, "deg, the right side dips");
   v.optional("h_fov", view.h_fov, Range::above(0, 360),
-             "deg, edge to edge; perspective below 180, else 90; equirectangular else 360");
-  v.optional("v_fov", view.v_fov, Range::above(0, 180),
-             "deg; perspective else from square pixels; equirectangular else 180");
+             "deg, edge to edge; else 90 perspective (below 180), 180 stereographic and fisheye, "
+             "360 the others");
+  v.optional("v_fov", view.v_fov, Range::above(0, 360),
+             "deg; else 180 equirectangular, from square pixels the others");
   v.required("width", view.width, kSide, "px");
   v.required("height", view.height, kSide, "px");
   v.optional("combine", view.combine, kCombines,
@@ -203,6 +187,13 @@ void visit(Visitor& v, DdsSettings& dds) {
 
 template <class Visitor>
 void visit(Visitor& v, Configuration& configuration) {
+  std::optional<std::filesystem::path> rig_file;
+  v.required("rig", rig_file, "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
+  if (rig_file) {
+    auto rig = load_rig(*rig_file);
+    v.require(rig.has_value(), "rig", rig ? "" : rig.error().message);
+    if (rig) configuration.rig = std::move(*rig);
+  }
   v.table("pipeline", configuration.pipeline, "Frame budget and threads");
   v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,

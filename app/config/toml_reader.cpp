@@ -22,6 +22,12 @@ void TomlReader::refuse_unknown_keys() {
   }
 }
 
+void TomlReader::refuse(const char* key, const char* when) {
+  if (const toml::node* node = find(key)) {
+    finding_.note(line_of(*node), name(key), std::string("is only for ") + when);
+  }
+}
+
 std::string TomlReader::describe(const toml::node& node) {
   std::ostringstream text;
   node.visit([&text](const auto& value) { text << value; });
@@ -126,6 +132,31 @@ void TomlReader::read(const toml::node& node, const std::string& key, int& value
 void TomlReader::read(const toml::node& node, const std::string& key, std::uint64_t& value,
                       const Range& range) {
   if (const auto given = read_integer(node, key, range)) value = static_cast<std::uint64_t>(*given);
+}
+
+void TomlReader::read(const toml::node& node, const std::string& key, std::vector<double>& value,
+                      const Range& range) {
+  const toml::array* list = node.as_array();
+  if (!list) {
+    finding_.note(line_of(node), key, "must be a list of numbers");
+    return;
+  }
+  value.clear();
+  for (const toml::node& item : *list) read(item, key, value.emplace_back(), range);
+}
+
+void TomlReader::read(const toml::node& node, const std::string& key, optics::Vec3& value,
+                      const Range& range) {
+  std::array<double, 3> n{};
+  read(node, key, n, range);
+  value = {n[0], n[1], n[2]};
+}
+
+void TomlReader::read(const toml::node& node, const std::string& key, optics::Mat3& value,
+                      const Range& range) {
+  std::array<double, 9> n{};
+  read(node, key, n, range);
+  value = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
 }
 
 }  // namespace orbwatch::app

@@ -10,31 +10,13 @@
 #include <vector>
 
 #include "app/config/constraint.h"
+#include "app/config/finding.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::app {
 
-/// What is wrong with a file. Only the first finding counts, since later ones often follow from it;
-/// but a key that nobody knows goes before, since a misspelt key is also a missing one.
-struct Finding {
-  std::string file;
-  std::filesystem::path folder;  ///< relative paths in the file count from here
-  std::optional<std::string> message;
-
-  bool unknown_key = false;
-
-  void note(int line, const std::string& key, const std::string& text) {
-    if (!message) message = file + ":" + std::to_string(line) + ": " + key + ": " + text;
-  }
-  void note_unknown(int line, const std::string& key, const std::string& text) {
-    if (unknown_key) return;
-    message.reset();
-    unknown_key = true;
-    note(line, key, text);
-  }
-};
-
-/// Reads one table of a TOML file into a struct: the visitor of schema.h that loads. Checks types,
-/// ranges and words, and in the end that no key is left over. Thread-bound.
+/// Reads one table of a TOML file into a struct: the visitor of a file's schema that loads. Checks
+/// types, ranges and words, and in the end that no key is left over. Thread-bound.
 class TomlReader {
  public:
   /// `path`: the table's name in messages, empty at the top.
@@ -49,6 +31,18 @@ class TomlReader {
       return;
     }
     optional(key, value, rest...);
+  }
+
+  template <class T, class... Rest>
+  void required_if(bool applies, const char* when, const char* key, T& value, const Rest&... rest) {
+    if (applies) return required(key, value, rest...);
+    refuse(key, when);
+  }
+
+  template <class T, class... Rest>
+  void optional_if(bool applies, const char* when, const char* key, T& value, const Rest&... rest) {
+    if (applies) return optional(key, value, rest...);
+    refuse(key, when);
   }
 
   /// A string, a file, true or false, or a list of strings.
@@ -128,6 +122,9 @@ class TomlReader {
     reader.refuse_unknown_keys();
   }
 
+  /// Notes a key that is there although it is only for the case `when`.
+  void refuse(const char* key, const char* when);
+
   std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const toml::node* find(const char* key);
   const toml::table* find_table(const char* key);
@@ -144,6 +141,13 @@ class TomlReader {
   std::optional<std::int64_t> read_integer(const toml::node& node, const std::string& key,
                                            const Range& range);
 
+  void read(const toml::node& node, const std::string& key, std::vector<double>& value,
+            const Range& range);
+  void read(const toml::node& node, const std::string& key, optics::Vec3& value,
+            const Range& range);
+  void read(const toml::node& node, const std::string& key, optics::Mat3& value,
+            const Range& range);
+
   template <std::size_t N>
   void read(const toml::node& node, const std::string& key, std::array<double, N>& value,
             const Range& range) {
@@ -155,10 +159,10 @@ class TomlReader {
     for (std::size_t i = 0; i < N; ++i) read((*list)[i], key, value[i], range);
   }
 
-  template <class T>
+  template <class T, class... Constraint>
   void read(const toml::node& node, const std::string& key, std::optional<T>& value,
-            const Range& range) {
-    read(node, key, value.emplace(), range);
+            const Constraint&... constraint) {
+    read(node, key, value.emplace(), constraint...);
   }
 
   const toml::table& table_;
@@ -166,5 +170,19 @@ class TomlReader {
   Finding& finding_;
   std::vector<std::string> known_;
 };
+
+/// Reads the text of a file, named by `finding`, into the settings that a visit() declares.
+template <class Settings>
+void read_toml(const std::string& text, Settings& settings, Finding& finding) {
+  try {
+    const toml::table table = toml::parse(text, finding.file);
+    TomlReader reader(table, "", finding);
+    visit(reader, settings);
+    reader.refuse_unknown_keys();
+  } catch (const toml::parse_error& error) {
+    finding.note(static_cast<int>(error.source().begin.line), "not valid TOML",
+                 std::string(error.description()));
+  }
+}
 
 }  // namespace orbwatch::app

@@ -1,7 +1,11 @@
 #include "app/daemon/assemble.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "app/daemon/cameras.h"
 #include "app/log.h"
@@ -20,23 +24,6 @@ Result<std::shared_ptr<const simulation::Machine>> make_machine(
   return simulation::Machine::make(settings, hal::Clock::now());
 }
 
-Result<optics::BallProjection> ball_projection(const CameraSettings& camera,
-                                               const hal::StreamFormat& format) {
-  const BallSettings& ball = camera.ball;
-  const Numbers2 radii =
-      ball.radii.value_or(Numbers2{ball.radius.value_or(0), ball.radius.value_or(0)});
-  const optics::Outline outline{{ball.centre[0], ball.centre[1]}, radii[0], radii[1], ball.angle};
-  if (auto placed = optics::check_outline(outline, format.width, format.height); !placed) {
-    return fail("camera " + camera.name + ": " + placed.error().message);
-  }
-  auto projection = optics::BallModel::make(ball.model, ball.alpha, ball.distance)
-                        .and_then([&](const optics::BallModel& model) {
-                          return optics::BallProjection::make(model, outline, registration(ball));
-                        });
-  if (!projection) return fail("camera " + camera.name + ": " + projection.error().message);
-  return projection;
-}
-
 /// The file's numbers (degC, or percent of full scale) as the camera's counts.
 double counts(double value, const CameraSettings& camera, const hal::StreamFormat& format) {
   const signals::RadiometricScale scale{camera.kelvin_per_count};
@@ -47,45 +34,61 @@ double counts(double value, const CameraSettings& camera, const hal::StreamForma
 
 remap::ColourMap colour_map(const SourceSettings& source, const CameraSettings& camera,
                             const hal::StreamFormat& format) {
-  const Numbers2 range = source.range.value_or(Numbers2{0, 100});
+  const auto range = source.range.value_or(std::array<double, 2>{0, 100});
   return {colour_map_table(source.colour_map), counts(range[0], camera, format),
           counts(range[1], camera, format)};
 }
 
-std::size_t index_of(const std::vector<CameraSettings>& cameras, const std::string& name) {
-  const auto it = std::find_if(cameras.begin(), cameras.end(),
-                               [&](const CameraSettings& c) { return c.name == name; });
-  return static_cast<std::size_t>(it - cameras.begin());
+/// Of a name that is among them, as the configuration's checks saw to.
+template <class Named>
+std::size_t index_of(const std::vector<Named>& list, const std::string& name) {
+  const auto it =
+      std::find_if(list.begin(), list.end(), [&](const Named& item) { return item.name == name; });
+  return static_cast<std::size_t>(it - list.begin());
+}
+
+const optics::RigCamera& rig_camera(const optics::Rig& rig, const std::string& name) {
+  return rig.cameras[index_of(rig.cameras, name)];
 }
 
 Result<ViewPlan> plan_view(const Configuration& configuration, std::size_t index,
                            const PipelinePlan& plan) {
   const ViewSettings& view = configuration.views[index];
+  std::vector<ViewSource> sources;
+  std::optional<std::size_t> measured;
+  for (const SourceSettings& source : view.sources) {
+    const std::size_t number = index_of(configuration.cameras, source.camera);
+    const CameraSettings& camera = configuration.cameras[number];
+    const hal::StreamFormat& format = plan.formats[number];
+    const optics::Rig& rig = configuration.rig;
+    auto ball = optics::ball_projection(rig, rig_camera(rig, camera.name));
+    if (!ball) return tl::unexpected(ball.error());
+    if (configuration.process && configuration.process->view == view.name &&
+        configuration.process->camera == source.camera) {
+      measured = sources.size();
+    }
+    sources.push_back({number, format, *ball, source.weight, colour_map(source, camera, format)});
+  }
   auto projection = optics::ViewProjection::make({view.kind,
                                                   {view.yaw, view.pitch, view.roll},
                                                   view.h_fov,
                                                   view.v_fov,
                                                   view.width,
-                                                  view.height});
+                                                  view.height},
+                                                 sources.front().ball);
   if (!projection) return fail("view " + view.name + ": " + projection.error().message);
-  ViewPlan planned{index, view.name, *projection, {}, view.combine, view.interpolation, {}};
-  for (const SourceSettings& source : view.sources) {
-    const std::size_t number = index_of(configuration.cameras, source.camera);
-    const CameraSettings& camera = configuration.cameras[number];
-    const hal::StreamFormat& format = plan.formats[number];
-    auto ball = ball_projection(camera, format);
-    if (!ball) return tl::unexpected(ball.error());
-    if (configuration.process && configuration.process->view == view.name &&
-        configuration.process->camera == source.camera) {
-      planned.measured = planned.sources.size();
-    }
-    planned.sources.push_back(
-        {number, format, *ball, source.weight, colour_map(source, camera, format)});
-  }
-  return planned;
+  return ViewPlan{index,        view.name,          *projection, std::move(sources),
+                  view.combine, view.interpolation, measured};
 }
 
-Result<> open_camera(const CameraSettings& settings,
+Result<> check_size(const hal::StreamFormat& format, const optics::RigCamera& camera) {
+  if (format.width == camera.width && format.height == camera.height) return {};
+  return fail("camera " + camera.name + ": delivers " + std::to_string(format.width) + "x" +
+              std::to_string(format.height) + ", but the rig is for " +
+              std::to_string(camera.width) + "x" + std::to_string(camera.height) + " pictures");
+}
+
+Result<> open_camera(const CameraSettings& settings, const optics::Rig& rig,
                      const std::shared_ptr<const simulation::Machine>& machine,
                      PipelinePlan& plan) {
   auto camera = make_camera(settings, machine);
@@ -99,6 +102,7 @@ Result<> open_camera(const CameraSettings& settings,
     return fail("camera " + settings.name + ": has kelvin_per_count but delivers " +
                 std::string(info(format->format).name) + "; a radiometric camera delivers y16");
   }
+  if (auto fits = check_size(*format, rig_camera(rig, settings.name)); !fits) return fits;
   plan.cameras.push_back(std::move(camera));
   plan.formats.push_back(*format);
   return {};
@@ -132,7 +136,7 @@ Result<PipelinePlan> assemble(const Configuration& configuration) {
   if (!machine) return tl::unexpected(machine.error());
   PipelinePlan plan;
   for (const CameraSettings& settings : configuration.cameras) {
-    if (auto opened = open_camera(settings, *machine, plan); !opened) {
+    if (auto opened = open_camera(settings, configuration.rig, *machine, plan); !opened) {
       return tl::unexpected(opened.error());
     }
   }

@@ -13,7 +13,7 @@ simulation::SimulatedCameraSettings simulated_settings(const CameraSettings& set
   simulated.name = settings.name;
   simulated.kind = part.kind == SimulatedCameraPart::Kind::Thermal ? simulation::CameraKind::Thermal
                                                                    : simulation::CameraKind::Colour;
-  simulated.position = {part.position[0], part.position[1], part.position[2]};
+  simulated.position = part.position;
   simulated.horizontal_fov = part.h_fov;
   simulated.noise_sigma = part.noise;
   if (settings.kelvin_per_count > 0) simulated.kelvin_per_count = settings.kelvin_per_count;

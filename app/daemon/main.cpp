@@ -24,9 +24,9 @@ constexpr const char* kHelp =
     "Turns pictures of a mirror ball into views, measures the process in them and reports over\n"
     "DDS and Modbus. Runs until SIGTERM or Ctrl-C.\n"
     "\n"
-    "  --config FILE  cameras, ball, views and interfaces (TOML); `orbwatch describe config`\n"
-    "                 prints its manual\n"
-    "  --check        read and check the file, then exit\n"
+    "  --config FILE  cameras, views and interfaces (TOML), and the rig file that it names;\n"
+    "                 `orbwatch describe config` and `orbwatch describe rig` print the manuals\n"
+    "  --check        read and check both files, then exit\n"
     "  --help, --version\n";
 
 struct Arguments {

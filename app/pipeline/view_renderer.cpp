@@ -1,10 +1,12 @@
 #include "app/pipeline/view_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
 #include "proc/image/validity.h"
+#include "proc/remap/blend_weights.h"
 #include "proc/remap/colour_conversion.h"
 #include "proc/remap/remap.h"
 
@@ -41,6 +43,7 @@ ViewRenderer::ViewRenderer(ViewPlan plan) : plan_(std::move(plan)) {
                                           source.format.height),
                     {},
                     {},
+                    {},
                     {}};
     if (plan_.sources.size() > 1) compiled.rgb.resize(pixels * 3);
     if (is_one_channel(source.format.format)) {
@@ -49,8 +52,8 @@ ViewRenderer::ViewRenderer(ViewPlan plan) : plan_(std::move(plan)) {
     }
     sources_.push_back(std::move(compiled));
   }
-  compile_coverage();
   compile_weights();
+  compile_unseen();
 }
 
 template <class T>
@@ -59,36 +62,27 @@ ImageView<T> ViewRenderer::plane(std::vector<T>& storage, int channels) const {
   return {storage.data(), width, plan_.projection.height(), channels, width * channels};
 }
 
-void ViewRenderer::compile_coverage() {
+void ViewRenderer::compile_weights() {
+  std::vector<remap::BlendSource> sources;
+  for (std::size_t n = 0; n < sources_.size(); ++n) {
+    sources.push_back({sources_[n].grid, plan_.sources[n].ball, plan_.sources[n].weight});
+  }
+  auto weights = remap::blend_weights(plan_.projection, sources);
+  for (std::size_t n = 0; n < sources_.size(); ++n) sources_[n].weights = std::move(weights[n]);
+}
+
+void ViewRenderer::compile_unseen() {
   const auto pixels =
       static_cast<std::size_t>(plan_.projection.width()) * plan_.projection.height();
-  coverage_.assign(pixels, 0);
   unseen_.assign(pixels, static_cast<std::uint8_t>(Validity::Outside));
   std::vector<std::uint8_t> validity(pixels);
-  for (std::size_t n = 0; n < sources_.size(); ++n) {
-    sources_[n].grid.write_validity(plane(validity, 1));
+  for (const Source& source : sources_) {
+    source.grid.write_validity(plane(validity, 1));
     for (std::size_t i = 0; i < pixels; ++i) {
-      if (validity[i] == static_cast<std::uint8_t>(Validity::Seen)) {
-        coverage_[i] = static_cast<std::uint8_t>(coverage_[i] | 1U << n);
-      }
       if (validity[i] != static_cast<std::uint8_t>(Validity::Outside)) {
         unseen_[i] = static_cast<std::uint8_t>(Validity::Blind);
       }
     }
-  }
-}
-
-void ViewRenderer::compile_weights() {
-  const std::size_t count = sources_.size();
-  for (std::size_t delivering = 0; delivering < std::size_t{1} << count; ++delivering) {
-    std::array<double, remap::kMaxSources> weights{};
-    for (std::size_t n = 0; n < count; ++n) {
-      // A ratio that no 8-bit share can show makes the first source win alone.
-      const double weight =
-          plan_.combine == Combine::Mix ? plan_.sources[n].weight : 1.0 / (1ULL << 16 * n);
-      weights[n] = (delivering >> n & 1) ? weight : 0;
-    }
-    weights_.emplace_back(std::span(weights.data(), count));
   }
 }
 
@@ -112,11 +106,7 @@ View ViewRenderer::make_view() const {
 void ViewRenderer::render(const hal::FrameSet& set, View& view, WorkerPool& workers) {
   view.frame_set = set.id;
   view.stamp = set.stamp;
-  delivering_ = 0;
-  for (std::size_t n = 0; n < sources_.size(); ++n) {
-    if (set.frames[plan_.sources[n].camera]) delivering_ |= std::size_t{1} << n;
-  }
-  measured_delivers_ = plan_.measured && (delivering_ >> *plan_.measured & 1) != 0;
+  measured_delivers_ = plan_.measured && set.frames[plan_.sources[*plan_.measured].camera];
   const int tile_rows = sources_.front().grid.tiles_y();
   auto work = [&](int row) { render_rows(set, view, {row, row + 1}); };
   workers.run(tile_rows, work);
@@ -128,21 +118,31 @@ void ViewRenderer::render_rows(const hal::FrameSet& set, View& view, remap::Tile
   const std::ptrdiff_t width = plan_.projection.width();
   std::copy_n(unseen_.data() + first * width, (last - first) * width, view.validity.row(first));
 
-  std::array<ImageView<const std::uint8_t>, remap::kMaxSources> pictures;
+  std::array<remap::MergeSource<std::uint8_t>, remap::kMaxSources> delivering;
+  std::size_t count = 0;
   for (std::size_t n = 0; n < sources_.size(); ++n) {
     const auto& frame = set.frames[plan_.sources[n].camera];
     const auto rgb = sources_.size() > 1 ? plane(sources_[n].rgb, 3) : view.colour;
     if (frame) {
       render_source(n, frame->picture, view, rgb, rows);
+      delivering[count++] = {rgb, plane(sources_[n].weights, 1)};
     } else if (plan_.measured == n) {
       clear_measured(view, first, last);
     }
-    pictures[n] = rgb;
   }
-  const int in_width = plan_.projection.width(), in_height = plan_.projection.height();
-  const ImageView<const std::uint8_t> coverage{coverage_.data(), in_width, in_height, 1, in_width};
-  remap::merge(std::span(pictures.data(), sources_.size()), coverage, weights_[delivering_],
-               view.colour, view.validity, rows);
+  merge(std::span(delivering.data(), count), view, rows);
+}
+
+void ViewRenderer::merge(std::span<const remap::MergeSource<std::uint8_t>> delivering,
+                         const View& view, remap::TileRows rows) const {
+  switch (plan_.combine) {
+    case Combine::Mix:
+      remap::merge<std::uint8_t>(delivering, view.colour, view.validity, rows);
+      break;
+    case Combine::Switch:
+      remap::merge_first<std::uint8_t>(delivering, view.colour, view.validity, rows);
+      break;
+  }
 }
 
 void ViewRenderer::render_source(std::size_t n, const Picture& picture, View& view,

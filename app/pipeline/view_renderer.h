@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ namespace orbwatch::app {
 
 /// How the sources of a view are joined where several see a pixel.
 enum class Combine {
-  Mix,     ///< blended by weight
+  Mix,     ///< blended by weight and resolution
   Switch,  ///< the first source that sees it and delivers
 };
 
@@ -29,7 +29,7 @@ struct ViewSource {
   std::size_t camera = 0;  ///< index into FrameSet::frames
   hal::StreamFormat format;
   optics::BallProjection ball;
-  double weight = 1;
+  double weight = 1;            ///< above 0; in a mixed view, beside its resolution
   remap::ColourMap colour_map;  ///< for one-channel formats
 };
 
@@ -68,6 +68,7 @@ class ViewRenderer {
  private:
   struct Source {
     remap::CoordinateGrid grid;
+    std::vector<std::uint8_t> weights;  ///< see remap::blend_weights
     std::vector<std::uint8_t> rgb;      ///< its own picture when several are merged
     std::vector<std::uint8_t> grey;     ///< one-channel values before the colour map
     std::vector<std::uint16_t> counts;  ///< the same, 16 bit
@@ -78,15 +79,14 @@ class ViewRenderer {
                      const ImageView<std::uint8_t>& rgb, remap::TileRows rows);
   template <class T>
   ImageView<T> plane(std::vector<T>& storage, int channels) const;
-  void compile_coverage();
+  void merge(std::span<const remap::MergeSource<std::uint8_t>> delivering, const View& view,
+             remap::TileRows rows) const;
   void compile_weights();
+  void compile_unseen();
 
   ViewPlan plan_;
   std::vector<Source> sources_;
-  std::vector<std::uint8_t> coverage_;        ///< per pixel the mask of sources that see it
-  std::vector<std::uint8_t> unseen_;          ///< per pixel the Validity when no camera delivers
-  std::vector<remap::MergeWeights> weights_;  ///< by the mask of sources that deliver
-  std::size_t delivering_ = 0;                ///< that mask for the set under way
+  std::vector<std::uint8_t> unseen_;  ///< per pixel the Validity when no camera delivers
   bool measured_delivers_ = false;
 };
 

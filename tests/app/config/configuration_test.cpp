@@ -5,17 +5,37 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/config/rig_file.h"
+#include "tests/support/temporary_folder.h"
+
 namespace orbwatch::app {
 namespace {
 
+const std::string kRig = R"(
+[[camera]]
+name = "a"
+width = 100
+height = 80
+[camera.outline]
+centre = [50, 40]
+radius = 30
+alpha = 340
+
+[[camera]]
+name = "spare"
+width = 320
+height = 256
+[camera.outline]
+centre = [160, 128]
+radius = 90
+distance = 9
+)";
+
 const std::string kValid = R"(
+rig = "rig.toml"
 [[camera]]
 name = "a"
 back_end = "replay"
-[camera.ball]
-centre = [10, 10]
-radius = 9
-alpha = 340
 [camera.replay]
 source = "pictures"
 
@@ -27,26 +47,42 @@ height = 48
 camera = "a"
 )";
 
-Result<Configuration> parse(const std::string& text) {
-  return parse_configuration(text, "site.toml", "/etc/orbwatch");
-}
-
-std::string replaced(const std::string& what, const std::string& with) {
-  std::string text = kValid;
+std::string replaced(const std::string& what, const std::string& with, std::string text = kValid) {
   text.replace(text.find(what), what.size(), with);
   return text;
 }
 
-TEST(Configuration, ReadsWhatIsThereAndDefaultsTheRest) {
+/// Files of a machine: the rig beside the configuration, and one that is broken.
+class ConfigurationFile : public testing::Test {
+ protected:
+  ConfigurationFile() {
+    std::ofstream(folder / "rig.toml") << kRig;
+    std::ofstream(folder / "broken.toml") << replaced("alpha = 340", "alpha = 180", kRig);
+  }
+  Result<Configuration> parse(const std::string& text) const {
+    return parse_configuration(text, "site.toml", folder.path());
+  }
+
+  tests::TemporaryFolder folder;
+};
+
+TEST_F(ConfigurationFile, IsReadAndTheRestIsByDefault) {
   const auto c = parse(kValid);
   ASSERT_TRUE(c) << c.error().message;
   EXPECT_EQ(c->cameras[0].back_end, BackEnd::Replay);
-  EXPECT_EQ(c->cameras[0].replay->source, "/etc/orbwatch/pictures") << "from the file's folder";
-  EXPECT_EQ(c->cameras[0].ball.alpha, 340);
+  EXPECT_EQ(c->cameras[0].replay->source, folder / "pictures") << "from the file's folder";
+  ASSERT_EQ(c->rig.cameras.size(), 2u) << "it may have more cameras than the configuration";
+  EXPECT_EQ(c->rig.cameras[0].alpha, 340);
   EXPECT_EQ(c->views[0].kind, optics::ViewKind::Perspective);
   EXPECT_EQ(c->views[0].sources[0].weight, 1);
   EXPECT_EQ(c->modbus.port, 1502);
   EXPECT_FALSE(c->process);
+}
+
+TEST_F(ConfigurationFile, MayRepeatTheSizeThatTheRigStates) {
+  const auto c = parse(replaced("name = \"a\"", "name = \"a\"\nwidth = 100\nheight = 80"));
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->cameras[0].height, 80);
 }
 
 struct Refusal {
@@ -55,7 +91,8 @@ struct Refusal {
   std::vector<std::string> says;  ///< what the message must contain
 };
 
-class ConfigurationRefusal : public testing::TestWithParam<Refusal> {};
+class ConfigurationRefusal : public ConfigurationFile,
+                             public testing::WithParamInterface<Refusal> {};
 
 TEST_P(ConfigurationRefusal, SaysFileLineKeyAndWhatIsAllowed) {
   const auto c = parse(GetParam().text);
@@ -71,47 +108,71 @@ INSTANTIATE_TEST_SUITE_P(
     All, ConfigurationRefusal,
     testing::Values(
         Refusal{"UnknownKey",
-                replaced("radius = 9", "radius = 9\nradios = 3"),
-                {"site.toml:8:", "camera.ball.radios", "radius"}},
-        Refusal{"UnknownTable", "[bogus]\n" + kValid, {"site.toml:1:", "bogus", "modbus"}},
+                replaced("width = 64", "width = 64\nwidht = 3"),
+                {"site.toml:12:", "view.widht", "width"}},
+        Refusal{"UnknownTable", kValid + "[bogus]\n", {"site.toml:15:", "bogus", "modbus"}},
         Refusal{"WrongType",
-                replaced("alpha = 340", "alpha = \"wide\""),
-                {"site.toml:8:", "camera.ball.alpha", "above 180, at most 360"}},
-        Refusal{"OutOfRange", replaced("alpha = 340", "alpha = 180"), {"site.toml:8:", "180"}},
-        Refusal{"NotANumber", replaced("alpha = 340", "alpha = nan"), {"camera.ball.alpha", "nan"}},
-        Refusal{"Infinite", replaced("[10, 10]", "[inf, 10]"), {"camera.ball.centre", "inf"}},
+                replaced("width = 64", "width = 64\nyaw = \"left\""),
+                {"site.toml:12:", "view.yaw", "any number"}},
+        Refusal{"OutOfRange",
+                replaced("width = 64", "width = 64\nh_fov = 0"),
+                {"site.toml:12:", "view.h_fov", "above 0, at most 360"}},
+        Refusal{"NotANumber",
+                replaced("width = 64", "width = 64\nyaw = nan"),
+                {"site.toml:12:", "view.yaw", "nan"}},
+        Refusal{"Infinite",
+                replaced("width = 64", "width = 64\nyaw = -inf"),
+                {"site.toml:12:", "view.yaw", "-inf"}},
         Refusal{"FractionForWhole",
                 replaced("width = 64", "width = 64.5"),
                 {"view.width", "whole number, 1 to 16384"}},
         Refusal{"HugeSize", replaced("width = 64", "width = 16385"), {"view.width", "16384"}},
-        Refusal{"ListTooShort", replaced("[10, 10]", "[10]"), {"camera.ball.centre", "2 numbers"}},
-        Refusal{"Missing", replaced("radius = 9\n", ""), {"camera.ball.radius", "either"}},
-        Refusal{"BothAlphaAndDistance",
-                replaced("alpha = 340", "alpha = 340\ndistance = 9"),
-                {"site.toml:8:", "either alpha or distance"}},
+        Refusal{"ListTooShort",
+                replaced("camera = \"a\"", "camera = \"a\"\nrange = [9]"),
+                {"site.toml:15:", "view.source.range", "2 numbers"}},
+        Refusal{
+            "RigNotNamed", replaced("rig = \"rig.toml\"\n", ""), {"site.toml:1: rig: is missing"}},
+        Refusal{"RigFileMissing",
+                replaced("rig.toml", "nowhere.toml"),
+                {"site.toml:2: rig: ", "/nowhere.toml: cannot be read"}},
+        Refusal{"RigBroken",
+                replaced("rig.toml", "broken.toml"),
+                {"site.toml:2: rig: ", "/broken.toml:9: camera.outline.alpha: ", "above 180"}},
+        Refusal{"RigIsNoFile", replaced("\"rig.toml\"", "7"), {"site.toml:2: rig: "}},
+        Refusal{"CameraNotInTheRig",
+                replaced("name = \"a\"", "name = \"b\""),
+                {"site.toml:3: camera.name: ", "no camera \"b\"", "it has: a, spare"}},
+        Refusal{"WidthOfOtherPictures",
+                replaced("name = \"a\"", "name = \"a\"\nwidth = 640"),
+                {"site.toml:3: camera.width: 640", "the rig is for 100x80 pictures"}},
+        Refusal{"HeightOfOtherPictures",
+                replaced("name = \"a\"", "name = \"a\"\nwidth = 100\nheight = 81"),
+                {"site.toml:3: camera.height: 81", "the rig is for 100x80 pictures"}},
+        Refusal{"BallInTheConfiguration",
+                replaced("[camera.replay]",
+                         "[camera.ball]\ncentre = [50, 40]\nradius = 30\n[camera.replay]"),
+                {"site.toml:6: camera.ball: is no key"}},
         Refusal{"UnknownWord",
                 replaced("\"replay\"", "\"webcam\""),
-                {"site.toml:4:", "back_end", "webcam", "simulated, replay, v4l2"}},
+                {"site.toml:5:", "back_end", "webcam", "simulated, replay, v4l2"}},
         Refusal{"BackEndWithoutTable",
                 replaced("\"replay\"", "\"v4l2\""),
                 {"back_end", "[camera.v4l2]"}},
         Refusal{"NoSuchCamera",
                 replaced("camera = \"a\"", "camera = \"b\""),
-                {"site.toml:16:", "\"b\"", "there are: a"}},
+                {"site.toml:13:", "\"b\"", "there are: a"}},
         Refusal{"BadName", replaced("\"front\"", "\"front door\""), {"view.name", "front door"}},
         Refusal{"ReservedName", replaced("\"front\"", "\"selected\""), {"view.name", "selected"}},
-        Refusal{"NoCamera", "[console]\nenabled = true\n", {"camera", "1 to 4"}},
+        Refusal{
+            "NoCamera", "rig = \"rig.toml\"\n[console]\nenabled = true\n", {"camera", "1 to 4"}},
         Refusal{
             "WideView",
             kValid +
                 "[[view]]\nname='w'\nh_fov=200\nwidth=9\nheight=9\n[[view.source]]\ncamera='a'\n",
-            {"site.toml:18:", "h_fov", "below 180"}},
+            {"site.toml:15:", "h_fov", "below 180"}},
         Refusal{"TwiceTheSameView",
                 kValid + "[[view]]\nname='front'\nwidth=9\nheight=9\n[[view.source]]\ncamera='a'\n",
-                {"site.toml:18:", "twice"}},
-        Refusal{"NoRotation",
-                replaced("alpha = 340", "alpha = 340\nrotation_matrix = [1,0,0, 0,1,0, 0,0,-1]"),
-                {"site.toml:9:", "rotation_matrix", "no rotation"}},
+                {"site.toml:15:", "twice"}},
         Refusal{"RangeUpsideDown",
                 replaced("camera = \"a\"", "camera = \"a\"\nrange = [9, 3]"),
                 {"view.source.range", "below"}},
@@ -119,9 +180,10 @@ INSTANTIATE_TEST_SUITE_P(
                 kValid + "[process]\nview='x'\ncamera='a'\nthreshold=50\n",
                 {"process.view", "\"x\"", "front"}},
         Refusal{
-            "PortOutOfRange", kValid + "[modbus]\nport = 70000\n", {"site.toml:19:", "0 to 65535"}},
+            "PortOutOfRange", kValid + "[modbus]\nport = 70000\n", {"site.toml:16:", "0 to 65535"}},
         Refusal{"NotToml", "[[camera\n", {"site.toml:1:", "not valid TOML"}},
-        Refusal{"TableExpected", "camera = 3\n", {"site.toml:1:", "[[camera]]"}}),
+        Refusal{
+            "TableExpected", "rig = \"rig.toml\"\ncamera = 3\n", {"site.toml:2:", "[[camera]]"}}),
     [](const auto& refusal) { return refusal.param.name; });
 
 TEST(Configuration, MissingFileIsRefusedByName) {
@@ -130,27 +192,35 @@ TEST(Configuration, MissingFileIsRefusedByName) {
   EXPECT_NE(c.error().message.find("/nonexistent/site.toml"), std::string::npos);
 }
 
+const std::filesystem::path kShipped =
+    std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
+
 TEST(Configuration, ShippedFilesAreValid) {
-  const std::filesystem::path folder =
-      std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  int configurations = 0, rigs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kShipped)) {
     if (entry.path().extension() != ".toml") continue;
-    const auto c = load_configuration(entry.path());
-    EXPECT_TRUE(c) << c.error().message;
-    ++files;
+    if (entry.path().stem().string().ends_with("-rig")) {
+      const auto rig = load_rig(entry.path());
+      EXPECT_TRUE(rig) << rig.error().message;
+      ++rigs;
+    } else {
+      const auto c = load_configuration(entry.path());
+      EXPECT_TRUE(c) << c.error().message;
+      ++configurations;
+    }
   }
-  EXPECT_GE(files, 2);
+  EXPECT_GE(configurations, 2);
+  EXPECT_GE(rigs, 2);
 }
 
 TEST(Configuration, SurvivesEveryTruncation) {
   // Whatever is cut off: a value or one line that says why not, never a crash.
-  std::ifstream in(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config/demo.toml");
+  std::ifstream in(kShipped / "demo.toml");
   std::stringstream whole;
   whole << in.rdbuf();
   const std::string text = whole.str();
   for (std::size_t length = 0; length < text.size(); length += 7) {
-    const auto c = parse(text.substr(0, length));
+    const auto c = parse_configuration(text.substr(0, length), "site.toml", kShipped);
     if (!c) {
       EXPECT_EQ(c.error().message.find('\n'), std::string::npos) << c.error().message;
     }

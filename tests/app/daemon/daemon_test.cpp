@@ -31,6 +31,50 @@ int free_port() {
   return ntohs(address.sin_port);
 }
 
+const std::string kMachine = R"(
+[ball]
+centre = [120, 60, 430]
+radius = 50
+[scene]
+room = "box"
+low = [-600, -500, 0]
+high = [600, 500, 800]
+[[scene.obstacle]]
+name = "table"
+low = [-250, -200, 100]
+high = [250, 200, 140]
+[[scene.obstacle]]
+name = "workpiece"
+low = [-190, -130, 140]
+high = [-30, 30, 178]
+)";
+
+// One camera is calibrated, of the other one knows the limb and the registration.
+const std::string kSmallRig = kMachine + R"(
+[[camera]]
+name = "colour"
+width = 200
+height = 200
+[camera.intrinsics]
+fx = 1143.00523
+fy = 1143.00523
+cx = 99.5
+cy = 99.5
+[camera.pose]
+position = [208.6, -530.5, 489.0]
+rotation = [0.98893021, 0.1483814, 0, 0.014590408, -0.097241939, -0.99515382,
+            -0.147662317, 0.984137676, -0.098330437]
+[[camera]]
+name = "thermal"
+width = 160
+height = 128
+[camera.outline]
+centre = [79.5, 63.5]
+radius = 58.06
+alpha = 343.571
+rotation = [-11.887, 11.639, 0]
+)";
+
 class Daemon : public testing::Test {
  protected:
   Daemon() {
@@ -46,9 +90,10 @@ class Daemon : public testing::Test {
            1);
   }
 
-  std::string write_config(const std::string& text) const {
-    const auto path = folder.path() / "site.toml";
-    std::ofstream(path) << "[modbus]\nport = " << port
+  std::string write_config(const std::string& text, const std::string& rig = kSmallRig) const {
+    std::ofstream(folder / "rig.toml") << rig;
+    const auto path = folder / "site.toml";
+    std::ofstream(path) << "rig = \"rig.toml\"\n[modbus]\nport = " << port
                         << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain << "\n"
                         << text;
     return path.string();
@@ -80,11 +125,6 @@ back_end = "simulated"
 width = 200
 height = 200
 frame_rate = 20
-[camera.ball]
-centre = [99.5, 99.5]
-radius = 95.58
-alpha = 350.440
-rotation = [171.467, 5.643, 0]
 [camera.simulated]
 kind = "colour"
 position = [208.6, -530.5, 489.0]
@@ -96,11 +136,6 @@ width = 160
 height = 128
 frame_rate = 20
 kelvin_per_count = 0.04
-[camera.ball]
-centre = [79.5, 63.5]
-radius = 58.06
-alpha = 343.571
-rotation = [-11.887, 11.639, 0]
 [camera.simulated]
 kind = "thermal"
 position = [49.4, 395.4, 500.6]
@@ -142,10 +177,11 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   const auto heartbeat = read("heartbeat");
   EXPECT_TRUE(eventually(daemon, [&] { return read("heartbeat") != heartbeat; }));
   EXPECT_EQ(read("system_state"), 1) << "running";
-  // The pool's truth: 2000 degC in the centre, somewhere around its path's bearing.
+  // The pool's truth: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
+  // from the ball at (120, 60, 430).
   ASSERT_TRUE(eventually(daemon, [&] { return read("hot_spot_peak_temperature") > 17000; }));
-  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -115, 25);
-  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -43, 12);
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -115.6, 10);
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -45, 6);
 
   Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
                      "orbwatch/process/image_raw", "--topic", "orbwatch/room/image_raw", "--topic",
@@ -188,7 +224,35 @@ TEST_F(Daemon, ReplaysARecordingAndMergesItsCameras) {
   const auto renders = reference_data() / "renders";
   ORBWATCH_REQUIRE_FILE(renders / "seq_spark");
   ORBWATCH_REQUIRE_FILE(renders / "seq_thermal");
-  // Outlines, alpha and registrations follow from the poses in the recording's scene.json.
+  // As in the recording's scene.json, but for the pixels, whose centres are at +0.5 there.
+  const std::string rig = kMachine + R"(
+[[camera]]
+name = "colour"
+width = 800
+height = 800
+[camera.intrinsics]
+fx = 4209.30778157
+fy = 4209.30778157
+cx = 399.5
+cy = 399.5
+[camera.pose]
+position = [208.57220963, -530.48139757, 489.04813976]
+rotation = [0.98827626090, 0.15267623303, 0, 0.01542297893, -0.09983324611, -0.99488464391,
+            -0.15189523973, 0.98322087592, -0.10101754951]
+[[camera]]
+name = "thermal"
+width = 320
+height = 256
+[camera.intrinsics]
+fx = 798.12901213
+fy = 798.12901213
+cx = 159.5
+cy = 127.5
+[camera.pose]
+position = [49.37934188, 395.44812608, 500.62065812]
+rotation = [-0.97667749773, -0.21471158661, 0, -0.04221976643, 0.19204876871, -0.98047680328,
+            0.21051973006, -0.95760963081, -0.19663478390]
+)";
   const std::string config = R"(
 [[camera]]
 name = "colour"
@@ -197,11 +261,6 @@ frame_rate = 15
 [camera.replay]
 source = ")" + (renders / "seq_spark").string() +
                              R"("
-[camera.ball]
-centre = [418.0, 388.41]
-radius = 352.007
-distance = 12
-rotation = [171.530, 5.646, 0]
 [[camera]]
 name = "thermal"
 back_end = "replay"
@@ -210,11 +269,6 @@ kelvin_per_count = 0.04
 [camera.replay]
 source = ")" + (renders / "seq_thermal").string() +
                              R"("
-[camera.ball]
-centre = [166.603, 131.779]
-radius = 115.21
-distance = 7
-rotation = [-11.888, 11.644, 0]
 [[view]]
 name = "merged"
 yaw = -115
@@ -233,7 +287,7 @@ view = "merged"
 camera = "thermal"
 threshold = 500
 )";
-  Subprocess daemon = start(write_config(config));
+  Subprocess daemon = start(write_config(config, rig));
   ASSERT_TRUE(eventually(daemon, [&] {
     return read("frame_set") > 24 && read("hot_spot_area") > 0;
   })) << daemon.output();
@@ -242,10 +296,10 @@ threshold = 500
        "orbwatch/merged/image_raw", "--save", folder.path().string(), "--seconds", "4"},
       folder.path() / "reader.log");
   EXPECT_EQ(reader.wait(), 0) << reader.output();
-  // The melt pool runs around (-110, -50, 178), seen from the ball at (120, 60, 430). Taking the
-  // room for far away costs up to asin(1/L), 8 degrees at its distance of 7 ball radii.
-  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -115, 18);
-  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -44, 12);
+  // scene.json's melt pool, seen from the ball's centre: yaw -122.9 to -113.7, pitch -48.2 to
+  // -40.4.
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -118.3, 5.5);
+  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -44.3, 4.8);
   const cv::Mat merged = cv::imread((folder.path() / "merged.png").string());
   ASSERT_EQ(merged.size(), cv::Size(400, 300));
   cv::Mat grey;
@@ -283,19 +337,37 @@ TEST_F(Daemon, RefusesBadFilesAndArgumentsInOneLine) {
   };
   refused({}, "--config");
   refused({"--config", "/no/such.toml"}, "/no/such.toml");
-  refused({"--config", write_config("[cameras]\n")}, "site.toml:6: cameras");
-  const auto replay = [](std::string text) {
+  refused({"--config", write_config("[cameras]\n")}, "site.toml:7: cameras");
+  const auto replay = [](const std::string& source) {
+    std::string text = small_machine();
     const std::size_t begin = text.find("[camera.simulated]"), end = text.find("[[camera]]", begin);
-    text.replace(begin, end - begin, "[camera.replay]\nsource = \"nothing\"\n");
+    text.replace(begin, end - begin, "[camera.replay]\nsource = \"" + source + "\"\n");
+    const std::string size = "width = 200\nheight = 200\n";
+    text.erase(text.find(size), size.size());
     return text.replace(text.find("\"simulated\""), 11, "\"replay\"");
   };
-  refused({"--config", write_config(replay(small_machine()))}, "camera colour: ");
+  refused({"--config", write_config(replay("nothing"))}, "camera colour: ");
+  std::filesystem::create_directory(folder / "pictures");
+  cv::imwrite((folder / "pictures/000.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(9)));
+  refused({"--config", write_config(replay("pictures"))},
+          "camera colour: delivers 64x48, but the rig is for 200x200 pictures");
 }
 
 TEST_F(Daemon, ChecksAFileWithoutRunning) {
   Subprocess program({ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine())},
                      folder.path() / "said");
   EXPECT_EQ(program.wait(), 0) << program.output();
+}
+
+TEST_F(Daemon, ChecksTheRigToo) {
+  const std::string rig = "[ball]\ncentre = [120, 60, 790]\nradius = 50\n" +
+                          kSmallRig.substr(kSmallRig.find("[scene]"));
+  Subprocess program({ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine(), rig)},
+                     folder.path() / "said");
+  EXPECT_EQ(program.wait(), 1);
+  const std::string said = program.output();
+  EXPECT_NE(said.find("rig.toml:4: scene: "), std::string::npos) << said;
+  EXPECT_NE(said.find("cuts the ball"), std::string::npos) << said;
 }
 
 }  // namespace

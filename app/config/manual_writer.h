@@ -1,0 +1,196 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "app/config/constraint.h"
+#include "proc/optics/vec.h"
+
+namespace orbwatch::app {
+
+/// The visitor of a file's schema that writes its manual in Markdown: a table of keys per TOML
+/// table.
+class ManualWriter {
+ public:
+  ManualWriter(std::string path, std::string heading)
+      : path_(std::move(path)), heading_(std::move(heading)) {}
+
+  template <class T, class Constraint>
+  void required(const char* key, T&, const Constraint& constraint, const char* text) {
+    row(key, allowed(constraint) + list_note(static_cast<T*>(nullptr)), "required", text);
+  }
+  template <class T>
+  void required(const char* key, T&, const char* text) {
+    row(key, kind(static_cast<T*>(nullptr)), "required", text);
+  }
+  template <class T, class Constraint>
+  void optional(const char* key, T& value, const Constraint& constraint, const char* text) {
+    row(key, allowed(constraint) + list_note(static_cast<T*>(nullptr)),
+        default_of(value, constraint), text);
+  }
+  template <class T>
+  void optional(const char* key, T& value, const char* text) {
+    row(key, kind(static_cast<T*>(nullptr)), show(value), text);
+  }
+
+  template <class T>
+  void table(const char* key, T& value, const char* text) {
+    nested_ += section(key, value, "[" + full(key) + "]", text);
+  }
+  template <class T>
+  void table(const char* key, std::optional<T>&, const char* text) {
+    T value{};
+    nested_ += section(key, value, "[" + full(key) + "]", text);
+  }
+  template <class T>
+  void tables(const char* key, std::vector<T>&, std::size_t least, std::size_t most,
+              const char* text) {
+    T value{};
+    nested_ += section(
+        key, value, "[[" + full(key) + "]]",
+        std::string(text) + " (" + std::to_string(least) + " to " + std::to_string(most) + ")");
+  }
+  template <class T, class Constraint>
+  void required_if(bool /*applies*/, const char* when, const char* key, T&,
+                   const Constraint& constraint, const char* text) {
+    row(key, allowed(constraint) + list_note(static_cast<T*>(nullptr)),
+        std::string("required for ") + when, text);
+  }
+  template <class T, class... Rest>
+  void optional_if(bool /*applies*/, const char* /*when*/, const char* key, T& value,
+                   const Rest&... rest) {
+    optional(key, value, rest...);
+  }
+  void require(bool, const char*, const std::string&) {}
+  void line(int&) {}
+
+  /// The rows of this table, then the tables in it.
+  std::string finish() {
+    std::string text;
+    if (!rows_.empty()) {
+      text =
+          heading_ + "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows_ + "\n";
+    } else {
+      text = heading_;
+    }
+    return text + nested_;
+  }
+
+ private:
+  std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+  template <class T>
+  std::string section(const char* key, T& value, const std::string& title,
+                      const std::string& text) {
+    ManualWriter writer(full(key), "## `" + title + "`\n" + text + ".\n");
+    visit(writer, value);
+    return writer.finish();
+  }
+
+  void row(const std::string& key, const std::string& allowed, const std::string& standard,
+           const std::string& text) {
+    rows_ += "| `" + key + "` | " + allowed + " | " + standard + " | " + text + " |\n";
+  }
+
+  static std::string allowed(const Range& range) { return range.text(); }
+  template <class T, std::size_t N>
+  static std::string allowed(const std::array<Word<T>, N>& words) {
+    std::string text;
+    for (const auto& word : words)
+      text += (text.empty() ? "`" : ", `") + std::string(word.name) + "`";
+    return text;
+  }
+  template <std::size_t N>
+  static std::string allowed(const std::array<std::string_view, N>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "`" : ", `") + std::string(word) + "`";
+    return text;
+  }
+
+  static std::string kind(const bool*) { return "true or false"; }
+  static std::string kind(const std::string*) { return "a string"; }
+  static std::string kind(const std::filesystem::path*) { return "a path"; }
+  static std::string kind(const std::vector<std::string>*) { return "a list of strings"; }
+  template <class T>
+  static std::string kind(const std::optional<T>*) {
+    return kind(static_cast<T*>(nullptr));
+  }
+
+  static std::string list_note(const void*) { return ""; }
+  template <std::size_t N>
+  static std::string list_note(const std::array<double, N>*) {
+    return ", list of " + std::to_string(N);
+  }
+  static std::string list_note(const std::vector<double>*) { return ", list"; }
+  static std::string list_note(const optics::Vec3*) { return ", list of 3"; }
+  static std::string list_note(const optics::Mat3*) { return ", list of 9"; }
+  template <class T>
+  static std::string list_note(const std::optional<T>*) {
+    return list_note(static_cast<T*>(nullptr));
+  }
+
+  template <class T, std::size_t N>
+  static std::string default_of(const T& value, const std::array<Word<T>, N>& words) {
+    for (const auto& word : words) {
+      if (word.value == value) return "`" + std::string(word.name) + "`";
+    }
+    return "";
+  }
+  template <class T>
+  static std::string default_of(const T& value, const Range& range) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      if (!range.contains(static_cast<double>(value))) return "none";
+    }
+    return show(value);
+  }
+  template <std::size_t N>
+  static std::string default_of(const std::string& value, const std::array<std::string_view, N>&) {
+    return show(value);
+  }
+
+  static std::string show(bool value) { return value ? "true" : "false"; }
+  static std::string show(const std::string& value) { return "`" + value + "`"; }
+  static std::string show(const std::filesystem::path&) { return ""; }
+  static std::string show(const std::vector<std::string>&) { return "[]"; }
+  static std::string show(const std::vector<double>&) { return "[]"; }
+  static std::string show(int value) { return std::to_string(value); }
+  static std::string show(std::uint64_t value) { return std::to_string(value); }
+  static std::string show(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+  template <class T>
+  static std::string show(const std::optional<T>&) {
+    return "none";
+  }
+  template <std::size_t N>
+  static std::string show(const std::array<double, N>&) {
+    return "";
+  }
+
+  std::string path_;
+  std::string heading_;
+  std::string rows_;
+  std::string nested_;
+};
+
+/// The manual of a file whose keys visit() declares for `settings`, after an introduction.
+template <class Settings>
+std::string manual(const std::string& introduction, Settings& settings) {
+  ManualWriter writer("", introduction);
+  visit(writer, settings);
+  std::string text = writer.finish();
+  while (text.ends_with("\n\n")) text.pop_back();
+  return text;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace orbwatch::tests {
+
+/// The rendered reference pictures beside the project, and the file that says how they were made.
+std::filesystem::path rendered_pictures();
+
+/// A view whose truth is among the reference pictures.
+struct RenderedView {
+  double yaw, pitch, roll, h_fov;
+  int width, height;
+  int thermal_width, thermal_height;  ///< 0: this view has no thermal truth
+};
+
+struct RenderedCamera {
+  std::string name;
+  std::filesystem::path picture;
+};
+
+/// What scene.json says, turned into what the product reads. Its pixels have their centres at +0.5,
+/// the product's at integers.
+class RenderedScene {
+ public:
+  /// How much of the machine's geometry a rig tells.
+  enum class Known { Nothing, BoxAndTable };
+
+  /// `name`: far, near, near50. Throws when the file is missing or broken.
+  explicit RenderedScene(const std::string& name);
+
+  const std::vector<RenderedCamera>& cameras() const { return cameras_; }
+  const std::vector<RenderedView>& views() const { return views_; }
+
+  /// A rig file of calibrated cameras.
+  std::string rig(Known known) const;
+
+  /// A rig file of cameras as the paper calibrates them: outline, alpha and a rotation.
+  std::string uncalibrated_rig() const;
+
+ private:
+  std::string ball_;
+  std::string scene_;
+  std::vector<std::string> calibrated_;
+  std::vector<std::string> uncalibrated_;
+  std::vector<RenderedCamera> cameras_;
+  std::vector<RenderedView> views_;
+};
+
+}  // namespace orbwatch::tests
