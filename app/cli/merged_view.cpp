@@ -60,7 +60,7 @@ MergedView merge_pictures(const optics::ViewProjection& view,
   const remap::TileRows rows{0, grids.front().tiles_y()};
   std::vector<remap::BlendSource> sources;
   for (std::size_t n = 0; n < pictures.size(); ++n) {
-    sources.push_back({grids[n], pictures[n].ball});
+    sources.push_back({grids[n], pictures[n].ball, 1, std::nullopt});
     const Picture& picture = pictures[n].picture;
     wide ? remap::remap(grids[n], picture, interpolation, samples<std::uint16_t>(own[n]), rows)
          : remap::remap(grids[n], picture, interpolation, samples<std::uint8_t>(own[n]), rows);

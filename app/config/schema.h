@@ -30,7 +30,9 @@ inline constexpr std::array kViewKinds{Word{"perspective", optics::ViewKind::Per
                                        Word{"ball", optics::ViewKind::Ball}};
 inline constexpr std::array kInterpolations{Word{"bilinear", remap::Interpolation::Bilinear},
                                             Word{"nearest", remap::Interpolation::Nearest}};
-inline constexpr std::array kCombines{Word{"mix", Combine::Mix}, Word{"switch", Combine::Switch}};
+inline constexpr std::array kCombines{Word{"mix", Combine::Mix},
+                                      Word{"sharpest", Combine::Sharpest},
+                                      Word{"switch", Combine::Switch}};
 inline constexpr std::array kBackEnds{Word{"simulated", BackEnd::Simulated},
                                       Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2}};
 inline constexpr std::array kFaults{
@@ -101,8 +103,9 @@ template <class Visitor>
 void visit(Visitor& v, SourceSettings& source) {
   v.line(source.line);
   v.required("camera", source.camera, "Name of the camera");
-  v.optional("weight", source.weight, Range::above(0, 1000),
-             "In a mixed view, times (pixels per degree)^4: its share where other cameras see too");
+  v.optional(
+      "weight", source.weight, Range::above(0, 1000),
+      "Its share where other cameras see too; sharpest multiplies it by (pixels per degree)^4");
   v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
   v.optional("range", source.range, kAnyNumber,
              "First and last colour: degC for a radiometric camera, else percent of full scale");
@@ -126,8 +129,11 @@ void visit(Visitor& v, ViewSettings& view) {
              "deg; else 180 equirectangular, from square pixels the others");
   v.required("width", view.width, kSide, "px");
   v.required("height", view.height, kSide, "px");
-  v.optional("combine", view.combine, kCombines,
-             "mix: cameras by weight; switch: the first listed that sees and delivers");
+  v.optional(
+      "combine", view.combine, kCombines,
+      "mix: cameras by weight; sharpest: by resolution; switch: the first listed that sees "
+      "and delivers. A camera fills what others do not see, and fades out where it sees badly "
+      "unless it is switched");
   v.optional("interpolation", view.interpolation, kInterpolations, "Between source pixels");
   v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
 }

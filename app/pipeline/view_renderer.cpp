@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "proc/image/validity.h"
+#include "proc/optics/resolution.h"
 #include "proc/remap/blend_weights.h"
 #include "proc/remap/colour_conversion.h"
 #include "proc/remap/remap.h"
@@ -63,9 +64,15 @@ ImageView<T> ViewRenderer::plane(std::vector<T>& storage, int channels) const {
 }
 
 void ViewRenderer::compile_weights() {
+  // A camera sees well up to about 150 degrees from its own direction.
+  constexpr double kWell = 1.0 / 4;
   std::vector<remap::BlendSource> sources;
   for (std::size_t n = 0; n < sources_.size(); ++n) {
-    sources.push_back({sources_[n].grid, plan_.sources[n].ball, plan_.sources[n].weight});
+    const auto& [camera, format, ball, weight, colours] = plan_.sources[n];
+    sources.push_back({sources_[n].grid, ball, weight, std::nullopt});
+    if (plan_.combine == Combine::Mix) {
+      sources.back().enough = kWell * optics::resolution(ball, ball.facing());
+    }
   }
   auto weights = remap::blend_weights(plan_.projection, sources);
   for (std::size_t n = 0; n < sources_.size(); ++n) sources_[n].weights = std::move(weights[n]);
@@ -137,6 +144,7 @@ void ViewRenderer::merge(std::span<const remap::MergeSource<std::uint8_t>> deliv
                          const View& view, remap::TileRows rows) const {
   switch (plan_.combine) {
     case Combine::Mix:
+    case Combine::Sharpest:
       remap::merge<std::uint8_t>(delivering, view.colour, view.validity, rows);
       break;
     case Combine::Switch:

@@ -20,8 +20,9 @@ namespace orbwatch::app {
 
 /// How the sources of a view are joined where several see a pixel.
 enum class Combine {
-  Mix,     ///< blended by weight and resolution
-  Switch,  ///< the first source that sees it and delivers
+  Mix,       ///< blended by weight wherever they see well
+  Sharpest,  ///< blended by weight and resolution: the sharper camera dominates
+  Switch,    ///< the first source that sees it and delivers
 };
 
 /// One camera as a view uses it.

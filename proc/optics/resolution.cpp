@@ -17,10 +17,9 @@ constexpr double kStep = 1e-5;
 /// begins on both.
 std::optional<Vec2> derivative(const BallProjection& ball, const Vec3& direction,
                                const Vec2& centre, const Vec3& tangent) {
-  const int surface = ball.proxy().hit(direction).surface;
+  const double closeness = ball.proxy().hit(direction).closeness;
   const auto beside = [&](double step) {
-    const Vec3 moved = normalized(direction + tangent * step);
-    return ball.pixel(moved, ball.proxy().closeness(surface, moved));
+    return ball.pixel(normalized(direction + tangent * step), closeness);
   };
   const auto ahead = beside(kStep), behind = beside(-kStep);
   if (!ahead && !behind) return std::nullopt;

@@ -8,8 +8,9 @@
 namespace orbwatch::optics {
 
 /// How many source pixels a degree has at what `direction` shows, in the worse of the picture's two
-/// main directions: the smaller singular value of d(source pixel) / d(direction). 0 in the blind
-/// cone. Towards the blind side it falls to 0, since the ball squeezes the room there.
+/// main directions: the smaller singular value of d(source pixel) / d(direction) at that distance
+/// from the ball, as for a thing that faces it. 0 in the blind cone. Towards the blind side it
+/// falls to 0, since the ball squeezes the room there.
 double resolution(const BallProjection& ball, const Vec3& direction);
 
 /// resolution() at every pixel of a view, row by row: 0 also where the view's projection ends and

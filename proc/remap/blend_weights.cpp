@@ -35,7 +35,8 @@ class Merit {
     for (int j = 0; j <= grid_.tiles_y(); ++j) {
       for (int i = 0; i <= grid_.tiles_x(); ++i) {
         const auto direction = view.direction(i * kTile, j * kTile);
-        nodes_.push_back(direction ? optics::resolution(source.ball, *direction) : 0);
+        const double resolution = direction ? optics::resolution(source.ball, *direction) : 0;
+        nodes_.push_back(source.enough ? std::min(1.0, resolution / *source.enough) : resolution);
       }
     }
   }
@@ -63,7 +64,7 @@ class Merit {
     double left;
     double step;
   };
-  /// Pixels per degree along a row of a tile, between the tile's corners.
+  /// Pixels per degree, or their share of enough, along a row of a tile between its corners.
   Line resolution(int tx, int y) const {
     const auto node = [&](int i, int j) {
       return nodes_[static_cast<std::size_t>(j) * (grid_.tiles_x() + 1) + i];

@@ -64,7 +64,7 @@ TEST(Resolution, FallsTowardsTheLimbAndIsNoneBehind) {
   EXPECT_EQ(resolution(ball, from_facing(radians(170.001), 0.4)), 0);
 }
 
-TEST(Resolution, CountsWhatAProxyAddsToTheShift) {
+TEST(Resolution, IsThatOfAThingAtTheScenesDistance) {
   std::mt19937 random(8);
   const auto camera = tests::random_camera(random, 6, 5);
   const auto ball = BallProjection::make(BallModel::Kind::Exact, camera, tests::kBall,
@@ -75,13 +75,15 @@ TEST(Resolution, CountsWhatAProxyAddsToTheShift) {
     const Vec3 direction = tests::random_direction(random);
     const auto centre = ball.pixel(direction);
     if (!centre || angle_between(direction, ball.facing()) > radians(150)) continue;
+    const double closeness = ball.proxy().hit(direction).closeness;
     const Vec3 first = normalized(cross(direction, tests::random_direction(random)));
     const Vec3 second = cross(direction, first);
     double least = 1e300;
     for (int k = 0; k < 1800; ++k) {
       const double turn = radians(k / 10.0);
       const auto aside = ball.pixel(
-          normalized(direction + (first * std::cos(turn) + second * std::sin(turn)) * 1e-6));
+          normalized(direction + (first * std::cos(turn) + second * std::sin(turn)) * 1e-6),
+          closeness);
       if (aside) least = std::min(least, std::hypot(aside->u - centre->u, aside->v - centre->v));
     }
     EXPECT_NEAR(resolution(ball, direction) / (least / 1e-6 * radians(1)), 1, 2e-3);

@@ -33,7 +33,7 @@ class BlendWeights : public testing::Test {
 
   void compile() {
     std::vector<BlendSource> sources;
-    for (const auto& c : cameras) sources.push_back({c->grid, c->ball, c->weight});
+    for (const auto& c : cameras) sources.push_back({c->grid, c->ball, c->weight, enough});
     planes = blend_weights(view, sources);
   }
   int at(std::size_t n, int x, int y) const {
@@ -74,6 +74,7 @@ class BlendWeights : public testing::Test {
 
   ViewProjection view =
       ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 500, 250}).value();
+  std::optional<double> enough;
   std::vector<std::unique_ptr<Camera>> cameras;
   std::vector<std::vector<std::uint8_t>> planes;
 };
@@ -132,6 +133,25 @@ TEST_F(BlendWeights, KeepTheUsersProportionWhereResolutionIsEqual) {
   // yaw 0.36 degrees is where the pixel beside the middle looks
   EXPECT_NEAR(towards(0, 0, 0) / double(towards(1, 0, 0)), 3, 0.1);
   EXPECT_NEAR(towards(0, 0, 60) / double(towards(1, 0, 60)), 3, 0.1);
+}
+
+TEST_F(BlendWeights, AreTheUsersWhereEverySourceSeesWellEnough) {
+  enough = 0.2;
+  add(0, 3);
+  add(180, {{99.5, 99.5}, 90, 90, 0}, 200, 1);
+  compile();
+  for (const double lon : {-120.0, -60.0, 0.0, 60.0, 120.0}) {
+    const auto direction = view.direction((lon / 360 + 0.5) * view.width(), 40).value();
+    ASSERT_GT(optics::resolution(cameras[0]->ball, direction), 0.3) << lon;
+    ASSERT_GT(optics::resolution(cameras[1]->ball, direction), 0.3) << lon;
+    const int y = 40;
+    const int x = static_cast<int>((lon / 360 + 0.5) * view.width());
+    EXPECT_NEAR(at(0, x, y), 191, 1) << lon;
+    EXPECT_NEAR(at(1, x, y), 64, 1) << lon;
+  }
+  // Nevertheless a source fades out towards its blind cone.
+  EXPECT_EQ(towards(0, 176, 0), 255 - towards(1, 176, 0));
+  EXPECT_LT(towards(0, 171, 0), 40);
 }
 
 TEST_F(BlendWeights, TheSharperCameraDominates) {
