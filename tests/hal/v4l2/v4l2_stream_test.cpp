@@ -34,8 +34,8 @@ TEST(ReturnedBuffers, LosesNoneBetweenThreads) {
   constexpr int kRounds = 2000;
   std::thread releasing([&] {
     for (int i = 0; i < kRounds; ++i) {
-      returned.put(static_cast<std::size_t>(i % 2));
       while (rings(returned)) std::this_thread::yield();
+      returned.put(static_cast<std::size_t>(i % 2));
     }
   });
   int taken = 0;
