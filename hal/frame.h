@@ -23,7 +23,7 @@ struct FrameMetadata {
 struct FrameBuffer {
   Picture picture;
   FrameMetadata metadata;
-  std::byte* memory = nullptr;           ///< start of the writable buffer behind picture.data
+  std::byte* memory = nullptr;           ///< start of the writable buffer behind the picture
   std::size_t capacity = 0;              ///< its size in bytes
   std::unique_ptr<std::byte[]> storage;  ///< owns the memory, unless that is a driver's
 };

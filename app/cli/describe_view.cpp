@@ -180,12 +180,9 @@ Result<> write_map(const std::filesystem::path& path, const std::vector<float>& 
     counts.push_back(static_cast<std::uint16_t>(
         std::lround(std::min(kCountsPerPixelPerDegree * resolution, 65535.0))));
   }
-  return write_picture(path, {PixelFormat::Y16,
-                              {},
-                              view.width(),
-                              view.height(),
-                              reinterpret_cast<const std::byte*>(counts.data()),
-                              row_bytes(PixelFormat::Y16, view.width())});
+  return write_picture(path, Picture::contiguous(PixelFormat::Y16, view.width(), view.height(),
+                                                 reinterpret_cast<const std::byte*>(counts.data()),
+                                                 row_bytes(PixelFormat::Y16, view.width())));
 }
 
 Result<std::string> describe(const DescribeViewOptions& o) {

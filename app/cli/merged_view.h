@@ -30,7 +30,7 @@ struct MergedView {
 
   std::vector<std::byte> pixels;
   std::vector<std::uint8_t> seen;  ///< one Validity per pixel
-  Picture picture;                 ///< of the pictures' own format
+  MutablePicture picture;          ///< of the pictures' own format
   /// How each picture was matched to the first; empty if that was not asked for.
   std::vector<remap::PhotometricMatch> matches;
 };

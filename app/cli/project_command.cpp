@@ -85,8 +85,8 @@ Result<> assign_pictures(const std::vector<std::string>& alone,
 }
 
 std::string depth_and_channels(const Picture& picture) {
-  return std::to_string(8 * info(picture.format).bytes_per_sample) + " bit " +
-         (info(picture.format).channels == 1 ? "grey" : "colour");
+  return std::to_string(8 * info(picture.format).bytes_per_sample()) + " bit " +
+         (info(picture.format).channels() == 1 ? "grey" : "colour");
 }
 
 Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenCamera>& cameras) {

@@ -28,7 +28,7 @@ Result<std::shared_ptr<const simulation::Machine>> make_machine(
 double counts(double value, const CameraSettings& camera, const hal::StreamFormat& format) {
   const signals::RadiometricScale scale{camera.kelvin_per_count};
   if (scale.is_radiometric()) return scale.counts(value);
-  const double full_scale = info(format.format).bytes_per_sample == 2 ? 65535 : 255;
+  const double full_scale = (1 << info(format.format).bits) - 1;
   return value / 100 * full_scale;
 }
 

@@ -41,11 +41,12 @@ tl::unexpected<Error> cannot_write(const std::filesystem::path& path) {
 /// OpenCV's order: blue first.
 cv::Mat to_bgr(const Picture& picture) {
   const PixelFormatInfo& format = info(picture.format);
-  const int type = CV_MAKETYPE(format.bytes_per_sample == 2 ? CV_16U : CV_8U, format.channels);
+  const int type = CV_MAKETYPE(format.bytes_per_sample() == 2 ? CV_16U : CV_8U, format.channels());
   // OpenCV has no view of constant data; the matrix is only read.
-  const cv::Mat whole(picture.height, picture.width, type, const_cast<std::byte*>(picture.data),
-                      static_cast<std::size_t>(picture.stride));
-  if (format.channels == 1) return whole;
+  const cv::Mat whole(picture.height, picture.width, type,
+                      const_cast<std::byte*>(picture.planes[0].data),
+                      static_cast<std::size_t>(picture.planes[0].stride));
+  if (format.channels() == 1) return whole;
   cv::Mat bgr;
   cv::cvtColor(whole, bgr, cv::COLOR_RGB2BGR);
   return bgr;
@@ -91,7 +92,7 @@ Result<> check_picture_name(const std::filesystem::path& path, PixelFormat forma
                 ": unknown kind of picture; its name must end in .png, .jpg or .jpeg");
   }
   if (transparency) return fail(path.string() + ": JPEG has no transparency; write a .png");
-  if (info(format).bytes_per_sample == 2) {
+  if (info(format).bytes_per_sample() == 2) {
     return fail(path.string() + ": JPEG holds 8 bit, the picture has 16; write a .png");
   }
   return {};

@@ -7,75 +7,48 @@
 
 #include "proc/image/validity.h"
 #include "proc/optics/resolution.h"
-#include "proc/remap/blend_weights.h"
-#include "proc/remap/colour_conversion.h"
-#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 namespace {
 
-bool is_one_channel(PixelFormat format) { return remap::remapped_channels(format) == 1; }
-bool is_sixteen_bit(PixelFormat format) { return info(format).bytes_per_sample == 2; }
-
-void clear_measured(const View& view, int first, int last) {
-  for (int y = first; y < last; ++y) {
-    if (!view.luminance.empty()) std::fill_n(view.luminance.row(y), view.luminance.width, 0);
-    if (!view.radiometric.empty()) std::fill_n(view.radiometric.row(y), view.radiometric.width, 0);
-  }
-}
-
-void write_luma(const ImageView<std::uint8_t>& rgb, const ImageView<std::uint8_t>& luminance,
-                remap::TileRows rows) {
-  const int last = std::min(rows.last * remap::kTile, rgb.height);
-  for (int y = rows.first * remap::kTile; y < last; ++y) {
-    for (int x = 0; x < rgb.width; ++x) luminance.row(y)[x] = remap::luma(rgb.at(x, y));
-  }
-}
+bool is_sixteen_bit(PixelFormat format) { return info(format).bytes_per_sample() == 2; }
 
 }  // namespace
 
 bool ViewRenderer::is_supported(PixelFormat format) { return format != PixelFormat::Rgb16; }
 
-ViewRenderer::ViewRenderer(ViewPlan plan) : plan_(std::move(plan)) {
-  const auto pixels =
-      static_cast<std::size_t>(plan_.projection.width()) * plan_.projection.height();
-  for (const ViewSource& source : plan_.sources) {
-    Source compiled{remap::CoordinateGrid(plan_.projection, source.ball, source.format.width,
-                                          source.format.height),
-                    {},
-                    {},
-                    {},
-                    {}};
-    if (plan_.sources.size() > 1) compiled.rgb.resize(pixels * 3);
-    if (is_one_channel(source.format.format)) {
-      is_sixteen_bit(source.format.format) ? compiled.counts.resize(pixels)
-                                           : compiled.grey.resize(pixels);
-    }
-    sources_.push_back(std::move(compiled));
-  }
-  compile_weights();
+ViewRenderer::ViewRenderer(ViewPlan plan)
+    : plan_(std::move(plan)), sources_(make_sources()), blend_(make_blend()) {
   compile_unseen();
 }
 
-template <class T>
-ImageView<T> ViewRenderer::plane(std::vector<T>& storage, int channels) const {
-  const int width = plan_.projection.width();
-  return {storage.data(), width, plan_.projection.height(), channels, width * channels};
+std::vector<ViewRenderer::Source> ViewRenderer::make_sources() const {
+  std::vector<Source> sources;
+  for (const ViewSource& source : plan_.sources) {
+    const auto& [format, colour_space, width, height, rate] = source.format;
+    remap::CoordinateGrid grid(plan_.projection, source.ball, width, height);
+    remap::Pyramid pyramid(format, width, height, grid.halves());
+    sources.push_back({std::move(grid), std::move(pyramid)});
+  }
+  return sources;
 }
 
-void ViewRenderer::compile_weights() {
+remap::BlendGrid ViewRenderer::make_blend() const {
   // A camera sees well up to about 150 degrees from its own direction.
   constexpr double kWell = 1.0 / 4;
   std::vector<remap::BlendSource> sources;
-  for (std::size_t n = 0; n < sources_.size(); ++n) {
-    const auto& [camera, format, ball, weight, colours] = plan_.sources[n];
-    sources.push_back({sources_[n].grid, ball, weight, std::nullopt});
+  for (const auto& [camera, format, ball, weight, colours] : plan_.sources) {
+    sources.push_back({ball, format.width, format.height, weight, std::nullopt});
     if (plan_.combine == Combine::Mix) {
       sources.back().enough = kWell * optics::resolution(ball, ball.facing());
     }
   }
-  auto weights = remap::blend_weights(plan_.projection, sources);
-  for (std::size_t n = 0; n < sources_.size(); ++n) sources_[n].weights = std::move(weights[n]);
+  return {plan_.projection, sources};
+}
+
+ImageView<std::uint8_t> ViewRenderer::plane(std::vector<std::uint8_t>& storage) const {
+  const int width = plan_.projection.width();
+  return {storage.data(), width, plan_.projection.height(), 1, width};
 }
 
 void ViewRenderer::compile_unseen() {
@@ -84,7 +57,7 @@ void ViewRenderer::compile_unseen() {
   unseen_.assign(pixels, static_cast<std::uint8_t>(Validity::Outside));
   std::vector<std::uint8_t> validity(pixels);
   for (const Source& source : sources_) {
-    source.grid.write_validity(plane(validity, 1));
+    source.grid.write_validity(plane(validity));
     for (std::size_t i = 0; i < pixels; ++i) {
       if (validity[i] != static_cast<std::uint8_t>(Validity::Outside)) {
         unseen_[i] = static_cast<std::uint8_t>(Validity::Blind);
@@ -114,61 +87,44 @@ void ViewRenderer::render(const hal::FrameSet& set, View& view, WorkerPool& work
   view.frame_set = set.id;
   view.stamp = set.stamp;
   measured_delivers_ = plan_.measured && set.frames[plan_.sources[*plan_.measured].camera];
-  const int tile_rows = sources_.front().grid.tiles_y();
-  auto work = [&](int row) { render_rows(set, view, {row, row + 1}); };
-  workers.run(tile_rows, work);
+  fill_pyramids(set, workers);
+
+  std::array<remap::MergedSource, remap::kMaxSources> sources;
+  for (std::size_t n = 0; n < sources_.size(); ++n) {
+    sources[n].grid = &sources_[n].grid;
+    sources[n].colours = &plan_.sources[n].colour_map;
+    if (set.frames[plan_.sources[n].camera]) sources[n].pictures = sources_[n].pyramid.pictures();
+    if (plan_.measured != n) continue;
+    sources[n].measured = view.radiometric.empty()
+                              ? picture_of(PixelFormat::Grey, view.luminance)
+                              : picture_of(plan_.sources[n].format.format, view.radiometric);
+  }
+  const remap::MergePlan plan{
+      &blend_, plan_.combine == Combine::Switch ? remap::MergeRule::First : remap::MergeRule::Mean,
+      plan_.interpolation, plane(unseen_)};
+  auto work = [&](int row) {
+    remap::merged_remap({sources.data(), sources_.size()}, plan, view.colour, view.validity,
+                        {row, row + 1});
+  };
+  workers.run(sources_.front().grid.tiles_y(), work);
 }
 
-void ViewRenderer::render_rows(const hal::FrameSet& set, View& view, remap::TileRows rows) {
-  const int first = rows.first * remap::kTile;
-  const int last = std::min(rows.last * remap::kTile, plan_.projection.height());
-  const std::ptrdiff_t width = plan_.projection.width();
-  std::copy_n(unseen_.data() + first * width, (last - first) * width, view.validity.row(first));
-
-  std::array<remap::MergeSource<std::uint8_t>, remap::kMaxSources> delivering;
-  std::size_t count = 0;
+/// Halves the pictures that delivered, where this view is smaller than they are.
+void ViewRenderer::fill_pyramids(const hal::FrameSet& set, WorkerPool& workers) {
+  // In bands of so many pairs of rows.
+  constexpr int kBand = 16;
   for (std::size_t n = 0; n < sources_.size(); ++n) {
     const auto& frame = set.frames[plan_.sources[n].camera];
-    const auto rgb = sources_.size() > 1 ? plane(sources_[n].rgb, 3) : view.colour;
-    if (frame) {
-      render_source(n, frame->picture, view, rgb, rows);
-      delivering[count++] = {rgb, plane(sources_[n].weights, 1)};
-    } else if (plan_.measured == n) {
-      clear_measured(view, first, last);
+    if (!frame) continue;
+    remap::Pyramid& pyramid = sources_[n].pyramid;
+    pyramid.set_source(frame->picture);
+    for (int level = 1; level <= pyramid.levels(); ++level) {
+      auto work = [&](int band) {
+        const int pairs = pyramid.row_pairs(level);
+        pyramid.fill(level, band * kBand, std::min(pairs, (band + 1) * kBand));
+      };
+      workers.run((pyramid.row_pairs(level) + kBand - 1) / kBand, work);
     }
-  }
-  merge(std::span(delivering.data(), count), view, rows);
-}
-
-void ViewRenderer::merge(std::span<const remap::MergeSource<std::uint8_t>> delivering,
-                         const View& view, remap::TileRows rows) const {
-  switch (plan_.combine) {
-    case Combine::Mix:
-    case Combine::Sharpest:
-      remap::merge<std::uint8_t>(delivering, view.colour, view.validity, rows);
-      break;
-    case Combine::Switch:
-      remap::merge_first<std::uint8_t>(delivering, view.colour, view.validity, rows);
-      break;
-  }
-}
-
-void ViewRenderer::render_source(std::size_t n, const Picture& picture, View& view,
-                                 const ImageView<std::uint8_t>& rgb, remap::TileRows rows) {
-  Source& source = sources_[n];
-  const bool measured = plan_.measured == n;
-  const remap::ColourMap& colours = plan_.sources[n].colour_map;
-  if (!is_one_channel(picture.format)) {
-    remap::remap(source.grid, picture, plan_.interpolation, rgb, rows);
-    if (measured) write_luma(rgb, view.luminance, rows);
-  } else if (is_sixteen_bit(picture.format)) {
-    const auto counts = measured ? view.radiometric : plane(source.counts, 1);
-    remap::remap(source.grid, picture, plan_.interpolation, counts, rows);
-    colours.apply(counts, rgb, rows);
-  } else {
-    const auto grey = measured ? view.luminance : plane(source.grey, 1);
-    remap::remap(source.grid, picture, plan_.interpolation, grey, rows);
-    colours.apply(grey, rgb, rows);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,8 @@
 #include "proc/optics/view_projection.h"
 #include "proc/remap/colour_map.h"
 #include "proc/remap/coordinate_grid.h"
-#include "proc/remap/merge.h"
+#include "proc/remap/merged_remap.h"
+#include "proc/remap/pyramid.h"
 
 namespace orbwatch::app {
 
@@ -50,7 +50,7 @@ struct ViewPlan {
 /// it is made. Thread-bound: the pipeline's thread, which shares the work with the pool.
 class ViewRenderer {
  public:
-  /// Every source's format is Grey, Y16, Yuyv or Rgb (see is_supported).
+  /// Every source's format is_supported().
   explicit ViewRenderer(ViewPlan plan);
 
   static bool is_supported(PixelFormat format);
@@ -69,24 +69,18 @@ class ViewRenderer {
  private:
   struct Source {
     remap::CoordinateGrid grid;
-    std::vector<std::uint8_t> weights;  ///< see remap::blend_weights
-    std::vector<std::uint8_t> rgb;      ///< its own picture when several are merged
-    std::vector<std::uint8_t> grey;     ///< one-channel values before the colour map
-    std::vector<std::uint16_t> counts;  ///< the same, 16 bit
+    remap::Pyramid pyramid;
   };
 
-  void render_rows(const hal::FrameSet& set, View& view, remap::TileRows rows);
-  void render_source(std::size_t n, const Picture& picture, View& view,
-                     const ImageView<std::uint8_t>& rgb, remap::TileRows rows);
-  template <class T>
-  ImageView<T> plane(std::vector<T>& storage, int channels) const;
-  void merge(std::span<const remap::MergeSource<std::uint8_t>> delivering, const View& view,
-             remap::TileRows rows) const;
-  void compile_weights();
+  void fill_pyramids(const hal::FrameSet& set, WorkerPool& workers);
+  ImageView<std::uint8_t> plane(std::vector<std::uint8_t>& storage) const;
+  std::vector<Source> make_sources() const;
+  remap::BlendGrid make_blend() const;
   void compile_unseen();
 
   ViewPlan plan_;
   std::vector<Source> sources_;
+  remap::BlendGrid blend_;
   std::vector<std::uint8_t> unseen_;  ///< per pixel the Validity when no camera delivers
   bool measured_delivers_ = false;
 };

@@ -89,8 +89,9 @@ Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest
         look_at(settings_.position, machine.ball.centre, settings_.horizontal_fov, width, height);
     renderer_ = std::make_unique<const Renderer>(
         machine_, pinhole_, Sensor{settings_.kind, settings_.kelvin_per_count});
-    const auto row_samples = static_cast<std::size_t>(width) *
-                             static_cast<std::size_t>(orbwatch::info(renderer_->format()).channels);
+    const auto row_samples =
+        static_cast<std::size_t>(width) *
+        static_cast<std::size_t>(orbwatch::info(renderer_->format()).channels());
     noise_.emplace(settings_.noise_sigma, seed_of(machine.seed, settings_.name), row_samples);
     pool_ = hal::make_frame_pool(renderer_->format(), width, height);
   }

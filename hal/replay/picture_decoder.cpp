@@ -65,11 +65,10 @@ Result<DecodedPicture> to_picture(const cv::Mat& image) {
   picture.colour_space.range = ColourRange::Full;
   picture.width = image.cols;
   picture.height = image.rows;
-  picture.stride = row_bytes(picture.format, picture.width);
-  const auto stride = static_cast<std::size_t>(picture.stride);
+  const auto stride = static_cast<std::size_t>(row_bytes(picture.format, picture.width));
   decoded.storage = std::make_unique_for_overwrite<std::byte[]>(
       stride * static_cast<std::size_t>(picture.height));
-  picture.data = decoded.storage.get();
+  picture.planes[0] = {decoded.storage.get(), static_cast<std::ptrdiff_t>(stride)};
   cv::Mat pixels(image.size(), image.type(), decoded.storage.get(), stride);
   if (image.channels() == 3) {
     cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);

@@ -86,7 +86,7 @@ Shown<> VideoFile::copy_to(FrameBuffer& target) const {
                                 std::to_string(picture.cols) + "x" + std::to_string(picture.rows)});
   }
   cv::Mat pixels(format_.height, format_.width, CV_8UC3, target.memory,
-                 static_cast<std::size_t>(target.picture.stride));
+                 static_cast<std::size_t>(target.picture.planes[0].stride));
   cv::cvtColor(picture, pixels, cv::COLOR_BGR2RGB);
   return {};
 }

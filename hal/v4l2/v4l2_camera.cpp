@@ -164,9 +164,9 @@ void V4l2Camera::take(const V4l2Stream::Captured& captured) {
 /// Whether the driver delivered all of a frame; reports it if not.
 bool V4l2Camera::is_whole(const V4l2Stream::Captured& captured) {
   const FrameBuffer& frame = *captured.frame;
-  const std::size_t needed = decoded_ ? 1
-                                      : static_cast<std::size_t>(frame.picture.stride) *
-                                            static_cast<std::size_t>(frame.picture.height);
+  const Picture& picture = frame.picture;
+  const auto stride = static_cast<std::size_t>(picture.planes[0].stride);
+  const std::size_t needed = decoded_ ? 1 : picture_bytes(picture.format, stride, picture.height);
   const std::size_t used = captured.buffer.bytesused;
   if ((captured.buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
     report(Fault::CorruptFrame, settings_.device + ": the driver marks a frame as damaged");
@@ -193,7 +193,7 @@ std::shared_ptr<FrameBuffer> V4l2Camera::decode(const V4l2Stream::Captured& capt
   if (!target) return nullptr;
   const Picture& picture = target->picture;
   const ImageView<std::uint8_t> pixels{reinterpret_cast<std::uint8_t*>(target->memory),
-                                       picture.width, picture.height, 3, picture.stride};
+                                       picture.width, picture.height, 3, picture.planes[0].stride};
   const auto done =
       decoder_.decode_rgb({captured.frame->memory, captured.buffer.bytesused}, pixels);
   target->picture.colour_space = agreed_.stream.colour_space;

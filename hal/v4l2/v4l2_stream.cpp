@@ -23,12 +23,10 @@ int milliseconds_until(TimePoint deadline) {
 }
 
 void describe(DriverFrame& frame, const V4l2Agreement& agreement) {
-  frame.picture.format = agreement.stream.format;
+  frame.picture =
+      Picture::contiguous(agreement.stream.format, agreement.stream.width, agreement.stream.height,
+                          frame.memory, static_cast<std::ptrdiff_t>(agreement.stride));
   frame.picture.colour_space = agreement.stream.colour_space;
-  frame.picture.width = agreement.stream.width;
-  frame.picture.height = agreement.stream.height;
-  frame.picture.data = frame.memory;
-  frame.picture.stride = static_cast<std::ptrdiff_t>(agreement.stride);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -73,6 +74,32 @@ Result<double> BallModel::distance_from_alpha(double alpha) {
 }
 
 double BallModel::limit() const { return std::numbers::pi - std::asin(q_); }
+
+void BallModel::stretch(const Lanes& cos_phi, const Lanes& sin2_phi, const Lanes& closeness,
+                        StretchLanes& out) const {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  if (kind_ != Kind::Exact) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const auto one = stretch(cos_phi[k], sin2_phi[k], closeness[k]);
+      out.across[k] = one ? one->across : kNothing;
+      out.along[k] = one ? one->along : kNothing;
+    }
+    return;
+  }
+  const BallModel model = *this;  // so that no store into `out` could change it
+  HalfAngleLanes h;
+  for (std::size_t k = 0; k < kLanes; ++k) h.set(k, half(cos_phi[k], sin2_phi[k]));
+  OffsetLanes delta;
+  bisector_offsets(h, closeness, q_, delta);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Stretch one = model.stretch_at(h.at(k), delta.at(k));
+    out.across[k] = one.across;
+    out.along[k] = one.along;
+  }
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    out.along[k] = model.is_shown(cos_phi[k], closeness[k]) ? out.along[k] : kNothing;
+  }
+}
 
 std::optional<CosSin> BallModel::phi(double rho) const {
   if (!(rho >= 0 && rho <= 1 + kLimbTolerance)) return std::nullopt;

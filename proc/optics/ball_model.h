@@ -4,6 +4,7 @@
 
 #include "proc/image/result.h"
 #include "proc/optics/alhazen.h"
+#include "proc/optics/lanes.h"
 
 namespace orbwatch::optics {
 
@@ -61,6 +62,14 @@ class BallModel {
   /// the classical model take everything to be.
   std::optional<Stretch> stretch(double cos_phi, double sin2_phi, double closeness = 0) const;
 
+  struct StretchLanes {
+    Lanes across;
+    Lanes along;
+  };
+  /// The same for many; `along` is not a number where it gives nothing.
+  void stretch(const Lanes& cos_phi, const Lanes& sin2_phi, const Lanes& closeness,
+               StretchLanes& out) const;
+
   /// phi of where the ray goes that rho shows, the inverse of stretch() far away; nothing outside
   /// the limb.
   std::optional<CosSin> phi(double rho) const;
@@ -83,7 +92,8 @@ class BallModel {
 
   BallModel(Kind kind, double q);
 
-  std::optional<Stretch> exact_stretch(double cos_phi, double sin2_phi, double closeness) const;
+  bool is_shown(double cos_phi, double closeness) const;
+  Stretch stretch_at(const HalfAngle& h, const Offset& delta) const;
   CosSin incidence(double rho) const;  // within the limb
 
   Kind kind_;
@@ -94,23 +104,28 @@ class BallModel {
 
 inline std::optional<BallModel::Stretch> BallModel::stretch(double cos_phi, double sin2_phi,
                                                             double closeness) const {
-  if (kind_ == Kind::Exact) return exact_stretch(cos_phi, sin2_phi, closeness);
-  if (!(cos_phi >= -cos_limb_ - kLimbTolerance)) return std::nullopt;
-  return Stretch{1, 2 * half(cos_phi, sin2_phi).cos * widest_};
+  if (kind_ != Kind::Exact) {
+    if (!(cos_phi >= -cos_limb_ - kLimbTolerance)) return std::nullopt;
+    return Stretch{1, 2 * half(cos_phi, sin2_phi).cos * widest_};
+  }
+  if (!is_shown(cos_phi, closeness)) return std::nullopt;
+  const HalfAngle h = half(cos_phi, sin2_phi);
+  return stretch_at(h, bisector_offset(h, closeness, q_));
 }
 
-inline std::optional<BallModel::Stretch> BallModel::exact_stretch(double cos_phi, double sin2_phi,
-                                                                  double closeness) const {
+/// By the exact model. Without a branch, as all below: for loops over many.
+inline bool BallModel::is_shown(double cos_phi, double closeness) const {
   const double p = closeness;
   // On the limb the ray grazes the ball: phi = acos p + acos q.
   const double beyond = p * q_ - cos_phi, limb2 = cos_limb_ * cos_limb_ * (1 - p) * (1 + p);
-  if (!(p <= 1 && (beyond <= 0 || beyond * beyond <= limb2 + kLimbTolerance))) return std::nullopt;
-  const HalfAngle h = half(cos_phi, sin2_phi);
-  const Offset delta = bisector_offset(h, p, q_);
+  return (p <= 1) & ((beyond <= 0) | (beyond * beyond <= limb2 + kLimbTolerance));
+}
+
+inline BallModel::Stretch BallModel::stretch_at(const HalfAngle& h, const Offset& delta) const {
   // The normal there; its sine is that of h times `sine`.
   const double cosine = h.cos * delta.cos - h.sin2 * delta.share;
   const double sine = delta.cos + h.cos * delta.share;
-  return Stretch{cos_limb_ * sine, 2 * h.cos * (1 - q_ * cosine)};
+  return {cos_limb_ * sine, 2 * h.cos * (1 - q_ * cosine)};
 }
 
 }  // namespace orbwatch::optics

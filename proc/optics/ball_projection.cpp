@@ -1,6 +1,7 @@
 #include "proc/optics/ball_projection.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "proc/optics/angle.h"
@@ -56,6 +57,20 @@ std::optional<BallProjection::Viewpoint::Scaled> BallProjection::Viewpoint::plac
   return Scaled{across, *stretch};
 }
 
+void BallProjection::Viewpoint::places(const Vec3Lanes& directions, const Lanes& closeness,
+                                       ScaledLanes& out) const {
+  const Vec3 axis = facing;  // so that no store into `out` could change it
+  Lanes cosine, sin2;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Vec3 direction = directions.at(k);
+    cosine[k] = dot(direction, axis);
+    const Vec3 across = direction - axis * cosine[k];
+    sin2[k] = dot(across, across);
+    out.across.set(k, across);
+  }
+  model.stretch(cosine, sin2, closeness, out.stretch);
+}
+
 std::optional<Vec3> BallProjection::Viewpoint::place_of_camera_ray(const Vec3& ray) const {
   const double along = -dot(ray, facing);
   if (!(along > 0)) return std::nullopt;
@@ -83,12 +98,6 @@ BallProjection::LimbPicture::LimbPicture(const Outline& limb, const Mat3& regist
   v = along * (limb.rx * s) + across * (limb.ry * c);
   place_per_u = along * (c / limb.rx) - across * (s / limb.ry);
   place_per_v = along * (s / limb.rx) + across * (c / limb.ry);
-}
-
-Vec2 BallProjection::LimbPicture::pixel(const Viewpoint::Scaled& place) const {
-  const double scale = place.stretch.across / place.stretch.along;
-  return {outline.centre.u + dot(u, place.across) * scale,
-          outline.centre.v + dot(v, place.across) * scale};
 }
 
 Vec3 BallProjection::LimbPicture::place(const Vec2& pixel) const {
@@ -134,6 +143,43 @@ std::optional<Vec2> BallProjection::pixel(const Vec3& direction, double closenes
   if (!place) return std::nullopt;
   if (camera) return camera->lens.pixel(camera->pose.rotation * viewpoint_.camera_ray(*place));
   return std::get<LimbPicture>(picture_).pixel(*place);
+}
+
+void BallProjection::pixels(const Vec3Lanes& directions, const Lanes& closeness,
+                            Vec2Lanes& out) const {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  const auto set = [&](std::size_t k, const std::optional<Vec2>& pixel) {
+    out.u[k] = pixel ? pixel->u : kNothing;
+    out.v[k] = pixel ? pixel->v : kNothing;
+  };
+  const auto* camera = std::get_if<CalibratedCamera>(&picture_);
+  if (camera && camera->window) {
+    for (std::size_t k = 0; k < kLanes; ++k) set(k, pixel(directions.at(k), closeness[k]));
+    return;
+  }
+  Viewpoint::ScaledLanes places;
+  viewpoint_.places(directions, closeness, places);
+  const auto place = [&](std::size_t k) {
+    return Viewpoint::Scaled{places.across.at(k),
+                             {places.stretch.across[k], places.stretch.along[k]}};
+  };
+  if (camera) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const bool shown = places.stretch.along[k] > 0;
+      const auto ray = [&] { return camera->pose.rotation * viewpoint_.camera_ray(place(k)); };
+      set(k, shown ? camera->lens.pixel(ray()) : std::nullopt);
+    }
+    return;
+  }
+  const LimbPicture limb = std::get<LimbPicture>(picture_);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Vec2 at = limb.pixel(place(k));
+    out.u[k] = at.u;
+    out.v[k] = at.v;
+  }
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    out.u[k] = places.stretch.along[k] > 0 ? out.u[k] : kNothing;
+  }
 }
 
 std::optional<Vec2> BallProjection::pixel_of_point(const Vec3& point) const {

@@ -6,6 +6,7 @@
 #include "proc/image/result.h"
 #include "proc/optics/ball.h"
 #include "proc/optics/ball_model.h"
+#include "proc/optics/lanes.h"
 #include "proc/optics/lens.h"
 #include "proc/optics/outline.h"
 #include "proc/optics/scene_proxy.h"
@@ -57,6 +58,9 @@ class BallProjection {
   /// centre, whatever the proxy says. Smooth in both, also a little beyond closeness 0.
   std::optional<Vec2> pixel(const Vec3& direction, double closeness) const;
 
+  /// The same for many; not a number where it gives nothing.
+  void pixels(const Vec3Lanes& directions, const Lanes& closeness, Vec2Lanes& out) const;
+
   /// The pixel that shows a point, machine frame, mm. Nothing in the blind cone and within the
   /// ball.
   std::optional<Vec2> pixel_of_point(const Vec3& point) const;
@@ -100,6 +104,12 @@ class BallProjection {
       BallModel::Stretch stretch;
     };
     std::optional<Scaled> place(const Vec3& direction, double closeness) const;
+    /// Shown is what has an `along` above 0.
+    struct ScaledLanes {
+      Vec3Lanes across;
+      BallModel::StretchLanes stretch;
+    };
+    void places(const Vec3Lanes& directions, const Lanes& closeness, ScaledLanes& out) const;
     /// Camera ray of any length.
     Vec3 camera_ray(const Scaled& place) const {
       return place.across * (place.stretch.across * tan_limb) - facing * place.stretch.along;
@@ -113,7 +123,11 @@ class BallProjection {
   struct LimbPicture {
     LimbPicture(const Outline& limb, const Mat3& registration);
 
-    Vec2 pixel(const Viewpoint::Scaled& place) const;
+    Vec2 pixel(const Viewpoint::Scaled& place) const {
+      const double scale = place.stretch.across / place.stretch.along;
+      return {outline.centre.u + dot(u, place.across) * scale,
+              outline.centre.v + dot(v, place.across) * scale};
+    }
     Vec3 place(const Vec2& pixel) const;
 
     Outline outline;

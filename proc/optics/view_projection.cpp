@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -63,6 +64,10 @@ double reach(ViewKind kind, bool vertical, double fov) {
   if (kind == ViewKind::Stereographic) return std::tan(radians(fov / 4));
   const bool tangent = kind == ViewKind::Perspective || (kind == ViewKind::Cylindrical && vertical);
   return tangent ? std::tan(radians(fov / 2)) : radians(fov / 2);
+}
+
+Vec3 perspective(const Mat3& orientation, double x, double y) {
+  return orientation * normalized({x, 1, y});
 }
 
 Vec3 from_longitude(double longitude, double along, double up) {
@@ -147,7 +152,7 @@ std::optional<Vec3> ViewProjection::direction(double u, double v) const {
   const double y = ((height_ - 1) / 2.0 - v) * step_v_;
   switch (kind_) {
     case ViewKind::Perspective:
-      return orientation_ * normalized({x, 1, y});
+      return perspective(orientation_, x, y);
     case ViewKind::Equirectangular:
       return orientation_ * from_longitude(x, std::cos(y), std::sin(y));
     case ViewKind::Cylindrical: {
@@ -168,6 +173,23 @@ std::optional<Vec3> ViewProjection::direction(double u, double v) const {
       break;
   }
   return ball_->direction(camera_pixel(u, v));
+}
+
+void ViewProjection::directions(const Vec2Lanes& pixels, Vec3Lanes& out) const {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  if (kind_ != ViewKind::Perspective) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      out.set(k, direction(pixels.u[k], pixels.v[k]).value_or(Vec3{kNothing, kNothing, kNothing}));
+    }
+    return;
+  }
+  // Copies, so that no store into `out` could change them.
+  const Mat3 orientation = orientation_;
+  const Vec2 middle{(width_ - 1) / 2.0, (height_ - 1) / 2.0}, step{step_u_, step_v_};
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const double x = (pixels.u[k] - middle.u) * step.u, y = (middle.v - pixels.v[k]) * step.v;
+    out.set(k, perspective(orientation, x, y));
+  }
 }
 
 std::optional<Vec2> ViewProjection::pixel(const Vec3& direction) const {

@@ -5,6 +5,7 @@
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
 #include "proc/optics/ball_projection.h"
+#include "proc/optics/lanes.h"
 #include "proc/optics/lens.h"
 #include "proc/optics/rotation.h"
 #include "proc/optics/vec.h"
@@ -49,6 +50,9 @@ class ViewProjection {
   /// Unit vector of a pixel (OpenCV convention), also a little outside the picture. Nothing where
   /// the projection ends: beyond 180 degrees from a fisheye's axis, outside of the ball's limb.
   std::optional<Vec3> direction(double u, double v) const;
+
+  /// The same for many; not a number where it gives nothing.
+  void directions(const Vec2Lanes& pixels, Vec3Lanes& out) const;
 
   /// The pixel that shows a unit vector; it may lie outside of the picture. Nothing for what the
   /// projection shows nowhere, or not at one place: behind a perspective camera, the poles of a

@@ -14,7 +14,8 @@ CoordinateGrid::CoordinateGrid(const optics::ViewProjection& view,
       source_width_(source_width),
       source_height_(source_height),
       tiles_x_((width_ + kTile - 1) / kTile),
-      tiles_y_((height_ + kTile - 1) / kTile) {
+      tiles_y_((height_ + kTile - 1) / kTile),
+      tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {
   Compiler(*this, view, ball).run();
 }
 
@@ -25,18 +26,25 @@ Stencil CoordinateGrid::stencil(int tx, int ty) const {
 }
 
 Patch CoordinateGrid::patch(int tx, int ty) const {
-  const Tile& t = tile(tx, ty);
+  const Tile t = tile(tx, ty);
   return Patch(t.store == TileStore::OwnNodes ? own_nodes_[t.index] : stencil(tx, ty));
+}
+
+FineTile<8> CoordinateGrid::curved(const Tile& tile) const {
+  const int number = static_cast<int>(tile.index);
+  return curved_tile(stencil(number % tiles_x_, number / tiles_x_));
 }
 
 CoordinateRow CoordinateGrid::dense_row(const Tile& tile, int y) const {
   switch (tile.store) {
+    case TileStore::Curved:
+      return curved(tile).row(y);
     case TileStore::Split:
       return split_[tile.index].row(y);
-    case TileStore::Fine8:
-      return fine8_[tile.index].row(y);
-    case TileStore::Fine4:
-      return fine4_[tile.index].row(y);
+    case TileStore::Fine:
+      return fine_[tile.index].row(y);
+    case TileStore::CurvedFine:
+      return curved_tile(fine_[tile.index]).row(y);
     case TileStore::Packed:
       return packed_[tile.index].row(y);
     case TileStore::Whole:
@@ -48,7 +56,7 @@ CoordinateRow CoordinateGrid::dense_row(const Tile& tile, int y) const {
 }
 
 CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
-  const Tile& t = tile(tx, ty);
+  const Tile t = tile(tx, ty);
   if (t.kind == TileClass::Dense) return dense_row(t, y);
   CoordinateRow row;
   if (t.kind == TileClass::Patch) {
@@ -61,6 +69,16 @@ CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
     row.fill({t.kind == TileClass::Blind ? kBlind : kOutside, 0});
   }
   return row;
+}
+
+CoordinateTile CoordinateGrid::pixels(int tx, int ty) const {
+  const Tile t = tile(tx, ty);
+  if (t.store == TileStore::Curved) return curved(t).pixels();
+  if (t.store == TileStore::Fine) return fine_[t.index].pixels();
+  if (t.store == TileStore::CurvedFine) return curved_tile(fine_[t.index]).pixels();
+  CoordinateTile pixels;
+  for (int y = 0; y < kTile; ++y) pixels[y] = row(tx, ty, y);
+  return pixels;
 }
 
 void CoordinateGrid::write_validity(const ImageView<std::uint8_t>& out) const {
@@ -83,7 +101,7 @@ std::size_t CoordinateGrid::bytes() const {
   const auto bytes = [](const auto&... parts) {
     return (... + (parts.size() * sizeof(parts.front())));
   };
-  return bytes(nodes_, tiles_, own_nodes_, split_, fine8_, fine4_, packed_, whole_);
+  return tiles_.bytes() + bytes(nodes_, own_nodes_, split_, fine_, packed_, whole_);
 }
 
 }  // namespace orbwatch::remap

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,27 +12,9 @@
 #include "proc/remap/coordinate.h"
 #include "proc/remap/dense_tile.h"
 #include "proc/remap/patch.h"
+#include "proc/remap/tile_table.h"
 
 namespace orbwatch::remap {
-
-/// What a kernel does with a tile.
-enum class TileClass : std::uint8_t {
-  Blind,    ///< no pixel is on the ball's picture: filled without reading
-  Outside,  ///< every pixel falls outside the source picture: filled without reading
-  Patch,    ///< one smooth patch
-  Dense,    ///< row by row, each pixel a coordinate or a marker
-};
-
-/// Where a tile's coordinates are kept.
-enum class TileStore : std::uint8_t { Grid, OwnNodes, Split, Fine8, Fine4, Packed, Whole };
-
-struct Tile {
-  TileClass kind = TileClass::Blind;
-  TileStore store = TileStore::Grid;  ///< Patch: Grid or OwnNodes; Dense: the others
-  bool interior =
-      false;  ///< Patch: every pixel and its right and lower neighbour are in the source
-  std::uint32_t index = 0;  ///< in its store
-};
 
 /// The map from a view's pixels to one source's pixels, compiled so that the frame path needs
 /// neither trigonometry nor a map of full size. Every defined pixel is within kTolerance of the
@@ -50,13 +33,20 @@ class CoordinateGrid {
   int tiles_x() const { return tiles_x_; }
   int tiles_y() const { return tiles_y_; }
 
-  const Tile& tile(int tx, int ty) const {
-    return tiles_[static_cast<std::size_t>(ty) * tiles_x_ + tx];
+  Tile tile(int tx, int ty) const {
+    return tiles_[static_cast<std::size_t>(ty) * static_cast<std::size_t>(tiles_x_) +
+                  static_cast<std::size_t>(tx)];
   }
+  /// The highest level that any tile asks for.
+  int levels() const { return levels_; }
+  /// How many halves of the source remap() can use: the last factor of two it samples itself.
+  int halves() const { return std::max(levels_ - 1, 0); }
   /// The map within a Patch tile.
   Patch patch(int tx, int ty) const;
   /// Row `y`, 0..15, of a Dense tile, with markers. Pixels beyond the view's border are undefined.
   CoordinateRow dense_row(const Tile& tile, int y) const;
+  /// All rows of any tile, in less time than one by one.
+  CoordinateTile pixels(int tx, int ty) const;
   /// Row `y`, 0..15, of any tile: for where speed matters less than simplicity.
   CoordinateRow row(int tx, int ty, int y) const;
 
@@ -73,6 +63,7 @@ class CoordinateGrid {
     return nodes_[static_cast<std::size_t>(j + 1) * (tiles_x_ + 3) + (i + 1)];
   }
   Stencil stencil(int tx, int ty) const;
+  FineTile<8> curved(const Tile& tile) const;
 
   int width_;
   int height_;
@@ -80,12 +71,12 @@ class CoordinateGrid {
   int source_height_;
   int tiles_x_;
   int tiles_y_;
+  int levels_ = 0;
   std::vector<Coordinate> nodes_;  ///< (tiles + 1) corners and a ring of one around them
-  std::vector<Tile> tiles_;
+  TileTable tiles_;
   std::vector<Stencil> own_nodes_;
   std::vector<SplitTile> split_;
-  std::vector<FineTile<8>> fine8_;
-  std::vector<FineTile<4>> fine4_;
+  std::vector<FineTile<8>> fine_;
   std::vector<PackedTile> packed_;
   std::vector<WholeTile> whole_;
 };

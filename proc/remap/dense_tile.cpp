@@ -45,8 +45,98 @@ CoordinateRow FineTile<Cell>::row(int y) const {
   return row;
 }
 
+template <int Cell>
+CoordinateTile FineTile<Cell>::pixels() const {
+  constexpr int kStride = kTile / Cell;
+  CoordinateTile tile;
+  for (int j = 0; j < kCells; ++j) {
+    for (int i = 0; i < kCells; ++i) {
+      const Patch patch(stencil(i, j));
+      for (int y = 0; y < Cell; ++y) {
+        PatchRow current = patch.row(y * kStride).stride(kStride);
+        Coordinate* row = &tile[j * Cell + y][i * Cell];
+        for (int x = 0; x < Cell; ++x, current.step()) row[x] = current.current();
+      }
+    }
+  }
+  return tile;
+}
+
 template struct FineTile<8>;
 template struct FineTile<4>;
+
+namespace {
+
+// Lagrange's weights, in sixteenths, of four nodes in a row at half a node before the second one,
+// there, and so on.
+constexpr int kHalves = 5;
+constexpr std::array<std::array<std::int64_t, 4>, kHalves> kLagrange{
+    {{5, 15, -5, 1}, {0, 16, 0, 0}, {-1, 9, 9, -1}, {0, 0, 16, 0}, {1, -5, 15, 5}}};
+
+/// One coordinate of a curved tile's nodes.
+class Coons {
+ public:
+  Coons(const Stencil& nodes, std::int32_t Coordinate::*member) : nodes_(nodes), member_(member) {
+    for (int side = 0; side < 2; ++side) {
+      for (int k = 0; k < kHalves; ++k) {
+        for (int n = 0; n < 4; ++n) {
+          rows_[side][k] += kLagrange[k][n] * node(n - 1, side);
+          columns_[side][k] += kLagrange[k][n] * node(side, n - 1);
+        }
+      }
+    }
+  }
+
+  /// i, j count halves, from one before the first corner.
+  std::int32_t at(int i, int j) const {
+    const std::int64_t right = i - 1, left = 2 - right, below = j - 1, above = 2 - below;
+    const std::int64_t curves =
+        above * rows_[0][i] + below * rows_[1][i] + left * columns_[0][j] + right * columns_[1][j];
+    const std::int64_t corners = above * (left * node(0, 0) + right * node(1, 0)) +
+                                 below * (left * node(0, 1) + right * node(1, 1));
+    return static_cast<std::int32_t>((curves - 8 * corners + 16) >> 5);
+  }
+
+ private:
+  std::int64_t node(int i, int j) const { return nodes_.at(i, j).*member_; }
+
+  const Stencil& nodes_;
+  std::int32_t Coordinate::*member_;
+  /// Times sixteen: along the upper and lower row, the left and right column of nodes.
+  std::array<std::array<std::int64_t, kHalves>, 2> rows_{};
+  std::array<std::array<std::int64_t, kHalves>, 2> columns_{};
+};
+
+}  // namespace
+
+FineTile<8> curved_tile(const Stencil& nodes) {
+  const Coons u(nodes, &Coordinate::u), v(nodes, &Coordinate::v);
+  FineTile<8> tile;
+  for (int j = 0; j < tile.kNodes; ++j) {
+    for (int i = 0; i < tile.kNodes; ++i) tile.nodes[j][i] = {u.at(i, j), v.at(i, j)};
+  }
+  return tile;
+}
+
+FineTile<4> curved_tile(const FineTile<8>& fine) {
+  FineTile<4> tile;
+  for (int cell_j = 0; cell_j < fine.kCells; ++cell_j) {
+    for (int cell_i = 0; cell_i < fine.kCells; ++cell_i) {
+      const Stencil nodes = fine.stencil(cell_i, cell_j);
+      const Coons u(nodes, &Coordinate::u), v(nodes, &Coordinate::v);
+      // The cells share the nodes between them: the last one to come sets those.
+      for (int j = 0; j < kHalves; ++j) {
+        for (int i = 0; i < kHalves; ++i) {
+          // Outside of its cell each gives only what no other cell is closer to.
+          if ((i == 0 && cell_i == 1) || (i == 4 && cell_i == 0)) continue;
+          if ((j == 0 && cell_j == 1) || (j == 4 && cell_j == 0)) continue;
+          tile.nodes[2 * cell_j + j][2 * cell_i + i] = {u.at(i, j), v.at(i, j)};
+        }
+      }
+    }
+  }
+  return tile;
+}
 
 std::optional<PackedTile> PackedTile::pack(const CoordinateTile& tile) {
   Coordinate least{INT32_MAX, INT32_MAX}, most{INT32_MIN, INT32_MIN};

@@ -9,7 +9,7 @@
 
 namespace orbwatch::remap {
 
-// Four ways to keep a tile that the grid's nodes do not describe; the least memory is tried first.
+// Ways to keep a tile that the grid's nodes do not describe; the least memory is tried first.
 // Each gives row `y`, 0..15, as coordinates or markers.
 
 /// A tile that lies on two surfaces of the scene: a patch on nodes of each, and which one a pixel
@@ -32,7 +32,16 @@ struct FineTile {
   /// The nodes of cell (i, j), 0..kCells - 1.
   Stencil stencil(int i, int j) const;
   CoordinateRow row(int y) const;
+  /// All rows, in less time than one by one.
+  CoordinateTile pixels() const;
 };
+
+/// The tile between the middle four of the grid's nodes where the map bends too much for a Patch
+/// but a curve of third order follows it: on nodes that such curves through the twelve that count
+/// give, along the rows and columns of nodes, and between them a Coons patch.
+FineTile<8> curved_tile(const Stencil& nodes);
+/// The same between nodes every 8 px.
+FineTile<4> curved_tile(const FineTile<8>& fine);
 
 /// A tile's coordinates in four bytes per pixel: distances from the tile's least u and v, in the
 /// finest power of two of Q13 steps that spans the tile.

@@ -107,13 +107,13 @@ class Tracer {
 }  // namespace
 
 EdgeMask::EdgeMask(int width, int height)
-    : width_(width), height_(height), tiles_x_((width + kTile - 1) / kTile) {
-  const int tiles_y = (height + kTile - 1) / kTile;
-  crossed_.resize(tile(0, tiles_y));
-  rows_.resize(crossed_.size() * kTile);
-}
+    : width_(width), height_(height), tiles_x_((width + kTile - 1) / kTile) {}
 
 void EdgeMask::mark(const Vec2& from, const Vec2& to) {
+  if (crossed_.empty()) {
+    crossed_.resize(tile(0, (height_ + kTile - 1) / kTile));
+    rows_.resize(crossed_.size() * kTile);
+  }
   cross_lines(from.v, from.u, to.v, to.u, height_,
               [this](int y, double left, double right) { mark_row(y, left, right); });
   cross_lines(from.u, from.v, to.u, to.v, width_,
@@ -146,6 +146,7 @@ void EdgeMask::mark_column(int x, double top, double bottom) {
 EdgeMask edge_mask(const optics::ViewProjection& view,
                    const std::vector<std::pair<Vec3, Vec3>>& edges) {
   EdgeMask mask(view.width(), view.height());
+  if (edges.empty()) return mask;
   Tracer tracer(view, mask);
   for (const auto& [a, b] : edges) tracer.trace(normalized(a), normalized(b));
   return mask;

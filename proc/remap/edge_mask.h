@@ -21,11 +21,12 @@ class EdgeMask {
   void mark(const optics::Vec2& from, const optics::Vec2& to);
 
   /// An edge runs between two pixels of that tile.
-  bool crosses(int tx, int ty) const { return crossed_[tile(tx, ty)] != 0; }
+  bool crosses(int tx, int ty) const { return !crossed_.empty() && crossed_[tile(tx, ty)] != 0; }
 
   /// Row `y` of the view within tile column `tx`: bit x is set if an edge runs between pixels x - 1
   /// and x.
   std::uint16_t row(int tx, int y) const {
+    if (rows_.empty()) return 0;
     return rows_[static_cast<std::size_t>(y) * tiles_x_ + tx];
   }
 
@@ -37,6 +38,7 @@ class EdgeMask {
   int width_;
   int height_;
   int tiles_x_;
+  // Empty until something is marked.
   std::vector<std::uint16_t> rows_;
   std::vector<std::uint8_t> crossed_;
 };

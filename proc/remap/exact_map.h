@@ -1,10 +1,24 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "proc/optics/ball_projection.h"
+#include "proc/optics/lanes.h"
 #include "proc/optics/view_projection.h"
 #include "proc/remap/coordinate.h"
 
 namespace orbwatch::remap {
+
+/// Many coordinates by component.
+struct CoordinateLanes {
+  std::array<std::int32_t, optics::kLanes> u;
+  std::array<std::int32_t, optics::kLanes> v;
+
+  Coordinate at(std::size_t k) const { return {u[k], v[k]}; }
+};
 
 /// The map that a grid approximates, evaluated anew for every question. Reentrant; keeps references
 /// to the view and the ball.
@@ -23,17 +37,59 @@ class ExactMap {
   /// What pixel (x, y) of the view shows; it may lie outside of the view.
   Sight see(int x, int y) const;
 
+  /// The same for many pixels at once.
+  struct SightLanes {
+    std::array<int, optics::kLanes> surfaces;
+    CoordinateLanes coordinates;
+  };
+  void see(const optics::Vec2Lanes& pixels, SightLanes& out) const;
+
   /// Only the surface.
   int surface(int x, int y) const;
 
   /// Where (x, y) would be if that surface were seen there. Smooth on each surface.
   Coordinate on_surface(int surface, int x, int y) const;
+  /// The same for many, each on the surface that `sights` says.
+  void on_surfaces(const optics::Vec2Lanes& pixels, SightLanes& sights) const;
 
  private:
   Coordinate coordinate(const optics::Vec3& direction, double closeness) const;
+  void coordinates(const optics::Vec3Lanes& directions, const optics::Lanes& closeness,
+                   CoordinateLanes& out) const;
 
   const optics::ViewProjection& view_;
   const optics::BallProjection& ball_;
 };
+
+/// Pixels of a view that stand in rows and columns.
+struct Lattice {
+  int x, y;  ///< the first one
+  int step;
+  int columns, rows;
+};
+
+/// Goes through a lattice row by row: `see(pixels, first)` once for so many, the first of which has
+/// that number, then `take(i, j, k)` for each: column, row, lane.
+template <class See, class Take>
+void in_lanes(const Lattice& lattice, const See& see, const Take& take) {
+  optics::Vec2Lanes pixels{};
+  const auto count =
+      static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
+  int i = 0, j = 0, asked_i = 0, asked_j = 0;
+  const auto next = [&](int& column, int& row) {
+    if (++column < lattice.columns) return;
+    column = 0;
+    ++row;
+  };
+  for (std::size_t first = 0; first < count; first += optics::kLanes) {
+    const std::size_t lanes = std::min(optics::kLanes, count - first);
+    for (std::size_t k = 0; k < lanes; ++k, next(asked_i, asked_j)) {
+      pixels.u[k] = lattice.x + asked_i * lattice.step;
+      pixels.v[k] = lattice.y + asked_j * lattice.step;
+    }
+    see(pixels, first);
+    for (std::size_t k = 0; k < lanes; ++k, next(i, j)) take(i, j, k);
+  }
+}
 
 }  // namespace orbwatch::remap

@@ -2,53 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+
+#include "proc/remap/tile_level.h"
+#include "proc/remap/tolerance.h"
 
 namespace orbwatch::remap {
 namespace {
 
-// Q13 pixels. What a patch's error may be by its nodes: the rest of the tolerance is for terms of
-// higher order than the fourth.
-constexpr double kTolerated = kTolerance * (1 << kFractionBits);
-constexpr double kClose = 0.85 * kTolerated;
-
 // A node on a surface that was not asked for yet.
 constexpr std::int32_t kUnknown = kOutside + 1;
 
-double distance(const Coordinate& a, const Coordinate& b) {
-  const double u = double{1} * a.u - b.u, v = double{1} * a.v - b.v;
-  return std::sqrt(u * u + v * v);
-}
-
-/// The error of fourth order at most, from five nodes in a row: Lagrange's
-/// t (1-t) (1+t) (2-t) / 24 of the fourth difference.
-double fourth_order_error(const std::array<Coordinate, 5>& row) {
-  constexpr double kLargest = 0.0235;
-  constexpr std::array kBinomial{1.0, -4.0, 6.0, -4.0, 1.0};
-  double u = 0, v = 0;
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    u += kBinomial[k] * row[k].u;
-    v += kBinomial[k] * row[k].v;
-  }
-  return kLargest * std::sqrt(u * u + v * v);
-}
-
-/// The largest one along each axis of a tile, added up.
-template <int Cell>
-double fourth_order_error(const FineTile<Cell>& fine) {
+/// The error of fourth order at most: the largest along each axis, added up.
+double fourth_order_error(const FineTile<8>& fine) {
   double along_u = 0, along_v = 0;
   // The outer rows end at corners that do not count.
   for (int line = 1; line + 1 < fine.kNodes; ++line) {
-    for (int first = 0; first + 5 <= fine.kNodes; ++first) {
-      std::array<Coordinate, 5> row, column;
-      for (int k = 0; k < 5; ++k) {
-        row[k] = fine.nodes[line][first + k];
-        column[k] = fine.nodes[first + k][line];
-      }
-      along_u = std::max(along_u, fourth_order_error(row));
-      along_v = std::max(along_v, fourth_order_error(column));
-    }
+    std::array<Coordinate, 5> column;
+    for (int k = 0; k < fine.kNodes; ++k) column[k] = fine.nodes[k][line];
+    along_u = std::max(along_u, fourth_order_error(fine.nodes[line]));
+    along_v = std::max(along_v, fourth_order_error(column));
   }
   return along_u + along_v;
+}
+
+/// What a Coons patch leaves out between its four curves: at most 1/64 of the mixed fourth
+/// difference about a node, `at(i, j)` being those around it.
+template <class At>
+double mixed_error(const At& at) {
+  double u = 0, v = 0;
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      const double weight = (i == 0 ? -2 : 1) * (j == 0 ? -2 : 1);
+      u += weight * at(i, j).u;
+      v += weight * at(i, j).v;
+    }
+  }
+  return std::sqrt(u * u + v * v) / 64;
+}
+
+/// In the middle of each side and of the tile, away from corners that do not count.
+double mixed_error(const FineTile<8>& fine) {
+  double error = 0;
+  for (const auto& [x, y] : {std::pair{2, 2}, {1, 2}, {3, 2}, {2, 1}, {2, 3}}) {
+    const auto at = [&, i0 = x, j0 = y](int i, int j) { return fine.nodes[j0 + j][i0 + i]; };
+    error = std::max(error, mixed_error(at));
+  }
+  return error;
 }
 
 /// Where a coordinate along one axis stands to the source picture. Pixels are squares around their
@@ -69,10 +70,6 @@ struct Extent {
   bool surely_misses(std::int32_t lowest, std::int32_t highest) const {
     return highest < low - kMargin || lowest > high + kMargin;
   }
-  /// The neighbours for interpolation are there too.
-  bool holds_neighbours(std::int32_t lowest, std::int32_t highest) const {
-    return lowest >= 0 && highest < high - kHalf;
-  }
 };
 
 }  // namespace
@@ -81,6 +78,7 @@ CoordinateGrid::Compiler::Compiler(CoordinateGrid& grid, const optics::ViewProje
                                    const optics::BallProjection& ball)
     : grid_(grid),
       map_(view, ball),
+      plain_(grid.tiles_x_, grid.tiles_y_, grid.source_width_, grid.source_height_),
       edges_(edge_mask(view, ball.proxy().edges())),
       // A ball's picture jumps where the camera's rays pass an edge, which is not where the ball's
       // centre sees that edge.
@@ -97,25 +95,48 @@ CoordinateGrid::Compiler::Compiler(CoordinateGrid& grid, const optics::ViewProje
 
 void CoordinateGrid::Compiler::run() {
   evaluate_nodes();
-  grid_.tiles_.reserve(static_cast<std::size_t>(grid_.tiles_x_) * grid_.tiles_y_);
+  constexpr int kRun = PlainTiles::kRun;
   for (int ty = 0; ty < grid_.tiles_y_; ++ty) {
-    for (int tx = 0; tx < grid_.tiles_x_; ++tx) grid_.tiles_.push_back(compile(tx, ty));
+    for (int tx = 0; tx < grid_.tiles_x_; tx += kRun) {
+      PlainTiles::Levels levels;
+      plain_.judge(tx, ty, levels);
+      compile_run(tx, ty, levels);
+    }
   }
   const auto fit = [](auto&... stores) { (stores.shrink_to_fit(), ...); };
-  fit(grid_.own_nodes_, grid_.split_, grid_.fine8_, grid_.fine4_, grid_.packed_, grid_.whole_);
+  fit(grid_.own_nodes_, grid_.split_, grid_.fine_, grid_.packed_, grid_.whole_);
+}
+
+/// As many tiles from (tx, ty) on as were judged.
+void CoordinateGrid::Compiler::compile_run(int tx, int ty, const PlainTiles::Levels& levels) {
+  const int count = std::min(static_cast<int>(levels.size()), grid_.tiles_x_ - tx);
+  for (int k = 0; k < count; ++k) {
+    const std::int32_t level = levels[static_cast<std::size_t>(k)];
+    const bool plain =
+        level != PlainTiles::kLookCloser && is_smooth_ && !edges_.crosses(tx + k, ty);
+    const Tile tile =
+        plain ? Tile{TileClass::Patch, TileStore::Grid, true, static_cast<std::uint8_t>(level), 0}
+              : compile(tx + k, ty);
+    grid_.tiles_.set(tile_number(tx + k, ty), tile);
+    grid_.levels_ = std::max<int>(grid_.levels_, tile.level);
+  }
 }
 
 void CoordinateGrid::Compiler::evaluate_nodes() {
+  const Lattice nodes{-kTile, -kTile, kTile, grid_.tiles_x_ + 3, grid_.tiles_y_ + 3};
   const std::size_t count = index(-1, grid_.tiles_y_ + 2);
-  grid_.nodes_.reserve(count);
-  surfaces_.reserve(count);
-  for (int j = -1; j <= grid_.tiles_y_ + 1; ++j) {
-    for (int i = -1; i <= grid_.tiles_x_ + 1; ++i) {
-      const ExactMap::Sight sight = map_.see(i * kTile, j * kTile);
-      surfaces_.push_back(sight.surface);
-      grid_.nodes_.push_back(sight.coordinate);
-    }
-  }
+  grid_.nodes_.resize(count);
+  surfaces_.resize(count);
+  ExactMap::SightLanes sights;
+  std::size_t number = 0;
+  const auto see = [&](const optics::Vec2Lanes& pixels, std::size_t) { map_.see(pixels, sights); };
+  in_lanes(nodes, see, [&](int i, int j, std::size_t k) {
+    const Coordinate node = sights.coordinates.at(k);
+    surfaces_[number] = sights.surfaces[k];
+    grid_.nodes_[number++] = node;
+    plain_.set_node(i - 1, j - 1, node, sights.surfaces[k]);
+  });
+  plain_.finish();
 }
 
 Tile CoordinateGrid::Compiler::compile(int tx, int ty) {
@@ -171,7 +192,7 @@ CoordinateGrid::Compiler::Surfaces CoordinateGrid::Compiler::surfaces_of(int tx,
 Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
   const auto nodes = stencil(place);
   if (nodes && is_close(*nodes, place)) {
-    auto tile = patch_tile(Patch(*nodes), place.tx, place.ty);
+    auto tile = patch_tile(*nodes, place.tx, place.ty);
     if (tile && tile->kind == TileClass::Patch && !place.uniform) {
       tile->store = TileStore::OwnNodes;
       tile->index = static_cast<std::uint32_t>(grid_.own_nodes_.size());
@@ -179,10 +200,9 @@ Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
     }
     if (tile) return *tile;
   } else {
-    // Errors of third order: an eighth for half the distance.
-    const bool worth = nodes && third_order_error(*nodes) / 8 < kClose;
-    if (auto tile = worth ? fine_tile<8>(place, grid_.fine8_) : std::nullopt) return *tile;
-    if (auto tile = fine_tile<4>(place, grid_.fine4_)) return *tile;
+    const bool on_grid = nodes && place.uniform;
+    if (auto tile = on_grid ? curved_tile(*nodes, curve_error(place)) : std::nullopt) return *tile;
+    if (auto tile = fine_tile(place)) return *tile;
   }
   Surfaces surfaces;
   for (auto& row : surfaces) row.fill(place.surface);
@@ -190,7 +210,9 @@ Tile CoordinateGrid::Compiler::tile_on_surface(const Place& place) {
 }
 
 /// A Patch tile, or an Outside one; nothing when the source picture's border runs through it.
-std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Patch& patch, int tx, int ty) const {
+std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Stencil& nodes, int tx,
+                                                         int ty) const {
+  const Patch patch(nodes);
   const Extent u(grid_.source_width_), v(grid_.source_height_);
   const auto [low, high] = patch.range();
   Tile tile;
@@ -199,7 +221,8 @@ std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Patch& patch, int
     return tile;
   }
   tile.kind = TileClass::Patch;
-  tile.interior = u.holds_neighbours(low.u, high.u) && v.holds_neighbours(low.v, high.v);
+  tile.level = level_of(nodes);
+  tile.interior = is_interior(patch, tile.level);
   if (tile.interior || is_inside(patch)) return tile;
   // The part that lies in the view may be inside although the patch is not.
   for (int y = 0; y < rows(ty); ++y) {
@@ -212,37 +235,76 @@ std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Patch& patch, int
   return tile;
 }
 
+bool CoordinateGrid::Compiler::is_interior(const Patch& patch, int level) const {
+  const auto [low, high] = patch.range();
+  return remap::is_interior(low.u, high.u, grid_.source_width_, level) &&
+         remap::is_interior(low.v, high.v, grid_.source_height_, level);
+}
+
 bool CoordinateGrid::Compiler::is_inside(const Patch& patch) const {
   const auto [low, high] = patch.range();
   return Extent(grid_.source_width_).surely_holds(low.u, high.u) &&
          Extent(grid_.source_height_).surely_holds(low.v, high.v);
 }
 
-/// A tile in finer patches; nothing when one of them is not close or not inside the source.
+/// A tile of third order on the grid's nodes; nothing when it is not close or not inside the
+/// source.
+std::optional<Tile> CoordinateGrid::Compiler::curved_tile(const Stencil& nodes,
+                                                          double fourth) const {
+  auto tile = tile_of_cells(remap::curved_tile(nodes), fourth);
+  if (tile) tile->store = TileStore::Curved;
+  return tile;
+}
+
+/// What finer patches have in common. `fourth`: the error beyond that of third order.
 template <int Cell>
-std::optional<Tile> CoordinateGrid::Compiler::fine_tile(const Place& place,
-                                                        std::vector<FineTile<Cell>>& store) const {
-  FineTile<Cell> fine;
-  for (int j = 0; j < fine.kNodes; ++j) {
-    for (int i = 0; i < fine.kNodes; ++i) {
-      fine.nodes[j][i] = map_.on_surface(place.surface, place.tx * kTile + (i - 1) * Cell,
-                                         place.ty * kTile + (j - 1) * Cell);
-      const bool corner = i % (fine.kNodes - 1) == 0 && j % (fine.kNodes - 1) == 0;
-      if (!corner && !is_defined(fine.nodes[j][i])) return std::nullopt;
-    }
-  }
-  const double fourth = fourth_order_error(fine);
+std::optional<Tile> CoordinateGrid::Compiler::tile_of_cells(const FineTile<Cell>& fine,
+                                                            double fourth) const {
+  Tile tile;
+  tile.kind = TileClass::Dense;
+  tile.level = level_of(fine);
+  tile.interior = true;
   for (int j = 0; j < fine.kCells; ++j) {
     for (int i = 0; i < fine.kCells; ++i) {
       const Stencil cell = fine.stencil(i, j);
-      if (third_order_error(cell) + fourth > kClose || !is_inside(Patch(cell))) return std::nullopt;
+      if (third_order_error(cell) + fourth > kClose) return std::nullopt;
+      const Patch patch(cell);
+      if (!is_inside(patch)) return std::nullopt;
+      tile.interior = tile.interior && is_interior(patch, tile.level);
     }
   }
-  Tile tile;
-  tile.kind = TileClass::Dense;
-  tile.store = Cell == 8 ? TileStore::Fine8 : TileStore::Fine4;
-  tile.index = static_cast<std::uint32_t>(store.size());
-  store.push_back(fine);
+  return tile;
+}
+
+/// A tile on nodes every 8 px; nothing when it is not close or not inside the source.
+std::optional<Tile> CoordinateGrid::Compiler::fine_tile(const Place& place) {
+  constexpr int kCell = 8;
+  FineTile<kCell> fine;
+  const Lattice nodes{place.tx * kTile - kCell, place.ty * kTile - kCell, kCell, fine.kNodes,
+                      fine.kNodes};
+  ExactMap::SightLanes sights;
+  sights.surfaces.fill(place.surface);
+  const auto see = [&](const optics::Vec2Lanes& pixels, std::size_t) {
+    map_.on_surfaces(pixels, sights);
+  };
+  bool defined = true;
+  in_lanes(nodes, see, [&](int i, int j, std::size_t k) {
+    fine.nodes[j][i] = sights.coordinates.at(k);
+    const bool corner = i % (fine.kNodes - 1) == 0 && j % (fine.kNodes - 1) == 0;
+    defined &= corner || is_defined(fine.nodes[j][i]);
+  });
+  if (!defined) return std::nullopt;
+  const double fourth = fourth_order_error(fine);
+  auto tile = tile_of_cells(fine, fourth);
+  if (tile) {
+    tile->store = TileStore::Fine;
+  } else {
+    tile = tile_of_cells(remap::curved_tile(fine), fourth + mixed_error(fine));
+    if (!tile) return std::nullopt;
+    tile->store = TileStore::CurvedFine;
+  }
+  tile->index = static_cast<std::uint32_t>(grid_.fine_.size());
+  grid_.fine_.push_back(fine);
   return tile;
 }
 
@@ -275,6 +337,7 @@ std::optional<Tile> CoordinateGrid::Compiler::split_tile(int tx, int ty, const S
   Tile tile;
   tile.kind = TileClass::Dense;
   tile.store = TileStore::Split;
+  tile.level = std::max(level_of(split.sides[0]), level_of(split.sides[1]));
   tile.index = static_cast<std::uint32_t>(grid_.split_.size());
   grid_.split_.push_back(split);
   return tile;
@@ -286,19 +349,25 @@ Tile CoordinateGrid::Compiler::pixel_tile(int tx, int ty, const Surfaces& surfac
   WholeTile whole;
   for (CoordinateRow& row : whole.coordinates) row.fill({kBlind, 0});
   bool all_blind = true, all_outside = true;
-  for (int y = 0; y < rows(ty); ++y) {
-    for (int x = 0; x < columns(tx); ++x) {
-      Coordinate& c = whole.coordinates[y][x];
-      c = map_.on_surface(surfaces[y][x], tx * kTile + x, ty * kTile + y);
-      if (is_defined(c) && !(u.holds(c.u) && v.holds(c.v))) c = {kOutside, 0};
-      all_blind &= c.u == kBlind;
-      all_outside &= c.u == kOutside;
-    }
-  }
+  ExactMap::SightLanes sights;
+  const auto see = [&](const optics::Vec2Lanes& pixels, std::size_t first) {
+    std::copy_n(&surfaces[first / kTile][first % kTile], sights.surfaces.size(),
+                sights.surfaces.begin());
+    map_.on_surfaces(pixels, sights);
+  };
+  in_lanes({tx * kTile, ty * kTile, 1, kTile, kTile}, see, [&](int x, int y, std::size_t k) {
+    if (x >= columns(tx) || y >= rows(ty)) return;
+    Coordinate& c = whole.coordinates[y][x];
+    c = sights.coordinates.at(k);
+    if (is_defined(c) && !(u.holds(c.u) && v.holds(c.v))) c = {kOutside, 0};
+    all_blind &= c.u == kBlind;
+    all_outside &= c.u == kOutside;
+  });
   Tile tile;
   tile.kind = all_blind ? TileClass::Blind : TileClass::Outside;
   if (all_blind || all_outside) return tile;
   tile.kind = TileClass::Dense;
+  tile.level = level_of(whole.coordinates);
   const auto packed = PackedTile::pack(whole.coordinates);
   tile.store = packed ? TileStore::Packed : TileStore::Whole;
   tile.index = static_cast<std::uint32_t>(packed ? grid_.packed_.size() : grid_.whole_.size());
@@ -356,6 +425,50 @@ double CoordinateGrid::Compiler::fourth_order_part(const Stencil& nodes, const P
   constexpr int kMiddle = kTile / 2;
   const Coordinate truth = map_.on_surface(surface, tx * kTile + kMiddle, ty * kTile + kMiddle);
   return is_defined(truth) ? distance(truth, Patch(nodes).at(kMiddle, kMiddle)) : kTolerated;
+}
+
+/// What a curved tile's error may be: of fourth order along rows and columns of nodes, the worst of
+/// those around the tile, and x (1-x) y (1-y) / 4 of the mixed fourth difference between them. Not
+/// finite where the nodes do not tell.
+double CoordinateGrid::Compiler::curve_error(const Place& place) const {
+  const auto [tx, ty, surface, uniform] = place;
+  const auto in_grid = [&](int i, int j) {
+    return i >= -1 && j >= -1 && i <= grid_.tiles_x_ + 1 && j <= grid_.tiles_y_ + 1;
+  };
+  // From a node five in that direction.
+  const auto error = [&](int i, int j, int di, int dj) -> std::optional<double> {
+    if (!in_grid(i, j) || !in_grid(i + 4 * di, j + 4 * dj)) return std::nullopt;
+    std::array<Coordinate, 5> nodes;
+    for (Coordinate& node : nodes) {
+      node = grid_.node(i, j);
+      if (!is_defined(node) || surfaces_[index(i, j)] != surface) return std::nullopt;
+      i += di;
+      j += dj;
+    }
+    return fourth_order_error(nodes);
+  };
+  double along_x = -1, along_y = -1;
+  for (int side = 0; side < 2; ++side) {
+    for (int before = 1; before <= 2; ++before) {
+      along_x = std::max(along_x, error(tx - before, ty + side, 1, 0).value_or(-1));
+      along_y = std::max(along_y, error(tx + side, ty - before, 0, 1).value_or(-1));
+    }
+  }
+  constexpr double kUnknownError = std::numeric_limits<double>::infinity();
+  if (along_x < 0 || along_y < 0) return kUnknownError;
+  double mixed = 0;
+  for (int j = ty; j <= ty + 1; ++j) {
+    for (int i = tx; i <= tx + 1; ++i) {
+      bool known = true;
+      mixed = std::max(mixed, mixed_error([&](int a, int b) {
+                         const Coordinate& node = grid_.node(i + a, j + b);
+                         known &= is_defined(node) && surfaces_[index(i + a, j + b)] == surface;
+                         return node;
+                       }));
+      if (!known) return kUnknownError;
+    }
+  }
+  return along_x + along_y + mixed;
 }
 
 }  // namespace orbwatch::remap

@@ -7,6 +7,7 @@
 #include "proc/remap/coordinate_grid.h"
 #include "proc/remap/edge_mask.h"
 #include "proc/remap/exact_map.h"
+#include "proc/remap/plain_tiles.h"
 
 namespace orbwatch::remap {
 
@@ -35,7 +36,13 @@ class CoordinateGrid::Compiler {
   int columns(int tx) const { return std::min(kTile, grid_.width_ - tx * kTile); }
   int rows(int ty) const { return std::min(kTile, grid_.height_ - ty * kTile); }
 
+  std::size_t tile_number(int tx, int ty) const {
+    return static_cast<std::size_t>(ty) * static_cast<std::size_t>(grid_.tiles_x_) +
+           static_cast<std::size_t>(tx);
+  }
+
   void evaluate_nodes();
+  void compile_run(int tx, int ty, const PlainTiles::Levels& levels);
   Tile compile(int tx, int ty);
   bool is_in_projection(int tx, int ty) const;
   bool is_uniform(int tx, int ty) const;
@@ -45,19 +52,24 @@ class CoordinateGrid::Compiler {
   Tile tile_on_surface(const Place& place);
   Tile tile_of_surfaces(int tx, int ty, const Surfaces& surfaces);
   std::optional<Tile> split_tile(int tx, int ty, const Surfaces& surfaces);
+  std::optional<Tile> fine_tile(const Place& place);
+  std::optional<Tile> curved_tile(const Stencil& nodes, double fourth) const;
   template <int Cell>
-  std::optional<Tile> fine_tile(const Place& place, std::vector<FineTile<Cell>>& store) const;
+  std::optional<Tile> tile_of_cells(const FineTile<Cell>& fine, double fourth) const;
   Tile pixel_tile(int tx, int ty, const Surfaces& surfaces);
-  std::optional<Tile> patch_tile(const Patch& patch, int tx, int ty) const;
+  std::optional<Tile> patch_tile(const Stencil& nodes, int tx, int ty) const;
 
   std::optional<Stencil> stencil(const Place& place);
   Coordinate extended_node(int surface, int i, int j);
   bool is_close(const Stencil& stencil, const Place& place) const;
   double fourth_order_part(const Stencil& stencil, const Place& place) const;
+  double curve_error(const Place& place) const;
   bool is_inside(const Patch& patch) const;
+  bool is_interior(const Patch& patch, int level) const;
 
   CoordinateGrid& grid_;
   ExactMap map_;
+  PlainTiles plain_;
   EdgeMask edges_;
   bool edges_are_known_;       ///< all of them are in `edges_`
   bool is_smooth_;             ///< on each surface; else nothing but pixels tells the map

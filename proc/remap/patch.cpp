@@ -6,8 +6,57 @@
 namespace orbwatch::remap {
 namespace {
 
-// The largest of x (16 - x).
-constexpr std::int64_t kBulge = kTile * kTile / 4;
+/// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
+///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048, with the second differences xx
+///           and
+/// yy added up over the four corners.
+Quadratic quadratic(const Stencil& stencil, std::int32_t Coordinate::*member) {
+  const auto n = [&](int i, int j) { return std::int64_t{stencil.at(i, j).*member}; };
+  const std::int64_t corner = n(0, 0), along_x = n(1, 0) - corner, along_y = n(0, 1) - corner;
+  const std::int64_t along_xy = n(1, 1) - n(0, 1) - along_x;
+  const std::int64_t middle = corner + n(1, 0) + n(0, 1) + n(1, 1);
+  const std::int64_t xx = n(-1, 0) + n(2, 0) + n(-1, 1) + n(2, 1) - middle;
+  const std::int64_t yy = n(0, -1) + n(0, 2) + n(1, -1) + n(1, 2) - middle;
+  constexpr std::int64_t kUnit = std::int64_t{1} << PatchRow::kScaleBits;
+  constexpr std::int64_t kStep = kUnit / kTile, kCorner = kStep / kTile;
+  return {kUnit * corner,
+          kStep * along_x - kTile * xx,
+          kStep * along_y - kTile * yy,
+          kCorner * along_xy,
+          xx,
+          yy};
+}
+
+struct Extremes {
+  std::int32_t low;
+  std::int32_t high;
+};
+
+/// Bounds of one axis: the bilinear part's corners, and the bulge between them, which is largest in
+/// the middle, X (16 - X) = 64.
+Extremes extremes(const Quadratic& axis) {
+  constexpr std::int64_t kBulge = kTile * kTile / 4;
+  const std::int64_t right = axis.x + kTile * axis.xx, down = axis.y + kTile * axis.yy;
+  const std::int64_t top = axis.value, bottom = axis.value + kTile * down;
+  const std::int64_t top_right = top + kTile * right;
+  const std::int64_t bottom_right = bottom + kTile * (right + kTile * axis.xy);
+  const std::int64_t low =
+      std::min({top, bottom, top_right, bottom_right}) -
+      kBulge * (std::max<std::int64_t>(axis.xx, 0) + std::max<std::int64_t>(axis.yy, 0));
+  const std::int64_t high =
+      std::max({top, bottom, top_right, bottom_right}) -
+      kBulge * (std::min<std::int64_t>(axis.xx, 0) + std::min<std::int64_t>(axis.yy, 0));
+  return {static_cast<std::int32_t>(low >> PatchRow::kScaleBits),
+          static_cast<std::int32_t>((high >> PatchRow::kScaleBits) + 1)};
+}
+
+/// Values and their first two differences along row y.
+struct Differences {
+  std::int64_t value, step, curve;
+};
+Differences along_row(const Quadratic& axis, std::int64_t y) {
+  return {axis.value + y * (axis.y + y * axis.yy), axis.x + y * axis.xy + axis.xx, 2 * axis.xx};
+}
 
 double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*member) {
   const auto n = [&](int i, int j) { return static_cast<double>(stencil.at(i, j).*member); };
@@ -23,47 +72,12 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
 
 }  // namespace
 
-Patch::Axis::Axis(const Stencil& stencil, std::int32_t Coordinate::*member) {
-  const auto n = [&](int i, int j) { return std::int64_t{stencil.at(i, j).*member}; };
-  corner = n(0, 0);
-  along_x = n(1, 0) - n(0, 0);
-  along_y = n(0, 1) - n(0, 0);
-  along_xy = n(1, 1) - n(0, 1) - along_x;
-  xx = n(-1, 0) - n(0, 0) - n(1, 0) + n(2, 0) + n(-1, 1) - n(0, 1) - n(1, 1) + n(2, 1);
-  yy = n(0, -1) - n(0, 0) - n(0, 1) + n(0, 2) + n(1, -1) - n(1, 0) - n(1, 1) + n(1, 2);
-}
-
-void Patch::Axis::row(int y, std::int64_t& value, std::int64_t& step, std::int64_t& curve) const {
-  // f(x) = 8 (256 corner + 16 x along_x + 16 y along_y + x y along_xy)
-  //        - x (16 - x) xx - y (16 - y) yy, in units of 1/2048
-  value = 8 * kTile * (kTile * corner + y * along_y) - y * (kTile - y) * yy;
-  curve = 2 * xx;
-  step = 8 * (kTile * along_x + y * along_xy) - (kTile - 1) * xx;
-}
-
-std::int32_t Patch::Axis::low() const {
-  const std::int64_t lowest = corner + std::min<std::int64_t>(along_x, 0);
-  const std::int64_t below = corner + along_y + std::min<std::int64_t>(along_x + along_xy, 0);
-  const std::int64_t bulge =
-      kBulge * (std::max<std::int64_t>(xx, 0) + std::max<std::int64_t>(yy, 0));
-  return static_cast<std::int32_t>(std::min(lowest, below) - (bulge >> PatchRow::kScaleBits) - 1);
-}
-
-std::int32_t Patch::Axis::high() const {
-  const std::int64_t highest = corner + std::max<std::int64_t>(along_x, 0);
-  const std::int64_t below = corner + along_y + std::max<std::int64_t>(along_x + along_xy, 0);
-  const std::int64_t bulge =
-      kBulge * (std::min<std::int64_t>(xx, 0) + std::min<std::int64_t>(yy, 0));
-  return static_cast<std::int32_t>(std::max(highest, below) - (bulge >> PatchRow::kScaleBits) + 1);
-}
-
-Patch::Patch(const Stencil& stencil) : u_(stencil, &Coordinate::u), v_(stencil, &Coordinate::v) {}
+Patch::Patch(const Stencil& stencil)
+    : u_(quadratic(stencil, &Coordinate::u)), v_(quadratic(stencil, &Coordinate::v)) {}
 
 PatchRow Patch::row(int y) const {
-  PatchRow row{};
-  u_.row(y, row.u, row.du, row.ddu);
-  v_.row(y, row.v, row.dv, row.ddv);
-  return row;
+  const Differences u = along_row(u_, y), v = along_row(v_, y);
+  return {u.value, u.step, u.curve, v.value, v.step, v.curve};
 }
 
 Coordinate Patch::at(int x, int y) const {
@@ -74,7 +88,10 @@ Coordinate Patch::at(int x, int y) const {
   return there.current();
 }
 
-Patch::Range Patch::range() const { return {{u_.low(), v_.low()}, {u_.high(), v_.high()}}; }
+Patch::Range Patch::range() const {
+  const Extremes u = extremes(u_), v = extremes(v_);
+  return {{u.low, v.low}, {u.high, v.high}};
+}
 
 double third_order_error(const Stencil& stencil) {
   const double u = third_order_error(stencil, &Coordinate::u);

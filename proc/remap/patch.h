@@ -53,12 +53,22 @@ bool all_nodes(const Good& good) {
   return true;
 }
 
+/// value + x X + y Y + xy X Y + xx X^2 + yy Y^2: one axis of a patch in Q(13 + 11), exactly. X, Y
+/// count pixels of the tile.
+struct Quadratic {
+  std::int64_t value, x, y, xy, xx, yy;
+};
+
 /// The smooth map between four nodes: bilinear, plus the mean of the second differences along each
 /// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
 class Patch {
  public:
   /// The twelve nodes that count are defined; the four outermost corners do not.
   explicit Patch(const Stencil& stencil);
+  Patch(const Quadratic& u, const Quadratic& v) : u_(u), v_(v) {}
+
+  const Quadratic& u() const { return u_; }
+  const Quadratic& v() const { return v_; }
 
   /// Row `y`, 0..15, at x = 0.
   PatchRow row(int y) const;
@@ -74,17 +84,8 @@ class Patch {
   Range range() const;
 
  private:
-  struct Axis {
-    std::int64_t corner, along_x, along_y, along_xy;  ///< of the bilinear part
-    std::int64_t xx, yy;                              ///< second differences over the four corners
-
-    Axis(const Stencil& stencil, std::int32_t Coordinate::*member);
-    void row(int y, std::int64_t& value, std::int64_t& step, std::int64_t& curve) const;
-    std::int32_t low() const;
-    std::int32_t high() const;
-  };
-  Axis u_;
-  Axis v_;
+  Quadratic u_;
+  Quadratic v_;
 };
 
 /// How far a patch may be from the map that its nodes were taken from, in Q13 pixels, as far as its

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <cstdint>
+#include <span>
 
-#include "proc/image/image_view.h"
 #include "proc/image/picture.h"
 #include "proc/remap/coordinate_grid.h"
+#include "proc/remap/kernel.h"
+#include "proc/remap/tile_remap.h"
 
 namespace orbwatch::remap {
-
-enum class Interpolation { Bilinear, Nearest };
 
 /// Rows of tiles [first, last) of a view: the unit of work that threads share.
 struct TileRows {
@@ -16,20 +15,25 @@ struct TileRows {
   int last = 0;
 };
 
-/// Samples per pixel that remapping a source of `format` yields: 1 for one-channel formats, 3 (RGB)
-/// for colour, YUYV included.
-constexpr int remapped_channels(PixelFormat format) { return info(format).channels == 1 ? 1 : 3; }
+/// A source of format `from` can be remapped to a view of format `to`: to its own, or from YUV and
+/// RGB of 8 bit to Rgb or Bgr.
+constexpr bool can_remap(PixelFormat from, PixelFormat to) {
+  const bool eight_bit_colour =
+      info(from).colour != ColourModel::Luminance && info(from).bytes_per_sample() == 1;
+  return from == to || (eight_bit_colour && (to == PixelFormat::Rgb || to == PixelFormat::Bgr));
+}
 
-/// Fills the tile rows `rows` of `out` with what the view sees in `source`, in the source's own
-/// format; YUYV is converted to RGB while it is at hand. Undefined pixels become 0.
+/// Fills the tile rows `rows` of `out` with what the view sees in a source. Every format is sampled
+/// as it lies in memory; what the view wants in another one is converted tile by tile. Undefined
+/// pixels become black.
 ///
-/// `source` has the size that the grid was built for; `out` has the view's size,
-/// remapped_channels() and the source's sample size: uint8_t, or uint16_t for the 16-bit formats.
-/// Both are the caller's to guarantee (checked by assertions). Reentrant; different rows may be
-/// filled at the same time.
-void remap(const CoordinateGrid& grid, const Picture& source, Interpolation interpolation,
-           const ImageView<std::uint8_t>& out, TileRows rows);
-void remap(const CoordinateGrid& grid, const Picture& source, Interpolation interpolation,
-           const ImageView<std::uint16_t>& out, TileRows rows);
+/// `source` is the picture, followed by as many of its halves as there are (see Pyramid): each tile
+/// samples the one that the grid asks for, or the last; so without halves a view that is smaller
+/// than its source aliases. The picture has the size that the grid was built for, `out` the view's;
+/// a subsampled `out` has even sides. can_remap() their formats. All of this is the caller's to
+/// guarantee (checked by assertions). Reentrant; different rows may be filled at the same time,
+/// with the same result.
+void remap(const CoordinateGrid& grid, std::span<const Picture> source, Interpolation interpolation,
+           const MutablePicture& out, TileRows rows, const Kernel& kernel = default_kernel());
 
 }  // namespace orbwatch::remap

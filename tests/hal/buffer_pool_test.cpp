@@ -16,7 +16,7 @@ TEST(BufferPool, LendsEachBufferOnceAndTakesItBack) {
   auto second = pool.acquire();
   ASSERT_TRUE(first && second);
   EXPECT_NE(first.get(), second.get());
-  EXPECT_EQ(first->picture.stride, 12);
+  EXPECT_EQ(first->picture.planes[0].stride, 12);
   EXPECT_EQ(first->capacity, 24U);
   EXPECT_EQ(pool.acquire(), nullptr);
   EXPECT_EQ(pool.lent(), 2U);

@@ -26,7 +26,7 @@ ViewSource source(std::size_t camera, PixelFormat format, double yaw, double wei
           ball.value(),
           weight,
           remap::ColourMap(colour_map_table("grey"), 0,
-                           info(format).bytes_per_sample == 2 ? 65535 : 255)};
+                           info(format).bytes_per_sample() == 2 ? 65535 : 255)};
 }
 
 ViewPlan panorama(std::vector<ViewSource> sources, Combine combine = Combine::Mix) {
@@ -43,9 +43,9 @@ ViewPlan panorama(std::vector<ViewSource> sources, Combine combine = Combine::Mi
 hal::Frame plain(PixelFormat format, std::uint16_t value) {
   auto buffer = hal::make_frame_pool(format, kSize, kSize, 1).acquire();
   const std::size_t samples =
-      buffer->capacity / static_cast<std::size_t>(info(format).bytes_per_sample);
+      buffer->capacity / static_cast<std::size_t>(info(format).bytes_per_sample());
   for (std::size_t i = 0; i < samples; ++i) {
-    if (info(format).bytes_per_sample == 2) {
+    if (info(format).bytes_per_sample() == 2) {
       reinterpret_cast<std::uint16_t*>(buffer->memory)[i] = value;
     } else {
       buffer->memory[i] = static_cast<std::byte>(value);

@@ -58,8 +58,9 @@ class Audience {
   void take(const hal::Frame& frame) {
     const std::lock_guard lock(mutex_);
     const Picture& picture = frame->picture;
-    shots.push_back(
-        {frame->metadata, {picture.data, picture.data + picture.stride * picture.height}});
+    shots.push_back({frame->metadata,
+                     {picture.planes[0].data,
+                      picture.planes[0].data + picture.planes[0].stride * picture.height}});
     if (hold_) held_.push_back(frame);
     changed_.notify_all();
   }

@@ -64,7 +64,7 @@ TEST(PictureDecoder, KeepsDepthAndChannels) {
     const auto decoded = round_trip(image);
     ASSERT_TRUE(decoded) << decoded.error().message;
     EXPECT_EQ(decoded->picture.format, format);
-    EXPECT_EQ(decoded->picture.stride, row_bytes(format, 13));
+    EXPECT_EQ(decoded->picture.planes[0].stride, row_bytes(format, 13));
     if (image.depth() == CV_16U) {
       expect_equal<std::uint16_t>(decoded->picture, image);
     } else {

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
 #include <map>
+#include <optional>
 #include <random>
 
+#include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
 #include "tests/proc/optics/random_camera.h"
 
@@ -225,10 +229,146 @@ TEST(CoordinateGrid, KeepsEachTileInTheLeastThatDescribesIt) {
   EXPECT_LT(stores[TileStore::Packed], crossed / 10);  // corners, where three surfaces meet
   count(centred_ball(BallModel::exact(348.5).value(), 3000, 1490),
         {ViewKind::Perspective, {180, 0, 0}, 90, {}, 1280, 720}, 3000);
-  for (const TileStore store :
-       {TileStore::Grid, TileStore::Fine8, TileStore::Fine4, TileStore::Packed, TileStore::Whole}) {
+  for (const TileStore store : {TileStore::Grid, TileStore::Curved, TileStore::Fine,
+                                TileStore::CurvedFine, TileStore::Packed, TileStore::Whole}) {
     EXPECT_GT(stores[store], 0) << static_cast<int>(store);
   }
+}
+
+/// Calls `look(tile, tx, ty)` for every tile.
+template <class Look>
+void for_each_tile(const CoordinateGrid& grid, const Look& look) {
+  for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+    for (int tx = 0; tx < grid.tiles_x(); ++tx) look(grid.tile(tx, ty), tx, ty);
+  }
+}
+
+/// The least distance in px that any pixel of a tile keeps beyond what `interior` asks; below 0 if
+/// it keeps less.
+double clearance(const CoordinateGrid& grid, const Tile& tile, int tx, int ty) {
+  const double scale = 1 << tile.level;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](double c, int size) {
+    least = std::min({least, c - 2 * scale, size - 18 * scale - c});
+  };
+  for (int y = 0; y < kTile; ++y) {
+    for (const Coordinate& c : grid.row(tx, ty, y)) {
+      look(c.u / kOne, grid.source_width());
+      look(c.v / kOne, grid.source_height());
+    }
+  }
+  return least;
+}
+
+TEST(CoordinateGrid, GivesATileAtOnceAsRowByRow) {
+  const auto ball = centred_ball(BallModel::exact(348.5).value(), 3000, 1490);
+  const auto view =
+      ViewProjection::make({ViewKind::Perspective, {170, 10, 20}, 90, {}, 640, 360}).value();
+  const CoordinateGrid grid(view, ball, 2000, 3000);
+  for_each_tile(grid, [&](const Tile&, int tx, int ty) {
+    const CoordinateTile pixels = grid.pixels(tx, ty);
+    for (int y = 0; y < kTile; ++y) {
+      const CoordinateRow row = grid.row(tx, ty, y);
+      for (int x = 0; x < kTile; ++x) {
+        ASSERT_EQ(pixels[y][x].u, row[x].u);
+        ASSERT_EQ(pixels[y][x].v, row[x].v);
+      }
+    }
+  });
+}
+
+TEST(CoordinateGrid, InteriorTilesKeepTheirDistanceToTheBorder) {
+  const auto ball = centred_ball(BallModel::exact(348.5).value(), 1000, 600);
+  std::map<bool, int> count;
+  for (const int width : {70, 150, 300, 1000}) {
+    const auto view =
+        ViewProjection::make({ViewKind::Perspective, {70, 10, 30}, 130, {}, width, width}).value();
+    const CoordinateGrid grid(view, ball, 1000, 1000);
+    for_each_tile(grid, [&](const Tile& tile, int tx, int ty) {
+      if (tile.kind != TileClass::Patch && !tile.interior) return;
+      const double distance = clearance(grid, tile, tx, ty);
+      ++count[tile.interior];
+      if (tile.interior) {
+        EXPECT_GE(distance, 0);
+      } else {
+        EXPECT_LE(distance, 1.5 * (1 << tile.level)) << "refused by more than a pixel's step";
+      }
+    });
+  }
+  EXPECT_GT(count[true], 500);
+  EXPECT_GT(count[false], 10);
+}
+
+/// Source pixels between neighbouring pixels in a tile's middle, the larger way; nothing where the
+/// exact map ends.
+std::optional<double> step_in_the_middle(const CoordinateGrid& grid, const ViewProjection& view,
+                                         const BallProjection& ball, int tx, int ty) {
+  const double x = (tx + 0.5) * kTile, y = (ty + 0.5) * kTile;
+  const auto difference = [&](double dx, double dy) -> std::optional<double> {
+    const auto at = [&](double sign) { return view.direction(x + sign * dx, y + sign * dy); };
+    const auto a = at(-0.5), b = at(0.5);
+    const auto from = a ? ball.pixel(*a) : std::nullopt, to = b ? ball.pixel(*b) : std::nullopt;
+    if (!from || !to) return std::nullopt;
+    return std::hypot(to->u - from->u, to->v - from->v);
+  };
+  const auto along = difference(1, 0), down = difference(0, 1);
+  if (!along || !down || grid.tile(tx, ty).kind == TileClass::Outside) return std::nullopt;
+  return std::max(*along, *down);
+}
+
+/// Tiles by level. Each must be at the level that the exact map's step in its middle asks for; that
+/// may be the neighbouring one where the step is within 3 % of the limit.
+std::map<int, int> expect_levels(const ViewSpec& spec, const BallProjection& ball) {
+  const auto view = ViewProjection::make(spec).value();
+  const CoordinateGrid grid(view, ball, 3000, 3000);
+  std::map<int, int> count;
+  const auto level = [](double step) {
+    return std::clamp(static_cast<int>(std::ceil(0.5 * std::log2(step * step / kLargestStep2))), 0,
+                      kMaxLevel);
+  };
+  for_each_tile(grid, [&](const Tile& tile, int tx, int ty) {
+    ++count[tile.level];
+    const auto step = step_in_the_middle(grid, view, ball, tx, ty);
+    const bool smooth = tile.kind == TileClass::Patch || tile.store == TileStore::Fine ||
+                        tile.store == TileStore::CurvedFine || tile.store == TileStore::Curved;
+    if (!step || !smooth) return;
+    EXPECT_GE(tile.level, level(*step * 0.97)) << tx << ' ' << ty << ": " << *step;
+    EXPECT_LE(tile.level, level(*step * 1.03)) << tx << ' ' << ty << ": " << *step;
+  });
+  EXPECT_EQ(grid.levels(), count.rbegin()->first);
+  return count;
+}
+
+TEST(CoordinateGrid, AsksForALevelWhereTheViewIsSmallerThanTheSource) {
+  const auto ball = centred_ball(BallModel::exact(348.5).value(), 3000, 1490);
+  // Straight ahead the picture has about 711 px per radian.
+  const std::array<std::pair<int, int>, 5> shrunk{{{711, 0}, {273, 1}, {137, 2}, {71, 3}, {36, 3}}};
+  for (const auto& [width, level] : shrunk) {
+    const double h_fov = 2 * optics::degrees(std::atan(0.5));
+    const auto count = expect_levels(
+        {ViewKind::Perspective, {0, 0, 0}, h_fov, {}, width, std::min(width, 300)}, ball);
+    EXPECT_EQ(count.size(), 1U) << width;
+    EXPECT_TRUE(count.contains(level)) << width;
+  }
+}
+
+TEST(CoordinateGrid, TheLevelFollowsTheLargerStep) {
+  const auto ball = centred_ball(BallModel::exact(348.5).value(), 3000, 1490);
+  // As wide as above, a fifth and a tenth as high.
+  const double h_fov = 2 * optics::degrees(std::atan(0.5)), v_fov = h_fov;
+  for (const auto& [height, level] : std::array<std::pair<int, int>, 2>{{{137, 2}, {68, 3}}}) {
+    for (const double roll : {0.0, 90.0, 30.0}) {
+      const auto count =
+          expect_levels({ViewKind::Perspective, {0, 0, roll}, h_fov, v_fov, 711, height}, ball);
+      EXPECT_TRUE(count.contains(level)) << height << ' ' << roll;
+      EXPECT_EQ(count.size(), 1U) << height << ' ' << roll;
+    }
+  }
+  // From 1 in the middle of the picture to its bent border.
+  for (const double yaw : {60.0, 120.0, 150.0}) {
+    expect_levels({ViewKind::Perspective, {yaw, 10, 20}, 100, {}, 320, 200}, ball);
+  }
+  expect_levels({ViewKind::Equirectangular, {}, {}, {}, 256, 512}, ball);
 }
 
 TEST(CoordinateGrid, FollowsACutAndTurnedBall) {

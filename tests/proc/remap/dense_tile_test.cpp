@@ -102,13 +102,55 @@ void expect_fine_tile_follows() {
   }
   for (int y = 0; y < kTile; ++y) {
     const CoordinateRow row = tile.row(y);
-    for (int x = 0; x < kTile; ++x) expect_near(row[x], bent(x, y));
+    for (int x = 0; x < kTile; ++x) {
+      expect_near(row[x], bent(x, y));
+      EXPECT_EQ(tile.pixels()[y][x].u, row[x].u);
+      EXPECT_EQ(tile.pixels()[y][x].v, row[x].v);
+    }
   }
 }
 
 TEST(FineTile, FollowsAMapThroughItsNodes) {
   expect_fine_tile_follows<8>();
   expect_fine_tile_follows<4>();
+}
+
+/// A map with terms of third order too, and as many of the fourth as a Coons patch has.
+Coordinate curved(double x, double y) {
+  const double u = x * x * x - 2 * x * x * y + 3 * x * y * y - y * y * y;
+  const double v = 0.05 * (x * x * x * y - 2 * x * y * y * y);
+  const Coordinate smooth = bent(x, y);
+  return {smooth.u + static_cast<std::int32_t>(std::lround(u)),
+          smooth.v + static_cast<std::int32_t>(std::lround(v))};
+}
+
+TEST(CurvedTile, HasTheNodesOfAMapOfThirdOrder) {
+  Stencil nodes;
+  for (int j = -1; j <= 2; ++j) {
+    for (int i = -1; i <= 2; ++i) nodes.at(i, j) = curved(i * kTile, j * kTile);
+  }
+  // What does not count may be anything.
+  for (const int i : {-1, 2}) nodes.at(i, -1) = nodes.at(i, 2) = {kBlind, 0};
+  const FineTile<8> tile = curved_tile(nodes);
+  for (int j = 0; j < tile.kNodes; ++j) {
+    for (int i = 0; i < tile.kNodes; ++i) {
+      expect_near(tile.nodes[j][i], curved((i - 1) * 8, (j - 1) * 8));
+    }
+  }
+}
+
+TEST(CurvedTile, HalvesFineNodesToo) {
+  FineTile<8> fine;
+  for (int j = 0; j < fine.kNodes; ++j) {
+    for (int i = 0; i < fine.kNodes; ++i) fine.nodes[j][i] = curved((i - 1) * 8, (j - 1) * 8);
+  }
+  for (const int i : {0, 4}) fine.nodes[0][i] = fine.nodes[4][i] = {kBlind, 0};
+  const FineTile<4> tile = curved_tile(fine);
+  for (int j = 0; j < tile.kNodes; ++j) {
+    for (int i = 0; i < tile.kNodes; ++i) {
+      expect_near(tile.nodes[j][i], curved((i - 1) * 4, (j - 1) * 4));
+    }
+  }
 }
 
 }  // namespace

@@ -22,26 +22,22 @@ using optics::ViewKind;
 using optics::ViewProjection;
 using optics::ViewSpec;
 
-/// A picture with memory of its own.
+/// A picture with memory of its own, `padding` samples longer in each row than its pixels.
 template <class T>
 struct Storage {
   Storage(PixelFormat format, int width, int height, int padding = 0) {
-    const int row = row_bytes(format, width) / static_cast<int>(sizeof(T)) + padding;
-    samples.resize(static_cast<std::size_t>(row) * height);
-    picture = {format,
-               {},
-               width,
-               height,
-               reinterpret_cast<const std::byte*>(samples.data()),
-               static_cast<std::ptrdiff_t>(row * sizeof(T))};
+    const int stride = row_bytes(format, width) + padding * static_cast<int>(sizeof(T));
+    samples.resize(picture_bytes(format, stride, height) / sizeof(T));
+    picture = MutablePicture::contiguous(format, width, height,
+                                         reinterpret_cast<std::byte*>(samples.data()), stride);
+    source = picture;
   }
   std::vector<T> samples;
-  Picture picture;
+  MutablePicture picture;
+  Picture source;
 
-  ImageView<T> view() {
-    return {samples.data(), picture.width, picture.height, info(picture.format).channels,
-            picture.stride / static_cast<std::ptrdiff_t>(sizeof(T))};
-  }
+  ImageView<T> view() { return picture.samples<T>(); }
+  std::span<const Picture> as_source() { return {&source, 1}; }
 };
 
 /// A room with soft and hard edges: slopes as photographs have them.
@@ -86,7 +82,7 @@ Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
   const auto ball = BallProjection::make(model, reference.outline, reference.registration).value();
   const auto view = ViewProjection::make(spec).value();
   const CoordinateGrid grid(view, ball, size, size);
-  remap(grid, source.picture, Interpolation::Bilinear, result.view(), {0, grid.tiles_y()});
+  remap(grid, source.as_source(), Interpolation::Bilinear, result.picture, {0, grid.tiles_y()});
 
   const Vec3 blind = reference.registration * Vec3{0, -1, 0};
   const ImageView<const T> in = source.view();
@@ -168,7 +164,7 @@ TEST(Remap, NearestTakesTheClosestPixel) {
   const SmallScene scene;
   Storage<std::uint16_t> source(PixelFormat::Y16, 64, 48), result(PixelFormat::Y16, 70, 45);
   for (int i = 0; i < 64 * 48; ++i) source.samples[i] = static_cast<std::uint16_t>(i + 1);
-  remap(scene.grid, source.picture, Interpolation::Nearest, result.view(),
+  remap(scene.grid, source.as_source(), Interpolation::Nearest, result.picture,
         {0, scene.grid.tiles_y()});
   int compared = 0;
   for (int y = 0; y < 45; ++y) {
@@ -194,7 +190,7 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
   std::mt19937 random(5);
   for (auto& sample : source.samples) sample = static_cast<std::uint8_t>(random());
   Storage<std::uint8_t> result(PixelFormat::Rgb, 70, 45);
-  remap(scene.grid, source.picture, Interpolation::Bilinear, result.view(),
+  remap(scene.grid, source.as_source(), Interpolation::Bilinear, result.picture,
         {0, scene.grid.tiles_y()});
   const auto in = source.picture.samples<std::uint8_t>();
   const YuvToRgb convert(ColourSpace{});
@@ -202,10 +198,12 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
   for (int y = 0; y < 45; ++y) {
     for (int x = 0; x < 70; ++x) {
       const auto p = scene.ball.pixel(*scene.view.direction(x, y));
+      const auto even = scene.ball.pixel(*scene.view.direction(x / 2 * 2, y));
       if (!p || p->u < 0 || p->v < 0 || p->u > 61 || p->v > 46) continue;
-      // Chroma as a plane of half width whose samples sit on even pixels.
-      const auto plane = [&](double u, int step, int offset) {
-        const double a = std::floor(u), b = std::floor(p->v), wu = u - a, wv = p->v - b;
+      if (!even || even->u < 0 || even->v < 0 || even->u > 61 || even->v > 46) continue;
+      // Chroma as a plane of half width whose samples sit on even pixels, in picture and view.
+      const auto plane = [&](double u, double v, int step, int offset) {
+        const double a = std::floor(u), b = std::floor(v), wu = u - a, wv = v - b;
         const auto at = [&](double i, double j) {
           return static_cast<double>(
               in.row(static_cast<int>(j))[static_cast<int>(i) * step + offset]);
@@ -214,9 +212,9 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
                (at(a, b + 1) * (1 - wu) + at(a + 1, b + 1) * wu) * wv;
       };
       std::uint8_t truth[3];
-      convert(static_cast<int>(std::lround(plane(p->u, 2, 0))),
-              static_cast<int>(std::lround(plane(p->u / 2, 4, 1))),
-              static_cast<int>(std::lround(plane(p->u / 2, 4, 3))), truth);
+      convert(static_cast<int>(std::lround(plane(p->u, p->v, 2, 0))),
+              static_cast<int>(std::lround(plane(even->u / 2, even->v, 4, 1))),
+              static_cast<int>(std::lround(plane(even->u / 2, even->v, 4, 3))), truth);
       ++compared;
       // White noise: a sixty-fourth of a pixel is worth up to 4 levels of Y and 2.0 x 2 of chroma.
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(result.view().at(x, y)[k], truth[k], 10);
@@ -230,12 +228,12 @@ TEST(Remap, RowsMayBeSharedByThreads) {
   Storage<std::uint8_t> source(PixelFormat::Rgb, 64, 48), whole(PixelFormat::Rgb, 70, 45, 5),
       shared(PixelFormat::Rgb, 70, 45, 5);
   paint_room(source.view());
-  remap(scene.grid, source.picture, Interpolation::Bilinear, whole.view(),
+  remap(scene.grid, source.as_source(), Interpolation::Bilinear, whole.picture,
         {0, scene.grid.tiles_y()});
   std::thread other([&] {
-    remap(scene.grid, source.picture, Interpolation::Bilinear, shared.view(), {0, 1});
+    remap(scene.grid, source.as_source(), Interpolation::Bilinear, shared.picture, {0, 1});
   });
-  remap(scene.grid, source.picture, Interpolation::Bilinear, shared.view(),
+  remap(scene.grid, source.as_source(), Interpolation::Bilinear, shared.picture,
         {1, scene.grid.tiles_y()});
   other.join();
   EXPECT_EQ(whole.samples, shared.samples);

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "proc/remap/patch.h"
+
+namespace orbwatch::remap {
+
+/// Kernels go through a tile in blocks of 4x4 pixels.
+inline constexpr int kBlock = 4;
+/// What a block's pixels are interpolated from lies in a window of so many source pixels each way.
+inline constexpr int kWindow = 8;
+
+/// A value for both axes.
+template <class T>
+struct AxisPair {
+  T u, v;
+};
+
+/// Where the blocks' windows lie, source pixels in Q32: exactly, by differences from block to
+/// block. Whole pixels are the window's origin. The fraction is the block's place in its window.
+struct WindowWalk {
+  AxisPair<std::int64_t> value;           ///< of block (0, 0)
+  AxisPair<std::int64_t> step_x, step_y;  ///< from there to block (1, 0), (0, 1)
+  AxisPair<std::int64_t> xx, xy, yy;      ///< growth of step_x along x, of step_x or step_y along
+                                          ///< the other axis, of step_y along y
+};
+
+/// One axis of all pixels of a block, from the block's place on, in 16 bit lanes modulo 2^16. Pixel
+/// (i, j), 0..3 each, of block (bx, by) lies at
+///   place + start + bx along_x + by along_y
+/// with, in Q13,
+///   along_x = (i twice_xx + j xy + 4) >> 3,   along_y = (i xy + j twice_yy + 4) >> 3,
+///   start = i slope_x + j slope_y + ((i along_x + j along_y + 4) >> 3) + offset.
+/// Lanes of v have two fraction bits less: their along_x, along_y and start are these, rounded; so
+/// a row's number is in the bits where a table of rows of kWindow is indexed by it. And they count
+/// from kRowCentre above the window, for v - 1/2 is what a lower row is weighed with (see
+/// interpolation.h). Rounding moves a pixel by less than 1/300 px from the quadratic.
+struct alignas(16) LaneShape {
+  std::int16_t slope_x, slope_y;        ///< of block (0, 0)'s corner; Q13
+  std::int16_t twice_xx, xy, twice_yy;  ///< curvature, Q18
+  std::uint16_t offset;                 ///< Q13; makes all lanes positive
+};
+
+inline constexpr int kRowFractionBits = kFractionBits - 2;
+inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
+
+/// A map for kernels, over as many blocks as a tile, or its half in a subsampled plane, has.
+struct BlockMap {
+  WindowWalk windows;
+  LaneShape u, v;
+  int blocks_x;  ///< even
+  int blocks_y;
+
+  /// Nothing when the map is too steep or bent: a block would not fit into its window. `add_u` and
+  /// `add_v`, Q13, are added to every coordinate: half of what a kernel's weights do not resolve.
+  static std::optional<BlockMap> make(const Patch& patch, int blocks_x, int blocks_y,
+                                      std::int32_t add_u, std::int32_t add_v);
+};
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "proc/remap/block_map.h"
+#include "proc/remap/kernel.h"
+
+// What the kernels share. They are compiled for different machines, so everything here must be
+// inlined or have internal linkage: else the linker might keep the copy that not every machine
+// runs.
+
+namespace orbwatch::remap {
+
+/// Steps one axis of a WindowWalk from block to block along a row of blocks.
+class AxisWalk {
+ public:
+  using Member = std::int64_t AxisPair<std::int64_t>::*;
+  [[gnu::always_inline]] AxisWalk(const WindowWalk& walk, Member axis, int row)
+      : value_(walk.value.*axis + row * (walk.step_y.*axis) + pairs(row) * (walk.yy.*axis)),
+        step_(walk.step_x.*axis + row * (walk.xy.*axis)),
+        growth_(walk.xx.*axis) {}
+
+  /// Where the window of the current block begins, source pixels.
+  [[gnu::always_inline]] std::ptrdiff_t window() const { return value_ >> 32; }
+  /// The block's place in its window, with so many bits.
+  template <int bits>
+  [[gnu::always_inline]] std::uint16_t place() const {
+    return static_cast<std::uint16_t>(static_cast<std::uint32_t>(value_) >> (32 - bits));
+  }
+  [[gnu::always_inline]] void next() {
+    value_ += step_;
+    step_ += growth_;
+  }
+
+ private:
+  [[gnu::always_inline]] static int pairs(int n) { return n * (n - 1) / 2; }
+
+  std::int64_t value_;
+  std::int64_t step_;
+  std::int64_t growth_;
+};
+
+/// Goes through a tile's blocks. An instruction set gives, all in one struct `Isa`:
+///   Shape           the lanes of both axes of the current block, without its place; made from a
+///                   BlockMap; next_block() goes one block on, next_row() to the next row's first
+///   sample<layout>  one block from its window into `out`
+template <class Isa, Layout layout>
+void walk_tile(const TileJob& job) {
+  const BlockMap& map = job.map;
+  typename Isa::Shape shape(map);
+  for (int row = 0; row < map.blocks_y; ++row) {
+    AxisWalk u(map.windows, &AxisPair<std::int64_t>::u, row);
+    AxisWalk v(map.windows, &AxisPair<std::int64_t>::v, row);
+    std::uint8_t* out = job.out + row * kBlock * job.out_stride;
+    for (int block = 0; block < map.blocks_x; ++block) {
+      const std::uint8_t* window =
+          job.source + v.window() * job.source_stride + u.window() * info(layout).pixel_bytes;
+      Isa::template sample<layout>(shape, u.place<kFractionBits>(), v.place<kRowFractionBits>(),
+                                   window, job.source_stride, out, job.out_stride);
+      u.next();
+      v.next();
+      shape.next_block();
+      out += kBlock * info(layout).out_bytes();
+    }
+    shape.next_row();
+  }
+}
+
+/// The kernel of an instruction set, by layout.
+template <class Isa>
+constexpr Kernel make_kernel(std::string_view name) {
+  return {
+      name,
+      {walk_tile<Isa, Layout::One8>, walk_tile<Isa, Layout::Two8>, walk_tile<Isa, Layout::Three8>,
+       walk_tile<Isa, Layout::Four8>, walk_tile<Isa, Layout::FirstOfTwo8>,
+       walk_tile<Isa, Layout::OddOfFour8>, walk_tile<Isa, Layout::One16>}};
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "proc/image/result.h"
+#include "proc/remap/block_map.h"
+
+namespace orbwatch::remap {
+
+/// Which samples of a plane a kernel takes, and what it writes: those samples side by side.
+enum class Layout : std::uint8_t {
+  One8,         ///< grey, Y, U or V
+  Two8,         ///< U V pairs
+  Three8,       ///< R G B
+  Four8,        ///< B G R A
+  FirstOfTwo8,  ///< Y of Y U Y V
+  OddOfFour8,   ///< U and V of Y U Y V, a pixel of which is four samples
+  One16,        ///< 16 bit
+  Three16,      ///< R G B of 16 bit: of stored pictures, not of cameras; kernels do without it
+};
+inline constexpr std::size_t kLayouts = 8;
+inline constexpr std::size_t kKernelLayouts = 7;
+
+/// The facts about a Layout.
+struct LayoutInfo {
+  int pixel_bytes;   ///< from pixel to pixel in the source
+  int first;         ///< the sample that is taken first
+  int every;         ///< from there, each sample so many further
+  int samples;       ///< taken per pixel
+  int sample_bytes;  ///< 1 or 2
+  constexpr int out_bytes() const { return samples * sample_bytes; }
+};
+inline constexpr std::array<LayoutInfo, kLayouts> kLayoutInfo{{
+    {1, 0, 1, 1, 1},
+    {2, 0, 1, 2, 1},
+    {3, 0, 1, 3, 1},
+    {4, 0, 1, 4, 1},
+    {2, 0, 1, 1, 1},
+    {4, 1, 2, 2, 1},
+    {2, 0, 1, 1, 2},
+    {6, 0, 1, 3, 2},
+}};
+constexpr const LayoutInfo& info(Layout layout) {
+  return kLayoutInfo[static_cast<std::size_t>(layout)];
+}
+
+/// A rectangle of 4x4 pixel blocks to be sampled from one plane.
+struct TileJob {
+  const BlockMap& map;
+  const std::uint8_t* source = nullptr;  ///< the plane's pixel (0, 0)
+  std::ptrdiff_t source_stride = 0;      ///< bytes
+  std::uint8_t* out = nullptr;
+  std::ptrdiff_t out_stride = 0;  ///< bytes
+};
+
+/// One implementation of the remap for one instruction set. Every kernel gives the same bytes as
+/// the scalar one, which is their specification.
+struct Kernel {
+  using Tile = void (*)(const TileJob&);
+
+  std::string_view name;  ///< scalar, neon, avx2, avx512
+  /// By Layout. Fills all blocks of the job. Every 8x8 source pixels from a block's origin are
+  /// read, so they must be in the picture. Reentrant.
+  std::array<Tile, kKernelLayouts> tiles;
+
+  void tile(Layout layout, const TileJob& job) const {
+    tiles[static_cast<std::size_t>(layout)](job);
+  }
+};
+
+/// The kernels that this machine can run, the fastest one last.
+std::span<const Kernel* const> kernels();
+
+/// The kernel of that name, or the reason why this machine cannot run it.
+Result<const Kernel*> find_kernel(std::string_view name);
+
+/// What the environment variable ORBWATCH_ISA names, else the fastest one; chosen at the first
+/// call. A program asks find_kernel() about that variable first: a bad name is ignored here.
+const Kernel& default_kernel();
+
+}  // namespace orbwatch::remap

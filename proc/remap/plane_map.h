@@ -1,0 +1,29 @@
+#pragma once
+
+#include "proc/remap/coordinate.h"
+#include "proc/remap/patch.h"
+#include "proc/remap/plane_sampling.h"
+
+namespace orbwatch::remap {
+
+/// A patch of a picture as one of the picture that was halved `level` times. Reentrant.
+Patch on_level(const Patch& patch, int level);
+
+/// The same for a tile's coordinates; markers stay.
+void on_level(CoordinateTile& tile, int level);
+
+/// A patch in half steps: pixels 2 X and 2 X + 1 lie a quarter of a pixel before and behind X.
+Patch at_half_steps(const Patch& patch);
+
+/// A patch as it goes on from its pixel (x, y).
+Patch moved(const Patch& patch, int x, int y);
+
+/// A patch of a picture as one of a sampling's plane: from the plane's pixels of the view to those
+/// of the source. Reentrant.
+Patch on_plane(const Patch& patch, const PlaneSampling& sampling);
+
+/// The same for a tile whose coordinates are known one by one. A plane's pixel that several of the
+/// view share lies in their middle; where they are not all on one surface, at the first's place.
+void on_plane(const CoordinateTile& picture, const PlaneSampling& sampling, CoordinateTile& plane);
+
+}  // namespace orbwatch::remap

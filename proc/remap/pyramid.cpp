@@ -1,0 +1,99 @@
+#include "proc/remap/pyramid.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "proc/remap/plane_sampling.h"
+
+namespace orbwatch::remap {
+namespace {
+
+template <class Sample>
+Sample read(const std::uint8_t* from) {
+  Sample sample = 0;
+  std::memcpy(&sample, from, sizeof sample);
+  return sample;
+}
+
+/// One row of a half from two rows of the picture below.
+template <Layout layout>
+void halve_row(const std::uint8_t* upper, const std::uint8_t* lower, std::uint8_t* out, int width) {
+  constexpr LayoutInfo kInfo = info(layout);
+  using Sample = std::conditional_t<kInfo.sample_bytes == 1, std::uint8_t, std::uint16_t>;
+  for (int x = 0; x < width; ++x) {
+    for (int k = 0; k < kInfo.samples; ++k) {
+      const int sample = (kInfo.first + k * kInfo.every) * kInfo.sample_bytes;
+      const int left = 2 * x * kInfo.pixel_bytes + sample, right = left + kInfo.pixel_bytes;
+      const unsigned sum = read<Sample>(upper + left) + read<Sample>(upper + right) +
+                           read<Sample>(lower + left) + read<Sample>(lower + right);
+      const auto mean = static_cast<Sample>((sum + 2) / 4);
+      std::memcpy(out + x * kInfo.pixel_bytes + sample, &mean, sizeof mean);
+    }
+  }
+}
+
+using HalveRow = void (*)(const std::uint8_t*, const std::uint8_t*, std::uint8_t*, int);
+constexpr std::array<HalveRow, kLayouts> kHalveRow{
+    halve_row<Layout::One8>,  halve_row<Layout::Two8>,        halve_row<Layout::Three8>,
+    halve_row<Layout::Four8>, halve_row<Layout::FirstOfTwo8>, halve_row<Layout::OddOfFour8>,
+    halve_row<Layout::One16>, halve_row<Layout::Three16>};
+
+/// Sides that chroma is shared along stay even.
+int half(int side, bool shared) { return shared ? side / 4 * 2 : side / 2; }
+
+}  // namespace
+
+Pyramid::Pyramid(PixelFormat format, int width, int height, int levels) {
+  bool shared_x = false, shared_y = false;
+  for (const PlaneSampling& sampling : samplings(format)) {
+    shared_x |= sampling.x != Siting::Full;
+    shared_y |= sampling.y != Siting::Full;
+  }
+  pictures_[0] = {format, {}, width, height, {}};
+  std::array<std::size_t, kMaxLevel + 1> start{};
+  std::size_t bytes = 0;
+  while (levels_ < std::min(levels, kMaxLevel)) {
+    const Picture& below = pictures_[levels_];
+    const int w = half(below.width, shared_x), h = half(below.height, shared_y);
+    if (w < 2 || h < 2) break;
+    ++levels_;
+    start[levels_] = bytes;
+    pictures_[levels_] = {format, {}, w, h, {}};
+    bytes += picture_bytes(format, static_cast<std::size_t>(row_bytes(format, w)), h);
+  }
+  memory_.resize(bytes);
+  for (int level = 1; level <= levels_; ++level) {
+    const Picture& picture = pictures_[level];
+    halves_[level] =
+        MutablePicture::contiguous(format, picture.width, picture.height,
+                                   memory_.data() + start[level], row_bytes(format, picture.width));
+    pictures_[level] = halves_[level];
+  }
+}
+
+void Pyramid::set_source(const Picture& source) { pictures_[0] = source; }
+
+void Pyramid::fill(int level, int first, int last) {
+  const Picture& below = pictures_[level - 1];
+  const MutablePicture& out = halves_[level];
+  for (const PlaneSampling& sampling : samplings(below.format)) {
+    const auto& from = below.planes[sampling.plane];
+    const auto& to = out.planes[sampling.plane];
+    const auto* in = reinterpret_cast<const std::uint8_t*>(from.data) + sampling.offset;
+    auto* const half = reinterpret_cast<std::uint8_t*>(to.data) + sampling.offset;
+    const int shift_y = shift(sampling.y);
+    const int end = std::min(2 * last, out.height) >> shift_y;
+    for (int y = 2 * first >> shift_y; y < end; ++y) {
+      const std::uint8_t* upper = in + 2 * y * from.stride;
+      kHalveRow[static_cast<std::size_t>(sampling.layout)](
+          upper, upper + from.stride, half + y * to.stride, out.width >> shift(sampling.x));
+    }
+  }
+}
+
+void Pyramid::fill() {
+  for (int level = 1; level <= levels_; ++level) fill(level, 0, row_pairs(level));
+}
+
+}  // namespace orbwatch::remap

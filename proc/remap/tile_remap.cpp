@@ -1,0 +1,159 @@
+#include "proc/remap/tile_remap.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "proc/remap/oversampling.h"
+#include "proc/remap/plane_map.h"
+
+namespace orbwatch::remap {
+namespace {
+
+using DenseSampling = void (*)(const CoordinateTile&, const SourcePlane&, std::uint8_t,
+                               const TargetPlane&);
+constexpr std::array<DenseSampling, kLayouts> kDenseSampling{
+    sample_dense<Layout::One8>,        sample_dense<Layout::Two8>,
+    sample_dense<Layout::Three8>,      sample_dense<Layout::Four8>,
+    sample_dense<Layout::FirstOfTwo8>, sample_dense<Layout::OddOfFour8>,
+    sample_dense<Layout::One16>,       sample_dense<Layout::Three16>};
+
+constexpr bool has_kernel(Layout layout) {
+  return static_cast<std::size_t>(layout) < kKernelLayouts;
+}
+
+TargetPlane plane_of_view(const MutablePicture& out, const PlaneSampling& sampling,
+                          const TileArea& area) {
+  const auto& plane = out.planes[sampling.plane];
+  const int x = area.x >> shift(sampling.x), y = area.y >> shift(sampling.y);
+  auto* const data = reinterpret_cast<std::uint8_t*>(plane.data) + y * plane.stride +
+                     std::ptrdiff_t{x} * info(sampling.layout).out_bytes();
+  return {data, plane.stride, kTile >> shift(sampling.x), kTile >> shift(sampling.y)};
+}
+
+TargetPlane plane_of(SampledTile& sampled, std::size_t n, const PlaneSampling& sampling) {
+  return {sampled.planes[n].data(), SampledTile::stride(sampling), kTile >> shift(sampling.x),
+          kTile >> shift(sampling.y)};
+}
+
+/// The planes lie in the view as they were sampled.
+bool is_written_in_place(PixelFormat format, const MutablePicture& out, const TileArea& area) {
+  return format == out.format && format != PixelFormat::Yuyv && format != PixelFormat::Uyvy &&
+         area.columns == kTile && area.rows == kTile;
+}
+
+void round_to_pixels(CoordinateTile& coordinates) {
+  constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
+  for (CoordinateRow& row : coordinates) {
+    for (Coordinate& c : row) {
+      if (is_defined(c)) c = {(c.u + kHalf) & ~(2 * kHalf - 1), (c.v + kHalf) & ~(2 * kHalf - 1)};
+    }
+  }
+}
+
+}  // namespace
+
+TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
+                     Interpolation interpolation, const Kernel& kernel)
+    : grid_(grid),
+      source_(source),
+      format_(source.front().format),
+      colour_space_(source.front().colour_space),
+      nearest_(interpolation == Interpolation::Nearest),
+      kernel_(kernel),
+      samplings_(samplings(format_)) {
+  assert(source.front().width == grid.source_width());
+  assert(source.front().height == grid.source_height());
+}
+
+void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+  const Tile tile = grid_.tile(tx, ty);
+  if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
+    return clear_area(out, area);
+  }
+  const Minification small = nearest_ ? Minification{} : minification(tile.level);
+  const bool smooth = tile.kind == TileClass::Patch && tile.interior && !nearest_;
+  if (smooth && write_patch(grid_.patch(tx, ty), small, out, area)) return;
+  write_dense(tx, ty, small.halves, out, area);
+}
+
+/// The last factor of two is left to samples, which keeps more detail than a half of the picture.
+TileRemap::Minification TileRemap::minification(int level) const {
+  if (level == 0) return {};
+  return {std::min(level - 1, static_cast<int>(source_.size()) - 1), true};
+}
+
+/// False if some sampling's blocks do not fit a kernel.
+bool TileRemap::write_patch(const Patch& patch, const Minification& small,
+                            const MutablePicture& out, const TileArea& area) const {
+  const bool in_place = is_written_in_place(format_, out, area);
+  const Patch on_source = small.halves == 0 ? patch : on_level(patch, small.halves);
+  SampledTile sampled;
+  for (std::size_t n = 0; n < samplings_.count; ++n) {
+    const PlaneSampling& sampling = samplings_.items[n];
+    if (!has_kernel(sampling.layout)) return false;
+    const bool subsampled = sampling.x != Siting::Full || sampling.y != Siting::Full;
+    const Patch on_samples = subsampled ? on_plane(on_source, sampling) : on_source;
+    const SourcePlane source = plane_of_source(sampling, small.halves);
+    const TargetPlane target =
+        in_place ? plane_of_view(out, sampling, area) : plane_of(sampled, n, sampling);
+    const bool fits = small.oversampled ? oversample(on_samples, sampling.layout, source, target)
+                                        : sample(on_samples, sampling.layout, source, target);
+    if (!fits) return false;
+  }
+  if (!in_place) write_tile(sampled, format_, colour_space_, out, area);
+  return true;
+}
+
+bool TileRemap::sample(const Patch& patch, Layout layout, const SourcePlane& source,
+                       const TargetPlane& target) const {
+  const auto map = BlockMap::make(patch, target.columns / kBlock, target.rows / kBlock,
+                                  added_u(layout), added_v(layout));
+  if (!map) return false;
+  kernel_.tile(layout, {*map, source.data, source.stride, target.data, target.stride});
+  return true;
+}
+
+/// Each pixel as the mean of four.
+bool TileRemap::oversample(const Patch& patch, Layout layout, const SourcePlane& source,
+                           const TargetPlane& target) const {
+  OversampledTile tile;
+  const Patch fine = at_half_steps(patch);
+  const std::ptrdiff_t stride = OversampledTile::stride(layout);
+  for (int y = 0; y < 2 * target.rows; y += kTile) {
+    for (int x = 0; x < 2 * target.columns; x += kTile) {
+      const TargetPlane part{tile.samples.data() + y * stride + x * info(layout).out_bytes(),
+                             stride, std::min(kTile, 2 * target.columns - x),
+                             std::min(kTile, 2 * target.rows - y)};
+      if (!sample(moved(fine, x, y), layout, source, part)) return false;
+    }
+  }
+  average(tile, layout, target);
+  return true;
+}
+
+void TileRemap::write_dense(int tx, int ty, int halves, const MutablePicture& out,
+                            const TileArea& area) const {
+  CoordinateTile coordinates, shared;
+  for (int y = 0; y < kTile; ++y) coordinates[y] = grid_.row(tx, ty, y);
+  if (nearest_) round_to_pixels(coordinates);
+  if (halves > 0) on_level(coordinates, halves);
+  SampledTile sampled;
+  for (std::size_t n = 0; n < samplings_.count; ++n) {
+    const PlaneSampling& sampling = samplings_.items[n];
+    on_plane(coordinates, sampling, shared);
+    kDenseSampling[static_cast<std::size_t>(sampling.layout)](
+        shared, plane_of_source(sampling, halves), black(sampling, format_, colour_space_),
+        plane_of(sampled, n, sampling));
+  }
+  write_tile(sampled, format_, colour_space_, out, area);
+  if (format_ != out.format) clear_undefined(coordinates, out, area);
+}
+
+SourcePlane TileRemap::plane_of_source(const PlaneSampling& sampling, int halves) const {
+  const Picture& picture = source_[halves];
+  const auto& plane = picture.planes[sampling.plane];
+  return {reinterpret_cast<const std::uint8_t*>(plane.data) + sampling.offset, plane.stride,
+          picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
+}
+
+}  // namespace orbwatch::remap
