@@ -37,7 +37,7 @@ struct ProjectOptions {
   optics::ViewSpec view = kDefaultView;
   bool match = true;
   bool transparent = false;
-  remap::Interpolation interpolation = remap::Interpolation::Bilinear;
+  remap::Interpolation interpolation = remap::Interpolation::Area;
 };
 
 std::vector<Option> declare(ProjectOptions& o) {
@@ -55,7 +55,7 @@ std::vector<Option> declare(ProjectOptions& o) {
   append({
       {"undefined", 0, "black|transparent", "what no camera shows (default black)",
        word_option("undefined", kUndefined, o.transparent)},
-      {"interpolation", 0, "bilinear|nearest", "between pixels (default bilinear)",
+      {"interpolation", 0, "area|bilinear|nearest", "between pixels (default area)",
        word_option("interpolation", kInterpolations, o.interpolation)},
       {"match", 0, "photometric|none",
        "bring the cameras to the first one's exposure and\nwhite balance (default photometric)",

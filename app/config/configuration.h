@@ -75,7 +75,7 @@ struct ViewSettings {
   int width = 0;
   int height = 0;
   Combine combine = Combine::Mix;
-  remap::Interpolation interpolation = remap::Interpolation::Bilinear;
+  remap::Interpolation interpolation = remap::Interpolation::Area;
   std::vector<SourceSettings> sources;
 };
 

@@ -28,7 +28,8 @@ inline constexpr std::array kViewKinds{Word{"perspective", optics::ViewKind::Per
                                        Word{"stereographic", optics::ViewKind::Stereographic},
                                        Word{"fisheye", optics::ViewKind::Fisheye},
                                        Word{"ball", optics::ViewKind::Ball}};
-inline constexpr std::array kInterpolations{Word{"bilinear", remap::Interpolation::Bilinear},
+inline constexpr std::array kInterpolations{Word{"area", remap::Interpolation::Area},
+                                            Word{"bilinear", remap::Interpolation::Bilinear},
                                             Word{"nearest", remap::Interpolation::Nearest}};
 inline constexpr std::array kCombines{Word{"mix", Combine::Mix},
                                       Word{"sharpest", Combine::Sharpest},
@@ -134,7 +135,8 @@ void visit(Visitor& v, ViewSettings& view) {
       "mix: cameras by weight; sharpest: by resolution; switch: the first listed that sees "
       "and delivers. A camera fills what others do not see, and fades out where it sees badly "
       "unless it is switched");
-  v.optional("interpolation", view.interpolation, kInterpolations, "Between source pixels");
+  v.optional("interpolation", view.interpolation, kInterpolations,
+             "Between source pixels; area takes means where the view is smaller than the picture");
   v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
 }
 

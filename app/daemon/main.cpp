@@ -14,6 +14,7 @@
 #include "app/log.h"
 #include "app/modbus/modbus_sink.h"
 #include "app/version.h"
+#include "proc/remap/kernel.h"
 
 namespace orbwatch::app {
 namespace {
@@ -97,7 +98,8 @@ Result<> run(const Configuration& configuration, const sigset_t& end_signals) {
   if (auto started = pipeline.start(sinks); !started) return started;
   log_line(LogLevel::Info, "runs with " + std::to_string(configuration.cameras.size()) +
                                " cameras and " + std::to_string(configuration.views.size()) +
-                               " views");
+                               " views, remap kernel " +
+                               std::string(remap::default_kernel().name));
   int signal = 0;
   sigwait(&end_signals, &signal);
   pipeline.stop();
@@ -112,9 +114,12 @@ int main(int argc, char** argv) {
   if (!arguments) return exit_code;
   const sigset_t end_signals = block_signals();
   const auto configuration = load_configuration(*arguments->config);
+  const auto kernel = remap::requested_kernel();
   Result<> result;
   if (!configuration) {
     result = tl::unexpected(configuration.error());
+  } else if (!kernel) {
+    result = tl::unexpected(kernel.error());
   } else if (!arguments->check) {
     result = run(*configuration, end_signals);
   }

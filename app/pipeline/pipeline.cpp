@@ -25,19 +25,22 @@ Pipeline::Pipeline(PipelinePlan plan)
     : plan_(std::move(plan)),
       sync_(plan_.cameras.size(), plan_.sync_window),
       workers_(plan_.workers),
+      pan_tilt_zoom_(plan_.views),
       view_meters_(plan_.views.size()) {
-  for (ViewPlan& view : plan_.views) {
-    renderers_.push_back(std::make_unique<ViewRenderer>(view));
+  for (const ViewPlan& view : plan_.views) {
+    auto renderer = std::make_unique<ViewRenderer>(view);
     std::vector<std::unique_ptr<View>> buffers;
     for (std::size_t i = 0; i < plan_.view_buffers; ++i) {
-      buffers.push_back(std::make_unique<View>(renderers_.back()->make_view()));
+      buffers.push_back(std::make_unique<View>(renderer->make_view()));
+      buffers.back()->name = view.name;  // the renderer's own copy goes when the view is pointed
     }
+    renderers_.push_back({std::move(renderer), 0});
     pools_.emplace_back(std::move(buffers));
   }
   for (std::size_t i = 0; i < renderers_.size(); ++i) order_.push_back(i);
   if (plan_.measurement) {
     detector_.emplace(plan_.views[plan_.measurement->view].projection);
-    unshared_ = renderers_[plan_.measurement->view]->make_view();
+    unshared_ = renderers_[plan_.measurement->view].renderer->make_view();
     std::swap(order_[0], order_[plan_.measurement->view]);
   }
   status_.camera_count = plan_.cameras.size();
@@ -67,6 +70,7 @@ void Pipeline::stop() {
   stopping_ = true;
   sync_.close();
   if (thread_.joinable()) thread_.join();
+  pan_tilt_zoom_.stop();
 }
 
 CommandResult Pipeline::command(const Command& command) {
@@ -114,6 +118,7 @@ void Pipeline::run() {
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
   const bool display_due = throttle_.is_due(set.id);
+  pan_tilt_zoom_.exchange(renderers_);
   for (const std::size_t i : order_) {
     if (!is_measured(i) && !display_due) {
       ++status_.views[i].skipped;
@@ -135,8 +140,10 @@ void Pipeline::make_view(std::size_t index, const hal::FrameSet& set) {
     if (!is_measured(index)) return;
   }
   View& view = shared ? *shared : *unshared_;
-  renderers_[index]->render(set, view, workers_);
-  if (is_measured(index)) measure(view, renderers_[index]->is_measured());
+  const auto& [renderer, pointing] = renderers_[index];
+  renderer->render(set, view, workers_);
+  view.pointing = pointing;
+  if (is_measured(index)) measure(view, renderer->is_measured());
   if (!shared) return;
   for (Sink* sink : sinks_) sink->accept(ViewPtr(shared));
   ++figures.published;
@@ -193,6 +200,9 @@ void Pipeline::publish_status() {
   ++status_.heartbeat;
   status_.state = state();
   status_.selected_view = selected_view_;
+  for (std::size_t i = 0; i < plan_.views.size(); ++i) {
+    status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
+  }
   for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
     const hal::FrameCounts counts = sync_.counts(i);
     CameraStatus& camera = status_.cameras[i];

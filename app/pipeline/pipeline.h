@@ -11,6 +11,7 @@
 
 #include "app/commands.h"
 #include "app/pipeline/display_throttle.h"
+#include "app/pipeline/pan_tilt_zoom.h"
 #include "app/pipeline/second_meter.h"
 #include "app/pipeline/sink.h"
 #include "app/pipeline/status.h"
@@ -45,7 +46,7 @@ struct PipelinePlan {
 };
 
 /// Frames in, views and status out, on one thread and its workers. Nothing here waits for a sink.
-/// Thread rule: start and stop on the main thread, command on any.
+/// Thread rule: start and stop on the main thread, command and point on any.
 class Pipeline {
  public:
   explicit Pipeline(PipelinePlan plan);
@@ -59,6 +60,11 @@ class Pipeline {
 
   /// Takes effect at the next frame set.
   CommandResult command(const Command& command);
+
+  /// Points a view that is only looked at elsewhere: see PanTiltZoom::point().
+  Result<std::uint64_t> point(std::size_t view, const Pointing& pointing) {
+    return pan_tilt_zoom_.point(view, pointing);
+  }
 
  private:
   /// Fed by the camera's thread, read once a second by the pipeline's.
@@ -85,7 +91,8 @@ class Pipeline {
   PipelinePlan plan_;
   hal::FrameSync sync_;
   WorkerPool workers_;
-  std::vector<std::unique_ptr<ViewRenderer>> renderers_;
+  PanTiltZoom pan_tilt_zoom_;
+  std::vector<PointedRenderer> renderers_;    ///< by view
   std::vector<std::size_t> order_;            ///< of rendering: what is measured comes first
   std::vector<hal::BufferPool<View>> pools_;  ///< by view
   std::optional<View> unshared_;              ///< to measure in when sinks hold every buffer

@@ -47,6 +47,7 @@ struct ViewStatus {
   double frames_per_second = 0;
   double latency_p50_ms = 0;  ///< exposure start to hand-over to the sinks
   double latency_p99_ms = 0;
+  std::uint64_t superseded = 0;  ///< requests to point it, replaced by a newer one before a frame
 };
 
 /// One consistent copy of everything the outside may know at one moment. Fixed size, no heap: it is

@@ -23,7 +23,8 @@ struct View {
   std::size_t index = 0;  ///< place in the configuration's list of views
   std::string_view name;  ///< lives as long as the pipeline
   std::uint64_t frame_set = 0;
-  hal::TimePoint stamp;  ///< exposure start of the frame set
+  hal::TimePoint stamp;        ///< exposure start of the frame set
+  std::uint64_t pointing = 0;  ///< number of the request that it shows; 0: as configured
 
   ImageView<std::uint8_t> colour;    ///< RGB, what people look at: blended, colour-mapped
   ImageView<std::uint8_t> validity;  ///< one Validity per pixel

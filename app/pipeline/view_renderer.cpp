@@ -18,7 +18,10 @@ bool is_sixteen_bit(PixelFormat format) { return info(format).bytes_per_sample()
 bool ViewRenderer::is_supported(PixelFormat format) { return format != PixelFormat::Rgb16; }
 
 ViewRenderer::ViewRenderer(ViewPlan plan)
-    : plan_(std::move(plan)), sources_(make_sources()), blend_(make_blend()) {
+    : kernel_(&remap::default_kernel()),
+      plan_(std::move(plan)),
+      sources_(make_sources()),
+      blend_(make_blend()) {
   compile_unseen();
 }
 
@@ -27,7 +30,8 @@ std::vector<ViewRenderer::Source> ViewRenderer::make_sources() const {
   for (const ViewSource& source : plan_.sources) {
     const auto& [format, colour_space, width, height, rate] = source.format;
     remap::CoordinateGrid grid(plan_.projection, source.ball, width, height);
-    remap::Pyramid pyramid(format, width, height, grid.halves());
+    const bool averaged = plan_.interpolation == remap::Interpolation::Area;
+    remap::Pyramid pyramid(format, width, height, averaged ? grid.halves() : 0);
     sources.push_back({std::move(grid), std::move(pyramid)});
   }
   return sources;
@@ -104,7 +108,7 @@ void ViewRenderer::render(const hal::FrameSet& set, View& view, WorkerPool& work
       plan_.interpolation, plane(unseen_)};
   auto work = [&](int row) {
     remap::merged_remap({sources.data(), sources_.size()}, plan, view.colour, view.validity,
-                        {row, row + 1});
+                        {row, row + 1}, *kernel_);
   };
   workers.run(sources_.front().grid.tiles_y(), work);
 }

@@ -41,7 +41,7 @@ struct ViewPlan {
   optics::ViewProjection projection;
   std::vector<ViewSource> sources;  ///< 1..remap::kMaxSources
   Combine combine = Combine::Mix;
-  remap::Interpolation interpolation = remap::Interpolation::Bilinear;
+  remap::Interpolation interpolation = remap::Interpolation::Area;
   /// Which of `sources` is measured, raw; nothing for a view that is only looked at.
   std::optional<std::size_t> measured;
 };
@@ -78,6 +78,7 @@ class ViewRenderer {
   remap::BlendGrid make_blend() const;
   void compile_unseen();
 
+  const remap::Kernel* kernel_;
   ViewPlan plan_;
   std::vector<Source> sources_;
   remap::BlendGrid blend_;

@@ -45,7 +45,12 @@ BlendGrid::BlendGrid(const optics::ViewProjection& view, std::span<const BlendSo
   assert(sources.size() <= kMaxSources);
   const int nodes_y = (view.height() + kTile - 1) / kTile + 1;
   shares_.resize(sources.size());
-  for (auto& shares : shares_) shares.reserve(static_cast<std::size_t>(nodes_x_) * nodes_y);
+  const std::size_t nodes = static_cast<std::size_t>(nodes_x_) * nodes_y;
+  if (sources.size() == 1) {
+    shares_.front().assign(nodes, UINT8_MAX);
+    return;
+  }
+  for (auto& shares : shares_) shares.reserve(nodes);
   for (int j = 0; j < nodes_y; ++j) {
     for (int i = 0; i < nodes_x_; ++i) {
       // The last corners lie beyond the view, where a projection may have ended.
@@ -88,10 +93,12 @@ void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid, int tx, int t
       const int mean = (left * (kTile - x) + right * x + kArea / 2) / kArea;
       row[x] = static_cast<std::uint8_t>(std::max(1, mean));
     }
-    if (tile.kind != TileClass::Dense) continue;
-    const CoordinateRow coordinates = grid.dense_row(tile, y);
+  }
+  if (is_defined_throughout(tile)) return;
+  const CoordinateTile coordinates = grid.pixels(tx, ty);
+  for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
-      if (!is_defined(coordinates[x])) row[x] = 0;
+      if (!is_defined(coordinates[y][x])) out[y * kTile + x] = 0;
     }
   }
 }

@@ -50,7 +50,7 @@ inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
 struct BlockMap {
   WindowWalk windows;
   LaneShape u, v;
-  int blocks_x;  ///< even
+  int blocks_x;  ///< 2 or 4
   int blocks_y;
 
   /// Nothing when the map is too steep or bent: a block would not fit into its window. `add_u` and

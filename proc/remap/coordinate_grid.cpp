@@ -82,17 +82,31 @@ CoordinateTile CoordinateGrid::pixels(int tx, int ty) const {
 }
 
 void CoordinateGrid::write_validity(const ImageView<std::uint8_t>& out) const {
-  const auto validity = [](const Coordinate& c) {
-    if (is_defined(c)) return Validity::Seen;
-    return c.u == kBlind ? Validity::Blind : Validity::Outside;
+  for (int ty = 0; ty < tiles_y_; ++ty) {
+    for (int tx = 0; tx < tiles_x_; ++tx) write_validity(tx, ty, out);
+  }
+}
+
+void CoordinateGrid::write_validity(int tx, int ty, const ImageView<std::uint8_t>& out) const {
+  const int columns = std::min(kTile, width_ - tx * kTile);
+  const int rows = std::min(kTile, height_ - ty * kTile);
+  const auto fill = [&](Validity validity) {
+    for (int y = 0; y < rows; ++y) {
+      std::fill_n(out.at(tx * kTile, ty * kTile + y), columns, static_cast<std::uint8_t>(validity));
+    }
   };
-  for (int y = 0; y < height_; ++y) {
-    for (int tx = 0; tx < tiles_x_; ++tx) {
-      const CoordinateRow coordinates = row(tx, y / kTile, y % kTile);
-      const int columns = std::min(kTile, width_ - tx * kTile);
-      for (int x = 0; x < columns; ++x) {
-        *out.at(tx * kTile + x, y) = static_cast<std::uint8_t>(validity(coordinates[x]));
-      }
+  const Tile t = tile(tx, ty);
+  if (t.kind == TileClass::Blind) return fill(Validity::Blind);
+  if (t.kind == TileClass::Outside) return fill(Validity::Outside);
+  fill(Validity::Seen);
+  if (is_defined_throughout(t)) return;
+  const CoordinateTile coordinates = pixels(tx, ty);
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const Coordinate& c = coordinates[y][x];
+      if (is_defined(c)) continue;
+      const Validity validity = c.u == kBlind ? Validity::Blind : Validity::Outside;
+      *out.at(tx * kTile + x, ty * kTile + y) = static_cast<std::uint8_t>(validity);
     }
   }
 }

@@ -63,6 +63,7 @@ class CoordinateGrid {
     return nodes_[static_cast<std::size_t>(j + 1) * (tiles_x_ + 3) + (i + 1)];
   }
   Stencil stencil(int tx, int ty) const;
+  void write_validity(int tx, int ty, const ImageView<std::uint8_t>& out) const;
   FineTile<8> curved(const Tile& tile) const;
 
   int width_;

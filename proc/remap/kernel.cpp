@@ -87,12 +87,15 @@ Result<const Kernel*> find_kernel(std::string_view name) {
   return found->kernel;
 }
 
+Result<const Kernel*> requested_kernel() {
+  const char* const name = std::getenv("ORBWATCH_ISA");
+  if (!name) return kernels().back();
+  const auto found = find_kernel(name);
+  return found ? found : fail("ORBWATCH_ISA: " + found.error().message);
+}
+
 const Kernel& default_kernel() {
-  static const Kernel& kChosen = []() -> const Kernel& {
-    const char* const name = std::getenv("ORBWATCH_ISA");
-    const auto asked = find_kernel(name ? name : "");
-    return asked ? **asked : *kernels().back();
-  }();
+  static const Kernel& kChosen = *requested_kernel().value_or(kernels().back());
   return kChosen;
 }
 

@@ -78,8 +78,11 @@ std::span<const Kernel* const> kernels();
 /// The kernel of that name, or the reason why this machine cannot run it.
 Result<const Kernel*> find_kernel(std::string_view name);
 
-/// What the environment variable ORBWATCH_ISA names, else the fastest one; chosen at the first
-/// call. A program asks find_kernel() about that variable first: a bad name is ignored here.
+/// The kernel that the environment variable ORBWATCH_ISA names, or why there is none; the fastest
+/// one if it is not set. A program asks once, when it starts.
+Result<const Kernel*> requested_kernel();
+
+/// The same, chosen at the first call; the fastest one where the request cannot be met.
 const Kernel& default_kernel();
 
 }  // namespace orbwatch::remap

@@ -48,7 +48,7 @@ class SourceTiles {
     const TileClass kind = source_.grid->tile(tx, ty).kind;
     return kind == TileClass::Patch || kind == TileClass::Dense;
   }
-  bool fills(int tx, int ty) const { return source_.grid->tile(tx, ty).kind == TileClass::Patch; }
+  bool fills(int tx, int ty) const { return is_defined_throughout(source_.grid->tile(tx, ty)); }
 
   /// Writes a tile into `area` of `rgb`, and what is measured of it.
   void write(int tx, int ty, const ImageView<std::uint8_t>& rgb, const TileArea& area) const {

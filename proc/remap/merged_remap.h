@@ -34,7 +34,7 @@ struct MergedSource {
 struct MergePlan {
   const BlendGrid* blend = nullptr;  ///< of the sources, in their order
   MergeRule rule = MergeRule::Mean;
-  Interpolation interpolation = Interpolation::Bilinear;
+  Interpolation interpolation = Interpolation::Area;
   /// One Validity per pixel for when no source delivers.
   ImageView<const std::uint8_t> unseen;
 };

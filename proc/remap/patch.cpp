@@ -6,23 +6,29 @@
 namespace orbwatch::remap {
 namespace {
 
+constexpr int kTileBits = 4;
+static_assert(kTile == 1 << kTileBits);
+
 /// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
 ///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048, with the second differences xx
 ///           and
 /// yy added up over the four corners.
-Quadratic quadratic(const Stencil& stencil, std::int32_t Coordinate::*member) {
-  const auto n = [&](int i, int j) { return std::int64_t{stencil.at(i, j).*member}; };
-  const std::int64_t corner = n(0, 0), along_x = n(1, 0) - corner, along_y = n(0, 1) - corner;
-  const std::int64_t along_xy = n(1, 1) - n(0, 1) - along_x;
-  const std::int64_t middle = corner + n(1, 0) + n(0, 1) + n(1, 1);
-  const std::int64_t xx = n(-1, 0) + n(2, 0) + n(-1, 1) + n(2, 1) - middle;
-  const std::int64_t yy = n(0, -1) + n(0, 2) + n(1, -1) + n(1, 2) - middle;
-  constexpr std::int64_t kUnit = std::int64_t{1} << PatchRow::kScaleBits;
-  constexpr std::int64_t kStep = kUnit / kTile, kCorner = kStep / kTile;
-  return {kUnit * corner,
-          kStep * along_x - kTile * xx,
-          kStep * along_y - kTile * yy,
-          kCorner * along_xy,
+BasicQuadratic<Both> quadratics(const Stencil& stencil) {
+  const auto n = [&](int i, int j) {
+    const Coordinate& node = stencil.at(i, j);
+    return Both{node.u, node.v};
+  };
+  const Both corner = n(0, 0), along_x = n(1, 0) - corner, along_y = n(0, 1) - corner;
+  const Both along_xy = n(1, 1) - n(0, 1) - along_x;
+  const Both middle = corner + n(1, 0) + n(0, 1) + n(1, 1);
+  const Both xx = n(-1, 0) + n(2, 0) + n(-1, 1) + n(2, 1) - middle;
+  const Both yy = n(0, -1) + n(0, 2) + n(1, -1) + n(1, 2) - middle;
+  constexpr int kUnitBits = PatchRow::kScaleBits, kStepBits = kUnitBits - kTileBits;
+  constexpr int kCornerBits = kStepBits - kTileBits;
+  return {corner << kUnitBits,
+          (along_x << kStepBits) - (xx << kTileBits),
+          (along_y << kStepBits) - (yy << kTileBits),
+          along_xy << kCornerBits,
           xx,
           yy};
 }
@@ -72,11 +78,10 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
 
 }  // namespace
 
-Patch::Patch(const Stencil& stencil)
-    : u_(quadratic(stencil, &Coordinate::u)), v_(quadratic(stencil, &Coordinate::v)) {}
+Patch::Patch(const Stencil& stencil) : axes_(quadratics(stencil)) {}
 
 PatchRow Patch::row(int y) const {
-  const Differences u = along_row(u_, y), v = along_row(v_, y);
+  const Differences u = along_row(axis(0), y), v = along_row(axis(1), y);
   return {u.value, u.step, u.curve, v.value, v.step, v.curve};
 }
 
@@ -89,7 +94,7 @@ Coordinate Patch::at(int x, int y) const {
 }
 
 Patch::Range Patch::range() const {
-  const Extremes u = extremes(u_), v = extremes(v_);
+  const Extremes u = extremes(axis(0)), v = extremes(axis(1));
   return {{u.low, v.low}, {u.high, v.high}};
 }
 

@@ -55,9 +55,14 @@ bool all_nodes(const Good& good) {
 
 /// value + x X + y Y + xy X Y + xx X^2 + yy Y^2: one axis of a patch in Q(13 + 11), exactly. X, Y
 /// count pixels of the tile.
-struct Quadratic {
-  std::int64_t value, x, y, xy, xx, yy;
+template <class T>
+struct BasicQuadratic {
+  T value, x, y, xy, xx, yy;
 };
+using Quadratic = BasicQuadratic<std::int64_t>;
+
+/// A number for u and one for v. One instruction works on both: a frame has thousands of patches.
+using Both [[gnu::vector_size(16)]] = std::int64_t;
 
 /// The smooth map between four nodes: bilinear, plus the mean of the second differences along each
 /// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
@@ -65,10 +70,13 @@ class Patch {
  public:
   /// The twelve nodes that count are defined; the four outermost corners do not.
   explicit Patch(const Stencil& stencil);
-  Patch(const Quadratic& u, const Quadratic& v) : u_(u), v_(v) {}
+  Patch(const Quadratic& u, const Quadratic& v)
+      : axes_{{u.value, v.value}, {u.x, v.x},   {u.y, v.y},
+              {u.xy, v.xy},       {u.xx, v.xx}, {u.yy, v.yy}} {}
 
-  const Quadratic& u() const { return u_; }
-  const Quadratic& v() const { return v_; }
+  Quadratic u() const { return axis(0); }
+  Quadratic v() const { return axis(1); }
+  const BasicQuadratic<Both>& axes() const { return axes_; }
 
   /// Row `y`, 0..15, at x = 0.
   PatchRow row(int y) const;
@@ -84,8 +92,11 @@ class Patch {
   Range range() const;
 
  private:
-  Quadratic u_;
-  Quadratic v_;
+  Quadratic axis(int n) const {
+    return {axes_.value[n], axes_.x[n], axes_.y[n], axes_.xy[n], axes_.xx[n], axes_.yy[n]};
+  }
+
+  BasicQuadratic<Both> axes_;
 };
 
 /// How far a patch may be from the map that its nodes were taken from, in Q13 pixels, as far as its

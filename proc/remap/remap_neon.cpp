@@ -34,6 +34,7 @@ template <class T>
 requires(sizeof(T) == sizeof(uint8x16_t)) [[gnu::always_inline]] inline void settle(T& value) {
   asm("" : "+w"(value));
 }
+
 // ---- Lanes: where the pixels lie ----
 
 /// A value for each pixel of a block: of its rows 0 and 1, and of 2 and 3.
@@ -112,7 +113,7 @@ class Windows {
       : value_(load(walk.value)),
         step_(load(walk.step_x)),
         growth_(load(walk.xx)),
-        // From the row's last block, where the step is that of block - 1 times the growth more.
+        // (blocks - 1) steps back from the row's last block; each has grown by one growth more.
         next_row_(vsubq_s64(load(walk.step_y), back(vaddq_s64(step_, half_back(growth_))))),
         next_row_step_(vsubq_s64(load(walk.xy), back(growth_))),
         next_row_growth_(vsubq_s64(load(walk.yy), back(load(walk.xy)))) {}
@@ -307,6 +308,8 @@ template <Layout layout, int blocks>
 void fill_rows(const TileJob& job) {
   constexpr bool kInterleaves = (kRegisters<layout>) > 1;
   constexpr LayoutInfo kInfo = info(layout);
+  // Windows are read in assembly that does not say so: whoever wrote the source did so before.
+  asm volatile("" : : : "memory");
   auto u = AxisLanes<blocks>::template make<0>(job.map.u);
   auto v = AxisLanes<blocks>::template make<kFractionBits - kRowFractionBits>(job.map.v);
   Windows<blocks> windows(job.map.windows);

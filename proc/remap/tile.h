@@ -45,6 +45,12 @@ struct Tile {
   std::uint32_t index = 0;  ///< in its store; of a tile on the grid its number, row by row
 };
 
+/// Every pixel of the tile has a coordinate: only tiles kept pixel by pixel may have markers.
+constexpr bool is_defined_throughout(const Tile& tile) {
+  const bool by_pixel = tile.store == TileStore::Packed || tile.store == TileStore::Whole;
+  return tile.kind == TileClass::Patch || (tile.kind == TileClass::Dense && !by_pixel);
+}
+
 // Kernels read a source patch of 8x8 samples for each block of 4x4 pixels, from its least
 // coordinate on, without asking where the picture ends. In the chroma of 4:2:0 that is 16 pixels of
 // the picture; rounding and the right neighbour take the rest. All of it doubles from level to

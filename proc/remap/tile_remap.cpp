@@ -21,6 +21,33 @@ constexpr bool has_kernel(Layout layout) {
   return static_cast<std::size_t>(layout) < kKernelLayouts;
 }
 
+void sample_dense(const CoordinateTile& coordinates, Layout layout, const SourcePlane& source,
+                  std::uint8_t black, const TargetPlane& out) {
+  kDenseSampling[static_cast<std::size_t>(layout)](coordinates, source, black, out);
+}
+
+/// Where a quarter of an oversampled tile lies, from its pixel (left, top) on.
+TargetPlane quarter_of(OversampledTile& tile, Layout layout, const TargetPlane& whole, int left,
+                       int top) {
+  const std::ptrdiff_t stride = OversampledTile::stride(layout);
+  return {tile.samples.data() + top * stride + left * info(layout).out_bytes(), stride,
+          std::min(kTile, 2 * whole.columns - left), std::min(kTile, 2 * whole.rows - top)};
+}
+
+/// Each pixel as the mean of four.
+void oversample_dense(const CoordinateTile& coordinates, Layout layout, const SourcePlane& source,
+                      std::uint8_t black, const TargetPlane& target) {
+  OversampledTile tile;
+  CoordinateTile quarter;
+  for (int top = 0; top < 2 * target.rows; top += kTile) {
+    for (int left = 0; left < 2 * target.columns; left += kTile) {
+      at_half_steps(coordinates, target.columns, target.rows, left, top, quarter);
+      sample_dense(quarter, layout, source, black, quarter_of(tile, layout, target, left, top));
+    }
+  }
+  average(tile, layout, target);
+}
+
 TargetPlane plane_of_view(const MutablePicture& out, const PlaneSampling& sampling,
                           const TileArea& area) {
   const auto& plane = out.planes[sampling.plane];
@@ -58,7 +85,7 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
       source_(source),
       format_(source.front().format),
       colour_space_(source.front().colour_space),
-      nearest_(interpolation == Interpolation::Nearest),
+      interpolation_(interpolation),
       kernel_(kernel),
       samplings_(samplings(format_)) {
   assert(source.front().width == grid.source_width());
@@ -70,15 +97,20 @@ void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea&
   if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
     return clear_area(out, area);
   }
-  const Minification small = nearest_ ? Minification{} : minification(tile.level);
-  const bool smooth = tile.kind == TileClass::Patch && tile.interior && !nearest_;
-  if (smooth && write_patch(grid_.patch(tx, ty), small, out, area)) return;
-  write_dense(tx, ty, small.halves, out, area);
+  Minification small = minification(tile.level);
+  if (tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest) {
+    const Patch patch = grid_.patch(tx, ty);
+    if (write_patch(patch, small, out, area)) return;
+    // Half the step fits a kernel that the whole one is too steep for.
+    small.oversampled = interpolation_ == Interpolation::Area;
+    if (small.oversampled && write_patch(patch, small, out, area)) return;
+  }
+  write_dense(tx, ty, small, out, area);
 }
 
 /// The last factor of two is left to samples, which keeps more detail than a half of the picture.
 TileRemap::Minification TileRemap::minification(int level) const {
-  if (level == 0) return {};
+  if (level == 0 || interpolation_ != Interpolation::Area) return {};
   return {std::min(level - 1, static_cast<int>(source_.size()) - 1), true};
 }
 
@@ -118,32 +150,30 @@ bool TileRemap::oversample(const Patch& patch, Layout layout, const SourcePlane&
                            const TargetPlane& target) const {
   OversampledTile tile;
   const Patch fine = at_half_steps(patch);
-  const std::ptrdiff_t stride = OversampledTile::stride(layout);
-  for (int y = 0; y < 2 * target.rows; y += kTile) {
-    for (int x = 0; x < 2 * target.columns; x += kTile) {
-      const TargetPlane part{tile.samples.data() + y * stride + x * info(layout).out_bytes(),
-                             stride, std::min(kTile, 2 * target.columns - x),
-                             std::min(kTile, 2 * target.rows - y)};
-      if (!sample(moved(fine, x, y), layout, source, part)) return false;
+  for (int top = 0; top < 2 * target.rows; top += kTile) {
+    for (int left = 0; left < 2 * target.columns; left += kTile) {
+      const TargetPlane quarter = quarter_of(tile, layout, target, left, top);
+      if (!sample(moved(fine, left, top), layout, source, quarter)) return false;
     }
   }
   average(tile, layout, target);
   return true;
 }
 
-void TileRemap::write_dense(int tx, int ty, int halves, const MutablePicture& out,
+void TileRemap::write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                             const TileArea& area) const {
-  CoordinateTile coordinates, shared;
-  for (int y = 0; y < kTile; ++y) coordinates[y] = grid_.row(tx, ty, y);
-  if (nearest_) round_to_pixels(coordinates);
-  if (halves > 0) on_level(coordinates, halves);
+  CoordinateTile coordinates = grid_.pixels(tx, ty), shared;
+  if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
+  if (small.halves > 0) on_level(coordinates, small.halves);
   SampledTile sampled;
   for (std::size_t n = 0; n < samplings_.count; ++n) {
     const PlaneSampling& sampling = samplings_.items[n];
     on_plane(coordinates, sampling, shared);
-    kDenseSampling[static_cast<std::size_t>(sampling.layout)](
-        shared, plane_of_source(sampling, halves), black(sampling, format_, colour_space_),
-        plane_of(sampled, n, sampling));
+    const SourcePlane source = plane_of_source(sampling, small.halves);
+    const std::uint8_t background = black(sampling, format_, colour_space_);
+    const TargetPlane target = plane_of(sampled, n, sampling);
+    small.oversampled ? oversample_dense(shared, sampling.layout, source, background, target)
+                      : sample_dense(shared, sampling.layout, source, background, target);
   }
   write_tile(sampled, format_, colour_space_, out, area);
   if (format_ != out.format) clear_undefined(coordinates, out, area);

@@ -10,7 +10,12 @@
 
 namespace orbwatch::remap {
 
-enum class Interpolation { Bilinear, Nearest };
+/// How a pixel of a view is made from those of the source.
+enum class Interpolation {
+  Area,      ///< bilinear; the mean of several places where the view is smaller than the source
+  Bilinear,  ///< from the four around one place
+  Nearest,   ///< the closest one
+};
 
 /// Fills tiles of a view from one source. Holds references only; reentrant.
 class TileRemap {
@@ -26,7 +31,7 @@ class TileRemap {
   /// What is done in a tile where the view is smaller than the source.
   struct Minification {
     int halves = 0;            ///< how often the source is halved
-    bool oversampled = false;  ///< pixels of smooth tiles are means of four samples
+    bool oversampled = false;  ///< pixels are means of four samples
   };
   Minification minification(int level) const;
 
@@ -36,7 +41,7 @@ class TileRemap {
               const TargetPlane& target) const;
   bool oversample(const Patch& patch, Layout layout, const SourcePlane& source,
                   const TargetPlane& target) const;
-  void write_dense(int tx, int ty, int halves, const MutablePicture& out,
+  void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
   SourcePlane plane_of_source(const PlaneSampling& sampling, int halves) const;
 
@@ -44,7 +49,7 @@ class TileRemap {
   std::span<const Picture> source_;
   PixelFormat format_;
   ColourSpace colour_space_;
-  bool nearest_;
+  Interpolation interpolation_;
   const Kernel& kernel_;
   SamplingList samplings_;
 };

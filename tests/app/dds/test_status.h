@@ -25,7 +25,7 @@ inline Status make_status() {
   }
   for (auto& view : status.views) {
     const auto base = static_cast<double>(next);
-    view = {next, next + 1, base + 0.25, base + 0.5, base + 0.75};
+    view = {next, next + 1, base + 0.25, base + 0.5, base + 0.75, 0};
     next += 10;
   }
   double value = -7.125;

@@ -1,29 +1,44 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
 #include <cstdlib>
+#include <mutex>
 #include <new>
+#include <thread>
 
 #include "app/pictures/colour_maps.h"
+#include "app/pipeline/pipeline.h"
 #include "app/pipeline/view_renderer.h"
 #include "hal/frame_pool.h"
 #include "hal/frame_sync.h"
 #include "hal/mailbox.h"
 #include "proc/signals/hot_spot.h"
+#include "tests/app/pipeline/hand_camera.h"
 
 namespace {
 
 thread_local std::size_t allocations = 0;
+thread_local std::size_t releases = 0;
+std::atomic<std::ptrdiff_t> blocks = 0;  // of all threads, not released yet
 
 }  // namespace
 
-// Every allocation of this program is counted on the thread that makes it.
+// Every allocation of this program, and its release, is counted on the thread that makes it.
 void* operator new(std::size_t size) {
   ++allocations;
+  ++blocks;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  if (memory == nullptr) return;
+  ++releases;
+  --blocks;
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
 namespace orbwatch::app {
 namespace {
@@ -74,6 +89,100 @@ TEST(FramePath, DoesNotAllocate) {
     mailbox.put(view);
   }
   EXPECT_EQ(allocations, before);
+}
+
+/// Reads the counters of the pipeline's thread.
+class CountingSink : public Sink {
+ public:
+  struct Reading {
+    std::uint64_t frame_set = 0;
+    std::uint64_t pointing = 0;
+    std::size_t allocations = 0;
+    std::size_t releases = 0;
+  };
+
+  Result<> start() override { return {}; }
+  void stop() override {}
+  void accept(const ViewPtr& view) override {
+    const std::lock_guard lock(mutex_);
+    reading_.pointing = view->pointing;
+  }
+  void accept(const Status& status) override {
+    const std::lock_guard lock(mutex_);
+    reading_.frame_set = status.frame_set;
+    reading_.allocations = allocations;
+    reading_.releases = releases;
+    changed_.notify_all();
+  }
+  Reading wait_for_set(std::uint64_t number) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30),
+                                  [&] { return reading_.frame_set >= number; }));
+    return reading_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Reading reading_;
+};
+
+TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
+  PipelinePlan looked_at;
+  auto hand = std::make_unique<HandCamera>("camera", PixelFormat::Grey);
+  HandCamera& camera = *hand;
+  looked_at.formats.push_back(camera.configure({}).value());
+  looked_at.cameras.push_back(std::move(hand));
+  looked_at.deadline = std::chrono::seconds(20);
+  looked_at.views.push_back(plan());
+  looked_at.views[0].measured.reset();
+  looked_at.views[0].sources.resize(1, looked_at.views[0].sources[0]);
+  looked_at.views[0].sources[0].format = looked_at.formats[0];
+  CountingSink sink;
+  Pipeline pipeline(std::move(looked_at));
+  ASSERT_TRUE(pipeline.start({&sink}));
+
+  std::uint64_t frames = 0;
+  const auto next_frame = [&] {
+    camera.expose(200);
+    return sink.wait_for_set(++frames);
+  };
+  const CountingSink::Reading before = next_frame();
+  CountingSink::Reading after;
+  for (int i = 0; i < 30; ++i) {
+    const auto number = pipeline.point(0, {{3.0 * i, 0, 0}, 90, {}});
+    ASSERT_TRUE(number);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    do {
+      after = next_frame();
+    } while (after.pointing < *number && std::chrono::steady_clock::now() < end);
+    ASSERT_EQ(after.pointing, *number);
+  }
+  EXPECT_EQ(after.allocations, before.allocations);
+  EXPECT_EQ(after.releases, before.releases);
+}
+
+TEST(PanTiltZoom, FreesARendererWhenItWasReplaced) {
+  ViewPlan looked_at = plan();
+  looked_at.measured.reset();
+  PanTiltZoom pan_tilt_zoom({&looked_at, 1});
+  PointedRenderer shown;
+  const auto wait_until = [&](const auto& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    return condition();
+  };
+  const auto point = [&] {
+    const auto number = pan_tilt_zoom.point(0, {{30, 0, 0}, 90, {}});
+    return wait_until([&] {
+      pan_tilt_zoom.exchange({&shown, 1});
+      return shown.pointing == *number;
+    });
+  };
+  ASSERT_TRUE(point());
+  const std::ptrdiff_t of_one = blocks;
+  ASSERT_TRUE(point());
+  EXPECT_TRUE(wait_until([&] { return blocks <= of_one; })) << blocks - of_one << " more";
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST_F(BlendGridTest, ASourceAloneCountsWhole) {
   add(0, 0.001);
   compile();
   EXPECT_EQ(towards(0, 10, 5), 255);
-  EXPECT_EQ(towards(0, 160, 5), 255);
+  EXPECT_EQ(towards(0, 170, 5), 255);
   EXPECT_EQ(towards(0, 179.9, 0), 0) << "blind";
 }
 

@@ -342,7 +342,7 @@ std::map<int, int> expect_levels(const ViewSpec& spec, const BallProjection& bal
 TEST(CoordinateGrid, AsksForALevelWhereTheViewIsSmallerThanTheSource) {
   const auto ball = centred_ball(BallModel::exact(348.5).value(), 3000, 1490);
   // Straight ahead the picture has about 711 px per radian.
-  const std::array<std::pair<int, int>, 5> shrunk{{{711, 0}, {273, 1}, {137, 2}, {71, 3}, {36, 3}}};
+  const std::array<std::pair<int, int>, 5> shrunk{{{711, 0}, {302, 1}, {151, 2}, {76, 3}, {38, 3}}};
   for (const auto& [width, level] : shrunk) {
     const double h_fov = 2 * optics::degrees(std::atan(0.5));
     const auto count = expect_levels(
@@ -356,7 +356,7 @@ TEST(CoordinateGrid, TheLevelFollowsTheLargerStep) {
   const auto ball = centred_ball(BallModel::exact(348.5).value(), 3000, 1490);
   // As wide as above, a fifth and a tenth as high.
   const double h_fov = 2 * optics::degrees(std::atan(0.5)), v_fov = h_fov;
-  for (const auto& [height, level] : std::array<std::pair<int, int>, 2>{{{137, 2}, {68, 3}}}) {
+  for (const auto& [height, level] : std::array<std::pair<int, int>, 2>{{{151, 2}, {76, 3}}}) {
     for (const double roll : {0.0, 90.0, 30.0}) {
       const auto count =
           expect_levels({ViewKind::Perspective, {0, 0, roll}, h_fov, v_fov, 711, height}, ball);

@@ -1,0 +1,118 @@
+#include "app/pipeline/pan_tilt_zoom.h"
+
+#include <string>
+#include <utility>
+
+namespace orbwatch::app {
+namespace {
+
+Result<optics::ViewProjection> pointed(const ViewPlan& view, const Pointing& pointing) {
+  if (view.measured) {
+    return fail(
+        "it is measured, so it keeps looking where the configuration says; point a view "
+        "that is only looked at");
+  }
+  return optics::ViewProjection::make({view.projection.kind(), pointing.orientation, pointing.h_fov,
+                                       pointing.v_fov, view.projection.width(),
+                                       view.projection.height()});
+}
+
+}  // namespace
+
+PanTiltZoom::PanTiltZoom(std::span<const ViewPlan> views) : views_(views), slots_(views.size()) {
+  thread_ = std::thread([this] { run(); });
+}
+
+PanTiltZoom::~PanTiltZoom() { stop(); }
+
+Result<std::uint64_t> PanTiltZoom::point(std::size_t view, const Pointing& pointing) {
+  if (view >= views_.size()) {
+    return fail("view " + std::to_string(view) + ": does not exist; views are numbered 0 to " +
+                std::to_string(views_.size() - 1));
+  }
+  const auto refused = [&](const std::string& reason) {
+    return fail("view " + views_[view].name + ": " + reason);
+  };
+  const auto projection = pointed(views_[view], pointing);
+  if (!projection) return refused(projection.error().message);
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return refused("cannot be pointed any more; the pipeline has stopped");
+    Slot& slot = slots_[view];
+    slot.superseded += slot.request ? 1 : 0;
+    number = ++slot.requests;
+    slot.request = Request{*projection, number};
+  }
+  work_.notify_one();
+  return number;
+}
+
+void PanTiltZoom::exchange(std::span<PointedRenderer> shown) {
+  bool replaced = false;
+  {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t view = 0; view < slots_.size(); ++view) {
+      if (!std::exchange(slots_[view].compiled, false)) continue;
+      std::swap(slots_[view].renderer, shown[view]);
+      replaced = true;
+    }
+  }
+  if (replaced) work_.notify_one();
+}
+
+std::uint64_t PanTiltZoom::superseded(std::size_t view) const {
+  const std::lock_guard lock(mutex_);
+  return slots_[view].superseded;
+}
+
+void PanTiltZoom::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  work_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void PanTiltZoom::run() {
+  std::size_t view = 0;
+  while (const auto work = take_work(view)) {
+    view = work->view;
+    if (work->request) compile(view, *work->request);
+  }
+}
+
+std::optional<PanTiltZoom::Work> PanTiltZoom::take_work(std::size_t last) {
+  PointedRenderer unused;  // freed after the lock
+  std::size_t view = last;
+  const auto any_work = [&] {
+    // In turns: a view that is pointed all the time does not keep the others waiting.
+    for (std::size_t n = 1; n <= slots_.size(); ++n) {
+      view = (last + n) % slots_.size();
+      const Slot& slot = slots_[view];
+      if (slot.request || (slot.renderer.renderer && !slot.compiled)) return true;
+    }
+    return false;
+  };
+  std::unique_lock lock(mutex_);
+  work_.wait(lock, [&] { return stopping_ || any_work(); });
+  if (stopping_) return std::nullopt;
+  Slot& slot = slots_[view];
+  if (!slot.compiled) std::swap(slot.renderer, unused);
+  return Work{view, std::exchange(slot.request, std::nullopt)};
+}
+
+void PanTiltZoom::compile(std::size_t view, const Request& request) {
+  ViewPlan plan = views_[view];
+  plan.projection = request.projection;
+  // In the end what it replaced, freed after the lock.
+  PointedRenderer renderer{std::make_unique<ViewRenderer>(std::move(plan)), request.number};
+  const std::lock_guard lock(mutex_);
+  Slot& slot = slots_[view];
+  slot.superseded += slot.compiled ? 1 : 0;
+  slot.compiled = true;
+  std::swap(slot.renderer, renderer);
+}
+
+}  // namespace orbwatch::app

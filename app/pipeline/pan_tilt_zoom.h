@@ -1,0 +1,92 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "app/pipeline/view_renderer.h"
+#include "proc/image/result.h"
+#include "proc/optics/rotation.h"
+#include "proc/optics/view_projection.h"
+
+namespace orbwatch::app {
+
+/// Where a view looks: all of a ViewSpec but its kind and size, which a view keeps. Degrees.
+struct Pointing {
+  optics::YawPitchRoll orientation;
+  double h_fov = 0;  ///< above 0
+  std::optional<double> v_fov;
+};
+
+/// A renderer and the request that it answers.
+struct PointedRenderer {
+  std::unique_ptr<ViewRenderer> renderer;
+  std::uint64_t pointing = 0;  ///< see View::pointing
+};
+
+/// Points views elsewhere while frames run: compiles renderers on its own thread, off the frame
+/// path, which takes them over between two frames. Queues per view: one request and one compiled
+/// renderer; the newest wins, each one that was replaced before it was used is counted.
+/// Thread rule: point and superseded on any thread, exchange on the pipeline's, stop on the main.
+class PanTiltZoom {
+ public:
+  /// `views`, by index, outlive this. Starts the thread.
+  explicit PanTiltZoom(std::span<const ViewPlan> views);
+  ~PanTiltZoom();
+  PanTiltZoom(const PanTiltZoom&) = delete;
+  PanTiltZoom& operator=(const PanTiltZoom&) = delete;
+
+  /// Asks for a view of the same kind and size that looks elsewhere. Does not wait for it: returns
+  /// the request's number, from 1 in each view, which View::pointing reaches or passes with the
+  /// first frame that shows it or a newer one. Error: no such view; a view that is measured,
+  /// because pan and zoom never change a measurement; what optics::check_view() refuses; after
+  /// stop().
+  Result<std::uint64_t> point(std::size_t view, const Pointing& pointing);
+
+  /// Between two frames: replaces what is `shown`, by view, with what has been compiled since.
+  /// Waits for no compilation, neither allocates nor frees: the thread frees what was replaced.
+  void exchange(std::span<PointedRenderer> shown);
+
+  /// How many requests of a view were replaced by a newer one before exchange() took them over.
+  std::uint64_t superseded(std::size_t view) const;
+
+  /// Ends the thread, after the compilation under way, and drops what waits; repeating it does
+  /// nothing.
+  void stop();
+
+ private:
+  struct Request {
+    optics::ViewProjection projection;
+    std::uint64_t number;
+  };
+  struct Slot {
+    std::optional<Request> request;
+    PointedRenderer renderer;  ///< to be shown if `compiled`, else to be freed
+    bool compiled = false;
+    std::uint64_t requests = 0;
+    std::uint64_t superseded = 0;
+  };
+  struct Work {
+    std::size_t view;
+    std::optional<Request> request;  ///< nothing: only a renderer was to be freed
+  };
+
+  void run();
+  std::optional<Work> take_work(std::size_t last);
+  void compile(std::size_t view, const Request& request);
+
+  const std::span<const ViewPlan> views_;
+  mutable std::mutex mutex_;  ///< never held while a renderer is made, used or freed
+  std::condition_variable work_;
+  std::vector<Slot> slots_;  ///< by view
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+#include "hal/camera.h"
+#include "hal/frame_pool.h"
+
+namespace orbwatch::app {
+
+/// Width and height of a HandCamera's frames.
+inline constexpr int kHandCameraSize = 100;
+
+/// A camera that delivers exactly when the test says so.
+class HandCamera : public hal::Camera {
+ public:
+  HandCamera(std::string name, PixelFormat format)
+      : Camera({std::move(name), "hand", "test"}),
+        format_(format),
+        pool_(hal::make_frame_pool(format, kHandCameraSize, kHandCameraSize)) {}
+  ~HandCamera() override { stop(); }
+
+  /// A frame with a bright square on darker ground, no part of which looks like another; delivered
+  /// before it returns. `bright` is above 199.
+  void expose(std::uint16_t bright, hal::TimePoint moment = hal::Clock::now()) {
+    act([this, bright, moment] {
+      auto buffer = pool_.acquire();
+      if (!buffer) return;
+      paint(*buffer, bright);
+      buffer->metadata.sequence = sequence_++;
+      buffer->metadata.exposure_start = moment;
+      report(hal::Fault::None);
+      deliver(buffer);
+    });
+  }
+  void fail_with(hal::Fault fault) {
+    act([this, fault] { report(fault); });
+  }
+  void deliver_wrong_size() {
+    act([this] { deliver(hal::make_frame_pool(format_, 8, 8, 1).acquire()); });
+  }
+
+ private:
+  Result<hal::StreamFormat> do_configure(const hal::StreamRequest&) override {
+    return hal::StreamFormat{format_, {}, kHandCameraSize, kHandCameraSize, 100};
+  }
+  void run(const std::stop_token& stop) override {
+    std::unique_lock lock(mutex_);
+    while (work_.wait(lock, stop, [this] { return static_cast<bool>(action_); })) {
+      action_();
+      action_ = nullptr;
+      done_.notify_all();
+    }
+  }
+  void act(std::function<void()> action) {
+    std::unique_lock lock(mutex_);
+    action_ = std::move(action);
+    work_.notify_all();
+    done_.wait(lock, [this] { return !action_; });
+  }
+  void paint(hal::FrameBuffer& buffer, std::uint16_t bright) const {
+    for (int y = 0; y < kHandCameraSize; ++y) {
+      for (int x = 0; x < kHandCameraSize; ++x) {
+        const bool inside = x > 25 && x < 40 && y > 45 && y < 55;
+        const auto value = static_cast<std::uint16_t>(inside ? bright : (x * x + 3 * y * y) % 200);
+        const std::size_t at =
+            static_cast<std::size_t>(y) * kHandCameraSize + static_cast<std::size_t>(x);
+        if (format_ == PixelFormat::Y16) {
+          reinterpret_cast<std::uint16_t*>(buffer.memory)[at] = value;
+        } else {
+          buffer.memory[at] = static_cast<std::byte>(value);
+        }
+      }
+    }
+  }
+
+  PixelFormat format_;
+  hal::FramePool pool_;
+  std::uint64_t sequence_ = 0;
+  std::mutex mutex_;
+  std::condition_variable_any work_, done_;
+  std::function<void()> action_;
+};
+
+}  // namespace orbwatch::app

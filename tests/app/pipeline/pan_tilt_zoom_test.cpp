@@ -1,0 +1,129 @@
+#include "app/pipeline/pan_tilt_zoom.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "tests/app/pipeline/pointed_views.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// Without a pipeline: the test takes renderers over when it likes. The right view is large: its
+/// compilation takes long, the left one's does not.
+class PanTiltZoomTest : public testing::Test {
+ protected:
+  static constexpr Pointing kAside{{30, 0, 0}, 80, std::nullopt};
+
+  std::uint64_t point(std::size_t view) { return pan_tilt_zoom.point(view, kAside).value(); }
+
+  template <class Condition>
+  void wait_until(Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    ASSERT_TRUE(condition());
+  }
+  void exchange_until(std::size_t view, std::uint64_t number) {
+    wait_until([&] {
+      pan_tilt_zoom.exchange(shown);
+      return shown[view].pointing >= number;
+    });
+  }
+
+  std::string refusal(std::size_t view, const Pointing& pointing) {
+    const auto number = pan_tilt_zoom.point(view, pointing);
+    return number ? "none, but number " + std::to_string(*number) : number.error().message;
+  }
+
+  std::array<ViewPlan, 3> plans = three_views();
+  PanTiltZoom pan_tilt_zoom{plans};
+  std::array<PointedRenderer, 3> shown;
+
+ private:
+  static std::array<ViewPlan, 3> three_views() {
+    std::array plans{view_plan(kLeft, optics::ViewKind::Perspective, kHome),
+                     view_plan(kRight, optics::ViewKind::Perspective, kHome),
+                     view_plan(kMeasured, optics::ViewKind::Perspective, kHome)};
+    plans[kRight].projection =
+        optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 100, {}, 640, 480})
+            .value();
+    plans[kMeasured].measured = 0;
+    return plans;
+  }
+};
+
+TEST_F(PanTiltZoomTest, CountsWhatWasCompiledForNothingToo) {
+  point(kLeft);
+  std::uint64_t number = 0;
+  do {
+    number = point(kLeft);
+  } while (pan_tilt_zoom.superseded(kLeft) == number - 1);
+  // The request before the last is being compiled now, or was, and no exchange takes it over.
+  wait_until([&] { return pan_tilt_zoom.superseded(kLeft) == number - 1; });
+  exchange_until(kLeft, number);
+  EXPECT_EQ(pan_tilt_zoom.superseded(kLeft), number - 1);
+  EXPECT_EQ(pan_tilt_zoom.superseded(kRight), 0U);
+}
+
+TEST_F(PanTiltZoomTest, TheViewsTakeTurns) {
+  for (int i = 0; i < 5; ++i) {
+    exchange_until(kLeft, point(kLeft));
+    const std::uint64_t right = point(kRight), left = point(kLeft);
+    exchange_until(kLeft, left);
+    ASSERT_EQ(shown[kRight].pointing, right) << "asked for before the left view's next";
+  }
+}
+
+TEST_F(PanTiltZoomTest, LeavesWhatNobodyPointed) {
+  exchange_until(kLeft, point(kLeft));
+  EXPECT_EQ(shown[kRight].renderer, nullptr);
+  const ViewRenderer* const before = shown[kLeft].renderer.get();
+  pan_tilt_zoom.exchange(shown);
+  EXPECT_EQ(shown[kLeft].renderer.get(), before);
+}
+
+TEST_F(PanTiltZoomTest, RefusesWithAReason) {
+  EXPECT_EQ(refusal(3, kHome), "view 3: does not exist; views are numbered 0 to 2");
+  EXPECT_EQ(refusal(kMeasured, kHome),
+            "view measured: it is measured, so it keeps looking where the configuration "
+            "says; point a view that is only looked at");
+  EXPECT_EQ(refusal(kLeft, {{}, 180, {}}),
+            "view left: the view's h_fov is 180.000000 degrees; it must be above 0 "
+            "and below 180");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const Pointing& bad :
+       {Pointing{}, Pointing{{}, -1, {}}, Pointing{{}, kNan, {}}, Pointing{{}, 90, kInfinity},
+        Pointing{{kNan, 0, 0}, 90, {}}, Pointing{{0, kInfinity, 0}, 90, {}}}) {
+    EXPECT_FALSE(pan_tilt_zoom.point(kLeft, bad));
+  }
+  EXPECT_EQ(refusal(kLeft, {{30, 0, 0}, 90, {}}), "none, but number 1")
+      << "refusals are not numbered";
+}
+
+TEST_F(PanTiltZoomTest, RefusesEverythingOnceItStopped) {
+  point(kLeft);
+  pan_tilt_zoom.stop();
+  EXPECT_EQ(refusal(kLeft, kHome),
+            "view left: cannot be pointed any more; the pipeline has stopped");
+  pan_tilt_zoom.stop();
+}
+
+TEST(PanTiltZoom, ABallsOwnPictureIsNotPointed) {
+  ViewPlan plan = view_plan(kLeft, optics::ViewKind::Perspective, kHome);
+  plan.projection =
+      optics::ViewProjection::make({optics::ViewKind::Ball, {}, {}, {}, 48, 48}, ball()).value();
+  PanTiltZoom pan_tilt_zoom({&plan, 1});
+  const auto number = pan_tilt_zoom.point(0, kHome);
+  ASSERT_FALSE(number);
+  EXPECT_EQ(number.error().message,
+            "view left: a ball's own picture takes no yaw, "
+            "pitch, roll, h_fov or v_fov");
+}
+
+}  // namespace
+}  // namespace orbwatch::app

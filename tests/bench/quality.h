@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+#include "tests/bench/frame.h"
+#include "tests/bench/rig.h"
+
+namespace orbwatch::bench {
+
+/// How far samples are from what they should be, in units of 1/255 of full scale.
+struct Quality {
+  double rms = 0;
+  double max = 0;
+};
+
+/// Compares the first plane of a view with bilinear interpolation in double at the exact places.
+/// Only pixels (x, y) that are `comparable` and that the rig defines count.
+Quality quality_of(const Rig& rig, const Frame& source, const Frame& view,
+                   const std::function<bool(int, int)>& comparable);
+
+}  // namespace orbwatch::bench

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""report.py FOLDER: makes remap.md and remap.json from what tests/bench/run measured.
+
+Reads counts.txt (lines: program view format instructions bytes), times.json (Google Benchmark's) and
+cycles.json (model_cycles.py's) in FOLDER. Fails when a figure that must be reached is not.
+"""
+
+import datetime
+import json
+import operator
+import os
+import pathlib
+import platform
+import statistics
+import subprocess
+import sys
+
+FLAT = ("flat_o0", "flat_o1", "flat_o2")
+FLAT_PIXELS = 1920 * 1080
+KERNELS = ("scalar", "neon", "avx2", "avx512")
+
+
+class Measured:
+    """What the programs said, by name; a figure that is missing is None."""
+
+    def __init__(self, folder):
+        self.instructions, self.bytes = {}, {}
+        for line in sorted((folder / "counts.txt").read_text().splitlines()):
+            program, view, layout, instructions, touched = line.split()
+            self.instructions[program, view, layout] = int(instructions) / FLAT_PIXELS
+            self.bytes[program, view, layout] = int(touched) / FLAT_PIXELS
+        times = json.loads((folder / "times.json").read_text())
+        self.runs = {run.get("label", run["name"]): run
+                     for run in times["benchmarks"]}
+        failed = [f"{name}: {run['error_message']}" for name, run in self.runs.items()
+                  if run.get("error_occurred")]
+        if failed:
+            sys.exit("report: " + "; ".join(failed))
+        self.kernels = [kernel for kernel in KERNELS
+                        if any(f"{kernel}_ms" in run for run in self.runs.values())]
+        self.cycles = json.loads((folder / "cycles.json").read_text())
+
+    def mean_instructions(self, program, layout):
+        counts = [self.instructions.get((program, view, layout)) for view in FLAT]
+        return None if None in counts else statistics.mean(counts)
+
+    def most_bytes(self, program, layout=None):
+        """Per pixel, beyond source and view, of any flat view; of any format without one."""
+        return max((touched for (who, _, what), touched in self.bytes.items()
+                    if who == program and layout in (None, what)), default=None)
+
+    def fewer_instructions(self, layout):
+        ours = self.mean_instructions("count_ours", layout)
+        peer = self.mean_instructions("count_opencv", layout)
+        return peer / ours if ours and peer else None
+
+    def two_byte_instructions(self, program):
+        """Per pixel of the U V plane, of which NV12 has one for four of luminance."""
+        both, one = (self.mean_instructions(program, layout) for layout in ("nv12", "grey"))
+        return 4 * (both - one) if both and one else None
+
+    def counter(self, run, name):
+        return self.runs.get(run, {}).get(name)
+
+    def worst(self, run, what):
+        """Of all kernels' errors in that run."""
+        errors = [self.counter(run, f"{kernel}_{what}") for kernel in self.kernels]
+        return None if None in errors or not errors else max(errors)
+
+    def worst_ratio(self, layout, name):
+        values = [self.counter(f"{view}/{layout}/3000", name) for view in FLAT]
+        return None if None in values else min(values)
+
+    def repointing(self, name):
+        runs = [run for key, run in self.runs.items() if key.startswith("build_grid/far_away/")]
+        return max(run[name] for run in runs) if runs else None
+
+    def largest_change_with_source(self):
+        """Of a ratio, in per cent, from the 3000x3000 source to the larger one."""
+        changes = []
+        for key, large in self.runs.items():
+            if not key.endswith("/4096"):
+                continue
+            small = self.runs[key.removesuffix("4096") + "3000"]
+            changes += [abs(large[name] / small[name] - 1) * 100 for name in small
+                        if "_vs_" in name and name.split("_")[0] != "scalar"]
+        return max(changes) if changes else None
+
+
+def gates(measured):
+    """(figure, value, comparison, at least, aim, depends on this machine's speed). Without figures
+    for kernels that this machine cannot run."""
+    at_most, at_least = operator.le, operator.ge
+    rows = []
+    for layout, least, aim in (("grey", 5.8, 5.0), ("nv12", 8.5, 7.5), ("bgr", 14.5, 13),
+                               ("y16", 10.7, 10)):
+        rows.append((f"aarch64 instructions per pixel, {layout}",
+                     measured.mean_instructions("count_ours", layout), at_most, least, aim, False))
+    for layout, aim in (("grey", 6.5), ("nv12", 6.4), ("bgr", 6.1), ("y16", 5.8)):
+        rows.append((f"the same, OpenCV / ours, {layout}", measured.fewer_instructions(layout),
+                     at_least, None, aim, False))
+    for label, run, kernel, limits in (
+            ("flat grey, AVX-512", "grey", "avx512", (3.5, 6, 2.3, 3.5)),
+            ("flat grey, AVX2", "grey", "avx2", (3.4, 4.5, 1.8, 2.5)),
+            ("flat NV12, AVX-512", "nv12", "avx512", (3.4, 5, 2.6, 3))):
+        if kernel not in measured.kernels:
+            continue
+        rows.append((f"cv::remap / ours, {label}, worst",
+                     measured.worst_ratio(run, f"{kernel}_vs_opencv"), at_least, *limits[:2],
+                     True))
+        rows.append((f"v360 / ours, {label}, worst",
+                     measured.worst_ratio(run, f"{kernel}_vs_v360"), at_least, *limits[2:],
+                     True))
+    if "avx512" in measured.kernels:
+        for peer, name, least, aim in (("cv::remap", "opencv", 2.3, 4), ("v360", "v360", 1.7, 2.5)):
+            rows.append((f"{peer} / ours, equirect 3840x1920 grey, AVX-512",
+                         measured.counter("equirect/grey/3000", f"avx512_vs_{name}"), at_least,
+                         least, aim, True))
+    rows.append(("re-pointing a 1080p view, ms, worst", measured.repointing("cpu_time"), at_most,
+                 0.5, 0.25, True))
+    grid = measured.repointing("bytes")
+    rows.append(("grid of a 1080p view, KB, worst", grid and grid / 1000, at_most, 100, 80, False))
+    rows.append(("ratios with a source of 4096x4096, change in per cent, worst",
+                 measured.largest_change_with_source(), at_most, None, 15, True))
+    rows.append(("bytes touched per pixel beyond source and view, any format, worst",
+                 measured.most_bytes("count_ours"), at_most, 0.1, None, False))
+    for what, least, aim in (("rms", 1.1, 1.0), ("max", 6, 5)):
+        errors = [measured.worst(f"{view}/grey/3000", what) for view in FLAT]
+        rows.append((f"error on white noise, {what} of 255, flat grey, worst",
+                     None if None in errors else max(errors), at_most, least, aim, False))
+    return rows
+
+
+def verdict(value, comparison, least, aim, is_judged):
+    if value is None:
+        return "-" if least is None else "NOT MEASURED"
+    if aim is not None and comparison(value, aim):
+        return "aim reached"
+    if least is None:
+        return "short of the aim"
+    if comparison(value, least):
+        return "reached"
+    return "MISSED" if is_judged else "missed, not judged here"
+
+
+def text(value):
+    if value is None:
+        return "-"
+    return f"{value:.3g}" if abs(value) < 100 else f"{value:.0f}"
+
+
+def table(head, rows):
+    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def instruction_table(measured):
+    rows = []
+    for layout in ("grey", "nv12", "bgr", "y16", "yuyv"):
+        for program in ("count_ours", "count_opencv"):
+            values = [measured.instructions.get((program, view, layout)) for view in FLAT]
+            if values[0] is not None:
+                rows.append([layout, program.removeprefix("count_"), *map(text, values),
+                             text(measured.mean_instructions(program, layout)),
+                             text(measured.most_bytes(program, layout))])
+    for program in ("count_ours", "count_opencv"):
+        rows.append(["2 x 8 bit, from nv12 - grey", program.removeprefix("count_"), "", "", "",
+                     text(measured.two_byte_instructions(program)), ""])
+    return table(["format", "", "o0", "o1", "o2", "mean", "bytes touched"], rows)
+
+
+def time_table(measured):
+    rows = []
+    for key, run in measured.runs.items():
+        if "opencv_ms" not in run:
+            continue
+        row = [key, text(run["opencv_ms"]), text(run["v360_ms"])]
+        for kernel in measured.kernels:
+            row.append("{} ({}, {})".format(*(text(run[f"{kernel}_{what}"]) for what in
+                                              ("ms", "vs_opencv", "vs_v360"))))
+        rows.append([*row, *(f"{text(run['opencv_' + what])}, {text(measured.worst(key, what))}"
+                             for what in ("rms", "max"))])
+    return table(["view/format/source", "cv::remap", "v360", *measured.kernels, "rms: cv, ours",
+                  "max: cv, ours"], rows)
+
+
+def repointing_table(measured):
+    return table(["", "ms", "KB"],
+                 [[key, text(run["cpu_time"]), text(run["bytes"] / 1000)]
+                  for key, run in measured.runs.items() if "bytes" in run])
+
+
+def cycle_table(measured):
+    rows = [[entry["loop"], entry["cpu"], text(entry["cycles"]), text(entry["per_pixel"])]
+            for entry in measured.cycles]
+    return table(["loop", "processor", "cycles per turn", "per pixel"], rows)
+
+
+def machine():
+    compiler = subprocess.run(["g++", "--version"], capture_output=True, text=True, check=True)
+    model = platform.machine()
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.split(":", 1)[1].strip()
+            break
+    return {"date": datetime.date.today().isoformat(), "machine": model,
+            "compiler": compiler.stdout.splitlines()[0]}
+
+
+def main(folder):
+    measured = Measured(folder)
+    where = machine()
+    judged = []
+    for figure, value, comparison, least, aim, is_speed in gates(measured):
+        is_judged = not (is_speed and os.environ.get("CI"))
+        judged.append({"figure": figure, "value": value, "at_least": least, "aim": aim,
+                       "verdict": verdict(value, comparison, least, aim, is_judged)})
+    markdown = f"""# The remap core beside its peers
+
+{where['date']}, {where['machine']}, {where['compiler']}. Written by tests/bench/run.
+
+{table(['figure', 'measured', 'at least', 'aim', ''],
+       [[row['figure'], text(row['value']), text(row['at_least']), text(row['aim']),
+         row['verdict']] for row in judged])}
+## Instructions per output pixel, aarch64, flat 1080p
+
+And the bytes per pixel that a remap touches beyond source and view, worst of the three views.
+
+{instruction_table(measured)}
+## Thread CPU time in ms, one thread, medians of paired repetitions
+
+In brackets how many times slower cv::remap and v360 are. Where a view is smaller than its source
+they alias and ours do not. Errors are those of the first plane elsewhere, in 255ths, against double.
+
+{time_table(measured)}
+## Re-pointing a 1080p view
+
+{repointing_table(measured)}
+## Modelled cycles
+
+By llvm-mca, not measured: the kernels' inner loops without cache misses and without what is done
+once per tile. fill_rows<Layout, blocks in a row>; the A76 as Neoverse N1, the same core.
+
+{cycle_table(measured)}"""
+    (folder / "remap.md").write_text(markdown)
+    result = {**where, "gates": judged, "cycles": measured.cycles,
+              "counts": [{"program": program, "view": view, "format": layout, "per_pixel": count,
+                                "bytes_touched": measured.bytes[program, view, layout]}
+                               for (program, view, layout), count in measured.instructions.items()],
+              "runs": list(measured.runs.values())}
+    (folder / "remap.json").write_text(json.dumps(result, indent=1) + "\n")
+    print(markdown)
+    missed = [row for row in judged if row["verdict"] in ("MISSED", "NOT MEASURED")]
+    for row in missed:
+        print(f"report: {row['verdict']}: {row['figure']}", file=sys.stderr)
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main(pathlib.Path(sys.argv[1])))
