@@ -115,6 +115,13 @@ Patch at_half_steps(const Patch& patch) {
   return {axis(patch.u()), axis(patch.v())};
 }
 
+Patch at_half_rows(const Patch& patch) {
+  const auto axis = [](const Quadratic& q) {
+    return Quadratic{q.value, q.x, q.y >> 1, q.xy >> 1, q.xx, q.yy >> 2};
+  };
+  return {axis(patch.u()), axis(patch.v())};
+}
+
 Patch moved(const Patch& patch, int x, int y) {
   return {moved(patch.u(), x, y), moved(patch.v(), x, y)};
 }

@@ -15,6 +15,9 @@ void on_level(CoordinateTile& tile, int level);
 /// A patch in half steps: pixels 2 X and 2 X + 1 lie a quarter of a pixel before and behind X.
 Patch at_half_steps(const Patch& patch);
 
+/// A patch in half steps along Y: row 2 Y is row Y.
+Patch at_half_rows(const Patch& patch);
+
 /// A patch as it goes on from its pixel (x, y).
 Patch moved(const Patch& patch, int x, int y);
 

@@ -51,11 +51,12 @@ constexpr bool is_defined_throughout(const Tile& tile) {
   return tile.kind == TileClass::Patch || (tile.kind == TileClass::Dense && !by_pixel);
 }
 
-// Kernels read a source patch of 8x8 samples for each block of 4x4 pixels, from its least
-// coordinate on, without asking where the picture ends. In the chroma of 4:2:0 that is 16 pixels of
-// the picture; rounding and the right neighbour take the rest. All of it doubles from level to
-// level.
-inline constexpr int kInteriorBefore = 2;   ///< px; no coordinate is below it
+// Kernels read a window of 8x8 source samples for each block of 4x4 pixels without asking where the
+// picture ends. A window begins less than 6 samples before the least coordinate of its block (see
+// BlockMap: what all blocks of a tile need is at most 6 samples wide) and ends less than 8 behind
+// it; in the chroma of 4:2:0 that is 12 and 16 pixels of the picture, and rounding takes the rest.
+// All of it doubles from level to level.
+inline constexpr int kInteriorBefore = 14;  ///< px; no coordinate is below it
 inline constexpr int kInteriorBeyond = 18;  ///< px; no coordinate is above the size less this
 
 /// Whether a kernel may read around every coordinate from `lowest` to `highest` along an axis of

@@ -97,14 +97,10 @@ void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea&
   if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
     return clear_area(out, area);
   }
-  Minification small = minification(tile.level);
-  if (tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest) {
-    const Patch patch = grid_.patch(tx, ty);
-    if (write_patch(patch, small, out, area)) return;
-    // Half the step fits a kernel that the whole one is too steep for.
-    small.oversampled = interpolation_ == Interpolation::Area;
-    if (small.oversampled && write_patch(patch, small, out, area)) return;
-  }
+  const Minification small = minification(tile.level);
+  const bool smooth =
+      tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest;
+  if (smooth && write_patch(grid_.patch(tx, ty), small, out, area)) return;
   write_dense(tx, ty, small, out, area);
 }
 
@@ -138,10 +134,33 @@ bool TileRemap::write_patch(const Patch& patch, const Minification& small,
 
 bool TileRemap::sample(const Patch& patch, Layout layout, const SourcePlane& source,
                        const TargetPlane& target) const {
+  return sample_blocks(patch, layout, source, target) ||
+         sample_steep(patch, layout, source, target);
+}
+
+bool TileRemap::sample_blocks(const Patch& patch, Layout layout, const SourcePlane& source,
+                              const TargetPlane& target) const {
   const auto map = BlockMap::make(patch, target.columns / kBlock, target.rows / kBlock,
                                   added_u(layout), added_v(layout));
   if (!map) return false;
   kernel_.tile(layout, {*map, source.data, source.stride, target.data, target.stride});
+  return true;
+}
+
+/// Blocks that do not fit their windows may do so at half the step: every second row of those.
+bool TileRemap::sample_steep(const Patch& patch, Layout layout, const SourcePlane& source,
+                             const TargetPlane& target) const {
+  const Patch fine = at_half_rows(patch);
+  const std::ptrdiff_t stride = std::ptrdiff_t{kTile} * info(layout).out_bytes();
+  alignas(64) std::array<std::uint8_t, kTile * kTile * 4> rows;
+  for (int top = 0; top < 2 * target.rows; top += kTile) {
+    const TargetPlane part{rows.data(), stride, target.columns, kTile};
+    if (!sample_blocks(moved(fine, 0, top), layout, source, part)) return false;
+    for (int y = 0; y < kTile; y += 2) {
+      std::copy_n(&rows[y * stride], target.columns * info(layout).out_bytes(),
+                  target.data + (top + y) / 2 * target.stride);
+    }
+  }
   return true;
 }
 

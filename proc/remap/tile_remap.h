@@ -39,6 +39,10 @@ class TileRemap {
                    const TileArea& area) const;
   bool sample(const Patch& patch, Layout layout, const SourcePlane& source,
               const TargetPlane& target) const;
+  bool sample_blocks(const Patch& patch, Layout layout, const SourcePlane& source,
+                     const TargetPlane& target) const;
+  bool sample_steep(const Patch& patch, Layout layout, const SourcePlane& source,
+                    const TargetPlane& target) const;
   bool oversample(const Patch& patch, Layout layout, const SourcePlane& source,
                   const TargetPlane& target) const;
   void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,

@@ -6,15 +6,12 @@ namespace orbwatch::bench {
 
 OurRemap::OurRemap(const Rig& rig, const Frame& source, const remap::Kernel& kernel)
     : grid_(rig.view, rig.ball, rig.source, rig.source),
-      pyramid_(source.format, source.width, source.height, grid_.halves()),
+      source_(source.picture()),
       kernel_(kernel),
-      output_(Frame::blank(source.format, rig.named.width, rig.named.height)) {
-  pyramid_.set_source(source.picture());
-}
+      output_(Frame::blank(source.format, rig.named.width, rig.named.height)) {}
 
 void OurRemap::run() {
-  pyramid_.fill();
-  remap::remap(grid_, pyramid_.pictures(), remap::Interpolation::Bilinear, output_.picture(),
+  remap::remap(grid_, {&source_, 1}, remap::Interpolation::Bilinear, output_.picture(),
                {0, grid_.tiles_y()}, kernel_);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "proc/image/picture.h"
 #include "proc/remap/coordinate_grid.h"
 #include "proc/remap/kernel.h"
-#include "proc/remap/pyramid.h"
 #include "tests/bench/frame.h"
 #include "tests/bench/rig.h"
 
@@ -15,19 +15,13 @@ class OurRemap {
   OurRemap(const Rig& rig, const Frame& source,
            const remap::Kernel& kernel = remap::default_kernel());
 
-  /// All that a new frame costs: also the halves of the source, where the grid asks for them.
+  /// One sample per pixel, as the peers do it.
   void run();
   const Frame& output() const { return output_; }
 
-  /// Whether the view is smaller than its source around (x, y), so that a pixel there is a mean
-  /// over several of the source.
-  bool minifies(int x, int y) const {
-    return grid_.tile(x / remap::kTile, y / remap::kTile).level > 0;
-  }
-
  private:
   remap::CoordinateGrid grid_;
-  remap::Pyramid pyramid_;
+  Picture source_;
   const remap::Kernel& kernel_;
   Frame output_;
 };

@@ -18,8 +18,7 @@ double bilinear(const Plane& plane, const optics::Vec2& place, int k) {
 
 }  // namespace
 
-Quality quality_of(const Rig& rig, const Frame& source, const Frame& view,
-                   const std::function<bool(int, int)>& comparable) {
+Quality quality_of(const Rig& rig, const Frame& source, const Frame& view) {
   const Plane& from = source.planes.front();
   const Plane& to = view.planes.front();
   const double unit = from.sample_bytes == 1 ? 1 : 257;
@@ -29,7 +28,7 @@ Quality quality_of(const Rig& rig, const Frame& source, const Frame& view,
   const auto* place = map.data();
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x, ++place) {
-      if (!*place || !comparable(x, y)) continue;
+      if (!*place) continue;
       for (int k = 0; k < to.samples; ++k) {
         const double error = (to.sample(x, y, k) - bilinear(from, **place, k)) / unit;
         quality.max = std::max(quality.max, std::abs(error));

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "tests/bench/frame.h"
 #include "tests/bench/rig.h"
 
@@ -14,8 +12,7 @@ struct Quality {
 };
 
 /// Compares the first plane of a view with bilinear interpolation in double at the exact places.
-/// Only pixels (x, y) that are `comparable` and that the rig defines count.
-Quality quality_of(const Rig& rig, const Frame& source, const Frame& view,
-                   const std::function<bool(int, int)>& comparable);
+/// Only pixels that the rig defines count.
+Quality quality_of(const Rig& rig, const Frame& source, const Frame& view);
 
 }  // namespace orbwatch::bench

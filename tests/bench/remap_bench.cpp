@@ -69,14 +69,13 @@ void paired(benchmark::State& state) {
   for (const Contestant& contestant : contestants) {
     state.counters[contestant.name + "_ms"] = median(contestant.milliseconds);
   }
-  const auto is_bilinear = [&](int x, int y) { return !field.ours.front()->minifies(x, y); };
   for (std::size_t i = 0; i < field.ours.size(); ++i) {
     const Contestant& ours = contestants[i + 2];
     state.counters[ours.name + "_vs_opencv"] = paired_ratio(contestants[0], ours);
     state.counters[ours.name + "_vs_v360"] = paired_ratio(contestants[1], ours);
-    report_quality(state, ours.name, quality_of(rig, source, field.ours[i]->output(), is_bilinear));
+    report_quality(state, ours.name, quality_of(rig, source, field.ours[i]->output()));
   }
-  report_quality(state, "opencv", quality_of(rig, source, field.opencv.output(), is_bilinear));
+  report_quality(state, "opencv", quality_of(rig, source, field.opencv.output()));
 }
 
 void add_cases(benchmark::internal::Benchmark* paired_benchmark) {

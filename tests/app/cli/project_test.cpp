@@ -127,7 +127,9 @@ class ProjectModels : public Project {
               "--h-fov",
               "85",
               "--size",
-              "160x120"};
+              "160x120",
+              "--interpolation",
+              "bilinear"};
           if (kind != BallModel::Kind::Classical) {
             arguments.insert(arguments.end(), {"--alpha", text(photo.alpha)});
           }

@@ -249,7 +249,7 @@ double clearance(const CoordinateGrid& grid, const Tile& tile, int tx, int ty) {
   const double scale = 1 << tile.level;
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](double c, int size) {
-    least = std::min({least, c - 2 * scale, size - 18 * scale - c});
+    least = std::min({least, c - kInteriorBefore * scale, size - kInteriorBeyond * scale - c});
   };
   for (int y = 0; y < kTile; ++y) {
     for (const Coordinate& c : grid.row(tx, ty, y)) {
