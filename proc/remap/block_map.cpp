@@ -76,9 +76,10 @@ WindowWalk window_walk(const BasicQuadratic<Both>& map, Both start) {
 
 std::optional<BlockMap> BlockMap::make(const Patch& patch, int blocks_x, int blocks_y,
                                        std::int32_t add_u, std::int32_t add_v) {
+  std::optional<BlockMap> blocks;
   const BasicQuadratic<Both>& map = patch.axes();
   const Reach pixels = reach(map, blocks_x, blocks_y);
-  if (!fits(map, pixels)) return {};
+  if (!fits(map, pixels)) return blocks;
 
   const Both low = pixels.low >> kScaleBits;
   constexpr int kRowShift = kFractionBits - kRowFractionBits;
@@ -94,7 +95,13 @@ std::optional<BlockMap> BlockMap::make(const Patch& patch, int blocks_x, int blo
     return LaneShape{narrow(slope_x), narrow(slope_y),  narrow(twice_xx),
                      narrow(xy),      narrow(twice_yy), static_cast<std::uint16_t>(offset[axis])};
   };
-  return BlockMap{window_walk(map, start), lanes(0), lanes(1), blocks_x, blocks_y};
+  blocks.emplace();
+  blocks->windows = window_walk(map, start);
+  blocks->u = lanes(0);
+  blocks->v = lanes(1);
+  blocks->blocks_x = blocks_x;
+  blocks->blocks_y = blocks_y;
+  return blocks;
 }
 
 }  // namespace orbwatch::remap

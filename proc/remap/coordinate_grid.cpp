@@ -27,7 +27,8 @@ Stencil CoordinateGrid::stencil(int tx, int ty) const {
 
 Patch CoordinateGrid::patch(int tx, int ty) const {
   const Tile t = tile(tx, ty);
-  return Patch(t.store == TileStore::OwnNodes ? own_nodes_[t.index] : stencil(tx, ty));
+  return t.store == TileStore::OwnNodes ? Patch(own_nodes_[t.index])
+                                        : Patch(&node(tx, ty), tiles_x_ + 3);
 }
 
 FineTile<8> CoordinateGrid::curved(const Tile& tile) const {

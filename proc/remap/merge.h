@@ -12,7 +12,7 @@ namespace orbwatch::remap {
 inline constexpr std::size_t kMaxSources = 4;
 
 /// One source of a merged picture: what it shows of the view, and how much that counts beside the
-/// others (see blend_weights). Weight 0: it does not see the pixel, whose samples are not used.
+/// others (see BlendGrid). Weight 0: it does not see the pixel, whose samples are not used.
 template <class T>
 struct MergeSource {
   ImageView<const T> picture;

@@ -13,9 +13,9 @@ static_assert(kTile == 1 << kTileBits);
 ///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048, with the second differences xx
 ///           and
 /// yy added up over the four corners.
-BasicQuadratic<Both> quadratics(const Stencil& stencil) {
+BasicQuadratic<Both> quadratics(const Coordinate* nodes, std::ptrdiff_t stride) {
   const auto n = [&](int i, int j) {
-    const Coordinate& node = stencil.at(i, j);
+    const Coordinate& node = nodes[j * stride + i];
     return Both{node.u, node.v};
   };
   const Both corner = n(0, 0), along_x = n(1, 0) - corner, along_y = n(0, 1) - corner;
@@ -78,7 +78,7 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
 
 }  // namespace
 
-Patch::Patch(const Stencil& stencil) : axes_(quadratics(stencil)) {}
+Patch::Patch(const Coordinate* corner, std::ptrdiff_t stride) : axes_(quadratics(corner, stride)) {}
 
 PatchRow Patch::row(int y) const {
   const Differences u = along_row(axis(0), y), v = along_row(axis(1), y);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "proc/remap/coordinate.h"
@@ -68,8 +69,11 @@ using Both [[gnu::vector_size(16)]] = std::int64_t;
 /// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
 class Patch {
  public:
-  /// The twelve nodes that count are defined; the four outermost corners do not.
-  explicit Patch(const Stencil& stencil);
+  /// From the nodes around `corner`, the patch's upper left, in rows of `stride` nodes. The twelve
+  /// that count are defined; the four outermost corners do not.
+  Patch(const Coordinate* corner, std::ptrdiff_t stride);
+  explicit Patch(const Stencil& stencil) : Patch(&stencil.at(0, 0), 4) {}
+  explicit Patch(const BasicQuadratic<Both>& axes) : axes_(axes) {}
   Patch(const Quadratic& u, const Quadratic& v)
       : axes_{{u.value, v.value}, {u.x, v.x},   {u.y, v.y},
               {u.xy, v.xy},       {u.xx, v.xx}, {u.yy, v.yy}} {}

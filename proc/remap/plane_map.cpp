@@ -5,22 +5,26 @@
 namespace orbwatch::remap {
 namespace {
 
+using Axes = BasicQuadratic<Both>;
+
 constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
 constexpr std::int64_t kHalfPixel = std::int64_t{kHalf} << PatchRow::kScaleBits;
 
+// Shifts, for there is no vector multiplication of 64 bit.
+
 /// X -> 2 X, or 2 X + 1/2.
-Quadratic every_second_column(const Quadratic& q, Siting siting) {
-  Quadratic out{q.value, 2 * q.x, q.y, 2 * q.xy, 4 * q.xx, q.yy};
+Axes every_second_column(const Axes& q, Siting siting) {
+  Axes out{q.value, q.x << 1, q.y, q.xy << 1, q.xx << 2, q.yy};
   if (siting == Siting::Centred) {
-    out.value += (2 * q.x + q.xx) >> 2;
-    out.x += 2 * q.xx;
+    out.value += ((q.x << 1) + q.xx) >> 2;
+    out.x += q.xx << 1;
     out.y += q.xy >> 1;
   }
   return out;
 }
 
 /// X -> X / 2 - 1/4
-Quadratic half_steps(const Quadratic& q) {
+Axes half_steps(const Axes& q) {
   return {q.value - (q.x >> 2) + (q.xx >> 4),
           (q.x >> 1) - (q.xx >> 2),
           q.y - (q.xy >> 2),
@@ -29,36 +33,20 @@ Quadratic half_steps(const Quadratic& q) {
           q.yy};
 }
 
-Quadratic moved(const Quadratic& q, int x, int y) {
-  return {q.value + x * (q.x + x * q.xx + y * q.xy) + y * (q.y + y * q.yy),
-          q.x + 2 * x * q.xx + y * q.xy,
-          q.y + 2 * y * q.yy + x * q.xy,
-          q.xy,
-          q.xx,
-          q.yy};
-}
+Axes transposed(const Axes& q) { return {q.value, q.y, q.x, q.xy, q.yy, q.xx}; }
 
-Quadratic transposed(const Quadratic& q) { return {q.value, q.y, q.x, q.xy, q.yy, q.xx}; }
-
-Quadratic every_second_row(const Quadratic& q, Siting siting) {
+Axes every_second_row(const Axes& q, Siting siting) {
   return transposed(every_second_column(transposed(q), siting));
 }
 
+constexpr std::int64_t half_pixel(Siting siting) {
+  return siting == Siting::Centred ? kHalfPixel : 0;
+}
+
 /// Half of a picture's coordinate; between two pixels' centres if it is centred.
-template <class Integer>
-Integer halved(Integer coordinate, Siting siting, Integer half_pixel) {
-  return (siting == Siting::Centred ? coordinate - half_pixel : coordinate) >> 1;
-}
-
-Quadratic in_source(const Quadratic& q, Siting siting) {
-  if (siting == Siting::Full) return q;
-  return {halved(q.value, siting, kHalfPixel), q.x >> 1, q.y >> 1, q.xy >> 1, q.xx >> 1, q.yy >> 1};
-}
-
-Coordinate in_source(Coordinate c, const PlaneSampling& sampling) {
-  if (sampling.x != Siting::Full) c.u = halved(c.u, sampling.x, kHalf);
-  if (sampling.y != Siting::Full) c.v = halved(c.v, sampling.y, kHalf);
-  return c;
+std::int32_t in_source(std::int32_t c, Siting siting) {
+  if (siting == Siting::Full) return c;
+  return (siting == Siting::Centred ? c - kHalf : c) >> 1;
 }
 
 /// Further apart than that, pixels that share one of the plane lie on two sides of an edge.
@@ -89,15 +77,9 @@ Coordinate shared(const CoordinateTile& tile, int x, int y, int columns, int row
 }  // namespace
 
 Patch on_level(const Patch& patch, int level) {
-  const auto axis = [level](const Quadratic& q) {
-    return Quadratic{((q.value + kHalfPixel) >> level) - kHalfPixel,
-                     q.x >> level,
-                     q.y >> level,
-                     q.xy >> level,
-                     q.xx >> level,
-                     q.yy >> level};
-  };
-  return {axis(patch.u()), axis(patch.v())};
+  const Axes& q = patch.axes();
+  return Patch(Axes{((q.value + kHalfPixel) >> level) - kHalfPixel, q.x >> level, q.y >> level,
+                    q.xy >> level, q.xx >> level, q.yy >> level});
 }
 
 void on_level(CoordinateTile& tile, int level) {
@@ -109,30 +91,29 @@ void on_level(CoordinateTile& tile, int level) {
 }
 
 Patch at_half_steps(const Patch& patch) {
-  const auto axis = [](const Quadratic& q) {
-    return transposed(half_steps(transposed(half_steps(q))));
-  };
-  return {axis(patch.u()), axis(patch.v())};
+  return Patch(transposed(half_steps(transposed(half_steps(patch.axes())))));
 }
 
 Patch at_half_rows(const Patch& patch) {
-  const auto axis = [](const Quadratic& q) {
-    return Quadratic{q.value, q.x, q.y >> 1, q.xy >> 1, q.xx, q.yy >> 2};
-  };
-  return {axis(patch.u()), axis(patch.v())};
+  const Axes& q = patch.axes();
+  return Patch(Axes{q.value, q.x, q.y >> 1, q.xy >> 1, q.xx, q.yy >> 2});
 }
 
 Patch moved(const Patch& patch, int x, int y) {
-  return {moved(patch.u(), x, y), moved(patch.v(), x, y)};
+  const Axes& q = patch.axes();
+  return Patch(Axes{q.value + x * (q.x + x * q.xx + y * q.xy) + y * (q.y + y * q.yy),
+                    q.x + 2 * x * q.xx + y * q.xy, q.y + 2 * y * q.yy + x * q.xy, q.xy, q.xx,
+                    q.yy});
 }
 
 Patch on_plane(const Patch& patch, const PlaneSampling& sampling) {
-  const auto axis = [&](Quadratic q, Siting along) {
-    if (sampling.x != Siting::Full) q = every_second_column(q, sampling.x);
-    if (sampling.y != Siting::Full) q = every_second_row(q, sampling.y);
-    return in_source(q, along);
-  };
-  return {axis(patch.u(), sampling.x), axis(patch.v(), sampling.y)};
+  Axes q = patch.axes();
+  if (sampling.x != Siting::Full) q = every_second_column(q, sampling.x);
+  if (sampling.y != Siting::Full) q = every_second_row(q, sampling.y);
+  const Both halves{shift(sampling.x), shift(sampling.y)};
+  q.value -= Both{half_pixel(sampling.x), half_pixel(sampling.y)};
+  return Patch(Axes{q.value >> halves, q.x >> halves, q.y >> halves, q.xy >> halves, q.xx >> halves,
+                    q.yy >> halves});
 }
 
 void on_plane(const CoordinateTile& picture, const PlaneSampling& sampling, CoordinateTile& plane) {
@@ -141,7 +122,8 @@ void on_plane(const CoordinateTile& picture, const PlaneSampling& sampling, Coor
   for (int y = 0; y < kTile / rows; ++y) {
     for (int x = 0; x < kTile / columns; ++x) {
       const Coordinate c = shared(picture, x * columns, y * rows, columns, rows, centred);
-      plane[y][x] = is_defined(c) ? in_source(c, sampling) : c;
+      plane[y][x] =
+          is_defined(c) ? Coordinate{in_source(c.u, sampling.x), in_source(c.v, sampling.y)} : c;
     }
   }
 }

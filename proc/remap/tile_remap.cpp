@@ -57,6 +57,12 @@ TargetPlane plane_of_view(const MutablePicture& out, const PlaneSampling& sampli
   return {data, plane.stride, kTile >> shift(sampling.x), kTile >> shift(sampling.y)};
 }
 
+SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& sampling) {
+  const auto& plane = picture.planes[sampling.plane];
+  return {reinterpret_cast<const std::uint8_t*>(plane.data) + sampling.offset, plane.stride,
+          picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
+}
+
 TargetPlane plane_of(SampledTile& sampled, std::size_t n, const PlaneSampling& sampling) {
   return {sampled.planes[n].data(), SampledTile::stride(sampling), kTile >> shift(sampling.x),
           kTile >> shift(sampling.y)};
@@ -82,7 +88,7 @@ void round_to_pixels(CoordinateTile& coordinates) {
 TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
                      Interpolation interpolation, const Kernel& kernel)
     : grid_(grid),
-      source_(source),
+      halves_(static_cast<int>(std::min<std::size_t>(source.size(), kMaxLevel)) - 1),
       format_(source.front().format),
       colour_space_(source.front().colour_space),
       interpolation_(interpolation),
@@ -90,6 +96,11 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
       samplings_(samplings(format_)) {
   assert(source.front().width == grid.source_width());
   assert(source.front().height == grid.source_height());
+  for (std::size_t level = 0; level < std::min(source.size(), sources_.size()); ++level) {
+    for (std::size_t n = 0; n < samplings_.count; ++n) {
+      sources_[level][n] = plane_of_source(source[level], samplings_.items[n]);
+    }
+  }
 }
 
 void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
@@ -100,36 +111,47 @@ void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea&
   const Minification small = minification(tile.level);
   const bool smooth =
       tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest;
-  if (smooth && write_patch(grid_.patch(tx, ty), small, out, area)) return;
+  if (smooth) {
+    const Patch patch = grid_.patch(tx, ty);
+    if (small.halves == 0 ? write_patch(patch, small, out, area)
+                          : write_patch(on_level(patch, small.halves), small, out, area)) {
+      return;
+    }
+  }
   write_dense(tx, ty, small, out, area);
 }
 
 /// The last factor of two is left to samples, which keeps more detail than a half of the picture.
 TileRemap::Minification TileRemap::minification(int level) const {
   if (level == 0 || interpolation_ != Interpolation::Area) return {};
-  return {std::min(level - 1, static_cast<int>(source_.size()) - 1), true};
+  return {std::min(level - 1, halves_), true};
 }
 
 /// False if some sampling's blocks do not fit a kernel.
 bool TileRemap::write_patch(const Patch& patch, const Minification& small,
                             const MutablePicture& out, const TileArea& area) const {
   const bool in_place = is_written_in_place(format_, out, area);
-  const Patch on_source = small.halves == 0 ? patch : on_level(patch, small.halves);
   SampledTile sampled;
   for (std::size_t n = 0; n < samplings_.count; ++n) {
     const PlaneSampling& sampling = samplings_.items[n];
-    if (!has_kernel(sampling.layout)) return false;
-    const bool subsampled = sampling.x != Siting::Full || sampling.y != Siting::Full;
-    const Patch on_samples = subsampled ? on_plane(on_source, sampling) : on_source;
-    const SourcePlane source = plane_of_source(sampling, small.halves);
     const TargetPlane target =
         in_place ? plane_of_view(out, sampling, area) : plane_of(sampled, n, sampling);
-    const bool fits = small.oversampled ? oversample(on_samples, sampling.layout, source, target)
-                                        : sample(on_samples, sampling.layout, source, target);
+    const bool subsampled = sampling.x != Siting::Full || sampling.y != Siting::Full;
+    const bool fits = has_kernel(sampling.layout) &&
+                      (subsampled ? fill(on_plane(patch, sampling), small, n, target)
+                                  : fill(patch, small, n, target));
     if (!fits) return false;
   }
   if (!in_place) write_tile(sampled, format_, colour_space_, out, area);
   return true;
+}
+
+bool TileRemap::fill(const Patch& patch, const Minification& small, std::size_t sampling,
+                     const TargetPlane& target) const {
+  const Layout layout = samplings_.items[sampling].layout;
+  const SourcePlane& source = sources_[small.halves][sampling];
+  return small.oversampled ? oversample(patch, layout, source, target)
+                           : sample(patch, layout, source, target);
 }
 
 bool TileRemap::sample(const Patch& patch, Layout layout, const SourcePlane& source,
@@ -188,7 +210,7 @@ void TileRemap::write_dense(int tx, int ty, const Minification& small, const Mut
   for (std::size_t n = 0; n < samplings_.count; ++n) {
     const PlaneSampling& sampling = samplings_.items[n];
     on_plane(coordinates, sampling, shared);
-    const SourcePlane source = plane_of_source(sampling, small.halves);
+    const SourcePlane& source = sources_[small.halves][n];
     const std::uint8_t background = black(sampling, format_, colour_space_);
     const TargetPlane target = plane_of(sampled, n, sampling);
     small.oversampled ? oversample_dense(shared, sampling.layout, source, background, target)
@@ -196,13 +218,6 @@ void TileRemap::write_dense(int tx, int ty, const Minification& small, const Mut
   }
   write_tile(sampled, format_, colour_space_, out, area);
   if (format_ != out.format) clear_undefined(coordinates, out, area);
-}
-
-SourcePlane TileRemap::plane_of_source(const PlaneSampling& sampling, int halves) const {
-  const Picture& picture = source_[halves];
-  const auto& plane = picture.planes[sampling.plane];
-  return {reinterpret_cast<const std::uint8_t*>(plane.data) + sampling.offset, plane.stride,
-          picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
 }
 
 }  // namespace orbwatch::remap

@@ -37,6 +37,8 @@ class TileRemap {
 
   bool write_patch(const Patch& patch, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
+  bool fill(const Patch& patch, const Minification& small, std::size_t sampling,
+            const TargetPlane& target) const;
   bool sample(const Patch& patch, Layout layout, const SourcePlane& source,
               const TargetPlane& target) const;
   bool sample_blocks(const Patch& patch, Layout layout, const SourcePlane& source,
@@ -47,15 +49,16 @@ class TileRemap {
                   const TargetPlane& target) const;
   void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
-  SourcePlane plane_of_source(const PlaneSampling& sampling, int halves) const;
 
   const CoordinateGrid& grid_;
-  std::span<const Picture> source_;
+  int halves_;  ///< of the source that there are
   PixelFormat format_;
   ColourSpace colour_space_;
   Interpolation interpolation_;
   const Kernel& kernel_;
   SamplingList samplings_;
+  /// By how often the source was halved, and by sampling.
+  std::array<std::array<SourcePlane, 3>, kMaxLevel> sources_;
 };
 
 /// Where a tile lies in its view.

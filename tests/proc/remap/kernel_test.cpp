@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <ostream>
 #include <vector>
 
 #include "proc/remap/interpolation.h"
@@ -22,6 +23,7 @@ struct NamedLayout {
   Layout layout;
   const char* name;
 };
+void PrintTo(const NamedLayout& layout, std::ostream* out) { *out << layout.name; }
 constexpr std::array<NamedLayout, kKernelLayouts> kNamedLayouts{{
     {Layout::One8, "One8"},
     {Layout::Two8, "Two8"},
