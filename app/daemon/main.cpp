@@ -98,8 +98,7 @@ Result<> run(const Configuration& configuration, const sigset_t& end_signals) {
   if (auto started = pipeline.start(sinks); !started) return started;
   log_line(LogLevel::Info, "runs with " + std::to_string(configuration.cameras.size()) +
                                " cameras and " + std::to_string(configuration.views.size()) +
-                               " views, remap kernel " +
-                               std::string(remap::default_kernel().name));
+                               " views, remap kernel " + std::string(remap::default_kernel().name));
   int signal = 0;
   sigwait(&end_signals, &signal);
   pipeline.stop();

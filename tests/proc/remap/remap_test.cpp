@@ -198,7 +198,7 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
   for (int y = 0; y < 45; ++y) {
     for (int x = 0; x < 70; ++x) {
       const auto p = scene.ball.pixel(*scene.view.direction(x, y));
-      const auto even = scene.ball.pixel(*scene.view.direction(x / 2 * 2, y));
+      const auto even = scene.ball.pixel(*scene.view.direction(x - x % 2, y));
       if (!p || p->u < 0 || p->v < 0 || p->u > 61 || p->v > 46) continue;
       if (!even || even->u < 0 || even->v < 0 || even->u > 61 || even->v > 46) continue;
       // Chroma as a plane of half width whose samples sit on even pixels, in picture and view.
