@@ -10,9 +10,8 @@ constexpr int kTileBits = 4;
 static_assert(kTile == 1 << kTileBits);
 
 /// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
-///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048, with the second differences xx
-///           and
-/// yy added up over the four corners.
+///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048. The second differences xx and yy
+/// are added up over the four corners.
 BasicQuadratic<Both> quadratics(const Coordinate* nodes, std::ptrdiff_t stride) {
   const auto n = [&](int i, int j) {
     const Coordinate& node = nodes[j * stride + i];
