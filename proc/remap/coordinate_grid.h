@@ -43,9 +43,8 @@ class CoordinateGrid {
   int halves() const { return std::max(levels_ - 1, 0); }
   /// The map within a Patch tile.
   Patch patch(int tx, int ty) const;
-  /// Row `y`, 0..15, of a Dense tile, with markers. Pixels beyond the view's border are undefined.
-  CoordinateRow dense_row(const Tile& tile, int y) const;
-  /// All rows of any tile, in less time than one by one.
+  /// All rows of any tile, with markers, in less time than one by one. Pixels beyond the view's
+  /// border are undefined.
   CoordinateTile pixels(int tx, int ty) const;
   /// Row `y`, 0..15, of any tile: for where speed matters less than simplicity.
   CoordinateRow row(int tx, int ty, int y) const;
@@ -65,6 +64,7 @@ class CoordinateGrid {
   Stencil stencil(int tx, int ty) const;
   void write_validity(int tx, int ty, const ImageView<std::uint8_t>& out) const;
   FineTile<8> curved(const Tile& tile) const;
+  CoordinateRow dense_row(const Tile& tile, int y) const;
 
   int width_;
   int height_;

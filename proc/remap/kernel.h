@@ -48,6 +48,12 @@ constexpr const LayoutInfo& info(Layout layout) {
   return kLayoutInfo[static_cast<std::size_t>(layout)];
 }
 
+/// The layout of what is written for `layout`: the same samples without those left out.
+constexpr Layout packed(Layout layout) {
+  if (layout == Layout::FirstOfTwo8) return Layout::One8;
+  return layout == Layout::OddOfFour8 ? Layout::Two8 : layout;
+}
+
 /// A rectangle of 4x4 pixel blocks to be sampled from one plane.
 struct TileJob {
   const BlockMap& map;

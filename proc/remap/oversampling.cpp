@@ -2,29 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <utility>
+
+#include "proc/remap/halving.h"
 
 namespace orbwatch::remap {
 namespace {
-
-template <class Sample>
-void average_row(const std::uint8_t* upper, const std::uint8_t* lower, int samples, int columns,
-                 std::uint8_t* out) {
-  const auto at = [](const std::uint8_t* row, int n) {
-    Sample sample = 0;
-    std::memcpy(&sample, row + n * sizeof sample, sizeof sample);
-    return unsigned{sample};
-  };
-  for (int x = 0; x < columns; ++x) {
-    for (int k = 0; k < samples; ++k) {
-      const int left = 2 * x * samples + k, right = left + samples;
-      const unsigned sum = at(upper, left) + at(upper, right) + at(lower, left) + at(lower, right);
-      const auto mean = static_cast<Sample>((sum + 2) / 4);
-      std::memcpy(out + (x * samples + k) * sizeof mean, &mean, sizeof mean);
-    }
-  }
-}
 
 /// Steps further than that lead to another surface.
 constexpr std::int32_t kFar = 64 << kFractionBits;
@@ -80,11 +63,10 @@ void at_half_steps(const CoordinateTile& tile, int columns, int rows, int left, 
 
 void average(const OversampledTile& tile, Layout layout, const TargetPlane& out) {
   const std::ptrdiff_t stride = OversampledTile::stride(layout);
-  const LayoutInfo& facts = info(layout);
-  const auto row = facts.sample_bytes == 2 ? average_row<std::uint16_t> : average_row<std::uint8_t>;
+  const HalveRow halve = halve_row(packed(layout));
   for (int y = 0; y < out.rows; ++y) {
     const std::uint8_t* upper = tile.samples.data() + 2 * y * stride;
-    row(upper, upper + stride, facts.samples, out.columns, out.data + y * out.stride);
+    halve(upper, upper + stride, out.data + y * out.stride, out.columns);
   }
 }
 

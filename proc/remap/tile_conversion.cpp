@@ -115,7 +115,8 @@ void clear_area(const MutablePicture& out, const TileArea& area) {
   SampledTile tile;
   std::size_t n = 0;
   for (const PlaneSampling& sampling : samplings(out.format)) {
-    tile.planes[n++].fill(black(sampling, out.format, out.colour_space));
+    std::fill_n(tile.planes[n++].begin(), kTile * SampledTile::stride(sampling),
+                black(sampling, out.format, out.colour_space));
   }
   write_tile(tile, out.format, out.colour_space, out, area);
 }

@@ -34,18 +34,28 @@ TargetPlane quarter_of(OversampledTile& tile, Layout layout, const TargetPlane& 
           std::min(kTile, 2 * whole.columns - left), std::min(kTile, 2 * whole.rows - top)};
 }
 
-/// Each pixel as the mean of four.
-void oversample_dense(const CoordinateTile& coordinates, Layout layout, const SourcePlane& source,
-                      std::uint8_t black, const TargetPlane& target) {
+/// Fills a target with means of four, if `sample(left, top, plane)` can sample every quarter of the
+/// oversampled tile, that from its pixel (left, top) on, into its plane.
+template <class Sample>
+bool oversample(Layout layout, const TargetPlane& target, const Sample& sample) {
   OversampledTile tile;
-  CoordinateTile quarter;
   for (int top = 0; top < 2 * target.rows; top += kTile) {
     for (int left = 0; left < 2 * target.columns; left += kTile) {
-      at_half_steps(coordinates, target.columns, target.rows, left, top, quarter);
-      sample_dense(quarter, layout, source, black, quarter_of(tile, layout, target, left, top));
+      if (!sample(left, top, quarter_of(tile, layout, target, left, top))) return false;
     }
   }
   average(tile, layout, target);
+  return true;
+}
+
+void oversample_dense(const CoordinateTile& coordinates, Layout layout, const SourcePlane& source,
+                      std::uint8_t black, const TargetPlane& target) {
+  CoordinateTile quarter;
+  oversample(layout, target, [&](int left, int top, const TargetPlane& plane) {
+    at_half_steps(coordinates, target.columns, target.rows, left, top, quarter);
+    sample_dense(quarter, layout, source, black, plane);
+    return true;
+  });
 }
 
 TargetPlane plane_of_view(const MutablePicture& out, const PlaneSampling& sampling,
@@ -150,8 +160,11 @@ bool TileRemap::fill(const Patch& patch, const Minification& small, std::size_t 
                      const TargetPlane& target) const {
   const Layout layout = samplings_.items[sampling].layout;
   const SourcePlane& source = sources_[small.halves][sampling];
-  return small.oversampled ? oversample(patch, layout, source, target)
-                           : sample(patch, layout, source, target);
+  if (!small.oversampled) return sample(patch, layout, source, target);
+  const Patch fine = at_half_steps(patch);
+  return oversample(layout, target, [&](int left, int top, const TargetPlane& quarter) {
+    return sample(moved(fine, left, top), layout, source, quarter);
+  });
 }
 
 bool TileRemap::sample(const Patch& patch, Layout layout, const SourcePlane& source,
@@ -183,21 +196,6 @@ bool TileRemap::sample_steep(const Patch& patch, Layout layout, const SourcePlan
                   target.data + (top + y) / 2 * target.stride);
     }
   }
-  return true;
-}
-
-/// Each pixel as the mean of four.
-bool TileRemap::oversample(const Patch& patch, Layout layout, const SourcePlane& source,
-                           const TargetPlane& target) const {
-  OversampledTile tile;
-  const Patch fine = at_half_steps(patch);
-  for (int top = 0; top < 2 * target.rows; top += kTile) {
-    for (int left = 0; left < 2 * target.columns; left += kTile) {
-      const TargetPlane quarter = quarter_of(tile, layout, target, left, top);
-      if (!sample(moved(fine, left, top), layout, source, quarter)) return false;
-    }
-  }
-  average(tile, layout, target);
   return true;
 }
 

@@ -45,8 +45,6 @@ class TileRemap {
                      const TargetPlane& target) const;
   bool sample_steep(const Patch& patch, Layout layout, const SourcePlane& source,
                     const TargetPlane& target) const;
-  bool oversample(const Patch& patch, Layout layout, const SourcePlane& source,
-                  const TargetPlane& target) const;
   void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
 
