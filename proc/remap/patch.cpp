@@ -71,8 +71,9 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
   const double y0 = yy(0, 1) - yy(0, 0), y1 = yy(1, 1) - yy(1, 0);
   const double across_x = (yy(1, 0) + yy(1, 1) - yy(0, 0) - yy(0, 1)) / 2;
   const double across_y = (xx(0, 1) + xx(1, 1) - xx(0, 0) - xx(1, 0)) / 2;
-  return 0.0081 * (std::max(std::abs(x0), std::abs(x1)) + std::max(std::abs(y0), std::abs(y1))) +
-         0.0625 * (std::abs(across_x) + std::abs(across_y));
+  return kThirdDifference *
+             (std::max(std::abs(x0), std::abs(x1)) + std::max(std::abs(y0), std::abs(y1))) +
+         kChangeAcross * (std::abs(across_x) + std::abs(across_y));
 }
 
 }  // namespace

@@ -105,8 +105,11 @@ class Patch {
 
 /// How far a patch may be from the map that its nodes were taken from, in Q13 pixels, as far as its
 /// nodes can tell: the terms of third order in the distance between nodes. Along x they are
-/// t (1-t) (2t-1) / 12 of the third difference, at most 0.0081, and t (1-t) / 2 of how far the
-/// second difference in this row is from the mean, at most 1/16 of its change from row to row.
+/// t (1-t) (2t-1) / 12 of the third difference, at most kThirdDifference of it, and t (1-t) / 2 of
+/// how far the second difference in this row is from the mean, at most kChangeAcross of its change
+/// from row to row.
+inline constexpr double kThirdDifference = 0.0081;
+inline constexpr double kChangeAcross = 1.0 / 16;
 double third_order_error(const Stencil& stencil);
 
 }  // namespace orbwatch::remap

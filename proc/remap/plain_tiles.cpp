@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proc/remap/patch.h"
 #include "proc/remap/tile.h"
 #include "proc/remap/tolerance.h"
 
@@ -27,6 +28,9 @@ struct Axis {
 
 /// `nodes`: of the first tile's corner. Undefined nodes give anything; differences wrap around.
 void measure(const std::int32_t* nodes, std::ptrdiff_t stride, Axis& axis) {
+  constexpr auto kThird = static_cast<float>(kThirdDifference);
+  // Of the sum of both sides' changes, where third_order_error() has the mean.
+  constexpr auto kAcross = static_cast<float>(kChangeAcross / 2);
   for (std::size_t k = 0; k < kRun; ++k) {
     const auto n = [&](int i, int j) {
       return static_cast<std::uint32_t>(nodes[static_cast<std::ptrdiff_t>(k) + i + j * stride]);
@@ -43,7 +47,7 @@ void measure(const std::int32_t* nodes, std::ptrdiff_t stride, Axis& axis) {
     const float across_x = std::abs(real(yy10 + yy11 - yy00 - yy01));
     const float across_y = std::abs(real(xx01 + xx11 - xx00 - xx10));
     axis.third[k] =
-        0.0081F * (std::max(x0, x1) + std::max(y0, y1)) + 0.03125F * (across_x + across_y);
+        kThird * (std::max(x0, x1) + std::max(y0, y1)) + kAcross * (across_x + across_y);
     axis.fourth_x[k] = real(n(-2, 0) - 4 * n(-1, 0) + 6 * n(0, 0) - 4 * n(1, 0) + n(2, 0));
     axis.fourth_y[k] = real(n(0, -2) - 4 * n(0, -1) + 6 * n(0, 0) - 4 * n(0, 1) + n(0, 2));
     // Between the corners a patch bulges by an eighth of the mean second differences.

@@ -10,6 +10,7 @@
 #include "proc/optics/rotation.h"
 #include "proc/remap/colour_conversion.h"
 #include "tests/proc/reference_optics.h"
+#include "tests/proc/remap/stored_picture.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -21,24 +22,7 @@ using optics::Vec3;
 using optics::ViewKind;
 using optics::ViewProjection;
 using optics::ViewSpec;
-
-/// A picture with memory of its own, `padding` samples longer in each row than its pixels.
-template <class T>
-struct Storage {
-  Storage(PixelFormat format, int width, int height, int padding = 0) {
-    const int stride = row_bytes(format, width) + padding * static_cast<int>(sizeof(T));
-    samples.resize(picture_bytes(format, stride, height) / sizeof(T));
-    picture = MutablePicture::contiguous(format, width, height,
-                                         reinterpret_cast<std::byte*>(samples.data()), stride);
-    source = picture;
-  }
-  std::vector<T> samples;
-  MutablePicture picture;
-  Picture source;
-
-  ImageView<T> view() { return picture.samples<T>(); }
-  std::span<const Picture> as_source() { return {&source, 1}; }
-};
+using tests::StoredPicture;
 
 /// A room with soft and hard edges: slopes as photographs have them.
 template <class T>
@@ -77,22 +61,22 @@ struct Agreement {
 template <class T>
 Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
                   const BallModel& model, PixelFormat format, int size, double tolerance) {
-  Storage<T> source(format, size, size), result(format, spec.width, spec.height);
-  paint_room(source.view());
+  StoredPicture source(format, size, size), result(format, spec.width, spec.height);
+  paint_room(source.picture.samples<T>());
   const auto ball = BallProjection::make(model, reference.outline, reference.registration).value();
   const auto view = ViewProjection::make(spec).value();
   const CoordinateGrid grid(view, ball, size, size);
   remap(grid, source.as_source(), Interpolation::Bilinear, result.picture, {0, grid.tiles_y()});
 
   const Vec3 blind = reference.registration * Vec3{0, -1, 0};
-  const ImageView<const T> in = source.view();
+  const ImageView<const T> in = source.picture.samples<T>();
   Agreement agreement;
   for (int y = 0; y < spec.height; ++y) {
     for (int x = 0; x < spec.width; ++x) {
       const Vec3 direction = view.direction(x, y).value();
       const auto truth = reference.pixel(direction);
       if (!truth) {
-        EXPECT_EQ(*result.view().at(x, y), 0) << "blind pixel " << x << ' ' << y;
+        EXPECT_EQ(*result.picture.samples<T>().at(x, y), 0) << "blind pixel " << x << ' ' << y;
         continue;
       }
       const Vec2 from_centre{truth->u - reference.outline.centre.u,
@@ -103,7 +87,7 @@ Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
         continue;
       }
       for (int k = 0; k < in.channels; ++k) {
-        const double error = result.view().at(x, y)[k] - bilinear_at(in, *truth, k);
+        const double error = result.picture.samples<T>().at(x, y)[k] - bilinear_at(in, *truth, k);
         ++agreement.compared;
         agreement.off_by_more_than_one += std::abs(error) > tolerance;
       }
@@ -162,8 +146,9 @@ struct SmallScene {
 
 TEST(Remap, NearestTakesTheClosestPixel) {
   const SmallScene scene;
-  Storage<std::uint16_t> source(PixelFormat::Y16, 64, 48), result(PixelFormat::Y16, 70, 45);
-  for (int i = 0; i < 64 * 48; ++i) source.samples[i] = static_cast<std::uint16_t>(i + 1);
+  StoredPicture source(PixelFormat::Y16, 64, 48), result(PixelFormat::Y16, 70, 45);
+  std::uint16_t* const counts = source.picture.samples<std::uint16_t>().data;
+  for (int i = 0; i < 64 * 48; ++i) counts[i] = static_cast<std::uint16_t>(i + 1);
   remap(scene.grid, source.as_source(), Interpolation::Nearest, result.picture,
         {0, scene.grid.tiles_y()});
   int compared = 0;
@@ -171,14 +156,15 @@ TEST(Remap, NearestTakesTheClosestPixel) {
     for (int x = 0; x < 70; ++x) {
       const auto p = scene.ball.pixel(*scene.view.direction(x, y));
       if (!p || p->u < -0.5 || p->v < -0.5 || p->u > 63.5 || p->v > 47.5) {
-        EXPECT_EQ(*result.view().at(x, y), 0);
+        EXPECT_EQ(*result.picture.samples<std::uint16_t>().at(x, y), 0);
         continue;
       }
       // Within the grid's tolerance of a pixel's edge either neighbour is right.
       const auto edge = [](double c) { return std::abs(c - std::floor(c) - 0.5) < 0.016; };
       if (edge(p->u) || edge(p->v)) continue;
       ++compared;
-      EXPECT_EQ(*result.view().at(x, y), std::lround(p->v) * 64 + std::lround(p->u) + 1);
+      EXPECT_EQ(*result.picture.samples<std::uint16_t>().at(x, y),
+                std::lround(p->v) * 64 + std::lround(p->u) + 1);
     }
   }
   EXPECT_GT(compared, 500);
@@ -186,10 +172,10 @@ TEST(Remap, NearestTakesTheClosestPixel) {
 
 TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
   const SmallScene scene;
-  Storage<std::uint8_t> source(PixelFormat::Yuyv, 64, 48, 12);
+  StoredPicture source(PixelFormat::Yuyv, 64, 48, 12);
   std::mt19937 random(5);
-  for (auto& sample : source.samples) sample = static_cast<std::uint8_t>(random());
-  Storage<std::uint8_t> result(PixelFormat::Rgb, 70, 45);
+  for (std::byte& sample : source.bytes) sample = static_cast<std::byte>(random());
+  StoredPicture result(PixelFormat::Rgb, 70, 45);
   remap(scene.grid, source.as_source(), Interpolation::Bilinear, result.picture,
         {0, scene.grid.tiles_y()});
   const auto in = source.picture.samples<std::uint8_t>();
@@ -217,7 +203,8 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
               static_cast<int>(std::lround(plane(even->u / 2, even->v, 4, 3))), truth);
       ++compared;
       // White noise: a sixty-fourth of a pixel is worth up to 4 levels of Y and 2.0 x 2 of chroma.
-      for (int k = 0; k < 3; ++k) EXPECT_NEAR(result.view().at(x, y)[k], truth[k], 10);
+      for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR(result.picture.samples<std::uint8_t>().at(x, y)[k], truth[k], 10);
     }
   }
   EXPECT_GT(compared, 500);
@@ -225,9 +212,9 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
 
 TEST(Remap, RowsMayBeSharedByThreads) {
   const SmallScene scene;
-  Storage<std::uint8_t> source(PixelFormat::Rgb, 64, 48), whole(PixelFormat::Rgb, 70, 45, 5),
+  StoredPicture source(PixelFormat::Rgb, 64, 48), whole(PixelFormat::Rgb, 70, 45, 5),
       shared(PixelFormat::Rgb, 70, 45, 5);
-  paint_room(source.view());
+  paint_room(source.picture.samples<std::uint8_t>());
   remap(scene.grid, source.as_source(), Interpolation::Bilinear, whole.picture,
         {0, scene.grid.tiles_y()});
   std::thread other([&] {
@@ -236,7 +223,7 @@ TEST(Remap, RowsMayBeSharedByThreads) {
   remap(scene.grid, source.as_source(), Interpolation::Bilinear, shared.picture,
         {1, scene.grid.tiles_y()});
   other.join();
-  EXPECT_EQ(whole.samples, shared.samples);
+  EXPECT_EQ(whole.bytes, shared.bytes);
 }
 
 }  // namespace
