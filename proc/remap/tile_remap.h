@@ -45,6 +45,8 @@ class TileRemap {
                      const TargetPlane& target) const;
   bool sample_steep(const Patch& patch, Layout layout, const SourcePlane& source,
                     const TargetPlane& target) const;
+  bool sample_oversampled(const Patch& patch, Layout layout, const SourcePlane& source,
+                          const TargetPlane& target) const;
   void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
 
