@@ -1,107 +1,121 @@
 #include "proc/remap/block_map.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace orbwatch::remap {
 namespace {
 
 constexpr int kScaleBits = PatchRow::kScaleBits;
-constexpr std::int64_t kPixel = std::int64_t{1} << (kFractionBits + kScaleBits);
+constexpr int kSlopeBits = BothQuadratics::kSlopeBits;
+constexpr int kSlopeShift = kScaleBits - kSlopeBits;
+constexpr std::int32_t kPixel = 1 << (kFractionBits + kSlopeBits);
 constexpr int kLast = kBlock - 1;
 
 // Q18 from Q24. More curvature would overflow 16 bit lanes (3 * 3 * 3584 < 2^15), and is far beyond
 // what fits a window.
 constexpr int kCurvatureShift = 6;
-constexpr std::int64_t kMostCurvature = std::int64_t{3584} << kCurvatureShift;
+constexpr std::int32_t kMostCurvature = 3584 << kCurvatureShift;
 
-// What rounding of the lanes may add on either side of a block, Q24.
-constexpr std::int64_t kSlack = std::int64_t{32} << kScaleBits;
+// What rounding of the lanes may add on either side of a block, Q20.
+constexpr std::int32_t kSlack = 32 << kSlopeBits;
 
-Both below_zero(Both value) { return value & (value >> 63); }
-Both above_zero(Both value) { return value & ~(value >> 63); }
+Four below_zero(Four value) { return value < 0 ? value : 0; }
+Four above_zero(Four value) { return value > 0 ? value : 0; }
 
-/// How far the pixels of any block lie from its corner, Q24; room for rounding is included.
-struct Reach {
-  Both low, high;
-};
-Reach reach(const BasicQuadratic<Both>& map, int blocks_x, int blocks_y) {
+/// How far the pixels of any block lie from its corner, Q20: u and v at least, u and v at most.
+/// Room for rounding is included.
+Four reach(const BothQuadratics& map, int blocks_x, int blocks_y) {
   // From a corner it is i (slope_x + i xx + j xy / 2) + j (slope_y + j yy + i xy / 2) to pixel
   // (i, j): the slopes up to 3/2, that is less than 2, pixels beyond the last corner, and that is 2
-  // before the blocks' end, or the next power of two: vectors of 64 bit shift, but do not multiply.
-  const int bits_x = std::bit_width(static_cast<unsigned>(kBlock * blocks_x - 1));
-  const int bits_y = std::bit_width(static_cast<unsigned>(kBlock * blocks_y - 1));
-  const auto until_last = [](Both slope, int bits) { return (slope << bits) - (slope << 1); };
-  const Both xx = until_last(map.xx << 1, bits_x), xy = until_last(map.xy, bits_y);
-  const Both yx = until_last(map.xy, bits_x), yy = until_last(map.yy << 1, bits_y);
-  const Both low = below_zero(map.x + below_zero(xx) + below_zero(xy)) +
-                   below_zero(map.y + below_zero(yx) + below_zero(yy));
-  const Both high = above_zero(map.x + above_zero(xx) + above_zero(xy)) +
-                    above_zero(map.y + above_zero(yx) + above_zero(yy));
-  static_assert(kLast == 3);
-  return {(low << 1) + low - kSlack, (high << 1) + high + kSlack};
+  // before the blocks' end; for both axes the longer one's.
+  const int last = kBlock * std::max(blocks_x, blocks_y) - 2;
+  const Four along = (map.curve * (2 * last)) >> kSlopeShift;
+  const Four across = (map.cross * last) >> kSlopeShift;
+  const Four low = below_zero(map.slope + below_zero(along) + below_zero(across));
+  const Four high = above_zero(map.slope + above_zero(along) + above_zero(across));
+  const Four sum = __builtin_shufflevector(low, high, 0, 1, 4, 5) +
+                   __builtin_shufflevector(low, high, 2, 3, 6, 7);
+  return kLast * sum + Four{-kSlack, -kSlack, kSlack, kSlack};
 }
 
-bool fits(const BasicQuadratic<Both>& map, const Reach& pixels) {
-  using Unsigned [[gnu::vector_size(16)]] = std::uint64_t;
-  const auto is_too_curved = [](Both value) {
+bool fits(const BothQuadratics& map, Four pixels) {
+  using Unsigned [[gnu::vector_size(16)]] = std::uint32_t;
+  const auto is_too_curved = [](Four value) {
     return reinterpret_cast<Unsigned>(value + kMostCurvature) > 2 * kMostCurvature;
   };
   // A place is within the window's first pixel, the right or lower neighbour one further.
-  const Both too_much = (pixels.high - pixels.low > (kWindow - 2) * kPixel) |
-                        is_too_curved(map.xx) | is_too_curved(map.xy) | is_too_curved(map.yy);
-  return (too_much[0] | too_much[1]) == 0;
+  const Four low = __builtin_shufflevector(pixels, pixels, 0, 1, 0, 1);
+  const Four too_much =
+      (pixels - low > (kWindow - 2) * kPixel) | is_too_curved(map.curve) | is_too_curved(map.cross);
+  const Both any = reinterpret_cast<Both>(too_much);
+  return (any[0] | any[1]) == 0;
 }
 
-/// Q24 to Q13 or Q18.
-template <int bits>
-Both rounded(Both value) {
-  return (value + (1 << (bits - 1))) >> bits;
+using FourShort [[gnu::vector_size(8)]] = std::int16_t;
+
+/// Each number times 2^shift in 64 bits.
+struct Widened {
+  Both along_x, along_y;
+};
+template <int shift>
+Widened widened(Four value) {
+  static_assert(std::endian::native == std::endian::little);
+  const Four low = value << shift, high = value >> (32 - shift);
+  return {reinterpret_cast<Both>(__builtin_shufflevector(low, high, 0, 4, 1, 5)),
+          reinterpret_cast<Both>(__builtin_shufflevector(low, high, 2, 6, 3, 7))};
 }
 
-AxisPair<std::int64_t> pair(Both value) { return {value[0], value[1]}; }
-
-WindowWalk window_walk(const BasicQuadratic<Both>& map, Both start) {
+/// `start`: Q24, where the windows begin from the patch's corner.
+WindowWalk window_walk(const BothQuadratics& map, Both start) {
   // To Q32, and from pixels to blocks.
   static_assert(kBlock == 4);
   constexpr int kUpscale = 32 - (kFractionBits + kScaleBits);
-  return {pair((map.value + start) << kUpscale),
-          pair((map.x + (map.xx << 2)) << (kUpscale + 2)),
-          pair((map.y + (map.yy << 2)) << (kUpscale + 2)),
-          pair(map.xx << (kUpscale + 5)),
-          pair(map.xy << (kUpscale + 4)),
-          pair(map.yy << (kUpscale + 5))};
+  const Widened step = widened<kUpscale + 4>((map.slope << (kSlopeShift - 2)) + map.curve);
+  const Widened growth = widened<kUpscale + 5>(map.curve);
+  return {(map.value + start) << kUpscale,
+          step.along_x,
+          step.along_y,
+          growth.along_x,
+          growth.along_y,
+          widened<kUpscale + 4>(map.cross).along_x};
+}
+
+template <int shift>
+Four rounded(Four value) {
+  return (value + (1 << (shift - 1))) >> shift;
+}
+FourShort narrow(Four value) { return __builtin_convertvector(value, FourShort); }
+
+LaneShape lane_shape(const BothQuadratics& map, Four offset) {
+  const Four cross = rounded<kCurvatureShift>(map.cross);
+  const Four last = __builtin_shufflevector(cross, offset, 0, 1, 4, 5);
+  struct Registers {
+    FourShort slope, curve, last;
+  };
+  // Twice the curvature has one fraction bit less.
+  return std::bit_cast<LaneShape>(Registers{narrow(rounded<kSlopeBits>(map.slope)),
+                                            narrow(rounded<kCurvatureShift - 1>(map.curve)),
+                                            narrow(last)});
 }
 
 }  // namespace
 
-std::optional<BlockMap> BlockMap::make(const Patch& patch, int blocks_x, int blocks_y,
-                                       std::int32_t add_u, std::int32_t add_v) {
-  std::optional<BlockMap> blocks;
-  const BasicQuadratic<Both>& map = patch.axes();
-  const Reach pixels = reach(map, blocks_x, blocks_y);
-  if (!fits(map, pixels)) return blocks;
+std::optional<BlockMap> BlockMap::make(Patch patch, int blocks_x, int blocks_y, std::int32_t add_u,
+                                       std::int32_t add_v) {
+  const BothQuadratics& map = patch.axes();
+  const Four pixels = reach(map, blocks_x, blocks_y);
+  if (!fits(map, pixels)) return std::nullopt;
 
-  const Both low = pixels.low >> kScaleBits;
+  const Four low = pixels >> kSlopeBits;
   constexpr int kRowShift = kFractionBits - kRowFractionBits;
   constexpr std::int64_t kHalf = std::int64_t{1} << (kScaleBits - 1);
-  const Both start = ((low + Both{add_u, add_v}) << kScaleBits) + Both{kHalf, kHalf << kRowShift};
-  const Both slope_x = rounded<kScaleBits>(map.x), slope_y = rounded<kScaleBits>(map.y);
-  const Both twice_xx = rounded<kCurvatureShift>(map.xx << 1);
-  const Both xy = rounded<kCurvatureShift>(map.xy);
-  const Both twice_yy = rounded<kCurvatureShift>(map.yy << 1);
-  const Both offset = Both{0, kRowCentre << kRowShift} - low;
-  const auto lanes = [&](int axis) {
-    const auto narrow = [axis](Both value) { return static_cast<std::int16_t>(value[axis]); };
-    return LaneShape{narrow(slope_x), narrow(slope_y),  narrow(twice_xx),
-                     narrow(xy),      narrow(twice_yy), static_cast<std::uint16_t>(offset[axis])};
-  };
-  blocks.emplace();
-  blocks->windows = window_walk(map, start);
-  blocks->u = lanes(0);
-  blocks->v = lanes(1);
-  blocks->blocks_x = blocks_x;
-  blocks->blocks_y = blocks_y;
-  return blocks;
+  const Both start =
+      widened<kScaleBits>(low + Four{add_u, add_v, 0, 0}).along_x + Both{kHalf, kHalf << kRowShift};
+  const Four offset = Four{0, kRowCentre << kRowShift, 0, 0} - low;
+  // In its place: a copy would be a tenth of the work.
+  return std::optional<BlockMap>(std::in_place, window_walk(map, start), lane_shape(map, offset),
+                                 blocks_x, blocks_y);
 }
 
 }  // namespace orbwatch::remap

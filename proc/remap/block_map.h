@@ -21,14 +21,14 @@ struct AxisPair {
 /// Where the blocks' windows lie, source pixels in Q32: exactly, by differences from block to
 /// block. Whole pixels are the window's origin. The fraction is the block's place in its window.
 struct WindowWalk {
-  AxisPair<std::int64_t> value;           ///< of block (0, 0)
-  AxisPair<std::int64_t> step_x, step_y;  ///< from there to block (1, 0), (0, 1)
-  AxisPair<std::int64_t> xx, xy, yy;      ///< growth of step_x along x, of step_x or step_y along
-                                          ///< the other axis, of step_y along y
+  Both value;           ///< of block (0, 0)
+  Both step_x, step_y;  ///< from there to block (1, 0), (0, 1)
+  Both xx, yy, xy;      ///< growth of step_x along x, of step_y along y, of each of them along the
+                        ///< other axis
 };
 
-/// One axis of all pixels of a block, from the block's place on, in 16 bit lanes modulo 2^16. Pixel
-/// (i, j), 0..3 each, of block (bx, by) lies at
+/// All pixels of a block, from the block's place on, in 16 bit lanes modulo 2^16. Along either axis
+/// pixel (i, j), 0..3 each, of block (bx, by) lies at
 ///   place + start + bx along_x + by along_y
 /// with, in Q13,
 ///   along_x = (i twice_xx + j xy + 4) >> 3,   along_y = (i xy + j twice_yy + 4) >> 3,
@@ -37,10 +37,11 @@ struct WindowWalk {
 /// a row's number is in the bits where a table of rows of kWindow is indexed by it. And they count
 /// from kRowCentre above the window, for v - 1/2 is what a lower row is weighed with (see
 /// interpolation.h). Rounding moves a pixel by less than 1/300 px from the quadratic.
-struct alignas(16) LaneShape {
-  std::int16_t slope_x, slope_y;        ///< of block (0, 0)'s corner; Q13
-  std::int16_t twice_xx, xy, twice_yy;  ///< curvature, Q18
-  std::uint16_t offset;                 ///< Q13; makes all lanes positive
+struct alignas(8) LaneShape {
+  AxisPair<std::int16_t> slope_x, slope_y;    ///< of block (0, 0)'s corner; Q13
+  AxisPair<std::int16_t> twice_xx, twice_yy;  ///< curvature, Q18
+  AxisPair<std::int16_t> xy;                  ///< Q18
+  AxisPair<std::uint16_t> offset;             ///< Q13; makes all lanes positive
 };
 
 inline constexpr int kRowFractionBits = kFractionBits - 2;
@@ -49,14 +50,15 @@ inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
 /// A map for kernels, over as many blocks as a tile, or its half in a subsampled plane, has.
 struct BlockMap {
   WindowWalk windows;
-  LaneShape u, v;
+  LaneShape lanes;
   int blocks_x;  ///< 2 or 4
   int blocks_y;
 
   /// Nothing when the map is too steep or bent: a block would not fit into its window. `add_u` and
-  /// `add_v`, Q13, are added to every coordinate: half of what a kernel's weights do not resolve.
-  static std::optional<BlockMap> make(const Patch& patch, int blocks_x, int blocks_y,
-                                      std::int32_t add_u, std::int32_t add_v);
+  /// `add_v`, Q13, are added to every coordinate: half of what a kernel's weights do not resolve. A
+  /// patch is four registers, which is why it is passed by value.
+  static std::optional<BlockMap> make(Patch patch, int blocks_x, int blocks_y, std::int32_t add_u,
+                                      std::int32_t add_v);
 };
 
 }  // namespace orbwatch::remap

@@ -15,11 +15,11 @@ namespace orbwatch::remap {
 /// Steps one axis of a WindowWalk from block to block along a row of blocks.
 class AxisWalk {
  public:
-  using Member = std::int64_t AxisPair<std::int64_t>::*;
-  [[gnu::always_inline]] AxisWalk(const WindowWalk& walk, Member axis, int row)
-      : value_(walk.value.*axis + row * (walk.step_y.*axis) + pairs(row) * (walk.yy.*axis)),
-        step_(walk.step_x.*axis + row * (walk.xy.*axis)),
-        growth_(walk.xx.*axis) {}
+  /// Axis 0 or 1, u or v.
+  [[gnu::always_inline]] AxisWalk(const WindowWalk& walk, int axis, int row)
+      : value_(walk.value[axis] + row * walk.step_y[axis] + pairs(row) * walk.yy[axis]),
+        step_(walk.step_x[axis] + row * walk.xy[axis]),
+        growth_(walk.xx[axis]) {}
 
   /// Where the window of the current block begins, source pixels.
   [[gnu::always_inline]] std::ptrdiff_t window() const { return value_ >> 32; }
@@ -50,8 +50,8 @@ void walk_tile(const TileJob& job) {
   const BlockMap& map = job.map;
   typename Isa::Shape shape(map);
   for (int row = 0; row < map.blocks_y; ++row) {
-    AxisWalk u(map.windows, &AxisPair<std::int64_t>::u, row);
-    AxisWalk v(map.windows, &AxisPair<std::int64_t>::v, row);
+    AxisWalk u(map.windows, 0, row);
+    AxisWalk v(map.windows, 1, row);
     std::uint8_t* out = job.out + row * kBlock * job.out_stride;
     for (int block = 0; block < map.blocks_x; ++block) {
       const std::uint8_t* window =

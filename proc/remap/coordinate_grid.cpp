@@ -25,12 +25,6 @@ Stencil CoordinateGrid::stencil(int tx, int ty) const {
   return stencil;
 }
 
-Patch CoordinateGrid::patch(int tx, int ty) const {
-  const Tile t = tile(tx, ty);
-  return t.store == TileStore::OwnNodes ? Patch(own_nodes_[t.index])
-                                        : Patch(&node(tx, ty), tiles_x_ + 3);
-}
-
 FineTile<8> CoordinateGrid::curved(const Tile& tile) const {
   const int number = static_cast<int>(tile.index);
   return curved_tile(stencil(number % tiles_x_, number / tiles_x_));
@@ -61,7 +55,7 @@ CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
   if (t.kind == TileClass::Dense) return dense_row(t, y);
   CoordinateRow row;
   if (t.kind == TileClass::Patch) {
-    PatchRow current = patch(tx, ty).row(y);
+    PatchRow current = patch(t, tx, ty).row(y);
     for (Coordinate& c : row) {
       c = current.current();
       current.step();

@@ -41,8 +41,11 @@ class CoordinateGrid {
   int levels() const { return levels_; }
   /// How many halves of the source remap() can use: the last factor of two it samples itself.
   int halves() const { return std::max(levels_ - 1, 0); }
-  /// The map within a Patch tile.
-  Patch patch(int tx, int ty) const;
+  /// The map within the Patch tile `tile` at (tx, ty).
+  Patch patch(const Tile& tile, int tx, int ty) const {
+    if (tile.store == TileStore::OwnNodes) return Patch(own_nodes_[tile.index]);
+    return Patch(&node(tx, ty), tiles_x_ + 3);
+  }
   /// All rows of any tile, with markers, in less time than one by one. Pixels beyond the view's
   /// border are undefined.
   CoordinateTile pixels(int tx, int ty) const;

@@ -2,34 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
 
 namespace orbwatch::remap {
 namespace {
 
 constexpr int kTileBits = 4;
 static_assert(kTile == 1 << kTileBits);
+constexpr int kSlopeShift = PatchRow::kScaleBits - BothQuadratics::kSlopeBits;
 
-/// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
-///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048. The second differences xx and yy
-/// are added up over the four corners.
-BasicQuadratic<Both> quadratics(const Coordinate* nodes, std::ptrdiff_t stride) {
-  const auto n = [&](int i, int j) {
-    const Coordinate& node = nodes[j * stride + i];
-    return Both{node.u, node.v};
-  };
-  const Both corner = n(0, 0), along_x = n(1, 0) - corner, along_y = n(0, 1) - corner;
-  const Both along_xy = n(1, 1) - n(0, 1) - along_x;
-  const Both middle = corner + n(1, 0) + n(0, 1) + n(1, 1);
-  const Both xx = n(-1, 0) + n(2, 0) + n(-1, 1) + n(2, 1) - middle;
-  const Both yy = n(0, -1) + n(0, 2) + n(1, -1) + n(1, 2) - middle;
-  constexpr int kUnitBits = PatchRow::kScaleBits, kStepBits = kUnitBits - kTileBits;
-  constexpr int kCornerBits = kStepBits - kTileBits;
-  return {corner << kUnitBits,
-          (along_x << kStepBits) - (xx << kTileBits),
-          (along_y << kStepBits) - (yy << kTileBits),
-          along_xy << kCornerBits,
-          xx,
-          yy};
+/// Two nodes in a row.
+Four two(const Coordinate* nodes) {
+  static_assert(sizeof(Coordinate) == 8);
+  Four pair;
+  std::memcpy(&pair, nodes, sizeof pair);
+  return pair;
 }
 
 struct Extremes {
@@ -63,6 +52,21 @@ Differences along_row(const Quadratic& axis, std::int64_t y) {
   return {axis.value + y * (axis.y + y * axis.yy), axis.x + y * axis.xy + axis.xx, 2 * axis.xx};
 }
 
+/// Whether some neighbours are further apart than Patch::kLargestSpan.
+bool is_too_wide(const Stencil& stencil) {
+  const auto close = [&](int i, int j, int i2, int j2) {
+    const Coordinate &a = stencil.at(i, j), &b = stencil.at(i2, j2);
+    return std::abs(std::int64_t{a.u} - b.u) <= Patch::kLargestSpan &&
+           std::abs(std::int64_t{a.v} - b.v) <= Patch::kLargestSpan;
+  };
+  for (int along = -1; along <= 1; ++along) {
+    for (int line = 0; line <= 1; ++line) {
+      if (!close(along, line, along + 1, line) || !close(line, along, line, along + 1)) return true;
+    }
+  }
+  return false;
+}
+
 double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*member) {
   const auto n = [&](int i, int j) { return static_cast<double>(stencil.at(i, j).*member); };
   const auto xx = [&](int i, int j) { return n(i - 1, j) - 2 * n(i, j) + n(i + 1, j); };
@@ -78,7 +82,47 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
 
 }  // namespace
 
-Patch::Patch(const Coordinate* corner, std::ptrdiff_t stride) : axes_(quadratics(corner, stride)) {}
+/// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
+///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048. The second differences xx and yy
+/// are added up over the four corners.
+BothQuadratics Patch::quadratics(const Coordinate* corner, std::ptrdiff_t stride) {
+  const Coordinate* const below = corner + stride;
+  const Four top = two(corner), bottom = two(below), middle = top + bottom;
+  const auto outer = [](const Coordinate* row) {
+    return __builtin_shufflevector(two(row - 1), two(row + 1), 0, 1, 6, 7);
+  };
+  const Four rows = outer(corner) + outer(below) - middle;
+  const Four columns = two(corner - stride) + two(below + stride) - middle;
+  const Four curve = __builtin_shufflevector(rows, columns, 0, 1, 4, 5) +
+                     __builtin_shufflevector(rows, columns, 2, 3, 6, 7);
+  const Four along = __builtin_shufflevector(top, bottom, 2, 3, 4, 5) -
+                     __builtin_shufflevector(top, top, 0, 1, 0, 1);
+  const Four down = bottom - top;
+  const Four along_xy = __builtin_shufflevector(down, down, 2, 3, 2, 3) -
+                        __builtin_shufflevector(down, down, 0, 1, 0, 1);
+  constexpr int kStepBits = BothQuadratics::kSlopeBits - kTileBits;
+  static_assert(kSlopeShift == kTileBits, "X (16 - X) xx: its slope is a shifted xx");
+  return {Both{corner->u, corner->v} << PatchRow::kScaleBits, (along << kStepBits) - curve, curve,
+          along_xy << (PatchRow::kScaleBits - 2 * kTileBits)};
+}
+
+Patch::Patch(const Quadratic& u, const Quadratic& v) {
+  const auto four = [](std::int64_t u0, std::int64_t v0, std::int64_t u1, std::int64_t v1) {
+    const auto narrow = [](std::int64_t value) { return static_cast<std::int32_t>(value); };
+    return Four{narrow(u0), narrow(v0), narrow(u1), narrow(v1)};
+  };
+  axes_ = BothQuadratics{
+      {u.value, v.value},
+      four(u.x >> kSlopeShift, v.x >> kSlopeShift, u.y >> kSlopeShift, v.y >> kSlopeShift),
+      four(u.xx, v.xx, u.yy, v.yy),
+      four(u.xy, v.xy, u.xy, v.xy)};
+}
+
+Quadratic Patch::axis(int n) const {
+  const auto slope = [&](int lane) { return std::int64_t{axes_.slope[lane]} << kSlopeShift; };
+  return {axes_.value[n], slope(n),       slope(n + 2),
+          axes_.cross[n], axes_.curve[n], axes_.curve[n + 2]};
+}
 
 PatchRow Patch::row(int y) const {
   const Differences u = along_row(axis(0), y), v = along_row(axis(1), y);
@@ -99,6 +143,7 @@ Patch::Range Patch::range() const {
 }
 
 double third_order_error(const Stencil& stencil) {
+  if (is_too_wide(stencil)) return std::numeric_limits<double>::infinity();
   const double u = third_order_error(stencil, &Coordinate::u);
   const double v = third_order_error(stencil, &Coordinate::v);
   return std::sqrt(u * u + v * v);

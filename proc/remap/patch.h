@@ -54,33 +54,48 @@ bool all_nodes(const Good& good) {
   return true;
 }
 
-/// value + x X + y Y + xy X Y + xx X^2 + yy Y^2: one axis of a patch in Q(13 + 11), exactly. X, Y
-/// count pixels of the tile.
-template <class T>
-struct BasicQuadratic {
-  T value, x, y, xy, xx, yy;
+/// value + x X + y Y + xy X Y + xx X^2 + yy Y^2: one axis of a patch in Q(13 + 11). X, Y count
+/// pixels of the tile.
+struct Quadratic {
+  std::int64_t value, x, y, xy, xx, yy;
 };
-using Quadratic = BasicQuadratic<std::int64_t>;
 
-/// A number for u and one for v. One instruction works on both: a frame has thousands of patches.
+/// A number for u and one for v; a number for each of u and v along x, and then along y. One
+/// instruction works on all of them: a frame has thousands of patches.
 using Both [[gnu::vector_size(16)]] = std::int64_t;
+using Four [[gnu::vector_size(16)]] = std::int32_t;
+
+/// Both axes of a patch, as registers hold them.
+struct BothQuadratics {
+  static constexpr int kSlopeBits = 7;  ///< Q(13 + 7), which is exact for a patch on nodes
+
+  Both value;  ///< Q24
+  Four slope;  ///< x and y, Q20
+  Four curve;  ///< xx and yy, Q24
+  Four cross;  ///< xy, Q24; twice over
+};
 
 /// The smooth map between four nodes: bilinear, plus the mean of the second differences along each
 /// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
 class Patch {
  public:
   /// From the nodes around `corner`, the patch's upper left, in rows of `stride` nodes. The twelve
-  /// that count are defined; the four outermost corners do not.
-  Patch(const Coordinate* corner, std::ptrdiff_t stride);
+  /// that count are defined and the four outermost corners do not; neighbours are at most
+  /// kLargestSpan apart along either axis.
+  Patch(const Coordinate* corner, std::ptrdiff_t stride) : axes_(quadratics(corner, stride)) {}
   explicit Patch(const Stencil& stencil) : Patch(&stencil.at(0, 0), 4) {}
-  explicit Patch(const BasicQuadratic<Both>& axes) : axes_(axes) {}
-  Patch(const Quadratic& u, const Quadratic& v)
-      : axes_{{u.value, v.value}, {u.x, v.x},   {u.y, v.y},
-              {u.xy, v.xy},       {u.xx, v.xx}, {u.yy, v.yy}} {}
+  explicit Patch(const BothQuadratics& axes) : axes_(axes) {}
+  /// At most as steep as one on nodes can be; slopes are rounded down to Q20.
+  Patch(const Quadratic& u, const Quadratic& v);
+
+  /// Q13: 16 source pixels per pixel. Within it no sum of a patch's numbers leaves its register,
+  /// also where a plane or a level of the source is sampled. A tile that is steeper is not sampled
+  /// as a patch: third_order_error() is infinite.
+  static constexpr std::int32_t kLargestSpan = 16 * kTile << kFractionBits;
 
   Quadratic u() const { return axis(0); }
   Quadratic v() const { return axis(1); }
-  const BasicQuadratic<Both>& axes() const { return axes_; }
+  const BothQuadratics& axes() const { return axes_; }
 
   /// Row `y`, 0..15, at x = 0.
   PatchRow row(int y) const;
@@ -96,18 +111,17 @@ class Patch {
   Range range() const;
 
  private:
-  Quadratic axis(int n) const {
-    return {axes_.value[n], axes_.x[n], axes_.y[n], axes_.xy[n], axes_.xx[n], axes_.yy[n]};
-  }
+  static BothQuadratics quadratics(const Coordinate* corner, std::ptrdiff_t stride);
+  Quadratic axis(int n) const;
 
-  BasicQuadratic<Both> axes_;
+  BothQuadratics axes_;
 };
 
 /// How far a patch may be from the map that its nodes were taken from, in Q13 pixels, as far as its
 /// nodes can tell: the terms of third order in the distance between nodes. Along x they are
 /// t (1-t) (2t-1) / 12 of the third difference, at most kThirdDifference of it, and t (1-t) / 2 of
 /// how far the second difference in this row is from the mean, at most kChangeAcross of its change
-/// from row to row.
+/// from row to row. Infinite where nodes are further apart than Patch::kLargestSpan.
 inline constexpr double kThirdDifference = 0.0081;
 inline constexpr double kChangeAcross = 1.0 / 16;
 double third_order_error(const Stencil& stencil);

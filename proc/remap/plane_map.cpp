@@ -1,46 +1,35 @@
 #include "proc/remap/plane_map.h"
 
+#include <cassert>
 #include <cstdlib>
 
 namespace orbwatch::remap {
 namespace {
 
-using Axes = BasicQuadratic<Both>;
-
 constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
 constexpr std::int64_t kHalfPixel = std::int64_t{kHalf} << PatchRow::kScaleBits;
 
-// Shifts, for there is no vector multiplication of 64 bit.
+constexpr int kSlopeShift = PatchRow::kScaleBits - BothQuadratics::kSlopeBits;
 
-/// X -> 2 X, or 2 X + 1/2.
-Axes every_second_column(const Axes& q, Siting siting) {
-  Axes out{q.value, q.x << 1, q.y, q.xy << 1, q.xx << 2, q.yy};
-  if (siting == Siting::Centred) {
-    out.value += ((q.x << 1) + q.xx) >> 2;
-    out.x += q.xx << 1;
-    out.y += q.xy >> 1;
-  }
-  return out;
+/// x + y of both axes.
+Both sum(Four value) {
+  const Four folded = value + __builtin_shufflevector(value, value, 2, 3, 0, 1);
+  return Both{folded[0], folded[1]};
 }
 
-/// X -> X / 2 - 1/4
-Axes half_steps(const Axes& q) {
-  return {q.value - (q.x >> 2) + (q.xx >> 4),
-          (q.x >> 1) - (q.xx >> 2),
-          q.y - (q.xy >> 2),
-          q.xy >> 1,
-          q.xx >> 2,
-          q.yy};
+/// The chroma of 4:2:0 in both pictures: (X, Y) -> (2 X + 1/2, 2 Y + 1/2), and c -> (c - 1/2) / 2.
+BothQuadratics in_quarters(const BothQuadratics& q) {
+  const Both bulge = sum(q.curve + (q.cross >> 1)) >> 2;
+  const Both middle = q.value + (sum(q.slope) << (kSlopeShift - 1)) + bulge;
+  return {(middle - kHalfPixel) >> 1,
+          q.slope + (q.curve >> kSlopeShift) + (q.cross >> (kSlopeShift + 1)), q.curve << 1,
+          q.cross << 1};
 }
 
-Axes transposed(const Axes& q) { return {q.value, q.y, q.x, q.xy, q.yy, q.xx}; }
-
-Axes every_second_row(const Axes& q, Siting siting) {
-  return transposed(every_second_column(transposed(q), siting));
-}
-
-constexpr std::int64_t half_pixel(Siting siting) {
-  return siting == Siting::Centred ? kHalfPixel : 0;
+/// The chroma of 4:2:2 in both pictures: X -> 2 X, u -> u / 2.
+BothQuadratics in_halves(const BothQuadratics& q) {
+  return {q.value >> Both{1, 0}, (q.slope * Four{2, 4, 1, 2}) >> 1,
+          (q.curve * Four{4, 8, 1, 2}) >> 1, (q.cross * Four{2, 4, 2, 4}) >> 1};
 }
 
 /// Half of a picture's coordinate; between two pixels' centres if it is centred.
@@ -76,10 +65,10 @@ Coordinate shared(const CoordinateTile& tile, int x, int y, int columns, int row
 
 }  // namespace
 
-Patch on_level(const Patch& patch, int level) {
-  const Axes& q = patch.axes();
-  return Patch(Axes{((q.value + kHalfPixel) >> level) - kHalfPixel, q.x >> level, q.y >> level,
-                    q.xy >> level, q.xx >> level, q.yy >> level});
+Patch on_level(Patch patch, int level) {
+  const BothQuadratics& q = patch.axes();
+  return Patch(BothQuadratics{((q.value + kHalfPixel) >> level) - kHalfPixel, q.slope >> level,
+                              q.curve >> level, q.cross >> level});
 }
 
 void on_level(CoordinateTile& tile, int level) {
@@ -90,30 +79,36 @@ void on_level(CoordinateTile& tile, int level) {
   }
 }
 
-Patch at_half_steps(const Patch& patch) {
-  return Patch(transposed(half_steps(transposed(half_steps(patch.axes())))));
+Patch at_half_steps(Patch patch) {
+  const BothQuadratics& q = patch.axes();
+  const Both bulge = sum(q.curve + (q.cross >> 1)) >> 4;
+  return Patch(BothQuadratics{
+      q.value - (sum(q.slope) << (kSlopeShift - 2)) + bulge,
+      (q.slope >> 1) - (q.curve >> (kSlopeShift + 2)) - (q.cross >> (kSlopeShift + 3)),
+      q.curve >> 2, q.cross >> 2});
 }
 
-Patch at_half_rows(const Patch& patch) {
-  const Axes& q = patch.axes();
-  return Patch(Axes{q.value, q.x, q.y >> 1, q.xy >> 1, q.xx, q.yy >> 2});
+Patch at_half_rows(Patch patch) {
+  const BothQuadratics& q = patch.axes();
+  return Patch(BothQuadratics{q.value, q.slope >> Four{0, 0, 1, 1}, q.curve >> Four{0, 0, 2, 2},
+                              q.cross >> 1});
 }
 
-Patch moved(const Patch& patch, int x, int y) {
-  const Axes& q = patch.axes();
-  return Patch(Axes{q.value + x * (q.x + x * q.xx + y * q.xy) + y * (q.y + y * q.yy),
-                    q.x + 2 * x * q.xx + y * q.xy, q.y + 2 * y * q.yy + x * q.xy, q.xy, q.xx,
-                    q.yy});
+Patch moved(Patch patch, int x, int y) {
+  const BothQuadratics& q = patch.axes();
+  const Four along{x, x, y, y}, across{y, y, x, x};
+  const auto there = [x, y](const Quadratic& axis) {
+    return axis.value + x * (axis.x + x * axis.xx + y * axis.xy) + y * (axis.y + y * axis.yy);
+  };
+  return Patch(BothQuadratics{Both{there(patch.u()), there(patch.v())},
+                              q.slope + ((2 * along * q.curve + across * q.cross) >> kSlopeShift),
+                              q.curve, q.cross});
 }
 
-Patch on_plane(const Patch& patch, const PlaneSampling& sampling) {
-  Axes q = patch.axes();
-  if (sampling.x != Siting::Full) q = every_second_column(q, sampling.x);
-  if (sampling.y != Siting::Full) q = every_second_row(q, sampling.y);
-  const Both halves{shift(sampling.x), shift(sampling.y)};
-  q.value -= Both{half_pixel(sampling.x), half_pixel(sampling.y)};
-  return Patch(Axes{q.value >> halves, q.x >> halves, q.y >> halves, q.xy >> halves, q.xx >> halves,
-                    q.yy >> halves});
+Patch on_plane(Patch patch, const PlaneSampling& sampling) {
+  if (sampling.x == Siting::Full) return patch;
+  assert(sampling.x == (sampling.y == Siting::Full ? Siting::Cosited : Siting::Centred));
+  return Patch(sampling.y == Siting::Full ? in_halves(patch.axes()) : in_quarters(patch.axes()));
 }
 
 void on_plane(const CoordinateTile& picture, const PlaneSampling& sampling, CoordinateTile& plane) {

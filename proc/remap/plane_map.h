@@ -7,23 +7,23 @@
 namespace orbwatch::remap {
 
 /// A patch of a picture as one of the picture that was halved `level` times. Reentrant.
-Patch on_level(const Patch& patch, int level);
+Patch on_level(Patch patch, int level);
 
 /// The same for a tile's coordinates; markers stay.
 void on_level(CoordinateTile& tile, int level);
 
 /// A patch in half steps: pixels 2 X and 2 X + 1 lie a quarter of a pixel before and behind X.
-Patch at_half_steps(const Patch& patch);
+Patch at_half_steps(Patch patch);
 
 /// A patch in half steps along Y: row 2 Y is row Y.
-Patch at_half_rows(const Patch& patch);
+Patch at_half_rows(Patch patch);
 
 /// A patch as it goes on from its pixel (x, y).
-Patch moved(const Patch& patch, int x, int y);
+Patch moved(Patch patch, int x, int y);
 
 /// A patch of a picture as one of a sampling's plane: from the plane's pixels of the view to those
 /// of the source. Reentrant.
-Patch on_plane(const Patch& patch, const PlaneSampling& sampling);
+Patch on_plane(Patch patch, const PlaneSampling& sampling);
 
 /// The same for a tile whose coordinates are known one by one. A plane's pixel that several of the
 /// view share lies in their middle; where they are not all on one surface, at the first's place.

@@ -32,9 +32,7 @@ struct alignas(32) BlockRow {
 
 /// Writes the rows of blocks of a tile.
 void walk(const BlockMap& map, BlockRow* rows) {
-  const auto both = [](const AxisPair<std::int64_t>& pair) {
-    return _mm256_broadcastsi128_si256(load128(&pair));
-  };
+  const auto both = [](const Both& pair) { return _mm256_broadcastsi128_si256(load128(&pair)); };
   const auto twice = [](__m256i value) { return _mm256_add_epi64(value, value); };
   // Block x in the lower half and block x + 1 in the upper.
   const auto upper = [](__m256i value) {
@@ -70,9 +68,10 @@ void walk(const BlockMap& map, BlockRow* rows) {
 
 /// One axis: the lanes of block (0, 0) without its place, and their steps from block to block.
 struct Shape {
+  using Axis = std::int16_t AxisPair<std::int16_t>::*;
   __m256i start, along_x, along_y;
 
-  explicit Shape(const LaneShape& shape) {
+  Shape(const LaneShape& shape, Axis axis, std::uint16_t offset) {
     const __m256i i = _mm256_set1_epi64x(0x0003000200010000);
     const __m256i j = _mm256_setr_epi16(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
     const auto sum = [i, j](__m256i a, __m256i b) {
@@ -81,11 +80,11 @@ struct Shape {
     const auto eighth = [](__m256i value) {
       return _mm256_srai_epi16(_mm256_add_epi16(value, each(4)), 3);
     };
-    const __m256i xy = each(shape.xy);
-    along_x = eighth(sum(each(shape.twice_xx), xy));
-    along_y = eighth(sum(xy, each(shape.twice_yy)));
-    start = _mm256_add_epi16(sum(each(shape.slope_x), each(shape.slope_y)),
-                             _mm256_add_epi16(eighth(sum(along_x, along_y)), each(shape.offset)));
+    const __m256i xy = each(shape.xy.*axis);
+    along_x = eighth(sum(each(shape.twice_xx.*axis), xy));
+    along_y = eighth(sum(xy, each(shape.twice_yy.*axis)));
+    start = _mm256_add_epi16(sum(each(shape.slope_x.*axis), each(shape.slope_y.*axis)),
+                             _mm256_add_epi16(eighth(sum(along_x, along_y)), each(offset)));
   }
 
   /// As lanes of v are, but counted from the window on, without kRowCentre.
@@ -346,7 +345,9 @@ template <Layout layout, int blocks_x>
 void fill_rows(const TileJob& job) {
   BlockRow rows[kMostBlocks];
   walk(job.map, rows);
-  Shape u(job.map.u), v(job.map.v);
+  using Axes = AxisPair<std::int16_t>;
+  const LaneShape& lanes = job.map.lanes;
+  Shape u(lanes, &Axes::u, lanes.offset.u), v(lanes, &Axes::v, lanes.offset.v);
   v.round_to_rows();
   std::uint8_t* out = job.out;
   for (int y = 0; y < job.map.blocks_y; ++y) {

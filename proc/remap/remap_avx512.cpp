@@ -93,7 +93,7 @@ class RowWalk {
   }
 
  private:
-  static __m512i both(const AxisPair<std::int64_t>& pair) {
+  static __m512i both(const Both& pair) {
     return _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(&pair)));
   }
 
@@ -107,17 +107,11 @@ class RowWalk {
 struct Shape {
   __m512i start, along_x, along_y;
 
-  explicit Shape(const BlockMap& map) {
+  explicit Shape(const LaneShape& shape) {
     static constexpr auto kI = Words::of(column);
     static constexpr auto kJ = Words::of(line);
-    static_assert(offsetof(BlockMap, v) == offsetof(BlockMap, u) + sizeof(LaneShape));
-    const __m512i shapes =
-        _mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(
-            reinterpret_cast<const std::byte*>(&map) + offsetof(BlockMap, u))));
-    const auto member = [shapes](std::size_t offset) {
-      const auto word = static_cast<std::int32_t>(offset / 2);
-      constexpr int kNext = sizeof(LaneShape) / 2;
-      return _mm512_permutexvar_epi16(_mm512_set1_epi32(word | (word + kNext) << 16), shapes);
+    const auto each = [](const auto& pair) {
+      return _mm512_set1_epi32(std::bit_cast<std::int32_t>(pair));
     };
     const __m512i i = kI.load(), j = kJ.load();
     const auto weighed = [i, j](__m512i a, __m512i b) {
@@ -126,13 +120,12 @@ struct Shape {
     const auto eighth = [](__m512i value) {
       return _mm512_srai_epi16(_mm512_add_epi16(value, _mm512_set1_epi16(4)), 3);
     };
-    const __m512i xy = member(offsetof(LaneShape, xy));
-    const __m512i x = eighth(weighed(member(offsetof(LaneShape, twice_xx)), xy));
-    const __m512i y = eighth(weighed(xy, member(offsetof(LaneShape, twice_yy))));
-    const __m512i slope =
-        weighed(member(offsetof(LaneShape, slope_x)), member(offsetof(LaneShape, slope_y)));
-    const __m512i pixels = _mm512_add_epi16(_mm512_add_epi16(slope, eighth(weighed(x, y))),
-                                            member(offsetof(LaneShape, offset)));
+    const __m512i xy = each(shape.xy);
+    const __m512i x = eighth(weighed(each(shape.twice_xx), xy));
+    const __m512i y = eighth(weighed(xy, each(shape.twice_yy)));
+    const __m512i slope = weighed(each(shape.slope_x), each(shape.slope_y));
+    const __m512i pixels =
+        _mm512_add_epi16(_mm512_add_epi16(slope, eighth(weighed(x, y))), each(shape.offset));
 
     // Those of v become rounded to rows.
     constexpr __mmask32 kV = 0xaaaaaaaa;
@@ -372,7 +365,7 @@ void fill_rows(const TileJob& job) {
     walk.write(rows[y]);
     walk.next();
   }
-  Shape shape(job.map);
+  Shape shape(job.map.lanes);
   std::uint8_t* out = job.out;
   for (int y = 0; y < blocks_y; ++y) {
     fill_row<layout, blocks_x>(job, rows[y], shape.start, shape.along_x, out);

@@ -56,17 +56,19 @@ constexpr std::array<std::int16_t, 8> kUpperRows{0, 0, 0, 0, 1, 1, 1, 1};
 template <int blocks>
 class AxisLanes {
  public:
-  /// `shift` is how many fraction bits the lanes have less than Q13.
-  template <int shift>
+  /// Axis 0 or 1, u or v. `shift` is how many fraction bits the lanes have less than Q13.
+  template <int axis, int shift>
   [[gnu::always_inline]] static AxisLanes make(const LaneShape& shape) {
-    static_assert(offsetof(LaneShape, slope_y) == 2 && offsetof(LaneShape, offset) == 10);
-    const int16x8_t s = vld1q_s16(&shape.slope_x);
+    static_assert(offsetof(LaneShape, slope_y) == 4 && offsetof(LaneShape, twice_xx) == 8 &&
+                  offsetof(LaneShape, twice_yy) == 12 && offsetof(LaneShape, offset) == 20);
+    const int16x8_t s = vld1q_s16(&shape.slope_x.u);
+    const int16x4_t last = vld1_s16(&shape.xy.u);
     const int16x8_t column = vld1q_s16(kColumns.data());
-    const int16x8_t first = vmlaq_laneq_s16(vdupq_laneq_s16(s, 5), column, s, 0);
+    const int16x8_t first = vmlaq_laneq_s16(vdupq_lane_s16(last, 2 + axis), column, s, axis);
     int16x8_t upper_rows = vld1q_s16(kUpperRows.data());
     settle(upper_rows);
-    const Half upper(s, first, column, upper_rows);
-    const Half lower(s, first, column, vaddq_s16(upper_rows, vdupq_n_s16(2)));
+    const Half<axis> upper(s, last, first, column, upper_rows);
+    const Half<axis> lower(s, last, first, column, vaddq_s16(upper_rows, vdupq_n_s16(2)));
     AxisLanes lanes;
     if constexpr (shift == 0) {
       lanes.current_ = {vreinterpretq_u16_s16(upper.start), vreinterpretq_u16_s16(lower.start)};
@@ -85,11 +87,15 @@ class AxisLanes {
   [[gnu::always_inline]] void next_row() { current_ = current_ + next_row_; }
 
  private:
+  template <int axis>
   struct Half {
-    [[gnu::always_inline]] Half(int16x8_t s, int16x8_t first, int16x8_t column, int16x8_t row)
-        : along_x(vrshrq_n_s16(vmlaq_laneq_s16(vmulq_laneq_s16(column, s, 2), row, s, 3), 3)),
-          along_y(vrshrq_n_s16(vmlaq_laneq_s16(vmulq_laneq_s16(column, s, 3), row, s, 4), 3)),
-          start(vrsraq_n_s16(vmlaq_laneq_s16(first, row, s, 1),
+    [[gnu::always_inline]] Half(int16x8_t s, int16x4_t last, int16x8_t first, int16x8_t column,
+                                int16x8_t row)
+        : along_x(vrshrq_n_s16(
+              vmlaq_lane_s16(vmulq_laneq_s16(column, s, 4 + axis), row, last, axis), 3)),
+          along_y(vrshrq_n_s16(
+              vmlaq_laneq_s16(vmulq_lane_s16(column, last, axis), row, s, 6 + axis), 3)),
+          start(vrsraq_n_s16(vmlaq_laneq_s16(first, row, s, 2 + axis),
                              vmlaq_s16(vmulq_s16(column, along_x), row, along_y), 3)) {}
     int16x8_t along_x, along_y, start;
   };
@@ -145,8 +151,8 @@ class Windows {
   }
 
  private:
-  [[gnu::always_inline]] static int64x2_t load(const AxisPair<std::int64_t>& pair) {
-    return vld1q_s64(&pair.u);
+  [[gnu::always_inline]] static int64x2_t load(const Both& pair) {
+    return reinterpret_cast<int64x2_t>(pair);
   }
   /// (blocks - 1) and (blocks - 2) / 2 times.
   [[gnu::always_inline]] static int64x2_t back(int64x2_t step) {
@@ -310,8 +316,8 @@ void fill_rows(const TileJob& job) {
   constexpr LayoutInfo kInfo = info(layout);
   // Windows are read in assembly that does not say so: whoever wrote the source did so before.
   asm volatile("" : : : "memory");
-  auto u = AxisLanes<blocks>::template make<0>(job.map.u);
-  auto v = AxisLanes<blocks>::template make<kFractionBits - kRowFractionBits>(job.map.v);
+  auto u = AxisLanes<blocks>::template make<0, 0>(job.map.lanes);
+  auto v = AxisLanes<blocks>::template make<1, kFractionBits - kRowFractionBits>(job.map.lanes);
   Windows<blocks> windows(job.map.windows);
   const std::uint8_t* const source = job.source;
   const std::ptrdiff_t stride = job.source_stride, out_stride = job.out_stride;

@@ -14,7 +14,7 @@ struct Scalar {
   /// See LaneShape.
   class Shape {
    public:
-    explicit Shape(const BlockMap& map) : u_(map.u), v_(map.v) {}
+    explicit Shape(const BlockMap& map) : shape_(map.lanes) {}
     void next_block() { ++x_; }
     void next_row() {
       x_ = 0;
@@ -23,7 +23,8 @@ struct Scalar {
 
     /// Of pixel (i, j), Q13, from its window on.
     Coordinate at(std::uint16_t place_u, std::uint16_t place_v, int i, int j) const {
-      const Lane u(u_, i, j), v(v_, i, j);
+      const Lane u = lane<&AxisPair<std::int16_t>::u>(shape_.offset.u, i, j);
+      const Lane v = lane<&AxisPair<std::int16_t>::v>(shape_.offset.v, i, j);
       const auto lane_u =
           static_cast<std::uint16_t>(place_u + u.start + x_ * u.along_x + y_ * u.along_y);
       const auto lane_v = static_cast<std::uint16_t>(
@@ -33,19 +34,21 @@ struct Scalar {
 
    private:
     struct Lane {
-      Lane(const LaneShape& shape, int i, int j)
-          : along_x((i * shape.twice_xx + j * shape.xy + 4) >> 3),
-            along_y((i * shape.xy + j * shape.twice_yy + 4) >> 3),
-            start(i * shape.slope_x + j * shape.slope_y + ((i * along_x + j * along_y + 4) >> 3) +
-                  shape.offset) {}
       std::int32_t along_x, along_y, start;
     };
+    template <std::int16_t AxisPair<std::int16_t>::*axis>
+    Lane lane(int offset, int i, int j) const {
+      const int xy = shape_.xy.*axis;
+      const int along_x = (i * shape_.twice_xx.*axis + j * xy + 4) >> 3;
+      const int along_y = (i * xy + j * shape_.twice_yy.*axis + 4) >> 3;
+      const int slopes = i * shape_.slope_x.*axis + j * shape_.slope_y.*axis;
+      return {along_x, along_y, slopes + ((i * along_x + j * along_y + 4) >> 3) + offset};
+    }
     static std::int32_t in_rows(std::int32_t value) {
       return (value + (1 << (kRowShift - 1))) >> kRowShift;
     }
 
-    const LaneShape& u_;
-    const LaneShape& v_;
+    const LaneShape& shape_;
     int x_ = 0;
     int y_ = 0;
   };

@@ -58,24 +58,10 @@ void oversample_dense(const CoordinateTile& coordinates, Layout layout, const So
   });
 }
 
-TargetPlane plane_of_view(const MutablePicture& out, const PlaneSampling& sampling,
-                          const TileArea& area) {
-  const auto& plane = out.planes[sampling.plane];
-  const int x = area.x >> shift(sampling.x), y = area.y >> shift(sampling.y);
-  auto* const data = reinterpret_cast<std::uint8_t*>(plane.data) + y * plane.stride +
-                     std::ptrdiff_t{x} * info(sampling.layout).out_bytes();
-  return {data, plane.stride, kTile >> shift(sampling.x), kTile >> shift(sampling.y)};
-}
-
 SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& sampling) {
   const auto& plane = picture.planes[sampling.plane];
   return {reinterpret_cast<const std::uint8_t*>(plane.data) + sampling.offset, plane.stride,
           picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
-}
-
-TargetPlane plane_of(SampledTile& sampled, std::size_t n, const PlaneSampling& sampling) {
-  return {sampled.planes[n].data(), SampledTile::stride(sampling), kTile >> shift(sampling.x),
-          kTile >> shift(sampling.y)};
 }
 
 /// The planes lie in the view as they were sampled.
@@ -102,31 +88,132 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
       format_(source.front().format),
       colour_space_(source.front().colour_space),
       interpolation_(interpolation),
-      kernel_(kernel),
-      samplings_(samplings(format_)) {
+      plane_count_(samplings(format_).count) {
   assert(source.front().width == grid.source_width());
   assert(source.front().height == grid.source_height());
-  for (std::size_t level = 0; level < std::min(source.size(), sources_.size()); ++level) {
-    for (std::size_t n = 0; n < samplings_.count; ++n) {
-      sources_[level][n] = plane_of_source(source[level], samplings_.items[n]);
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    Plane& plane = planes_[n];
+    plane.sampling = samplings(format_).items[n];
+    const Layout layout = plane.sampling.layout;
+    if (has_kernel(layout)) plane.kernel = kernel.tiles[static_cast<std::size_t>(layout)];
+    plane.added = {added_u(layout), added_v(layout)};
+    plane.columns = kTile >> shift(plane.sampling.x);
+    plane.rows = kTile >> shift(plane.sampling.y);
+    plane.out_bytes = info(layout).out_bytes();
+    for (int level = 0; level <= halves_; ++level) {
+      plane.sources[level] = plane_of_source(source[level], plane.sampling);
     }
   }
 }
 
+TargetPlane TileRemap::plane_of_view(const MutablePicture& out, const Plane& plane,
+                                     const TileArea& area) {
+  const auto& to = out.planes[plane.sampling.plane];
+  const int x = area.x >> shift(plane.sampling.x), y = area.y >> shift(plane.sampling.y);
+  auto* const data = reinterpret_cast<std::uint8_t*>(to.data) + y * to.stride +
+                     std::ptrdiff_t{x} * plane.out_bytes;
+  return {data, to.stride, plane.columns, plane.rows};
+}
+
+TargetPlane TileRemap::plane_of(SampledTile& sampled, std::size_t n, const Plane& plane) {
+  return {sampled.planes[n].data(), SampledTile::stride(plane.sampling), plane.columns, plane.rows};
+}
+
+// What most tiles go through is inlined into one function, and what few need is not: it would cost
+// all of them registers.
+
+/// Fills the target_of(plane, n) of each sampling; false if some sampling's blocks do not fit a
+/// kernel.
+template <class TargetOf>
+[[gnu::always_inline]] inline bool TileRemap::sample_planes(Patch patch, const Minification& small,
+                                                            const TargetOf& target_of) const {
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    const Plane& plane = planes_[n];
+    if (plane.kernel == nullptr) return false;
+    const Patch shared = plane.sampling.x == Siting::Full ? patch : on_plane(patch, plane.sampling);
+    const SourcePlane& source = plane.sources[small.halves];
+    const bool fits = small.oversampled
+                          ? sample_oversampled(shared, plane, source, target_of(plane, n))
+                          : sample(shared, plane, source, target_of(plane, n));
+    if (!fits) return false;
+  }
+  return true;
+}
+
+[[gnu::always_inline]] inline bool TileRemap::write_patch(Patch patch, const Minification& small,
+                                                          const MutablePicture& out,
+                                                          const TileArea& area) const {
+  if (!is_written_in_place(format_, out, area)) return write_converted(patch, small, out, area);
+  return sample_planes(patch, small, [&](const Plane& plane, std::size_t) {
+    return plane_of_view(out, plane, area);
+  });
+}
+
+[[gnu::noinline]] bool TileRemap::write_converted(Patch patch, const Minification& small,
+                                                  const MutablePicture& out,
+                                                  const TileArea& area) const {
+  SampledTile sampled;
+  const bool fits = sample_planes(
+      patch, small, [&](const Plane& plane, std::size_t n) { return plane_of(sampled, n, plane); });
+  if (fits) write_tile(sampled, format_, colour_space_, out, area);
+  return fits;
+}
+
+[[gnu::noinline]] bool TileRemap::sample_oversampled(Patch patch, const Plane& plane,
+                                                     const SourcePlane& source,
+                                                     TargetPlane target) {
+  const Patch fine = at_half_steps(patch);
+  return oversample(plane.sampling.layout, target,
+                    [&](int left, int top, const TargetPlane& quarter) {
+                      return sample(moved(fine, left, top), plane, source, quarter);
+                    });
+}
+
+[[gnu::always_inline]] inline bool TileRemap::sample(Patch patch, const Plane& plane,
+                                                     const SourcePlane& source,
+                                                     TargetPlane target) {
+  return sample_blocks(patch, plane, source, target) || sample_steep(patch, plane, source, target);
+}
+
+[[gnu::always_inline]] inline bool TileRemap::sample_blocks(Patch patch, const Plane& plane,
+                                                            const SourcePlane& source,
+                                                            TargetPlane target) {
+  const auto map = BlockMap::make(patch, target.columns / kBlock, target.rows / kBlock,
+                                  plane.added.u, plane.added.v);
+  if (!map) return false;
+  plane.kernel({*map, source.data, source.stride, target.data, target.stride});
+  return true;
+}
+
+/// Blocks that do not fit their windows may do so at half the step: every second row of those.
+[[gnu::noinline]] bool TileRemap::sample_steep(Patch patch, const Plane& plane,
+                                               const SourcePlane& source, TargetPlane target) {
+  const Patch fine = at_half_rows(patch);
+  const std::ptrdiff_t stride = std::ptrdiff_t{kTile} * plane.out_bytes;
+  alignas(64) std::array<std::uint8_t, kTile * kTile * 4> rows;
+  for (int top = 0; top < 2 * target.rows; top += kTile) {
+    const TargetPlane part{rows.data(), stride, target.columns, kTile};
+    if (!sample_blocks(moved(fine, 0, top), plane, source, part)) return false;
+    for (int y = 0; y < kTile; y += 2) {
+      std::copy_n(&rows[y * stride], target.columns * plane.out_bytes,
+                  target.data + (top + y) / 2 * target.stride);
+    }
+  }
+  return true;
+}
+
 void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
   const Tile tile = grid_.tile(tx, ty);
-  if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
-    return clear_area(out, area);
-  }
   const Minification small = minification(tile.level);
-  const bool smooth =
-      tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest;
-  if (smooth) {
-    const Patch patch = grid_.patch(tx, ty);
+  if (tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest) {
+    const Patch patch = grid_.patch(tile, tx, ty);
     if (small.halves == 0 ? write_patch(patch, small, out, area)
                           : write_patch(on_level(patch, small.halves), small, out, area)) {
       return;
     }
+  }
+  if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
+    return clear_area(out, area);
   }
   write_dense(tx, ty, small, out, area);
 }
@@ -137,87 +224,18 @@ TileRemap::Minification TileRemap::minification(int level) const {
   return {std::min(level - 1, halves_), true};
 }
 
-/// False if some sampling's blocks do not fit a kernel.
-bool TileRemap::write_patch(const Patch& patch, const Minification& small,
-                            const MutablePicture& out, const TileArea& area) const {
-  const bool in_place = is_written_in_place(format_, out, area);
-  SampledTile sampled;
-  for (std::size_t n = 0; n < samplings_.count; ++n) {
-    const PlaneSampling& sampling = samplings_.items[n];
-    const TargetPlane target =
-        in_place ? plane_of_view(out, sampling, area) : plane_of(sampled, n, sampling);
-    const bool subsampled = sampling.x != Siting::Full || sampling.y != Siting::Full;
-    const bool fits = has_kernel(sampling.layout) &&
-                      (subsampled ? fill(on_plane(patch, sampling), small, n, target)
-                                  : fill(patch, small, n, target));
-    if (!fits) return false;
-  }
-  if (!in_place) write_tile(sampled, format_, colour_space_, out, area);
-  return true;
-}
-
-bool TileRemap::fill(const Patch& patch, const Minification& small, std::size_t sampling,
-                     const TargetPlane& target) const {
-  const Layout layout = samplings_.items[sampling].layout;
-  const SourcePlane& source = sources_[small.halves][sampling];
-  return small.oversampled ? sample_oversampled(patch, layout, source, target)
-                           : sample(patch, layout, source, target);
-}
-
-// Inlined, its large tile would cost every tile of a view 19 instructions.
-[[gnu::noinline]] bool TileRemap::sample_oversampled(const Patch& patch, Layout layout,
-                                                     const SourcePlane& source,
-                                                     const TargetPlane& target) const {
-  const Patch fine = at_half_steps(patch);
-  return oversample(layout, target, [&](int left, int top, const TargetPlane& quarter) {
-    return sample(moved(fine, left, top), layout, source, quarter);
-  });
-}
-
-bool TileRemap::sample(const Patch& patch, Layout layout, const SourcePlane& source,
-                       const TargetPlane& target) const {
-  return sample_blocks(patch, layout, source, target) ||
-         sample_steep(patch, layout, source, target);
-}
-
-bool TileRemap::sample_blocks(const Patch& patch, Layout layout, const SourcePlane& source,
-                              const TargetPlane& target) const {
-  const auto map = BlockMap::make(patch, target.columns / kBlock, target.rows / kBlock,
-                                  added_u(layout), added_v(layout));
-  if (!map) return false;
-  kernel_.tile(layout, {*map, source.data, source.stride, target.data, target.stride});
-  return true;
-}
-
-/// Blocks that do not fit their windows may do so at half the step: every second row of those.
-bool TileRemap::sample_steep(const Patch& patch, Layout layout, const SourcePlane& source,
-                             const TargetPlane& target) const {
-  const Patch fine = at_half_rows(patch);
-  const std::ptrdiff_t stride = std::ptrdiff_t{kTile} * info(layout).out_bytes();
-  alignas(64) std::array<std::uint8_t, kTile * kTile * 4> rows;
-  for (int top = 0; top < 2 * target.rows; top += kTile) {
-    const TargetPlane part{rows.data(), stride, target.columns, kTile};
-    if (!sample_blocks(moved(fine, 0, top), layout, source, part)) return false;
-    for (int y = 0; y < kTile; y += 2) {
-      std::copy_n(&rows[y * stride], target.columns * info(layout).out_bytes(),
-                  target.data + (top + y) / 2 * target.stride);
-    }
-  }
-  return true;
-}
-
 void TileRemap::write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                             const TileArea& area) const {
   CoordinateTile coordinates = grid_.pixels(tx, ty), shared;
   if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
   if (small.halves > 0) on_level(coordinates, small.halves);
   SampledTile sampled;
-  for (std::size_t n = 0; n < samplings_.count; ++n) {
-    const PlaneSampling& sampling = samplings_.items[n];
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    const PlaneSampling& sampling = planes_[n].sampling;
     on_plane(coordinates, sampling, shared);
-    const SourcePlane& source = sources_[small.halves][n];
+    const SourcePlane& source = planes_[n].sources[small.halves];
     const std::uint8_t background = black(sampling, format_, colour_space_);
-    const TargetPlane target = plane_of(sampled, n, sampling);
+    const TargetPlane target = plane_of(sampled, n, planes_[n]);
     small.oversampled ? oversample_dense(shared, sampling.layout, source, background, target)
                       : sample_dense(shared, sampling.layout, source, background, target);
   }

@@ -35,18 +35,32 @@ class TileRemap {
   };
   Minification minification(int level) const;
 
-  bool write_patch(const Patch& patch, const Minification& small, const MutablePicture& out,
+  /// A sampling of the source's format, with what all tiles need for it.
+  struct Plane {
+    PlaneSampling sampling;
+    Kernel::Tile kernel = nullptr;               ///< if there is one for its layout
+    AxisPair<std::int32_t> added;                ///< to coordinates, Q13, see BlockMap::make()
+    int columns, rows, out_bytes;                ///< of a tile, and of its pixels
+    std::array<SourcePlane, kMaxLevel> sources;  ///< by how often the source was halved
+  };
+
+  bool write_patch(Patch patch, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
-  bool fill(const Patch& patch, const Minification& small, std::size_t sampling,
-            const TargetPlane& target) const;
-  bool sample(const Patch& patch, Layout layout, const SourcePlane& source,
-              const TargetPlane& target) const;
-  bool sample_blocks(const Patch& patch, Layout layout, const SourcePlane& source,
-                     const TargetPlane& target) const;
-  bool sample_steep(const Patch& patch, Layout layout, const SourcePlane& source,
-                    const TargetPlane& target) const;
-  bool sample_oversampled(const Patch& patch, Layout layout, const SourcePlane& source,
-                          const TargetPlane& target) const;
+  bool write_converted(Patch patch, const Minification& small, const MutablePicture& out,
+                       const TileArea& area) const;
+  template <class TargetOf>
+  bool sample_planes(Patch patch, const Minification& small, const TargetOf& target_of) const;
+  static bool sample(Patch patch, const Plane& plane, const SourcePlane& source,
+                     TargetPlane target);
+  static bool sample_blocks(Patch patch, const Plane& plane, const SourcePlane& source,
+                            TargetPlane target);
+  static bool sample_steep(Patch patch, const Plane& plane, const SourcePlane& source,
+                           TargetPlane target);
+  static bool sample_oversampled(Patch patch, const Plane& plane, const SourcePlane& source,
+                                 TargetPlane target);
+  static TargetPlane plane_of_view(const MutablePicture& out, const Plane& plane,
+                                   const TileArea& area);
+  static TargetPlane plane_of(SampledTile& sampled, std::size_t n, const Plane& plane);
   void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
                    const TileArea& area) const;
 
@@ -55,10 +69,8 @@ class TileRemap {
   PixelFormat format_;
   ColourSpace colour_space_;
   Interpolation interpolation_;
-  const Kernel& kernel_;
-  SamplingList samplings_;
-  /// By how often the source was halved, and by sampling.
-  std::array<std::array<SourcePlane, 3>, kMaxLevel> sources_;
+  std::array<Plane, 3> planes_;
+  std::size_t plane_count_;
 };
 
 /// Where a tile lies in its view.

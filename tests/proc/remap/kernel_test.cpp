@@ -67,13 +67,12 @@ struct Extent {
     const WindowWalk& w = map.windows;
     for (std::int64_t y = 0; y < map.blocks_y; ++y) {
       for (std::int64_t x = 0; x < map.blocks_x; ++x) {
-        const auto window = [&](std::int64_t AxisPair<std::int64_t>::*axis) {
-          return (w.value.*axis + x * w.step_x.*axis + y * w.step_y.*axis + x * y * w.xy.*axis +
-                  x * (x - 1) / 2 * w.xx.*axis + y * (y - 1) / 2 * w.yy.*axis) >>
+        const auto window = [&](int axis) {
+          return (w.value[axis] + x * w.step_x[axis] + y * w.step_y[axis] + x * y * w.xy[axis] +
+                  x * (x - 1) / 2 * w.xx[axis] + y * (y - 1) / 2 * w.yy[axis]) >>
                  32;
         };
-        const std::int64_t u = window(&AxisPair<std::int64_t>::u);
-        const std::int64_t v = window(&AxisPair<std::int64_t>::v);
+        const std::int64_t u = window(0), v = window(1);
         left = std::min(left, u);
         right = std::max(right, u + kWindow);
         top = std::min(top, v);
