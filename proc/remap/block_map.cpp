@@ -101,21 +101,19 @@ LaneShape lane_shape(const BothQuadratics& map, Four offset) {
 
 }  // namespace
 
-std::optional<BlockMap> BlockMap::make(Patch patch, int blocks_x, int blocks_y, std::int32_t add_u,
-                                       std::int32_t add_v) {
+bool BlockMap::fit(const Patch& patch, int count_x, int count_y, const Both& rounding) {
   const BothQuadratics& map = patch.axes();
-  const Four pixels = reach(map, blocks_x, blocks_y);
-  if (!fits(map, pixels)) return std::nullopt;
+  const Four pixels = reach(map, count_x, count_y);
+  if (!fits(map, pixels)) return false;
 
-  const Four low = pixels >> kSlopeBits;
   constexpr int kRowShift = kFractionBits - kRowFractionBits;
-  constexpr std::int64_t kHalf = std::int64_t{1} << (kScaleBits - 1);
-  const Both start =
-      widened<kScaleBits>(low + Four{add_u, add_v, 0, 0}).along_x + Both{kHalf, kHalf << kRowShift};
-  const Four offset = Four{0, kRowCentre << kRowShift, 0, 0} - low;
-  // In its place: a copy would be a tenth of the work.
-  return std::optional<BlockMap>(std::in_place, window_walk(map, start), lane_shape(map, offset),
-                                 blocks_x, blocks_y);
+  const Four low = pixels >> kSlopeBits;
+  const Both start = widened<kScaleBits>(low).along_x + rounding;
+  windows = window_walk(map, start);
+  lanes = lane_shape(map, Four{0, kRowCentre << kRowShift, 0, 0} - low);
+  blocks_x = count_x;
+  blocks_y = count_y;
+  return true;
 }
 
 }  // namespace orbwatch::remap

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "proc/remap/patch.h"
 
@@ -54,11 +53,19 @@ struct BlockMap {
   int blocks_x;  ///< 2 or 4
   int blocks_y;
 
-  /// Nothing when the map is too steep or bent: a block would not fit into its window. `add_u` and
-  /// `add_v`, Q13, are added to every coordinate: half of what a kernel's weights do not resolve. A
-  /// patch is four registers, which is why it is passed by value.
-  static std::optional<BlockMap> make(Patch patch, int blocks_x, int blocks_y, std::int32_t add_u,
-                                      std::int32_t add_v);
+  /// Becomes the map of a patch. False, and then it is none, when the patch is too steep or bent: a
+  /// block would not fit into its window. `rounding`: see there.
+  [[nodiscard]] bool fit(const Patch& patch, int blocks_x, int blocks_y, const Both& rounding);
+
+  /// What to add to every coordinate, Q24, because places are cut off after fewer bits: half of
+  /// their last one, and `u` and `v`, Q13, half of the last bit of a kernel's weights.
+  static constexpr Both rounding(int u, int v) {
+    const auto half_of_last = [](int bits) {
+      return 1 << (kFractionBits + PatchRow::kScaleBits - bits - 1);
+    };
+    return Both{(std::int64_t{u} << PatchRow::kScaleBits) + half_of_last(kFractionBits),
+                (std::int64_t{v} << PatchRow::kScaleBits) + half_of_last(kRowFractionBits)};
+  }
 };
 
 }  // namespace orbwatch::remap

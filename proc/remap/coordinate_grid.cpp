@@ -55,7 +55,7 @@ CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
   if (t.kind == TileClass::Dense) return dense_row(t, y);
   CoordinateRow row;
   if (t.kind == TileClass::Patch) {
-    PatchRow current = patch(t, tx, ty).row(y);
+    PatchRow current = Patch(nodes(t, tx, ty)).row(y);
     for (Coordinate& c : row) {
       c = current.current();
       current.step();

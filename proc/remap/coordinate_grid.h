@@ -41,10 +41,10 @@ class CoordinateGrid {
   int levels() const { return levels_; }
   /// How many halves of the source remap() can use: the last factor of two it samples itself.
   int halves() const { return std::max(levels_ - 1, 0); }
-  /// The map within the Patch tile `tile` at (tx, ty).
-  Patch patch(const Tile& tile, int tx, int ty) const {
-    if (tile.store == TileStore::OwnNodes) return Patch(own_nodes_[tile.index]);
-    return Patch(&node(tx, ty), tiles_x_ + 3);
+  /// What the map within the Patch tile `tile` at (tx, ty) is made from.
+  PatchNodes nodes(const Tile& tile, int tx, int ty) const {
+    if (tile.store == TileStore::OwnNodes) return {&own_nodes_[tile.index].at(0, 0), 4};
+    return {&node(tx, ty), tiles_x_ + 3};
   }
   /// All rows of any tile, with markers, in less time than one by one. Pixels beyond the view's
   /// border are undefined.

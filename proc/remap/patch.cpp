@@ -85,7 +85,8 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
 /// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
 ///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048. The second differences xx and yy
 /// are added up over the four corners.
-BothQuadratics Patch::quadratics(const Coordinate* corner, std::ptrdiff_t stride) {
+Patch::Patch(PatchNodes nodes) {
+  const auto [corner, stride] = nodes;
   const Coordinate* const below = corner + stride;
   const Four top = two(corner), bottom = two(below), middle = top + bottom;
   const auto outer = [](const Coordinate* row) {
@@ -102,8 +103,8 @@ BothQuadratics Patch::quadratics(const Coordinate* corner, std::ptrdiff_t stride
                         __builtin_shufflevector(down, down, 0, 1, 0, 1);
   constexpr int kStepBits = BothQuadratics::kSlopeBits - kTileBits;
   static_assert(kSlopeShift == kTileBits, "X (16 - X) xx: its slope is a shifted xx");
-  return {Both{corner->u, corner->v} << PatchRow::kScaleBits, (along << kStepBits) - curve, curve,
-          along_xy << (PatchRow::kScaleBits - 2 * kTileBits)};
+  axes_ = {Both{corner->u, corner->v} << PatchRow::kScaleBits, (along << kStepBits) - curve, curve,
+           along_xy << (PatchRow::kScaleBits - 2 * kTileBits)};
 }
 
 Patch::Patch(const Quadratic& u, const Quadratic& v) {

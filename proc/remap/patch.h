@@ -42,6 +42,12 @@ struct Stencil {
   Coordinate& at(int i, int j) { return nodes[(j + 1) * 4 + i + 1]; }
 };
 
+/// Nodes around `corner`, a patch's upper left, in rows of `stride` nodes.
+struct PatchNodes {
+  const Coordinate* corner;
+  std::ptrdiff_t stride;
+};
+
 /// Calls `good(i, j)` for the twelve nodes that count for a patch, until one is not.
 template <class Good>
 bool all_nodes(const Good& good) {
@@ -79,11 +85,10 @@ struct BothQuadratics {
 /// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
 class Patch {
  public:
-  /// From the nodes around `corner`, the patch's upper left, in rows of `stride` nodes. The twelve
-  /// that count are defined and the four outermost corners do not; neighbours are at most
-  /// kLargestSpan apart along either axis.
-  Patch(const Coordinate* corner, std::ptrdiff_t stride) : axes_(quadratics(corner, stride)) {}
-  explicit Patch(const Stencil& stencil) : Patch(&stencil.at(0, 0), 4) {}
+  /// The twelve nodes that count are defined, the four outermost corners do not; neighbours are at
+  /// most kLargestSpan apart along either axis.
+  explicit Patch(PatchNodes nodes);
+  explicit Patch(const Stencil& stencil) : Patch(PatchNodes{&stencil.at(0, 0), 4}) {}
   explicit Patch(const BothQuadratics& axes) : axes_(axes) {}
   /// At most as steep as one on nodes can be; slopes are rounded down to Q20.
   Patch(const Quadratic& u, const Quadratic& v);
@@ -111,7 +116,6 @@ class Patch {
   Range range() const;
 
  private:
-  static BothQuadratics quadratics(const Coordinate* corner, std::ptrdiff_t stride);
   Quadratic axis(int n) const;
 
   BothQuadratics axes_;

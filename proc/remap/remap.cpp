@@ -9,9 +9,7 @@ void remap(const CoordinateGrid& grid, std::span<const Picture> source, Interpol
   assert(out.width == grid.width() && out.height == grid.height());
   assert(can_remap(source.front().format, out.format));
   const TileRemap tiles(grid, source, interpolation, kernel);
-  for (int ty = rows.first; ty < rows.last; ++ty) {
-    for (int tx = 0; tx < grid.tiles_x(); ++tx) tiles.write(tx, ty, out, area_of(grid, tx, ty));
-  }
+  for (int ty = rows.first; ty < rows.last; ++ty) tiles.write_row(ty, out);
 }
 
 }  // namespace orbwatch::remap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 
 #include "proc/remap/oversampling.h"
 #include "proc/remap/plane_map.h"
@@ -24,6 +25,10 @@ constexpr bool has_kernel(Layout layout) {
 void sample_dense(const CoordinateTile& coordinates, Layout layout, const SourcePlane& source,
                   std::uint8_t black, const TargetPlane& out) {
   kDenseSampling[static_cast<std::size_t>(layout)](coordinates, source, black, out);
+}
+
+constexpr int in_blocks(int pixels) {
+  return static_cast<int>(static_cast<unsigned>(pixels) / kBlock);
 }
 
 /// Where a quarter of an oversampled tile lies, from its pixel (left, top) on.
@@ -58,16 +63,24 @@ void oversample_dense(const CoordinateTile& coordinates, Layout layout, const So
   });
 }
 
+/// Every second of a tile's rows, of a multiple of eight bytes.
+void copy_every_second(const std::uint8_t* rows, std::ptrdiff_t stride, int bytes, std::uint8_t* to,
+                       std::ptrdiff_t to_stride) {
+  constexpr int kUnit = 8;  // a constant, for std::memcpy to be no call
+  for (int y = 0; y < kTile; y += 2, rows += 2 * stride, to += to_stride) {
+    for (int x = 0; x < bytes; x += kUnit) std::memcpy(to + x, rows + x, kUnit);
+  }
+}
+
 SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& sampling) {
   const auto& plane = picture.planes[sampling.plane];
   return {reinterpret_cast<const std::uint8_t*>(plane.data) + sampling.offset, plane.stride,
           picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
 }
 
-/// The planes lie in the view as they were sampled.
-bool is_written_in_place(PixelFormat format, const MutablePicture& out, const TileArea& area) {
-  return format == out.format && format != PixelFormat::Yuyv && format != PixelFormat::Uyvy &&
-         area.columns == kTile && area.rows == kTile;
+/// A view of that format has its planes as they are sampled.
+bool lies_as_sampled(PixelFormat sampled, PixelFormat view) {
+  return sampled == view && view != PixelFormat::Yuyv && view != PixelFormat::Uyvy;
 }
 
 void round_to_pixels(CoordinateTile& coordinates) {
@@ -84,7 +97,7 @@ void round_to_pixels(CoordinateTile& coordinates) {
 TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
                      Interpolation interpolation, const Kernel& kernel)
     : grid_(grid),
-      halves_(static_cast<int>(std::min<std::size_t>(source.size(), kMaxLevel)) - 1),
+      most_halves_(static_cast<int>(std::min<std::size_t>(source.size(), kMaxLevel)) - 1),
       format_(source.front().format),
       colour_space_(source.front().colour_space),
       interpolation_(interpolation),
@@ -96,14 +109,20 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
     plane.sampling = samplings(format_).items[n];
     const Layout layout = plane.sampling.layout;
     if (has_kernel(layout)) plane.kernel = kernel.tiles[static_cast<std::size_t>(layout)];
-    plane.added = {added_u(layout), added_v(layout)};
+    plane.rounding = BlockMap::rounding(added_u(layout), added_v(layout));
     plane.columns = kTile >> shift(plane.sampling.x);
     plane.rows = kTile >> shift(plane.sampling.y);
     plane.out_bytes = info(layout).out_bytes();
-    for (int level = 0; level <= halves_; ++level) {
+    for (int level = 0; level <= most_halves_; ++level) {
       plane.sources[level] = plane_of_source(source[level], plane.sampling);
     }
   }
+}
+
+/// The last factor of two is left to samples, which keeps more detail than a half of the picture.
+TileRemap::Halves TileRemap::halves(int level) const {
+  if (level == 0 || interpolation_ != Interpolation::Area) return kPlain;
+  return std::min(level - 1, most_halves_);
 }
 
 TargetPlane TileRemap::plane_of_view(const MutablePicture& out, const Plane& plane,
@@ -125,119 +144,120 @@ TargetPlane TileRemap::plane_of(SampledTile& sampled, std::size_t n, const Plane
 /// Fills the target_of(plane, n) of each sampling; false if some sampling's blocks do not fit a
 /// kernel.
 template <class TargetOf>
-[[gnu::always_inline]] inline bool TileRemap::sample_planes(Patch patch, const Minification& small,
+[[gnu::always_inline]] inline bool TileRemap::sample_planes(const Patch& patch, Halves halves,
                                                             const TargetOf& target_of) const {
   for (std::size_t n = 0; n < plane_count_; ++n) {
     const Plane& plane = planes_[n];
     if (plane.kernel == nullptr) return false;
-    const Patch shared = plane.sampling.x == Siting::Full ? patch : on_plane(patch, plane.sampling);
-    const SourcePlane& source = plane.sources[small.halves];
-    const bool fits = small.oversampled
-                          ? sample_oversampled(shared, plane, source, target_of(plane, n))
-                          : sample(shared, plane, source, target_of(plane, n));
+    const auto fill = [&](const Patch& map) __attribute__((always_inline)) {
+      return (halves == kPlain &&
+              sample_blocks(map, plane, plane.sources[0], target_of(plane, n))) ||
+             sample_finely(map, plane, halves, target_of(plane, n));
+    };
+    const bool fits =
+        plane.sampling.x == Siting::Full ? fill(patch) : fill(on_plane(patch, plane.sampling));
     if (!fits) return false;
   }
   return true;
 }
 
-[[gnu::always_inline]] inline bool TileRemap::write_patch(Patch patch, const Minification& small,
-                                                          const MutablePicture& out,
-                                                          const TileArea& area) const {
-  if (!is_written_in_place(format_, out, area)) return write_converted(patch, small, out, area);
-  return sample_planes(patch, small, [&](const Plane& plane, std::size_t) {
-    return plane_of_view(out, plane, area);
-  });
-}
-
-[[gnu::noinline]] bool TileRemap::write_converted(Patch patch, const Minification& small,
+[[gnu::noinline]] bool TileRemap::write_converted(const Patch& patch, Halves halves,
                                                   const MutablePicture& out,
                                                   const TileArea& area) const {
   SampledTile sampled;
-  const bool fits = sample_planes(
-      patch, small, [&](const Plane& plane, std::size_t n) { return plane_of(sampled, n, plane); });
+  const bool fits = sample_planes(patch, halves, [&](const Plane& plane, std::size_t n) {
+    return plane_of(sampled, n, plane);
+  });
   if (fits) write_tile(sampled, format_, colour_space_, out, area);
   return fits;
 }
 
-[[gnu::noinline]] bool TileRemap::sample_oversampled(Patch patch, const Plane& plane,
-                                                     const SourcePlane& source,
-                                                     TargetPlane target) {
-  const Patch fine = at_half_steps(patch);
-  return oversample(plane.sampling.layout, target,
-                    [&](int left, int top, const TargetPlane& quarter) {
-                      return sample(moved(fine, left, top), plane, source, quarter);
-                    });
-}
-
-[[gnu::always_inline]] inline bool TileRemap::sample(Patch patch, const Plane& plane,
-                                                     const SourcePlane& source,
-                                                     TargetPlane target) {
-  return sample_blocks(patch, plane, source, target) || sample_steep(patch, plane, source, target);
-}
-
-[[gnu::always_inline]] inline bool TileRemap::sample_blocks(Patch patch, const Plane& plane,
+[[gnu::always_inline]] inline bool TileRemap::sample_blocks(const Patch& patch, const Plane& plane,
                                                             const SourcePlane& source,
-                                                            TargetPlane target) {
-  const auto map = BlockMap::make(patch, target.columns / kBlock, target.rows / kBlock,
-                                  plane.added.u, plane.added.v);
-  if (!map) return false;
-  plane.kernel({*map, source.data, source.stride, target.data, target.stride});
+                                                            const TargetPlane& target) {
+  BlockMap map;
+  if (!map.fit(patch, in_blocks(target.columns), in_blocks(target.rows), plane.rounding))
+    return false;
+  plane.kernel({map, source.data, source.stride, target.data, target.stride});
   return true;
 }
 
+[[gnu::noinline]] bool TileRemap::sample_finely(const Patch& patch, const Plane& plane,
+                                                Halves halves, const TargetPlane& target) {
+  if (halves == kPlain) return sample_steep(patch, plane, plane.sources[0], target);
+  const SourcePlane& source = plane.sources[halves];
+  const Patch fine = at_half_steps(patch);
+  return oversample(plane.sampling.layout, target,
+                    [&](int left, int top, const TargetPlane& quarter) {
+                      const Patch part = moved(fine, left, top);
+                      return sample_blocks(part, plane, source, quarter) ||
+                             sample_steep(part, plane, source, quarter);
+                    });
+}
+
 /// Blocks that do not fit their windows may do so at half the step: every second row of those.
-[[gnu::noinline]] bool TileRemap::sample_steep(Patch patch, const Plane& plane,
-                                               const SourcePlane& source, TargetPlane target) {
+bool TileRemap::sample_steep(const Patch& patch, const Plane& plane, const SourcePlane& source,
+                             const TargetPlane& target) {
   const Patch fine = at_half_rows(patch);
   const std::ptrdiff_t stride = std::ptrdiff_t{kTile} * plane.out_bytes;
   alignas(64) std::array<std::uint8_t, kTile * kTile * 4> rows;
   for (int top = 0; top < 2 * target.rows; top += kTile) {
     const TargetPlane part{rows.data(), stride, target.columns, kTile};
-    if (!sample_blocks(moved(fine, 0, top), plane, source, part)) return false;
-    for (int y = 0; y < kTile; y += 2) {
-      std::copy_n(&rows[y * stride], target.columns * plane.out_bytes,
-                  target.data + (top + y) / 2 * target.stride);
-    }
+    if (!sample_blocks(top == 0 ? fine : moved(fine, 0, top), plane, source, part)) return false;
+    copy_every_second(rows.data(), stride, target.columns * plane.out_bytes,
+                      target.data + top / 2 * target.stride, target.stride);
   }
   return true;
 }
 
-void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+[[gnu::always_inline]] inline void TileRemap::write_tile_at(int tx, int ty, bool in_place,
+                                                            const MutablePicture& out,
+                                                            const TileArea& area) const {
   const Tile tile = grid_.tile(tx, ty);
-  const Minification small = minification(tile.level);
-  if (tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest) {
-    const Patch patch = grid_.patch(tile, tx, ty);
-    if (small.halves == 0 ? write_patch(patch, small, out, area)
-                          : write_patch(on_level(patch, small.halves), small, out, area)) {
-      return;
-    }
-  }
   if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
     return clear_area(out, area);
   }
-  write_dense(tx, ty, small, out, area);
+  const Halves halves = this->halves(tile.level);
+  if (tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest) {
+    Patch patch(grid_.nodes(tile, tx, ty));
+    if (halves > 0) patch = on_level(patch, halves);
+    const auto place = [&](const Plane& plane, std::size_t) {
+      return plane_of_view(out, plane, area);
+    };
+    if (in_place && area.columns == kTile && area.rows == kTile
+            ? sample_planes(patch, halves, place)
+            : write_converted(patch, halves, out, area)) {
+      return;
+    }
+  }
+  write_dense(tx, ty, halves, out, area);
 }
 
-/// The last factor of two is left to samples, which keeps more detail than a half of the picture.
-TileRemap::Minification TileRemap::minification(int level) const {
-  if (level == 0 || interpolation_ != Interpolation::Area) return {};
-  return {std::min(level - 1, halves_), true};
+void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+  write_tile_at(tx, ty, lies_as_sampled(format_, out.format), out, area);
 }
 
-void TileRemap::write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
+void TileRemap::write_row(int ty, const MutablePicture& out) const {
+  const bool in_place = lies_as_sampled(format_, out.format);
+  for (int tx = 0; tx < grid_.tiles_x(); ++tx) {
+    write_tile_at(tx, ty, in_place, out, area_of(grid_, tx, ty));
+  }
+}
+
+void TileRemap::write_dense(int tx, int ty, Halves halves, const MutablePicture& out,
                             const TileArea& area) const {
   CoordinateTile coordinates = grid_.pixels(tx, ty), shared;
   if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
-  if (small.halves > 0) on_level(coordinates, small.halves);
+  if (halves > 0) on_level(coordinates, halves);
   SampledTile sampled;
   for (std::size_t n = 0; n < plane_count_; ++n) {
     const PlaneSampling& sampling = planes_[n].sampling;
     on_plane(coordinates, sampling, shared);
-    const SourcePlane& source = planes_[n].sources[small.halves];
+    const SourcePlane& source = planes_[n].sources[std::max(halves, 0)];
     const std::uint8_t background = black(sampling, format_, colour_space_);
     const TargetPlane target = plane_of(sampled, n, planes_[n]);
-    small.oversampled ? oversample_dense(shared, sampling.layout, source, background, target)
-                      : sample_dense(shared, sampling.layout, source, background, target);
+    halves == kPlain ? sample_dense(shared, sampling.layout, source, background, target)
+                     : oversample_dense(shared, sampling.layout, source, background, target);
   }
   write_tile(sampled, format_, colour_space_, out, area);
   if (format_ != out.format) clear_undefined(coordinates, out, area);

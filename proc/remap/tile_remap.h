@@ -26,46 +26,46 @@ class TileRemap {
 
   /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`.
   void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+  /// Writes a row of tiles of the view `out`.
+  void write_row(int ty, const MutablePicture& out) const;
 
  private:
-  /// What is done in a tile where the view is smaller than the source.
-  struct Minification {
-    int halves = 0;            ///< how often the source is halved
-    bool oversampled = false;  ///< pixels are means of four samples
-  };
-  Minification minification(int level) const;
+  /// What is done where the view is smaller than the source: the pixels of a tile are means of four
+  /// samples of a source that was halved so often; or kPlain, they are single samples of the
+  /// source.
+  using Halves = int;
+  static constexpr Halves kPlain = -1;
+  Halves halves(int level) const;
 
   /// A sampling of the source's format, with what all tiles need for it.
   struct Plane {
     PlaneSampling sampling;
     Kernel::Tile kernel = nullptr;               ///< if there is one for its layout
-    AxisPair<std::int32_t> added;                ///< to coordinates, Q13, see BlockMap::make()
+    Both rounding{};                             ///< see BlockMap
     int columns, rows, out_bytes;                ///< of a tile, and of its pixels
     std::array<SourcePlane, kMaxLevel> sources;  ///< by how often the source was halved
   };
 
-  bool write_patch(Patch patch, const Minification& small, const MutablePicture& out,
-                   const TileArea& area) const;
-  bool write_converted(Patch patch, const Minification& small, const MutablePicture& out,
+  void write_tile_at(int tx, int ty, bool in_place, const MutablePicture& out,
+                     const TileArea& area) const;
+  bool write_converted(const Patch& patch, Halves halves, const MutablePicture& out,
                        const TileArea& area) const;
   template <class TargetOf>
-  bool sample_planes(Patch patch, const Minification& small, const TargetOf& target_of) const;
-  static bool sample(Patch patch, const Plane& plane, const SourcePlane& source,
-                     TargetPlane target);
-  static bool sample_blocks(Patch patch, const Plane& plane, const SourcePlane& source,
-                            TargetPlane target);
-  static bool sample_steep(Patch patch, const Plane& plane, const SourcePlane& source,
-                           TargetPlane target);
-  static bool sample_oversampled(Patch patch, const Plane& plane, const SourcePlane& source,
-                                 TargetPlane target);
+  bool sample_planes(const Patch& patch, Halves halves, const TargetOf& target_of) const;
+  static bool sample_blocks(const Patch& patch, const Plane& plane, const SourcePlane& source,
+                            const TargetPlane& target);
+  static bool sample_finely(const Patch& patch, const Plane& plane, Halves halves,
+                            const TargetPlane& target);
+  static bool sample_steep(const Patch& patch, const Plane& plane, const SourcePlane& source,
+                           const TargetPlane& target);
   static TargetPlane plane_of_view(const MutablePicture& out, const Plane& plane,
                                    const TileArea& area);
   static TargetPlane plane_of(SampledTile& sampled, std::size_t n, const Plane& plane);
-  void write_dense(int tx, int ty, const Minification& small, const MutablePicture& out,
+  void write_dense(int tx, int ty, Halves halves, const MutablePicture& out,
                    const TileArea& area) const;
 
   const CoordinateGrid& grid_;
-  int halves_;  ///< of the source that there are
+  int most_halves_;  ///< of the source that there are
   PixelFormat format_;
   ColourSpace colour_space_;
   Interpolation interpolation_;

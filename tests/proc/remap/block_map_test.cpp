@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "tests/proc/remap/random_patch.h"
 
@@ -14,6 +15,12 @@ using tests::RandomPatch;
 using tests::Steepness;
 
 constexpr int kOne = 1 << kFractionBits;
+
+std::optional<BlockMap> map_of(const Patch& patch, int add_u, int add_v) {
+  BlockMap map;
+  const bool fits = map.fit(patch, 4, 4, BlockMap::rounding(add_u, add_v));
+  return fits ? std::optional(map) : std::nullopt;
+}
 
 /// A pixel of a block, as the comments on WindowWalk and LaneShape say, without 16 bit lanes.
 struct Place {
@@ -81,7 +88,7 @@ TEST(BlockMap, FollowsThePatch) {
   for (int round = 0; round < 300; ++round) {
     const Steepness most{round % 2 ? 0.9 : 0.3, round % 3 ? 0.008 : 0};
     const Patch patch = RandomPatch(random, most).patch();
-    const auto map = BlockMap::make(patch, 4, 4, 32, 11);
+    const auto map = map_of(patch, 32, 11);
     if (!map) continue;
     for_all_pixels(*map, [&](Pixel p, Place u, Place v) {
       const Coordinate there = patch.at(kBlock * p.block_x + p.i, kBlock * p.block_y + p.j);
@@ -112,9 +119,9 @@ TEST(BlockMap, StaysInItsWindowsUpToTheLimit) {
       const auto axis = [block](const Quadratic& q, std::int64_t begin) {
         return moved(q, begin, block % 4, block / 4 % 4, block >= 16);
       };
-      const WindowWalk windows = BlockMap::make(patch, 4, 4, 0, 0)->windows;
+      const WindowWalk windows = map_of(patch, 0, 0)->windows;
       const Patch at_edge(axis(patch.u(), windows.value[0]), axis(patch.v(), windows.value[1]));
-      const auto map = BlockMap::make(at_edge, 4, 4, 0, 0);
+      const auto map = map_of(at_edge, 0, 0);
       ASSERT_TRUE(map);
       expect_in_windows(*map);
     }
@@ -131,7 +138,7 @@ TEST(BlockMap, StaysInItsWindowsAtTheCorners) {
       for (std::int64_t slope = 0; slope < kPixel; slope += kPixel / 100 + 3) {
         const Quadratic axis{kPixel - 1,          sign(0) * slope,     sign(1) * slope,
                              sign(2) * curvature, sign(3) * curvature, sign(4) * curvature};
-        const auto map = BlockMap::make({axis, axis}, 4, 4, 0, 0);
+        const auto map = map_of(Patch(axis, axis), 0, 0);
         if (!map) continue;
         fits = slope;
         expect_in_windows(*map);
@@ -148,8 +155,8 @@ TEST(BlockMap, TakesWhatFitsAndRefusesWhatDoesNot) {
     const auto q24 = [](double pixels) { return static_cast<std::int64_t>(pixels * (1 << 24)); };
     const Quadratic steep{0, q24(along_x), q24(along_y), 0, q24(curvature), 0};
     const Quadratic flat{0, 0, q24(1), 0, 0, 0};
-    const auto one = BlockMap::make({steep, flat}, 4, 4, 32, 0);
-    const auto other = BlockMap::make({flat, steep}, 4, 4, 32, 0);
+    const auto one = map_of(Patch(steep, flat), 32, 0);
+    const auto other = map_of(Patch(flat, steep), 32, 0);
     EXPECT_EQ(one.has_value(), other.has_value());
     return one.has_value();
   };

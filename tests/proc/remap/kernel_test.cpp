@@ -99,11 +99,12 @@ class Trial {
         bytes_across_(blocks_x * kBlock * info(layout).out_bytes()),
         rows_(blocks_y * kBlock) {
     const auto any = [&random](int count) { return static_cast<int>(random() % count); };
-    const int add_u = added_u(layout), add_v = added_v(layout);
-    const auto anywhere = BlockMap::make(patch, blocks_x, blocks_y, add_u, add_v);
-    if (!anywhere) return;
-    const Extent extent(*anywhere);
-    map_ = BlockMap::make(moved(patch, extent.left, extent.top), blocks_x, blocks_y, add_u, add_v);
+    const Both rounding = BlockMap::rounding(added_u(layout), added_v(layout));
+    BlockMap anywhere;
+    if (!anywhere.fit(patch, blocks_x, blocks_y, rounding)) return;
+    const Extent extent(anywhere);
+    fits_ = map_.fit(moved(patch, extent.left, extent.top), blocks_x, blocks_y, rounding);
+    if (!fits_) return;
 
     const auto width = static_cast<int>(extent.right - extent.left) * info(layout).pixel_bytes;
     const auto height = static_cast<int>(extent.bottom - extent.top);
@@ -120,12 +121,11 @@ class Trial {
   }
 
   /// False if the patch is too steep.
-  bool fits() const { return map_.has_value(); }
+  bool fits() const { return fits_; }
 
   std::vector<std::uint8_t> out_of(const Kernel& kernel) const {
     std::vector<std::uint8_t> out(2 * margin_ + rows_ * out_stride_, kCanary);
-    kernel.tile(layout_,
-                {*map_, source_.data(), source_stride_, out.data() + margin_, out_stride_});
+    kernel.tile(layout_, {map_, source_.data(), source_stride_, out.data() + margin_, out_stride_});
     return out;
   }
 
@@ -146,7 +146,8 @@ class Trial {
 
   Layout layout_;
   std::ptrdiff_t bytes_across_, rows_;
-  std::optional<BlockMap> map_;
+  BlockMap map_;
+  bool fits_ = false;
   std::span<std::uint8_t> source_;
   std::ptrdiff_t source_stride_ = 0, out_stride_ = 0, margin_ = 0;
 };
@@ -196,11 +197,11 @@ void expect_bilinear(Layout layout) {
     const Coordinate middle = anywhere.at(8, 8);
     const Patch patch = moved(anywhere, (middle.u >> kFractionBits) - kSize / 2,
                               (middle.v >> kFractionBits) - kSize / 2);
-    const auto map = BlockMap::make(patch, 4, 4, added_u(layout), added_v(layout));
-    if (!map) continue;
+    BlockMap map;
+    if (!map.fit(patch, 4, 4, BlockMap::rounding(added_u(layout), added_v(layout)))) continue;
     std::array<Sample, kTile * kTile> out;
     kScalarKernel.tile(
-        layout, {*map, reinterpret_cast<const std::uint8_t*>(source.data()), kSize * sizeof(Sample),
+        layout, {map, reinterpret_cast<const std::uint8_t*>(source.data()), kSize * sizeof(Sample),
                  reinterpret_cast<std::uint8_t*>(out.data()), kTile * sizeof(Sample)});
     const auto exact = [](const Quadratic& q, double x, double y) {
       return (q.value + x * q.x + y * q.y + x * y * q.xy + x * x * q.xx + y * y * q.yy) / (1 << 24);

@@ -29,7 +29,9 @@ class RandomPatch {
     std::int64_t fits = 0, too_steep = std::int64_t{1} << 26;
     while (too_steep - fits > 1) {
       const std::int64_t middle = (fits + too_steep) / 2;
-      (remap::BlockMap::make(scaled(middle), blocks_x, blocks_y, 0, 0) ? fits : too_steep) = middle;
+      remap::BlockMap map;
+      const bool fit = map.fit(scaled(middle), blocks_x, blocks_y, remap::BlockMap::rounding(0, 0));
+      (fit ? fits : too_steep) = middle;
     }
     return scaled(fits);
   }
