@@ -94,6 +94,12 @@ Patch at_half_rows(Patch patch) {
                               q.cross >> 1});
 }
 
+Patch at_half_columns(Patch patch) {
+  const BothQuadratics& q = patch.axes();
+  return Patch(BothQuadratics{q.value, q.slope >> Four{1, 1, 0, 0}, q.curve >> Four{2, 2, 0, 0},
+                              q.cross >> 1});
+}
+
 Patch moved(Patch patch, int x, int y) {
   const BothQuadratics& q = patch.axes();
   const Four along{x, x, y, y}, across{y, y, x, x};

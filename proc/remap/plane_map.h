@@ -18,6 +18,9 @@ Patch at_half_steps(Patch patch);
 /// A patch in half steps along Y: row 2 Y is row Y.
 Patch at_half_rows(Patch patch);
 
+/// A patch in half steps along X: column 2 X is column X.
+Patch at_half_columns(Patch patch);
+
 /// A patch as it goes on from its pixel (x, y).
 Patch moved(Patch patch, int x, int y);
 

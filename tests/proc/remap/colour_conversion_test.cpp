@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,6 +48,62 @@ TEST(YuvToRgb, InvertsTheForwardTransform) {
       }
     }
   }
+}
+
+/// What BT.601 or BT.709 says, not rounded.
+std::array<double, 3> exact(ColourSpace space, int y, int u, int v) {
+  const double kr = space.matrix == ColourMatrix::Bt601 ? 0.299 : 0.2126;
+  const double kb = space.matrix == ColourMatrix::Bt601 ? 0.114 : 0.0722;
+  const bool full = space.range == ColourRange::Full;
+  const double luminance = full ? y : (y - 16) * 255.0 / 219;
+  const double cb = (u - 128) * (full ? 1 : 255.0 / 224);
+  const double cr = (v - 128) * (full ? 1 : 255.0 / 224);
+  const double red = luminance + 2 * (1 - kr) * cr, blue = luminance + 2 * (1 - kb) * cb;
+  return {red, (luminance - kr * red - kb * blue) / (1 - kr - kb), blue};
+}
+
+/// Calls `check(space, u, v)` for pairs of chroma with both ends of the range among them.
+template <class Check>
+void for_each_chroma(const Check& check) {
+  for (const ColourMatrix matrix : {ColourMatrix::Bt601, ColourMatrix::Bt709}) {
+    for (const ColourRange range : {ColourRange::Limited, ColourRange::Full}) {
+      for (int u = 0; u < 256; u += 15) {
+        for (int v = 0; v < 256; v += 15) check(ColourSpace{matrix, range}, u, v);
+      }
+    }
+  }
+}
+
+TEST(YuvToRgb, RoundsAndClipsWhatTheStandardsSay) {
+  for_each_chroma([](ColourSpace space, int u, int v) {
+    for (int y = 0; y < 256; ++y) {
+      const Rgb found = convert(space, y, u, v);
+      const std::array<double, 3> expected = exact(space, y, u, v);
+      for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_NEAR(found[k], std::clamp(expected[k], 0.0, 255.0), 0.53)
+            << y << ' ' << u << ' ' << v << ", colour " << k;
+      }
+    }
+  });
+}
+
+TEST(YuvToRgb, ConvertsARunAsItsPixels) {
+  for_each_chroma([](ColourSpace space, int u, int v) {
+    for (int first = 0; first < 256; first += static_cast<int>(kRun)) {
+      SampleRun luminance{}, chroma{};
+      for (std::size_t x = 0; x < kRun; ++x) {
+        luminance[x] = static_cast<std::uint8_t>(first + static_cast<int>(x));
+        // Another pair for each two pixels.
+        const int shifted = (x % 2 == 0 ? u : v) + static_cast<int>(x / 2) * 37;
+        chroma[x] = static_cast<std::uint8_t>(shifted);
+      }
+      const RgbRun run = YuvToRgb(space)(luminance, chroma);
+      for (std::size_t x = 0; x < kRun; ++x) {
+        const Rgb expected = convert(space, luminance[x], chroma[x & ~1U], chroma[x | 1U]);
+        ASSERT_EQ((Rgb{run.red[x], run.green[x], run.blue[x]}), expected) << "pixel " << x;
+      }
+    }
+  });
 }
 
 TEST(Luma, WeighsTheColoursAsBt601Says) {

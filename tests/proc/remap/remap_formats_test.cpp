@@ -203,17 +203,21 @@ TEST(RemapFormats, RgbIsReordered) {
   const Scene scene;
   for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::Bgr, PixelFormat::Bgra}) {
     StoredPicture source(format, kWidth, kHeight), own(format, 250, 170);
-    StoredPicture rgb(PixelFormat::Rgb, 250, 170);
     source.fill_with_noise(5);
     scene.remap(source, own);
-    scene.remap(source, rgb);
-    const int bytes = info(format).channels();
-    for (int y = 0; y < 170; ++y) {
-      for (int x = 0; x < 250; ++x) {
-        for (int k = 0; k < 3; ++k) {
-          const int from = format == PixelFormat::Rgb ? k : 2 - k;
-          ASSERT_EQ(rgb.sample(0, y, 3 * x + k), own.sample(0, y, bytes * x + from));
+    for (const PixelFormat to : {PixelFormat::Rgb, PixelFormat::Bgr}) {
+      StoredPicture out(to, 250, 170, 5);
+      scene.remap(source, out);
+      const int bytes = info(format).channels();
+      const bool same_order = (format == PixelFormat::Rgb) == (to == PixelFormat::Rgb);
+      for (int y = 0; y < 170; ++y) {
+        for (int x = 0; x < 250; ++x) {
+          for (int k = 0; k < 3; ++k) {
+            const int from = same_order ? k : 2 - k;
+            ASSERT_EQ(out.sample(0, y, 3 * x + k), own.sample(0, y, bytes * x + from));
+          }
         }
+        for (int padding = 750; padding < 755; ++padding) ASSERT_EQ(out.sample(0, y, padding), 0);
       }
     }
   }

@@ -74,6 +74,8 @@ TEST(RemapKernels, AgreeForEveryWidth) {
     const Scene both_even(
         200, 200, {ViewKind::Perspective, {30, -10, 15}, 70, {}, even(width), even(height)});
     expect_same(both_even, PixelFormat::Nv12, PixelFormat::Nv12, 2 * (width % 3));
+    expect_same(both_even, PixelFormat::Yuyv, PixelFormat::Yuyv, 2 * (width % 3));
+    expect_same(scene, PixelFormat::Uyvy, PixelFormat::Bgr, width % 5);
   }
 }
 
