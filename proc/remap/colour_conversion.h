@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "proc/image/pixel_format.h"
 
@@ -84,7 +83,8 @@ class YuvToRgb {
   };
 
   static constexpr std::uint16_t fixed(double value) {
-    return static_cast<std::uint16_t>(value * (1 << kBits) + 0.5);
+    const auto twice = static_cast<int>(value * (2 << kBits));
+    return static_cast<std::uint16_t>((twice + 1) / 2);
   }
   static constexpr std::uint8_t clip(int value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0, 255));

@@ -1,6 +1,8 @@
 #include "proc/remap/tile_conversion.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 
 #include "proc/remap/colour_conversion.h"
