@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "proc/image/picture.h"
 #include "proc/remap/coordinate_grid.h"
-#include "proc/remap/dense_sampling.h"
 #include "proc/remap/kernel.h"
+#include "proc/remap/plane_sampler.h"
 #include "proc/remap/tile_conversion.h"
 
 namespace orbwatch::remap {
@@ -30,37 +31,17 @@ class TileRemap {
   void write_row(int ty, const MutablePicture& out) const;
 
  private:
-  /// What is done where the view is smaller than the source: the pixels of a tile are means of four
-  /// samples of a source that was halved so often; or kPlain, they are single samples of the
-  /// source.
-  using Halves = int;
-  static constexpr Halves kPlain = -1;
+  /// Where a tile's samples go, by sampling.
+  using Targets = std::array<TargetPlane, 3>;
+
   Halves halves(int level) const;
-
-  /// A sampling of the source's format, with what all tiles need for it.
-  struct Plane {
-    PlaneSampling sampling;
-    Kernel::Tile kernel = nullptr;               ///< if there is one for its layout
-    Both rounding{};                             ///< see BlockMap
-    int columns, rows, out_bytes;                ///< of a tile, and of its pixels
-    std::array<SourcePlane, kMaxLevel> sources;  ///< by how often the source was halved
-  };
-
-  void write_tile_at(int tx, int ty, bool in_place, const MutablePicture& out,
-                     const TileArea& area) const;
+  Targets targets_in(const MutablePicture& out, int x, int y) const;
+  Targets targets_in(SampledTile& tile) const;
+  void write_tile_at(int tx, int ty, const MutablePicture& out, const TileArea& area,
+                     const Targets* in_place) const;
+  bool sample(const Patch& patch, Halves halves, const Targets& targets) const;
   bool write_converted(const Patch& patch, Halves halves, const MutablePicture& out,
                        const TileArea& area) const;
-  template <class TargetOf>
-  bool sample_planes(const Patch& patch, Halves halves, const TargetOf& target_of) const;
-  static bool sample_blocks(const Patch& patch, const Plane& plane, const SourcePlane& source,
-                            const TargetPlane& target);
-  static bool sample_finely(const Patch& patch, const Plane& plane, Halves halves,
-                            const TargetPlane& target);
-  static bool sample_steep(const Patch& patch, const Plane& plane, const SourcePlane& source,
-                           const TargetPlane& target);
-  static TargetPlane plane_of_view(const MutablePicture& out, const Plane& plane,
-                                   const TileArea& area);
-  static TargetPlane plane_of(SampledTile& sampled, std::size_t n, const Plane& plane);
   void write_dense(int tx, int ty, Halves halves, const MutablePicture& out,
                    const TileArea& area) const;
 
@@ -69,7 +50,7 @@ class TileRemap {
   PixelFormat format_;
   ColourSpace colour_space_;
   Interpolation interpolation_;
-  std::array<Plane, 3> planes_;
+  std::array<PlaneSampler, 3> planes_;
   std::size_t plane_count_;
 };
 

@@ -36,9 +36,10 @@ struct TurnedScene {
 };
 
 bool fits(const Patch& patch, int blocks_x) {
-  return BlockMap::make(patch, blocks_x, kTile / kBlock, added_u(Layout::OddOfFour8),
-                        added_v(Layout::OddOfFour8))
-      .has_value();
+  constexpr Layout kChroma = Layout::OddOfFour8;
+  BlockMap map;
+  return map.fit(patch, blocks_x, kTile / kBlock,
+                 BlockMap::rounding(added_u(kChroma), added_v(kChroma)));
 }
 
 /// How many tiles' chroma fits the kernels' windows in each way.
@@ -51,7 +52,7 @@ struct Ways {
       for (int tx = 0; tx < grid.tiles_x(); ++tx) {
         const Tile tile = grid.tile(tx, ty);
         if (tile.kind != TileClass::Patch || !tile.interior) continue;
-        const Patch patch = on_plane(grid.patch(tx, ty), chroma);
+        const Patch patch = on_plane(Patch(grid.nodes(tile, tx, ty)), chroma);
         const Patch rows = at_half_rows(patch), columns = at_half_columns(patch);
         const Patch fine = at_half_rows(columns);
         const auto both_parts = [](const Patch& p, int blocks_x) {
