@@ -24,6 +24,7 @@ struct Axis {
   Floats low;  ///< no pixel is below or above
   Floats high;
   Floats along_x, along_y;  ///< twice the tile's extent in its middle
+  Floats span;              ///< no neighbours among its nodes are further apart
 };
 
 /// `nodes`: of the first tile's corner. Undefined nodes give anything; differences wrap around.
@@ -57,6 +58,8 @@ void measure(const std::int32_t* nodes, std::ptrdiff_t stride, Axis& axis) {
     const float a = real(n(0, 0)), b = real(n(1, 0)), c = real(n(0, 1)), d = real(n(1, 1));
     axis.low[k] = std::min(std::min(a, b), std::min(c, d)) - bulge - kRounding;
     axis.high[k] = std::max(std::max(a, b), std::max(c, d)) + bulge + kRounding;
+    // From a corner outwards it is one second difference more; 32 bulges are four of them.
+    axis.span[k] = axis.high[k] - axis.low[k] + 32 * bulge;
     axis.along_x[k] = real(n(1, 0) - n(0, 0) + n(1, 1) - n(0, 1));
     axis.along_y[k] = real(n(0, 1) - n(0, 0) + n(1, 1) - n(1, 0));
   }
@@ -111,6 +114,7 @@ void PlainTiles::judge(int tx, int ty, Levels& levels) const {
   for (std::size_t k = 0; k < kRun; ++k) {
     constexpr auto kOne = static_cast<float>(kOnePixel);
     constexpr auto kFourth = static_cast<float>(kFourthOrder);
+    constexpr auto kSpan = static_cast<float>(Patch::kLargestSpan);
     const float error =
         hypotenuse(u.third[k], v.third[k]) + kFourth * (hypotenuse(u.fourth_x[k], v.fourth_x[k]) +
                                                         hypotenuse(u.fourth_y[k], v.fourth_y[k]));
@@ -124,7 +128,7 @@ void PlainTiles::judge(int tx, int ty, Levels& levels) const {
     const float high_u = width * kOne - beyond, high_v = height * kOne - beyond;
     const bool plain = (error < static_cast<float>(kClose)) & (differ[k] == 0) &
                        (u.low[k] >= before) & (v.low[k] >= before) & (u.high[k] <= high_u) &
-                       (v.high[k] <= high_v);
+                       (v.high[k] <= high_v) & (u.span[k] <= kSpan) & (v.span[k] <= kSpan);
     levels[k] = plain ? level : kLookCloser;
   }
 }

@@ -99,5 +99,32 @@ TEST(Patch, ErrorOfThirdOrderIsABound) {
   EXPECT_GT(tightest, 0.7);
 }
 
+// Steeper ones would not fit a patch's registers.
+TEST(Patch, IsRefusedWhereNeighboursAreTooFarApart) {
+  const auto error = [](double step) {
+    const auto steep = [step](double x, double) { return step * x; };
+    const auto flat = [](double, double y) { return y; };
+    return std::max(third_order_error(nodes_of(steep, flat)),
+                    third_order_error(nodes_of(flat, steep)));
+  };
+  EXPECT_EQ(error(256), 0);
+  EXPECT_EQ(error(-256), 0);
+  EXPECT_TRUE(std::isinf(error(256.01)));
+  EXPECT_TRUE(std::isinf(error(-256.01)));
+  EXPECT_TRUE(std::isinf(error(200000)));
+}
+
+TEST(Patch, KeepsTheSteepestMapThatItMayHave) {
+  const auto u = [](double x, double y) { return 256 * x - 250 * y; };
+  const auto v = [](double x, double y) { return 100 * x + 250 * y + 3 * x * y; };
+  const Patch patch(nodes_of(u, v));
+  for (int y = 0; y < kTile; ++y) {
+    for (int x = 0; x < kTile; ++x) {
+      EXPECT_NEAR(patch.at(x, y).u / kOne, u(x / 16.0, y / 16.0), 2 / kOne);
+      EXPECT_NEAR(patch.at(x, y).v / kOne, v(x / 16.0, y / 16.0), 2 / kOne);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::remap
