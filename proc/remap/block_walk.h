@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -67,14 +68,12 @@ void walk_tile(const TileJob& job) {
   }
 }
 
-/// The kernel of an instruction set, by layout.
+/// By layout.
 template <class Isa>
-constexpr Kernel make_kernel(std::string_view name) {
-  return {
-      name,
-      {walk_tile<Isa, Layout::One8>, walk_tile<Isa, Layout::Two8>, walk_tile<Isa, Layout::Three8>,
-       walk_tile<Isa, Layout::Four8>, walk_tile<Isa, Layout::FirstOfTwo8>,
-       walk_tile<Isa, Layout::OddOfFour8>, walk_tile<Isa, Layout::One16>}};
-}
+inline constexpr std::array<Kernel::Tile, kKernelLayouts> kBlockWalks{
+    walk_tile<Isa, Layout::One8>,        walk_tile<Isa, Layout::Two8>,
+    walk_tile<Isa, Layout::Three8>,      walk_tile<Isa, Layout::Four8>,
+    walk_tile<Isa, Layout::FirstOfTwo8>, walk_tile<Isa, Layout::OddOfFour8>,
+    walk_tile<Isa, Layout::One16>};
 
 }  // namespace orbwatch::remap

@@ -67,11 +67,9 @@ CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
 }
 
 CoordinateTile CoordinateGrid::pixels(int tx, int ty) const {
-  const Tile t = tile(tx, ty);
-  if (t.store == TileStore::Curved) return curved(t).pixels();
-  if (t.store == TileStore::Fine) return fine_[t.index].pixels();
-  if (t.store == TileStore::CurvedFine) return curved_tile(fine_[t.index]).pixels();
   CoordinateTile pixels;
+  const auto take = [&pixels](const auto& cells) { pixels = cells.pixels(); };
+  if (take_cells(tile(tx, ty), take)) return pixels;
   for (int y = 0; y < kTile; ++y) pixels[y] = row(tx, ty, y);
   return pixels;
 }

@@ -46,6 +46,10 @@ class CoordinateGrid {
     if (tile.store == TileStore::OwnNodes) return {&own_nodes_[tile.index].at(0, 0), 4};
     return {&node(tx, ty), tiles_x_ + 3};
   }
+  /// Hands a tile that is kept as finer patches to `take`, as FineTile<8> or FineTile<4>; false for
+  /// others.
+  template <class Take>
+  bool take_cells(const Tile& tile, const Take& take) const;
   /// All rows of any tile, with markers, in less time than one by one. Pixels beyond the view's
   /// border are undefined.
   CoordinateTile pixels(int tx, int ty) const;
@@ -84,5 +88,19 @@ class CoordinateGrid {
   std::vector<PackedTile> packed_;
   std::vector<WholeTile> whole_;
 };
+
+template <class Take>
+bool CoordinateGrid::take_cells(const Tile& tile, const Take& take) const {
+  if (tile.store == TileStore::Curved) {
+    take(curved(tile));
+  } else if (tile.store == TileStore::Fine) {
+    take(fine_[tile.index]);
+  } else if (tile.store == TileStore::CurvedFine) {
+    take(curved_tile(fine_[tile.index]));
+  } else {
+    return false;
+  }
+  return true;
+}
 
 }  // namespace orbwatch::remap

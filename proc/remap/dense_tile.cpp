@@ -1,6 +1,9 @@
 #include "proc/remap/dense_tile.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "proc/remap/plane_map.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -35,28 +38,25 @@ Stencil FineTile<Cell>::stencil(int i, int j) const {
 }
 
 template <int Cell>
+Patch FineTile<Cell>::patch(int i, int j) const {
+  constexpr int kBits = std::bit_width(static_cast<unsigned>(kCells)) - 1;
+  return in_steps(Patch(stencil(i, j)), kBits);
+}
+
+template <int Cell>
 CoordinateRow FineTile<Cell>::row(int y) const {
-  constexpr int kStride = kTile / Cell;  // a pixel in sixteenths of a cell
   CoordinateRow row;
-  for (int i = 0; i < kCells; ++i) {
-    PatchRow current = Patch(stencil(i, y / Cell)).row(y % Cell * kStride).stride(kStride);
-    for (int x = 0; x < Cell; ++x, current.step()) row[i * Cell + x] = current.current();
-  }
+  for (int i = 0; i < kCells; ++i) patch(i, y / Cell).row(y % Cell).write(Cell, &row[i * Cell]);
   return row;
 }
 
 template <int Cell>
 CoordinateTile FineTile<Cell>::pixels() const {
-  constexpr int kStride = kTile / Cell;
   CoordinateTile tile;
   for (int j = 0; j < kCells; ++j) {
     for (int i = 0; i < kCells; ++i) {
-      const Patch patch(stencil(i, j));
-      for (int y = 0; y < Cell; ++y) {
-        PatchRow current = patch.row(y * kStride).stride(kStride);
-        Coordinate* row = &tile[j * Cell + y][i * Cell];
-        for (int x = 0; x < Cell; ++x, current.step()) row[x] = current.current();
-      }
+      const Patch cell = patch(i, j);
+      for (int y = 0; y < Cell; ++y) cell.row(y).write(Cell, &tile[j * Cell + y][i * Cell]);
     }
   }
   return tile;
@@ -67,70 +67,73 @@ template struct FineTile<4>;
 
 namespace {
 
-// Lagrange's weights, in sixteenths, of four nodes in a row at half a node before the second one,
-// there, and so on.
 constexpr int kHalves = 5;
-constexpr std::array<std::array<std::int64_t, 4>, kHalves> kLagrange{
-    {{5, 15, -5, 1}, {0, 16, 0, 0}, {-1, 9, 9, -1}, {0, 0, 16, 0}, {1, -5, 15, 5}}};
 
-/// One coordinate of a curved tile's nodes.
-class Coons {
- public:
-  Coons(const Stencil& nodes, std::int32_t Coordinate::*member) : nodes_(nodes), member_(member) {
-    for (int side = 0; side < 2; ++side) {
-      for (int k = 0; k < kHalves; ++k) {
-        for (int n = 0; n < 4; ++n) {
-          rows_[side][k] += kLagrange[k][n] * node(n - 1, side);
-          columns_[side][k] += kLagrange[k][n] * node(side, n - 1);
-        }
+/// u and v.
+using Pair [[gnu::vector_size(16)]] = std::int64_t;
+
+/// The curve of third order through four nodes in a row: sixteen times it at half a node before the
+/// second one, there, and so on, by Lagrange's weights.
+std::array<Pair, kHalves> curve(Pair a, Pair b, Pair c, Pair d) {
+  // By shifts, for there is no vector multiplication of 64 bit.
+  const auto times5 = [](Pair x) { return (x << 2) + x; };
+  const auto times15 = [](Pair x) { return (x << 4) - x; };
+  const Pair middle = b + c;
+  return {times5(a - c) + times15(b) + d, b << 4, (middle << 3) + middle - a - d, c << 4,
+          times5(d - b) + times15(c) + a};
+}
+
+/// A Coons patch between four nodes, in halves from one before the first corner: between curves
+/// through the rows and columns of nodes, less what the corners have in both.
+struct Coons {
+  std::array<std::array<Coordinate, kHalves>, kHalves> nodes;
+
+  explicit Coons(const Stencil& from) {
+    const auto n = [&](int i, int j) { return Pair{from.at(i, j).u, from.at(i, j).v}; };
+    const auto row = [&](int j) { return curve(n(-1, j), n(0, j), n(1, j), n(2, j)); };
+    const auto column = [&](int i) { return curve(n(i, -1), n(i, 0), n(i, 1), n(i, 2)); };
+    std::array<Pair, kHalves> upper = row(0), lower = row(1), left = column(0), right = column(1);
+    // Times 32 it is, with i and j from -1 on, (2 - j) upper + j lower + (2 - i) left + i right,
+    // where upper and lower are less eight times the line between their corners.
+    Pair upper_line = ((n(0, 0) << 1) + n(0, 0) - n(1, 0)) << 3,
+         lower_line = ((n(0, 1) << 1) + n(0, 1) - n(1, 1)) << 3;
+    const Pair upper_step = (n(1, 0) - n(0, 0)) << 3, lower_step = (n(1, 1) - n(0, 1)) << 3;
+    for (int j = 0; j < kHalves; ++j) {
+      right[j] -= left[j];
+      left[j] = (left[j] << 1) - right[j];
+    }
+    constexpr int kBits = 5;
+    for (int i = 0; i < kHalves; ++i) {
+      const Pair above = upper[i] - upper_line, step = lower[i] - lower_line - above;
+      Pair between = (above << 1) - step + (1 << (kBits - 1));
+      for (int j = 0; j < kHalves; ++j) {
+        const Pair node = (between + left[j]) >> kBits;
+        nodes[j][i] = {static_cast<std::int32_t>(node[0]), static_cast<std::int32_t>(node[1])};
+        between += step;
+        left[j] += right[j];
       }
+      upper_line += upper_step;
+      lower_line += lower_step;
     }
   }
-
-  /// i, j count halves, from one before the first corner.
-  std::int32_t at(int i, int j) const {
-    const std::int64_t right = i - 1, left = 2 - right, below = j - 1, above = 2 - below;
-    const std::int64_t curves =
-        above * rows_[0][i] + below * rows_[1][i] + left * columns_[0][j] + right * columns_[1][j];
-    const std::int64_t corners = above * (left * node(0, 0) + right * node(1, 0)) +
-                                 below * (left * node(0, 1) + right * node(1, 1));
-    return static_cast<std::int32_t>((curves - 8 * corners + 16) >> 5);
-  }
-
- private:
-  std::int64_t node(int i, int j) const { return nodes_.at(i, j).*member_; }
-
-  const Stencil& nodes_;
-  std::int32_t Coordinate::*member_;
-  /// Times sixteen: along the upper and lower row, the left and right column of nodes.
-  std::array<std::array<std::int64_t, kHalves>, 2> rows_{};
-  std::array<std::array<std::int64_t, kHalves>, 2> columns_{};
 };
 
 }  // namespace
 
-FineTile<8> curved_tile(const Stencil& nodes) {
-  const Coons u(nodes, &Coordinate::u), v(nodes, &Coordinate::v);
-  FineTile<8> tile;
-  for (int j = 0; j < tile.kNodes; ++j) {
-    for (int i = 0; i < tile.kNodes; ++i) tile.nodes[j][i] = {u.at(i, j), v.at(i, j)};
-  }
-  return tile;
-}
+FineTile<8> curved_tile(const Stencil& nodes) { return {Coons(nodes).nodes}; }
 
 FineTile<4> curved_tile(const FineTile<8>& fine) {
   FineTile<4> tile;
   for (int cell_j = 0; cell_j < fine.kCells; ++cell_j) {
     for (int cell_i = 0; cell_i < fine.kCells; ++cell_i) {
-      const Stencil nodes = fine.stencil(cell_i, cell_j);
-      const Coons u(nodes, &Coordinate::u), v(nodes, &Coordinate::v);
+      const Coons cell(fine.stencil(cell_i, cell_j));
       // The cells share the nodes between them: the last one to come sets those.
       for (int j = 0; j < kHalves; ++j) {
         for (int i = 0; i < kHalves; ++i) {
           // Outside of its cell each gives only what no other cell is closer to.
           if ((i == 0 && cell_i == 1) || (i == 4 && cell_i == 0)) continue;
           if ((j == 0 && cell_j == 1) || (j == 4 && cell_j == 0)) continue;
-          tile.nodes[2 * cell_j + j][2 * cell_i + i] = {u.at(i, j), v.at(i, j)};
+          tile.nodes[2 * cell_j + j][2 * cell_i + i] = cell.nodes[j][i];
         }
       }
     }

@@ -31,6 +31,8 @@ struct FineTile {
 
   /// The nodes of cell (i, j), 0..kCells - 1.
   Stencil stencil(int i, int j) const;
+  /// The map in that cell, in pixels of the view from its corner on.
+  Patch patch(int i, int j) const;
   CoordinateRow row(int y) const;
   /// All rows, in less time than one by one.
   CoordinateTile pixels() const;

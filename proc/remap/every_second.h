@@ -1,6 +1,6 @@
 #pragma once
 
-#include "proc/remap/dense_sampling.h"
+#include "proc/remap/plane.h"
 
 namespace orbwatch::remap {
 

@@ -21,6 +21,12 @@ constexpr std::int32_t added_v(Layout layout) {
   return info(layout).sample_bytes == 2 ? kHalfWeight : 0;
 }
 
+/// How far above the last row coordinates are held where they are sampled one by one, Q13: between
+/// that row and the one before, v's fraction then fits the 16 bit lanes of 8 bit samples. It moves
+/// nothing by more than 1/8192 px.
+template <Layout layout>
+inline constexpr std::int32_t kShortOfLastRow = info(layout).sample_bytes == 1 ? 1 : 0;
+
 constexpr std::int32_t weight(std::int32_t c) {
   return c >> (kFractionBits - kWeightBits) & (kUnitWeight - 1);
 }

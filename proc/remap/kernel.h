@@ -8,6 +8,8 @@
 
 #include "proc/image/result.h"
 #include "proc/remap/block_map.h"
+#include "proc/remap/plane.h"
+#include "proc/remap/point_map.h"
 
 namespace orbwatch::remap {
 
@@ -63,18 +65,37 @@ struct TileJob {
   std::ptrdiff_t out_stride = 0;  ///< bytes
 };
 
+/// Pixels to be sampled from one plane, each at a place of its own. Beyond the plane's border its
+/// outermost pixels go on.
+struct PointJob {
+  const Places& places;  ///< of the target's pixels
+  const SourcePlane& source;
+  const TargetPlane& target;
+};
+
 /// One implementation of the remap for one instruction set. Every kernel gives the same bytes as
 /// the scalar one, which is their specification.
 struct Kernel {
   using Tile = void (*)(const TileJob&);
+  using Locate = void (*)(const PointMap&, int columns, int rows, Places&);
+  using Points = void (*)(const PointJob&);
 
   std::string_view name;  ///< scalar, neon, avx2, avx512
   /// By Layout. Fills all blocks of the job. Every 8x8 source pixels from a block's origin are
   /// read, so they must be in the picture. Reentrant.
   std::array<Tile, kKernelLayouts> tiles;
+  /// Where the pixels of a rectangle lie; `columns` is a power of two. Reentrant.
+  Locate locate;
+  /// By Layout. Fills the job's target: for any map, at borders too. The source is at least 2x2
+  /// pixels large, but for the scalar kernel.
+  /// Reentrant.
+  std::array<Points, kLayouts> point_tiles;
 
   void tile(Layout layout, const TileJob& job) const {
     tiles[static_cast<std::size_t>(layout)](job);
+  }
+  void sample_points(Layout layout, const PointJob& job) const {
+    point_tiles[static_cast<std::size_t>(layout)](job);
   }
 };
 

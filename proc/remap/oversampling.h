@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "proc/remap/coordinate.h"
-#include "proc/remap/dense_sampling.h"
 #include "proc/remap/kernel.h"
 
 namespace orbwatch::remap {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 
 namespace orbwatch::remap {
 namespace {
@@ -50,21 +49,6 @@ struct Differences {
 };
 Differences along_row(const Quadratic& axis, std::int64_t y) {
   return {axis.value + y * (axis.y + y * axis.yy), axis.x + y * axis.xy + axis.xx, 2 * axis.xx};
-}
-
-/// Whether some neighbours are further apart than Patch::kLargestSpan.
-bool is_too_wide(const Stencil& stencil) {
-  const auto close = [&](int i, int j, int i2, int j2) {
-    const Coordinate &a = stencil.at(i, j), &b = stencil.at(i2, j2);
-    return std::abs(std::int64_t{a.u} - b.u) <= Patch::kLargestSpan &&
-           std::abs(std::int64_t{a.v} - b.v) <= Patch::kLargestSpan;
-  };
-  for (int along = -1; along <= 1; ++along) {
-    for (int line = 0; line <= 1; ++line) {
-      if (!close(along, line, along + 1, line) || !close(line, along, line, along + 1)) return true;
-    }
-  }
-  return false;
 }
 
 double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*member) {
@@ -125,6 +109,17 @@ Quadratic Patch::axis(int n) const {
           axes_.cross[n], axes_.curve[n], axes_.curve[n + 2]};
 }
 
+void PatchRow::write(int count, Coordinate* out) const {
+  Both value{u, v}, slope{du, dv};
+  const Both curve{ddu, ddv}, half = Both{} + (1 << (kScaleBits - 1));
+  for (int x = 0; x < count; ++x) {
+    const Both rounded = (value + half) >> kScaleBits;
+    out[x] = {static_cast<std::int32_t>(rounded[0]), static_cast<std::int32_t>(rounded[1])};
+    value += slope;
+    slope += curve;
+  }
+}
+
 PatchRow Patch::row(int y) const {
   const Differences u = along_row(axis(0), y), v = along_row(axis(1), y);
   return {u.value, u.step, u.curve, v.value, v.step, v.curve};
@@ -144,10 +139,23 @@ Patch::Range Patch::range() const {
 }
 
 double third_order_error(const Stencil& stencil) {
-  if (is_too_wide(stencil)) return std::numeric_limits<double>::infinity();
   const double u = third_order_error(stencil, &Coordinate::u);
   const double v = third_order_error(stencil, &Coordinate::v);
   return std::sqrt(u * u + v * v);
+}
+
+bool is_too_steep(const Stencil& stencil, int pixels) {
+  const std::int64_t most = std::int64_t{kSteepest} * pixels << kFractionBits;
+  const auto far = [&](int i, int j, int i2, int j2) {
+    const Coordinate &a = stencil.at(i, j), &b = stencil.at(i2, j2);
+    return std::abs(std::int64_t{a.u} - b.u) > most || std::abs(std::int64_t{a.v} - b.v) > most;
+  };
+  for (int along = -1; along <= 1; ++along) {
+    for (int line = 0; line <= 1; ++line) {
+      if (far(along, line, along + 1, line) || far(line, along, line, along + 1)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace orbwatch::remap

@@ -20,17 +20,14 @@ struct PatchRow {
     return {static_cast<std::int32_t>((u + kHalf) >> kScaleBits),
             static_cast<std::int32_t>((v + kHalf) >> kScaleBits)};
   }
-  /// The same row in steps of `n` sixteenths.
-  PatchRow stride(int n) const {
-    const std::int64_t pairs = std::int64_t{n} * (n - 1) / 2, square = std::int64_t{n} * n;
-    return {u, n * du + pairs * ddu, square * ddu, v, n * dv + pairs * ddv, square * ddv};
-  }
   void step() {
     u += du;
     du += ddu;
     v += dv;
     dv += ddv;
   }
+  /// The first `count` coordinates of the row, as current() and step() give them.
+  void write(int count, Coordinate* out) const;
 };
 
 /// The 4x4 nodes that a patch between the middle four is made from.
@@ -85,18 +82,13 @@ struct BothQuadratics {
 /// axis. Positions x, y count sixteenths of the way from node to node. Reentrant.
 class Patch {
  public:
-  /// The twelve nodes that count are defined, the four outermost corners do not; neighbours are at
-  /// most kLargestSpan apart along either axis.
+  /// The twelve nodes that count are defined, the four outermost corners do not; nodes are not too
+  /// steep (see is_too_steep()).
   explicit Patch(PatchNodes nodes);
   explicit Patch(const Stencil& stencil) : Patch(PatchNodes{&stencil.at(0, 0), 4}) {}
   explicit Patch(const BothQuadratics& axes) : axes_(axes) {}
   /// At most as steep as one on nodes can be; slopes are rounded down to Q20.
   Patch(const Quadratic& u, const Quadratic& v);
-
-  /// Q13: 16 source pixels per pixel. Within it no sum of a patch's numbers leaves its register,
-  /// also where a plane or a level of the source is sampled. A tile that is steeper is not sampled
-  /// as a patch: third_order_error() is infinite.
-  static constexpr std::int32_t kLargestSpan = 16 * kTile << kFractionBits;
 
   Quadratic u() const { return axis(0); }
   Quadratic v() const { return axis(1); }
@@ -125,9 +117,18 @@ class Patch {
 /// nodes can tell: the terms of third order in the distance between nodes. Along x they are
 /// t (1-t) (2t-1) / 12 of the third difference, at most kThirdDifference of it, and t (1-t) / 2 of
 /// how far the second difference in this row is from the mean, at most kChangeAcross of its change
-/// from row to row. Infinite where nodes are further apart than Patch::kLargestSpan.
+/// from row to row.
 inline constexpr double kThirdDifference = 0.0081;
 inline constexpr double kChangeAcross = 1.0 / 16;
 double third_order_error(const Stencil& stencil);
+
+/// The most source pixels per pixel of a view, along one axis, that a map may go on by to be kept
+/// in patches. Within it no sum of a patch's numbers leaves its register, also where a plane or a
+/// level of the source is sampled.
+inline constexpr int kSteepest = 16;
+
+/// Whether some neighbours of those that count, `pixels` of a view apart, are further apart than
+/// that in the source.
+bool is_too_steep(const Stencil& stencil, int pixels);
 
 }  // namespace orbwatch::remap

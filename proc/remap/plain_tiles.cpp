@@ -114,7 +114,7 @@ void PlainTiles::judge(int tx, int ty, Levels& levels) const {
   for (std::size_t k = 0; k < kRun; ++k) {
     constexpr auto kOne = static_cast<float>(kOnePixel);
     constexpr auto kFourth = static_cast<float>(kFourthOrder);
-    constexpr auto kSpan = static_cast<float>(Patch::kLargestSpan);
+    constexpr float kSpan = kSteepest * kTile * kOne;
     const float error =
         hypotenuse(u.third[k], v.third[k]) + kFourth * (hypotenuse(u.fourth_x[k], v.fourth_x[k]) +
                                                         hypotenuse(u.fourth_y[k], v.fourth_y[k]));

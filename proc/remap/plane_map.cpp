@@ -79,6 +79,12 @@ void on_level(CoordinateTile& tile, int level) {
   }
 }
 
+Patch in_steps(Patch patch, int bits) {
+  const BothQuadratics& q = patch.axes();
+  return Patch(
+      BothQuadratics{q.value, q.slope << bits, q.curve << (2 * bits), q.cross << (2 * bits)});
+}
+
 Patch at_half_steps(Patch patch) {
   const BothQuadratics& q = patch.axes();
   const Both bulge = sum(q.curve + (q.cross >> 1)) >> 4;

@@ -12,6 +12,9 @@ Patch on_level(Patch patch, int level);
 /// The same for a tile's coordinates; markers stay.
 void on_level(CoordinateTile& tile, int level);
 
+/// A patch in steps of 2^bits pixels along either axis.
+Patch in_steps(Patch patch, int bits);
+
 /// A patch in half steps: pixels 2 X and 2 X + 1 lie a quarter of a pixel before and behind X.
 Patch at_half_steps(Patch patch);
 

@@ -5,17 +5,10 @@
 #include "proc/remap/every_second.h"
 #include "proc/remap/interpolation.h"
 #include "proc/remap/oversampling.h"
+#include "proc/remap/point_sampling.h"
 
 namespace orbwatch::remap {
 namespace {
-
-using DenseSampling = void (*)(const CoordinateTile&, const SourcePlane&, std::uint8_t,
-                               const TargetPlane&);
-constexpr std::array<DenseSampling, kLayouts> kDenseSampling{
-    sample_dense<Layout::One8>,        sample_dense<Layout::Two8>,
-    sample_dense<Layout::Three8>,      sample_dense<Layout::Four8>,
-    sample_dense<Layout::FirstOfTwo8>, sample_dense<Layout::OddOfFour8>,
-    sample_dense<Layout::One16>,       sample_dense<Layout::Three16>};
 
 constexpr std::size_t number(Layout layout) { return static_cast<std::size_t>(layout); }
 
@@ -42,18 +35,17 @@ TargetPlane quarter_of(OversampledTile& tile, Layout layout, const TargetPlane& 
           std::min(kTile, 2 * whole.columns - left), std::min(kTile, 2 * whole.rows - top)};
 }
 
-/// Fills a target with means of four, if `sample(left, top, plane)` can sample every quarter of the
+/// Fills a target with means of four: `sample(left, top, plane)` samples each quarter of the
 /// oversampled tile, that from its pixel (left, top) on, into its plane.
 template <class Sample>
-bool oversample(Layout layout, const TargetPlane& target, const Sample& sample) {
+void oversample(Layout layout, const TargetPlane& target, const Sample& sample) {
   OversampledTile tile;
   for (int top = 0; top < 2 * target.rows; top += kTile) {
     for (int left = 0; left < 2 * target.columns; left += kTile) {
-      if (!sample(left, top, quarter_of(tile, layout, target, left, top))) return false;
+      sample(left, top, quarter_of(tile, layout, target, left, top));
     }
   }
   average(tile, layout, target);
-  return true;
 }
 
 }  // namespace
@@ -61,45 +53,60 @@ bool oversample(Layout layout, const TargetPlane& target, const Sample& sample) 
 PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Picture> pictures,
                            const Kernel& kernel)
     : sampling_(sampling),
+      kernel_(&kernel),
       rounding_(BlockMap::rounding(added_u(sampling.layout), added_v(sampling.layout))),
       columns_(kTile >> shift(sampling.x)),
       rows_(kTile >> shift(sampling.y)),
       pixel_bytes_(info(sampling.layout).out_bytes()) {
-  if (number(sampling.layout) < kKernelLayouts) kernel_ = kernel.tiles[number(sampling.layout)];
+  if (number(sampling.layout) < kKernelLayouts) {
+    block_kernel_ = kernel.tiles[number(sampling.layout)];
+  }
   for (std::size_t level = 0; level < std::min(pictures.size(), sources_.size()); ++level) {
     sources_[level] = plane_of_source(pictures[level], sampling);
   }
 }
 
-void PlaneSampler::sample(const CoordinateTile& coordinates, Halves halves, std::uint8_t black,
+void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, std::uint8_t black,
                           const TargetPlane& target) const {
-  const DenseSampling sample_dense = kDenseSampling[number(sampling_.layout)];
-  if (halves == kPlain) return sample_dense(coordinates, sources_[0], black, target);
+  CoordinateTile shared;
+  const bool full = sampling_.x == Siting::Full;
+  if (!full) on_plane(coordinates, sampling_, shared);
+  const CoordinateTile& places = full ? coordinates : shared;
+  const auto sample = [&](const CoordinateTile& from, const SourcePlane& source,
+                          const TargetPlane& to) {
+    sample_points(*kernel_, sampling_.layout, from, black, source, to);
+  };
+  if (reading.halves == Reading::kPlain) return sample(places, sources_[0], target);
   CoordinateTile quarter;
   oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& plane) {
-    at_half_steps(coordinates, target.columns, target.rows, left, top, quarter);
-    sample_dense(quarter, sources_[halves], black, plane);
-    return true;
+    at_half_steps(places, target.columns, target.rows, left, top, quarter);
+    sample(quarter, sources_[reading.halves], plane);
   });
 }
 
-/// Where samples are too far apart, or means are asked for.
-bool PlaneSampler::sample_finely(const Patch& patch, Halves halves,
+/// Where means are asked for, or samples are too far apart for blocks.
+void PlaneSampler::sample_finely(const Patch& patch, Reading reading,
                                  const TargetPlane& target) const {
-  if (halves == kPlain) return sample_steep(patch, sources_[0], target);
-  const SourcePlane& source = sources_[halves];
+  if (reading.halves == Reading::kPlain) {
+    return sample_steep(patch, reading, sources_[0], target);
+  }
+  const SourcePlane& source = sources_[reading.halves];
   const Patch fine = at_half_steps(patch);
-  const auto sample_quarter = [&](int left, int top, const TargetPlane& quarter) {
+  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& quarter) {
     const Patch part = moved(fine, left, top);
-    return sample_blocks(part, source, quarter) || sample_steep(part, source, quarter);
-  };
-  return oversample(sampling_.layout, target, sample_quarter);
+    if (!may_use_blocks(reading, quarter) || !sample_blocks(part, source, quarter)) {
+      sample_steep(part, reading, source, quarter);
+    }
+  });
 }
 
 /// Blocks that do not fit their windows may do so at half the step, along one axis or both.
-bool PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
+void PlaneSampler::sample_steep(const Patch& patch, Reading reading, const SourcePlane& source,
                                 const TargetPlane& target) const {
-  return sample_half_rows(patch, source, target) || sample_half_columns(patch, source, target);
+  const bool in_blocks =
+      may_use_blocks(reading, target) &&
+      (sample_half_rows(patch, source, target) || sample_half_columns(patch, source, target));
+  if (!in_blocks) sample_points(*kernel_, sampling_.layout, patch, source, target);
 }
 
 bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& source,

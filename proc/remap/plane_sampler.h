@@ -7,18 +7,24 @@
 #include "proc/image/picture.h"
 #include "proc/remap/block_map.h"
 #include "proc/remap/coordinate.h"
-#include "proc/remap/dense_sampling.h"
 #include "proc/remap/kernel.h"
+#include "proc/remap/plane.h"
 #include "proc/remap/plane_map.h"
 #include "proc/remap/plane_sampling.h"
 #include "proc/remap/tile.h"
 
 namespace orbwatch::remap {
 
-/// What is done where a view is smaller than its source: the pixels of a tile are means of four
-/// samples of a source that was halved so often; or kPlain, they are single samples of the source.
-using Halves = int;
-inline constexpr Halves kPlain = -1;
+/// How a tile's source is read.
+struct Reading {
+  /// What `halves` is where pixels are single samples of the source.
+  static constexpr int kPlain = -1;
+
+  /// Where the view is smaller than the source, pixels are means of four samples of a source that
+  /// was halved so often.
+  int halves = kPlain;
+  bool in_windows = false;  ///< kernels may read windows around every pixel, see Tile::interior
+};
 
 /// Samples tiles of one plane, or of what else is sampled together. Refers to the pictures; holds
 /// all that is the same for all tiles. Reentrant.
@@ -35,46 +41,52 @@ class PlaneSampler {
   int pixel_bytes() const { return pixel_bytes_; }            ///< of what is written
   int tile_bytes() const { return columns_ * pixel_bytes_; }  ///< of a row of a tile
 
-  /// Fills a target, blocks of a tile, from a patch of the picture, or of the half of it that
-  /// `halves` names. False, and then the target is to be sampled in another way, if there is no
-  /// kernel for it or blocks do not fit a kernel. For interior tiles only, see Tile.
-  [[gnu::always_inline]] bool sample(const Patch& patch, Halves halves,
+  /// Fills a target, of 4, 8 or 16 pixels each way, from a patch of the picture, or of the half of
+  /// it that is read.
+  [[gnu::always_inline]] void sample(const Patch& patch, Reading reading,
                                      const TargetPlane& target) const {
-    if (kernel_ == nullptr) return false;
-    if (sampling_.x == Siting::Full) return sample_patch(patch, halves, target);
-    return sample_patch(on_plane(patch, sampling_), halves, target);
+    if (sampling_.x == Siting::Full) return sample_patch(patch, reading, target);
+    sample_patch(on_plane(patch, sampling_), reading, target);
   }
 
-  /// Fills a target pixel by pixel, from coordinates in the plane of the picture or of that half.
-  void sample(const CoordinateTile& coordinates, Halves halves, std::uint8_t black,
+  /// Fills a target pixel by pixel, from coordinates in the picture or in that half of it.
+  /// Undefined pixels become `black`.
+  void sample(const CoordinateTile& coordinates, Reading reading, std::uint8_t black,
               const TargetPlane& target) const;
 
  private:
   // What most tiles go through is inlined, and what few need is not: it would cost all of them
   // registers.
-  [[gnu::always_inline]] bool sample_patch(const Patch& patch, Halves halves,
+  [[gnu::always_inline]] void sample_patch(const Patch& patch, Reading reading,
                                            const TargetPlane& target) const {
-    return (halves == kPlain && sample_blocks(patch, sources_[0], target)) ||
-           sample_finely(patch, halves, target);
+    const bool simple = reading.halves == Reading::kPlain && may_use_blocks(reading, target);
+    if (!simple || !sample_blocks(patch, sources_[0], target)) {
+      sample_finely(patch, reading, target);
+    }
+  }
+  [[gnu::always_inline]] bool may_use_blocks(Reading reading, const TargetPlane& target) const {
+    return reading.in_windows && block_kernel_ != nullptr && target.columns >= 2 * kBlock;
   }
   [[gnu::always_inline]] bool sample_blocks(const Patch& patch, const SourcePlane& source,
                                             const TargetPlane& target) const {
     const auto blocks = [](int pixels) { return static_cast<unsigned>(pixels) / kBlock; };
     BlockMap map;
     if (!map.fit(patch, blocks(target.columns), blocks(target.rows), rounding_)) return false;
-    kernel_({map, source.data, source.stride, target.data, target.stride});
+    block_kernel_({map, source.data, source.stride, target.data, target.stride});
     return true;
   }
-  bool sample_finely(const Patch& patch, Halves halves, const TargetPlane& target) const;
-  bool sample_steep(const Patch& patch, const SourcePlane& source, const TargetPlane& target) const;
+  void sample_finely(const Patch& patch, Reading reading, const TargetPlane& target) const;
+  void sample_steep(const Patch& patch, Reading reading, const SourcePlane& source,
+                    const TargetPlane& target) const;
   bool sample_half_rows(const Patch& patch, const SourcePlane& source,
                         const TargetPlane& target) const;
   bool sample_half_columns(const Patch& patch, const SourcePlane& source,
                            const TargetPlane& target) const;
 
   PlaneSampling sampling_{};
-  Kernel::Tile kernel_ = nullptr;  ///< if there is one for the layout
-  Both rounding_{};                ///< see BlockMap
+  const Kernel* kernel_ = nullptr;
+  Kernel::Tile block_kernel_ = nullptr;  ///< its one for the layout, if there is one
+  Both rounding_{};                      ///< see BlockMap
   int columns_ = 0, rows_ = 0, pixel_bytes_ = 0;
   std::array<SourcePlane, kMaxLevel> sources_;  ///< by how often the source was halved
 };

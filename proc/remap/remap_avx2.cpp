@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "proc/remap/interpolation.h"
+#include "proc/remap/point_walk.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -364,12 +365,18 @@ void fill_tile(const TileJob& job) {
   fill_rows<layout, kMostBlocks / 2>(job);
 }
 
+struct Avx2 {
+  using Lanes [[gnu::vector_size(32)]] = std::uint32_t;
+};
+
 }  // namespace
 
 constexpr Kernel kAvx2Kernel{
     "avx2",
     {fill_tile<Layout::One8>, fill_tile<Layout::Two8>, fill_tile<Layout::Three8>,
      fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>, fill_tile<Layout::OddOfFour8>,
-     fill_tile<Layout::One16>}};
+     fill_tile<Layout::One16>},
+    walk_places<Avx2>,
+    kPointWalks<Avx2>};
 
 }  // namespace orbwatch::remap

@@ -20,6 +20,7 @@
 #include "proc/remap/interpolation.h"
 #include "proc/remap/neon_stores.h"
 #include "proc/remap/neon_tables.h"
+#include "proc/remap/point_walk.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -357,13 +358,19 @@ void fill_tile(const TileJob& job) {
   fill_rows<layout, 2>(job);
 }
 
+struct Neon {
+  using Lanes [[gnu::vector_size(16)]] = std::uint32_t;
+};
+
 }  // namespace
 
 constexpr Kernel kNeonKernel = {
     "neon",
     {fill_tile<Layout::One8>, fill_tile<Layout::Two8>, fill_tile<Layout::Three8>,
      fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>, fill_tile<Layout::OddOfFour8>,
-     fill_tile<Layout::One16>}};
+     fill_tile<Layout::One16>},
+    walk_places<Neon>,
+    kPointWalks<Neon>};
 
 }  // namespace orbwatch::remap
 

@@ -2,6 +2,9 @@
 
 #include "proc/remap/remap_scalar.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "proc/remap/block_walk.h"
 #include "proc/remap/interpolation.h"
 
@@ -71,8 +74,56 @@ struct Scalar {
   }
 };
 
+std::int32_t place(const PointAxis& axis, std::uint32_t i, std::uint32_t j) {
+  const std::uint32_t offset =
+      axis.start + i * axis.x + j * axis.y + i * j * axis.xy + i * i * axis.xx + j * j * axis.yy;
+  return axis.base + (static_cast<std::int32_t>(offset) >> PointAxis::kExtraBits);
+}
+
+void locate(const PointMap& map, int columns, int rows, Places& places) {
+  // A whole run, if there are fewer pixels.
+  const int count = std::max(columns * rows, kPointRun);
+  for (int k = 0; k < count; ++k) {
+    const auto i = static_cast<std::uint32_t>(k % columns),
+               j = static_cast<std::uint32_t>(k / columns);
+    places.u[static_cast<std::size_t>(k)] = place(map.u, i, j);
+    places.v[static_cast<std::size_t>(k)] = place(map.v, i, j);
+  }
+}
+
+template <Layout layout>
+void sample_points(const PointJob& job) {
+  const auto& [places, source, target] = job;
+  constexpr LayoutInfo kInfo = info(layout);
+  const std::int32_t last_u = (source.width - 1) << kFractionBits;
+  const std::int32_t last_v =
+      std::max(((source.height - 1) << kFractionBits) - kShortOfLastRow<layout>, 0);
+  const auto pixel = [&source = source](int u, int v) {
+    return source.data + std::min(v, source.height - 1) * source.stride +
+           std::ptrdiff_t{std::min(u, source.width - 1)} * kInfo.pixel_bytes;
+  };
+  for (int y = 0; y < target.rows; ++y) {
+    for (int x = 0; x < target.columns; ++x) {
+      const auto at = static_cast<std::size_t>(y * target.columns + x);
+      const Coordinate c{std::clamp(places.u[at] + added_u(layout), 0, last_u),
+                         std::clamp(places.v[at] + added_v(layout), 0, last_v)};
+      const int u = c.u >> kFractionBits, v = c.v >> kFractionBits;
+      interpolate_pixel<layout>(
+          {pixel(u, v), pixel(u + 1, v), pixel(u, v + 1), pixel(u + 1, v + 1)}, c,
+          target.data + y * target.stride + x * kInfo.out_bytes());
+    }
+  }
+}
+
 }  // namespace
 
-constexpr Kernel kScalarKernel = make_kernel<Scalar>("scalar");
+constexpr Kernel kScalarKernel{
+    "scalar",
+    kBlockWalks<Scalar>,
+    locate,
+    {sample_points<Layout::One8>, sample_points<Layout::Two8>, sample_points<Layout::Three8>,
+     sample_points<Layout::Four8>, sample_points<Layout::FirstOfTwo8>,
+     sample_points<Layout::OddOfFour8>, sample_points<Layout::One16>,
+     sample_points<Layout::Three16>}};
 
 }  // namespace orbwatch::remap

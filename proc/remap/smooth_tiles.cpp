@@ -134,7 +134,9 @@ std::optional<Tile> CoordinateGrid::Compiler::tile_of_cells(const FineTile<Cell>
   for (int j = 0; j < fine.kCells; ++j) {
     for (int i = 0; i < fine.kCells; ++i) {
       const Stencil cell = fine.stencil(i, j);
-      if (third_order_error(cell) + fourth > kClose) return std::nullopt;
+      if (is_too_steep(cell, Cell) || third_order_error(cell) + fourth > kClose) {
+        return std::nullopt;
+      }
       const Patch patch(cell);
       if (!is_inside(patch)) return std::nullopt;
       tile.interior = tile.interior && is_interior(patch, tile.level);
@@ -200,6 +202,7 @@ Coordinate CoordinateGrid::Compiler::extended_node(int surface, int i, int j) {
 
 /// Whether a patch on these nodes is within the tolerance everywhere in the tile.
 bool CoordinateGrid::Compiler::is_close(const Stencil& nodes, const Place& place) const {
+  if (is_too_steep(nodes, kTile)) return false;
   const double third = third_order_error(nodes);
   return third < kClose && third + fourth_order_part(nodes, place) < kClose;
 }

@@ -65,23 +65,24 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
     return clear_area(out, area);
   }
-  const Halves halves = this->halves(tile.level);
-  if (tile.kind == TileClass::Patch && tile.interior && interpolation_ != Interpolation::Nearest) {
+  const Reading reading = this->reading(tile);
+  if (interpolation_ == Interpolation::Nearest) return write_dense(tx, ty, reading, out, area);
+  if (area.columns < kTile || area.rows < kTile) in_place = nullptr;
+  if (tile.kind == TileClass::Patch) {
     Patch patch(grid_.nodes(tile, tx, ty));
-    if (halves > 0) patch = on_level(patch, halves);
-    const bool whole = area.columns == kTile && area.rows == kTile;
-    if (whole && in_place != nullptr ? sample(patch, halves, *in_place)
-                                     : write_converted(patch, halves, out, area)) {
-      return;
-    }
+    if (reading.halves > 0) patch = on_level(patch, reading.halves);
+    return in_place != nullptr ? sample(patch, reading, *in_place)
+                               : write_converted(patch, reading, out, area);
   }
-  write_dense(tx, ty, halves, out, area);
+  if (!write_cells(tile, reading, out, area, in_place)) write_dense(tx, ty, reading, out, area);
 }
 
 /// The last factor of two is left to samples, which keeps more detail than a half of the picture.
-Halves TileRemap::halves(int level) const {
-  if (level == 0 || interpolation_ != Interpolation::Area) return kPlain;
-  return std::min(level - 1, most_halves_);
+Reading TileRemap::reading(const Tile& tile) const {
+  if (tile.level == 0 || interpolation_ != Interpolation::Area) {
+    return {Reading::kPlain, tile.interior};
+  }
+  return {std::min(tile.level - 1, most_halves_), tile.interior};
 }
 
 /// From the pixel (x, y) of the view on.
@@ -107,35 +108,64 @@ TileRemap::Targets TileRemap::targets_in(SampledTile& tile) const {
   return targets;
 }
 
-/// False if some sampling's blocks do not fit a kernel.
-[[gnu::always_inline]] inline bool TileRemap::sample(const Patch& patch, Halves halves,
+[[gnu::always_inline]] inline void TileRemap::sample(const Patch& patch, Reading reading,
                                                      const Targets& targets) const {
-  for (std::size_t n = 0; n < plane_count_; ++n) {
-    if (!planes_[n].sample(patch, halves, targets[n])) return false;
-  }
-  return true;
+  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample(patch, reading, targets[n]);
 }
 
-[[gnu::noinline]] bool TileRemap::write_converted(const Patch& patch, Halves halves,
+/// The same for a patch in each cell.
+template <int Cell>
+void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const {
+  for (int j = 0; j < cells.kCells; ++j) {
+    for (int i = 0; i < cells.kCells; ++i) {
+      Targets parts = targets;
+      for (std::size_t n = 0; n < plane_count_; ++n) {
+        TargetPlane& part = parts[n];
+        part.columns /= cells.kCells;
+        part.rows /= cells.kCells;
+        part.data += j * part.rows * part.stride +
+                     std::ptrdiff_t{i} * part.columns * planes_[n].pixel_bytes();
+      }
+      Patch patch = cells.patch(i, j);
+      if (reading.halves > 0) patch = on_level(patch, reading.halves);
+      sample(patch, reading, parts);
+    }
+  }
+}
+
+[[gnu::noinline]] void TileRemap::write_converted(const Patch& patch, Reading reading,
                                                   const MutablePicture& out,
                                                   const TileArea& area) const {
   SampledTile sampled;
-  const bool fits = sample(patch, halves, targets_in(sampled));
-  if (fits) write_tile(sampled, format_, colour_space_, out, area);
-  return fits;
+  sample(patch, reading, targets_in(sampled));
+  write_tile(sampled, format_, colour_space_, out, area);
 }
 
-void TileRemap::write_dense(int tx, int ty, Halves halves, const MutablePicture& out,
-                            const TileArea& area) const {
-  CoordinateTile coordinates = grid_.pixels(tx, ty), shared;
+/// False if the tile is not kept in cells.
+[[gnu::noinline]] bool TileRemap::write_cells(const Tile& tile, Reading reading,
+                                              const MutablePicture& out, const TileArea& area,
+                                              const Targets* in_place) const {
+  // Where a map bends it is steep: without means hardly a cell fits windows.
+  if (reading.halves == Reading::kPlain) reading.in_windows = false;
+  return grid_.take_cells(tile, [&](const auto& cells) {
+    if (in_place != nullptr) return sample(cells, reading, *in_place);
+    SampledTile sampled;
+    sample(cells, reading, targets_in(sampled));
+    write_tile(sampled, format_, colour_space_, out, area);
+  });
+}
+
+[[gnu::noinline]] void TileRemap::write_dense(int tx, int ty, Reading reading,
+                                              const MutablePicture& out,
+                                              const TileArea& area) const {
+  CoordinateTile coordinates = grid_.pixels(tx, ty);
   if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
-  if (halves > 0) on_level(coordinates, halves);
+  if (reading.halves > 0) on_level(coordinates, reading.halves);
   SampledTile sampled;
   const Targets targets = targets_in(sampled);
   for (std::size_t n = 0; n < plane_count_; ++n) {
-    const PlaneSampling& sampling = planes_[n].sampling();
-    on_plane(coordinates, sampling, shared);
-    planes_[n].sample(shared, halves, black(sampling, format_, colour_space_), targets[n]);
+    const std::uint8_t background = black(planes_[n].sampling(), format_, colour_space_);
+    planes_[n].sample(coordinates, reading, background, targets[n]);
   }
   write_tile(sampled, format_, colour_space_, out, area);
   if (format_ != out.format) clear_undefined(coordinates, out, area);

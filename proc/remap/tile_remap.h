@@ -34,15 +34,19 @@ class TileRemap {
   /// Where a tile's samples go, by sampling.
   using Targets = std::array<TargetPlane, 3>;
 
-  Halves halves(int level) const;
+  Reading reading(const Tile& tile) const;
   Targets targets_in(const MutablePicture& out, int x, int y) const;
   Targets targets_in(SampledTile& tile) const;
   void write_tile_at(int tx, int ty, const MutablePicture& out, const TileArea& area,
                      const Targets* in_place) const;
-  bool sample(const Patch& patch, Halves halves, const Targets& targets) const;
-  bool write_converted(const Patch& patch, Halves halves, const MutablePicture& out,
+  void sample(const Patch& patch, Reading reading, const Targets& targets) const;
+  template <int Cell>
+  void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const;
+  void write_converted(const Patch& patch, Reading reading, const MutablePicture& out,
                        const TileArea& area) const;
-  void write_dense(int tx, int ty, Halves halves, const MutablePicture& out,
+  bool write_cells(const Tile& tile, Reading reading, const MutablePicture& out,
+                   const TileArea& area, const Targets* in_place) const;
+  void write_dense(int tx, int ty, Reading reading, const MutablePicture& out,
                    const TileArea& area) const;
 
   const CoordinateGrid& grid_;

@@ -40,16 +40,15 @@ TEST(Patch, IsExactForTheSecondDegree) {
   }
 }
 
-TEST(Patch, StridesOverTheSamePlaces) {
-  const auto u = [](double x, double y) { return 9 * x + y + x * x; };
+TEST(Patch, WritesRows) {
+  const auto u = [](double x, double y) { return -9 * x + y + x * x; };
   const auto v = [](double x, double y) { return 5 * y - x * x; };
   const Patch patch(nodes_of(u, v));
-  for (const int stride : {1, 2, 4}) {
-    PatchRow row = patch.row(7).stride(stride);
-    for (int x = 0; x < kTile; x += stride, row.step()) {
-      EXPECT_EQ(row.current().u, patch.at(x, 7).u);
-      EXPECT_EQ(row.current().v, patch.at(x, 7).v);
-    }
+  std::array<Coordinate, kTile> row;
+  patch.row(7).write(kTile, row.data());
+  for (int x = 0; x < kTile; ++x) {
+    EXPECT_EQ(row[x].u, patch.at(x, 7).u);
+    EXPECT_EQ(row[x].v, patch.at(x, 7).v);
   }
 }
 
@@ -99,19 +98,22 @@ TEST(Patch, ErrorOfThirdOrderIsABound) {
   EXPECT_GT(tightest, 0.7);
 }
 
-// Steeper ones would not fit a patch's registers.
-TEST(Patch, IsRefusedWhereNeighboursAreTooFarApart) {
-  const auto error = [](double step) {
+TEST(Patch, IsTooSteepWhereNeighboursAreTooFarApart) {
+  const auto is_too_steep = [](double step, int pixels) {
     const auto steep = [step](double x, double) { return step * x; };
     const auto flat = [](double, double y) { return y; };
-    return std::max(third_order_error(nodes_of(steep, flat)),
-                    third_order_error(nodes_of(flat, steep)));
+    const bool along_u = remap::is_too_steep(nodes_of(steep, flat), pixels);
+    EXPECT_EQ(along_u, remap::is_too_steep(nodes_of(flat, steep), pixels));
+    return along_u;
   };
-  EXPECT_EQ(error(256), 0);
-  EXPECT_EQ(error(-256), 0);
-  EXPECT_TRUE(std::isinf(error(256.01)));
-  EXPECT_TRUE(std::isinf(error(-256.01)));
-  EXPECT_TRUE(std::isinf(error(200000)));
+  for (const int pixels : {4, 8, 16}) {
+    const double most = kSteepest * pixels;
+    EXPECT_FALSE(is_too_steep(most, pixels));
+    EXPECT_FALSE(is_too_steep(-most, pixels));
+    EXPECT_TRUE(is_too_steep(most + 0.01, pixels));
+    EXPECT_TRUE(is_too_steep(-most - 0.01, pixels));
+  }
+  EXPECT_TRUE(is_too_steep(200000, 16));
 }
 
 TEST(Patch, KeepsTheSteepestMapThatItMayHave) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
 
 #include "proc/optics/ball_projection.h"
@@ -90,6 +91,76 @@ TEST(RemapKernels, AgreeForSourcesOfEverySize) {
   }
   const Scene large(8192, 8192, {ViewKind::Perspective, {10, 15, 40}, 12, {}, 160, 96});
   expect_same(large, PixelFormat::Grey, PixelFormat::Grey, 0);
+}
+
+/// All around a ball, where the map gets steeper and more bent the closer it is to the limb. Its
+/// tiles are kept in every way that one surface alone can be.
+Scene all_around() {
+  return {800, 800, {ViewKind::Equirectangular, {10, 20, 5}, {}, {}, 1400, 700}};
+}
+
+void expect_stores(const CoordinateGrid& grid) {
+  std::set<TileStore> dense;
+  bool border = false;
+  for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+    for (int tx = 0; tx < grid.tiles_x(); ++tx) {
+      const Tile tile = grid.tile(tx, ty);
+      if (tile.kind == TileClass::Dense) dense.insert(tile.store);
+      border = border || (tile.kind == TileClass::Dense && !tile.interior);
+    }
+  }
+  for (const TileStore store : {TileStore::Curved, TileStore::Fine, TileStore::CurvedFine}) {
+    EXPECT_EQ(dense.count(store), 1U) << static_cast<int>(store);
+  }
+  EXPECT_TRUE(dense.count(TileStore::Packed) || dense.count(TileStore::Whole));
+  EXPECT_TRUE(border);
+}
+
+TEST(RemapKernels, AgreeForEveryStore) {
+  const Scene scene = all_around();
+  expect_stores(scene.grid);
+  for (const PixelFormat format : {PixelFormat::Grey, PixelFormat::Nv12, PixelFormat::Yuyv,
+                                   PixelFormat::Bgr, PixelFormat::Y16}) {
+    expect_same(scene, format, format, 4);
+  }
+}
+
+/// Where the samples of a view come from, if the source is a ramp of 64 per pixel along an axis.
+void expect_exact(const Scene& scene, double optics::Vec2::*axis, const Kernel& kernel) {
+  constexpr int kPerPixel = 64;
+  StoredPicture source(PixelFormat::Y16, scene.grid.source_width(), scene.grid.source_height());
+  const auto samples = source.picture.samples<std::uint16_t>();
+  for (int y = 0; y < samples.height; ++y) {
+    for (int x = 0; x < samples.width; ++x) {
+      const int place = axis == &optics::Vec2::u ? x : y;
+      samples.row(y)[x] = static_cast<std::uint16_t>(kPerPixel * place);
+    }
+  }
+  StoredPicture out(PixelFormat::Y16, scene.grid.width(), scene.grid.height());
+  remap(scene.grid, source.as_source(), Interpolation::Bilinear, out.picture,
+        {0, scene.grid.tiles_y()}, kernel);
+  // Of the grid, of places in lanes, of weights, and of samples.
+  constexpr double kTolerated = kTolerance + 1.0 / 300 + 1.0 / 256 + 0.5 / kPerPixel;
+  int compared = 0;
+  for (int y = 0; y < out.picture.height; ++y) {
+    for (int x = 0; x < out.picture.width; ++x) {
+      const auto direction = scene.view.direction(x, y);
+      const auto truth = direction ? scene.ball.pixel(*direction) : std::nullopt;
+      if (!truth) continue;
+      const double there = out.picture.samples<std::uint16_t>().row(y)[x] / double{kPerPixel};
+      ASSERT_NEAR(there, (*truth).*axis, kTolerated) << kernel.name << ' ' << x << ' ' << y;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 900000);
+}
+
+TEST(RemapKernels, FollowTheExactMapInEveryStore) {
+  const Scene scene = all_around();
+  for (const Kernel* kernel : kernels()) {
+    expect_exact(scene, &optics::Vec2::u, *kernel);
+    expect_exact(scene, &optics::Vec2::v, *kernel);
+  }
 }
 
 }  // namespace
