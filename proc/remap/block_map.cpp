@@ -25,11 +25,11 @@ Four above_zero(Four value) { return value > 0 ? value : 0; }
 
 /// How far the pixels of any block lie from its corner, Q20: u and v at least, u and v at most.
 /// Room for rounding is included.
-Four reach(const BothQuadratics& map, int blocks_x, int blocks_y) {
+Four reach(const BothQuadratics& map, int columns, int rows) {
   // From a corner it is i (slope_x + i xx + j xy / 2) + j (slope_y + j yy + i xy / 2) to pixel
   // (i, j): the slopes up to 3/2, that is less than 2, pixels beyond the last corner, and that is 2
   // before the blocks' end; for both axes the longer one's.
-  const int last = kBlock * std::max(blocks_x, blocks_y) - 2;
+  const int last = std::max(columns, rows) - 2;
   const Four along = (map.curve * (2 * last)) >> kSlopeShift;
   const Four across = (map.cross * last) >> kSlopeShift;
   const Four low = below_zero(map.slope + below_zero(along) + below_zero(across));
@@ -101,9 +101,9 @@ LaneShape lane_shape(const BothQuadratics& map, Four offset) {
 
 }  // namespace
 
-bool BlockMap::fit(const Patch& patch, int count_x, int count_y, const Both& rounding) {
+bool BlockMap::fit(const Patch& patch, int columns, int rows, const Both& rounding) {
   const BothQuadratics& map = patch.axes();
-  const Four pixels = reach(map, count_x, count_y);
+  const Four pixels = reach(map, columns, rows);
   if (!fits(map, pixels)) return false;
 
   constexpr int kRowShift = kFractionBits - kRowFractionBits;
@@ -111,8 +111,8 @@ bool BlockMap::fit(const Patch& patch, int count_x, int count_y, const Both& rou
   const Both start = widened<kScaleBits>(low).along_x + rounding;
   windows = window_walk(map, start);
   lanes = lane_shape(map, Four{0, kRowCentre << kRowShift, 0, 0} - low);
-  blocks_x = count_x;
-  blocks_y = count_y;
+  blocks_x = static_cast<int>(static_cast<unsigned>(columns) / kBlock);
+  blocks_y = static_cast<int>(static_cast<unsigned>(rows) / kBlock);
   return true;
 }
 

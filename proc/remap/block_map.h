@@ -53,9 +53,10 @@ struct BlockMap {
   int blocks_x;  ///< 2 or 4
   int blocks_y;
 
-  /// Becomes the map of a patch. False, and then it is none, when the patch is too steep or bent: a
-  /// block would not fit into its window. `rounding`: see there.
-  [[nodiscard]] bool fit(const Patch& patch, int blocks_x, int blocks_y, const Both& rounding);
+  /// Becomes the map of a patch's first pixels, 8 or 16 columns and a multiple of 4 rows. False,
+  /// and then it is none, when the patch is too steep or bent: a block would not fit into its
+  /// window. `rounding`: see there.
+  [[nodiscard]] bool fit(const Patch& patch, int columns, int rows, const Both& rounding);
 
   /// What to add to every coordinate, Q24, because places are cut off after fewer bits: half of
   /// their last one, and `u` and `v`, Q13, half of the last bit of a kernel's weights.

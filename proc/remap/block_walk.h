@@ -53,12 +53,12 @@ void walk_tile(const TileJob& job) {
   for (int row = 0; row < map.blocks_y; ++row) {
     AxisWalk u(map.windows, 0, row);
     AxisWalk v(map.windows, 1, row);
-    std::uint8_t* out = job.out + row * kBlock * job.out_stride;
+    std::uint8_t* out = job.target.data + row * kBlock * job.target.stride;
     for (int block = 0; block < map.blocks_x; ++block) {
       const std::uint8_t* window =
-          job.source + v.window() * job.source_stride + u.window() * info(layout).pixel_bytes;
+          job.source.data + v.window() * job.source.stride + u.window() * info(layout).pixel_bytes;
       Isa::template sample<layout>(shape, u.place<kFractionBits>(), v.place<kRowFractionBits>(),
-                                   window, job.source_stride, out, job.out_stride);
+                                   window, job.source.stride, out, job.target.stride);
       u.next();
       v.next();
       shape.next_block();

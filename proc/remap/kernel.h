@@ -56,13 +56,11 @@ constexpr Layout packed(Layout layout) {
   return layout == Layout::OddOfFour8 ? Layout::Two8 : layout;
 }
 
-/// A rectangle of 4x4 pixel blocks to be sampled from one plane.
+/// A target of 4x4 pixel blocks to be sampled from one plane.
 struct TileJob {
   const BlockMap& map;
-  const std::uint8_t* source = nullptr;  ///< the plane's pixel (0, 0)
-  std::ptrdiff_t source_stride = 0;      ///< bytes
-  std::uint8_t* out = nullptr;
-  std::ptrdiff_t out_stride = 0;  ///< bytes
+  const SourcePlane& source;
+  const TargetPlane& target;
 };
 
 /// Pixels to be sampled from one plane, each at a place of its own. Beyond the plane's border its

@@ -57,7 +57,8 @@ PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Pictur
       rounding_(BlockMap::rounding(added_u(sampling.layout), added_v(sampling.layout))),
       columns_(kTile >> shift(sampling.x)),
       rows_(kTile >> shift(sampling.y)),
-      pixel_bytes_(info(sampling.layout).out_bytes()) {
+      pixel_bytes_(info(sampling.layout).out_bytes()),
+      tile_bytes_(columns_ * pixel_bytes_) {
   if (number(sampling.layout) < kKernelLayouts) {
     block_kernel_ = kernel.tiles[number(sampling.layout)];
   }
@@ -84,29 +85,28 @@ void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, st
   });
 }
 
-/// Where means are asked for, or samples are too far apart for blocks.
-void PlaneSampler::sample_finely(const Patch& patch, Reading reading,
-                                 const TargetPlane& target) const {
-  if (reading.halves == Reading::kPlain) {
-    return sample_steep(patch, reading, sources_[0], target);
-  }
-  const SourcePlane& source = sources_[reading.halves];
-  const Patch fine = at_half_steps(patch);
-  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& quarter) {
-    const Patch part = moved(fine, left, top);
-    if (!may_use_blocks(reading, quarter) || !sample_blocks(part, source, quarter)) {
-      sample_steep(part, reading, source, quarter);
+void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane& target) const {
+  const auto sample = [&](const Patch& map, const SourcePlane& source, const TargetPlane& to) {
+    if (!reading.in_windows || !has_blocks() || to.columns < 2 * kBlock) {
+      sample_points(*kernel_, sampling_.layout, map, source, to);
+    } else if (!sample_blocks(map, source, to)) {
+      sample_steep(map, source, to);
     }
+  };
+  const Patch map = on_plane(patch, sampling_);
+  if (reading.halves == Reading::kPlain) return sample(map, sources_[0], target);
+  const Patch fine = at_half_steps(map);
+  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& quarter) {
+    sample(moved(fine, left, top), sources_[reading.halves], quarter);
   });
 }
 
 /// Blocks that do not fit their windows may do so at half the step, along one axis or both.
-void PlaneSampler::sample_steep(const Patch& patch, Reading reading, const SourcePlane& source,
+void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
                                 const TargetPlane& target) const {
-  const bool in_blocks =
-      may_use_blocks(reading, target) &&
-      (sample_half_rows(patch, source, target) || sample_half_columns(patch, source, target));
-  if (!in_blocks) sample_points(*kernel_, sampling_.layout, patch, source, target);
+  if (!sample_half_rows(patch, source, target) && !sample_half_columns(patch, source, target)) {
+    sample_points(*kernel_, sampling_.layout, patch, source, target);
+  }
 }
 
 bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& source,

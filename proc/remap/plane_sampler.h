@@ -36,17 +36,23 @@ class PlaneSampler {
                const Kernel& kernel);
 
   const PlaneSampling& sampling() const { return sampling_; }
-  int columns() const { return columns_; }                    ///< of a tile, in pixels of the plane
-  int rows() const { return rows_; }                          ///< of a tile
-  int pixel_bytes() const { return pixel_bytes_; }            ///< of what is written
-  int tile_bytes() const { return columns_ * pixel_bytes_; }  ///< of a row of a tile
+  int columns() const { return columns_; }          ///< of a tile, in pixels of the plane
+  int rows() const { return rows_; }                ///< of a tile
+  int pixel_bytes() const { return pixel_bytes_; }  ///< of what is written
+  int tile_bytes() const { return tile_bytes_; }    ///< of a row of a tile
+  bool has_blocks() const { return block_kernel_ != nullptr; }
 
   /// Fills a target, of 4, 8 or 16 pixels each way, from a patch of the picture, or of the half of
   /// it that is read.
-  [[gnu::always_inline]] void sample(const Patch& patch, Reading reading,
-                                     const TargetPlane& target) const {
-    if (sampling_.x == Siting::Full) return sample_patch(patch, reading, target);
-    sample_patch(on_plane(patch, sampling_), reading, target);
+  void sample(const Patch& patch, Reading reading, const TargetPlane& target) const;
+
+  /// The same for most tiles: plain, in windows, of a layout that has_blocks(), at least 8 pixels
+  /// wide. Inlined, which what few tiles need is not: it would cost all of them registers.
+  [[gnu::always_inline]] void sample_blocks(const Patch& patch, const TargetPlane& target) const {
+    const auto sample = [&](const Patch& map) __attribute__((always_inline)) {
+      if (!sample_blocks(map, sources_[0], target)) sample_steep(map, sources_[0], target);
+    };
+    sampling_.x == Siting::Full ? sample(patch) : sample(on_plane(patch, sampling_));
   }
 
   /// Fills a target pixel by pixel, from coordinates in the picture or in that half of it.
@@ -55,29 +61,14 @@ class PlaneSampler {
               const TargetPlane& target) const;
 
  private:
-  // What most tiles go through is inlined, and what few need is not: it would cost all of them
-  // registers.
-  [[gnu::always_inline]] void sample_patch(const Patch& patch, Reading reading,
-                                           const TargetPlane& target) const {
-    const bool simple = reading.halves == Reading::kPlain && may_use_blocks(reading, target);
-    if (!simple || !sample_blocks(patch, sources_[0], target)) {
-      sample_finely(patch, reading, target);
-    }
-  }
-  [[gnu::always_inline]] bool may_use_blocks(Reading reading, const TargetPlane& target) const {
-    return reading.in_windows && block_kernel_ != nullptr && target.columns >= 2 * kBlock;
-  }
   [[gnu::always_inline]] bool sample_blocks(const Patch& patch, const SourcePlane& source,
                                             const TargetPlane& target) const {
-    const auto blocks = [](int pixels) { return static_cast<unsigned>(pixels) / kBlock; };
     BlockMap map;
-    if (!map.fit(patch, blocks(target.columns), blocks(target.rows), rounding_)) return false;
-    block_kernel_({map, source.data, source.stride, target.data, target.stride});
+    if (!map.fit(patch, target.columns, target.rows, rounding_)) return false;
+    block_kernel_({map, source, target});
     return true;
   }
-  void sample_finely(const Patch& patch, Reading reading, const TargetPlane& target) const;
-  void sample_steep(const Patch& patch, Reading reading, const SourcePlane& source,
-                    const TargetPlane& target) const;
+  void sample_steep(const Patch& patch, const SourcePlane& source, const TargetPlane& target) const;
   bool sample_half_rows(const Patch& patch, const SourcePlane& source,
                         const TargetPlane& target) const;
   bool sample_half_columns(const Patch& patch, const SourcePlane& source,
@@ -87,7 +78,7 @@ class PlaneSampler {
   const Kernel* kernel_ = nullptr;
   Kernel::Tile block_kernel_ = nullptr;  ///< its one for the layout, if there is one
   Both rounding_{};                      ///< see BlockMap
-  int columns_ = 0, rows_ = 0, pixel_bytes_ = 0;
+  int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;
   std::array<SourcePlane, kMaxLevel> sources_;  ///< by how often the source was halved
 };
 

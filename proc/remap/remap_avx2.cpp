@@ -294,7 +294,7 @@ void store_row(__m128i row, std::uint8_t* out) {
 
 template <Layout layout>
 const std::uint8_t* begin(const TileJob& job, const AxisPair<std::int64_t>& window) {
-  return job.source + (window.v >> 32) * job.source_stride +
+  return job.source.data + (window.v >> 32) * job.source.stride +
          (window.u >> 32) * info(layout).pixel_bytes;
 }
 
@@ -310,7 +310,7 @@ void fill_row(const TileJob& job, const BlockRow& row, const Shape& u, const Sha
   if constexpr (kPixelBytes > 1) {
 #pragma GCC unroll 1
     for (int x = 0; x < blocks_x; ++x) {
-      planar[x].fill(begin<layout>(job, row.windows[x]), job.source_stride);
+      planar[x].fill(begin<layout>(job, row.windows[x]), job.source.stride);
     }
   }
   __m256i lanes_u = u.start, lanes_v = v.start;
@@ -327,7 +327,7 @@ void fill_row(const TileJob& job, const BlockRow& row, const Shape& u, const Sha
         pixels[k] = sample<layout>(planar[x + k].rows, Planar<kPixelBytes>::kPitch, places);
       } else {
         pixels[k] =
-            sample<layout>(begin<layout>(job, row.windows[x + k]), job.source_stride, places);
+            sample<layout>(begin<layout>(job, row.windows[x + k]), job.source.stride, places);
       }
       lanes_u = _mm256_add_epi16(lanes_u, u.along_x);
       lanes_v = _mm256_add_epi16(lanes_v, v.along_x);
@@ -335,9 +335,9 @@ void fill_row(const TileJob& job, const BlockRow& row, const Shape& u, const Sha
     const GroupRows rows = rows_of<kOutBytes>(pixels);
     constexpr int kBytes = kCount * kBlock * kOutBytes;
     store_row<kBytes>(_mm256_castsi256_si128(rows.even), out);
-    store_row<kBytes>(_mm256_castsi256_si128(rows.odd), out + job.out_stride);
-    store_row<kBytes>(_mm256_extracti128_si256(rows.even, 1), out + 2 * job.out_stride);
-    store_row<kBytes>(_mm256_extracti128_si256(rows.odd, 1), out + 3 * job.out_stride);
+    store_row<kBytes>(_mm256_castsi256_si128(rows.odd), out + job.target.stride);
+    store_row<kBytes>(_mm256_extracti128_si256(rows.even, 1), out + 2 * job.target.stride);
+    store_row<kBytes>(_mm256_extracti128_si256(rows.odd, 1), out + 3 * job.target.stride);
     out += kBytes;
   }
 }
@@ -350,12 +350,12 @@ void fill_rows(const TileJob& job) {
   const LaneShape& lanes = job.map.lanes;
   Shape u(lanes, &Axes::u, lanes.offset.u), v(lanes, &Axes::v, lanes.offset.v);
   v.round_to_rows();
-  std::uint8_t* out = job.out;
+  std::uint8_t* out = job.target.data;
   for (int y = 0; y < job.map.blocks_y; ++y) {
     fill_row<layout, blocks_x>(job, rows[y], u, v, out);
     u.start = _mm256_add_epi16(u.start, u.along_y);
     v.start = _mm256_add_epi16(v.start, v.along_y);
-    out += kBlock * job.out_stride;
+    out += kBlock * job.target.stride;
   }
 }
 

@@ -341,16 +341,16 @@ void fill_row(const TileJob& job, const BlockRow& row, __m512i lanes, __m512i al
       std::int32_t place = 0;
       std::memcpy(&place, &row.places[x + k], sizeof(place));
       blocks[k] = sample<layout>(
-          job.source + (window.v >> 32) * job.source_stride + (window.u >> 32) * kPixelBytes,
-          job.source_stride, _mm512_add_epi16(lanes, _mm512_set1_epi32(place)));
+          job.source.data + (window.v >> 32) * job.source.stride + (window.u >> 32) * kPixelBytes,
+          job.source.stride, _mm512_add_epi16(lanes, _mm512_set1_epi32(place)));
       lanes = _mm512_add_epi16(lanes, along_x);
     }
     const __m512i rows = rows_of<kOutBytes>(blocks);
     constexpr int kBytes = kCount * kBlock * kOutBytes;
     store_row<0, kBytes>(rows, out);
-    store_row<1, kBytes>(rows, out + job.out_stride);
-    store_row<2, kBytes>(rows, out + 2 * job.out_stride);
-    store_row<3, kBytes>(rows, out + 3 * job.out_stride);
+    store_row<1, kBytes>(rows, out + job.target.stride);
+    store_row<2, kBytes>(rows, out + 2 * job.target.stride);
+    store_row<3, kBytes>(rows, out + 3 * job.target.stride);
     out += kBytes;
   }
 }
@@ -367,11 +367,11 @@ void fill_rows(const TileJob& job) {
     walk.next();
   }
   Shape shape(job.map.lanes);
-  std::uint8_t* out = job.out;
+  std::uint8_t* out = job.target.data;
   for (int y = 0; y < blocks_y; ++y) {
     fill_row<layout, blocks_x>(job, rows[y], shape.start, shape.along_x, out);
     shape.start = _mm512_add_epi16(shape.start, shape.along_y);
-    out += kBlock * job.out_stride;
+    out += kBlock * job.target.stride;
   }
 }
 

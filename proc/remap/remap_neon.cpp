@@ -320,10 +320,10 @@ void fill_rows(const TileJob& job) {
   auto u = AxisLanes<blocks>::template make<0, 0>(job.map.lanes);
   auto v = AxisLanes<blocks>::template make<1, kFractionBits - kRowFractionBits>(job.map.lanes);
   Windows<blocks> windows(job.map.windows);
-  const std::uint8_t* const source = job.source;
-  const std::ptrdiff_t stride = job.source_stride, out_stride = job.out_stride;
+  const std::uint8_t* const source = job.source.data;
+  const std::ptrdiff_t stride = job.source.stride, out_stride = job.target.stride;
   const auto narrow_stride = static_cast<std::int32_t>(stride);
-  std::uint8_t* out = job.out;
+  std::uint8_t* out = job.target.data;
   for (int row = job.map.blocks_y; row > 0; --row) {
     std::array<Samples<layout>, blocks> samples;
     unroll(

@@ -13,6 +13,13 @@ bool lies_as_sampled(PixelFormat sampled, PixelFormat view) {
   return sampled == view && view != PixelFormat::Yuyv && view != PixelFormat::Uyvy;
 }
 
+int simple_levels(Interpolation interpolation) {
+  if (interpolation == Interpolation::Nearest) return 0;
+  return interpolation == Interpolation::Bilinear ? kMaxLevel + 1 : 1;
+}
+
+bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
+
 void round_to_pixels(CoordinateTile& coordinates) {
   constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
   for (CoordinateRow& row : coordinates) {
@@ -31,50 +38,76 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
       format_(source.front().format),
       colour_space_(source.front().colour_space),
       interpolation_(interpolation),
+      simple_levels_(simple_levels(interpolation)),
       plane_count_(samplings(format_).count) {
   assert(source.front().width == grid.source_width());
   assert(source.front().height == grid.source_height());
   for (std::size_t n = 0; n < plane_count_; ++n) {
     planes_[n] = PlaneSampler(samplings(format_).items[n], source, kernel);
+    if (!planes_[n].has_blocks()) simple_levels_ = 0;
   }
 }
 
 void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
-  const bool in_place = lies_as_sampled(format_, out.format);
+  const bool in_place = lies_as_sampled(format_, out.format) && is_whole(area);
   const Targets targets = in_place ? targets_in(out, area.x, area.y) : Targets();
-  write_tile_at(tx, ty, out, area, in_place ? &targets : nullptr);
+  if (!in_place || !write_simple(tx, ty, targets)) {
+    write_other(tx, ty, out, area, in_place ? &targets : nullptr);
+  }
 }
 
 void TileRemap::write_row(int ty, const MutablePicture& out) const {
-  const bool in_place = lies_as_sampled(format_, out.format);
-  Targets targets = in_place ? targets_in(out, 0, ty * kTile) : Targets();
+  const bool as_sampled = lies_as_sampled(format_, out.format);
+  Targets targets = as_sampled ? targets_in(out, 0, ty * kTile) : Targets();
   for (int tx = 0; tx < grid_.tiles_x(); ++tx) {
-    write_tile_at(tx, ty, out, area_of(grid_, tx, ty), in_place ? &targets : nullptr);
-    for (std::size_t n = 0; in_place && n < plane_count_; ++n) {
+    const TileArea area = area_of(grid_, tx, ty);
+    const bool in_place = as_sampled && is_whole(area);
+    if (!in_place || !write_simple(tx, ty, targets)) {
+      write_other(tx, ty, out, area, in_place ? &targets : nullptr);
+    }
+    for (std::size_t n = 0; as_sampled && n < plane_count_; ++n) {
       targets[n].data += planes_[n].tile_bytes();
     }
   }
 }
 
-/// `in_place`: where the samples of a whole tile go, if they lie in the view as they are sampled.
-[[gnu::always_inline]] inline void TileRemap::write_tile_at(int tx, int ty,
-                                                            const MutablePicture& out,
-                                                            const TileArea& area,
-                                                            const Targets* in_place) const {
+/// Writes what most tiles are, in place; false for another tile.
+[[gnu::always_inline]] inline bool TileRemap::write_simple(int tx, int ty,
+                                                           const Targets& targets) const {
+  const Tile tile = grid_.tile(tx, ty);
+  if (tile.kind != TileClass::Patch || !tile.interior || tile.level >= simple_levels_) return false;
+  const Patch patch(grid_.nodes(tile, tx, ty));
+  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample_blocks(patch, targets[n]);
+  return true;
+}
+
+/// `in_place`: where the tile's samples go, if they lie in the view as they are sampled.
+[[gnu::noinline]] void TileRemap::write_other(int tx, int ty, const MutablePicture& out,
+                                              const TileArea& area, const Targets* in_place) const {
   const Tile tile = grid_.tile(tx, ty);
   if (tile.kind == TileClass::Blind || tile.kind == TileClass::Outside) {
     return clear_area(out, area);
   }
+  SampledTile sampled;
+  const Targets targets = in_place != nullptr ? *in_place : targets_in(sampled);
+  const auto convert = [&] {
+    if (in_place == nullptr) write_tile(sampled, format_, colour_space_, out, area);
+  };
   const Reading reading = this->reading(tile);
-  if (interpolation_ == Interpolation::Nearest) return write_dense(tx, ty, reading, out, area);
-  if (area.columns < kTile || area.rows < kTile) in_place = nullptr;
-  if (tile.kind == TileClass::Patch) {
-    Patch patch(grid_.nodes(tile, tx, ty));
-    if (reading.halves > 0) patch = on_level(patch, reading.halves);
-    return in_place != nullptr ? sample(patch, reading, *in_place)
-                               : write_converted(patch, reading, out, area);
+  const bool smooth = interpolation_ != Interpolation::Nearest;
+  if (smooth && tile.kind == TileClass::Patch) {
+    sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets);
+    return convert();
   }
-  if (!write_cells(tile, reading, out, area, in_place)) write_dense(tx, ty, reading, out, area);
+  // Where a map bends it is steep: without means hardly a cell fits windows.
+  const Reading in_cells{reading.halves, reading.in_windows && reading.halves != Reading::kPlain};
+  const auto take = [&](const auto& cells) { sample(cells, in_cells, targets); };
+  if (smooth && grid_.take_cells(tile, take)) return convert();
+  CoordinateTile coordinates = grid_.pixels(tx, ty);
+  if (!smooth) round_to_pixels(coordinates);
+  sample(coordinates, reading, targets);
+  convert();
+  if (format_ != out.format) clear_undefined(coordinates, out, area);
 }
 
 /// The last factor of two is left to samples, which keeps more detail than a half of the picture.
@@ -108,9 +141,9 @@ TileRemap::Targets TileRemap::targets_in(SampledTile& tile) const {
   return targets;
 }
 
-[[gnu::always_inline]] inline void TileRemap::sample(const Patch& patch, Reading reading,
-                                                     const Targets& targets) const {
-  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample(patch, reading, targets[n]);
+void TileRemap::sample(const Patch& patch, Reading reading, const Targets& targets) const {
+  const Patch map = reading.halves > 0 ? on_level(patch, reading.halves) : patch;
+  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample(map, reading, targets[n]);
 }
 
 /// The same for a patch in each cell.
@@ -126,49 +159,20 @@ void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targe
         part.data += j * part.rows * part.stride +
                      std::ptrdiff_t{i} * part.columns * planes_[n].pixel_bytes();
       }
-      Patch patch = cells.patch(i, j);
-      if (reading.halves > 0) patch = on_level(patch, reading.halves);
-      sample(patch, reading, parts);
+      sample(cells.patch(i, j), reading, parts);
     }
   }
 }
 
-[[gnu::noinline]] void TileRemap::write_converted(const Patch& patch, Reading reading,
-                                                  const MutablePicture& out,
-                                                  const TileArea& area) const {
-  SampledTile sampled;
-  sample(patch, reading, targets_in(sampled));
-  write_tile(sampled, format_, colour_space_, out, area);
-}
-
-/// False if the tile is not kept in cells.
-[[gnu::noinline]] bool TileRemap::write_cells(const Tile& tile, Reading reading,
-                                              const MutablePicture& out, const TileArea& area,
-                                              const Targets* in_place) const {
-  // Where a map bends it is steep: without means hardly a cell fits windows.
-  if (reading.halves == Reading::kPlain) reading.in_windows = false;
-  return grid_.take_cells(tile, [&](const auto& cells) {
-    if (in_place != nullptr) return sample(cells, reading, *in_place);
-    SampledTile sampled;
-    sample(cells, reading, targets_in(sampled));
-    write_tile(sampled, format_, colour_space_, out, area);
-  });
-}
-
-[[gnu::noinline]] void TileRemap::write_dense(int tx, int ty, Reading reading,
-                                              const MutablePicture& out,
-                                              const TileArea& area) const {
-  CoordinateTile coordinates = grid_.pixels(tx, ty);
-  if (interpolation_ == Interpolation::Nearest) round_to_pixels(coordinates);
-  if (reading.halves > 0) on_level(coordinates, reading.halves);
-  SampledTile sampled;
-  const Targets targets = targets_in(sampled);
+void TileRemap::sample(const CoordinateTile& coordinates, Reading reading,
+                       const Targets& targets) const {
+  CoordinateTile on_half;
+  if (reading.halves > 0) on_level(on_half = coordinates, reading.halves);
+  const CoordinateTile& places = reading.halves > 0 ? on_half : coordinates;
   for (std::size_t n = 0; n < plane_count_; ++n) {
     const std::uint8_t background = black(planes_[n].sampling(), format_, colour_space_);
-    planes_[n].sample(coordinates, reading, background, targets[n]);
+    planes_[n].sample(places, reading, background, targets[n]);
   }
-  write_tile(sampled, format_, colour_space_, out, area);
-  if (format_ != out.format) clear_undefined(coordinates, out, area);
 }
 
 }  // namespace orbwatch::remap

@@ -34,26 +34,23 @@ class TileRemap {
   /// Where a tile's samples go, by sampling.
   using Targets = std::array<TargetPlane, 3>;
 
-  Reading reading(const Tile& tile) const;
   Targets targets_in(const MutablePicture& out, int x, int y) const;
   Targets targets_in(SampledTile& tile) const;
-  void write_tile_at(int tx, int ty, const MutablePicture& out, const TileArea& area,
-                     const Targets* in_place) const;
+  bool write_simple(int tx, int ty, const Targets& targets) const;
+  void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
+                   const Targets* in_place) const;
+  Reading reading(const Tile& tile) const;
   void sample(const Patch& patch, Reading reading, const Targets& targets) const;
   template <int Cell>
   void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const;
-  void write_converted(const Patch& patch, Reading reading, const MutablePicture& out,
-                       const TileArea& area) const;
-  bool write_cells(const Tile& tile, Reading reading, const MutablePicture& out,
-                   const TileArea& area, const Targets* in_place) const;
-  void write_dense(int tx, int ty, Reading reading, const MutablePicture& out,
-                   const TileArea& area) const;
+  void sample(const CoordinateTile& coordinates, Reading reading, const Targets& targets) const;
 
   const CoordinateGrid& grid_;
   int most_halves_;  ///< of the source that there are
   PixelFormat format_;
   ColourSpace colour_space_;
   Interpolation interpolation_;
+  int simple_levels_;  ///< tiles below this level may be sampled in blocks, without means
   std::array<PlaneSampler, 3> planes_;
   std::size_t plane_count_;
 };

@@ -18,7 +18,7 @@ constexpr int kOne = 1 << kFractionBits;
 
 std::optional<BlockMap> map_of(const Patch& patch, int add_u, int add_v) {
   BlockMap map;
-  const bool fits = map.fit(patch, 4, 4, BlockMap::rounding(add_u, add_v));
+  const bool fits = map.fit(patch, kTile, kTile, BlockMap::rounding(add_u, add_v));
   return fits ? std::optional(map) : std::nullopt;
 }
 

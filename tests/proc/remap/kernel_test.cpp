@@ -96,14 +96,15 @@ class Trial {
  public:
   Trial(std::mt19937& random, Layout layout, const Patch& patch, int blocks_x, int blocks_y)
       : layout_(layout),
-        bytes_across_(blocks_x * kBlock * info(layout).out_bytes()),
-        rows_(blocks_y * kBlock) {
+        columns_(blocks_x * kBlock),
+        rows_(blocks_y * kBlock),
+        bytes_across_(columns_ * info(layout).out_bytes()) {
     const auto any = [&random](int count) { return static_cast<int>(random() % count); };
     const Both rounding = BlockMap::rounding(added_u(layout), added_v(layout));
     BlockMap anywhere;
-    if (!anywhere.fit(patch, blocks_x, blocks_y, rounding)) return;
+    if (!anywhere.fit(patch, columns_, rows_, rounding)) return;
     const Extent extent(anywhere);
-    fits_ = map_.fit(moved(patch, extent.left, extent.top), blocks_x, blocks_y, rounding);
+    fits_ = map_.fit(moved(patch, extent.left, extent.top), columns_, rows_, rounding);
     if (!fits_) return;
 
     const auto width = static_cast<int>(extent.right - extent.left) * info(layout).pixel_bytes;
@@ -125,7 +126,9 @@ class Trial {
 
   std::vector<std::uint8_t> out_of(const Kernel& kernel) const {
     std::vector<std::uint8_t> out(2 * margin_ + rows_ * out_stride_, kCanary);
-    kernel.tile(layout_, {map_, source_.data(), source_stride_, out.data() + margin_, out_stride_});
+    kernel.tile(layout_, {map_,
+                          {source_.data(), source_stride_, 0, 0},
+                          {out.data() + margin_, out_stride_, columns_, rows_}});
     return out;
   }
 
@@ -145,7 +148,8 @@ class Trial {
   static inline GuardedMemory memory_{64 * (4 * 64 + 64)};
 
   Layout layout_;
-  std::ptrdiff_t bytes_across_, rows_;
+  int columns_, rows_;
+  std::ptrdiff_t bytes_across_;
   BlockMap map_;
   bool fits_ = false;
   std::span<std::uint8_t> source_;
@@ -198,11 +202,14 @@ void expect_bilinear(Layout layout) {
     const Patch patch = moved(anywhere, (middle.u >> kFractionBits) - kSize / 2,
                               (middle.v >> kFractionBits) - kSize / 2);
     BlockMap map;
-    if (!map.fit(patch, 4, 4, BlockMap::rounding(added_u(layout), added_v(layout)))) continue;
+    if (!map.fit(patch, kTile, kTile, BlockMap::rounding(added_u(layout), added_v(layout))))
+      continue;
     std::array<Sample, kTile * kTile> out;
-    kScalarKernel.tile(
-        layout, {map, reinterpret_cast<const std::uint8_t*>(source.data()), kSize * sizeof(Sample),
-                 reinterpret_cast<std::uint8_t*>(out.data()), kTile * sizeof(Sample)});
+    const SourcePlane plane{reinterpret_cast<const std::uint8_t*>(source.data()),
+                            kSize * sizeof(Sample), kSize, kSize};
+    const TargetPlane target{reinterpret_cast<std::uint8_t*>(out.data()), kTile * sizeof(Sample),
+                             kTile, kTile};
+    kScalarKernel.tile(layout, {map, plane, target});
     const auto exact = [](const Quadratic& q, double x, double y) {
       return (q.value + x * q.x + y * q.y + x * y * q.xy + x * x * q.xx + y * y * q.yy) / (1 << 24);
     };

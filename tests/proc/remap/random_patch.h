@@ -30,7 +30,8 @@ class RandomPatch {
     while (too_steep - fits > 1) {
       const std::int64_t middle = (fits + too_steep) / 2;
       remap::BlockMap map;
-      const bool fit = map.fit(scaled(middle), blocks_x, blocks_y, remap::BlockMap::rounding(0, 0));
+      const bool fit = map.fit(scaled(middle), remap::kBlock * blocks_x, remap::kBlock * blocks_y,
+                               remap::BlockMap::rounding(0, 0));
       (fit ? fits : too_steep) = middle;
     }
     return scaled(fits);

@@ -35,11 +35,10 @@ struct TurnedScene {
   CoordinateGrid grid{view, ball, kSide, kSide};
 };
 
-bool fits(const Patch& patch, int blocks_x) {
+bool fits(const Patch& patch, int columns) {
   constexpr Layout kChroma = Layout::OddOfFour8;
   BlockMap map;
-  return map.fit(patch, blocks_x, kTile / kBlock,
-                 BlockMap::rounding(added_u(kChroma), added_v(kChroma)));
+  return map.fit(patch, columns, kTile, BlockMap::rounding(added_u(kChroma), added_v(kChroma)));
 }
 
 /// How many tiles' chroma fits the kernels' windows in each way.
@@ -55,16 +54,16 @@ struct Ways {
         const Patch patch = on_plane(Patch(grid.nodes(tile, tx, ty)), chroma);
         const Patch rows = at_half_rows(patch), columns = at_half_columns(patch);
         const Patch fine = at_half_rows(columns);
-        const auto both_parts = [](const Patch& p, int blocks_x) {
-          return fits(p, blocks_x) && fits(moved(p, 0, kTile), blocks_x);
+        const auto both_parts = [](const Patch& p, int width) {
+          return fits(p, width) && fits(moved(p, 0, kTile), width);
         };
-        if (fits(patch, 2)) {
+        if (fits(patch, kTile / 2)) {
           ++whole;
-        } else if (both_parts(rows, 2)) {
+        } else if (both_parts(rows, kTile / 2)) {
           ++half_rows;
-        } else if (fits(columns, 4)) {
+        } else if (fits(columns, kTile)) {
           ++half_columns;
-        } else if (both_parts(fine, 4)) {
+        } else if (both_parts(fine, kTile)) {
           ++both;
         }
       }
