@@ -2,11 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "proc/remap/source_extent.h"
 #include "proc/remap/tile_level.h"
 
 namespace orbwatch::remap {
+namespace {
+
+/// The angle that a tile spans at most, radians.
+double tile_angle(const optics::ViewProjection& view) {
+  // Every projection steps furthest in its middle. Over so little that no panorama turns round.
+  constexpr double kPart = 1.0 / 1024;
+  const double u = (view.width() - 1) / 2.0, v = (view.height() - 1) / 2.0;
+  const auto middle = view.direction(u, v);
+  const auto aside = view.direction(u + kPart * kTile, v);
+  const auto below = view.direction(u, v + kPart * kTile);
+  if (!middle || !aside || !below) return std::numeric_limits<double>::infinity();
+  return std::max(norm(*aside - *middle), norm(*below - *middle)) / kPart;
+}
+
+}  // namespace
+
 CoordinateGrid::Compiler::Compiler(CoordinateGrid& grid, const optics::ViewProjection& view,
                                    const optics::BallProjection& ball)
     : grid_(grid),
@@ -16,14 +33,12 @@ CoordinateGrid::Compiler::Compiler(CoordinateGrid& grid, const optics::ViewProje
       // A ball's picture jumps where the camera's rays pass an edge, which is not where the ball's
       // centre sees that edge.
       is_smooth_(view.kind() != optics::ViewKind::Ball || ball.proxy().is_far()) {
+  constexpr double kSomeDegrees = 0.2, kHalfTurn = 3.14;
+  const double angle = tile_angle(view);
+  nodes_are_close_ = angle < kSomeDegrees;
+  // Nodes of a few pixels that go round and round would all say the same.
+  is_smooth_ = is_smooth_ && angle < kHalfTurn;
   edges_are_known_ = is_smooth_ && ball.proxy().lists_every_edge();
-  // Every projection steps furthest in its middle.
-  const double u = (view.width() - 1) / 2.0, v = (view.height() - 1) / 2.0;
-  const auto middle = view.direction(u, v);
-  const auto aside = view.direction(u + kTile, v), below = view.direction(u, v + kTile);
-  constexpr double kSomeDegrees = 0.2;
-  nodes_are_close_ = middle && aside && below && norm(*aside - *middle) < kSomeDegrees &&
-                     norm(*below - *middle) < kSomeDegrees;
 }
 
 void CoordinateGrid::Compiler::run() {

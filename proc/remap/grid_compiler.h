@@ -53,6 +53,7 @@ class CoordinateGrid::Compiler {
   Tile tile_of_surfaces(int tx, int ty, const Surfaces& surfaces);
   std::optional<Tile> split_tile(int tx, int ty, const Surfaces& surfaces);
   std::optional<Tile> fine_tile(const Place& place);
+  bool follows_the_map(const CoordinateTile& pixels, const Place& place) const;
   std::optional<Tile> curved_tile(const Stencil& nodes, double fourth) const;
   template <int Cell>
   std::optional<Tile> tile_of_cells(const FineTile<Cell>& fine, double fourth) const;

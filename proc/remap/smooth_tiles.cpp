@@ -165,16 +165,41 @@ std::optional<Tile> CoordinateGrid::Compiler::fine_tile(const Place& place) {
   if (!defined) return std::nullopt;
   const double fourth = fourth_order_error(fine);
   auto tile = tile_of_cells(fine, fourth);
-  if (tile) {
+  if (tile && follows_the_map(fine.pixels(), place)) {
     tile->store = TileStore::Fine;
   } else {
-    tile = tile_of_cells(remap::curved_tile(fine), fourth + mixed_error(fine));
-    if (!tile) return std::nullopt;
+    const FineTile<4> curved = remap::curved_tile(fine);
+    tile = tile_of_cells(curved, fourth + mixed_error(fine));
+    if (!tile || !follows_the_map(curved.pixels(), place)) return std::nullopt;
     tile->store = TileStore::CurvedFine;
   }
   tile->index = static_cast<std::uint32_t>(grid_.fine_.size());
   grid_.fine_.push_back(fine);
   return tile;
+}
+
+/// Whether pixels all over a tile are where the exact map has them. Where a map bends so much that
+/// it takes finer nodes, what these tell of its bends is no bound.
+bool CoordinateGrid::Compiler::follows_the_map(const CoordinateTile& pixels,
+                                               const Place& place) const {
+  // One is close to a node along an axis and one in between, where errors of odd and of even order
+  // are largest.
+  constexpr int kFirst = 1, kStep = 4;
+  const Lattice some{place.tx * kTile + kFirst, place.ty * kTile + kFirst, kStep, kTile / kStep,
+                     kTile / kStep};
+  ExactMap::SightLanes sights;
+  sights.surfaces.fill(place.surface);
+  const auto see = [&](const optics::Vec2Lanes& asked, std::size_t) {
+    map_.on_surfaces(asked, sights);
+  };
+  bool all_close = true;
+  in_lanes(some, see, [&](int i, int j, std::size_t k) {
+    const int x = kFirst + i * kStep, y = kFirst + j * kStep;
+    if (x >= columns(place.tx) || y >= rows(place.ty)) return;
+    const Coordinate truth = sights.coordinates.at(k);
+    all_close &= is_defined(truth) && distance(truth, pixels[y][x]) < kClose;
+  });
+  return all_close;
 }
 
 /// A tile's nodes as if all of them were on its surface; nothing when one of them is not shown.

@@ -162,6 +162,20 @@ TEST(CoordinateGrid, IsExactInEveryRoomAndKindOfView) {
   }
 }
 
+// Nodes lie full turns apart there, and would all say the same.
+TEST(CoordinateGrid, IsExactInPanoramasOfAFewPixels) {
+  const auto ball = centred_ball(BallModel::exact(300).value(), 400, 190);
+  for (const ViewKind kind : {ViewKind::Equirectangular, ViewKind::Cylindrical}) {
+    for (int side = 1; side <= 24; ++side) {
+      SCOPED_TRACE(side);
+      const auto view = ViewProjection::make({kind, {80, 10, 5}, {}, {}, side, side}).value();
+      const Found found = compare(CoordinateGrid(view, ball, 400, 400), view, ball);
+      EXPECT_LE(found.worst, kTolerance);
+      EXPECT_EQ(found.wrongly_defined, 0);
+    }
+  }
+}
+
 TEST(CoordinateGrid, FollowsEdgesOfTheMachine) {
   const auto ball = machine(Scene::Room::Box, true);
   for (const YawPitchRoll& o : kOrientations) {
