@@ -59,7 +59,7 @@ class Bisector {
     const double square = cosine_ * cosine_;
     const double slope = 2 * cosine_ * square - b_;
     const double step = (b_ * y_ - (2 * y_ - a_) * cosine_) * square / slope;
-    const double moved = (slope > 0) & (std::abs(step) > 1e-16) ? step : 0;
+    const double moved = ((slope > 0) & (std::abs(step) > 1e-16)) ? step : 0;
     y_ += moved;
     cosine_ = std::sqrt(1 - sin2_ * y_ * y_);
     const double negligible = slope > 0 ? 1e-8 * slope : std::numeric_limits<double>::infinity();
