@@ -28,7 +28,7 @@ Patch at_half_columns(Patch patch);
 Patch moved(Patch patch, int x, int y);
 
 /// A patch of a picture as one of a sampling's plane: from the plane's pixels of the view to those
-/// of the source. Reentrant.
+/// of the source. A sampling is in full, 4:2:2 cosited or 4:2:0 centred. Reentrant.
 Patch on_plane(Patch patch, const PlaneSampling& sampling);
 
 /// The same for a tile whose coordinates are known one by one. A plane's pixel that several of the

@@ -151,19 +151,18 @@ double in_plane(double pixel, Siting siting) {
   return siting == Siting::Centred ? (pixel - 0.5) / 2 : pixel / 2;
 }
 
-constexpr std::array kSitings{Siting::Full, Siting::Cosited, Siting::Centred};
-
+/// Those that there are.
 template <class Look>
 void for_each_siting(const Look& look) {
-  for (const Siting x : kSitings) {
-    for (const Siting y : kSitings) {
-      SCOPED_TRACE(testing::Message()
-                   << "siting " << static_cast<int>(x) << ' ' << static_cast<int>(y));
-      PlaneSampling sampling{Layout::One8};
-      sampling.x = x;
-      sampling.y = y;
-      look(sampling);
-    }
+  for (const auto& [x, y] : {std::pair{Siting::Full, Siting::Full},
+                             {Siting::Cosited, Siting::Full},
+                             {Siting::Centred, Siting::Centred}}) {
+    SCOPED_TRACE(testing::Message()
+                 << "siting " << static_cast<int>(x) << ' ' << static_cast<int>(y));
+    PlaneSampling sampling{Layout::One8};
+    sampling.x = x;
+    sampling.y = y;
+    look(sampling);
   }
 }
 
