@@ -42,8 +42,8 @@ class PlaneSampler {
   int tile_bytes() const { return tile_bytes_; }    ///< of a row of a tile
   bool has_blocks() const { return block_kernel_ != nullptr; }
 
-  /// Fills a target, of 4, 8 or 16 pixels each way, from a patch of the picture, or of the half of
-  /// it that is read.
+  /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the picture, or of the half
+  /// of it that is read.
   void sample(const Patch& patch, Reading reading, const TargetPlane& target) const;
 
   /// The same for most tiles: plain, in windows, of a layout that has_blocks(), at least 8 pixels
