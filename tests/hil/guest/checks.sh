@@ -1,0 +1,42 @@
+# The words that scenarios are written in. Every check is a test of its own: passed, FAILED, one
+# line of /results/checks each; what it printed is in the log.
+# shellcheck shell=bash
+
+failed_checks=0
+
+# check NAME COMMAND...: a test that passes when the command ends with 0; fails when the test does.
+check() {
+  local name=$1 verdict=passed
+  shift
+  echo "--- $name ($(cut -d ' ' -f 1 /proc/uptime) s)"
+  "$@" || { verdict=FAILED failed_checks=$((failed_checks + 1)); }
+  echo "$verdict: $name"
+  echo "$verdict $name" >>/results/checks
+  [[ $verdict == passed ]]
+}
+
+# wait_for SECONDS COMMAND...: until the command succeeds; emulated machines take their time.
+wait_for() {
+  local deadline=$((SECONDS + $1))
+  shift
+  until "$@"; do
+    ((SECONDS < deadline)) || { echo "not within the time: $*"; return 1; }
+    sleep 0.1
+  done
+}
+
+# load DRIVER [PARAMETER=VALUE...]: loads a driver and lets udev finish with what it brought.
+load() {
+  modprobe "$@" || return
+  ! command -v udevadm >/dev/null || udevadm settle --timeout=60
+}
+
+# video_device NAME: the first video node of the driver or card whose name contains NAME.
+video_device() {
+  local folder
+  for folder in /sys/class/video4linux/video*; do
+    [[ $(cat "$folder/name" 2>/dev/null) != *"$1"* ]] || { echo "/dev/${folder##*/}"; return; }
+  done
+  echo "no video device named $1" >&2
+  return 1
+}
