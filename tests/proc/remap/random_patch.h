@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 
 #include "proc/remap/block_map.h"
@@ -26,7 +28,7 @@ class RandomPatch {
 
   /// The steepest patch of this shape that still fits, to the last bit.
   remap::Patch steepest(int blocks_x, int blocks_y) const {
-    std::int64_t fits = 0, too_steep = std::int64_t{1} << 26;
+    std::int64_t fits = 0, too_steep = largest_factor();
     while (too_steep - fits > 1) {
       const std::int64_t middle = (fits + too_steep) / 2;
       remap::BlockMap map;
@@ -38,6 +40,20 @@ class RandomPatch {
   }
 
  private:
+  /// So far its numbers stay those of a patch on nodes, which are not is_too_steep().
+  std::int64_t largest_factor() const {
+    constexpr std::int64_t kMostSlope = std::int64_t{remap::kSteepest} << 24;
+    constexpr std::int64_t kMostCurvature = 4 * kMostSlope >> 7;  // of twelve nodes
+    std::int64_t factor = std::int64_t{1} << 26;
+    const auto keep = [&factor](std::int64_t value, std::int64_t most) {
+      if (value != 0) factor = std::min(factor, (most << 20) / std::abs(value));
+    };
+    for (const remap::Quadratic& axis : {u_, v_}) {
+      for (const std::int64_t slope : {axis.x, axis.y}) keep(slope, kMostSlope);
+      for (const std::int64_t bend : {axis.xx, axis.yy, axis.xy}) keep(bend, kMostCurvature);
+    }
+    return factor;
+  }
   static remap::Quadratic random_axis(std::mt19937& random, const Steepness& most) {
     const auto q24 = [&random](double range) {
       return static_cast<std::int64_t>(std::uniform_real_distribution(-range, range)(random) *
