@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "hal/clock.h"
 #include "proc/image/picture.h"
@@ -16,6 +17,9 @@ struct FrameMetadata {
   TimePoint exposure_start;    ///< when the exposure began
   std::chrono::microseconds exposure_time{0};  ///< 0: not known
   double gain = 1.0;                           ///< linear, analogue times digital
+  /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
+  /// that it started. None: the camera runs freely.
+  std::optional<std::uint64_t> trigger = std::nullopt;
 };
 
 /// One picture in a buffer of a camera. Filled by the camera's thread, then never changed again.

@@ -11,6 +11,7 @@
 #include "app/modbus/modbus_settings.h"
 #include "app/pipeline/view_renderer.h"
 #include "hal/fault_script.h"
+#include "hal/frame_matcher.h"
 #include "proc/optics/rig.h"
 #include "proc/optics/vec.h"
 #include "proc/optics/view_projection.h"
@@ -49,6 +50,7 @@ struct CameraSettings {
   int height = 0;
   double frame_rate = 0;
   double kelvin_per_count = 0;
+  hal::SyncPolicy sync = hal::SyncPolicy::Hold;
   std::optional<SimulatedCameraPart> simulated;
   std::optional<ReplayPart> replay;
   std::optional<V4l2Part> v4l2;
@@ -89,6 +91,7 @@ struct ProcessSettings {
 struct PipelineSettings {
   double deadline_ms = 0;
   double sync_window_ms = 10;
+  double sync_patience_ms = 10;
   int workers = -1;
 };
 

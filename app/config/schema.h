@@ -36,6 +36,8 @@ inline constexpr std::array kCombines{Word{"mix", Combine::Mix},
                                       Word{"switch", Combine::Switch}};
 inline constexpr std::array kBackEnds{Word{"simulated", BackEnd::Simulated},
                                       Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2}};
+inline constexpr std::array kSyncPolicies{Word{"hold", hal::SyncPolicy::Hold},
+                                          Word{"nearest", hal::SyncPolicy::Nearest}};
 inline constexpr std::array kFaults{
     Word{"unplugged", hal::Fault::Unplugged}, Word{"stalled", hal::Fault::Stalled},
     Word{"read_error", hal::Fault::ReadError}, Word{"corrupt_frame", hal::Fault::CorruptFrame},
@@ -86,6 +88,10 @@ void visit(Visitor& v, CameraSettings& camera) {
              "Frames per second; else the camera's own");
   v.optional("kelvin_per_count", camera.kelvin_per_count, Range::above(0, 10),
              "Radiometric scale of a 16-bit thermal camera; else it is none");
+  v.optional(
+      "sync", camera.sync, kSyncPolicies,
+      "In a set without a frame of it within the window: hold its last one, or nearest, which "
+      "leaves it out");
   v.table("simulated", camera.simulated, "For back_end simulated");
   v.table("replay", camera.replay, "For back_end replay");
   v.table("v4l2", camera.v4l2, "For back_end v4l2");
@@ -155,7 +161,9 @@ void visit(Visitor& v, PipelineSettings& pipeline) {
   v.optional("deadline_ms", pipeline.deadline_ms, Range::between(0, 60000),
              "For one frame set; 0: the first camera's frame period");
   v.optional("sync_window_ms", pipeline.sync_window_ms, Range::between(0, 10000),
-             "Largest difference of exposure starts in a set, and longest wait for a partner");
+             "Largest difference of exposure starts in a set");
+  v.optional("sync_patience_ms", pipeline.sync_patience_ms, Range::between(0, 10000),
+             "Longest wait of the first camera's frame for those of the others");
   v.optional("workers", pipeline.workers, Range::between(-1, 64),
              "Threads besides the pipeline's own; -1: one less than there are cores");
 }

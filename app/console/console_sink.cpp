@@ -82,6 +82,7 @@ void ConsoleSink::run() {
     for (std::size_t i = 0; i < views_.size(); ++i) {
       line += " | " + view_text(views_[i], now.views[i]);
     }
+    if (cameras_.size() > 1) line += " | skew " + number(now.skew_ms, 1) + " ms";
     line += " | load " + number(100 * now.load, 0) + " %, overruns " + std::to_string(now.overruns);
     out_ << line << " | " << signals_text(now.signals) << std::endl;
   }
@@ -101,7 +102,7 @@ void ConsoleSink::stop() {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const CameraStatus& camera = last.cameras[i];
     out_ << "  camera " << cameras_[i] << ": " << camera.frames << " frames, " << camera.lost
-         << " lost, " << camera.dropped << " dropped\n";
+         << " lost, " << camera.dropped << " dropped, " << camera.unmatched << " unmatched\n";
   }
   for (std::size_t i = 0; i < views_.size(); ++i) {
     out_ << "  view " << views_[i] << ": " << last.views[i].published << " published, "

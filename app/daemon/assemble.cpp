@@ -147,7 +147,11 @@ Result<PipelinePlan> assemble(const Configuration& configuration) {
   }
   if (configuration.process) plan.measurement = plan_measurement(configuration, plan);
   plan.deadline = milliseconds(configuration.pipeline.deadline_ms);
-  plan.sync_window = milliseconds(configuration.pipeline.sync_window_ms);
+  plan.sync.window = milliseconds(configuration.pipeline.sync_window_ms);
+  plan.sync.patience = milliseconds(configuration.pipeline.sync_patience_ms);
+  for (std::size_t i = 0; i < configuration.cameras.size(); ++i) {
+    plan.sync.policies[i] = configuration.cameras[i].sync;
+  }
   plan.workers = worker_count(configuration.pipeline.workers);
   return plan;
 }

@@ -23,7 +23,7 @@ bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
 
 Pipeline::Pipeline(PipelinePlan plan)
     : plan_(std::move(plan)),
-      sync_(plan_.cameras.size(), plan_.sync_window),
+      sync_(plan_.cameras.size(), plan_.sync),
       workers_(plan_.workers),
       pan_tilt_zoom_(plan_.views),
       view_meters_(plan_.views.size()) {
@@ -129,6 +129,7 @@ void Pipeline::process(const hal::FrameSet& set) {
   status_.frame_set = set.id;
   status_.stamp = set.stamp;
   status_.unmatched += set.matched ? 0 : 1;
+  skew_of_second_ = std::max(skew_of_second_, set.skew);
   note_timing(hal::Clock::now() - begin);
 }
 
@@ -209,7 +210,8 @@ void Pipeline::publish_status() {
     camera.fault = faults_[i];
     camera.frames = counts.frames;
     camera.lost = counts.lost;
-    camera.dropped = counts.dropped;
+    camera.dropped = counts.dropped();
+    camera.unmatched = counts.unmatched;
   }
   if (status_.state == SystemState::Fault) status_.signals = {};
   if (now - last_roll_ >= std::chrono::seconds(1)) roll_figures(now);
@@ -232,6 +234,9 @@ void Pipeline::roll_figures(hal::TimePoint now) {
     status_.views[i].latency_p99_ms = figures.p99_ms;
   }
   status_.load = std::exchange(load_of_second_, 0);
+  status_.skew_ms = std::chrono::duration<double, std::milli>(
+                        std::exchange(skew_of_second_, hal::Clock::duration::zero()))
+                        .count();
 }
 
 }  // namespace orbwatch::app

@@ -40,7 +40,7 @@ struct PipelinePlan {
   std::vector<ViewPlan> views;                        ///< 1..kMaxViews, by index
   std::optional<MeasurementPlan> measurement;
   hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
-  hal::Clock::duration sync_window = std::chrono::milliseconds(10);
+  hal::SyncSettings sync;
   std::size_t workers = 1;       ///< threads besides the pipeline's own
   std::size_t view_buffers = 6;  ///< per view, shared with the sinks
 };
@@ -105,6 +105,7 @@ class Pipeline {
   std::atomic<bool> stopping_{false};
   Status status_;
   double load_of_second_ = 0;
+  hal::Clock::duration skew_of_second_{0};
   hal::TimePoint last_roll_;
   std::vector<Sink*> sinks_;
   std::thread thread_;

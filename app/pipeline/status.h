@@ -7,7 +7,7 @@
 
 #include "hal/clock.h"
 #include "hal/fault.h"
-#include "hal/frame_sync.h"
+#include "hal/frame_set.h"
 #include "proc/signals/signals.h"
 
 namespace orbwatch::app {
@@ -32,9 +32,10 @@ constexpr std::string_view name_of(SystemState state) {
 /// Figures of one camera since start; rates and latencies over the last full second.
 struct CameraStatus {
   hal::Fault fault = hal::Fault::None;
-  std::uint64_t frames = 0;   ///< delivered
-  std::uint64_t lost = 0;     ///< gaps in the sequence
-  std::uint64_t dropped = 0;  ///< delivered, but replaced by a newer one before it was used
+  std::uint64_t frames = 0;     ///< delivered
+  std::uint64_t lost = 0;       ///< gaps in the sequence
+  std::uint64_t dropped = 0;    ///< delivered, but the pipeline was late or the camera failed
+  std::uint64_t unmatched = 0;  ///< delivered while the pacing camera had no frame of that moment
   double frames_per_second = 0;
   double latency_p50_ms = 0;  ///< exposure start to arrival
   double latency_p99_ms = 0;
@@ -58,7 +59,8 @@ struct Status {
   std::uint64_t frame_set = 0;  ///< number of the newest frame set; 0: none yet
   hal::TimePoint stamp;         ///< exposure start of that frame set
   std::uint64_t overruns = 0;   ///< frame sets that took longer than their deadline
-  std::uint64_t unmatched = 0;  ///< frame sets in which a camera's frame was older than the window
+  std::uint64_t unmatched = 0;  ///< frame sets in which a camera had no frame within the window
+  double skew_ms = 0;           ///< largest between the exposures of a set, of the last full second
   double load = 0;              ///< share of the deadline the slowest set of the last second took
   std::size_t selected_view = 0;
   std::size_t camera_count = 0;

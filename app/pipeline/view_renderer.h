@@ -8,7 +8,7 @@
 #include "app/pipeline/view.h"
 #include "app/pipeline/worker_pool.h"
 #include "hal/camera.h"
-#include "hal/frame_sync.h"
+#include "hal/frame_set.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
 #include "proc/remap/colour_map.h"

@@ -63,7 +63,7 @@ ViewPlan plan() {
 TEST(FramePath, DoesNotAllocate) {
   hal::FramePool thermal = hal::make_frame_pool(PixelFormat::Y16, kSize, kSize);
   hal::FramePool colour = hal::make_frame_pool(PixelFormat::Rgb, kSize, kSize);
-  hal::FrameSync sync(2, std::chrono::seconds(1));
+  hal::FrameSync sync(2, {std::chrono::seconds(1), std::chrono::seconds(1)});
   ViewRenderer renderer(plan());
   std::vector<std::unique_ptr<View>> buffers;
   for (int i = 0; i < 3; ++i) buffers.push_back(std::make_unique<View>(renderer.make_view()));

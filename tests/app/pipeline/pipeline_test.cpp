@@ -59,7 +59,7 @@ class PipelineTest : public testing::Test {
     add_camera("grey", PixelFormat::Grey);
     plan.workers = 1;
     plan.deadline = std::chrono::seconds(20);
-    plan.sync_window = std::chrono::milliseconds(1);
+    plan.sync.window = plan.sync.patience = std::chrono::milliseconds(1);
     add_view("seen", {1}, std::nullopt);
     add_view("measured", {0, 1}, 0);
     plan.measurement = MeasurementPlan{1, {0.04}, 30000};
