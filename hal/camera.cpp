@@ -41,6 +41,7 @@ void Camera::join() {
   if (!thread_.joinable()) return;
   stop_.request_stop();
   thread_.join();
+  runner_ = std::thread::id();  // the system may give the same one to another thread
 }
 
 Result<> Camera::trigger() { return fail("camera " + info_.id + ": has no software trigger"); }

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/config/configuration.h"
+#include "hal/camera.h"
+
+namespace orbwatch::tests {
+
+/// What the suite is told: see README.md.
+struct ComplianceSettings {
+  std::vector<app::CameraSettings> cameras;
+  std::size_t most_frames = 89;
+  std::string unplug;
+  std::string replug;
+};
+
+/// The camera that the suite is run on, one per process.
+class CameraUnderTest {
+ public:
+  /// Reads the file of settings. The error says file, line and key.
+  static Result<> load(const std::filesystem::path& file);
+  static const CameraUnderTest& get();
+
+  std::unique_ptr<hal::Camera> make() const { return make(settings_.cameras.front()); }
+  hal::StreamRequest request() const { return request(settings_.cameras.front()); }
+
+  bool has_another() const { return settings_.cameras.size() > 1; }
+  std::unique_ptr<hal::Camera> make_another() const { return make(settings_.cameras.back()); }
+  hal::StreamRequest another_request() const { return request(settings_.cameras.back()); }
+
+  /// `count`, or as many as a case may take here.
+  std::size_t limited(std::size_t count) const { return std::min(count, settings_.most_frames); }
+
+  bool can_be_unplugged() const { return is_scripted() || !settings_.unplug.empty(); }
+  /// One that shows its first frames, and the next ones as well once it was unplugged and
+  /// replugged.
+  std::unique_ptr<hal::Camera> make_unpluggable() const;
+  void unplug() const;
+  void replug() const;
+
+ private:
+  explicit CameraUnderTest(ComplianceSettings settings) : settings_(std::move(settings)) {}
+
+  static std::unique_ptr<hal::Camera> make(const app::CameraSettings& settings);
+  static hal::StreamRequest request(const app::CameraSettings& settings);
+  /// Its faults are by exposure number and come by themselves.
+  bool is_scripted() const;
+
+  static std::optional<CameraUnderTest> instance_;
+  ComplianceSettings settings_;
+};
+
+}  // namespace orbwatch::tests
