@@ -13,5 +13,6 @@ using CommandFunction = Result<> (*)(const std::vector<std::string>& arguments);
 Result<> project_command(const std::vector<std::string>& arguments);
 Result<> describe_command(const std::vector<std::string>& arguments);
 Result<> subscribe_command(const std::vector<std::string>& arguments);
+Result<> list_command(const std::vector<std::string>& arguments);
 
 }  // namespace orbwatch::app

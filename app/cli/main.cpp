@@ -22,6 +22,7 @@ constexpr std::array kCommandTable{
     Named{"project", "turn pictures of a mirror ball into an undistorted view", project_command},
     Named{"subscribe", "read views and process state of a running orbwatchd over DDS",
           subscribe_command},
+    Named{"list", "show the cameras and GPIO lines that are connected", list_command},
     Named{"describe", "print manuals, and what follows from a rig or a view", describe_command},
 };
 

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <concepts>
+#include <sstream>
+#include <string_view>
+
+#include "app/cli/list.h"
+#include "app/cli/list_fields.h"
+#include "app/config/finding.h"
+
+namespace orbwatch::app {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string cell(const std::string& text) { return one_line(text); }
+std::string cell(std::integral auto number) { return std::to_string(number); }
+std::string cell(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+template <class T>
+std::string cell(const std::vector<T>& values) {
+  std::string list;
+  for (const T& value : values) list += (list.empty() ? "" : ", ") + cell(value);
+  return list;
+}
+
+std::string title(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// Columns padded to the widest cell; those without any content are left out.
+std::string aligned(const std::vector<Row>& rows, std::size_t first_content,
+                    const std::string& indent) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (std::size_t column = 0; column < widths.size(); ++column) {
+    const bool used = std::any_of(rows.begin() + static_cast<std::ptrdiff_t>(first_content),
+                                  rows.end(), [&](const Row& r) { return !r[column].empty(); });
+    for (const Row& row : rows) {
+      if (used) widths[column] = std::max(widths[column], row[column].size());
+    }
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line = indent;
+    for (std::size_t column = 0; column < widths.size(); ++column) {
+      if (widths[column] == 0) continue;
+      line += row[column] + std::string(widths[column] + 2 - row[column].size(), ' ');
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+/// The fields of one entry, by name and as text; its lists are left to EntryText.
+struct Fields {
+  Row names, cells;
+
+  template <class T>
+  void field(const char* name, const T& value) {
+    names.push_back(title(name));
+    cells.push_back(cell(value));
+  }
+  template <class Entry>
+  void list(const char*, const std::vector<Entry>&) {}
+};
+
+/// Writes one entry: a line for each field that says something, a table for each list.
+class EntryText {
+ public:
+  template <class T>
+  void field(const char* name, const T& value) {
+    if (std::string text = cell(value); !text.empty()) rows_.push_back({title(name), text});
+  }
+
+  template <class Entry>
+  void list(const char*, const std::vector<Entry>& entries) {
+    std::vector<Row> rows;
+    for (const Entry& entry : entries) {
+      Fields fields;
+      visit(fields, entry);
+      if (rows.empty()) rows.push_back(fields.names);
+      rows.push_back(fields.cells);
+    }
+    if (!rows.empty()) tables_ += "\n" + aligned(rows, 1, "  ");
+  }
+
+  std::string text() const { return (rows_.empty() ? "" : aligned(rows_, 0, "")) + tables_; }
+
+ private:
+  std::vector<Row> rows_;
+  std::string tables_;
+};
+
+/// Writes all entries of all kinds.
+class InventoryText {
+ public:
+  template <class Entry>
+  void list(const char* name, const std::vector<Entry>& entries) {
+    for (const Entry& entry : entries) {
+      EntryText text;
+      visit(text, entry);
+      text_ += text.text() + "\n";
+    }
+    if (entries.empty()) text_ += "no " + title(name) + "\n";
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+std::string list_table(const hal::Inventory& inventory) {
+  InventoryText text;
+  visit(text, inventory);
+  return text.text();
+}
+
+}  // namespace orbwatch::app
