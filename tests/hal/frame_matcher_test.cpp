@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <vector>
 
 namespace orbwatch::hal {
@@ -83,6 +83,29 @@ TEST(FrameMatcher, DoesNotWaitForAFrameThatCannotBeNearer) {
   matcher.put(1, frame(1, -2));
   matcher.put(0, frame(0, 0));
   EXPECT_EQ(number(matcher.take().value(), 1), 1) << "the next one comes at 31";
+}
+
+TEST(FrameMatcher, WaitsForAFrameThatIsDueWithinTheWindow) {
+  Matcher matcher(2);
+  matcher.put(1, frame(0, -68));
+  matcher.put(1, frame(1, -28));
+  matcher.put(0, frame(0, 0));
+  EXPECT_FALSE(matcher.take());
+  matcher.put(1, frame(2, 9));  // due at 12
+  EXPECT_EQ(number(matcher.take().value(), 1), 2);
+}
+
+TEST(FrameMatcher, KeepsNoFrameThatItDoesNotHold) {
+  for (const SyncPolicy policy : {SyncPolicy::Hold, SyncPolicy::Nearest}) {
+    Matcher matcher(2, {.policies = {policy, policy}});
+    std::array<Frame, 2> frames{frame(0, 0), frame(0, 0)};
+    matcher.put(0, frames[0]);
+    matcher.put(1, frames[1]);
+    ASSERT_TRUE(matcher.take());
+    for (const Frame& used : frames) {
+      EXPECT_EQ(used.use_count(), policy == SyncPolicy::Hold ? 2 : 1);
+    }
+  }
 }
 
 TEST(FrameMatcher, ASlowCamerasFrameIsHeldWithItsAge) {
