@@ -300,21 +300,27 @@ struct Reference {
   }
 };
 
+/// With a window of a fifth and a patience of half of the fastest period, every pair is unique and
+/// every partner arrives before patience is over.
+std::vector<CameraPlan> cameras_of_unique_pairs(int fastest, std::mt19937_64& random) {
+  std::vector<CameraPlan> plans(static_cast<std::size_t>(between(random, 1, 4)));
+  for (CameraPlan& plan : plans) {
+    plan.period = between(random, 0, 1) == 0 ? fastest : between(random, fastest, 8 * fastest);
+    plan.jitter = fastest / 50;
+    plan.latency = between(random, 0, fastest / 4);
+    plan.delay = fastest / 50;
+    plan.loss = between(random, 0, 3) * 0.1;
+  }
+  return plans;
+}
+
 TEST(FrameMatcherProperties, PairsAreThoseOfAllFramesSeenAtOnce) {
   std::size_t matched_sets = 0, incomplete = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    // Where every pair is unique and every partner arrives before patience is over.
-    std::vector<CameraPlan> plans(static_cast<std::size_t>(between(random, 1, 4)));
     const int fastest = between(random, 8'000, 60'000);
-    for (CameraPlan& plan : plans) {
-      plan.period = between(random, 0, 1) == 0 ? fastest : between(random, fastest, 8 * fastest);
-      plan.jitter = fastest / 50;
-      plan.latency = between(random, 0, fastest / 4);
-      plan.delay = fastest / 50;
-      plan.loss = between(random, 0, 3) * 0.1;
-    }
+    const auto plans = cameras_of_unique_pairs(fastest, random);
     SyncSettings settings = random_settings(random);
     settings.window = microseconds(fastest / 5);
     settings.patience = microseconds(fastest / 2);
