@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stop_token>
 
+#include "hal/v4l2/buffer_stamps.h"
 #include "hal/v4l2/v4l2_controls.h"
 
 namespace orbwatch::hal {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "hal/camera.h"
+#include "hal/frame_counter.h"
 #include "hal/frame_pool.h"
 #include "hal/jpeg/jpeg_decoder.h"
-#include "hal/v4l2/buffer_stamps.h"
 #include "hal/v4l2/v4l2_format.h"
 #include "hal/v4l2/v4l2_stream.h"
 

@@ -7,17 +7,12 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
-#include "hal/fault.h"
+#include "hal/device_result.h"
 #include "hal/file_descriptor.h"
 
 namespace orbwatch::hal {
-
-/// A value, or what the camera's user is told instead.
-template <class T = void>
-using DeviceResult = tl::expected<T, FaultReport>;
 
 /// A stretch of a driver's memory in this process.
 class MappedMemory {
