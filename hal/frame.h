@@ -11,10 +11,18 @@
 
 namespace orbwatch::hal {
 
+/// The moment that a camera's time stamps tell.
+enum class StampSource : std::uint8_t {
+  ExposureStart,
+  FrameEnd,  ///< the last pixel arrived: later by exposure and readout, which are not known
+  Arrival,   ///< the camera's thread took the frame: the camera itself gave no stamp
+};
+
 /// What a camera says about one frame.
 struct FrameMetadata {
   std::uint64_t sequence = 0;  ///< counts exposures since start; a gap is a lost frame
-  TimePoint exposure_start;    ///< when the exposure began
+  TimePoint exposure_start;    ///< when the exposure began, as near as stamp_source comes
+  StampSource stamp_source = StampSource::ExposureStart;
   std::chrono::microseconds exposure_time{0};  ///< 0: not known
   double gain = 1.0;                           ///< linear, analogue times digital
   /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras

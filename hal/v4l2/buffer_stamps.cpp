@@ -8,13 +8,16 @@ constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace
 
-TimePoint exposure_start(const v4l2_buffer& buffer, TimePoint arrival) {
+FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival) {
+  const FrameStamp none{arrival, StampSource::Arrival};
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
-    return arrival;
+    return none;
   }
   const TimePoint stamp{std::chrono::seconds(buffer.timestamp.tv_sec) +
                         std::chrono::microseconds(buffer.timestamp.tv_usec)};
-  return stamp > arrival || stamp < arrival - kOldest ? arrival : stamp;
+  if (stamp > arrival || stamp < arrival - kOldest) return none;
+  const bool start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  return {stamp, start ? StampSource::ExposureStart : StampSource::FrameEnd};
 }
 
 }  // namespace orbwatch::hal

@@ -1,14 +1,19 @@
 #pragma once
 
-#include <linux/videodev2.h>
-
-#include "hal/clock.h"
+#include "hal/frame.h"
+#include "hal/v4l2/v4l2_device.h"
 
 namespace orbwatch::hal {
 
-/// The driver's time stamp on the steady clock; `arrival` when the driver gave none of this clock
-/// or one that cannot be. Most drivers stamp the start of the exposure or of its transfer (UVC);
-/// what stamps the end is later by exposure and readout, which V4L2 does not tell.
-TimePoint exposure_start(const v4l2_buffer& buffer, TimePoint arrival);
+/// A time stamp on the steady clock and what it tells.
+struct FrameStamp {
+  TimePoint moment;
+  StampSource source = StampSource::Arrival;
+};
+
+/// The driver's time stamp, or `arrival` when it gave none of this clock or one that cannot be.
+/// Drivers say whether they stamp the start of the exposure (USB cameras do) or the end of the
+/// frame.
+FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival);
 
 }  // namespace orbwatch::hal

@@ -6,6 +6,7 @@
 
 #include "hal/v4l2/buffer_stamps.h"
 #include "hal/v4l2/v4l2_controls.h"
+#include "hal/v4l2/v4l2_list.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -25,49 +26,48 @@ Clock::duration stall_timeout(double frame_rate) {
 }
 
 /// What the device calls itself, if it is there.
-std::string model_of(const std::string& device) {
-  const auto opened = V4l2Device::open(device);
-  return opened ? opened->card() : "unknown";
+std::string model_of(const std::string& name) {
+  const auto device = find_v4l2_device(name).and_then(V4l2Device::open);
+  return device ? device->card() : "unknown";
 }
 
 }  // namespace
 
 V4l2Camera::V4l2Camera(V4l2Settings settings)
     : Camera({settings.device, model_of(settings.device), "v4l2"}),
-      settings_(std::move(settings)) {}
+      settings_(std::move(settings)),
+      controls_(settings_.controls) {}
 
 V4l2Camera::~V4l2Camera() { stop(); }
 
+DeviceResult<V4l2Device> V4l2Camera::open() const {
+  return find_v4l2_device(settings_.device).and_then(V4l2Device::open);
+}
+
 Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   if (auto sound = check(request); !sound) return tl::unexpected(sound.error());
-  auto device = V4l2Device::open(settings_.device);
+  auto device = open();
   if (!device) return fail(device.error().detail);
-  const auto agreed = agree_on_format(*device, settings_.pixel_format, request);
-  if (!agreed) return fail(agreed.error().detail);
-  agreed_ = *agreed;
-  decoded_.reset();
-  if (agreed_.pixels.fourcc == V4L2_PIX_FMT_MJPEG) {
-    decoded_ = make_frame_pool(PixelFormat::Rgb, agreed_.stream.width, agreed_.stream.height);
-  }
+  if (auto ready = set_up(*device, settings_.pixel_format, request); !ready)
+    return fail(ready.error().detail);
+  decoder_.reset();
+  if (!agreed_.is_handed_on()) decoder_.emplace(agreed_);
   return agreed_.stream;
 }
 
 /// Whether request and settings make sense for any device at all.
 Result<> V4l2Camera::check(const StreamRequest& request) const {
-  std::string names = "auto";
-  bool known = settings_.pixel_format == names;
-  for (const V4l2Format& format : kV4l2Formats) {
-    names += ", " + std::string(format.name);
-    known = known || settings_.pixel_format == format.name;
-  }
-  if (!known) {
+  const auto& names = kPixelCodingNames;
+  if (std::find(names.begin(), names.end(), settings_.pixel_format) == names.end()) {
+    std::string known;
+    for (const auto name : names) known.append(known.empty() ? "" : ", ").append(name);
     return fail(settings_.device + ": pixel format \"" + settings_.pixel_format +
-                "\"; it must be one of " + names);
+                "\"; it must be one of " + known);
   }
   if (std::min(request.width, request.height) < 0 ||
-      std::max(request.width, request.height) > kMaxV4l2Side) {
+      std::max(request.width, request.height) > kMaxSide) {
     return fail(settings_.device + ": asked for " + std::to_string(request.width) + "x" +
-                std::to_string(request.height) + "; at most " + std::to_string(kMaxV4l2Side) +
+                std::to_string(request.height) + "; at most " + std::to_string(kMaxSide) +
                 " pixels a side");
   }
   if (!(request.frame_rate >= 0 && request.frame_rate <= kMaxFrameRate)) {
@@ -77,20 +77,46 @@ Result<> V4l2Camera::check(const StreamRequest& request) const {
   return {};
 }
 
+/// Format and controls of a device that was just opened.
+DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_format,
+                                  const StreamRequest& request) {
+  const auto agreed = agree_on_format(device, {pixel_format, settings_.colour, request});
+  if (!agreed) return tl::unexpected(agreed.error());
+  std::vector<V4l2Settings::Control> controls;
+  {
+    const std::lock_guard lock(controls_mutex_);
+    controls = controls_;
+  }
+  for (const auto& [control, value] : controls) {
+    if (auto done = set_control(device, control, value); !done) {
+      return tl::unexpected(FaultReport{Fault::ReadError, done.error().message});
+    }
+  }
+  triggered_ = waits_for_trigger(device);
+  agreed_ = *agreed;
+  return {};
+}
+
+Result<> V4l2Camera::trigger() { return set("TriggerSoftware", 1); }
+
 Result<> V4l2Camera::set(std::string_view control, double value) {
   // Controls do not belong to the stream: any opened device will do, and no thread has to wait.
-  auto device = V4l2Device::open(settings_.device);
+  auto device = open();
   if (!device) return fail(device.error().detail);
   if (auto done = set_control(*device, control, value); !done) return done;
+  if (is_button(*device, control)) return {};
+  triggered_ = waits_for_trigger(*device);
   const std::lock_guard lock(controls_mutex_);
-  const auto known = std::find_if(controls_.begin(), controls_.end(),
-                                  [control](const Setting& s) { return s.first == control; });
+  const auto known =
+      std::find_if(controls_.begin(), controls_.end(),
+                   [control](const V4l2Settings::Control& c) { return c.first == control; });
   if (known != controls_.end()) {
     known->second = value;
   } else {
     controls_.emplace_back(control, value);
   }
-  std::erase_if(controls_, [&](const Setting& s) { return is_inactive(*device, s.first); });
+  std::erase_if(controls_,
+                [&](const V4l2Settings::Control& c) { return is_inactive(*device, c.first); });
   return {};
 }
 
@@ -109,23 +135,22 @@ void V4l2Camera::run(const std::stop_token& stop) {
 
 /// Opens the device and streams; returns what ended it, which means nothing after a stop.
 FaultReport V4l2Camera::stream_until_fault(const std::stop_token& stop) {
-  auto device = V4l2Device::open(settings_.device);
+  auto device = open();
   if (!device) return device.error();
-  const auto agreed = open_again(*device);
-  if (!agreed) return agreed.error();
-  const auto stream = V4l2Stream::start(std::move(*device), *agreed);
+  if (auto ready = set_up_again(*device); !ready) return ready.error();
+  const auto stream = V4l2Stream::start(std::move(*device), agreed_);
   if (!stream) return stream.error();
   const std::stop_callback wake(stop, [&stream] { (*stream)->ring(); });
 
   counter_.restart();
-  const Clock::duration timeout = stall_timeout(agreed->stream.frame_rate);
+  const Clock::duration timeout = stall_timeout(agreed_.stream.frame_rate);
   TimePoint deadline = Clock::now() + std::max(timeout, kFirstFrameTimeout);
   while (!stop.stop_requested()) {
-    const bool starved = (*stream)->is_starved();
+    const bool may_be_silent = (*stream)->is_starved() || triggered_;
     const auto captured = (*stream)->next(deadline);
     if (!captured) return captured.error();
     if (*captured) take(**captured);
-    if (*captured || starved) {
+    if (*captured || may_be_silent) {
       deadline = Clock::now() + timeout;
     } else if (Clock::now() >= deadline) {
       return {Fault::Stalled,
@@ -135,46 +160,39 @@ FaultReport V4l2Camera::stream_until_fault(const std::stop_token& stop) {
   return {};
 }
 
-/// Sets up a device that was opened anew as it was configured.
-DeviceResult<V4l2Agreement> V4l2Camera::open_again(V4l2Device& device) {
-  const StreamRequest request{agreed_.stream.width, agreed_.stream.height,
-                              agreed_.stream.frame_rate};
-  const auto agreed = agree_on_format(device, agreed_.pixels.name, request);
-  if (!agreed) return agreed;
-  std::vector<Setting> controls;
-  {
-    const std::lock_guard lock(controls_mutex_);
-    controls = controls_;
-  }
-  for (const auto& [control, value] : controls) {
-    if (auto done = set_control(device, control, value); !done) {
-      return tl::unexpected(FaultReport{Fault::ReadError, done.error().message});
-    }
-  }
-  return agreed;
+/// As it was configured: frames in use and buffers for decoded ones are of that kind.
+DeviceResult<> V4l2Camera::set_up_again(V4l2Device& device) {
+  const V4l2Agreement before = agreed_;
+  const StreamFormat& stream = before.stream;
+  auto ready = set_up(device, before.coding.name, {stream.width, stream.height, stream.frame_rate});
+  if (ready && decoder_) decoder_->follow(agreed_);
+  return ready;
 }
 
 void V4l2Camera::take(const V4l2Stream::Captured& captured) {
+  const FrameStamp stamp = frame_stamp(captured.buffer, Clock::now());
   const FrameMetadata metadata{.sequence = counter_.number(captured.buffer.sequence),
-                               .exposure_start = exposure_start(captured.buffer, Clock::now())};
+                               .exposure_start = stamp.moment,
+                               .stamp_source = stamp.source};
   if (!is_whole(captured)) return;
-  if (!decoded_) return hand_on(captured.frame, metadata);
-  if (auto picture = decode(captured)) hand_on(std::move(picture), metadata);
+  if (!decoder_) return hand_on(captured.frame, metadata);
+  auto frame = decoder_->decode(captured.samples(0));
+  if (!frame) return report(Fault::CorruptFrame, settings_.device + ": " + frame.error().message);
+  // All decoded buffers are in use: the frame is lost, which the gap in the sequence tells.
+  if (*frame) hand_on(std::move(*frame), metadata);
 }
 
 /// Whether the driver delivered all of a frame; reports it if not.
 bool V4l2Camera::is_whole(const V4l2Stream::Captured& captured) {
-  const FrameBuffer& frame = *captured.frame;
-  const Picture& picture = frame.picture;
-  const auto stride = static_cast<std::size_t>(picture.planes[0].stride);
-  const std::size_t needed = decoded_ ? 1 : picture_bytes(picture.format, stride, picture.height);
-  const std::size_t used = captured.buffer.bytesused;
   if ((captured.buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
     report(Fault::CorruptFrame, settings_.device + ": the driver marks a frame as damaged");
     return false;
   }
-  if (used < needed || used > frame.capacity) {
-    report(Fault::CorruptFrame, settings_.device + ": a frame of " + std::to_string(used) +
+  for (std::size_t i = 0; i < agreed_.layout.memory_count; ++i) {
+    const std::size_t got = captured.samples(i).size();
+    const std::size_t needed = agreed_.layout.needed[i];
+    if (got >= needed) continue;
+    report(Fault::CorruptFrame, settings_.device + ": a frame of " + std::to_string(got) +
                                     " bytes; it takes " + std::to_string(needed));
     return false;
   }
@@ -186,21 +204,6 @@ void V4l2Camera::hand_on(std::shared_ptr<FrameBuffer> frame, const FrameMetadata
   delivered_ = true;
   report(Fault::None);
   deliver(std::move(frame));
-}
-
-/// The picture in a buffer of our own, or nullptr when it is damaged or all of those are lent.
-std::shared_ptr<FrameBuffer> V4l2Camera::decode(const V4l2Stream::Captured& captured) {
-  auto target = decoded_->acquire();
-  if (!target) return nullptr;
-  const Picture& picture = target->picture;
-  const ImageView<std::uint8_t> pixels{reinterpret_cast<std::uint8_t*>(target->memory),
-                                       picture.width, picture.height, 3, picture.planes[0].stride};
-  const auto done =
-      decoder_.decode_rgb({captured.frame->memory, captured.buffer.bytesused}, pixels);
-  target->picture.colour_space = agreed_.stream.colour_space;
-  if (done) return target;
-  report(Fault::CorruptFrame, settings_.device + ": " + done.error().message);
-  return nullptr;
 }
 
 }  // namespace orbwatch::hal

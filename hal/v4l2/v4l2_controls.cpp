@@ -19,9 +19,12 @@ struct Alias {
 };
 
 constexpr std::array kAliases{
-    Alias{"ExposureTime", V4L2_CID_EXPOSURE_ABSOLUTE,
-          0.01},  // microseconds; V4L2 counts 100 of them
-    Alias{"Gain", V4L2_CID_GAIN, 1.0},
+    // Microseconds; V4L2 counts 100 of them.
+    Alias{"ExposureTime", V4L2_CID_EXPOSURE_ABSOLUTE, 0.01},
+    Alias{"ExposureAuto", V4L2_CID_EXPOSURE_AUTO, 1},
+    Alias{"Gain", V4L2_CID_GAIN, 1},
+    Alias{"GainAuto", V4L2_CID_AUTOGAIN, 1},
+    Alias{"BalanceWhiteAuto", V4L2_CID_AUTO_WHITE_BALANCE, 1},
 };
 
 constexpr std::uint32_t kNotNow = V4L2_CTRL_FLAG_INACTIVE | V4L2_CTRL_FLAG_GRABBED;
@@ -33,29 +36,25 @@ const Alias* alias_of(std::string_view name) {
   return nullptr;
 }
 
-bool is_number(const v4l2_query_ext_ctrl& control) {
-  switch (control.type) {
-    case V4L2_CTRL_TYPE_INTEGER:
-    case V4L2_CTRL_TYPE_BOOLEAN:
-    case V4L2_CTRL_TYPE_MENU:
-    case V4L2_CTRL_TYPE_INTEGER_MENU:
-    case V4L2_CTRL_TYPE_INTEGER64:
-      return control.nr_of_dims == 0;
-    default:
-      return false;
-  }
+/// A name without what separates its words.
+std::string letters_of(std::string_view name) {
+  std::string letters = control_variable(name);
+  std::erase(letters, '_');
+  return letters;
 }
 
 Result<v4l2_query_ext_ctrl> find(const V4l2Device& device, std::string_view name) {
   const Alias* const alias = alias_of(name);
-  const std::string variable = control_variable(name);
+  const std::string letters = letters_of(name);
   std::string known;
   std::optional<v4l2_query_ext_ctrl> control = device.next_control(0);
   for (; control; control = device.next_control(control->id)) {
-    if (alias != nullptr ? control->id == alias->id : control_variable(control->name) == variable) {
+    if (alias != nullptr ? control->id == alias->id : letters_of(control->name) == letters) {
       return *control;
     }
-    if (is_number(*control)) known += (known.empty() ? "" : ", ") + control_variable(control->name);
+    if (takes_number(*control)) {
+      known += (known.empty() ? "" : ", ") + control_variable(control->name);
+    }
   }
   return fail("no control \"" + std::string(name) +
               "\"; there are: " + (known.empty() ? "none" : known));
@@ -63,12 +62,14 @@ Result<v4l2_query_ext_ctrl> find(const V4l2Device& device, std::string_view name
 
 Result<> check(const v4l2_query_ext_ctrl& control, double units) {
   const std::string name = control_variable(control.name);
-  if (!is_number(control)) return fail("control " + name + " does not take a number");
-  if ((control.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0)
+  if (!takes_number(control)) return fail("control " + name + " does not take a number");
+  if ((control.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) {
     return fail("control " + name + " is read only");
+  }
   if ((control.flags & kNotNow) != 0) {
     return fail("control " + name + " cannot be set now; switch its automatism off first");
   }
+  if (control.type == V4L2_CTRL_TYPE_BUTTON) return {};
   if (!(units >= static_cast<double>(control.minimum) &&
         units <= static_cast<double>(control.maximum))) {
     std::ostringstream message;
@@ -80,6 +81,21 @@ Result<> check(const v4l2_query_ext_ctrl& control, double units) {
 }
 
 }  // namespace
+
+bool takes_number(const v4l2_query_ext_ctrl& control) {
+  switch (control.type) {
+    case V4L2_CTRL_TYPE_INTEGER:
+    case V4L2_CTRL_TYPE_BOOLEAN:
+    case V4L2_CTRL_TYPE_MENU:
+    case V4L2_CTRL_TYPE_BUTTON:
+    case V4L2_CTRL_TYPE_INTEGER_MENU:
+    case V4L2_CTRL_TYPE_INTEGER64:
+    case V4L2_CTRL_TYPE_BITMASK:
+      return control.nr_of_dims == 0;
+    default:
+      return false;
+  }
+}
 
 std::string control_variable(std::string_view name) {
   std::string variable;
@@ -106,15 +122,28 @@ Result<> set_control(V4l2Device& device, std::string_view name, double value) {
   const Alias* const alias = alias_of(name);
   const double units = std::round(alias != nullptr ? value * alias->units : value);
   if (auto good = check(*control, units); !good) return named(good.error().message);
-  if (auto done = device.set_control(*control, static_cast<std::int64_t>(units)); !done) {
-    return fail(done.error().detail);
-  }
+  // What a button is given means nothing, and need not be a number.
+  const bool button = control->type == V4L2_CTRL_TYPE_BUTTON;
+  const std::int64_t number = button ? 0 : static_cast<std::int64_t>(units);
+  if (auto done = device.set_control(*control, number); !done) return fail(done.error().detail);
   return {};
 }
 
 bool is_inactive(const V4l2Device& device, std::string_view name) {
   const auto control = find(device, name);
   return control && (control->flags & kNotNow) != 0;
+}
+
+bool is_button(const V4l2Device& device, std::string_view name) {
+  const auto control = find(device, name);
+  return control && control->type == V4L2_CTRL_TYPE_BUTTON;
+}
+
+bool waits_for_trigger(const V4l2Device& device) {
+  const auto control = find(device, "TriggerMode");
+  if (!control || !takes_number(*control)) return false;
+  const auto value = device.control(*control);
+  return value && *value != 0;
 }
 
 }  // namespace orbwatch::hal

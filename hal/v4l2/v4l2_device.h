@@ -2,6 +2,7 @@
 
 #include <linux/videodev2.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "hal/device_result.h"
+#include "hal/dma_buffer.h"
 #include "hal/file_descriptor.h"
+#include "hal/v4l2/driver_format.h"
 
 namespace orbwatch::hal {
 
@@ -28,53 +31,101 @@ class MappedMemory {
   std::span<std::byte> memory_;
 };
 
-/// An open V4L2 capture device: each call is one ioctl, repeated when a signal interrupts it. Every
-/// error names the device. Thread-bound.
+/// One stretch of memory of a buffer: mapped, and exported where the driver can.
+struct BufferMemory {
+  MappedMemory mapping;
+  std::optional<DmaBuffer> dma_buffer;
+};
+
+/// What a driver says of a buffer that it filled.
+struct FilledBuffer {
+  /// Where the samples are in one stretch of its memory, bytes.
+  struct Samples {
+    std::size_t offset = 0;
+    std::size_t size = 0;
+  };
+
+  std::uint32_t index = 0;
+  std::uint32_t flags = 0;  ///< V4L2_BUF_FLAG_*
+  std::uint32_t sequence = 0;
+  timeval timestamp{};
+  std::array<Samples, kMaxPlanes> samples;
+};
+
+/// A size on offer, or all sizes between two.
+struct FrameSizeOffer {
+  std::uint32_t min_width = 0, max_width = 0;  ///< equal for one size
+  std::uint32_t min_height = 0, max_height = 0;
+};
+
+/// An open V4L2 capture device, of the single- or of the multi-planar interface: each call is one
+/// ioctl, repeated when a signal interrupts it. Every error names the device. Thread-bound.
 class V4l2Device {
  public:
-  /// Errors: no such device, no permission, not a V4L2 device, or one that cannot stream
-  /// single-planar pictures.
+  /// Errors: no such device, no permission, not a V4L2 device, or one that cannot stream pictures.
   static DeviceResult<V4l2Device> open(const std::string& path);
 
   const std::string& path() const { return path_; }
   const std::string& card() const { return card_; }  ///< what the device calls itself
+  const std::string& driver() const { return driver_; }
+  const std::string& bus() const { return bus_; }  ///< where it is: "usb-0000:00:14.0-1"
   int descriptor() const { return file_.get(); }
 
   /// The pixel formats on offer, by four-character code.
   std::vector<std::uint32_t> formats() const;
-  /// The sizes on offer for one of them, as text: "640x480", or "2x2..4096x2160" for a range.
-  std::vector<std::string> sizes(std::uint32_t pixel_format) const;
+  /// The sizes on offer for one of them: one by one, or a single range.
+  std::vector<FrameSizeOffer> sizes(std::uint32_t fourcc) const;
+  /// The frames per second on offer for a format and size: one by one, or first and last of a
+  /// range.
+  std::vector<double> frame_rates(std::uint32_t fourcc, std::uint32_t width,
+                                  std::uint32_t height) const;
 
-  DeviceResult<v4l2_pix_format> format() const;
-  /// What the driver made of `wanted`, which may differ from it.
-  DeviceResult<v4l2_pix_format> set_format(const v4l2_pix_format& wanted);
+  DeviceResult<DriverFormat> format() const;
+  /// What the driver made of `wanted`, which may differ from it. Of `wanted`, size, field and
+  /// four-character code count.
+  DeviceResult<DriverFormat> set_format(const DriverFormat& wanted);
   /// Asks for `frame_rate` per second, unless it is 0, and returns what the driver has; 0: unknown.
   DeviceResult<double> set_frame_rate(double frame_rate);
 
   /// The control that follows number `after` (0: the first), or nothing behind the last.
   std::optional<v4l2_query_ext_ctrl> next_control(std::uint32_t after) const;
+  /// The text of one entry of a menu, or nothing where the menu has none.
+  std::optional<std::string> menu_entry(const v4l2_query_ext_ctrl& control,
+                                        std::int64_t index) const;
+  DeviceResult<std::int64_t> control(const v4l2_query_ext_ctrl& control) const;
   DeviceResult<> set_control(const v4l2_query_ext_ctrl& control, std::int64_t value);
 
   /// Has the driver make `count` buffers; returns how many it made. 0 gives them back.
   DeviceResult<std::uint32_t> request_buffers(std::uint32_t count);
-  DeviceResult<MappedMemory> map_buffer(std::uint32_t index);
+  /// All memory of one buffer, in the order of the format's.
+  DeviceResult<std::vector<BufferMemory>> map_buffer(std::uint32_t index);
   /// Hands a buffer to the driver.
   DeviceResult<> queue(std::uint32_t index);
   /// Takes a filled buffer from the driver, or nothing when none is ready.
-  DeviceResult<std::optional<v4l2_buffer>> dequeue();
+  DeviceResult<std::optional<FilledBuffer>> dequeue();
   DeviceResult<> stream_on();
   DeviceResult<> stream_off();
 
  private:
+  /// V4L2's words about one buffer, which point into themselves.
+  struct BufferWords;
+
   V4l2Device(std::string path, FileDescriptor file)
       : path_(std::move(path)), file_(std::move(file)) {}
 
   DeviceResult<> check_capabilities();
+  bool is_multi_planar() const { return type_ == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE; }
+  DeviceResult<BufferMemory> map_memory(std::uint32_t index, std::uint32_t number,
+                                        std::size_t length, std::uint32_t offset);
+  std::optional<DmaBuffer> export_memory(std::uint32_t index, std::uint32_t number);
   tl::unexpected<FaultReport> failed(const std::string& action, int error) const;
 
   std::string path_;
   FileDescriptor file_;
   std::string card_;
+  std::string driver_;
+  std::string bus_;
+  std::uint32_t type_ = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 };
 
 }  // namespace orbwatch::hal

@@ -22,18 +22,51 @@ int milliseconds_until(TimePoint deadline) {
   return static_cast<int>(std::clamp(left, milliseconds(0), milliseconds(60'000)).count());
 }
 
-void describe(DriverFrame& frame, const V4l2Agreement& agreement) {
-  frame.picture =
-      Picture::contiguous(agreement.stream.format, agreement.stream.width, agreement.stream.height,
-                          frame.memory, static_cast<std::ptrdiff_t>(agreement.stride));
-  frame.picture.colour_space = agreement.stream.colour_space;
+/// The picture that a driver put into its memory.
+Picture describe(const DriverFrame& frame, const V4l2Agreement& agreement,
+                 const FilledBuffer& buffer) {
+  const StreamFormat& stream = agreement.stream;
+  Picture picture{stream.format, stream.colour_space, stream.width, stream.height, {}};
+  for (std::size_t n = 0; n < agreement.layout.plane_count; ++n) {
+    const DriverLayout::Plane& plane = agreement.layout.planes[n];
+    const std::size_t offset = buffer.samples[plane.memory].offset + plane.offset;
+    picture.planes[n] = {frame.stretches[plane.memory].mapping.bytes().data() + offset,
+                         static_cast<std::ptrdiff_t>(plane.stride)};
+  }
+  return picture;
 }
 
 }  // namespace
 
-DriverFrame::DriverFrame(MappedMemory driver_memory) : mapping(std::move(driver_memory)) {
-  memory = mapping.bytes().data();
-  capacity = mapping.bytes().size();
+DriverFrame::DriverFrame(std::vector<BufferMemory> driver_memory)
+    : stretches(std::move(driver_memory)) {
+  memory = stretches.front().mapping.bytes().data();
+  capacity = stretches.front().mapping.bytes().size();
+}
+
+Result<> DriverFrame::begin_read() {
+  is_read_ = true;
+  return synchronise(&DmaBuffer::begin_read);
+}
+
+Result<> DriverFrame::end_read() {
+  if (!std::exchange(is_read_, false)) return {};
+  return synchronise(&DmaBuffer::end_read);
+}
+
+Result<> DriverFrame::synchronise(Result<> (DmaBuffer::*moment)()) {
+  for (BufferMemory& stretch : stretches) {
+    if (!stretch.dma_buffer) continue;
+    if (auto done = ((*stretch.dma_buffer).*moment)(); !done) return done;
+  }
+  return {};
+}
+
+std::span<const std::byte> V4l2Stream::Captured::samples(std::size_t number) const {
+  const auto [offset, size] = buffer.samples[number];
+  const std::span<const std::byte> all = frame->stretches[number].mapping.bytes();
+  if (offset > all.size() || size > all.size() - offset) return {};
+  return all.subspan(offset, size);
 }
 
 ReturnedBuffers::ReturnedBuffers() : bell_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
@@ -54,13 +87,15 @@ std::uint32_t ReturnedBuffers::take() {
   return returned_.exchange(0);
 }
 
+tl::unexpected<FaultReport> V4l2Stream::failed(const std::string& message) const {
+  return tl::unexpected(FaultReport{Fault::ReadError, device_.path() + ": " + message});
+}
+
 DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(V4l2Device device,
                                                             const V4l2Agreement& agreement) {
-  std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device)));
-  if (!stream->returned_->is_open()) {
-    return tl::unexpected(FaultReport{Fault::ReadError, "too many open files"});
-  }
-  if (auto made = stream->make_buffers(agreement); !made) return tl::unexpected(made.error());
+  std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device), agreement));
+  if (!stream->returned_->is_open()) return stream->failed("too many open files");
+  if (auto made = stream->make_buffers(); !made) return tl::unexpected(made.error());
   if (auto queued = stream->queue_returned(); !queued) return tl::unexpected(queued.error());
   if (auto on = stream->device_.stream_on(); !on) return tl::unexpected(on.error());
   return stream;
@@ -73,39 +108,53 @@ V4l2Stream::~V4l2Stream() {
   static_cast<void>(device_.request_buffers(0));
 }
 
-DeviceResult<> V4l2Stream::make_buffers(const V4l2Agreement& agreement) {
+DeviceResult<> V4l2Stream::make_buffers() {
   const auto made = device_.request_buffers(kFramesPerCamera);
   if (!made) return tl::unexpected(made.error());
-  const std::size_t count = std::min<std::size_t>(*made, ReturnedBuffers::kMaxBuffers);
-  const bool packed = agreement.pixels.fourcc == V4L2_PIX_FMT_MJPEG;
-  const std::size_t needed =
-      packed ? 1 : agreement.stride * static_cast<std::size_t>(agreement.stream.height);
   std::vector<std::unique_ptr<DriverFrame>> frames;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(*made, ReturnedBuffers::kMaxBuffers); ++i) {
     auto memory = device_.map_buffer(static_cast<std::uint32_t>(i));
     if (!memory) return tl::unexpected(memory.error());
-    frames.push_back(std::make_unique<DriverFrame>(std::move(*memory)));
-    if (frames.back()->capacity < needed) {
-      return tl::unexpected(
-          FaultReport{Fault::WrongFormat, device_.path() + ": has buffers of " +
-                                              std::to_string(frames.back()->capacity) +
-                                              " bytes; a picture takes " + std::to_string(needed)});
+    if (memory->size() != agreement_.layout.memory_count) {
+      return failed("has buffers in " + std::to_string(memory->size()) + " pieces instead of " +
+                    std::to_string(agreement_.layout.memory_count));
     }
-    if (!packed) describe(*frames.back(), agreement);
+    frames.push_back(std::make_unique<DriverFrame>(std::move(*memory)));
+    frames_.push_back(frames.back().get());
+    if (auto large = check_size(*frames.back()); !large) return large;
     returned_->put(i);
   }
+  if (frames.empty()) return failed("made no buffers");
   pool_.emplace(std::move(frames),
                 [returned = returned_](std::size_t index) { returned->put(index); });
   return {};
 }
 
+DeviceResult<> V4l2Stream::check_size(const DriverFrame& frame) const {
+  for (std::size_t i = 0; i < frame.stretches.size(); ++i) {
+    const std::size_t size = frame.stretches[i].mapping.bytes().size();
+    const std::size_t needed = agreement_.layout.needed[i];
+    if (size >= needed) continue;
+    return tl::unexpected(FaultReport{Fault::WrongFormat,
+                                      device_.path() + ": has buffers of " + std::to_string(size) +
+                                          " bytes; a picture takes " + std::to_string(needed)});
+  }
+  return {};
+}
+
 DeviceResult<> V4l2Stream::queue_returned() {
   const std::uint32_t returned = returned_->take();
-  for (std::uint32_t i = 0; i < pool_->size(); ++i) {
+  for (std::uint32_t i = 0; i < frames_.size(); ++i) {
     if ((returned >> i & 1U) == 0) continue;
-    if (auto queued = device_.queue(i); !queued) return queued;
-    ++queued_;
+    if (auto queued = queue(i); !queued) return queued;
   }
+  return {};
+}
+
+DeviceResult<> V4l2Stream::queue(std::uint32_t index) {
+  if (auto ended = frames_[index]->end_read(); !ended) return failed(ended.error().message);
+  if (auto queued = device_.queue(index); !queued) return queued;
+  ++queued_;
   return {};
 }
 
@@ -120,7 +169,7 @@ DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::next(TimePoint dea
   if (files[1].revents == 0) return std::nullopt;
   auto captured = take();
   if (captured && !*captured && (files[1].revents & (POLLERR | POLLHUP)) != 0) {
-    return tl::unexpected(FaultReport{Fault::ReadError, device_.path() + ": the stream broke off"});
+    return failed("the stream broke off");
   }
   return captured;
 }
@@ -132,11 +181,11 @@ DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::take() {
   const std::uint32_t index = (*buffer)->index;
   auto frame = index < pool_->size() ? pool_->acquire(index) : nullptr;
   if (!frame || queued_ == 0) {
-    return tl::unexpected(FaultReport{
-        Fault::ReadError,
-        device_.path() + ": filled buffer " + std::to_string(index) + ", which it was not given"});
+    return failed("filled buffer " + std::to_string(index) + ", which it was not given");
   }
   --queued_;
+  if (auto begun = frame->begin_read(); !begun) return failed(begun.error().message);
+  if (agreement_.is_handed_on()) frame->picture = describe(*frame, agreement_, **buffer);
   return Captured{std::move(frame), **buffer};
 }
 

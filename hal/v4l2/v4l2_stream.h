@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "hal/buffer_pool.h"
 #include "hal/frame.h"
@@ -15,9 +18,19 @@ namespace orbwatch::hal {
 
 /// A frame in a driver's memory, which stays mapped for as long as the frame is held.
 struct DriverFrame : FrameBuffer {
-  explicit DriverFrame(MappedMemory memory);
+  explicit DriverFrame(std::vector<BufferMemory> driver_memory);
 
-  MappedMemory mapping;
+  /// For the camera's thread: before the first look at what the device wrote, and before the device
+  /// writes again. Error: as DmaBuffer.
+  Result<> begin_read();
+  Result<> end_read();
+
+  std::vector<BufferMemory> stretches;  ///< in the order of the format's
+
+ private:
+  Result<> synchronise(Result<> (DmaBuffer::*moment)());
+
+  bool is_read_ = false;
 };
 
 /// The door bell of a stream: buffers whose last frame was released wait here until the camera's
@@ -46,8 +59,11 @@ class ReturnedBuffers {
 class V4l2Stream {
  public:
   struct Captured {
-    std::shared_ptr<DriverFrame> frame;  ///< its picture is set, unless the format is MJPEG
-    v4l2_buffer buffer;                  ///< the driver's words about it
+    std::shared_ptr<DriverFrame> frame;  ///< its picture is set, if the driver's memory is one
+    FilledBuffer buffer;                 ///< the driver's words about it
+
+    /// What is in one stretch of memory: empty when the driver says it is where it cannot be.
+    std::span<const std::byte> samples(std::size_t memory) const;
   };
 
   /// Makes the buffers and starts the device, whose format was agreed on.
@@ -68,16 +84,24 @@ class V4l2Stream {
   void ring() { returned_->ring(); }
 
  private:
-  explicit V4l2Stream(V4l2Device device)
-      : device_(std::move(device)), returned_(std::make_shared<ReturnedBuffers>()) {}
+  V4l2Stream(V4l2Device device, const V4l2Agreement& agreement)
+      : device_(std::move(device)),
+        agreement_(agreement),
+        returned_(std::make_shared<ReturnedBuffers>()) {}
 
-  DeviceResult<> make_buffers(const V4l2Agreement& agreement);
+  DeviceResult<> make_buffers();
+  DeviceResult<> check_size(const DriverFrame& frame) const;
   DeviceResult<> queue_returned();
+  DeviceResult<> queue(std::uint32_t index);
   DeviceResult<std::optional<Captured>> take();
 
+  tl::unexpected<FaultReport> failed(const std::string& message) const;
+
   V4l2Device device_;
+  V4l2Agreement agreement_;
   std::shared_ptr<ReturnedBuffers> returned_;
   std::optional<BufferPool<DriverFrame>> pool_;
+  std::vector<DriverFrame*> frames_;  ///< the pool's, by index
   std::size_t queued_ = 0;
 };
 

@@ -1,0 +1,28 @@
+#include "hal/dma_buffer.h"
+
+#include <linux/dma-buf.h>
+#include <sys/ioctl.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace orbwatch::hal {
+namespace {
+
+Result<> synchronise(const FileDescriptor& file, unsigned long long moment) {
+  dma_buf_sync sync{DMA_BUF_SYNC_READ | moment};
+  // The kernel's documentation asks for the repetition.
+  while (::ioctl(file.get(), DMA_BUF_IOCTL_SYNC, &sync) != 0) {
+    if (errno == EINTR || errno == EAGAIN) continue;
+    return fail("cannot synchronise a dma-buf: " + std::generic_category().message(errno));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<> DmaBuffer::begin_read() { return synchronise(file_, DMA_BUF_SYNC_START); }
+
+Result<> DmaBuffer::end_read() { return synchronise(file_, DMA_BUF_SYNC_END); }
+
+}  // namespace orbwatch::hal
