@@ -35,9 +35,16 @@ struct ReplayPart {
   bool loop = true;
 };
 
+struct V4l2ControlSettings {
+  std::string name;
+  double value = 0;
+};
+
 struct V4l2Part {
   std::string device;
   std::string pixel_format = "auto";
+  bool colour = true;
+  std::vector<V4l2ControlSettings> controls;
 };
 
 enum class BackEnd { Simulated, Replay, V4l2 };

@@ -10,6 +10,7 @@
 #include "app/config/rig_file.h"
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/status.h"
+#include "hal/v4l2/pixel_coding.h"
 
 /// The one declaration of every key of the configuration file: name, where its value lives, what is
 /// allowed, what it means. visit() is called with a loader, which reads and checks, or with a
@@ -63,9 +64,24 @@ void visit(Visitor& v, ReplayPart& part) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, V4l2ControlSettings& control) {
+  v.required("name", control.name,
+             "V4L2's, as v4l2-ctl spells it or not, or GenICam's: ExposureTime (us), ExposureAuto, "
+             "Gain, GainAuto, BalanceWhiteAuto, TriggerMode");
+  v.required("value", control.value, kAnyNumber, "In the driver's units; for a menu, its number");
+}
+
+template <class Visitor>
 void visit(Visitor& v, V4l2Part& part) {
-  v.required("device", part.device, "Device node; a /dev/v4l/by-id path survives replugging");
-  v.optional("pixel_format", part.pixel_format, "auto, yuyv, grey or mjpeg");
+  v.required("device", part.device,
+             "Device node, or what survives replugging: a link in /dev/v4l/by-id or by-path, or "
+             "the place on a bus (usb-0000:00:14.0-1)");
+  v.optional("pixel_format", part.pixel_format, hal::kPixelCodingNames,
+             "What the camera sends; auto takes the first that it has in the size and at the rate");
+  v.optional("colour", part.colour,
+             "Make colour of a sensor's mosaic and of MJPEG; else the mosaic stays as it is, and "
+             "of MJPEG the luminance");
+  v.tables("control", part.controls, 0, 64, "What the camera is set to, in this order");
 }
 
 template <class Visitor>

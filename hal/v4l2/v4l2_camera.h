@@ -24,9 +24,9 @@ struct V4l2Settings {
   /// by-path and places on a bus name the same camera after it was plugged in again, while
   /// /dev/video0 may then be another.
   std::string device = "/dev/video0";
-  std::string pixel_format = "auto";  ///< one of kPixelCodingNames
-  bool colour = true;                 ///< see frame_format()
-  std::vector<Control> controls;      ///< to set, in this order; see set_control()
+  std::string pixel_format = "auto";   ///< one of kPixelCodingNames
+  bool colour = true;                  ///< see frame_format()
+  std::vector<Control> controls = {};  ///< to set, in this order; see set_control()
 };
 
 /// A USB, CSI or other V4L2 camera. Frames that the pipeline reads as they are, are handed on in

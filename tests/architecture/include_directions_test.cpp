@@ -28,7 +28,7 @@ const std::vector<Rule> kRules{
     {"hal", {"proc/image", "hal"}, {"tl/expected", "libcamera/", "gpiod", "linux/"}},
     {"hal/jpeg", {"proc/image", "hal"}, {"tl/expected", "turbojpeg"}},
     {"hal/replay", {"proc/image", "hal"}, {"tl/expected", "opencv2/"}},
-    {"hal/v4l2", {"proc/image", "hal"}, {"tl/expected", "linux/"}},
+    {"hal/v4l2", {"proc/image", "hal"}, {"tl/expected", "linux/", "opencv2/"}},
     {"app",
      {"proc", "hal", "app"},
      {"opencv2/", "toml++/", "yaml-cpp/", "dds/", "modbus/", "tl/expected"}},

@@ -52,7 +52,9 @@ std::unique_ptr<DriverFrame> make_frame() {
   void* const memory =
       ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   EXPECT_NE(memory, MAP_FAILED);
-  return std::make_unique<DriverFrame>(MappedMemory({static_cast<std::byte*>(memory), 4096}));
+  std::vector<BufferMemory> stretches;
+  stretches.push_back({MappedMemory({static_cast<std::byte*>(memory), 4096}), std::nullopt});
+  return std::make_unique<DriverFrame>(std::move(stretches));
 }
 
 TEST(DriverFrame, StaysMappedWhileAFrameIsHeldAfterTheStreamIsGone) {

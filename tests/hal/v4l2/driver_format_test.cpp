@@ -1,12 +1,13 @@
-#include "hal/v4l2/v4l2_format.h"
+#include "hal/v4l2/driver_format.h"
 
 #include <gtest/gtest.h>
+#include <linux/videodev2.h>
 
 namespace orbwatch::hal {
 namespace {
 
 ColourSpace colours(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization) {
-  v4l2_pix_format format{};
+  DriverFormat format;
   format.colorspace = colorspace;
   format.ycbcr_enc = encoding;
   format.quantization = quantization;

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <vector>
+
+#include "hal/v4l2/v4l2_camera.h"
+
+namespace orbwatch::hal {
+
+/// A camera that runs, with all that it delivered and reported. Emulated machines are slow: waits
+/// end with what is waited for, or after minutes.
+class CameraRun {
+ public:
+  explicit CameraRun(V4l2Settings settings) : camera_(std::move(settings)) {}
+  ~CameraRun() { camera_.stop(); }
+
+  V4l2Camera& camera() { return camera_; }
+
+  /// Configures and starts; false, and a failure, when the camera refuses.
+  bool start(const StreamRequest& request) {
+    const auto format = camera_.configure(request);
+    EXPECT_TRUE(format) << format.error().message;
+    if (!format) return false;
+    format_ = *format;
+    const auto started = camera_.start([this](const Frame& frame) { on_frame(frame); },
+                                       [this](const FaultReport& report) { on_fault(report); });
+    EXPECT_TRUE(started);
+    return started.has_value();
+  }
+  const StreamFormat& format() const { return format_; }
+
+  /// The next frame that is delivered, or null when none comes.
+  Frame next_frame() {
+    std::unique_lock lock(mutex_);
+    newest_ = nullptr;
+    changed_.wait_for(lock, kPatience, [this] { return newest_ != nullptr; });
+    return newest_;
+  }
+
+  /// Waits until a state is reported that was not waited for before; false when it is not.
+  bool reports(Fault fault) {
+    std::unique_lock lock(mutex_);
+    const bool came = changed_.wait_for(lock, kPatience, [&] {
+      while (seen_ < reports_.size()) {
+        if (reports_[seen_++].fault == fault) return true;
+      }
+      return false;
+    });
+    for (const auto& report : reports_) {
+      if (!came) ADD_FAILURE() << operator_text(report.fault) << ": " << report.detail;
+    }
+    return came;
+  }
+
+  /// Lets go of the frame that it holds.
+  void release() {
+    const std::lock_guard lock(mutex_);
+    newest_ = nullptr;
+  }
+
+ private:
+  static constexpr std::chrono::seconds kPatience{90};
+
+  void on_frame(const Frame& frame) {
+    const std::lock_guard lock(mutex_);
+    newest_ = frame;
+    changed_.notify_all();
+  }
+  void on_fault(const FaultReport& report) {
+    const std::lock_guard lock(mutex_);
+    reports_.push_back(report);
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Frame newest_;
+  std::vector<FaultReport> reports_;
+  std::size_t seen_ = 0;
+  StreamFormat format_;
+  V4l2Camera camera_;
+};
+
+}  // namespace orbwatch::hal

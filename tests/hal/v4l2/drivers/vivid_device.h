@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "hal/v4l2/v4l2_controls.h"
+#include "hal/v4l2/v4l2_list.h"
+
+/// The camera of the kernel's driver vivid. These tests run in the machine that tests/hil makes.
+namespace orbwatch::hal {
+
+/// Where it is on its bus: the same again after its driver was unbound.
+inline constexpr const char* kVivid = "platform:vivid-000";
+
+/// A device of its own for what is not asked through the camera that is tested.
+inline V4l2Device open_vivid() {
+  return find_v4l2_device(kVivid).and_then(V4l2Device::open).value();
+}
+
+inline void set_vivid(const char* control, double value) {
+  V4l2Device device = open_vivid();
+  const auto done = set_control(device, control, value);
+  ASSERT_TRUE(done) << done.error().message;
+}
+
+/// Takes the device from its driver ("unbind") or gives it back ("bind"), as plugging does.
+inline void plug(const char* action) {
+  std::ofstream file(std::string("/sys/bus/platform/drivers/vivid/") + action);
+  file << "vivid.0" << std::flush;
+  ASSERT_TRUE(file.good()) << action;
+}
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/hal/v4l2/drivers/camera_run.h"
+#include "tests/hal/v4l2/drivers/vivid_device.h"
+
+/// What can go wrong with a camera, by vivid's means of injecting it: each is reported, and the
+/// camera comes back by itself.
+namespace orbwatch::hal {
+namespace {
+
+constexpr StreamRequest kRequest{.width = 320, .height = 180, .frame_rate = 60};
+
+V4l2Settings settings() { return {kVivid, "yuyv", true, {}}; }
+
+TEST(VividFaults, DroppedBuffersAreGapsInTheSequence) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.next_frame());
+  set_vivid("percentage_of_dropped_buffers", 70);
+  std::uint64_t last = run.next_frame()->metadata.sequence;
+  bool gap = false;
+  for (int n = 0; n < 200 && !gap; ++n) {
+    const Frame frame = run.next_frame();
+    ASSERT_TRUE(frame);
+    gap = frame->metadata.sequence > last + 1;
+    last = frame->metadata.sequence;
+  }
+  set_vivid("percentage_of_dropped_buffers", 0);
+  EXPECT_TRUE(gap);
+}
+
+TEST(VividFaults, ADamagedFrameIsWithheldAndReported) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.reports(Fault::None));
+  for (int n = 0; n < 3; ++n) {
+    set_vivid("inject_v4l2_buf_flag_error", 1);
+    EXPECT_TRUE(run.reports(Fault::CorruptFrame));
+    EXPECT_TRUE(run.reports(Fault::None));
+  }
+}
+
+TEST(VividFaults, ABrokenStreamIsOpenedAgain) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.reports(Fault::None));
+  set_vivid("inject_fatal_streaming_error", 1);
+  EXPECT_TRUE(run.reports(Fault::ReadError));
+  EXPECT_TRUE(run.reports(Fault::None));
+  EXPECT_TRUE(run.next_frame());
+}
+
+class VividStartError : public testing::TestWithParam<const char*> {};
+
+TEST_P(VividStartError, IsReportedAndTriedAgain) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.camera().configure(kRequest));
+  set_vivid(GetParam(), 1);
+  ASSERT_TRUE(run.start(kRequest));
+  EXPECT_TRUE(run.reports(Fault::ReadError));
+  EXPECT_TRUE(run.reports(Fault::None));
+  EXPECT_TRUE(run.next_frame());
+}
+INSTANTIATE_TEST_SUITE_P(OfDriver, VividStartError,
+                         testing::Values("inject_vidioc_reqbufs_error", "inject_vidioc_qbuf_error",
+                                         "inject_vidioc_streamon_error"));
+
+/// Open files, and mappings of device memory.
+struct Holdings {
+  std::ptrdiff_t files = 0;
+  int mappings = 0;
+  bool operator==(const Holdings&) const = default;
+};
+
+Holdings holdings() {
+  namespace fs = std::filesystem;
+  Holdings held;
+  held.files = std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const bool device =
+        line.find("/dev/video") != std::string::npos || line.find("dmabuf") != std::string::npos;
+    held.mappings += device ? 1 : 0;
+  }
+  return held;
+}
+
+void PrintTo(const Holdings& held, std::ostream* out) {
+  *out << held.files << " files, " << held.mappings << " mappings";
+}
+
+/// The first pixels of a frame.
+std::vector<std::byte> first_row(const Frame& frame) {
+  const std::byte* data = frame->picture.planes[0].data;
+  return {data, data + frame->picture.planes[0].stride};
+}
+
+TEST(VividFaults, UnpluggingIsReportedAndNothingIsLeftBehindByManyReturns) {
+  const Holdings before = holdings();
+  {
+    CameraRun run(settings());
+    ASSERT_TRUE(run.start(kRequest));
+    ASSERT_TRUE(run.reports(Fault::None));
+    ASSERT_TRUE(run.next_frame());
+    Holdings streaming;
+    for (int n = 0; n < 4; ++n) {
+      Frame held = run.next_frame();
+      ASSERT_TRUE(held);
+      const auto row = first_row(held);
+      plug("unbind");
+      EXPECT_TRUE(run.reports(Fault::Unplugged));
+      EXPECT_EQ(first_row(held), row) << "of a frame that is held while its camera is gone";
+      plug("bind");
+      EXPECT_TRUE(run.reports(Fault::None));
+      EXPECT_EQ(first_row(held), row) << "of a frame that is held while its camera is back";
+      held.reset();
+      // The frame that is held now is of the new stream.
+      ASSERT_TRUE(run.next_frame());
+      if (n == 0) streaming = holdings();
+      EXPECT_EQ(holdings(), streaming) << "return " << n;
+    }
+    EXPECT_GT(streaming.mappings, 0);
+  }
+  EXPECT_EQ(holdings(), before);
+}
+
+TEST(VividFaults, ADisconnectedDeviceComesBackWithItsControls) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.reports(Fault::None));
+  const auto set = run.camera().set("Brightness", 77);
+  ASSERT_TRUE(set) << set.error().message;
+  set_vivid("disconnect", 1);
+  EXPECT_TRUE(run.reports(Fault::Unplugged));
+  plug("unbind");
+  plug("bind");
+  EXPECT_TRUE(run.reports(Fault::None));
+  const V4l2Device device = open_vivid();
+  auto control = device.next_control(0);
+  while (control && control_variable(control->name) != "brightness") {
+    control = device.next_control(control->id);
+  }
+  ASSERT_TRUE(control);
+  EXPECT_EQ(device.control(*control).value(), 77);
+}
+
+TEST(VividFaults, AConsumerThatHoldsAllFramesIsNoFaultOfTheCamera) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.reports(Fault::None));
+  std::vector<Frame> held;
+  while (held.size() < kFramesPerCamera) {
+    const Frame frame = run.next_frame();
+    ASSERT_TRUE(frame);
+    if (std::find(held.begin(), held.end(), frame) == held.end()) held.push_back(frame);
+  }
+  run.release();
+  const std::uint64_t last = held.back()->metadata.sequence;
+  held.clear();
+  const Frame frame = run.next_frame();
+  ASSERT_TRUE(frame);
+  EXPECT_GT(frame->metadata.sequence, last);
+}
+
+}  // namespace
+}  // namespace orbwatch::hal
