@@ -85,6 +85,30 @@ TEST_F(ConfigurationFile, MayRepeatTheSizeThatTheRigStates) {
   EXPECT_EQ(c->cameras[0].height, 80);
 }
 
+const std::string kV4l2 = replaced("back_end = \"replay\"\n[camera.replay]\nsource = \"pictures\"",
+                                   "back_end = \"v4l2\"\n[camera.v4l2]\ndevice = \"usb-1\"\n");
+
+TEST_F(ConfigurationFile, SaysWhatAV4l2CameraIsSetTo) {
+  const auto c = parse(replaced("\"usb-1\"", R"("usb-1"
+pixel_format = "rggb10p"
+colour = false
+[[camera.v4l2.control]]
+name = "ExposureAuto"
+value = 1
+[[camera.v4l2.control]]
+name = "ExposureTime"
+value = 8000)",
+                                kV4l2));
+  ASSERT_TRUE(c) << c.error().message;
+  const V4l2Part& part = *c->cameras[0].v4l2;
+  EXPECT_EQ(part.device, "usb-1");
+  EXPECT_EQ(part.pixel_format, "rggb10p");
+  EXPECT_FALSE(part.colour);
+  ASSERT_EQ(part.controls.size(), 2U);
+  EXPECT_EQ(part.controls[0].name, "ExposureAuto");
+  EXPECT_EQ(part.controls[1].value, 8000);
+}
+
 struct Refusal {
   std::string name;
   std::string text;
@@ -158,6 +182,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BackEndWithoutTable",
                 replaced("\"replay\"", "\"v4l2\""),
                 {"back_end", "[camera.v4l2]"}},
+        Refusal{"UnknownPixelFormat",
+                replaced("\"usb-1\"", "\"usb-1\"\npixel_format = \"h264\"", kV4l2),
+                {"site.toml:7: camera.v4l2.pixel_format", "h264", "auto, yuyv, uyvy, nv12"}},
         Refusal{"NoSuchCamera",
                 replaced("camera = \"a\"", "camera = \"b\""),
                 {"site.toml:13:", "\"b\"", "there are: a"}},

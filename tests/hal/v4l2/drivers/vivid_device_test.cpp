@@ -69,7 +69,7 @@ TEST(VividList, HasControlsWithRangesAndMenus) {
   EXPECT_EQ(brightness.default_value, 128);
   EXPECT_TRUE(brightness.menu.empty());
   EXPECT_THAT(control("test_pattern").menu, Contains(Pair(1, "100% Colorbar")));
-  EXPECT_TRUE(control("read_only_integer").read_only);
+  EXPECT_TRUE(control("read_only_integer_32_bits").read_only);
 }
 
 TEST(VividControls, AreSetByAnySpellingAndRefusedOutsideTheirRange) {
@@ -80,7 +80,7 @@ TEST(VividControls, AreSetByAnySpellingAndRefusedOutsideTheirRange) {
   const auto large = set_control(device, "Gain", 256);
   ASSERT_FALSE(large);
   EXPECT_THAT(large.error().message, HasSubstr("it takes 0 to 255"));
-  EXPECT_FALSE(set_control(device, "read_only_integer", 0));
+  EXPECT_FALSE(set_control(device, "read_only_integer_32_bits", 0));
   const auto unknown = set_control(device, "warp", 1);
   ASSERT_FALSE(unknown);
   EXPECT_THAT(unknown.error().message, HasSubstr("brightness"));
