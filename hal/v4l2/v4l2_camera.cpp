@@ -51,7 +51,7 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   if (auto ready = set_up(*device, settings_.pixel_format, request); !ready)
     return fail(ready.error().detail);
   decoder_.reset();
-  if (!agreed_.is_handed_on()) decoder_.emplace(agreed_);
+  if (!agreed_.is_handed_on()) decoder_ = std::make_unique<FrameDecoder>(agreed_);
   return agreed_.stream;
 }
 

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,7 +65,7 @@ class V4l2Camera : public Camera {
 
   V4l2Settings settings_;
   V4l2Agreement agreed_;
-  std::optional<FrameDecoder> decoder_;  ///< for what is not handed on as it is
+  std::unique_ptr<FrameDecoder> decoder_;  ///< for what is not handed on as it is
   FrameCounter counter_;
   bool delivered_ = false;               ///< since the device was opened
   std::atomic<bool> triggered_ = false;  ///< silence is no fault
