@@ -28,6 +28,7 @@ struct FrameMetadata {
   /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
   /// that it started. None: the camera runs freely.
   std::optional<std::uint64_t> trigger = std::nullopt;
+  double lux = 0;  ///< illuminance of the scene as the camera estimates it; 0: not known
 };
 
 /// One picture in a buffer of a camera. Filled by the camera's thread, then never changed again.
@@ -35,7 +36,8 @@ struct FrameMetadata {
 struct FrameBuffer {
   Picture picture;
   FrameMetadata metadata;
-  std::byte* memory = nullptr;           ///< start of the writable buffer behind the picture
+  std::byte* memory =
+      nullptr;  ///< start of the buffer behind the picture; null where only a device writes
   std::size_t capacity = 0;              ///< its size in bytes
   std::unique_ptr<std::byte[]> storage;  ///< owns the memory, unless that is a driver's
 };

@@ -47,7 +47,15 @@ struct V4l2Part {
   std::vector<V4l2ControlSettings> controls;
 };
 
-enum class BackEnd { Simulated, Replay, V4l2 };
+struct LibcameraPart {
+  std::string camera;
+  std::string pixel_format = "auto";
+  int sensor_width = 0;
+  int sensor_height = 0;
+  int sensor_bit_depth = 0;
+};
+
+enum class BackEnd { Simulated, Replay, V4l2, Libcamera };
 
 struct CameraSettings {
   int line = 0;  ///< in the file, for messages
@@ -61,6 +69,7 @@ struct CameraSettings {
   std::optional<SimulatedCameraPart> simulated;
   std::optional<ReplayPart> replay;
   std::optional<V4l2Part> v4l2;
+  std::optional<LibcameraPart> libcamera;
   std::vector<hal::ScriptedFault> faults;
 };
 

@@ -36,7 +36,8 @@ inline constexpr std::array kCombines{Word{"mix", Combine::Mix},
                                       Word{"sharpest", Combine::Sharpest},
                                       Word{"switch", Combine::Switch}};
 inline constexpr std::array kBackEnds{Word{"simulated", BackEnd::Simulated},
-                                      Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2}};
+                                      Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2},
+                                      Word{"libcamera", BackEnd::Libcamera}};
 inline constexpr std::array kSyncPolicies{Word{"hold", hal::SyncPolicy::Hold},
                                           Word{"nearest", hal::SyncPolicy::Nearest}};
 inline constexpr std::array kFaults{
@@ -85,6 +86,22 @@ void visit(Visitor& v, V4l2Part& part) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, LibcameraPart& part) {
+  v.required("camera", part.camera,
+             "Its id in libcamera, or a part of id or sensor model that only one camera has");
+  v.optional("pixel_format", part.pixel_format,
+             "auto, or libcamera's name: NV12, YUV420, R10, ...");
+  v.optional("sensor_width", part.sensor_width, kSide,
+             "Of the sensor mode that is required, px; else libcamera chooses the mode");
+  v.optional("sensor_height", part.sensor_height, kSide, "Of the sensor mode, px");
+  v.optional("sensor_bit_depth", part.sensor_bit_depth, Range::between(1, 32),
+             "Of the sensor mode, bits per sample");
+  v.require((part.sensor_width == 0) == (part.sensor_height == 0) &&
+                (part.sensor_width == 0) == (part.sensor_bit_depth == 0),
+            "sensor_width", "a sensor mode needs sensor_width, sensor_height and sensor_bit_depth");
+}
+
+template <class Visitor>
 void visit(Visitor& v, hal::ScriptedFault& fault) {
   v.required("fault", fault.fault, kFaults, "What fails");
   v.required("from", fault.from, Range::between(0, 1e15), "First frame that fails");
@@ -111,6 +128,7 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.table("simulated", camera.simulated, "For back_end simulated");
   v.table("replay", camera.replay, "For back_end replay");
   v.table("v4l2", camera.v4l2, "For back_end v4l2");
+  v.table("libcamera", camera.libcamera, "For back_end libcamera");
   v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
   v.require(camera.back_end != BackEnd::Simulated || camera.simulated, "back_end",
             "simulated needs a table [camera.simulated]");
@@ -120,6 +138,8 @@ void visit(Visitor& v, CameraSettings& camera) {
             "replay needs a table [camera.replay]");
   v.require(camera.back_end != BackEnd::V4l2 || camera.v4l2, "back_end",
             "v4l2 needs a table [camera.v4l2]");
+  v.require(camera.back_end != BackEnd::Libcamera || camera.libcamera, "back_end",
+            "libcamera needs a table [camera.libcamera]");
 }
 
 template <class Visitor>

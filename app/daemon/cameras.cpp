@@ -1,6 +1,7 @@
 #include "app/daemon/cameras.h"
 
 #include "app/simulation/simulated_camera.h"
+#include "hal/libcamera/libcamera_camera.h"
 #include "hal/replay/replay_camera.h"
 #include "hal/v4l2/v4l2_camera.h"
 
@@ -29,6 +30,12 @@ hal::V4l2Settings v4l2_settings(const V4l2Part& part) {
   return settings;
 }
 
+hal::LibcameraSettings libcamera_settings(const LibcameraPart& part) {
+  return {part.camera,
+          part.pixel_format,
+          {part.sensor_width, part.sensor_height, part.sensor_bit_depth}};
+}
+
 }  // namespace
 
 std::unique_ptr<hal::Camera> make_camera(
@@ -42,6 +49,8 @@ std::unique_ptr<hal::Camera> make_camera(
                               settings.replay->loop, settings.faults});
     case BackEnd::V4l2:
       return std::make_unique<hal::V4l2Camera>(v4l2_settings(*settings.v4l2));
+    case BackEnd::Libcamera:
+      return std::make_unique<hal::LibcameraCamera>(libcamera_settings(*settings.libcamera));
   }
   return nullptr;
 }

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <libcamera/camera_manager.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::hal {
+
+/// A share in the process's CameraManager, of which libcamera allows one: the first share starts
+/// it, the end of the last one stops it. Error: libcamera does not start. Thread-safe.
+Result<std::shared_ptr<libcamera::CameraManager>> camera_manager();
+
+/// A camera that libcamera found.
+struct ListedCamera {
+  std::string id;
+  std::string model;  ///< of the sensor
+};
+
+/// The cameras that are there now. Thread-safe.
+std::vector<ListedCamera> list_cameras(const libcamera::CameraManager& manager);
+
+/// What the sensor calls itself, or "unknown".
+std::string model_of(const libcamera::Camera& camera);
+
+/// The id of the camera that `wanted` names: its whole id, or a part of id or model that only one
+/// of `cameras` has; "" is the only camera. The error lists what there is. Reentrant.
+Result<std::string> choose_camera(const std::vector<ListedCamera>& cameras,
+                                  std::string_view wanted);
+
+/// Tells of a camera's removal for as long as it lives. `on_removed` is called on libcamera's
+/// thread and must return at once.
+class RemovalWatch {
+ public:
+  RemovalWatch(std::shared_ptr<const libcamera::Camera> camera, std::function<void()> on_removed);
+  RemovalWatch(const RemovalWatch&) = delete;
+  RemovalWatch& operator=(const RemovalWatch&) = delete;
+  ~RemovalWatch();
+
+  /// For the manager's signal.
+  void tell(const libcamera::Camera* removed) const;
+
+ private:
+  std::shared_ptr<const libcamera::Camera> camera_;
+  std::function<void()> on_removed_;
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,203 @@
+#include "hal/libcamera/libcamera_camera.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stop_token>
+
+#include "hal/back_off.h"
+#include "hal/libcamera/request_metadata.h"
+
+namespace orbwatch::hal {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kMaxFrameRate = 1000;
+/// Cameras settle their exposure before the first frame.
+constexpr Clock::duration kFirstFrameTimeout = 5s;
+
+CameraInfo info_of(const std::string& wanted, libcamera::CameraManager* manager) {
+  CameraInfo info{wanted, "unknown", "libcamera"};
+  if (manager == nullptr) return info;
+  const auto id = choose_camera(list_cameras(*manager), wanted);
+  const auto camera = id ? manager->get(*id) : nullptr;
+  if (camera) info.model = model_of(*camera);
+  return info;
+}
+
+std::size_t used_bytes(const libcamera::FrameMetadata& buffer) {
+  std::size_t used = 0;
+  for (const auto& plane : buffer.planes()) used += plane.bytesused;
+  return used;
+}
+
+}  // namespace
+
+LibcameraCamera::LibcameraCamera(LibcameraSettings settings)
+    : LibcameraCamera(std::move(settings), camera_manager().value_or(nullptr)) {}
+
+LibcameraCamera::LibcameraCamera(LibcameraSettings settings, SharedManager manager)
+    : Camera(info_of(settings.camera, manager.get())),
+      settings_(std::move(settings)),
+      manager_(std::move(manager)) {}
+
+LibcameraCamera::~LibcameraCamera() { stop(); }
+
+/// Whether request and settings make sense for any camera at all.
+Result<> LibcameraCamera::check(const StreamRequest& request) const {
+  const std::string who = "camera " + info().id + ": ";
+  std::string names = "auto";
+  bool known = settings_.pixel_format == names;
+  for (const LibcameraFormat& format : kLibcameraFormats) {
+    names += ", " + std::string(format.name);
+    known = known || settings_.pixel_format == format.name;
+  }
+  if (!known) {
+    return fail(who + "pixel format \"" + settings_.pixel_format + "\"; it must be one of " +
+                names);
+  }
+  if (std::min(request.width, request.height) < 0 ||
+      std::max(request.width, request.height) > kMaxSide) {
+    return fail(who + "asked for " + std::to_string(request.width) + "x" +
+                std::to_string(request.height) + "; at most " + std::to_string(kMaxSide) +
+                " pixels a side");
+  }
+  if (!(request.frame_rate >= 0 && request.frame_rate <= kMaxFrameRate)) {
+    return fail(who + "asked for " + std::to_string(request.frame_rate) +
+                " frames per second; at most " + std::to_string(kMaxFrameRate));
+  }
+  const SensorMode& mode = settings_.sensor_mode;
+  if (mode.is_set() && (std::min({mode.width, mode.height, mode.bit_depth}) <= 0 ||
+                        std::max(mode.width, mode.height) > kMaxSide || mode.bit_depth > 32)) {
+    return fail(who + "sensor mode " + to_text(mode) + "; it needs width, height and bit depth");
+  }
+  return {};
+}
+
+Result<std::string> LibcameraCamera::find() {
+  if (!manager_) {
+    auto manager = camera_manager();
+    if (!manager) return tl::unexpected(manager.error());
+    manager_ = std::move(*manager);
+  }
+  if (!id_.empty()) return id_;
+  return choose_camera(list_cameras(*manager_), settings_.camera);
+}
+
+Result<std::shared_ptr<libcamera::Camera>> LibcameraCamera::open() {
+  const auto id = find();
+  if (!id) return tl::unexpected(id.error());
+  auto camera = manager_->get(*id);
+  if (!camera) return fail("libcamera: camera \"" + *id + "\" is not connected");
+  return camera;
+}
+
+Result<StreamFormat> LibcameraCamera::do_configure(const StreamRequest& request) {
+  if (auto sound = check(request); !sound) return tl::unexpected(sound.error());
+  const std::lock_guard lock(camera_mutex_);
+  auto camera = open();
+  if (!camera) return tl::unexpected(camera.error());
+  const auto acquired = AcquiredCamera::acquire(std::move(*camera));
+  if (!acquired) return fail(acquired.error().detail);
+  const auto agreed =
+      agree_on_configuration(**acquired, settings_.pixel_format, settings_.sensor_mode, request);
+  if (!agreed) return tl::unexpected(agreed.error());
+  id_ = (*acquired)->id();
+  format_ = agreed->stream;
+  pixel_format_ = agreed->pixels->name;
+  expected_rate_ = format_.frame_rate != 0 ? format_.frame_rate : request.frame_rate;
+  return format_;
+}
+
+Result<> LibcameraCamera::set(std::string_view control, double value) {
+  const std::lock_guard lock(camera_mutex_);
+  const auto camera = open();
+  if (!camera) return tl::unexpected(camera.error());
+  if (auto done = controls_.set((*camera)->controls(), control, value); !done) {
+    return fail((*camera)->id() + ": " + done.error().message);
+  }
+  return {};
+}
+
+void LibcameraCamera::run(const std::stop_token& stop) {
+  counter_ = FrameCounter();
+  BackOff pause;
+  while (!stop.stop_requested()) {
+    delivered_ = false;
+    const FaultReport fault = stream_until_fault(stop);
+    report(fault.fault, fault.detail);
+    if (delivered_) pause.reset();
+    if (!wait_until(stop, Clock::now() + pause.next())) return;
+  }
+}
+
+/// Acquires the camera and streams; returns what ended it, which means nothing after a stop.
+FaultReport LibcameraCamera::stream_until_fault(const std::stop_token& stop) {
+  const auto started = start_again();
+  if (!started) return started.error();
+  LibcameraStream& stream = **started;
+  const std::stop_callback wake(stop, [&stream] { stream.ring(); });
+
+  counter_.restart();
+  const LibcameraStream::OnCaptured on_captured = [this](const auto& captured) { take(captured); };
+  const Clock::duration timeout = stall_timeout(expected_rate_);
+  TimePoint deadline = Clock::now() + std::max(timeout, kFirstFrameTimeout);
+  while (!stop.stop_requested()) {
+    const bool starved = stream.is_starved();
+    const auto captured = stream.wait(deadline, on_captured);
+    if (!captured) return captured.error();
+    if (*captured != 0 || starved) {
+      deadline = Clock::now() + timeout;
+    } else if (Clock::now() >= deadline) {
+      return {Fault::Stalled, id_ + ": no frame for " + std::to_string(timeout / 1ms) + " ms"};
+    }
+  }
+  return {};
+}
+
+/// Sets the camera up as it was configured.
+DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
+  const std::lock_guard lock(camera_mutex_);
+  auto camera = open();
+  if (!camera) return tl::unexpected(FaultReport{Fault::Unplugged, camera.error().message});
+  auto acquired = AcquiredCamera::acquire(std::move(*camera));
+  if (!acquired) return tl::unexpected(acquired.error());
+  const StreamRequest request{format_.width, format_.height, format_.frame_rate};
+  const auto agreed =
+      agree_on_configuration(**acquired, pixel_format_, settings_.sensor_mode, request);
+  if (!agreed) return tl::unexpected(FaultReport{Fault::WrongFormat, agreed.error().message});
+  return LibcameraStream::start(std::move(*acquired), *agreed, controls_);
+}
+
+void LibcameraCamera::take(const LibcameraStream::Captured& captured) {
+  const std::uint64_t sequence = counter_.number(captured.buffer.sequence);
+  if (!is_whole(captured)) return;
+  captured.frame->metadata =
+      metadata_of(captured.metadata, captured.buffer.timestamp, ClockReading::now());
+  captured.frame->metadata.sequence = sequence;
+  delivered_ = true;
+  report(Fault::None);
+  deliver(captured.frame);
+}
+
+/// Whether the camera delivered all of a frame; reports it if not.
+bool LibcameraCamera::is_whole(const LibcameraStream::Captured& captured) {
+  if (captured.buffer.status != libcamera::FrameMetadata::FrameSuccess) {
+    report(Fault::CorruptFrame, id_ + ": the driver marks a frame as damaged");
+    return false;
+  }
+  const Picture& picture = captured.frame->picture;
+  // The last row need not be padded.
+  const auto stride = static_cast<std::size_t>(picture.planes[0].stride);
+  const std::size_t padding =
+      stride - static_cast<std::size_t>(row_bytes(picture.format, picture.width));
+  const std::size_t needed = picture_bytes(picture.format, stride, picture.height) - padding;
+  if (const std::size_t used = used_bytes(captured.buffer); used < needed) {
+    report(Fault::CorruptFrame, id_ + ": a frame of " + std::to_string(used) + " bytes; it takes " +
+                                    std::to_string(needed));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace orbwatch::hal

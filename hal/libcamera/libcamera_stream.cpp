@@ -1,0 +1,146 @@
+#include "hal/libcamera/libcamera_stream.h"
+
+#include <libcamera/control_ids.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace orbwatch::hal {
+
+LibcameraStream::LibcameraStream(AcquiredCamera camera, ControlSettings& controls)
+    : camera_(std::move(camera)),
+      controls_(controls),
+      removal_(camera_.share(), [events = events_] { events->remove_camera(); }),
+      allocator_(camera_.share()) {}
+
+DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraStream::start(
+    AcquiredCamera camera, const LibcameraAgreement& agreed, ControlSettings& controls) {
+  std::unique_ptr<LibcameraStream> stream(new LibcameraStream(std::move(camera), controls));
+  const auto named = [&stream](const Error& error) {
+    return tl::unexpected(
+        FaultReport{Fault::ReadError, stream->camera_->id() + ": " + error.message});
+  };
+  if (auto made = stream->make_buffers(agreed); !made) return named(made.error());
+  if (auto made = stream->make_requests(agreed.picture().stream()); !made) {
+    return named(made.error());
+  }
+  if (auto runs = stream->run(agreed.stream.frame_rate); !runs) {
+    return tl::unexpected(runs.error());
+  }
+  return stream;
+}
+
+LibcameraStream::~LibcameraStream() {
+  // Cancels what is queued; nothing is left to stop when the camera is gone.
+  camera_->stop();
+  camera_->requestCompleted.disconnect(events_.get());
+}
+
+Result<> LibcameraStream::make_buffers(const LibcameraAgreement& agreed) {
+  stream_ = agreed.picture().stream();
+  if (const int made = allocator_.allocate(stream_); made <= 0) {
+    return fail("has no buffers: " + std::generic_category().message(-made));
+  }
+  const StreamFormat& format = agreed.stream;
+  std::vector<std::unique_ptr<LibcameraFrame>> frames;
+  for (const auto& buffer : allocator_.buffers(stream_)) {
+    if (frames.size() == CaptureEvents::kMaxRequests) break;
+    auto frame =
+        LibcameraFrame::map(*buffer, *agreed.pixels, format.width, format.height, agreed.stride);
+    if (!frame) return tl::unexpected(frame.error());
+    (*frame)->picture.colour_space = format.colour_space;
+    frames_.push_back(frame->get());
+    frames.push_back(std::move(*frame));
+  }
+  pool_.emplace(std::move(frames),
+                [events = events_](std::size_t buffer) { events->put_back(buffer); });
+  return {};
+}
+
+Result<> LibcameraStream::make_requests(libcamera::Stream* stream) {
+  for (std::size_t number = 0; number < pool_->size(); ++number) {
+    auto request = camera_->createRequest(number);
+    if (!request) return fail("makes no request");
+    const int error = request->addBuffer(stream, allocator_.buffers(stream)[number].get());
+    if (error < 0) return fail("takes no buffer: " + std::generic_category().message(-error));
+    requests_.push_back(std::move(request));
+  }
+  CaptureEvents* const events = events_.get();
+  camera_->requestCompleted.connect(
+      events, [events](libcamera::Request* request) { events->complete(request->cookie()); });
+  return {};
+}
+
+DeviceResult<> LibcameraStream::run(double frame_rate) {
+  libcamera::ControlList controls = controls_.all();
+  put_frame_rate(frame_rate, controls);
+  if (const int error = camera_->start(&controls); error < 0) return failed("start", error);
+  for (std::size_t number = 0; number < requests_.size(); ++number) {
+    if (auto queued = queue(number); !queued) return queued;
+  }
+  return {};
+}
+
+DeviceResult<> LibcameraStream::queue(std::size_t number) {
+  libcamera::Request& request = *requests_[number];
+  controls_.add_changes(request.controls());
+  if (const int error = camera_->queueRequest(&request); error < 0) {
+    return failed("take a request", error);
+  }
+  ++queued_;
+  return {};
+}
+
+DeviceResult<> LibcameraStream::queue_returned(std::uint32_t returned) {
+  for (std::size_t number = 0; number < requests_.size(); ++number) {
+    if ((returned >> number & 1U) == 0) continue;
+    if (auto ended = frames_[number]->end_read(); !ended) {
+      return tl::unexpected(
+          FaultReport{Fault::ReadError, camera_->id() + ": " + ended.error().message});
+    }
+    requests_[number]->reuse(libcamera::Request::ReuseBuffers);
+    if (auto queued = queue(number); !queued) return queued;
+  }
+  return {};
+}
+
+DeviceResult<LibcameraStream::Captured> LibcameraStream::take(std::size_t number) {
+  const libcamera::Request& request = *requests_[number];
+  --queued_;
+  if (request.status() != libcamera::Request::RequestComplete) {
+    return tl::unexpected(
+        FaultReport{Fault::ReadError, camera_->id() + ": libcamera cancelled a request"});
+  }
+  auto frame = pool_->acquire(number);
+  if (auto begun = frame->begin_read(); !begun) {
+    return tl::unexpected(
+        FaultReport{Fault::ReadError, camera_->id() + ": " + begun.error().message});
+  }
+  return Captured{std::move(frame), requests_[number]->metadata(),
+                  request.findBuffer(stream_)->metadata()};
+}
+
+DeviceResult<std::size_t> LibcameraStream::wait(TimePoint deadline, const OnCaptured& on_captured) {
+  const CaptureEvents::News news = events_->wait(deadline);
+  if (news.removed) {
+    return tl::unexpected(FaultReport{Fault::Unplugged, camera_->id() + ": was removed"});
+  }
+  if (auto queued = queue_returned(news.returned); !queued) return tl::unexpected(queued.error());
+  for (std::size_t i = 0; i < news.completed_count; ++i) {
+    const auto captured = take(news.completed[i]);
+    if (!captured) return tl::unexpected(captured.error());
+    on_captured(*captured);
+  }
+  return news.completed_count;
+}
+
+tl::unexpected<FaultReport> LibcameraStream::failed(const std::string& action, int error) const {
+  return tl::unexpected(FaultReport{
+      error == -ENODEV ? Fault::Unplugged : Fault::ReadError,
+      camera_->id() + ": does not " + action + ": " + std::generic_category().message(-error)});
+}
+
+}  // namespace orbwatch::hal
