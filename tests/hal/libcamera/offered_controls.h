@@ -18,7 +18,7 @@ inline libcamera::ControlInfoMap offered_controls() {
        {&controls::AwbEnable, ControlInfo(false, true)},
        {&controls::ColourGains, ControlInfo(0.0F, 32.0F)},
        {&controls::LensPosition, ControlInfo(0.0F, 15.0F, 1.0F)},
-       {&controls::Saturation, ControlInfo()},
+       {&controls::Saturation, ControlInfo(0.0F, 32.0F)},
        {&controls::FrameDurationLimits, ControlInfo(std::int64_t{21000}, std::int64_t{12000000})},
        {&controls::ScalerCrop, ControlInfo(libcamera::Rectangle(), libcamera::Rectangle())}},
       controls::controls);
