@@ -65,9 +65,6 @@ Result<std::unique_ptr<LibcameraFrame>> LibcameraFrame::map(const libcamera::Fra
   auto frame = std::make_unique<LibcameraFrame>();
   std::vector<std::span<const std::byte>> planes;
   for (const auto& plane : buffer.planes()) {
-    if (plane.offset == libcamera::FrameBuffer::Plane::kInvalidOffset) {
-      return fail("a buffer's plane has no place in its memory");
-    }
     auto& mapped = frame->dma_buffers;
     auto known = std::find_if(mapped.begin(), mapped.end(),
                               [&plane](const auto& other) { return other->is_of(plane.fd); });
