@@ -1,0 +1,108 @@
+#include "hal/lines/frame_trigger.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orbwatch::hal {
+
+FrameTrigger::FrameTrigger(const TriggerSettings& settings, Expose expose)
+    : settings_(settings), expose_(std::move(expose)) {}
+
+bool FrameTrigger::is_trigger(Edge edge) const {
+  switch (settings_.activation) {
+    case TriggerActivation::RisingEdge:
+      return edge == Edge::Rising;
+    case TriggerActivation::FallingEdge:
+      return edge == Edge::Falling;
+    case TriggerActivation::AnyEdge:
+      return true;
+  }
+  return false;
+}
+
+void FrameTrigger::take(const EdgeEvent& edge) {
+  if (!is_trigger(edge.edge)) return;
+  const std::lock_guard lock(mutex_);
+  const TriggerStamp trigger{++counts_.triggers, edge.stamp};
+  if (counts_.waiting == kMaxWaiting) {
+    ++counts_.missed;
+    return;
+  }
+  waiting_[counts_.waiting++] = {trigger, edge.stamp + settings_.delay, false};
+}
+
+/// In mode Software the first one that the camera was not asked for yet.
+TimePoint FrameTrigger::due() const {
+  if (settings_.mode != TriggerMode::Software) return TimePoint::max();
+  const std::lock_guard lock(mutex_);
+  const std::size_t next = counts_.waiting > 0 && waiting_[0].exposed ? 1 : 0;
+  return next < counts_.waiting ? waiting_[next].moment : TimePoint::max();
+}
+
+void FrameTrigger::run(TimePoint now) {
+  while (due() <= now) {
+    std::uint64_t id = 0;
+    if (!prepare_exposure(now, id) || expose_()) continue;
+    const std::lock_guard lock(mutex_);
+    if (counts_.waiting == 0 || waiting_[0].trigger.id != id) continue;
+    drop_oldest(1);
+    ++counts_.missed;
+  }
+}
+
+/// Takes the trigger that is due; true when the camera is to be asked for its frame.
+bool FrameTrigger::prepare_exposure(TimePoint now, std::uint64_t& id) {
+  const std::lock_guard lock(mutex_);
+  if (counts_.waiting == 0) return false;  // the camera's fault came between
+  if (waiting_[0].exposed) {
+    ++counts_.missed;
+    if (now - waiting_[0].moment <= settings_.timeout) {
+      std::swap(waiting_[0], waiting_[1]);  // it is the new trigger that is missed
+      drop_oldest(1);
+      return false;
+    }
+    drop_oldest(1);
+  }
+  waiting_[0].moment = now;
+  waiting_[0].exposed = true;
+  id = waiting_[0].trigger.id;
+  return true;
+}
+
+std::optional<TriggerStamp> FrameTrigger::claim(TimePoint exposure_start) {
+  const std::lock_guard lock(mutex_);
+  const bool software = settings_.mode == TriggerMode::Software;
+  std::size_t due = 0;  // triggers that the exposure did not begin before
+  while (due < counts_.waiting && waiting_[due].moment <= exposure_start &&
+         (!software || waiting_[due].exposed)) {
+    ++due;
+  }
+  if (due == 0) {
+    ++counts_.untriggered;
+    return std::nullopt;
+  }
+  const TriggerStamp trigger = waiting_[due - 1].trigger;
+  drop_oldest(due);
+  counts_.missed += due - 1;
+  ++counts_.frames;
+  return trigger;
+}
+
+void FrameTrigger::abandon() {
+  const std::lock_guard lock(mutex_);
+  counts_.missed += counts_.waiting;
+  drop_oldest(counts_.waiting);
+}
+
+TriggerCounts FrameTrigger::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+void FrameTrigger::drop_oldest(std::size_t count) {
+  std::move(waiting_.begin() + static_cast<std::ptrdiff_t>(count),
+            waiting_.begin() + static_cast<std::ptrdiff_t>(counts_.waiting), waiting_.begin());
+  counts_.waiting -= count;
+}
+
+}  // namespace orbwatch::hal

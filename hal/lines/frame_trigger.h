@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "hal/lines/line.h"
+#include "hal/lines/line_task.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::hal {
+
+/// What makes a camera's frames count. Off: each one. Software: an edge makes the camera expose.
+/// Line: the camera sees the edge itself, or runs freely; the edge stamps the frame.
+enum class TriggerMode : std::uint8_t { Off, Software, Line };
+
+/// Which edges are triggers.
+enum class TriggerActivation : std::uint8_t { RisingEdge, FallingEdge, AnyEdge };
+
+struct TriggerSettings {
+  TriggerMode mode = TriggerMode::Line;
+  TriggerActivation activation = TriggerActivation::RisingEdge;
+  Clock::duration delay{0};  ///< from the edge to the exposure
+  /// A camera that has not delivered so long after it was triggered does not deliver (Software).
+  Clock::duration timeout = std::chrono::seconds(1);
+};
+
+/// The trigger that a frame belongs to.
+struct TriggerStamp {
+  std::uint64_t id = 0;  ///< counts triggers from 1
+  TimePoint edge;
+};
+
+/// At any moment triggers = frames + missed + waiting.
+struct TriggerCounts {
+  std::uint64_t triggers = 0;  ///< edges that are triggers
+  std::uint64_t frames = 0;    ///< that belong to one
+  std::uint64_t missed = 0;    ///< triggers without a frame: faster than the camera, or its fault
+  std::uint64_t waiting = 0;   ///< triggers whose frame may still come, at most kMaxWaiting
+  std::uint64_t untriggered = 0;  ///< frames that belong to no trigger
+};
+
+/// Joins the edges of a trigger line with the frames of one camera.
+/// A frame belongs to the newest trigger (edge and delay) that its exposure did not begin before;
+/// triggers before that one were missed. In mode Software the camera is asked for a frame when the
+/// trigger is due, unless it still owes the one before: then the trigger is missed.
+/// Thread rule: take, due and run on the line thread, claim and abandon on the camera's, counts on
+/// any. Bounded: of more than kMaxWaiting triggers the newest are missed,
+/// since the oldest may belong to frames that are under way.
+class FrameTrigger : public LineTask {
+ public:
+  static constexpr std::size_t kMaxWaiting = 32;
+  using Expose = std::function<Result<>()>;
+
+  /// `expose` triggers the camera in mode Software; when it fails, the trigger is missed.
+  FrameTrigger(const TriggerSettings& settings, Expose expose);
+
+  /// An edge of the line.
+  void take(const EdgeEvent& edge);
+
+  TimePoint due() const override;
+  void run(TimePoint now) override;
+
+  /// The trigger of a frame; nothing: it has none, and is to be dropped.
+  std::optional<TriggerStamp> claim(TimePoint exposure_start);
+
+  /// The camera has a fault: nothing will come for the triggers that wait.
+  void abandon();
+
+  TriggerCounts counts() const;
+
+ private:
+  struct Waiting {
+    TriggerStamp trigger;
+    TimePoint moment;      ///< edge and delay; once asked for, when it was
+    bool exposed = false;  ///< Software: the camera was asked for the frame
+  };
+
+  bool is_trigger(Edge edge) const;
+  bool prepare_exposure(TimePoint now, std::uint64_t& id);
+  void drop_oldest(std::size_t count);
+
+  const TriggerSettings settings_;
+  const Expose expose_;
+  mutable std::mutex mutex_;
+  std::array<Waiting, kMaxWaiting> waiting_;  ///< the first counts_.waiting ones, oldest first
+  TriggerCounts counts_;
+};
+
+}  // namespace orbwatch::hal

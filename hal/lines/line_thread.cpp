@@ -1,0 +1,120 @@
+#include "hal/lines/line_thread.h"
+
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/timerfd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <system_error>
+
+namespace orbwatch::hal {
+namespace {
+
+bool poll_for_input(const FileDescriptor& poll, int file, void* who) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.ptr = who;
+  return ::epoll_ctl(poll.get(), EPOLL_CTL_ADD, file, &event) == 0;
+}
+
+/// Never zero, which would switch the timer off.
+itimerspec alarm_at(TimePoint moment) {
+  const auto age = std::max(std::chrono::nanoseconds(1),
+                            std::chrono::ceil<std::chrono::nanoseconds>(moment.time_since_epoch()));
+  itimerspec setting{};
+  setting.it_value.tv_sec = static_cast<std::time_t>(age / std::chrono::seconds(1));
+  setting.it_value.tv_nsec = static_cast<long>((age % std::chrono::seconds(1)).count());
+  return setting;
+}
+
+/// Empties a timer or an eventfd; fails when there is nothing in it, which is as good.
+void drain(const FileDescriptor& file) {
+  std::uint64_t count = 0;
+  static_cast<void>(::read(file.get(), &count, sizeof count));
+}
+
+}  // namespace
+
+LineThread::~LineThread() { stop(); }
+
+Result<> LineThread::start() {
+  poll_ = FileDescriptor(::epoll_create1(EPOLL_CLOEXEC));
+  bell_ = FileDescriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  timer_ = FileDescriptor(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC));
+  if (!poll_.is_open() || !bell_.is_open() || !timer_.is_open() ||
+      !poll_for_input(poll_, bell_.get(), nullptr) ||
+      !poll_for_input(poll_, timer_.get(), nullptr)) {
+    return fail("lines: " + std::generic_category().message(errno));
+  }
+  for (Watched& watched : watched_) watched.registered = 0;
+  stopping_ = false;
+  thread_ = std::thread([this] { run(); });
+  return {};
+}
+
+void LineThread::stop() {
+  if (!thread_.joinable()) return;
+  stopping_ = true;
+  ring();
+  thread_.join();
+}
+
+void LineThread::ring() {
+  // Fails before start(), and when 2^64 - 1 rings were not heard; then nothing has to be told.
+  if (bell_.is_open()) static_cast<void>(::eventfd_write(bell_.get(), 1));
+}
+
+void LineThread::run() {
+  while (!stopping_) {
+    poll_open_files();
+    set_timer();
+    wait();
+    run_due();
+  }
+}
+
+/// Files that were opened since the last time; closed ones have left by themselves.
+void LineThread::poll_open_files() {
+  for (Watched& watched : watched_) {
+    const WatchedInput& input = *watched.input;
+    if (input.descriptor() < 0 || watched.registered == input.opened()) continue;
+    if (poll_for_input(poll_, input.descriptor(), watched.input)) {
+      watched.registered = input.opened();
+    }
+  }
+}
+
+TimePoint LineThread::next_due() const {
+  TimePoint next = TimePoint::max();
+  for (const Watched& watched : watched_) next = std::min(next, watched.input->due());
+  for (const LineTask* task : tasks_) next = std::min(next, task->due());
+  return next;
+}
+
+void LineThread::set_timer() {
+  const TimePoint next = next_due();
+  const itimerspec setting = next == TimePoint::max() ? itimerspec{} : alarm_at(next);
+  ::timerfd_settime(timer_.get(), TFD_TIMER_ABSTIME, &setting, nullptr);
+}
+
+/// Until edges, the timer or the bell; takes the edges.
+void LineThread::wait() {
+  std::array<epoll_event, 16> events;
+  const int count = ::epoll_wait(poll_.get(), events.data(), static_cast<int>(events.size()), -1);
+  drain(bell_);
+  drain(timer_);
+  for (int i = 0; i < count; ++i) {
+    auto* input = static_cast<WatchedInput*>(events[static_cast<std::size_t>(i)].data.ptr);
+    if (input) input->read(Clock::now());
+  }
+}
+
+void LineThread::run_due() {
+  for (const Watched& watched : watched_) watched.input->run(Clock::now());
+  for (LineTask* task : tasks_) task->run(Clock::now());
+}
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,64 @@
+#include "hal/lines/pulse_output.h"
+
+#include <utility>
+
+namespace orbwatch::hal {
+
+PulseOutput::PulseOutput(const PulseSettings& settings, Outputs outputs, std::function<void()> ring)
+    : settings_(settings),
+      ring_(std::move(ring)),
+      outputs_(std::move(outputs)),
+      rise_(settings.period.count() > 0 ? TimePoint::min() : TimePoint::max()) {}
+
+bool PulseOutput::fire(TimePoint moment) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (active_ || rise_ != TimePoint::max()) {
+      ++counts_.missed;
+      return false;
+    }
+    rise_ = moment + settings_.delay;
+  }
+  ring_();
+  return true;
+}
+
+TimePoint PulseOutput::due() const {
+  const std::lock_guard lock(mutex_);
+  return active_ ? fall_ : rise_;
+}
+
+void PulseOutput::run(TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  if (rise_ == TimePoint::min()) rise_ = now + settings_.delay;
+  if (active_ && now >= fall_) {
+    active_ = false;
+    drive(false);
+  }
+  if (!active_ && now >= rise_) begin_pulse(now);
+}
+
+void PulseOutput::begin_pulse(TimePoint now) {
+  active_ = true;
+  ++counts_.pulses;
+  drive(true);
+  fall_ = now + settings_.width;
+  if (settings_.period.count() <= 0) {
+    rise_ = TimePoint::max();
+    return;
+  }
+  const auto late = (now - rise_) / settings_.period;
+  counts_.missed += static_cast<std::uint64_t>(late);
+  rise_ += (late + 1) * settings_.period;
+}
+
+void PulseOutput::drive(bool active) {
+  for (const auto& output : outputs_) counts_.failed += output->set(active) ? 0 : 1;
+}
+
+PulseCounts PulseOutput::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,228 @@
+#include "hal/lines/simulated_lines.h"
+
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <mutex>
+#include <utility>
+
+#include "hal/file_descriptor.h"
+#include "hal/lines/find_line.h"
+
+namespace orbwatch::hal {
+
+/// One wire, shared by whoever drives, reads or simulates it.
+struct SimulatedLines::Wire {
+  std::string name;
+  OnChange on_change;
+  mutable std::mutex mutex;
+  bool level = false;
+  bool has_input = false;
+  bool has_output = false;
+  FileDescriptor bell;  ///< of the input
+  std::array<EdgeEvent, kQueue> edges;
+  std::size_t waiting = 0;
+  std::uint64_t edge_count = 0;
+  std::vector<ScriptedLineFault> faults;
+  LineFault fault = LineFault::None;
+
+  LineFaultReport report() const { return {fault, "line " + name + ": simulated fault"}; }
+
+  /// Wakes the input; fails only when it is awake already.
+  void ring() {
+    if (bell.is_open()) static_cast<void>(::eventfd_write(bell.get(), 1));
+  }
+
+  void set_fault(LineFault now) {
+    if (std::exchange(fault, now) != now) ring();
+  }
+
+  /// The fault that the script has for edge `number`; without a script it stays what it is.
+  void follow_script(std::uint64_t number) {
+    if (faults.empty()) return;
+    const auto entry = std::ranges::find_if(faults, [number](const ScriptedLineFault& f) {
+      return number >= f.from && number < f.until;
+    });
+    set_fault(entry == faults.end() ? LineFault::None : entry->fault);
+  }
+
+  void drive(bool active, TimePoint stamp) {
+    const std::lock_guard lock(mutex);
+    if (std::exchange(level, active) == active) return;
+    follow_script(edge_count++);
+    if (on_change) on_change(name, active);
+    if (fault != LineFault::None || !has_input || waiting == kQueue) return;
+    edges[waiting++] = {edge_to(active), stamp};
+    ring();
+  }
+};
+
+class SimulatedLines::Input : public DigitalInput {
+ public:
+  Input(std::shared_ptr<Wire> wire, bool active_low)
+      : wire_(std::move(wire)), active_low_(active_low) {}
+  ~Input() override {
+    const std::lock_guard lock(wire_->mutex);
+    wire_->has_input = false;
+    wire_->bell = FileDescriptor();
+  }
+
+  int descriptor() const override { return wire_->bell.get(); }
+
+  LineResult<std::size_t> take(std::span<EdgeEvent> edges) override {
+    const std::lock_guard lock(wire_->mutex);
+    if (wire_->fault != LineFault::None) return tl::unexpected(wire_->report());
+    const std::size_t count = std::min(edges.size(), wire_->waiting);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool level = wire_->edges[i].edge == Edge::Rising;
+      edges[i] = {edge_to(level != active_low_), wire_->edges[i].stamp};
+    }
+    const auto begin = wire_->edges.begin();
+    std::move(begin + static_cast<std::ptrdiff_t>(count),
+              begin + static_cast<std::ptrdiff_t>(wire_->waiting), begin);
+    wire_->waiting -= count;
+    eventfd_t rings = 0;
+    static_cast<void>(::eventfd_read(wire_->bell.get(), &rings));  // fails when nobody rang
+    if (wire_->waiting > 0) wire_->ring();
+    return count;
+  }
+
+  LineResult<bool> level() const override {
+    const std::lock_guard lock(wire_->mutex);
+    if (wire_->fault != LineFault::None) return tl::unexpected(wire_->report());
+    return wire_->level != active_low_;
+  }
+
+  std::optional<std::uint64_t> lost() const override { return std::nullopt; }
+  bool is_debounced() const override { return false; }
+
+ private:
+  std::shared_ptr<Wire> wire_;
+  bool active_low_;
+};
+
+class SimulatedLines::Output : public DigitalOutput {
+ public:
+  Output(std::shared_ptr<Wire> wire, bool active_low)
+      : wire_(std::move(wire)), active_low_(active_low) {
+    wire_->drive(active_low_, Clock::now());
+  }
+  ~Output() override {
+    wire_->drive(active_low_, Clock::now());
+    const std::lock_guard lock(wire_->mutex);
+    wire_->has_output = false;
+  }
+
+  LineResult<> set(bool active) override {
+    {
+      const std::lock_guard lock(wire_->mutex);
+      if (wire_->fault != LineFault::None) return tl::unexpected(wire_->report());
+    }
+    wire_->drive(active != active_low_, Clock::now());
+    return {};
+  }
+
+ private:
+  std::shared_ptr<Wire> wire_;
+  bool active_low_;
+};
+
+SimulatedLines::SimulatedLines(const std::vector<std::string>& names, OnChange on_change) {
+  for (const std::string& name : names) {
+    wires_.push_back(std::make_shared<Wire>());
+    wires_.back()->name = name;
+    wires_.back()->on_change = on_change;
+  }
+}
+
+SimulatedLines::~SimulatedLines() = default;
+
+std::vector<ChipInfo> SimulatedLines::chips() const {
+  ChipInfo chip{.path = "simulated", .label = "simulated"};
+  for (const auto& wire : wires_) {
+    const std::lock_guard lock(wire->mutex);
+    const bool is_used = wire->has_input || wire->has_output;
+    chip.lines.push_back({static_cast<unsigned>(chip.lines.size()), wire->name, wire->has_output,
+                          is_used, is_used ? kLineConsumer : ""});
+  }
+  return {chip};
+}
+
+Result<std::shared_ptr<SimulatedLines::Wire>> SimulatedLines::find(
+    const LineAddress& address) const {
+  const auto all = chips();
+  const auto found = find_line(all, address);
+  if (!found) return tl::unexpected(found.error());
+  const auto& wire = wires_[found->line->offset];
+  const std::lock_guard lock(wire->mutex);
+  if (wire->fault != LineFault::None) return fail(wire->report().detail);
+  return wire;
+}
+
+Result<std::unique_ptr<DigitalInput>> SimulatedLines::open_input(const InputSettings& settings) {
+  auto wire = find(settings.address);
+  if (!wire) return tl::unexpected(wire.error());
+  const std::lock_guard lock((*wire)->mutex);
+  if ((*wire)->has_input) {
+    return fail("line " + settings.address.text() + ": is read already, by \"" + kLineConsumer +
+                "\"");
+  }
+  (*wire)->bell = FileDescriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  if (!(*wire)->bell.is_open()) {
+    return fail("line " + settings.address.text() + ": too many open files");
+  }
+  (*wire)->has_input = true;
+  (*wire)->waiting = 0;
+  return std::make_unique<Input>(*wire, settings.active_low);
+}
+
+Result<std::unique_ptr<DigitalOutput>> SimulatedLines::open_output(const OutputSettings& settings) {
+  auto wire = find(settings.address);
+  if (!wire) return tl::unexpected(wire.error());
+  {
+    const std::lock_guard lock((*wire)->mutex);
+    if (std::exchange((*wire)->has_output, true)) {
+      return fail("line " + settings.address.text() + ": is driven already, by \"" + kLineConsumer +
+                  "\"");
+    }
+  }
+  return std::make_unique<Output>(*wire, settings.active_low);
+}
+
+SimulatedLines::Wire& SimulatedLines::wire(const std::string& line) const {
+  const auto it =
+      std::ranges::find_if(wires_, [&](const auto& wire) { return wire->name == line; });
+  assert(it != wires_.end());
+  return **it;
+}
+
+void SimulatedLines::drive(const std::string& line, bool level, TimePoint stamp) {
+  wire(line).drive(level, stamp);
+}
+
+void SimulatedLines::play(const std::vector<ScriptedEdge>& script) {
+  for (const ScriptedEdge& edge : script) drive(edge.line, edge.level, edge.stamp);
+}
+
+bool SimulatedLines::level(const std::string& line) const {
+  const Wire& found = wire(line);
+  const std::lock_guard lock(found.mutex);
+  return found.level;
+}
+
+void SimulatedLines::script_faults(const std::string& line, std::vector<ScriptedLineFault> faults) {
+  Wire& found = wire(line);
+  const std::lock_guard lock(found.mutex);
+  found.faults = std::move(faults);
+}
+
+void SimulatedLines::fail_with(const std::string& line, LineFault fault) {
+  Wire& found = wire(line);
+  const std::lock_guard lock(found.mutex);
+  found.set_fault(fault);
+}
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/lines/line_back_end.h"
+
+namespace orbwatch::hal {
+
+/// A fault that a simulated line shows: from its edge number `from` up to, not including, `until`.
+/// Meanwhile edges reach nobody.
+struct ScriptedLineFault {
+  LineFault fault = LineFault::None;
+  std::uint64_t from = 0;
+  std::uint64_t until = 0;
+};
+
+/// An edge of a wire, at a moment of the script's choice.
+struct ScriptedEdge {
+  std::string line;
+  bool level = false;
+  TimePoint stamp;
+};
+
+/// Lines of a chip that exists only here, labelled "simulated": ordinary lines with the manners of
+/// the kernel's, without debounce. A line may be opened once as an input and once as an output:
+/// then it is a wire from one to the other. Thread-safe; opened lines may outlive it.
+class SimulatedLines : public LineBackEnd {
+ public:
+  /// Edges that wait for each input; of more, the newest are dropped, as the kernel does it.
+  static constexpr std::size_t kQueue = 16;
+
+  /// Called with each new level of a wire, on the thread that changed it, in order.
+  using OnChange = std::function<void(const std::string& line, bool level)>;
+
+  explicit SimulatedLines(const std::vector<std::string>& names, OnChange on_change = nullptr);
+  ~SimulatedLines() override;
+
+  std::vector<ChipInfo> chips() const override;
+  Result<std::unique_ptr<DigitalInput>> open_input(const InputSettings& settings) override;
+  Result<std::unique_ptr<DigitalOutput>> open_output(const OutputSettings& settings) override;
+
+  /// Puts a level on a wire from outside; an edge if it differs. The line must exist.
+  void drive(const std::string& line, bool level, TimePoint stamp = Clock::now());
+  void play(const std::vector<ScriptedEdge>& script);
+
+  /// What is on the wire.
+  bool level(const std::string& line) const;
+
+  /// Faults by number of the edge, from 0.
+  void script_faults(const std::string& line, std::vector<ScriptedLineFault> faults);
+  /// A fault from now on, until another call says None.
+  void fail_with(const std::string& line, LineFault fault);
+
+ private:
+  struct Wire;
+  class Input;
+  class Output;
+
+  Wire& wire(const std::string& line) const;
+  Result<std::shared_ptr<Wire>> find(const LineAddress& address) const;
+
+  std::vector<std::shared_ptr<Wire>> wires_;
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,55 @@
+#include "hal/lines/watchdog_output.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orbwatch::hal {
+
+WatchdogOutput::WatchdogOutput(const WatchdogSettings& settings,
+                               std::unique_ptr<DigitalOutput> output, std::function<void()> ring)
+    : settings_(settings), ring_(std::move(ring)), output_(std::move(output)) {}
+
+void WatchdogOutput::report(bool healthy, TimePoint now) {
+  bool changed = false;
+  {
+    const std::lock_guard lock(mutex_);
+    healthy_ = healthy;
+    if (healthy) last_ = now;
+    changed = healthy != is_up_;
+  }
+  if (changed) ring_();
+}
+
+TimePoint WatchdogOutput::due() const {
+  const std::lock_guard lock(mutex_);
+  if (healthy_ != is_up_) return TimePoint::min();
+  if (!is_up_) return TimePoint::max();
+  const TimePoint silent = last_ + settings_.timeout + Clock::duration(1);
+  return std::min(silent, next_toggle_);
+}
+
+void WatchdogOutput::run(TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  if (!is_alive(now)) {
+    healthy_ = is_up_ = false;
+    if (active_) drive(false);
+    return;
+  }
+  const bool toggles = settings_.half_period.count() > 0;
+  if (is_up_ && now < next_toggle_) return;
+  drive(is_up_ ? !active_ : true);
+  is_up_ = true;
+  next_toggle_ = toggles ? now + settings_.half_period : TimePoint::max();
+}
+
+void WatchdogOutput::drive(bool active) {
+  active_ = active;
+  failed_ += output_->set(active) ? 0 : 1;
+}
+
+std::uint64_t WatchdogOutput::failed() const {
+  const std::lock_guard lock(mutex_);
+  return failed_;
+}
+
+}  // namespace orbwatch::hal

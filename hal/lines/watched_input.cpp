@@ -1,0 +1,99 @@
+#include "hal/lines/watched_input.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace orbwatch::hal {
+namespace {
+
+constexpr Clock::duration kFirstPause = std::chrono::seconds(1);
+constexpr Clock::duration kLongestPause = std::chrono::seconds(10);
+/// Read in one go; after these the other lines have their turn.
+constexpr int kBatches = 4;
+
+}  // namespace
+
+WatchedInput::WatchedInput(LineBackEnd& back_end, InputSettings settings, OnFault on_fault)
+    : back_end_(back_end),
+      settings_(std::move(settings)),
+      on_fault_(std::move(on_fault)),
+      pause_(kFirstPause) {}
+
+Result<std::unique_ptr<WatchedInput>> WatchedInput::open(LineBackEnd& back_end,
+                                                         const InputSettings& settings,
+                                                         OnFault on_fault) {
+  std::unique_ptr<WatchedInput> watched(new WatchedInput(back_end, settings, std::move(on_fault)));
+  if (auto opened = watched->open_line(); !opened) return tl::unexpected(opened.error());
+  watched->initial_level_ = watched->level_;
+  return watched;
+}
+
+/// Also the level at this moment, where edges begin.
+Result<> WatchedInput::open_line() {
+  auto input = back_end_.open_input(settings_);
+  if (!input) return tl::unexpected(input.error());
+  const auto level = (*input)->level();
+  if (!level) return fail(level.error().detail);
+  const bool needs_debounce = !(*input)->is_debounced();
+  filter_ = EdgeFilter(needs_debounce ? settings_.debounce : Clock::duration(0), *level);
+  level_ = *level;
+  input_ = std::move(*input);
+  ++opened_;
+  return {};
+}
+
+void WatchedInput::read(TimePoint now) {
+  std::array<EdgeEvent, 16> edges;
+  for (int batch = 0; input_ && batch < kBatches; ++batch) {
+    const auto count = input_->take(edges);
+    if (!count) return fail_with(count.error(), now);
+    for (std::size_t i = 0; i < *count; ++i) give(filter_.take(edges[i]));
+    count_lost();
+    if (*count == 0) return;
+  }
+}
+
+void WatchedInput::run(TimePoint now) {
+  if (now < due()) return;
+  if (!input_) return reopen(now);
+  // Level first, then edges: one that comes between the two is not taken for lost.
+  const auto level = input_->level();
+  if (!level) return fail_with(level.error(), now);
+  read(now);
+  if (!input_ || now < filter_.due()) return;
+  give(filter_.settle(*level, now));
+  count_lost();
+}
+
+void WatchedInput::count_lost() {
+  lost_ = lost_before_ + input_->lost().value_or(filter_.found_lost());
+}
+
+void WatchedInput::give(const std::optional<EdgeEvent>& edge) {
+  if (!edge) return;
+  level_ = edge->edge == Edge::Rising;
+  for (const OnEdge& on_edge : on_edge_) on_edge(*edge);
+}
+
+void WatchedInput::fail_with(const LineFaultReport& report, TimePoint now) {
+  lost_before_ = lost_;
+  input_.reset();
+  retry_ = now + pause_;
+  on_fault_(report);
+}
+
+void WatchedInput::reopen(TimePoint now) {
+  const bool before = level_;
+  if (const auto opened = open_line(); !opened) {
+    pause_ = std::min(2 * pause_, kLongestPause);
+    retry_ = now + pause_;
+    return;
+  }
+  pause_ = kFirstPause;
+  on_fault_({});
+  // What changed meanwhile is one edge, stamped when it was found.
+  if (level_ != before) give(EdgeEvent{edge_to(level_), now});
+}
+
+}  // namespace orbwatch::hal

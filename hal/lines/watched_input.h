@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/lines/edge_filter.h"
+#include "hal/lines/line_back_end.h"
+#include "hal/lines/line_task.h"
+
+namespace orbwatch::hal {
+
+/// An input line whose edges are handed on, debounced. A line that breaks off (a chip on USB) is
+/// reported once, closed, and opened again after 1 s, then 2 s, up to every 10 s.
+/// Thread rule: thread-bound (the line thread), apart from lost().
+class WatchedInput : public LineTask {
+ public:
+  using OnEdge = std::function<void(const EdgeEvent&)>;
+  using OnFault = std::function<void(const LineFaultReport&)>;
+
+  /// Opens the line of `back_end`, which must outlive it. Edges alternate, from initial_level() on,
+  /// unless one was lost. The error is open_input()'s.
+  static Result<std::unique_ptr<WatchedInput>> open(LineBackEnd& back_end,
+                                                    const InputSettings& settings,
+                                                    OnFault on_fault);
+
+  /// Whether the line was active when it was opened.
+  bool initial_level() const { return initial_level_; }
+
+  /// Several users may hear the same edges; called before the line thread starts.
+  void hear(OnEdge on_edge) { on_edge_.push_back(std::move(on_edge)); }
+
+  /// Of the open line, else -1. Another number of times opened(), another file.
+  int descriptor() const { return input_ ? input_->descriptor() : -1; }
+  unsigned opened() const { return opened_; }
+
+  /// Takes the edges that wait.
+  void read(TimePoint now);
+
+  TimePoint due() const override { return input_ ? filter_.due() : retry_; }
+  void run(TimePoint now) override;
+
+  /// Edges known to be lost: dropped by the kernel before they could be taken.
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  WatchedInput(LineBackEnd& back_end, InputSettings settings, OnFault on_fault);
+
+  Result<> open_line();
+  void count_lost();
+  void give(const std::optional<EdgeEvent>& edge);
+  void fail_with(const LineFaultReport& report, TimePoint now);
+  void reopen(TimePoint now);
+
+  LineBackEnd& back_end_;
+  InputSettings settings_;
+  OnFault on_fault_;
+  std::vector<OnEdge> on_edge_;
+  std::unique_ptr<DigitalInput> input_;
+  EdgeFilter filter_{Clock::duration(0), false};
+  bool initial_level_ = false;
+  bool level_ = false;  ///< that users were told last
+  unsigned opened_ = 0;
+  TimePoint retry_ = TimePoint::max();
+  Clock::duration pause_;
+  std::uint64_t lost_before_ = 0;  ///< of files that were closed
+  std::atomic<std::uint64_t> lost_{0};
+};
+
+}  // namespace orbwatch::hal

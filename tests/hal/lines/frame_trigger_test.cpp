@@ -1,0 +1,240 @@
+#include "hal/lines/frame_trigger.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include "tests/hal/lines/edges.h"
+
+namespace orbwatch::hal {
+namespace {
+
+using std::chrono::milliseconds;
+
+TriggerSettings line_settings() { return {.mode = TriggerMode::Line}; }
+
+TriggerSettings software_settings() { return {.mode = TriggerMode::Software}; }
+
+Result<> never() {
+  ADD_FAILURE() << "asks for a frame";
+  return {};
+}
+
+EdgeEvent rising(double when) { return {Edge::Rising, at(when)}; }
+
+std::uint64_t sum(const TriggerCounts& counts) {
+  return counts.frames + counts.missed + counts.waiting;
+}
+
+TEST(FrameTrigger, StampsTheFrameThatFollowsTheEdge) {
+  FrameTrigger trigger(line_settings(), never);
+  EXPECT_FALSE(trigger.claim(at(1))) << "no edge yet";
+  trigger.take(rising(10));
+  EXPECT_FALSE(trigger.claim(at(9.9))) << "began before";
+  const auto stamp = trigger.claim(at(10));
+  ASSERT_TRUE(stamp);
+  EXPECT_EQ(stamp->id, 1U);
+  EXPECT_EQ(stamp->edge, at(10));
+  EXPECT_FALSE(trigger.claim(at(11))) << "one frame each";
+  const TriggerCounts counts = trigger.counts();
+  EXPECT_EQ(counts.frames, 1U);
+  EXPECT_EQ(counts.untriggered, 3U);
+}
+
+TEST(FrameTrigger, AFrameThatArrivesLateKeepsItsTrigger) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.take(rising(10));
+  trigger.take(rising(50));
+  EXPECT_EQ(trigger.claim(at(10.1))->id, 1U);
+  EXPECT_EQ(trigger.claim(at(50.1))->id, 2U);
+  EXPECT_EQ(trigger.counts().missed, 0U);
+}
+
+TEST(FrameTrigger, AnEdgeDuringTheExposureIsMissed) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.take(rising(10));
+  trigger.take(rising(20));
+  trigger.take(rising(40));
+  EXPECT_EQ(trigger.claim(at(10.1))->id, 1U);
+  EXPECT_EQ(trigger.claim(at(40.1))->id, 3U) << "the newest one before the exposure";
+  EXPECT_EQ(trigger.counts().missed, 1U);
+}
+
+TEST(FrameTrigger, ActivationChoosesTheEdges) {
+  const auto triggers = [](TriggerActivation activation) {
+    FrameTrigger trigger({.mode = TriggerMode::Line, .activation = activation}, never);
+    trigger.take({Edge::Rising, at(1)});
+    trigger.take({Edge::Falling, at(2)});
+    trigger.take({Edge::Rising, at(3)});
+    return trigger.counts().triggers;
+  };
+  EXPECT_EQ(triggers(TriggerActivation::RisingEdge), 2U);
+  EXPECT_EQ(triggers(TriggerActivation::FallingEdge), 1U);
+  EXPECT_EQ(triggers(TriggerActivation::AnyEdge), 3U);
+}
+
+TEST(FrameTrigger, DelaysTheExposure) {
+  TriggerSettings settings = line_settings();
+  settings.delay = milliseconds(5);
+  FrameTrigger trigger(settings, never);
+  trigger.take(rising(10));
+  EXPECT_FALSE(trigger.claim(at(14.9)));
+  const auto stamp = trigger.claim(at(15));
+  ASSERT_TRUE(stamp);
+  EXPECT_EQ(stamp->edge, at(10)) << "the stamp is the edge's own";
+}
+
+TEST(FrameTrigger, AStormLeavesEachFrameATrigger) {
+  FrameTrigger trigger(line_settings(), never);
+  std::uint64_t frames = 0;
+  for (int edge = 0; edge < 10000; ++edge) {
+    trigger.take(rising(edge));
+    if (edge % 100 != 99) continue;
+    ++frames;
+    EXPECT_TRUE(trigger.claim(at(edge - 99.5 + (frames > 1 ? 0 : 1))));
+  }
+  EXPECT_EQ(trigger.counts().triggers, 10000U);
+  EXPECT_EQ(trigger.counts().frames, frames);
+  EXPECT_EQ(sum(trigger.counts()), 10000U);
+  EXPECT_LE(trigger.counts().waiting, FrameTrigger::kMaxWaiting);
+}
+
+TEST(FrameTrigger, ACameraFaultMissesWhatWaits) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.take(rising(1));
+  trigger.take(rising(2));
+  trigger.abandon();
+  EXPECT_EQ(trigger.counts().missed, 2U);
+  EXPECT_FALSE(trigger.claim(at(3)));
+}
+
+TEST(SoftwareTrigger, AsksTheCameraWhenTheDelayIsOver) {
+  int asked = 0;
+  TriggerSettings settings = software_settings();
+  settings.delay = milliseconds(5);
+  FrameTrigger trigger(settings, [&asked]() -> Result<> { return ++asked, Result<>(); });
+  EXPECT_EQ(trigger.due(), TimePoint::max());
+  trigger.take(rising(10));
+  EXPECT_EQ(trigger.due(), at(15));
+  trigger.run(at(14.9));
+  EXPECT_EQ(asked, 0);
+  EXPECT_FALSE(trigger.claim(at(16))) << "not asked for";
+  trigger.run(at(15.2));
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(trigger.claim(at(15.1))) << "from before";
+  EXPECT_EQ(trigger.claim(at(15.2))->id, 1U);
+}
+
+TEST(SoftwareTrigger, IsMissedWhileTheCameraOwesAFrame) {
+  int asked = 0;
+  FrameTrigger trigger(software_settings(), [&asked]() -> Result<> { return ++asked, Result<>(); });
+  for (const double when : {10.0, 11.0, 12.0}) {
+    trigger.take(rising(when));
+    trigger.run(at(when));
+  }
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(trigger.counts().missed, 2U);
+  EXPECT_EQ(trigger.claim(at(13))->id, 1U);
+  trigger.take(rising(14));
+  trigger.run(at(14));
+  EXPECT_EQ(trigger.claim(at(14))->id, 4U);
+}
+
+TEST(SoftwareTrigger, ACameraThatNeverAnswersIsAskedAgainAfterTheTimeout) {
+  int asked = 0;
+  FrameTrigger trigger(software_settings(), [&asked]() -> Result<> { return ++asked, Result<>(); });
+  trigger.take(rising(10));
+  trigger.run(at(10));
+  trigger.take(rising(1010.1));
+  trigger.run(at(1010.1));
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(trigger.counts().missed, 1U);
+  EXPECT_EQ(trigger.claim(at(1011))->id, 2U);
+}
+
+TEST(SoftwareTrigger, ARefusalIsMissed) {
+  FrameTrigger trigger(software_settings(), [] { return Result<>(fail("has none")); });
+  trigger.take(rising(10));
+  trigger.run(at(10));
+  EXPECT_EQ(trigger.counts().missed, 1U);
+  EXPECT_EQ(trigger.counts().waiting, 0U);
+}
+
+/// A camera that is busy for `exposure` after each accepted edge, and delivers `transfer` later, in
+/// time order with random edges: what it accepted is the truth.
+TEST(FrameTrigger, CountsExactlyOnRandomEdges) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    std::mt19937 random(seed);
+    std::exponential_distribution<double> pause(1 / 8.0);
+    constexpr double kExposure = 10, kTransfer = 7;
+    FrameTrigger trigger(line_settings(), never);
+    struct Exposure {
+      double start;
+      std::uint64_t id;
+    };
+    std::vector<Exposure> under_way;
+    std::uint64_t frames = 0;
+    const auto deliver_until = [&](double now) {
+      while (!under_way.empty() && under_way.front().start + kExposure + kTransfer <= now) {
+        const auto stamp = trigger.claim(at(under_way.front().start + 0.01));
+        ASSERT_TRUE(stamp);
+        EXPECT_EQ(stamp->id, under_way.front().id);
+        ++frames;
+        under_way.erase(under_way.begin());
+      }
+    };
+    double now = 0, busy_until = 0;
+    constexpr std::uint64_t kEdges = 300;
+    for (std::uint64_t id = 1; id <= kEdges; ++id) {
+      now += 0.1 + pause(random);
+      deliver_until(now);
+      trigger.take(rising(now));
+      if (now < busy_until) continue;
+      under_way.push_back({now, id});
+      busy_until = now + kExposure;
+    }
+    deliver_until(now + 100);
+    trigger.abandon();
+    const TriggerCounts counts = trigger.counts();
+    EXPECT_EQ(counts.triggers, kEdges);
+    EXPECT_EQ(counts.frames, frames);
+    EXPECT_EQ(counts.missed, kEdges - frames) << "seed " << seed;
+    EXPECT_EQ(counts.untriggered, 0U);
+  }
+}
+
+TEST(FrameTrigger, CountsExactlyWhileThreadsInterleave) {
+  for (const TriggerMode mode : {TriggerMode::Line, TriggerMode::Software}) {
+    std::atomic<std::uint64_t> owed{0};
+    FrameTrigger trigger({.mode = mode}, [&owed]() -> Result<> { return ++owed, Result<>(); });
+    std::atomic<bool> done{false};
+    std::uint64_t claimed = 0, last = 0;
+    std::thread camera([&] {
+      while (!done) {
+        if (mode == TriggerMode::Software && owed.exchange(0) == 0) continue;
+        const auto stamp = trigger.claim(Clock::now());
+        if (!stamp) continue;
+        EXPECT_GT(stamp->id, last) << "none twice, in order";
+        last = stamp->id;
+        ++claimed;
+      }
+    });
+    for (int i = 0; i < 20000; ++i) {
+      trigger.take({Edge::Rising, Clock::now()});
+      trigger.run(Clock::now());
+      const TriggerCounts now = trigger.counts();
+      ASSERT_EQ(now.triggers, sum(now));
+    }
+    done = true;
+    camera.join();
+    const TriggerCounts counts = trigger.counts();
+    EXPECT_EQ(counts.triggers, 20000U);
+    EXPECT_EQ(counts.frames, claimed);
+    EXPECT_EQ(counts.triggers, sum(counts));
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::hal

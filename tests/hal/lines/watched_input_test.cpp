@@ -1,0 +1,79 @@
+#include "hal/lines/watched_input.h"
+
+#include <gmock/gmock.h>
+
+#include "hal/lines/simulated_lines.h"
+#include "tests/hal/lines/edges.h"
+
+namespace orbwatch::hal {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+
+class WatchedInputTest : public testing::Test {
+ protected:
+  std::unique_ptr<WatchedInput> open(Clock::duration debounce) {
+    InputSettings settings{.address = {.name = "IN"}};
+    settings.debounce = debounce;
+    auto input = WatchedInput::open(lines, settings, [this](const LineFaultReport& report) {
+                   faults.push_back(report.fault);
+                 }).value();
+    input->hear([this](const EdgeEvent& edge) { heard.push_back(edge); });
+    return input;
+  }
+
+  SimulatedLines lines{{"IN"}};
+  std::vector<EdgeEvent> heard;
+  std::vector<LineFault> faults;
+};
+
+TEST_F(WatchedInputTest, AStormEndsWithTheRightLevel) {
+  const auto input = open(milliseconds(2));
+  for (int i = 0; i < 101; ++i) lines.drive("IN", i % 2 == 0, at(i * 0.01));
+  input->read(at(1.1));
+  EXPECT_THAT(heard, ElementsAre());
+  while (input->due() != TimePoint::max()) input->run(input->due());
+  ASSERT_EQ(heard.size(), 1U) << "the queue kept 16 of 101 edges, and the last one was falling";
+  EXPECT_EQ(heard[0].edge, Edge::Rising);
+  EXPECT_GE(input->lost(), 1U);
+}
+
+TEST_F(WatchedInputTest, WithoutDebounceALostLastEdgeIsMadeUpFor) {
+  const auto input = open(Clock::duration(0));
+  for (int i = 0; i < 17; ++i) lines.drive("IN", i % 2 == 0, at(i));
+  input->read(at(20));
+  EXPECT_EQ(heard.size(), SimulatedLines::kQueue);
+  while (input->due() != TimePoint::max()) input->run(input->due());
+  ASSERT_EQ(heard.size(), 17U);
+  EXPECT_EQ(heard.back().edge, Edge::Rising);
+  EXPECT_EQ(input->lost(), 1U);
+}
+
+TEST_F(WatchedInputTest, ALineThatGoesIsReportedOnceAndOpenedAgain) {
+  const auto input = open(Clock::duration(0));
+  lines.fail_with("IN", LineFault::Gone);
+  input->read(at(0));
+  EXPECT_THAT(faults, ElementsAre(LineFault::Gone));
+  EXPECT_EQ(input->descriptor(), -1);
+  std::vector<double> retries;
+  for (int i = 0; i < 6; ++i) {
+    const std::chrono::duration<double> due = input->due() - at(0);
+    retries.push_back(due.count());
+    input->run(input->due());
+  }
+  EXPECT_THAT(retries, ElementsAre(1, 3, 7, 15, 25, 35)) << "after 1, 2, 4, 8, 10, 10 s";
+  lines.drive("IN", true, at(0));
+  lines.fail_with("IN", LineFault::None);
+  const TimePoint back = input->due();
+  input->run(back);
+  EXPECT_THAT(faults, ElementsAre(LineFault::Gone, LineFault::None));
+  EXPECT_THAT(heard, ElementsAre(EdgeEvent{Edge::Rising, back})) << "what changed meanwhile";
+  EXPECT_EQ(input->opened(), 2U);
+  lines.drive("IN", false, back + milliseconds(1));
+  input->read(back + milliseconds(1));
+  EXPECT_EQ(heard.back(), (EdgeEvent{Edge::Falling, back + milliseconds(1)}));
+}
+
+}  // namespace
+}  // namespace orbwatch::hal
