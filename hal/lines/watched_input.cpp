@@ -9,6 +9,8 @@ namespace {
 
 constexpr Clock::duration kFirstPause = std::chrono::seconds(1);
 constexpr Clock::duration kLongestPause = std::chrono::seconds(10);
+/// Kernels before 6.6 wake nobody when a chip goes away.
+constexpr Clock::duration kCheckPeriod = std::chrono::seconds(1);
 /// Read in one go; after these the other lines have their turn.
 constexpr int kBatches = 4;
 
@@ -60,6 +62,7 @@ void WatchedInput::run(TimePoint now) {
   // Level first, then edges: one that comes between the two is not taken for lost.
   const auto level = input_->level();
   if (!level) return fail_with(level.error(), now);
+  check_ = now + kCheckPeriod;
   read(now);
   if (!input_ || now < filter_.due()) return;
   give(filter_.settle(*level, now));

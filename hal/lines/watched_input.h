@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -39,7 +40,7 @@ class WatchedInput : public LineTask {
   /// Takes the edges that wait.
   void read(TimePoint now);
 
-  TimePoint due() const override { return input_ ? filter_.due() : retry_; }
+  TimePoint due() const override { return input_ ? std::min(filter_.due(), check_) : retry_; }
   void run(TimePoint now) override;
 
   /// Edges known to be lost: dropped by the kernel before they could be taken.
@@ -64,6 +65,7 @@ class WatchedInput : public LineTask {
   bool level_ = false;  ///< that users were told last
   unsigned opened_ = 0;
   TimePoint retry_ = TimePoint::max();
+  TimePoint check_ = TimePoint::min();  ///< when the open line is asked whether it is still there
   Clock::duration pause_;
   std::uint64_t lost_before_ = 0;  ///< of files that were closed
   std::atomic<std::uint64_t> lost_{0};

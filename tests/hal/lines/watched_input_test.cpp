@@ -23,6 +23,12 @@ class WatchedInputTest : public testing::Test {
     return input;
   }
 
+  /// What is due within half a second after `now`.
+  static void settle(WatchedInput& input, double now) {
+    input.run(at(now));
+    while (input.due() < at(now + 500)) input.run(input.due());
+  }
+
   SimulatedLines lines{{"IN"}};
   std::vector<EdgeEvent> heard;
   std::vector<LineFault> faults;
@@ -33,7 +39,7 @@ TEST_F(WatchedInputTest, AStormEndsWithTheRightLevel) {
   for (int i = 0; i < 101; ++i) lines.drive("IN", i % 2 == 0, at(i * 0.01));
   input->read(at(1.1));
   EXPECT_THAT(heard, ElementsAre());
-  while (input->due() != TimePoint::max()) input->run(input->due());
+  settle(*input, 20);
   ASSERT_EQ(heard.size(), 1U) << "the queue kept 16 of 101 edges, and the last one was falling";
   EXPECT_EQ(heard[0].edge, Edge::Rising);
   EXPECT_GE(input->lost(), 1U);
@@ -44,10 +50,19 @@ TEST_F(WatchedInputTest, WithoutDebounceALostLastEdgeIsMadeUpFor) {
   for (int i = 0; i < 17; ++i) lines.drive("IN", i % 2 == 0, at(i));
   input->read(at(20));
   EXPECT_EQ(heard.size(), SimulatedLines::kQueue);
-  while (input->due() != TimePoint::max()) input->run(input->due());
+  settle(*input, 20);
   ASSERT_EQ(heard.size(), 17U);
   EXPECT_EQ(heard.back().edge, Edge::Rising);
   EXPECT_EQ(input->lost(), 1U);
+}
+
+TEST_F(WatchedInputTest, ALineThatGoesSilentlyIsNoticed) {
+  const auto input = open(Clock::duration(0));
+  input->run(at(0));
+  lines.fail_with("IN", LineFault::Gone);
+  EXPECT_EQ(input->due(), at(1000));
+  input->run(at(1000));
+  EXPECT_THAT(faults, ElementsAre(LineFault::Gone));
 }
 
 TEST_F(WatchedInputTest, ALineThatGoesIsReportedOnceAndOpenedAgain) {

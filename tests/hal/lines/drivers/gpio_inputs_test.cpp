@@ -1,0 +1,166 @@
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "hal/lines/frame_trigger.h"
+#include "hal/lines/line_thread.h"
+#include "tests/hal/lines/drivers/simulated_chip.h"
+
+namespace orbwatch::hal {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class GpioInputs : public SimulatedChip {
+ protected:
+  void start(Clock::duration debounce = Clock::duration(0)) {
+    InputSettings settings{.address = {.name = "TRIGGER_IN"}};
+    settings.debounce = debounce;
+    auto opened = WatchedInput::open(
+        lines, settings, [this](const LineFaultReport& report) { faults.add(report.fault); });
+    ASSERT_TRUE(opened) << opened.error().message;
+    input = std::move(*opened);
+    input->hear([this](const EdgeEvent& edge) { edges.add(edge); });
+    thread.watch(*input);
+    ASSERT_TRUE(thread.start());
+  }
+
+  std::unique_ptr<WatchedInput> input;
+  Heard<EdgeEvent> edges;
+  Heard<LineFault> faults;
+  LineThread thread;  // ends before what it uses
+};
+
+TEST_F(GpioInputs, TheChipIsListedWithItsLines) {
+  const auto held = lines.open_output({.address = {.name = "TRIGGER_OUT"}});
+  ASSERT_TRUE(held) << held.error().message;
+  for (const ChipInfo& chip : lines.chips()) {
+    if (chip.label != "orbwatch") continue;
+    ASSERT_EQ(chip.lines.size(), 8U);
+    EXPECT_EQ(chip.lines[kInput].name, "TRIGGER_IN");
+    EXPECT_FALSE(chip.lines[kInput].is_used);
+    EXPECT_EQ(chip.lines[kOutput].consumer, "orbwatch");
+    EXPECT_TRUE(chip.lines[kOutput].is_output);
+    EXPECT_EQ(chip.lines[kUnnamed].name, "");
+    return;
+  }
+  FAIL() << "no chip has the label orbwatch";
+}
+
+TEST_F(GpioInputs, EdgesComeInOrderWithTheKernelsStamps) {
+  start();
+  for (std::size_t i = 0; i < 40; ++i) {
+    const TimePoint before = Clock::now();
+    pull(kInput, i % 2 == 0);
+    ASSERT_TRUE(edges.wait_for(i + 1));
+    const EdgeEvent edge = edges.items().back();
+    EXPECT_EQ(edge.edge, edge_to(i % 2 == 0));
+    EXPECT_GE(edge.stamp, before);
+    EXPECT_LE(edge.stamp, Clock::now());
+  }
+  EXPECT_EQ(edges.items().size(), 40U);
+  EXPECT_EQ(input->lost(), 0U);
+}
+
+TEST_F(GpioInputs, TriggersAreFramesAndMissed) {
+  FrameTrigger trigger({.mode = TriggerMode::Line}, nullptr);
+  InputSettings settings{.address = {.chip = "orbwatch", .offset = kInput}};
+  input = WatchedInput::open(lines, settings, [](const LineFaultReport&) {}).value();
+  input->hear([&trigger](const EdgeEvent& edge) { trigger.take(edge); });
+  thread.watch(*input);
+  ASSERT_TRUE(thread.start());
+  constexpr std::uint64_t kTriggers = 30;
+  std::uint64_t frames = 0;
+  for (std::uint64_t i = 1; i <= kTriggers; ++i) {
+    pull(kInput, true);
+    ASSERT_TRUE(comes_true([&] { return trigger.counts().triggers == i; }));
+    pull(kInput, false);
+    if (i % 3 != 0) continue;  // a camera for every third edge
+    ++frames;
+    EXPECT_EQ(trigger.claim(Clock::now())->id, i);
+  }
+  thread.stop();
+  EXPECT_EQ(trigger.counts().frames, frames);
+  EXPECT_EQ(trigger.counts().missed, kTriggers - frames);
+}
+
+TEST_F(GpioInputs, AGlitchStormIsOneEdge) {
+  start(std::chrono::seconds(1));
+  for (int i = 0; i < 301; ++i) pull(kInput, i % 2 == 0);
+  ASSERT_TRUE(edges.wait_for(1));
+  for (int i = 0; i < 300; ++i) pull(kInput, i % 2 == 1);  // and back up: no change
+  for (int i = 0; i < 301; ++i) pull(kInput, i % 2 == 1);  // and down
+  ASSERT_TRUE(edges.wait_for(2));
+  thread.stop();
+  const auto heard = edges.items();
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(heard[0].edge, Edge::Rising);
+  EXPECT_EQ(heard[1].edge, Edge::Falling);
+  EXPECT_LT(heard[0].stamp, heard[1].stamp);
+}
+
+TEST_F(GpioInputs, AStormWithoutDebounceEndsWithTheRightLevel) {
+  start();
+  for (int i = 0; i < 1001; ++i) pull(kInput, i % 2 == 0);
+  EXPECT_TRUE(comes_true(
+      [this] { return !edges.items().empty() && edges.items().back().edge == Edge::Rising; }));
+  thread.stop();
+  const auto heard = edges.items();
+  for (std::size_t i = 1; i < heard.size(); ++i) EXPECT_LE(heard[i - 1].stamp, heard[i].stamp);
+}
+
+TEST_F(GpioInputs, AChipThatGoesIsAFaultAndComesBack) {
+  start();
+  pull(kInput, true);
+  ASSERT_TRUE(edges.wait_for(1));
+  set_live(false);
+  ASSERT_TRUE(faults.wait_for(1));
+  set_live(true);
+  ASSERT_TRUE(faults.wait_for(2));
+  EXPECT_THAT(faults.items(), ElementsAre(LineFault::Gone, LineFault::None));
+  // The new chip's wire is low: that is heard, and so is what follows.
+  ASSERT_TRUE(edges.wait_for(2));
+  pull(kInput, true);
+  ASSERT_TRUE(edges.wait_for(3));
+  EXPECT_EQ(edges.items().back().edge, Edge::Rising);
+}
+
+TEST_F(GpioInputs, ALineInUseAndALineThatIsNotThereAreExplained) {
+  start();
+  EXPECT_THAT(lines.open_input({.address = {.name = "TRIGGER_IN"}}).error().message,
+              AllOf(HasSubstr("TRIGGER_IN"), HasSubstr("used by \"orbwatch\"")));
+  EXPECT_THAT(lines.open_input({.address = {.name = "TRIGGER_INN"}}).error().message,
+              AllOf(HasSubstr("TRIGGER_INN"), HasSubstr("TRIGGER_IN, TRIGGER_OUT")));
+  EXPECT_THAT(lines.open_input({.address = {.chip = "orbwatch", .offset = 8}}).error().message,
+              HasSubstr("orbwatch (8 lines)"));
+}
+
+TEST_F(GpioInputs, WithoutPermissionTheGroupIsNamed) {
+  std::string message;
+  int pipe[2];
+  ASSERT_EQ(::pipe(pipe), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const bool lowered = ::setgid(65534) == 0 && ::setuid(65534) == 0;
+    const auto opened = lines.open_input({.address = {.name = "TRIGGER_IN"}});
+    const std::string text = !lowered ? "cannot become nobody"
+                             : opened ? ""
+                                      : opened.error().message;
+    const auto written = ::write(pipe[1], text.data(), text.size());
+    ::_exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
+  }
+  ::close(pipe[1]);
+  char buffer[2048];
+  for (ssize_t count = 0; (count = ::read(pipe[0], buffer, sizeof buffer)) > 0;) {
+    message.append(buffer, static_cast<std::size_t>(count));
+  }
+  ::close(pipe[0]);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  EXPECT_THAT(message, AllOf(HasSubstr("/dev/gpiochip"), HasSubstr("no permission"),
+                             HasSubstr("group root")));
+}
+
+}  // namespace
+}  // namespace orbwatch::hal

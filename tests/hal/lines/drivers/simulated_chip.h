@@ -1,0 +1,93 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal/lines/gpio_lines.h"
+
+namespace orbwatch::hal {
+
+/// The kernel's simulated chip that the scenario made, from the outside of its wires. It has 8
+/// lines and the label "orbwatch"; lines 2 and 3 are named TRIGGER_IN and TRIGGER_OUT.
+class SimulatedChip : public testing::Test {
+ protected:
+  static constexpr unsigned kInput = 2, kOutput = 3, kUnnamed = 5;
+
+  void SetUp() override {
+    for (const unsigned line : {kInput, kOutput, kUnnamed}) pull(line, false);
+  }
+
+  static std::string variable(const char* name) {
+    const char* value = std::getenv(name);
+    EXPECT_TRUE(value) << name << " must be set, as tests/hil does";
+    return value ? value : "";
+  }
+  static std::string file_of(unsigned line, const std::string& name) {
+    return variable("GPIO_SIM_LINES") + "/sim_gpio" + std::to_string(line) + "/" + name;
+  }
+  /// Another device on the wire: an edge, if the line is an input and the level another.
+  static void pull(unsigned line, bool up) {
+    std::ofstream file(file_of(line, "pull"));
+    file << (up ? "pull-up" : "pull-down") << std::flush;
+    ASSERT_TRUE(file.good()) << file_of(line, "pull");
+  }
+  static bool level(unsigned line) {
+    int value = -1;
+    std::ifstream(file_of(line, "value")) >> value;
+    EXPECT_NE(value, -1) << file_of(line, "value");
+    return value == 1;
+  }
+  static void set_live(bool live) {
+    std::ofstream file(variable("GPIO_SIM_CONFIG") + "/live");
+    file << (live ? 1 : 0) << std::flush;
+    ASSERT_TRUE(file.good());
+  }
+
+  GpioLines lines;
+};
+
+/// Polls a thing that has no event of its own; emulated machines take their time.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  const auto deadline = Clock::now() + std::chrono::seconds(60);
+  while (!condition()) {
+    if (Clock::now() > deadline) return false;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+/// What was heard on the line thread.
+template <class T>
+class Heard {
+ public:
+  void add(T item) {
+    const std::lock_guard lock(mutex_);
+    items_.push_back(item);
+    changed_.notify_all();
+  }
+  std::vector<T> items() const {
+    const std::lock_guard lock(mutex_);
+    return items_;
+  }
+  bool wait_for(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(60),
+                             [&] { return items_.size() >= count; });
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<T> items_;
+};
+
+}  // namespace orbwatch::hal
