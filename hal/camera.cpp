@@ -24,6 +24,7 @@ Result<> Camera::start(OnFrame on_frame, OnFault on_fault) {
   on_frame_ = std::move(on_frame);
   on_fault_ = std::move(on_fault);
   last_fault_ = Fault::None;
+  withheld_ = 0;
   stop_ = std::stop_source();
   thread_ = std::thread([this, stop = stop_.get_token()] {
     runner_ = std::this_thread::get_id();
@@ -50,8 +51,14 @@ Result<> Camera::set(std::string_view control, double) {
   return fail("camera " + info_.id + ": has no control \"" + std::string(control) + "\"");
 }
 
-void Camera::deliver(Frame frame) {
-  if (!stop_.stop_requested()) on_frame_(std::move(frame));
+void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {
+  if (stop_.stop_requested()) return;
+  if (gate_ && !gate_(frame->metadata)) {
+    ++withheld_;
+    return;
+  }
+  frame->metadata.sequence -= withheld_;
+  on_frame_(std::move(frame));
 }
 
 void Camera::report(Fault fault, std::string detail) {

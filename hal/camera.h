@@ -4,11 +4,13 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "hal/fault.h"
 #include "hal/frame.h"
@@ -50,6 +52,7 @@ class Camera {
  public:
   using OnFrame = std::function<void(Frame)>;
   using OnFault = std::function<void(const FaultReport&)>;
+  using Gate = std::function<bool(FrameMetadata&)>;
 
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
@@ -60,6 +63,10 @@ class Camera {
 
   /// Opens the device and fixes size, format and rate. Errors: running, not found, not possible.
   Result<StreamFormat> configure(const StreamRequest& request);
+
+  /// Asked for each frame before it is handed on, on the camera's thread: may complete the
+  /// metadata; false withholds the frame, which then counts as never exposed. Set while stopped.
+  void set_gate(Gate gate) { gate_ = std::move(gate); }
 
   /// Starts the camera's thread. `on_frame` and `on_fault` must return quickly and not throw.
   /// Errors: not configured, running already.
@@ -85,7 +92,7 @@ class Camera {
   virtual void run(const std::stop_token& stop) = 0;
 
   /// For run(): hands a frame on.
-  void deliver(Frame frame);
+  void deliver(std::shared_ptr<FrameBuffer> frame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
   /// For run(): waits until `moment` or until stop is requested; false if it was.
@@ -96,6 +103,8 @@ class Camera {
 
   CameraInfo info_;
   bool configured_ = false;
+  Gate gate_;
+  std::uint64_t withheld_ = 0;  ///< by the gate since start
   OnFrame on_frame_;
   OnFault on_fault_;
   Fault last_fault_ = Fault::None;

@@ -41,6 +41,16 @@ void check_camera(const CameraSettings& camera, const optics::Rig& rig, Finding&
   }
 }
 
+/// Whether `name` is a line that triggers.
+void check_source(int line, const char* key, const std::string& name,
+                  const Configuration& configuration, Finding& finding) {
+  const LineSettings* source = by_name(configuration.lines, name);
+  if (source && source->use == LineUse::TriggerIn) return;
+  finding.note(line, key,
+               "there is no line \"" + name +
+                   "\" with use trigger_in; lines: " + names(configuration.lines));
+}
+
 void check_view(const ViewSettings& view, const Configuration& configuration, Finding& finding) {
   if (view.name == "selected") {
     finding.note(view.line, "view.name", "\"selected\" is the topic of the selected view");
@@ -80,8 +90,16 @@ void check_process(const ProcessSettings& process, const Configuration& configur
 void check_references(const Configuration& configuration, Finding& finding) {
   check_names(configuration.cameras, "camera", finding);
   check_names(configuration.views, "view", finding);
+  check_names(configuration.lines, "line", finding);
+  for (const LineSettings& line : configuration.lines) {
+    if (line.source.empty()) continue;
+    check_source(line.line, "line.source", line.source, configuration, finding);
+  }
   for (const CameraSettings& camera : configuration.cameras) {
     check_camera(camera, configuration.rig, finding);
+    if (camera.trigger_source.empty()) continue;
+    check_source(camera.line, "camera.trigger_source", camera.trigger_source, configuration,
+                 finding);
   }
   for (const ViewSettings& view : configuration.views) check_view(view, configuration, finding);
   if (configuration.process) check_process(*configuration.process, configuration, finding);

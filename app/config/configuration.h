@@ -12,6 +12,8 @@
 #include "app/pipeline/view_renderer.h"
 #include "hal/fault_script.h"
 #include "hal/frame_matcher.h"
+#include "hal/lines/frame_trigger.h"
+#include "hal/lines/line_back_end.h"
 #include "proc/optics/rig.h"
 #include "proc/optics/vec.h"
 #include "proc/optics/view_projection.h"
@@ -66,11 +68,49 @@ struct CameraSettings {
   double frame_rate = 0;
   double kelvin_per_count = 0;
   hal::SyncPolicy sync = hal::SyncPolicy::Hold;
+  hal::TriggerMode trigger_mode = hal::TriggerMode::Off;
+  std::string trigger_source;
+  hal::TriggerActivation trigger_activation = hal::TriggerActivation::RisingEdge;
+  double trigger_delay_us = 0;
   std::optional<SimulatedCameraPart> simulated;
   std::optional<ReplayPart> replay;
   std::optional<V4l2Part> v4l2;
   std::optional<LibcameraPart> libcamera;
   std::vector<hal::ScriptedFault> faults;
+};
+
+/// What a line is for.
+enum class LineUse { TriggerIn, ProcessInput, TriggerOut, Strobe, ProcessOk, Alarm };
+
+constexpr bool is_input(LineUse use) {
+  return use == LineUse::TriggerIn || use == LineUse::ProcessInput;
+}
+constexpr bool is_pulsed(LineUse use) {
+  return use == LineUse::TriggerOut || use == LineUse::Strobe;
+}
+constexpr bool is_watchdog(LineUse use) {
+  return use == LineUse::ProcessOk || use == LineUse::Alarm;
+}
+
+enum class LineKind { Gpio, Simulated };
+
+struct LineSettings {
+  int line = 0;  ///< in the file, for messages
+  std::string name;
+  LineUse use = LineUse::TriggerIn;
+  LineKind back_end = LineKind::Gpio;
+  std::string line_name;
+  std::string chip;
+  int offset = 0;
+  bool active_low = false;
+  hal::LineBias bias = hal::LineBias::AsIs;
+  double debounce_us = 0;
+  double rate = 0;
+  std::string source;
+  double width_us = 1000;
+  double delay_us = 0;
+  double timeout_ms = 1000;
+  double toggle_rate = 0;
 };
 
 struct SourceSettings {
@@ -128,6 +168,7 @@ struct Configuration {
   PipelineSettings pipeline;
   SimulationSettings simulation;
   std::vector<CameraSettings> cameras;
+  std::vector<LineSettings> lines;
   std::vector<ViewSettings> views;
   std::optional<ProcessSettings> process;
   ConsoleSettings console;

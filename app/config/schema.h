@@ -47,6 +47,23 @@ inline constexpr std::array kFaults{
 inline constexpr std::array kSimulatedKinds{Word{"colour", SimulatedCameraPart::Kind::Colour},
                                             Word{"thermal", SimulatedCameraPart::Kind::Thermal}};
 
+inline constexpr std::array kTriggerModes{Word{"off", hal::TriggerMode::Off},
+                                          Word{"software", hal::TriggerMode::Software},
+                                          Word{"line", hal::TriggerMode::Line}};
+inline constexpr std::array kTriggerActivations{
+    Word{"rising_edge", hal::TriggerActivation::RisingEdge},
+    Word{"falling_edge", hal::TriggerActivation::FallingEdge},
+    Word{"any_edge", hal::TriggerActivation::AnyEdge}};
+inline constexpr std::array kLineUses{
+    Word{"trigger_in", LineUse::TriggerIn},   Word{"process_input", LineUse::ProcessInput},
+    Word{"trigger_out", LineUse::TriggerOut}, Word{"strobe", LineUse::Strobe},
+    Word{"process_ok", LineUse::ProcessOk},   Word{"alarm", LineUse::Alarm}};
+inline constexpr std::array kLineKinds{Word{"gpio", LineKind::Gpio},
+                                       Word{"simulated", LineKind::Simulated}};
+inline constexpr std::array kLineBiases{
+    Word{"as_is", hal::LineBias::AsIs}, Word{"disabled", hal::LineBias::Disabled},
+    Word{"pull_up", hal::LineBias::PullUp}, Word{"pull_down", hal::LineBias::PullDown}};
+
 inline constexpr Range kSide = Range::between(1, kMaxSide);
 
 template <class Visitor>
@@ -125,6 +142,15 @@ void visit(Visitor& v, CameraSettings& camera) {
       "sync", camera.sync, kSyncPolicies,
       "In a set without a frame of it within the window: hold its last one, or nearest, which "
       "leaves it out");
+  v.optional(
+      "trigger_mode", camera.trigger_mode, kTriggerModes,
+      "off: every frame counts; software: each edge asks the camera for a frame; line: the "
+      "frame that begins after an edge counts, of a camera that sees the edge or runs freely");
+  v.optional("trigger_source", camera.trigger_source, "Name of the line, whose use is trigger_in");
+  v.optional("trigger_activation", camera.trigger_activation, kTriggerActivations,
+             "Which of its edges are triggers");
+  v.optional("trigger_delay_us", camera.trigger_delay_us, Range::between(0, 1e7),
+             "From the edge to the exposure, us");
   v.table("simulated", camera.simulated, "For back_end simulated");
   v.table("replay", camera.replay, "For back_end replay");
   v.table("v4l2", camera.v4l2, "For back_end v4l2");
@@ -140,6 +166,57 @@ void visit(Visitor& v, CameraSettings& camera) {
             "v4l2 needs a table [camera.v4l2]");
   v.require(camera.back_end != BackEnd::Libcamera || camera.libcamera, "back_end",
             "libcamera needs a table [camera.libcamera]");
+  const bool triggered = camera.trigger_mode != hal::TriggerMode::Off;
+  v.require(triggered != camera.trigger_source.empty(), "trigger_mode",
+            "a triggered camera needs trigger_source, and only that");
+}
+
+template <class Visitor>
+void visit_pulses(Visitor& v, LineSettings& line) {
+  const char* pulses = "trigger_out and strobe";
+  v.optional_if(is_pulsed(line.use), pulses, "source", line.source,
+                "A trigger_in line whose active edges fire the pulse, for trigger_out and strobe");
+  v.optional_if(line.use == LineUse::TriggerOut, "trigger_out", "rate", line.rate,
+                Range::between(0, 1000), "Pulses per second, for trigger_out; 0: as source says");
+  v.optional_if(is_pulsed(line.use), pulses, "width_us", line.width_us, Range::between(10, 1e7),
+                "Length of the pulse, us, for trigger_out and strobe");
+  v.optional_if(is_pulsed(line.use), pulses, "delay_us", line.delay_us, Range::between(0, 1e7),
+                "From the edge to the pulse, us, for trigger_out and strobe");
+  v.require(!is_pulsed(line.use) || line.source.empty() != (line.rate <= 0), "use",
+            "needs source, or for trigger_out rate instead");
+  v.require(line.rate * line.width_us < 1e6, "width_us",
+            "a pulse must be shorter than the period of the rate");
+}
+
+template <class Visitor>
+void visit(Visitor& v, LineSettings& line) {
+  v.line(line.line);
+  v.required("name", line.name, "What cameras and other lines call it");
+  v.required("use", line.use, kLineUses,
+             "trigger_in: its edges trigger cameras and pulses; process_input: what the machine "
+             "says; trigger_out, strobe: pulses; process_ok: active while the pipeline works; "
+             "alarm: active while there is none. The last two fall when the pipeline stops");
+  v.optional("back_end", line.back_end, kLineKinds,
+             "The kernel's lines; or simulated, where an input and an output of one line_name are "
+             "a wire");
+  v.optional("line_name", line.line_name, "The line as the board names it: see gpioinfo");
+  v.optional("chip", line.chip, "Instead of line_name: the label of its chip, see gpiodetect");
+  v.optional("offset", line.offset, Range::between(0, 65535), "Its number on that chip");
+  v.optional("active_low", line.active_low, "Active when the wire is low");
+  v.optional("bias", line.bias, kLineBiases,
+             "The chip's resistor: what holds the wire when nobody drives it");
+  v.optional_if(is_input(line.use), "inputs", "debounce_us", line.debounce_us,
+                Range::between(0, 1e7), "Shorter changes do not count, us; for inputs");
+  visit_pulses(v, line);
+  const char* watchdogs = "process_ok and alarm";
+  v.optional_if(is_watchdog(line.use), watchdogs, "timeout_ms", line.timeout_ms,
+                Range::between(200, 60000),
+                "Falls when the pipeline was silent so long, for process_ok and alarm");
+  v.optional_if(is_watchdog(line.use), watchdogs, "toggle_rate", line.toggle_rate,
+                Range::between(0, 1000),
+                "Toggles so often per second instead of being held, for process_ok and alarm");
+  v.require(line.line_name.empty() != line.chip.empty(), "line_name",
+            "a line has either line_name, or chip and offset");
 }
 
 template <class Visitor>
@@ -250,6 +327,7 @@ void visit(Visitor& v, Configuration& configuration) {
   v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,
            "Cameras; the first without a fault sets the pace");
+  v.tables("line", configuration.lines, 0, 32, "Digital inputs and outputs");
   v.tables("view", configuration.views, 1, kMaxViews, "Virtual cameras in the ball's centre");
   v.table("process", configuration.process, "What is measured");
   v.table("console", configuration.console, "Figures on standard output");

@@ -102,7 +102,8 @@ void ConsoleSink::stop() {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const CameraStatus& camera = last.cameras[i];
     out_ << "  camera " << cameras_[i] << ": " << camera.frames << " frames, " << camera.lost
-         << " lost, " << camera.dropped << " dropped, " << camera.unmatched << " unmatched\n";
+         << " lost, " << camera.dropped << " dropped, " << camera.unmatched << " unmatched, "
+         << camera.triggers << " triggers, " << camera.missed << " missed\n";
   }
   for (std::size_t i = 0; i < views_.size(); ++i) {
     out_ << "  view " << views_[i] << ": " << last.views[i].published << " published, "

@@ -131,7 +131,7 @@ hal::Clock::duration milliseconds(double value) {
 
 }  // namespace
 
-Result<PipelinePlan> assemble(const Configuration& configuration) {
+Result<PipelinePlan> assemble(const Configuration& configuration, Lines& lines) {
   auto machine = make_machine(configuration.simulation);
   if (!machine) return tl::unexpected(machine.error());
   PipelinePlan plan;
@@ -139,6 +139,7 @@ Result<PipelinePlan> assemble(const Configuration& configuration) {
     if (auto opened = open_camera(settings, configuration.rig, *machine, plan); !opened) {
       return tl::unexpected(opened.error());
     }
+    plan.triggers.push_back(lines.trigger(settings, *plan.cameras.back()));
   }
   for (std::size_t i = 0; i < configuration.views.size(); ++i) {
     auto view = plan_view(configuration, i, plan);
@@ -146,6 +147,7 @@ Result<PipelinePlan> assemble(const Configuration& configuration) {
     plan.views.push_back(std::move(*view));
   }
   if (configuration.process) plan.measurement = plan_measurement(configuration, plan);
+  plan.process_inputs = lines.process_inputs();
   plan.deadline = milliseconds(configuration.pipeline.deadline_ms);
   plan.sync.window = milliseconds(configuration.pipeline.sync_window_ms);
   plan.sync.patience = milliseconds(configuration.pipeline.sync_patience_ms);

@@ -10,6 +10,7 @@
 
 #include "app/console/console_sink.h"
 #include "app/daemon/assemble.h"
+#include "app/daemon/lines.h"
 #include "app/dds/dds_sink.h"
 #include "app/log.h"
 #include "app/modbus/modbus_sink.h"
@@ -80,28 +81,32 @@ sigset_t block_signals() {
 }
 
 Result<> run(const Configuration& configuration, const sigset_t& end_signals) {
-  auto plan = assemble(configuration);
+  std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
+  auto lines = Lines::open(configuration.lines);
+  if (!lines) return tl::unexpected(lines.error());
+  auto plan = assemble(configuration, **lines);
   if (!plan) return tl::unexpected(plan.error());
-  Pipeline pipeline(std::move(*plan));
+  pipeline.emplace(std::move(*plan));
   ConsoleSink console(configuration.console, names(configuration.cameras),
                       names(configuration.views), std::cout);
   DdsSink dds(configuration.dds, names(configuration.views));
   ModbusSink modbus(configuration.modbus,
-                    [&pipeline](const Command& command) { return pipeline.command(command); });
+                    [&pipeline](const Command& command) { return pipeline->command(command); });
   std::vector<Sink*> sinks;
   if (configuration.dds.enabled) sinks.push_back(&dds);
   if (configuration.modbus.enabled) sinks.push_back(&modbus);
   if (configuration.console.enabled) sinks.push_back(&console);
+  if (!configuration.lines.empty()) sinks.push_back(lines->get());
   for (Sink* sink : sinks) {
     if (auto started = sink->start(); !started) return started;
   }
-  if (auto started = pipeline.start(sinks); !started) return started;
+  if (auto started = pipeline->start(sinks); !started) return started;
   log_line(LogLevel::Info, "runs with " + std::to_string(configuration.cameras.size()) +
                                " cameras and " + std::to_string(configuration.views.size()) +
                                " views, remap kernel " + std::string(remap::default_kernel().name));
   int signal = 0;
   sigwait(&end_signals, &signal);
-  pipeline.stop();
+  pipeline->stop();
   for (Sink* sink : sinks) sink->stop();
   log_line(LogLevel::Info, "ended by signal " + std::to_string(signal));
   return {};

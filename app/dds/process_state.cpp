@@ -13,7 +13,9 @@ orbwatch_msgs_msg_dds__CameraStatus_ camera_message(const CameraStatus& camera) 
           camera.dropped,
           camera.frames_per_second,
           camera.latency_p50_ms,
-          camera.latency_p99_ms};
+          camera.latency_p99_ms,
+          camera.triggers,
+          camera.missed};
 }
 
 orbwatch_msgs_msg_dds__ViewStatus_ view_message(const ViewStatus& view, std::string& name) {
@@ -43,6 +45,7 @@ const ProcessStateMessage& ProcessStateComposer::compose(const Status& status,
   message_.system_state = static_cast<std::uint8_t>(status.state);
   message_.heartbeat = status.heartbeat;
   message_.selected_view = static_cast<std::uint32_t>(status.selected_view);
+  message_.process_inputs = status.process_inputs;
   message_.overruns = status.overruns;
   message_.unmatched = status.unmatched;
   message_.load = status.load;

@@ -162,7 +162,11 @@ std::vector<Row> system_block() {
       input(kBase + 26, Type::U16, "modbus_connections", {1, "", 0, kMaxU16},
             "Connections that are open now",
             [](S s, Index) { return low_word(s.server.connections); }),
-      reserved(Table::Input, kBase + 27, kSignalBlock),
+      reserved(Table::Input, kBase + 27, kBase + 28),
+      input(kBase + 28, Type::U32, "process_inputs", {1, "", 0, kMaxU32},
+            "Bit n: the process input that is the configuration's nth is active",
+            [](S s, Index) { return s.status.process_inputs; }),
+      reserved(Table::Input, kBase + 30, kSignalBlock),
   };
 }
 
@@ -229,7 +233,14 @@ std::vector<Row> camera_block() {
         base + 9, Type::U16, name + "_latency_p99", kLatency,
         "Exposure start to arrival, 99 of 100 are faster",
         [](S s, Index n) { return saturated(s.status.cameras[n].latency_p99_ms, 0.1); }, i));
-    rows.push_back(reserved(Table::Input, base + 10, base + kCameraStride));
+    rows.push_back(input(
+        base + 10, Type::U32, name + "_triggers", kCounter, "Edges of its trigger line since start",
+        [](S s, Index n) { return low_word(s.status.cameras[n].triggers); }, i));
+    rows.push_back(input(
+        base + 12, Type::U32, name + "_missed", kCounter,
+        "Triggers without a frame: faster than the camera, or its fault",
+        [](S s, Index n) { return low_word(s.status.cameras[n].missed); }, i));
+    rows.push_back(reserved(Table::Input, base + 14, base + kCameraStride));
   }
   return rows;
 }

@@ -19,6 +19,15 @@ bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
          picture.height == format.height;
 }
 
+/// Lets the frames pass that belong to a trigger, and numbers them.
+hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) {
+  return [trigger](hal::FrameMetadata& metadata) {
+    const auto stamp = trigger->claim(metadata.exposure_start);
+    if (stamp) metadata.trigger = stamp->id;
+    return stamp.has_value();
+  };
+}
+
 }  // namespace
 
 Pipeline::Pipeline(PipelinePlan plan)
@@ -42,6 +51,10 @@ Pipeline::Pipeline(PipelinePlan plan)
     detector_.emplace(plan_.views[plan_.measurement->view].projection);
     unshared_ = renderers_[plan_.measurement->view].renderer->make_view();
     std::swap(order_[0], order_[plan_.measurement->view]);
+  }
+  plan_.triggers.resize(plan_.cameras.size());
+  for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
+    if (plan_.triggers[i]) plan_.cameras[i]->set_gate(stamp_with(plan_.triggers[i]));
   }
   status_.camera_count = plan_.cameras.size();
   status_.view_count = plan_.views.size();
@@ -100,7 +113,10 @@ void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
 
 void Pipeline::on_fault(std::size_t camera, const hal::FaultReport& report) {
   if (faults_[camera].exchange(report.fault) == report.fault) return;
-  if (report.fault != hal::Fault::None) sync_.clear(camera);
+  if (report.fault != hal::Fault::None) {
+    sync_.clear(camera);
+    if (plan_.triggers[camera]) plan_.triggers[camera]->abandon();
+  }
   log_line(report.fault == hal::Fault::None ? LogLevel::Info : LogLevel::Warning,
            plan_.cameras[camera]->info().id + ": " + std::string(operator_text(report.fault)) +
                (report.detail.empty() ? "" : " (" + report.detail + ")"));
@@ -196,11 +212,20 @@ SystemState Pipeline::state() const {
   return faulty > 0 ? SystemState::Degraded : SystemState::Running;
 }
 
+std::uint32_t Pipeline::process_inputs() const {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < plan_.process_inputs.size(); ++i) {
+    bits |= (plan_.process_inputs[i]->state().active ? 1U : 0U) << i;
+  }
+  return bits;
+}
+
 void Pipeline::publish_status() {
   const auto now = hal::Clock::now();
   ++status_.heartbeat;
   status_.state = state();
   status_.selected_view = selected_view_;
+  status_.process_inputs = process_inputs();
   for (std::size_t i = 0; i < plan_.views.size(); ++i) {
     status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
   }
@@ -212,6 +237,10 @@ void Pipeline::publish_status() {
     camera.lost = counts.lost;
     camera.dropped = counts.dropped();
     camera.unmatched = counts.unmatched;
+    if (!plan_.triggers[i]) continue;
+    const hal::TriggerCounts triggers = plan_.triggers[i]->counts();
+    camera.triggers = triggers.triggers;
+    camera.missed = triggers.missed;
   }
   if (status_.state == SystemState::Fault) status_.signals = {};
   if (now - last_roll_ >= std::chrono::seconds(1)) roll_figures(now);

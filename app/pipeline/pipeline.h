@@ -21,6 +21,8 @@
 #include "hal/buffer_pool.h"
 #include "hal/camera.h"
 #include "hal/frame_sync.h"
+#include "hal/lines/frame_trigger.h"
+#include "hal/lines/process_input.h"
 #include "proc/signals/hot_spot.h"
 #include "proc/signals/measure.h"
 
@@ -37,7 +39,10 @@ struct MeasurementPlan {
 struct PipelinePlan {
   std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< 1..kMaxCameras; the first one paces
   std::vector<hal::StreamFormat> formats;             ///< by camera
-  std::vector<ViewPlan> views;                        ///< 1..kMaxViews, by index
+  std::vector<std::shared_ptr<hal::FrameTrigger>>
+      triggers;  ///< by camera; null or none: runs freely
+  std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
+  std::vector<ViewPlan> views;                                           ///< 1..kMaxViews, by index
   std::optional<MeasurementPlan> measurement;
   hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
   hal::SyncSettings sync;
@@ -85,6 +90,7 @@ class Pipeline {
   void note_timing(hal::Clock::duration took);
   void publish_status();
   void roll_figures(hal::TimePoint now);
+  std::uint32_t process_inputs() const;
   hal::Clock::duration deadline() const;
   SystemState state() const;
 

@@ -39,6 +39,8 @@ struct CameraStatus {
   double frames_per_second = 0;
   double latency_p50_ms = 0;  ///< exposure start to arrival
   double latency_p99_ms = 0;
+  std::uint64_t triggers = 0;  ///< edges of its trigger line; 0 without one
+  std::uint64_t missed = 0;    ///< triggers without a frame: faster than the camera, or its fault
 };
 
 /// Figures of one view since start; rates and latencies over the last full second.
@@ -62,6 +64,7 @@ struct Status {
   std::uint64_t unmatched = 0;  ///< frame sets in which a camera had no frame within the window
   double skew_ms = 0;           ///< largest between the exposures of a set, of the last full second
   double load = 0;              ///< share of the deadline the slowest set of the last second took
+  std::uint32_t process_inputs = 0;  ///< bit n: the configuration's nth process input is active
   std::size_t selected_view = 0;
   std::size_t camera_count = 0;
   std::size_t view_count = 0;

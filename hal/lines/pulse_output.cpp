@@ -29,19 +29,29 @@ TimePoint PulseOutput::due() const {
 }
 
 void PulseOutput::run(TimePoint now) {
+  schedule(now);
+  if (driven_ == active_) return;
+  driven_ = active_;
+  // Without the lock: fire() never waits for a line.
+  std::uint64_t failed = 0;
+  for (const auto& output : outputs_) failed += output->set(driven_) ? 0 : 1;
+  const std::lock_guard lock(mutex_);
+  counts_.failed += failed;
+}
+
+void PulseOutput::schedule(TimePoint now) {
   const std::lock_guard lock(mutex_);
   if (rise_ == TimePoint::min()) rise_ = now + settings_.delay;
-  if (active_ && now >= fall_) {
-    active_ = false;
-    drive(false);
+  if (active_) {
+    active_ = now < fall_;
+  } else if (now >= rise_) {
+    begin_pulse(now);
   }
-  if (!active_ && now >= rise_) begin_pulse(now);
 }
 
 void PulseOutput::begin_pulse(TimePoint now) {
   active_ = true;
   ++counts_.pulses;
-  drive(true);
   fall_ = now + settings_.width;
   if (settings_.period.count() <= 0) {
     rise_ = TimePoint::max();
@@ -50,10 +60,6 @@ void PulseOutput::begin_pulse(TimePoint now) {
   const auto late = (now - rise_) / settings_.period;
   counts_.missed += static_cast<std::uint64_t>(late);
   rise_ += (late + 1) * settings_.period;
-}
-
-void PulseOutput::drive(bool active) {
-  for (const auto& output : outputs_) counts_.failed += output->set(active) ? 0 : 1;
 }
 
 PulseCounts PulseOutput::counts() const {

@@ -45,13 +45,14 @@ class PulseOutput : public LineTask {
   PulseCounts counts() const;
 
  private:
-  void drive(bool active);
+  void schedule(TimePoint now);
   void begin_pulse(TimePoint now);
 
   const PulseSettings settings_;
   const std::function<void()> ring_;
   Outputs outputs_;
   mutable std::mutex mutex_;
+  bool driven_ = false;  ///< what the lines were set to; of the line thread alone
   bool active_ = false;
   TimePoint rise_;  ///< of the next pulse; max(): none is asked for; min(): at a rate, not begun
   TimePoint fall_ = TimePoint::max();

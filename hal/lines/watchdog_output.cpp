@@ -29,27 +29,21 @@ TimePoint WatchdogOutput::due() const {
 }
 
 void WatchdogOutput::run(TimePoint now) {
+  const bool level = next_level(now);
+  if (level == std::exchange(active_, level)) return;
+  failed_ += output_->set(level) ? 0 : 1;  // without the lock: report() never waits for a line
+}
+
+bool WatchdogOutput::next_level(TimePoint now) {
   const std::lock_guard lock(mutex_);
-  if (!is_alive(now)) {
+  if (!healthy_ || now > last_ + settings_.timeout) {
     healthy_ = is_up_ = false;
-    if (active_) drive(false);
-    return;
+    return false;
   }
+  if (is_up_ && now < next_toggle_) return active_;
   const bool toggles = settings_.half_period.count() > 0;
-  if (is_up_ && now < next_toggle_) return;
-  drive(is_up_ ? !active_ : true);
-  is_up_ = true;
   next_toggle_ = toggles ? now + settings_.half_period : TimePoint::max();
-}
-
-void WatchdogOutput::drive(bool active) {
-  active_ = active;
-  failed_ += output_->set(active) ? 0 : 1;
-}
-
-std::uint64_t WatchdogOutput::failed() const {
-  const std::lock_guard lock(mutex_);
-  return failed_;
+  return std::exchange(is_up_, true) ? !active_ : true;
 }
 
 }  // namespace orbwatch::hal

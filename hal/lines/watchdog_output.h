@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,11 +33,10 @@ class WatchdogOutput : public LineTask {
   void run(TimePoint now) override;
 
   /// Changes that the line refused.
-  std::uint64_t failed() const;
+  std::uint64_t failed() const { return failed_; }
 
  private:
-  bool is_alive(TimePoint now) const { return healthy_ && now <= last_ + settings_.timeout; }
-  void drive(bool active);
+  bool next_level(TimePoint now);
 
   const WatchdogSettings settings_;
   const std::function<void()> ring_;
@@ -45,9 +45,9 @@ class WatchdogOutput : public LineTask {
   bool healthy_ = false;
   TimePoint last_;         ///< report of good health
   bool is_up_ = false;     ///< held or toggling
-  bool active_ = false;    ///< the line's level
   TimePoint next_toggle_;  ///< while it is up
-  std::uint64_t failed_ = 0;
+  bool active_ = false;    ///< the line's level; of the line thread alone
+  std::atomic<std::uint64_t> failed_{0};
 };
 
 }  // namespace orbwatch::hal

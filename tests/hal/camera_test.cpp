@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <vector>
 
 #include "hal/frame_pool.h"
 
@@ -40,6 +41,30 @@ TEST(Camera, RefusesToStartUnconfigured) {
   EXPECT_FALSE(camera.start([](const Frame&) {}, ignore_fault));
   EXPECT_FALSE(camera.configure({.width = 2}));
   EXPECT_FALSE(camera.start([](const Frame&) {}, ignore_fault));
+}
+
+TEST(Camera, AGateWithholdsFramesAndCompletesTheOthers) {
+  CountingCamera camera;
+  ASSERT_TRUE(camera.configure({}));
+  std::uint64_t asked = 0;
+  camera.set_gate([&asked](FrameMetadata& metadata) {
+    metadata.trigger = ++asked;
+    return asked % 3 == 0;
+  });
+  std::promise<void> reached;
+  std::vector<std::uint64_t> triggers, sequences;
+  ASSERT_TRUE(camera.start(
+      [&](const Frame& frame) {
+        if (triggers.size() == 5) return;
+        triggers.push_back(frame->metadata.trigger.value());
+        sequences.push_back(frame->metadata.sequence);
+        if (triggers.size() == 5) reached.set_value();
+      },
+      ignore_fault));
+  reached.get_future().wait();
+  camera.stop();
+  EXPECT_EQ(triggers, (std::vector<std::uint64_t>{3, 6, 9, 12, 15}));
+  EXPECT_EQ(sequences, (std::vector<std::uint64_t>{0, 1, 2, 3, 4})) << "withheld ones are not lost";
 }
 
 TEST(Camera, DeliversAgainAfterARestartAndNothingAfterStop) {

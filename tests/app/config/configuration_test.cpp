@@ -109,6 +109,39 @@ value = 8000)",
   EXPECT_EQ(part.controls[1].value, 8000);
 }
 
+const std::string kLines = R"(
+[[line]]
+name = "start"
+use = "trigger_in"
+line_name = "TRIGGER_IN"
+debounce_us = 50
+[[line]]
+name = "flash"
+use = "strobe"
+chip = "pinctrl"
+offset = 4
+source = "start"
+width_us = 200
+)";
+
+std::string triggered(const std::string& keys, const std::string& lines = kLines) {
+  return replaced("name = \"a\"", "name = \"a\"\n" + keys) + lines;
+}
+
+TEST_F(ConfigurationFile, HasLinesAndTriggers) {
+  const auto c =
+      parse(triggered("trigger_mode = \"line\"\ntrigger_source = \"start\"\n"
+                      "trigger_activation = \"any_edge\""));
+  ASSERT_TRUE(c) << c.error().message;
+  ASSERT_EQ(c->lines.size(), 2U);
+  EXPECT_EQ(c->lines[0].use, LineUse::TriggerIn);
+  EXPECT_EQ(c->lines[0].debounce_us, 50);
+  EXPECT_EQ(c->lines[1].offset, 4);
+  EXPECT_EQ(c->lines[1].source, "start");
+  EXPECT_EQ(c->cameras[0].trigger_mode, hal::TriggerMode::Line);
+  EXPECT_EQ(c->cameras[0].trigger_activation, hal::TriggerActivation::AnyEdge);
+}
+
 struct Refusal {
   std::string name;
   std::string text;
@@ -131,6 +164,31 @@ TEST_P(ConfigurationRefusal, SaysFileLineKeyAndWhatIsAllowed) {
 INSTANTIATE_TEST_SUITE_P(
     All, ConfigurationRefusal,
     testing::Values(
+        Refusal{"TriggerWithoutSource",
+                triggered("trigger_mode = \"line\""),
+                {"camera.trigger_mode", "trigger_source"}},
+        Refusal{"TriggerFromAnOutput",
+                triggered("trigger_mode = \"line\"\ntrigger_source = \"flash\""),
+                {"camera.trigger_source", "\"flash\"", "trigger_in", "start, flash"}},
+        Refusal{"StrobeWithoutSource",
+                triggered("", replaced("source = \"start\"", "", kLines)),
+                {"line.use", "source"}},
+        Refusal{"StrobeAtARate",
+                triggered("", replaced("source = \"start\"", "rate = 5", kLines)),
+                {"line.rate", "trigger_out"}},
+        Refusal{"LineTwice",
+                triggered("", replaced("\"flash\"", "\"start\"", kLines)),
+                {"line.name", "there twice"}},
+        Refusal{"LineWithoutAddress",
+                triggered("", replaced("chip = \"pinctrl\"", "", kLines)),
+                {"line.line_name", "chip and offset"}},
+        Refusal{"DebouncedOutput",
+                triggered("", replaced("width_us = 200", "debounce_us = 200", kLines)),
+                {"line.debounce_us", "inputs"}},
+        Refusal{"PulseLongerThanThePeriod",
+                triggered("", kLines + "[[line]]\nname = \"out\"\nuse = \"trigger_out\"\n"
+                                       "line_name = \"OUT\"\nrate = 100\nwidth_us = 10000\n"),
+                {"line.width_us", "period"}},
         Refusal{"UnknownKey",
                 replaced("width = 64", "width = 64\nwidht = 3"),
                 {"site.toml:12:", "view.widht", "width"}},

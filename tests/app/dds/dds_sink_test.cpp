@@ -166,6 +166,8 @@ void expect_same_cameras(const ProcessStateMessage& state, const Status& status)
     EXPECT_EQ(camera.frames_per_second, status.cameras[i].frames_per_second);
     EXPECT_EQ(camera.latency_p50_ms, status.cameras[i].latency_p50_ms);
     EXPECT_EQ(camera.latency_p99_ms, status.cameras[i].latency_p99_ms);
+    EXPECT_EQ(camera.triggers, status.cameras[i].triggers);
+    EXPECT_EQ(camera.missed, status.cameras[i].missed);
   }
 }
 

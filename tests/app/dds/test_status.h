@@ -15,12 +15,15 @@ inline Status make_status() {
   status.unmatched = 4;
   status.load = 0.625;
   status.selected_view = 1;
+  status.process_inputs = 0b101;
   status.camera_count = 2;
   status.view_count = 2;
   std::uint64_t next = 100;
   for (auto& camera : status.cameras) {
     const auto base = static_cast<double>(next);
     camera = {hal::Fault::Stalled, next, next + 1, next + 2, base + 0.5, base + 0.25, base + 0.75};
+    camera.triggers = next + 3;
+    camera.missed = next + 4;
     next += 10;
   }
   for (auto& view : status.views) {

@@ -180,6 +180,52 @@ TEST_F(PipelineTest, OverrunsAreCountedAndSlowDisplayViewsOnly) {
   EXPECT_EQ(status.views[0].published + status.views[0].skipped, 16U);
 }
 
+TEST_F(PipelineTest, ATriggeredCameraGivesOneFrameForEachTriggerAndTheRestIsMissed) {
+  const auto trigger = std::make_shared<hal::FrameTrigger>(
+      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
+  plan.triggers = {trigger, nullptr};
+  start();
+  constexpr std::uint64_t kTriggers = 12;
+  std::uint64_t frames = 0;
+  for (std::uint64_t i = 1; i <= kTriggers; ++i) {
+    trigger->take({hal::Edge::Rising, hal::Clock::now()});
+    if (i % 3 == 1) continue;  // the next edge comes before the camera exposes
+    cameras[0]->expose(40000);
+    cameras[0]->expose(40000);  // without a trigger: in no set
+    ++frames;
+    sink.wait_for([&](const Status& s) { return s.frame_set == frames; });
+  }
+  const Status status =
+      sink.wait_for([&](const Status& s) { return s.cameras[0].triggers == kTriggers; });
+  EXPECT_EQ(status.cameras[0].frames, frames);
+  EXPECT_EQ(status.cameras[0].missed, kTriggers - frames);
+  EXPECT_EQ(status.cameras[0].lost, 0U) << "frames without a trigger are not lost";
+}
+
+TEST_F(PipelineTest, ACameraFaultMissesItsTriggers) {
+  const auto trigger = std::make_shared<hal::FrameTrigger>(
+      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
+  plan.triggers = {trigger, nullptr};
+  start();
+  trigger->take({hal::Edge::Rising, hal::Clock::now()});
+  cameras[0]->fail_with(hal::Fault::Unplugged);
+  const Status status = sink.wait_for([](const Status& s) { return s.cameras[0].missed == 1; });
+  EXPECT_EQ(status.cameras[0].triggers, 1U);
+  EXPECT_EQ(status.cameras[0].frames, 0U);
+}
+
+TEST_F(PipelineTest, TellsWhichProcessInputsAreActive) {
+  const auto door = std::make_shared<hal::ProcessInput>(true, hal::Clock::now());
+  const auto laser = std::make_shared<hal::ProcessInput>(false, hal::Clock::now());
+  plan.process_inputs = {door, laser};
+  start();
+  sink.wait_for([](const Status& s) { return s.process_inputs == 0b01; });
+  laser->take({hal::Edge::Rising, hal::Clock::now()});
+  sink.wait_for([](const Status& s) { return s.process_inputs == 0b11; });
+  door->take({hal::Edge::Falling, hal::Clock::now()});
+  sink.wait_for([](const Status& s) { return s.process_inputs == 0b10; });
+}
+
 TEST_F(PipelineTest, SelectsAViewOnCommand) {
   start();
   EXPECT_EQ(pipeline->command({CommandCode::SelectView, 1}), CommandResult::Done);
