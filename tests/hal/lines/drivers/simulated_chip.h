@@ -25,13 +25,22 @@ class SimulatedChip : public testing::Test {
     for (const unsigned line : {kInput, kOutput, kUnnamed}) pull(line, false);
   }
 
-  static std::string variable(const char* name) {
-    const char* value = std::getenv(name);
-    EXPECT_TRUE(value) << name << " must be set, as tests/hil does";
+  /// The chip's folder in configfs.
+  static std::string config() {
+    const char* value = std::getenv("GPIO_SIM_CONFIG");
+    EXPECT_TRUE(value) << "GPIO_SIM_CONFIG must be set, as tests/hil does";
     return value ? value : "";
   }
+  static std::string first_word(const std::string& file) {
+    std::string word;
+    std::ifstream(file) >> word;
+    return word;
+  }
+  /// Device and chip have other numbers each time the chip comes.
   static std::string file_of(unsigned line, const std::string& name) {
-    return variable("GPIO_SIM_LINES") + "/sim_gpio" + std::to_string(line) + "/" + name;
+    return "/sys/devices/platform/" + first_word(config() + "/dev_name") + "/" +
+           first_word(config() + "/bank/chip_name") + "/sim_gpio" + std::to_string(line) + "/" +
+           name;
   }
   /// Another device on the wire: an edge, if the line is an input and the level another.
   static void pull(unsigned line, bool up) {
@@ -46,7 +55,7 @@ class SimulatedChip : public testing::Test {
     return value == 1;
   }
   static void set_live(bool live) {
-    std::ofstream file(variable("GPIO_SIM_CONFIG") + "/live");
+    std::ofstream file(config() + "/live");
     file << (live ? 1 : 0) << std::flush;
     ASSERT_TRUE(file.good());
   }
