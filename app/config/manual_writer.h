@@ -157,7 +157,9 @@ class ManualWriter {
   }
 
   static std::string show(bool value) { return value ? "true" : "false"; }
-  static std::string show(const std::string& value) { return "`" + value + "`"; }
+  static std::string show(const std::string& value) {
+    return value.empty() ? "none" : "`" + value + "`";
+  }
   static std::string show(const std::filesystem::path&) { return ""; }
   static std::string show(const std::vector<std::string>&) { return "[]"; }
   static std::string show(const std::vector<double>&) { return "[]"; }

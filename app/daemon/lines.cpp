@@ -109,7 +109,6 @@ void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::Digit
   input(settings.source).hear([pulse = pulses.get()](const hal::EdgeEvent& edge) {
     if (edge.edge == hal::Edge::Rising) pulse->fire(edge.stamp);
   });
-  return {};
 }
 
 void Lines::open_watchdog(const LineSettings& settings,
