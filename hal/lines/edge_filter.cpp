@@ -7,12 +7,12 @@ namespace orbwatch::hal {
 std::optional<EdgeEvent> EdgeFilter::take(const EdgeEvent& edge) {
   const bool kept = due_ != TimePoint::max() && edge.stamp - last_.stamp >= period_;
   const EdgeEvent before = std::exchange(last_, edge);
-  if (edge.edge == before.edge) ++found_lost_;
   due_ = edge.stamp + wait();
   doubted_ = false;
   if (period_.count() <= 0) {
-    level_ = edge.edge == Edge::Rising;
-    return edge;
+    level_ = !level_;
+    last_.edge = edge_to(level_);
+    return last_;
   }
   return kept ? change_to(before.edge == Edge::Rising, before.stamp) : std::nullopt;
 }

@@ -9,7 +9,9 @@ namespace orbwatch::hal {
 
 /// Edges as they come from a line, made edges to act on. With a period it debounces: a level counts
 /// once it has been kept for that long, and the edge to it is stamped with the moment it was taken.
-/// Without one (or when the kernel debounces) each edge passes at once. Either way the level is
+/// Without one (or when the kernel debounces) each edge passes at once, as the opposite of the one
+/// before: the kernel names an edge by the level it finds some microseconds later, so that of a
+/// short pulse both edges may be named alike. Either way the level is
 /// asked for again after a burst, since queues overflow: what comes out last agrees with the line.
 /// Pure; time comes in with the edges.
 class EdgeFilter {
@@ -32,8 +34,7 @@ class EdgeFilter {
   /// an edge still on its way: it is believed when it is the same a period later.
   std::optional<EdgeEvent> settle(bool level, TimePoint now);
 
-  /// Edges that were lost on the way, as far as what is left tells: both edges are watched, so the
-  /// same one twice means that one between them is missing.
+  /// Edges that were lost on the way, found by the level after a burst.
   std::uint64_t found_lost() const { return found_lost_; }
 
  private:
