@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <system_error>
 
 namespace orbwatch::hal {
@@ -32,8 +31,8 @@ itimerspec alarm_at(TimePoint moment) {
 
 /// Empties a timer or an eventfd; fails when there is nothing in it, which is as good.
 void drain(const FileDescriptor& file) {
-  std::uint64_t count = 0;
-  static_cast<void>(::read(file.get(), &count, sizeof count));
+  eventfd_t count = 0;  // a timer is read alike
+  static_cast<void>(::eventfd_read(file.get(), &count));
 }
 
 }  // namespace

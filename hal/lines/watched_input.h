@@ -21,8 +21,8 @@ class WatchedInput : public LineTask {
   using OnEdge = std::function<void(const EdgeEvent&)>;
   using OnFault = std::function<void(const LineFaultReport&)>;
 
-  /// Opens the line of `back_end`, which must outlive it. Edges alternate, from initial_level() on,
-  /// unless one was lost. The error is open_input()'s.
+  /// Opens the line of `back_end`, which must outlive it. Edges alternate, from initial_level() on.
+  /// The error is open_input()'s.
   static Result<std::unique_ptr<WatchedInput>> open(LineBackEnd& back_end,
                                                     const InputSettings& settings,
                                                     OnFault on_fault);
