@@ -11,9 +11,9 @@ namespace orbwatch::hal {
 /// once it has been kept for that long, and the edge to it is stamped with the moment it was taken.
 /// Without one (or when the kernel debounces) each edge passes at once, as the opposite of the one
 /// before: the kernel names an edge by the level it finds some microseconds later, so that of a
-/// short pulse both edges may be named alike. Either way the level is asked for again after a burst,
-/// since queues overflow: what comes out last agrees with the line.
-/// Pure; time comes in with the edges.
+/// short pulse both edges may be named alike. Either way the level is asked for again after a
+/// burst, since queues overflow: what comes out last agrees with the line. Pure; time comes in with
+/// the edges.
 class EdgeFilter {
  public:
   /// How long after the last edge the level is asked for when nothing is debounced.

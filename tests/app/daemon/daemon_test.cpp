@@ -213,17 +213,14 @@ line_name = "WIRE"
 )";
   text.insert(text.find("frame_rate"), "trigger_mode = \"line\"\ntrigger_source = \"start\"\n");
   Subprocess daemon = start(write_config(text));
-  const auto counted = [&] { return read("camera_0_missed") > 50 && read("camera_0_frames") > 5; };
-  ASSERT_TRUE(eventually(daemon, counted)) << daemon.output();
+  ASSERT_TRUE(eventually(daemon, [&] {
+    return read("camera_0_missed") > 50 && read("camera_0_frames") > 5;
+  })) << daemon.output();
   const auto before = read("camera_0_triggers");
   const auto answered = read("camera_0_frames") + read("camera_0_missed");
-  const auto after = read("camera_0_triggers");
   EXPECT_GE(answered, before - 33) << "32 may wait for their frame, which may be on its way";
-  EXPECT_LE(answered, after);
+  EXPECT_LE(answered, read("camera_0_triggers"));
   EXPECT_EQ(read("camera_0_lost"), 0) << "frames without a trigger are not lost";
-  EXPECT_EQ(read("camera_1_triggers"), 0) << "runs freely";
-  daemon.send(SIGTERM);
-  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
 TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
