@@ -24,6 +24,9 @@ class BackOff {
   Clock::duration next_ = kFirst;
 };
 
+/// Cameras settle their exposure before the first frame.
+constexpr Clock::duration kFirstFrameTimeout = std::chrono::seconds(5);
+
 /// How long a camera may be silent: 5 periods of `frame_rate`, and 1 s at least; 5 s when its rate
 /// is not known (0).
 inline Clock::duration stall_timeout(double frame_rate) {

@@ -1,14 +1,38 @@
 #include "hal/camera.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace orbwatch::hal {
+namespace {
+
+constexpr int kMaxFrameRate = 1000;
+
+/// Whether a request makes sense for any camera at all.
+Result<> check(const StreamRequest& request) {
+  if (std::min(request.width, request.height) < 0 ||
+      std::max(request.width, request.height) > kMaxSide) {
+    return fail("asked for the size " + std::to_string(request.width) + "x" +
+                std::to_string(request.height) + "; at most " + std::to_string(kMaxSide) +
+                " pixels a side");
+  }
+  if (!(request.frame_rate >= 0 && request.frame_rate <= kMaxFrameRate)) {
+    return fail("asked for the frame rate " + std::to_string(request.frame_rate) + "; at most " +
+                std::to_string(kMaxFrameRate) + " frames per second");
+  }
+  return {};
+}
+
+}  // namespace
 
 Camera::~Camera() { join(); }
 
 Result<StreamFormat> Camera::configure(const StreamRequest& request) {
   if (thread_.joinable()) {
     return fail("camera " + info_.id + ": configure while it runs; stop it first");
+  }
+  if (auto sound = check(request); !sound) {
+    return fail("camera " + info_.id + ": " + sound.error().message);
   }
   auto format = do_configure(request);
   configured_ = format.has_value();

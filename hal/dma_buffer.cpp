@@ -14,6 +14,8 @@ Result<> synchronise(const FileDescriptor& file, unsigned long long moment) {
   // The kernel's documentation asks for the repetition.
   while (::ioctl(file.get(), DMA_BUF_IOCTL_SYNC, &sync) != 0) {
     if (errno == EINTR || errno == EAGAIN) continue;
+    // Plain shared memory, which software pipelines fill, needs none.
+    if (errno == ENOTTY) return {};
     return fail("cannot synchronise a dma-buf: " + std::generic_category().message(errno));
   }
   return {};
@@ -21,8 +23,8 @@ Result<> synchronise(const FileDescriptor& file, unsigned long long moment) {
 
 }  // namespace
 
-Result<> DmaBuffer::begin_read() { return synchronise(file_, DMA_BUF_SYNC_START); }
+Result<> DmaBuffer::begin_read() const { return synchronise(file_, DMA_BUF_SYNC_START); }
 
-Result<> DmaBuffer::end_read() { return synchronise(file_, DMA_BUF_SYNC_END); }
+Result<> DmaBuffer::end_read() const { return synchronise(file_, DMA_BUF_SYNC_END); }
 
 }  // namespace orbwatch::hal

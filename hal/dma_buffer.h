@@ -17,8 +17,8 @@ class DmaBuffer {
   int descriptor() const { return file_.get(); }
 
   /// Error: the device is gone or refuses, with the system's message.
-  Result<> begin_read();
-  Result<> end_read();
+  Result<> begin_read() const;
+  Result<> end_read() const;
 
  private:
   FileDescriptor file_;

@@ -18,10 +18,10 @@ struct CameraMode {
 
 struct CameraControl {
   std::string name;  ///< as Camera::set() takes it
-  std::int64_t minimum = 0;
-  std::int64_t maximum = 0;
-  std::int64_t step = 0;
-  std::int64_t default_value = 0;
+  double minimum = 0;
+  double maximum = 0;
+  double step = 0;  ///< 0: any value between
+  double default_value = 0;
   std::string state;                ///< "read only", "inactive" (an automatism has it), or empty
   std::vector<std::string> values;  ///< "1 = manual mode": of a menu; else empty
 };

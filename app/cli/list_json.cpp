@@ -58,8 +58,7 @@ std::string value_text(std::integral auto number) { return std::to_string(number
 std::string value_text(double number) {
   if (!std::isfinite(number)) return "null";
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
-  return {text, end};
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
 template <class T>

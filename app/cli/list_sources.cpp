@@ -1,102 +1,85 @@
-#include <algorithm>
-#include <filesystem>
-#include <iterator>
-#include <map>
+#include <utility>
 
 #include "app/cli/list.h"
-#include "hal/v4l2/v4l2_controls.h"
-#include "hal/v4l2/v4l2_device.h"
-#include "hal/v4l2/v4l2_format.h"
+#include "hal/libcamera/libcamera_list.h"
+#include "hal/lines/gpio_lines.h"
+#include "hal/v4l2/v4l2_list.h"
 
 namespace orbwatch::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string format_name(std::uint32_t fourcc) {
-  for (const hal::V4l2Format& format : hal::kV4l2Formats) {
-    if (format.fourcc == fourcc) return std::string(format.name);
-  }
-  std::string text;
-  for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>(fourcc >> shift & 0x7fU);
-  return text;
+std::string size_text(const hal::FrameSizeOffer& size) {
+  const auto text = [](std::uint32_t width, std::uint32_t height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  const std::string least = text(size.min_width, size.min_height);
+  const std::string most = text(size.max_width, size.max_height);
+  return least == most ? least : least + ".." + most;
 }
 
-hal::CameraControl control_entry(const v4l2_query_ext_ctrl& control) {
-  hal::CameraControl entry{.name = hal::control_variable(control.name),
-                           .minimum = control.minimum,
-                           .maximum = control.maximum,
-                           .step = static_cast<std::int64_t>(control.step),
-                           .default_value = control.default_value,
-                           .state = {},
+hal::CameraControl control_entry(hal::V4l2ControlInfo control) {
+  hal::CameraControl entry{.name = std::move(control.name),
+                           .minimum = static_cast<double>(control.minimum),
+                           .maximum = static_cast<double>(control.maximum),
+                           .step = static_cast<double>(control.step),
+                           .default_value = static_cast<double>(control.default_value),
+                           .state = control.read_only  ? "read only"
+                                    : control.inactive ? "inactive"
+                                                       : "",
                            .values = {}};
-  if ((control.flags & V4L2_CTRL_FLAG_INACTIVE) != 0) entry.state = "inactive";
-  if ((control.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) entry.state = "read only";
+  for (const auto& [value, text] : control.menu) {
+    entry.values.push_back(std::to_string(value) + " = " + text);
+  }
   return entry;
 }
 
-/// The links to each device node, in udev's folders of stable names.
-std::map<fs::path, std::vector<std::string>> stable_paths() {
-  std::map<fs::path, std::vector<std::string>> links;
-  for (const char* folder : {"/dev/v4l/by-id", "/dev/v4l/by-path"}) {
-    std::error_code error;
-    for (const auto& link : fs::directory_iterator(folder, error)) {
-      const fs::path node = fs::canonical(link.path(), error);
-      if (!error) links[node].push_back(link.path().string());
+hal::CameraEntry camera_entry(hal::V4l2DeviceInfo device) {
+  hal::CameraEntry camera{.id = {},
+                          .back_end = "v4l2",
+                          .model = std::move(device.card),
+                          .driver = std::move(device.driver),
+                          .bus = std::move(device.bus),
+                          .paths = std::move(device.stable_paths),
+                          .problem = std::move(device.problem),
+                          .modes = {},
+                          .controls = {}};
+  camera.paths.push_back(std::move(device.path));
+  camera.id = camera.paths.front();
+  for (const hal::V4l2FormatInfo& format : device.formats) {
+    for (const hal::V4l2SizeInfo& size : format.sizes) {
+      camera.modes.push_back({format.pixel_format.empty() ? format.fourcc : format.pixel_format,
+                              size_text(size.size), size.frame_rates});
     }
   }
-  return links;
-}
-
-hal::CameraEntry camera_entry(const hal::V4l2Device& device) {
-  hal::CameraEntry camera;
-  camera.model = device.card();
-  for (const std::uint32_t fourcc : device.formats()) {
-    for (const std::string& size : device.sizes(fourcc)) {
-      camera.modes.push_back({format_name(fourcc), size, {}});
-    }
-  }
-  for (auto control = device.next_control(0); control; control = device.next_control(control->id)) {
-    if (control->type == V4L2_CTRL_TYPE_CTRL_CLASS) continue;
-    camera.controls.push_back(control_entry(*control));
+  for (auto& control : device.controls) {
+    camera.controls.push_back(control_entry(std::move(control)));
   }
   return camera;
 }
 
-std::vector<hal::CameraEntry> v4l2_cameras() {
-  std::vector<fs::path> nodes;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator("/dev", error)) {
-    if (entry.path().filename().string().starts_with("video")) nodes.push_back(entry.path());
+hal::ChipEntry chip_entry(const hal::ChipInfo& chip) {
+  hal::ChipEntry entry{chip.label, chip.path, chip.error, {}};
+  for (const hal::LineInfo& line : chip.lines) {
+    const bool anonymous = line.is_used && line.consumer.empty();
+    entry.lines.push_back({line.offset, line.name, line.is_output ? "output" : "input",
+                           anonymous ? "in use" : line.consumer});
   }
-  std::sort(nodes.begin(), nodes.end());
-  auto links = stable_paths();
-  std::vector<hal::CameraEntry> cameras;
-  for (const fs::path& node : nodes) {
-    const auto device = hal::V4l2Device::open(node.string());
-    // One that is there but captures no pictures is no camera.
-    if (!device && device.error().fault == hal::Fault::WrongFormat) continue;
-    hal::CameraEntry camera = device ? camera_entry(*device) : hal::CameraEntry{};
-    if (!device) camera.problem = device.error().detail;
-    camera.back_end = "v4l2";
-    camera.paths = std::move(links[node]);
-    camera.paths.push_back(node.string());
-    camera.id = camera.paths.front();
-    cameras.push_back(std::move(camera));
-  }
-  return cameras;
-}
-
-template <class Entry>
-void append(std::vector<Entry>& all, std::vector<Entry> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(all));
+  return entry;
 }
 
 }  // namespace
 
 hal::Inventory take_inventory() {
   hal::Inventory inventory;
-  append(inventory.cameras, v4l2_cameras());
+  for (auto& device : hal::list_v4l2_devices()) {
+    inventory.cameras.push_back(camera_entry(std::move(device)));
+  }
+  for (auto& camera : hal::list_libcamera_cameras()) {
+    inventory.cameras.push_back(std::move(camera));
+  }
+  for (const hal::ChipInfo& chip : hal::GpioLines().chips()) {
+    inventory.chips.push_back(chip_entry(chip));
+  }
   return inventory;
 }
 

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <charconv>
 #include <concepts>
-#include <sstream>
 #include <string_view>
 
 #include "app/cli/list.h"
@@ -15,9 +15,8 @@ using Row = std::vector<std::string>;
 std::string cell(const std::string& text) { return one_line(text); }
 std::string cell(std::integral auto number) { return std::to_string(number); }
 std::string cell(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
 template <class T>

@@ -37,16 +37,10 @@ struct ReplayPart {
   bool loop = true;
 };
 
-struct V4l2ControlSettings {
-  std::string name;
-  double value = 0;
-};
-
 struct V4l2Part {
   std::string device;
   std::string pixel_format = "auto";
   bool colour = true;
-  std::vector<V4l2ControlSettings> controls;
 };
 
 struct LibcameraPart {
@@ -55,6 +49,11 @@ struct LibcameraPart {
   int sensor_width = 0;
   int sensor_height = 0;
   int sensor_bit_depth = 0;
+};
+
+struct ControlSettings {
+  std::string name;
+  double value = 0;
 };
 
 enum class BackEnd { Simulated, Replay, V4l2, Libcamera };
@@ -72,6 +71,7 @@ struct CameraSettings {
   std::string trigger_source;
   hal::TriggerActivation trigger_activation = hal::TriggerActivation::RisingEdge;
   double trigger_delay_us = 0;
+  std::vector<ControlSettings> controls;
   std::optional<SimulatedCameraPart> simulated;
   std::optional<ReplayPart> replay;
   std::optional<V4l2Part> v4l2;

@@ -82,11 +82,13 @@ void visit(Visitor& v, ReplayPart& part) {
 }
 
 template <class Visitor>
-void visit(Visitor& v, V4l2ControlSettings& control) {
+void visit(Visitor& v, ControlSettings& control) {
   v.required("name", control.name,
-             "V4L2's, as v4l2-ctl spells it or not, or GenICam's: ExposureTime (us), ExposureAuto, "
-             "Gain, GainAuto, BalanceWhiteAuto, TriggerMode");
-  v.required("value", control.value, kAnyNumber, "In the driver's units; for a menu, its number");
+             "GenICam's, for v4l2 and libcamera: ExposureTime (us), Gain, and ExposureAuto and "
+             "BalanceWhiteAuto (0 off, 1 on), for v4l2 GainAuto and TriggerMode, too; or the "
+             "camera's own, as `orbwatch list` shows it");
+  v.required("value", control.value, kAnyNumber,
+             "In the camera's units; for a menu, the entry's number");
 }
 
 template <class Visitor>
@@ -99,7 +101,6 @@ void visit(Visitor& v, V4l2Part& part) {
   v.optional("colour", part.colour,
              "Make colour of a sensor's mosaic and of MJPEG; else the mosaic stays as it is, and "
              "of MJPEG the luminance");
-  v.tables("control", part.controls, 0, 64, "What the camera is set to, in this order");
 }
 
 template <class Visitor>
@@ -144,13 +145,17 @@ void visit(Visitor& v, CameraSettings& camera) {
       "leaves it out");
   v.optional(
       "trigger_mode", camera.trigger_mode, kTriggerModes,
-      "off: every frame counts; software: each edge asks the camera for a frame; line: the "
-      "frame that begins after an edge counts, of a camera that sees the edge or runs freely");
+      "off: every frame counts; software: each edge asks the camera for a frame, of a camera with "
+      "the controls TriggerMode and TriggerSoftware or a simulated one; line: the frame that "
+      "begins "
+      "after an edge counts, of a camera that sees the edge or runs freely");
   v.optional("trigger_source", camera.trigger_source, "Name of the line, whose use is trigger_in");
   v.optional("trigger_activation", camera.trigger_activation, kTriggerActivations,
              "Which of its edges are triggers");
   v.optional("trigger_delay_us", camera.trigger_delay_us, Range::between(0, 1e7),
              "From the edge to the exposure, us");
+  v.tables("control", camera.controls, 0, 64,
+           "What the camera is set to, in this order, for v4l2 and libcamera");
   v.table("simulated", camera.simulated, "For back_end simulated");
   v.table("replay", camera.replay, "For back_end replay");
   v.table("v4l2", camera.v4l2, "For back_end v4l2");
@@ -177,13 +182,14 @@ void visit_pulses(Visitor& v, LineSettings& line) {
   v.optional_if(is_pulsed(line.use), pulses, "source", line.source,
                 "A trigger_in line whose active edges fire the pulse, for trigger_out and strobe");
   v.optional_if(line.use == LineUse::TriggerOut, "trigger_out", "rate", line.rate,
-                Range::between(0, 1000), "Pulses per second, for trigger_out; 0: as source says");
+                Range::between(0, 1000),
+                "Pulses per second, for trigger_out; 0: when source or the command pulse says");
   v.optional_if(is_pulsed(line.use), pulses, "width_us", line.width_us, Range::between(10, 1e7),
                 "Length of the pulse, us, for trigger_out and strobe");
   v.optional_if(is_pulsed(line.use), pulses, "delay_us", line.delay_us, Range::between(0, 1e7),
                 "From the edge to the pulse, us, for trigger_out and strobe");
-  v.require(!is_pulsed(line.use) || line.source.empty() != (line.rate <= 0), "use",
-            "needs source, or for trigger_out rate instead");
+  v.require(line.use != LineUse::Strobe || !line.source.empty(), "source", "a strobe needs it");
+  v.require(line.source.empty() || line.rate <= 0, "rate", "goes without source only");
   v.require(line.rate * line.width_us < 1e6, "width_us",
             "a pulse must be shorter than the period of the rate");
 }

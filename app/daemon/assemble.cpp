@@ -94,6 +94,13 @@ Result<> open_camera(const CameraSettings& settings, const optics::Rig& rig,
   auto camera = make_camera(settings, machine);
   auto format = camera->configure({settings.width, settings.height, settings.frame_rate});
   if (!format) return fail("camera " + settings.name + ": " + format.error().message);
+  std::vector<ControlSettings> controls = settings.controls;
+  if (settings.trigger_mode == hal::TriggerMode::Software) controls.push_back({"TriggerMode", 1});
+  for (const ControlSettings& control : controls) {
+    if (auto done = camera->set(control.name, control.value); !done) {
+      return fail("camera " + settings.name + ": " + done.error().message);
+    }
+  }
   if (!ViewRenderer::is_supported(format->format)) {
     return fail("camera " + settings.name + ": delivers " + std::string(info(format->format).name) +
                 "; views take grey, y16, yuyv and rgb");

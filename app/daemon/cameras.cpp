@@ -22,14 +22,6 @@ simulation::SimulatedCameraSettings simulated_settings(const CameraSettings& set
   return simulated;
 }
 
-hal::V4l2Settings v4l2_settings(const V4l2Part& part) {
-  hal::V4l2Settings settings{part.device, part.pixel_format, part.colour, {}};
-  for (const V4l2ControlSettings& control : part.controls) {
-    settings.controls.emplace_back(control.name, control.value);
-  }
-  return settings;
-}
-
 hal::LibcameraSettings libcamera_settings(const LibcameraPart& part) {
   return {part.camera,
           part.pixel_format,
@@ -48,7 +40,8 @@ std::unique_ptr<hal::Camera> make_camera(
           hal::ReplaySettings{settings.name, settings.replay->source, settings.frame_rate,
                               settings.replay->loop, settings.faults});
     case BackEnd::V4l2:
-      return std::make_unique<hal::V4l2Camera>(v4l2_settings(*settings.v4l2));
+      return std::make_unique<hal::V4l2Camera>(hal::V4l2Settings{
+          settings.v4l2->device, settings.v4l2->pixel_format, settings.v4l2->colour});
     case BackEnd::Libcamera:
       return std::make_unique<hal::LibcameraCamera>(libcamera_settings(*settings.libcamera));
   }

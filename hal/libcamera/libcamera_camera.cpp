@@ -12,10 +12,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kMaxFrameRate = 1000;
-/// Cameras settle their exposure before the first frame.
-constexpr Clock::duration kFirstFrameTimeout = 5s;
-
 CameraInfo info_of(const std::string& wanted, libcamera::CameraManager* manager) {
   CameraInfo info{wanted, "unknown", "libcamera"};
   if (manager == nullptr) return info;
@@ -37,14 +33,14 @@ LibcameraCamera::LibcameraCamera(LibcameraSettings settings)
     : LibcameraCamera(std::move(settings), camera_manager().value_or(nullptr)) {}
 
 LibcameraCamera::LibcameraCamera(LibcameraSettings settings, SharedManager manager)
-    : Camera(info_of(settings.camera, manager.get())),
+    : DeviceCamera(info_of(settings.camera, manager.get())),
       settings_(std::move(settings)),
       manager_(std::move(manager)) {}
 
 LibcameraCamera::~LibcameraCamera() { stop(); }
 
-/// Whether request and settings make sense for any camera at all.
-Result<> LibcameraCamera::check(const StreamRequest& request) const {
+/// Whether the settings make sense for any camera at all.
+Result<> LibcameraCamera::check() const {
   const std::string who = "camera " + info().id + ": ";
   std::string names = "auto";
   bool known = settings_.pixel_format == names;
@@ -55,16 +51,6 @@ Result<> LibcameraCamera::check(const StreamRequest& request) const {
   if (!known) {
     return fail(who + "pixel format \"" + settings_.pixel_format + "\"; it must be one of " +
                 names);
-  }
-  if (std::min(request.width, request.height) < 0 ||
-      std::max(request.width, request.height) > kMaxSide) {
-    return fail(who + "asked for " + std::to_string(request.width) + "x" +
-                std::to_string(request.height) + "; at most " + std::to_string(kMaxSide) +
-                " pixels a side");
-  }
-  if (!(request.frame_rate >= 0 && request.frame_rate <= kMaxFrameRate)) {
-    return fail(who + "asked for " + std::to_string(request.frame_rate) +
-                " frames per second; at most " + std::to_string(kMaxFrameRate));
   }
   const SensorMode& mode = settings_.sensor_mode;
   if (mode.is_set() && (std::min({mode.width, mode.height, mode.bit_depth}) <= 0 ||
@@ -85,6 +71,7 @@ Result<std::string> LibcameraCamera::find() {
 }
 
 Result<std::shared_ptr<libcamera::Camera>> LibcameraCamera::open() {
+  if (is_lost_) return fail(lost_text());
   const auto id = find();
   if (!id) return tl::unexpected(id.error());
   auto camera = manager_->get(*id);
@@ -93,7 +80,7 @@ Result<std::shared_ptr<libcamera::Camera>> LibcameraCamera::open() {
 }
 
 Result<StreamFormat> LibcameraCamera::do_configure(const StreamRequest& request) {
-  if (auto sound = check(request); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check(); !sound) return tl::unexpected(sound.error());
   const std::lock_guard lock(camera_mutex_);
   auto camera = open();
   if (!camera) return tl::unexpected(camera.error());
@@ -119,23 +106,24 @@ Result<> LibcameraCamera::set(std::string_view control, double value) {
   return {};
 }
 
-void LibcameraCamera::run(const std::stop_token& stop) {
-  counter_ = FrameCounter();
-  BackOff pause;
-  while (!stop.stop_requested()) {
-    delivered_ = false;
-    const FaultReport fault = stream_until_fault(stop);
-    report(fault.fault, fault.detail);
-    if (delivered_) pause.reset();
-    if (!wait_until(stop, Clock::now() + pause.next())) return;
-  }
+FaultReport LibcameraCamera::stream_until_fault(const std::stop_token& stop) {
+  auto started = start_again();
+  if (!started) return started.error();
+  FaultReport fault = stream_with(**started, stop);
+  if ((*started)->end()) return fault;
+  const std::lock_guard lock(camera_mutex_);
+  is_lost_ = true;
+  // Kept for as long as the process lives: libcamera does not survive their end.
+  static_cast<void>(started->release());
+  static_cast<void>(new SharedManager(manager_));
+  return {Fault::Unplugged, lost_text()};
 }
 
-/// Acquires the camera and streams; returns what ended it, which means nothing after a stop.
-FaultReport LibcameraCamera::stream_until_fault(const std::stop_token& stop) {
-  const auto started = start_again();
-  if (!started) return started.error();
-  LibcameraStream& stream = **started;
+std::string LibcameraCamera::lost_text() const {
+  return id_ + ": its driver let go of it, which libcamera has not noticed; restart this program";
+}
+
+FaultReport LibcameraCamera::stream_with(LibcameraStream& stream, const std::stop_token& stop) {
   const std::stop_callback wake(stop, [&stream] { stream.ring(); });
 
   counter_.restart();
@@ -175,9 +163,7 @@ void LibcameraCamera::take(const LibcameraStream::Captured& captured) {
   captured.frame->metadata =
       metadata_of(captured.metadata, captured.buffer.timestamp, ClockReading::now());
   captured.frame->metadata.sequence = sequence;
-  delivered_ = true;
-  report(Fault::None);
-  deliver(captured.frame);
+  hand_on(captured.frame);
 }
 
 /// Whether the camera delivered all of a frame; reports it if not.

@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/camera.h"
-#include "hal/frame_counter.h"
+#include "hal/device_camera.h"
 #include "hal/libcamera/camera_manager.h"
 #include "hal/libcamera/control_settings.h"
 #include "hal/libcamera/libcamera_stream.h"
@@ -25,7 +24,7 @@ struct LibcameraSettings {
 /// A camera behind libcamera. Frames are handed on in the device's own memory.
 /// The camera is acquired only while it runs or is configured. When it breaks off, is removed, or
 /// is silent for longer than stall_timeout(), it is released and acquired again after a BackOff.
-class LibcameraCamera : public Camera {
+class LibcameraCamera : public DeviceCamera {
  public:
   explicit LibcameraCamera(LibcameraSettings settings);
   ~LibcameraCamera() override;
@@ -37,32 +36,32 @@ class LibcameraCamera : public Camera {
  protected:
   /// Errors: no such camera, or several; busy; size, format or sensor mode not on offer.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
-  void run(const std::stop_token& stop) override;
+  FaultReport stream_until_fault(const std::stop_token& stop) override;
 
  private:
   using SharedManager = std::shared_ptr<libcamera::CameraManager>;
 
   LibcameraCamera(LibcameraSettings settings, SharedManager manager);
-  Result<> check(const StreamRequest& request) const;
+  Result<> check() const;
   /// The libcamera id that the settings name, once the camera was there.
   Result<std::string> find();
   Result<std::shared_ptr<libcamera::Camera>> open();
-  FaultReport stream_until_fault(const std::stop_token& stop);
   DeviceResult<std::unique_ptr<LibcameraStream>> start_again();
+  FaultReport stream_with(LibcameraStream& stream, const std::stop_token& stop);
+  std::string lost_text() const;
   void take(const LibcameraStream::Captured& captured);
   bool is_whole(const LibcameraStream::Captured& captured);
 
   LibcameraSettings settings_;
+  /// Of id_, manager_, is_lost_, and of the camera's list of controls while it is configured.
+  std::mutex camera_mutex_;
   SharedManager manager_;  ///< null while libcamera does not start
-  std::mutex
-      camera_mutex_;  ///< of id_, and of the camera's list of controls while it is configured
-  std::string id_;    ///< libcamera's; a replugged camera has to be the same
+  bool is_lost_ = false;   ///< for good: see has_lost_its_nodes()
+  std::string id_;         ///< libcamera's; a replugged camera has to be the same
   StreamFormat format_;
   std::string_view pixel_format_;
   double expected_rate_ = 0;
   ControlSettings controls_;
-  FrameCounter counter_;
-  bool delivered_ = false;  ///< since the camera was acquired
 };
 
 }  // namespace orbwatch::hal

@@ -108,13 +108,20 @@ libcamera::ControlValue make_value(libcamera::ControlType type, double number) {
   }
 }
 
+/// What a control takes; nothing for what is not a number.
+std::optional<Limits> limits_of(libcamera::ControlType type, const libcamera::ControlInfo& info) {
+  auto limits = limits_of(type);
+  if (!limits) return std::nullopt;
+  limits->least = std::max(limits->least, as_number(info.min()).value_or(limits->least));
+  limits->most = std::min(limits->most, as_number(info.max()).value_or(limits->most));
+  return limits;
+}
+
 /// `value` as the control takes it.
 Result<double> check(std::string_view name, libcamera::ControlType type,
                      const libcamera::ControlInfo& info, double value) {
-  auto limits = limits_of(type);
+  const auto limits = limits_of(type, info);
   if (!limits) return fail("control " + std::string(name) + " does not take a number");
-  limits->least = std::max(limits->least, as_number(info.min()).value_or(limits->least));
-  limits->most = std::min(limits->most, as_number(info.max()).value_or(limits->most));
   const double number = type == libcamera::ControlTypeFloat ? value : std::round(value);
   if (number >= limits->least && number <= limits->most) return number;
   std::ostringstream message;
@@ -139,6 +146,21 @@ bool is_array(const libcamera::ControlId& id) {
   const std::array<const libcamera::ControlId*, 3> arrays{
       &controls::ColourGains, &controls::FrameDurationLimits, &controls::ColourCorrectionMatrix};
   return std::find(arrays.begin(), arrays.end(), &id) != arrays.end();
+}
+
+CameraControl describe(std::string_view name, const libcamera::ControlInfo& info,
+                       libcamera::ControlType type, const Limits& limits) {
+  CameraControl control{.name = std::string(name),
+                        .minimum = limits.least,
+                        .maximum = limits.most,
+                        .step = type == libcamera::ControlTypeFloat ? 0.0 : 1.0,
+                        .default_value = as_number(info.def()).value_or(0),
+                        .state = {},
+                        .values = {}};
+  for (const libcamera::ControlValue& value : info.values()) {
+    control.values.push_back(value.toString());
+  }
+  return control;
 }
 
 }  // namespace
@@ -172,6 +194,23 @@ Result<> put_control(const libcamera::ControlInfoMap& offered, std::string_view 
     list.set(id->id(), make_value(id->type(), *number));
   }
   return {};
+}
+
+std::vector<CameraControl> list_controls(const libcamera::ControlInfoMap& offered) {
+  std::vector<CameraControl> controls;
+  for (const auto& [id, info] : offered) {
+    const auto limits = limits_of(id->type(), info);
+    if (!limits) continue;
+    if (id == &libcamera::controls::ColourGains) {
+      for (const auto gain : kColourGains) {
+        controls.push_back(describe(gain, info, id->type(), *limits));
+      }
+    } else if (!is_array(*id)) {
+      controls.push_back(describe(id->name(), info, id->type(), *limits));
+    }
+  }
+  std::ranges::sort(controls, {}, &CameraControl::name);
+  return controls;
 }
 
 }  // namespace orbwatch::hal

@@ -3,7 +3,9 @@
 #include <libcamera/controls.h>
 
 #include <string_view>
+#include <vector>
 
+#include "hal/inventory.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
@@ -20,5 +22,8 @@ Result<> put_control(const libcamera::ControlInfoMap& offered, std::string_view 
 /// libcamera's id of the control that `name` names as in put_control(), or nullptr.
 const libcamera::ControlId* find_control(const libcamera::ControlInfoMap& offered,
                                          std::string_view name);
+
+/// What put_control() takes, by name.
+std::vector<CameraControl> list_controls(const libcamera::ControlInfoMap& offered);
 
 }  // namespace orbwatch::hal

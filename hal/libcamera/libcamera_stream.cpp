@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "hal/libcamera/device_nodes.h"
+
 namespace orbwatch::hal {
 
 LibcameraStream::LibcameraStream(AcquiredCamera camera, ControlSettings& controls)
@@ -34,9 +36,18 @@ DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraStream::start(
 }
 
 LibcameraStream::~LibcameraStream() {
-  // Cancels what is queued; nothing is left to stop when the camera is gone.
+  if (!ended_) end();
+}
+
+bool LibcameraStream::end() {
+  ended_ = true;
+  // Of what libcamera itself knows to be gone it takes the stop.
+  const bool gone = !removed_ && has_lost_its_nodes(*camera_);
+  if (gone) return false;
+  // Cancels what is queued.
   camera_->stop();
   camera_->requestCompleted.disconnect(events_.get());
+  return true;
 }
 
 Result<> LibcameraStream::make_buffers(const LibcameraAgreement& agreed) {
@@ -126,6 +137,7 @@ DeviceResult<LibcameraStream::Captured> LibcameraStream::take(std::size_t number
 DeviceResult<std::size_t> LibcameraStream::wait(TimePoint deadline, const OnCaptured& on_captured) {
   const CaptureEvents::News news = events_->wait(deadline);
   if (news.removed) {
+    removed_ = true;
     return tl::unexpected(FaultReport{Fault::Unplugged, camera_->id() + ": was removed"});
   }
   if (auto queued = queue_returned(news.returned); !queued) return tl::unexpected(queued.error());

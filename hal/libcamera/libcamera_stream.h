@@ -44,6 +44,10 @@ class LibcameraStream {
   /// removed, refuses a request or cancelled one.
   DeviceResult<std::size_t> wait(TimePoint deadline, const OnCaptured& on_captured);
 
+  /// Ends the stream, as the destructor does. False: the device went away behind libcamera's back.
+  /// Whoever owns this object must then never destroy it: see has_lost_its_nodes().
+  bool end();
+
   /// True when frames in use hold all buffers: the camera has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
@@ -72,6 +76,8 @@ class LibcameraStream {
   std::vector<const LibcameraFrame*> frames_;                  ///< the pool's, by buffer
   std::vector<std::unique_ptr<libcamera::Request>> requests_;  ///< by buffer
   std::size_t queued_ = 0;
+  bool removed_ = false;  ///< libcamera said so
+  bool ended_ = false;
 };
 
 }  // namespace orbwatch::hal

@@ -130,7 +130,7 @@ class SimulatedLines::Output : public DigitalOutput {
   bool active_low_;
 };
 
-SimulatedLines::SimulatedLines(const std::vector<std::string>& names, OnChange on_change) {
+SimulatedLines::SimulatedLines(const std::vector<std::string>& names, const OnChange& on_change) {
   for (const std::string& name : names) {
     wires_.push_back(std::make_shared<Wire>());
     wires_.back()->name = name;

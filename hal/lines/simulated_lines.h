@@ -36,7 +36,8 @@ class SimulatedLines : public LineBackEnd {
   /// Called with each new level of a wire, on the thread that changed it, in order.
   using OnChange = std::function<void(const std::string& line, bool level)>;
 
-  explicit SimulatedLines(const std::vector<std::string>& names, OnChange on_change = nullptr);
+  explicit SimulatedLines(const std::vector<std::string>& names,
+                          const OnChange& on_change = nullptr);
   ~SimulatedLines() override;
 
   std::vector<ChipInfo> chips() const override;

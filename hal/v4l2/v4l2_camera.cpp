@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stop_token>
 
+#include "hal/back_off.h"
 #include "hal/v4l2/buffer_stamps.h"
 #include "hal/v4l2/v4l2_controls.h"
 #include "hal/v4l2/v4l2_list.h"
@@ -12,18 +13,6 @@ namespace orbwatch::hal {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr int kMaxFrameRate = 1000;
-constexpr Clock::duration kFirstPause = 1s;
-constexpr Clock::duration kLongestPause = 10s;
-/// Cameras settle their exposure before the first frame.
-constexpr Clock::duration kFirstFrameTimeout = 5s;
-
-Clock::duration stall_timeout(double frame_rate) {
-  if (frame_rate <= 0) return 1s;
-  const std::chrono::duration<double> periods(5.0 / frame_rate);
-  return std::max<Clock::duration>(1s, std::chrono::duration_cast<Clock::duration>(periods));
-}
 
 /// What the device calls itself, if it is there.
 std::string model_of(const std::string& name) {
@@ -34,9 +23,8 @@ std::string model_of(const std::string& name) {
 }  // namespace
 
 V4l2Camera::V4l2Camera(V4l2Settings settings)
-    : Camera({settings.device, model_of(settings.device), "v4l2"}),
-      settings_(std::move(settings)),
-      controls_(settings_.controls) {}
+    : DeviceCamera({settings.device, model_of(settings.device), "v4l2"}),
+      settings_(std::move(settings)) {}
 
 V4l2Camera::~V4l2Camera() { stop(); }
 
@@ -45,7 +33,7 @@ DeviceResult<V4l2Device> V4l2Camera::open() const {
 }
 
 Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
-  if (auto sound = check(request); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check(); !sound) return tl::unexpected(sound.error());
   auto device = open();
   if (!device) return fail(device.error().detail);
   if (auto ready = set_up(*device, settings_.pixel_format, request); !ready)
@@ -55,24 +43,14 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   return agreed_.stream;
 }
 
-/// Whether request and settings make sense for any device at all.
-Result<> V4l2Camera::check(const StreamRequest& request) const {
+/// Whether the settings make sense for any device at all.
+Result<> V4l2Camera::check() const {
   const auto& names = kPixelCodingNames;
   if (std::find(names.begin(), names.end(), settings_.pixel_format) == names.end()) {
     std::string known;
     for (const auto name : names) known.append(known.empty() ? "" : ", ").append(name);
     return fail(settings_.device + ": pixel format \"" + settings_.pixel_format +
                 "\"; it must be one of " + known);
-  }
-  if (std::min(request.width, request.height) < 0 ||
-      std::max(request.width, request.height) > kMaxSide) {
-    return fail(settings_.device + ": asked for " + std::to_string(request.width) + "x" +
-                std::to_string(request.height) + "; at most " + std::to_string(kMaxSide) +
-                " pixels a side");
-  }
-  if (!(request.frame_rate >= 0 && request.frame_rate <= kMaxFrameRate)) {
-    return fail(settings_.device + ": asked for " + std::to_string(request.frame_rate) +
-                " frames per second; at most " + std::to_string(kMaxFrameRate));
   }
   return {};
 }
@@ -82,7 +60,7 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
                                   const StreamRequest& request) {
   const auto agreed = agree_on_format(device, {pixel_format, settings_.colour, request});
   if (!agreed) return tl::unexpected(agreed.error());
-  std::vector<V4l2Settings::Control> controls;
+  std::vector<Control> controls;
   {
     const std::lock_guard lock(controls_mutex_);
     controls = controls_;
@@ -107,33 +85,17 @@ Result<> V4l2Camera::set(std::string_view control, double value) {
   if (is_button(*device, control)) return {};
   triggered_ = waits_for_trigger(*device);
   const std::lock_guard lock(controls_mutex_);
-  const auto known =
-      std::find_if(controls_.begin(), controls_.end(),
-                   [control](const V4l2Settings::Control& c) { return c.first == control; });
+  const auto known = std::find_if(controls_.begin(), controls_.end(),
+                                  [control](const Control& c) { return c.first == control; });
   if (known != controls_.end()) {
     known->second = value;
   } else {
     controls_.emplace_back(control, value);
   }
-  std::erase_if(controls_,
-                [&](const V4l2Settings::Control& c) { return is_inactive(*device, c.first); });
+  std::erase_if(controls_, [&](const Control& c) { return is_inactive(*device, c.first); });
   return {};
 }
 
-void V4l2Camera::run(const std::stop_token& stop) {
-  counter_ = FrameCounter();
-  Clock::duration pause = kFirstPause;
-  while (!stop.stop_requested()) {
-    delivered_ = false;
-    const FaultReport fault = stream_until_fault(stop);
-    report(fault.fault, fault.detail);
-    if (delivered_) pause = kFirstPause;
-    if (!wait_until(stop, Clock::now() + pause)) return;
-    pause = std::min(2 * pause, kLongestPause);
-  }
-}
-
-/// Opens the device and streams; returns what ended it, which means nothing after a stop.
 FaultReport V4l2Camera::stream_until_fault(const std::stop_token& stop) {
   auto device = open();
   if (!device) return device.error();
@@ -175,11 +137,18 @@ void V4l2Camera::take(const V4l2Stream::Captured& captured) {
                                .exposure_start = stamp.moment,
                                .stamp_source = stamp.source};
   if (!is_whole(captured)) return;
-  if (!decoder_) return hand_on(captured.frame, metadata);
-  auto frame = decoder_->decode(captured.samples(0));
-  if (!frame) return report(Fault::CorruptFrame, settings_.device + ": " + frame.error().message);
+  std::shared_ptr<FrameBuffer> frame = captured.frame;
+  if (decoder_) {
+    auto decoded = decoder_->decode(captured.samples(0));
+    if (!decoded) {
+      return report(Fault::CorruptFrame, settings_.device + ": " + decoded.error().message);
+    }
+    frame = std::move(*decoded);
+  }
   // All decoded buffers are in use: the frame is lost, which the gap in the sequence tells.
-  if (*frame) hand_on(std::move(*frame), metadata);
+  if (!frame) return;
+  frame->metadata = metadata;
+  hand_on(std::move(frame));
 }
 
 /// Whether the driver delivered all of a frame; reports it if not.
@@ -197,13 +166,6 @@ bool V4l2Camera::is_whole(const V4l2Stream::Captured& captured) {
     return false;
   }
   return true;
-}
-
-void V4l2Camera::hand_on(std::shared_ptr<FrameBuffer> frame, const FrameMetadata& metadata) {
-  frame->metadata = metadata;
-  delivered_ = true;
-  report(Fault::None);
-  deliver(std::move(frame));
 }
 
 }  // namespace orbwatch::hal

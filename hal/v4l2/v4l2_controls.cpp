@@ -60,6 +60,24 @@ Result<v4l2_query_ext_ctrl> find(const V4l2Device& device, std::string_view name
               "\"; there are: " + (known.empty() ? "none" : known));
 }
 
+/// V4L2's entry for GenICam's ExposureAuto: off, or on with whichever automatism the camera has.
+Result<double> exposure_entry(const V4l2Device& device, const v4l2_query_ext_ctrl& control,
+                              double value) {
+  if (value == 0) return V4L2_EXPOSURE_MANUAL;
+  for (const int automatism : {V4L2_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY}) {
+    if (value == 1 && device.menu_entry(control, automatism)) return automatism;
+  }
+  return fail("control ExposureAuto takes 0 (off) and 1 (on)");
+}
+
+/// A value in V4L2's units.
+Result<double> in_units(const V4l2Device& device, const v4l2_query_ext_ctrl& control,
+                        const Alias* alias, double value) {
+  if (alias == nullptr) return std::round(value);
+  if (alias->id == V4L2_CID_EXPOSURE_AUTO) return exposure_entry(device, control, value);
+  return std::round(value * alias->units);
+}
+
 Result<> check(const v4l2_query_ext_ctrl& control, double units) {
   const std::string name = control_variable(control.name);
   if (!takes_number(control)) return fail("control " + name + " does not take a number");
@@ -119,12 +137,12 @@ Result<> set_control(V4l2Device& device, std::string_view name, double value) {
   };
   const auto control = find(device, name);
   if (!control) return named(control.error().message);
-  const Alias* const alias = alias_of(name);
-  const double units = std::round(alias != nullptr ? value * alias->units : value);
-  if (auto good = check(*control, units); !good) return named(good.error().message);
+  const auto units = in_units(device, *control, alias_of(name), value);
+  if (!units) return named(units.error().message);
+  if (auto good = check(*control, *units); !good) return named(good.error().message);
   // What a button is given means nothing, and need not be a number.
   const bool button = control->type == V4L2_CTRL_TYPE_BUTTON;
-  const std::int64_t number = button ? 0 : static_cast<std::int64_t>(units);
+  const std::int64_t number = button ? 0 : static_cast<std::int64_t>(*units);
   if (auto done = device.set_control(*control, number); !done) return fail(done.error().detail);
   return {};
 }

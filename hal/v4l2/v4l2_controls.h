@@ -16,7 +16,8 @@ bool takes_number(const v4l2_query_ext_ctrl& control);
 
 /// Sets a control of a device by its V4L2 name in V4L2's units, case and signs in it aside
 /// ("TriggerMode" is "Trigger Mode" and trigger_mode), or by a name of GenICam for one of V4L2:
-/// ExposureTime in microseconds, Gain, GainAuto, ExposureAuto, BalanceWhiteAuto in the driver's.
+/// ExposureTime in microseconds, Gain in the driver's units, GainAuto, ExposureAuto and
+/// BalanceWhiteAuto as 0 (off) or 1 (on).
 /// Values are rounded to whole units; any value presses a button. Errors: no such control (with the
 /// list of those there are), not a number, read only, inactive (an automatism has it), out of
 /// range, refused by the driver.

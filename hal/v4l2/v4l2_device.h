@@ -13,23 +13,10 @@
 #include "hal/device_result.h"
 #include "hal/dma_buffer.h"
 #include "hal/file_descriptor.h"
+#include "hal/mapped_memory.h"
 #include "hal/v4l2/driver_format.h"
 
 namespace orbwatch::hal {
-
-/// A stretch of a driver's memory in this process.
-class MappedMemory {
- public:
-  explicit MappedMemory(std::span<std::byte> memory) : memory_(memory) {}
-  MappedMemory(MappedMemory&& other) noexcept;
-  MappedMemory& operator=(MappedMemory&&) = delete;
-  ~MappedMemory();
-
-  std::span<std::byte> bytes() const { return memory_; }
-
- private:
-  std::span<std::byte> memory_;
-};
 
 /// One stretch of memory of a buffer: mapped, and exported where the driver can.
 struct BufferMemory {

@@ -11,13 +11,6 @@
 
 namespace orbwatch::hal {
 
-MappedMemory::MappedMemory(MappedMemory&& other) noexcept
-    : memory_(std::exchange(other.memory_, {})) {}
-
-MappedMemory::~MappedMemory() {
-  if (!memory_.empty()) ::munmap(memory_.data(), memory_.size());
-}
-
 struct V4l2Device::BufferWords {
   BufferWords(std::uint32_t type, std::uint32_t index)
       : buffer(cleared<v4l2_buffer>()), planes(cleared<decltype(planes)>()) {

@@ -54,7 +54,7 @@ Result<> DriverFrame::end_read() {
   return synchronise(&DmaBuffer::end_read);
 }
 
-Result<> DriverFrame::synchronise(Result<> (DmaBuffer::*moment)()) {
+Result<> DriverFrame::synchronise(Result<> (DmaBuffer::*moment)() const) {
   for (BufferMemory& stretch : stretches) {
     if (!stretch.dma_buffer) continue;
     if (auto done = ((*stretch.dma_buffer).*moment)(); !done) return done;
@@ -154,7 +154,7 @@ DeviceResult<> V4l2Stream::queue_returned() {
 DeviceResult<> V4l2Stream::queue(std::uint32_t index) {
   if (auto ended = frames_[index]->end_read(); !ended) return failed(ended.error().message);
   if (auto queued = device_.queue(index); !queued) return queued;
-  ++queued_;
+  queued_ |= 1U << index;
   return {};
 }
 
@@ -179,11 +179,14 @@ DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::take() {
   if (!buffer) return tl::unexpected(buffer.error());
   if (!*buffer) return std::nullopt;
   const std::uint32_t index = (*buffer)->index;
-  auto frame = index < pool_->size() ? pool_->acquire(index) : nullptr;
-  if (!frame || queued_ == 0) {
-    return failed("filled buffer " + std::to_string(index) + ", which it was not given");
+  if (index >= pool_->size()) {
+    return failed("filled buffer " + std::to_string(index) + ", which does not exist");
   }
-  --queued_;
+  // v4l2loopback fills buffers that it was not given. One that is in use is no new frame; that one
+  // is lost, which the gap in the sequence tells.
+  if ((queued_ >> index & 1U) == 0) return std::nullopt;
+  queued_ &= ~(1U << index);
+  auto frame = pool_->acquire(index);
   if (auto begun = frame->begin_read(); !begun) return failed(begun.error().message);
   if (agreement_.is_handed_on()) frame->picture = describe(*frame, agreement_, **buffer);
   return Captured{std::move(frame), **buffer};

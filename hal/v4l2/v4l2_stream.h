@@ -28,7 +28,7 @@ struct DriverFrame : FrameBuffer {
   std::vector<BufferMemory> stretches;  ///< in the order of the format's
 
  private:
-  Result<> synchronise(Result<> (DmaBuffer::*moment)());
+  Result<> synchronise(Result<> (DmaBuffer::*moment)() const);
 
   bool is_read_ = false;
 };
@@ -102,7 +102,7 @@ class V4l2Stream {
   std::shared_ptr<ReturnedBuffers> returned_;
   std::optional<BufferPool<DriverFrame>> pool_;
   std::vector<DriverFrame*> frames_;  ///< the pool's, by index
-  std::size_t queued_ = 0;
+  std::uint32_t queued_ = 0;          ///< one bit per buffer that the device has
 };
 
 }  // namespace orbwatch::hal

@@ -38,16 +38,17 @@ hal::Inventory two_cameras_and_a_chip() {
 
 /// Whether Python's parser finds the same in both documents.
 void expect_equal_json(const std::string& text, const std::string& expected) {
+  constexpr const char* kCompare = R"(
+import json, sys
+a, b = (json.loads(open(f, 'rb').read().decode('utf-8')) for f in sys.argv[1:])
+sys.exit(0 if a == b else 'differs: %r' % (a,))
+)";
   const tests::TemporaryFolder folder;
   std::ofstream(folder / "text", std::ios::binary) << text;
   std::ofstream(folder / "expected", std::ios::binary) << expected;
-  tests::Subprocess python(
-      {"/usr/bin/python3", "-c",
-       "import json, sys\n"
-       "a, b = (json.loads(open(f, 'rb').read().decode('utf-8')) for f in sys.argv[1:])\n"
-       "sys.exit(0 if a == b else 'differs: %r' % (a,))",
-       (folder / "text").string(), (folder / "expected").string()},
-      folder / "said");
+  tests::Subprocess python({"/usr/bin/python3", "-c", kCompare, (folder / "text").string(),
+                            (folder / "expected").string()},
+                           folder / "said");
   EXPECT_EQ(python.wait(), 0) << python.output() << text;
 }
 
@@ -81,7 +82,7 @@ TEST(ListJson, IsValidWhateverDevicesSayOfThemselves) {
   // Cut off, overlong, a surrogate, beyond Unicode, no beginning.
   camera.driver = "\xc3|\xc0\xaf|\xed\xa0\x80|\xf5\x80\x80\x80|\x80|\xe2\x82";
   camera.modes = {{"", "", {std::nan(""), std::numeric_limits<double>::infinity(), 0.1}}};
-  camera.controls = {{"wide", INT64_MIN, INT64_MAX, 1, 0, "", {}}};
+  camera.controls = {{"wide", -0x1p63, 0.25, 0, 0, "", {}}};
   inventory.cameras.push_back(camera);
   expect_equal_json(list_json(inventory), R"({"chips": [], "cameras": [
     {"camera": "quote \" backslash \\ newline \n escape \u001b nul \u0000 delete \u007f",
@@ -90,7 +91,7 @@ TEST(ListJson, IsValidWhateverDevicesSayOfThemselves) {
      "back_end": "", "bus": "", "paths": [], "problem": "",
      "modes": [{"format": "", "size": "", "frame_rates": [null, null, 0.1]}],
      "controls": [{"control": "wide", "minimum": -9223372036854775808,
-                   "maximum": 9223372036854775807, "step": 1, "default": 0, "state": "",
+                   "maximum": 0.25, "step": 0, "default": 0, "state": "",
                    "values": []}]}]})");
 }
 

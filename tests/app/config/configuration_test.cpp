@@ -88,14 +88,14 @@ TEST_F(ConfigurationFile, MayRepeatTheSizeThatTheRigStates) {
 const std::string kV4l2 = replaced("back_end = \"replay\"\n[camera.replay]\nsource = \"pictures\"",
                                    "back_end = \"v4l2\"\n[camera.v4l2]\ndevice = \"usb-1\"\n");
 
-TEST_F(ConfigurationFile, SaysWhatAV4l2CameraIsSetTo) {
+TEST_F(ConfigurationFile, SaysWhatACameraIsSetTo) {
   const auto c = parse(replaced("\"usb-1\"", R"("usb-1"
 pixel_format = "rggb10p"
 colour = false
-[[camera.v4l2.control]]
+[[camera.control]]
 name = "ExposureAuto"
 value = 1
-[[camera.v4l2.control]]
+[[camera.control]]
 name = "ExposureTime"
 value = 8000)",
                                 kV4l2));
@@ -104,9 +104,10 @@ value = 8000)",
   EXPECT_EQ(part.device, "usb-1");
   EXPECT_EQ(part.pixel_format, "rggb10p");
   EXPECT_FALSE(part.colour);
-  ASSERT_EQ(part.controls.size(), 2U);
-  EXPECT_EQ(part.controls[0].name, "ExposureAuto");
-  EXPECT_EQ(part.controls[1].value, 8000);
+  const auto& controls = c->cameras[0].controls;
+  ASSERT_EQ(controls.size(), 2U);
+  EXPECT_EQ(controls[0].name, "ExposureAuto");
+  EXPECT_EQ(controls[1].value, 8000);
 }
 
 const std::string kLines = R"(
@@ -172,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"camera.trigger_source", "\"flash\"", "trigger_in", "start, flash"}},
         Refusal{"StrobeWithoutSource",
                 triggered("", replaced("source = \"start\"", "", kLines)),
-                {"line.use", "source"}},
+                {"line.source", "strobe"}},
         Refusal{"StrobeAtARate",
                 triggered("", replaced("source = \"start\"", "rate = 5", kLines)),
                 {"line.rate", "trigger_out"}},
@@ -242,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"back_end", "[camera.v4l2]"}},
         Refusal{"UnknownPixelFormat",
                 replaced("\"usb-1\"", "\"usb-1\"\npixel_format = \"h264\"", kV4l2),
-                {"site.toml:7: camera.v4l2.pixel_format", "h264", "auto, yuyv, uyvy, nv12"}},
+                {"site.toml:8: camera.v4l2.pixel_format", "h264", "auto, yuyv, uyvy, nv12"}},
         Refusal{"NoSuchCamera",
                 replaced("camera = \"a\"", "camera = \"b\""),
                 {"site.toml:13:", "\"b\"", "there are: a"}},

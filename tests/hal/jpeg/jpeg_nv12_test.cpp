@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ Plane plane(int component, int subsampling) {
     for (int x = 0; x < made.width; ++x) {
       const auto colour = truth((x + 0.5) * columns - 0.5, (y + 0.5) * rows - 0.5);
       made.samples.push_back(
-          static_cast<unsigned char>(colour[static_cast<std::size_t>(component)] + 0.5));
+          static_cast<unsigned char>(std::lround(colour[static_cast<std::size_t>(component)])));
     }
   }
   return made;
@@ -92,7 +93,7 @@ TEST_P(JpegNv12, HasTheLuminanceAndTheChromaThatWereCompressed) {
     EXPECT_EQ(target.sample(1, kWidth, y / 2), 0xee) << "wrote behind row " << y;
     for (int x = 0; x < kWidth; ++x) {
       ASSERT_NEAR(target.sample(0, x, y), truth(x, y)[0], 2) << x << ", " << y;
-      const auto colour = truth(x / 2 * 2 + 0.5, y / 2 * 2 + 0.5);
+      const auto colour = truth(x - x % 2 + 0.5, y - y % 2 + 0.5);
       const std::size_t component = 1 + static_cast<std::size_t>(x % 2);
       ASSERT_NEAR(target.sample(1, x, y / 2), grey ? 128 : colour[component], chroma_tolerance)
           << x << ", " << y;

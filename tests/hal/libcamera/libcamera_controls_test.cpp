@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "tests/hal/libcamera/offered_controls.h"
 
@@ -80,6 +82,27 @@ TEST_F(PutControl, ListsWhatThereIs) {
               AllOf(HasSubstr("no control \"Zoom\""), HasSubstr("AeEnable, AnalogueGain, AwbEna")));
   EXPECT_THAT(error("ScalerCrop", 1), HasSubstr("does not take a number"));
   EXPECT_THAT(error("FrameDurationLimits", 33333), HasSubstr("more than one number"));
+}
+
+TEST(ListControls, NamesAllThatCanBePutWithWhatTheyTake) {
+  const libcamera::ControlInfoMap offered = offered_controls();
+  const std::vector<CameraControl> controls = list_controls(offered);
+  std::vector<std::string> names;
+  libcamera::ControlList list(libcamera::controls::controls);
+  for (const CameraControl& control : controls) {
+    names.push_back(control.name);
+    EXPECT_TRUE(put_control(offered, control.name, control.minimum, list)) << control.name;
+    EXPECT_TRUE(put_control(offered, control.name, control.maximum, list)) << control.name;
+    EXPECT_FALSE(put_control(offered, control.name, control.maximum + 1, list)) << control.name;
+  }
+  EXPECT_THAT(names,
+              testing::ElementsAre("AeEnable", "AnalogueGain", "AwbEnable", "ColourGains[0]",
+                                   "ColourGains[1]", "ExposureTime", "LensPosition", "Saturation"));
+  EXPECT_EQ(controls[1].minimum, 1);
+  EXPECT_EQ(controls[1].maximum, 10.5);
+  EXPECT_EQ(controls[1].step, 0);
+  EXPECT_EQ(controls[5].step, 1);
+  EXPECT_EQ(controls[6].default_value, 1);
 }
 
 }  // namespace

@@ -138,9 +138,18 @@ TEST(Vimc, GivesItsTestPatternInOrderOfBytes) {
   EXPECT_EQ(picture.width, 320);
   EXPECT_EQ(picture.height, 240);
   EXPECT_GE(picture.planes[0].stride, 960);
-  for (int bar = 0; bar < 8; ++bar) {
-    const auto at = colour_at(picture, (bar + 0.5) / 8, 0.5);
-    std::cout << "bar " << bar << ": " << at[0] << " " << at[1] << " " << at[2] << "\n";
+  constexpr int kFull = 191;
+  constexpr std::array<std::array<int, 3>, 8> kBars{{{kFull, kFull, kFull},
+                                                     {kFull, kFull, 0},
+                                                     {0, kFull, kFull},
+                                                     {0, kFull, 0},
+                                                     {kFull, 0, kFull},
+                                                     {kFull, 0, 0},
+                                                     {0, 0, kFull},
+                                                     {0, 0, 0}}};
+  for (std::size_t bar = 0; bar < kBars.size(); ++bar) {
+    const double middle = (static_cast<double>(bar) + 0.5) / kBars.size();
+    EXPECT_EQ(colour_at(picture, middle, 0.5), kBars[bar]) << "bar " << bar;
   }
   EXPECT_GE(frame->metadata.exposure_start, start);
   EXPECT_LE(frame->metadata.exposure_start, Clock::now());
@@ -205,14 +214,16 @@ TEST(Vimc, WaitsForAConsumerThatHoldsAllBuffers) {
   ASSERT_TRUE(camera.configure(kSmall));
   Witness witness;
   ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
+  // What the pipeline of vimc has, whatever it is asked for.
+  constexpr std::size_t kBuffers = 4;
   std::vector<Frame> held;
   std::set<const std::byte*> memory;
-  while (held.size() < kFramesPerCamera) {
+  while (held.size() < kBuffers) {
     held.push_back(witness.frame());
     ASSERT_TRUE(held.back());
     memory.insert(held.back()->picture.planes[0].data);
   }
-  EXPECT_EQ(memory.size(), kFramesPerCamera) << "each in a buffer of its own";
+  EXPECT_EQ(memory.size(), kBuffers) << "each in a buffer of its own";
   const std::byte* const released = held.front()->picture.planes[0].data;
   held.erase(held.begin());
   const Frame next = witness.frame();
@@ -245,29 +256,21 @@ TEST(Vimc, SetsControls) {
   camera.stop();
 }
 
-TEST(Vimc, IsLostAndComesBack) {
+/// libcamera ends the process when a camera that is not on USB comes back, so nothing does here.
+TEST(Vimc, IsLostWithItsDriverAndTheProgramLives) {
   LibcameraCamera camera({.camera = kCamera});
-  ASSERT_TRUE(camera.configure(kSmall));
+  ASSERT_TRUE(camera.configure({320, 240, 1}));
   Witness witness;
   ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
   const Frame before = witness.frame();
   ASSERT_TRUE(before);
   const double mean = mean_of(before->picture);
-  const auto colour = colour_at(before->picture, 0.2, 0.5);
-
   ASSERT_NO_FATAL_FAILURE(write_to("/sys/bus/platform/drivers/vimc/unbind", "vimc.0"));
   EXPECT_TRUE(witness.is_told(Fault::Unplugged));
   EXPECT_EQ(mean_of(before->picture), mean) << "held frames stay valid";
   const auto set = camera.set("Brightness", 0);
-  EXPECT_FALSE(set) << "while it is away";
-  witness.forget();
-
-  ASSERT_NO_FATAL_FAILURE(write_to("/sys/bus/platform/drivers/vimc/bind", "vimc.0"));
-  const Frame after = witness.frame();
-  ASSERT_TRUE(after) << "it did not come back";
-  EXPECT_TRUE(witness.is_told(Fault::None));
-  EXPECT_EQ(colour_at(after->picture, 0.2, 0.5), colour);
-  EXPECT_GT(after->metadata.sequence, before->metadata.sequence);
+  ASSERT_FALSE(set);
+  EXPECT_THAT(set.error().message, HasSubstr("restart"));
   camera.stop();
 }
 

@@ -2,9 +2,6 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/mman.h>
-
-#include <cerrno>
 
 namespace orbwatch::hal {
 namespace {
@@ -41,19 +38,6 @@ TEST(FileDescriptor, ClosesWhatItOwnsOnce) {
     EXPECT_TRUE(is_open(number));
   }
   EXPECT_FALSE(is_open(number));
-}
-
-TEST(MappedMemory, IsUnmappedByItsLastOwner) {
-  void* const memory = ::mmap(nullptr, 4096, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  ASSERT_NE(memory, MAP_FAILED);
-  {
-    MappedMemory first({static_cast<std::byte*>(memory), 4096});
-    const MappedMemory second(std::move(first));
-    EXPECT_EQ(::msync(memory, 4096, MS_ASYNC), 0) << "mapped while it is owned";
-    EXPECT_EQ(second.bytes().size(), 4096U);
-  }
-  EXPECT_EQ(::msync(memory, 4096, MS_ASYNC), -1);
-  EXPECT_EQ(errno, ENOMEM);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "hal/v4l2/v4l2_camera.h"
@@ -14,7 +15,15 @@ namespace orbwatch::hal {
 /// end with what is waited for, or after minutes.
 class CameraRun {
  public:
-  explicit CameraRun(V4l2Settings settings) : camera_(std::move(settings)) {}
+  using Controls = std::vector<std::pair<const char*, double>>;
+
+  explicit CameraRun(V4l2Settings settings, const Controls& controls = {})
+      : camera_(std::move(settings)) {
+    for (const auto& [name, value] : controls) {
+      const auto set = camera_.set(name, value);
+      EXPECT_TRUE(set) << set.error().message;
+    }
+  }
   ~CameraRun() { camera_.stop(); }
 
   V4l2Camera& camera() { return camera_; }

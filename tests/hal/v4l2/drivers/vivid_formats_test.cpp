@@ -17,7 +17,7 @@ constexpr int kBars = 8;
 constexpr int kBarWidth = kRequest.width / kBars;
 
 /// The controls by which vivid paints bars of full colours and nothing else.
-const std::vector<V4l2Settings::Control> kPlainBars{{"test_pattern", 1}, {"osd_text_mode", 2}};
+const CameraRun::Controls kPlainBars{{"test_pattern", 1}, {"osd_text_mode", 2}};
 
 /// White, yellow, cyan, green, magenta, red, blue, black.
 std::array<double, 3> bar_colour(int bar) {
@@ -68,7 +68,7 @@ TEST(VividFormats, EveryInterfaceHasItsFormats) {
 class VividFormat : public testing::TestWithParam<PixelCoding> {};
 
 TEST_P(VividFormat, ShowsTheColoursOfTheBars) {
-  CameraRun run({kVivid, std::string(GetParam().name), true, kPlainBars});
+  CameraRun run({kVivid, std::string(GetParam().name), true}, kPlainBars);
   ASSERT_TRUE(run.start(kRequest));
   EXPECT_EQ(run.format().width, kRequest.width);
   EXPECT_EQ(run.format().height, kRequest.height);
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(OfDriver, VividFormat, testing::ValuesIn(codings_of_viv
 class VividMosaic : public testing::TestWithParam<PixelCoding> {};
 
 TEST_P(VividMosaic, StaysAsTheSensorSeesIt) {
-  CameraRun run({kVivid, std::string(GetParam().name), false, kPlainBars});
+  CameraRun run({kVivid, std::string(GetParam().name), false}, kPlainBars);
   ASSERT_TRUE(run.start(kRequest));
   const Frame frame = run.next_frame();
   ASSERT_TRUE(frame);
@@ -117,12 +117,12 @@ TEST_P(VividMosaic, StaysAsTheSensorSeesIt) {
 INSTANTIATE_TEST_SUITE_P(OfDriver, VividMosaic, testing::ValuesIn(mosaics_of_vivid()), name_of);
 
 TEST(VividFormats, ASizeThatIsNotOnOfferIsRefusedWithTheListOfThose) {
-  V4l2Camera camera({kVivid, "yuyv", true, {}});
+  V4l2Camera camera({kVivid, "yuyv", true});
   const auto format = camera.configure({.width = 321, .height = 180});
   ASSERT_FALSE(format);
   EXPECT_THAT(format.error().message,
               testing::AllOf(testing::HasSubstr("yuyv 321x180"), testing::HasSubstr("320x180")));
-  const auto unknown = V4l2Camera({kVivid, "mjpeg", true, {}}).configure({});
+  const auto unknown = V4l2Camera({kVivid, "mjpeg", true}).configure({});
   ASSERT_FALSE(unknown);
   EXPECT_THAT(unknown.error().message, testing::HasSubstr("YUYV"));
 }

@@ -1,0 +1,8 @@
+#include "hal/libcamera/device_nodes.h"
+
+/// libcamera before 0.2 does not say which nodes a camera works through.
+namespace orbwatch::hal {
+
+bool has_lost_its_nodes(const libcamera::Camera&) { return false; }
+
+}  // namespace orbwatch::hal
