@@ -12,6 +12,7 @@ namespace orbwatch::app {
 /// What the outside may ask for. The numbers are Modbus command codes: append, never renumber.
 enum class CommandCode : std::uint16_t {
   SelectView = 1,
+  Pulse = 2,
 };
 
 /// The facts about one command, for every interface that offers it.
@@ -25,6 +26,8 @@ struct CommandInfo {
 inline constexpr std::array kCommands{
     CommandInfo{CommandCode::SelectView, "select_view", "index of the view, from 0",
                 "Shows this view on the topic of the selected view"},
+    CommandInfo{CommandCode::Pulse, "pulse", "index of the trigger_out line, from 0",
+                "One pulse on this line"},
 };
 
 struct Command {
@@ -37,6 +40,7 @@ enum class CommandResult : std::uint16_t {
   Done = 0,
   UnknownCommand = 1,
   ArgumentOutOfRange = 2,
+  Busy = 3,  ///< not now; it can be repeated
 };
 
 /// Carries a command out; called by sinks on their own threads. Thread-safe, does not wait.

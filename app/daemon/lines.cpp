@@ -105,6 +105,7 @@ void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::Digit
       hal::PulseSettings{period, microseconds(settings.delay_us), microseconds(settings.width_us)},
       std::move(outputs), [this] { thread_.ring(); }));
   thread_.add(*pulses);
+  if (settings.use == LineUse::TriggerOut) trigger_outputs_.push_back(pulses.get());
   if (settings.source.empty()) return;
   input(settings.source).hear([pulse = pulses.get()](const hal::EdgeEvent& edge) {
     if (edge.edge == hal::Edge::Rising) pulse->fire(edge.stamp);
@@ -137,6 +138,15 @@ std::shared_ptr<hal::FrameTrigger> Lines::trigger(const CameraSettings& settings
   thread_.add(*trigger);
   triggers_.push_back(trigger);
   return trigger;
+}
+
+CommandResult Lines::command(const Command& command) {
+  if (command.code != CommandCode::Pulse) return CommandResult::UnknownCommand;
+  if (command.argument < 0 || command.argument >= static_cast<int>(trigger_outputs_.size())) {
+    return CommandResult::ArgumentOutOfRange;
+  }
+  hal::PulseOutput& output = *trigger_outputs_[static_cast<std::size_t>(command.argument)];
+  return output.fire(hal::Clock::now()) ? CommandResult::Done : CommandResult::Busy;
 }
 
 void Lines::accept(const Status& status) {

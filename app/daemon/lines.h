@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands.h"
 #include "app/config/configuration.h"
 #include "app/pipeline/sink.h"
 #include "hal/camera.h"
@@ -28,6 +29,9 @@ class Lines : public Sink {
   /// Joins the camera's trigger line with its frames; null when the camera runs freely. `camera`
   /// outlives the run.
   std::shared_ptr<hal::FrameTrigger> trigger(const CameraSettings& settings, hal::Camera& camera);
+
+  /// CommandCode::Pulse. On any thread; does not wait.
+  CommandResult command(const Command& command);
 
   /// In the configuration's order.
   const std::vector<std::shared_ptr<const hal::ProcessInput>>& process_inputs() const {
@@ -59,6 +63,7 @@ class Lines : public Sink {
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs_;
   std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;
   std::vector<std::unique_ptr<hal::PulseOutput>> pulses_;
+  std::vector<hal::PulseOutput*> trigger_outputs_;  ///< of pulses_, in the configuration's order
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;
   std::vector<std::unique_ptr<hal::WatchdogOutput>> alarms_;
   hal::LineThread thread_;  ///< ends before all the others

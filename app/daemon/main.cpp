@@ -90,8 +90,10 @@ Result<> run(const Configuration& configuration, const sigset_t& end_signals) {
   ConsoleSink console(configuration.console, names(configuration.cameras),
                       names(configuration.views), std::cout);
   DdsSink dds(configuration.dds, names(configuration.views));
-  ModbusSink modbus(configuration.modbus,
-                    [&pipeline](const Command& command) { return pipeline->command(command); });
+  ModbusSink modbus(configuration.modbus, [&pipeline, &lines](const Command& command) {
+    return command.code == CommandCode::Pulse ? (*lines)->command(command)
+                                              : pipeline->command(command);
+  });
   std::vector<Sink*> sinks;
   if (configuration.dds.enabled) sinks.push_back(&dds);
   if (configuration.modbus.enabled) sinks.push_back(&modbus);

@@ -32,6 +32,8 @@ std::string_view meaning(CommandResult result) {
       return "unknown command";
     case CommandResult::ArgumentOutOfRange:
       return "argument out of range";
+    case CommandResult::Busy:
+      return "busy: try again";
   }
   return {};
 }

@@ -99,7 +99,46 @@ Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest
   return format_;
 }
 
+Result<> SimulatedCamera::set(std::string_view control, double value) {
+  if (control != "TriggerMode" || (value != 0 && value != 1)) {
+    return fail("camera " + info().id + ": control \"" + std::string(control) +
+                "\" cannot be set; it takes TriggerMode, 0 or 1");
+  }
+  trigger_mode_ = value == 1;
+  return {};
+}
+
+Result<> SimulatedCamera::trigger() {
+  if (!trigger_mode_) return fail("camera " + info().id + ": its TriggerMode is off");
+  {
+    const std::lock_guard lock(trigger_mutex_);
+    if (trigger_) return fail("camera " + info().id + ": has not done the exposure before");
+    trigger_ = hal::Clock::now();
+  }
+  triggered_.notify_one();
+  return {};
+}
+
+std::optional<hal::TimePoint> SimulatedCamera::next_trigger(const std::stop_token& stop) {
+  std::unique_lock lock(trigger_mutex_);
+  triggered_.wait(lock, stop, [this] { return trigger_.has_value(); });
+  return std::exchange(trigger_, std::nullopt);
+}
+
+void SimulatedCamera::run_triggered(const std::stop_token& stop) {
+  for (std::uint64_t n = 0;; ++n) {
+    const auto moment = next_trigger(stop);
+    if (!moment || stop.stop_requested()) return;
+    if (const hal::Fault fault = script_.at(n); fault != hal::Fault::None) {
+      report(fault, "as scripted");
+    } else {
+      expose(n, *moment);
+    }
+  }
+}
+
 void SimulatedCamera::run(const std::stop_token& stop) {
+  if (trigger_mode_) return run_triggered(stop);
   const hal::TimePoint start = hal::Clock::now();
   const auto moment = [&](std::uint64_t n) { return moment_of(n, start, format_.frame_rate); };
   for (std::uint64_t n = 0; wait_until(stop, moment(n)); ++n) {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <atomic>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/simulation/camera_truth.h"
@@ -35,6 +39,7 @@ struct SimulatedCameraSettings {
 /// a Machine so see one process, whatever their rates. An exposure that is over before the one
 /// before it was drawn is lost, as is one that finds all buffers lent: the sequence shows the gap.
 /// While a scripted fault lasts, exposures are withheld and the fault is reported once.
+/// With control TriggerMode 1, set before start, exposures are at the moments of trigger() instead.
 class SimulatedCamera : public hal::Camera {
  public:
   /// `machine` must not be null.
@@ -45,6 +50,11 @@ class SimulatedCamera : public hal::Camera {
   const Pinhole& pinhole() const { return pinhole_; }
   CameraTruth truth() const { return truth_of(pinhole_, machine_->settings().ball); }
 
+  /// Errors: not in TriggerMode, the exposure before is not drawn yet.
+  Result<> trigger() override;
+  /// The only control is TriggerMode, 0 (off) or 1 (on). Error: another one.
+  Result<> set(std::string_view control, double value) override;
+
  protected:
   /// Traces what stands still. Errors: a size, rate, angle or noise out of range, a position inside
   /// a body.
@@ -53,6 +63,8 @@ class SimulatedCamera : public hal::Camera {
 
  private:
   Result<> check(int width, int height, double frame_rate) const;
+  void run_triggered(const std::stop_token& stop);
+  std::optional<hal::TimePoint> next_trigger(const std::stop_token& stop);
   void expose(std::uint64_t sequence, hal::TimePoint moment);
   void add_noise(hal::FrameBuffer& buffer) const;
 
@@ -64,6 +76,10 @@ class SimulatedCamera : public hal::Camera {
   std::unique_ptr<const Renderer> renderer_;
   std::optional<SensorNoise> noise_;
   std::optional<hal::FramePool> pool_;
+  std::atomic<bool> trigger_mode_ = false;
+  std::mutex trigger_mutex_;
+  std::condition_variable_any triggered_;
+  std::optional<hal::TimePoint> trigger_;  ///< not drawn yet
 };
 
 }  // namespace orbwatch::app::simulation

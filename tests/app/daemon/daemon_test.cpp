@@ -223,6 +223,35 @@ line_name = "WIRE"
   EXPECT_EQ(read("camera_0_lost"), 0) << "frames without a trigger are not lost";
 }
 
+TEST_F(Daemon, ExposesOncePerPulseThatIsCommanded) {
+  std::string text = small_machine() + R"(
+[[line]]
+name = "pulse"
+use = "trigger_out"
+back_end = "simulated"
+line_name = "WIRE"
+[[line]]
+name = "start"
+use = "trigger_in"
+back_end = "simulated"
+line_name = "WIRE"
+)";
+  text.insert(text.find("frame_rate"), "trigger_mode = \"software\"\ntrigger_source = \"start\"\n");
+  Subprocess daemon = start(write_config(text));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_1_frames") > 0; })) << daemon.output();
+  constexpr std::uint16_t kPulses = 5;
+  for (std::uint16_t n = 1; n <= kPulses; ++n) {
+    write_command(port, 2, 0, n);
+    ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") == n; }))
+        << daemon.output();
+  }
+  EXPECT_EQ(read("camera_0_triggers"), kPulses);
+  EXPECT_EQ(read("camera_0_missed"), 0);
+  write_command(port, 2, 1, 9);
+  EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 9; }));
+  EXPECT_EQ(read("command_result"), 2) << "there is no second trigger_out";
+}
+
 TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
   Subprocess daemon = start(write_config(small_machine()));
   ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 0; })) << daemon.output();

@@ -120,7 +120,7 @@ TEST_F(ModbusCommand, MaskWriteChangesBitsOfTheSequence) {
 
 TEST_F(ModbusCommand, ARefusedWriteChangesNothing) {
   Plc plc(sink_.port());
-  EXPECT_EQ(plc.write(kArgument, {0, 5, 2, 1}), 3);  // there is no command 2
+  EXPECT_EQ(plc.write(kArgument, {0, 5, 99, 1}), 3);  // there is no command 99
   EXPECT_EQ(plc.write(kCommand, 0xffff), 3);
   EXPECT_EQ(plc.mask_write(kCommand, 0, 0x8000), 3);
   EXPECT_EQ(plc.write(kArgument, 5), 2);              // half of a double word
@@ -129,7 +129,7 @@ TEST_F(ModbusCommand, ARefusedWriteChangesNothing) {
   EXPECT_EQ(plc.write(kArgument, {0, 5, 1, 1, 1}), 2);  // runs into the acknowledgement
   EXPECT_EQ(plc.write(kAcknowledged, 1), 2);
   EXPECT_EQ(plc.write_and_read(kArgument, {0, 5, 1, 1}, 999, 1), 2);  // nothing to read there
-  EXPECT_EQ(plc.write_and_read(kArgument, {0, 5, 2, 1}, 0, 1), 3);
+  EXPECT_EQ(plc.write_and_read(kArgument, {0, 5, 99, 1}, 0, 1), 3);
   EXPECT_TRUE(arguments().empty());
   ASSERT_EQ(plc.read_holding(0, 7), 0);
   EXPECT_THAT(plc.words, ElementsAre(0, 0, 0, 0, 0, 0, 0));

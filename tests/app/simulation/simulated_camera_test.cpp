@@ -108,6 +108,24 @@ TEST(SimulatedCamera, SaysWhatItIsAndWhatItDelivers) {
   EXPECT_EQ(camera.truth().outline.cx, 39.5);
 }
 
+TEST(SimulatedCamera, ExposesOnlyWhenItIsTriggeredInTriggerMode) {
+  SimulatedCamera camera(machine(), small());
+  EXPECT_FALSE(camera.trigger()) << "TriggerMode is off";
+  EXPECT_FALSE(camera.set("TriggerMode", 2));
+  EXPECT_FALSE(camera.set("Gain", 1));
+  ASSERT_TRUE(camera.set("TriggerMode", 1));
+  ASSERT_TRUE(camera.configure({}));
+  Audience audience;
+  ASSERT_TRUE(audience.start(camera));
+  for (std::size_t n = 1; n <= 5; ++n) {
+    ASSERT_TRUE(camera.trigger());
+    ASSERT_TRUE(audience.wait_for_frames(n));
+  }
+  camera.stop();
+  ASSERT_EQ(audience.shots.size(), 5U);
+  EXPECT_EQ(audience.shots.back().metadata.sequence, 4U);
+}
+
 TEST(SimulatedCamera, RefusesWhatItCannotBe) {
   using Spoil = std::function<void(SimulatedCameraSettings&, hal::StreamRequest&)>;
   const double nan = std::numeric_limits<double>::quiet_NaN();
