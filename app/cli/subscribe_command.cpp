@@ -38,6 +38,7 @@ std::vector<Option> declare(SubscribeOptions& o, bool& help) {
       {"seconds", 0, "N", "end after this time (default: Ctrl-C)",
        number_option("seconds", o.seconds)},
       {"stats", 0, "", "print rate, size, latency and gaps every second", flag_option(o.stats)},
+      {"each", 0, "", "print a line for each sample", flag_option(o.each)},
       {"help", 'h', "", "this text", flag_option(help)},
   };
 }

@@ -15,7 +15,8 @@ orbwatch_msgs_msg_dds__CameraStatus_ camera_message(const CameraStatus& camera) 
           camera.latency_p50_ms,
           camera.latency_p99_ms,
           camera.triggers,
-          camera.missed};
+          camera.missed,
+          camera.unmatched};
 }
 
 orbwatch_msgs_msg_dds__ViewStatus_ view_message(const ViewStatus& view, std::string& name) {
@@ -42,12 +43,14 @@ const ProcessStateMessage& ProcessStateComposer::compose(const Status& status,
 
   message_.stamp = stamp;
   message_.frame_set = status.frame_set;
+  message_.trigger = status.trigger;
   message_.system_state = static_cast<std::uint8_t>(status.state);
   message_.heartbeat = status.heartbeat;
   message_.selected_view = static_cast<std::uint32_t>(status.selected_view);
   message_.process_inputs = status.process_inputs;
   message_.overruns = status.overruns;
   message_.unmatched = status.unmatched;
+  message_.skew_ms = status.skew_ms;
   message_.load = status.load;
   message_.signals = signals_message(status.signals);
   message_.cameras = {kMaxCameras, static_cast<std::uint32_t>(cameras), cameras_.data(), false};

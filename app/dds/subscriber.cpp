@@ -116,8 +116,10 @@ Result<> read(const Subscriptions& subscriptions, const Readers& readers,
       return waited;
     }
     for (const auto& subscription : subscriptions) {
-      if (const auto taken = subscription->take(); !taken) return taken;
+      if (const auto taken = subscription->take(options.each ? &out : nullptr); !taken)
+        return taken;
     }
+    if (options.each) out.flush();
     const auto seconds = schedule.line_due(hal::Clock::now());
     if (!seconds || !options.stats) continue;
     for (const auto& subscription : subscriptions) out << subscription->line(*seconds) << '\n';

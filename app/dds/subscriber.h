@@ -19,6 +19,7 @@ struct SubscribeOptions {
   std::filesystem::path save{};  ///< folder for the newest image of each topic, made if missing
   double seconds = 0;            ///< 0: until cancelled
   bool stats = false;            ///< a line per topic and second
+  bool each = false;             ///< a line per sample
 };
 
 /// One entry per topic, in the order asked for.

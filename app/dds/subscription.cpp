@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <ostream>
 
 #include "app/dds/image_file.h"
 #include "app/dds/topic_names.h"
@@ -41,14 +42,15 @@ Result<> Subscription::open(const Entity& participant) {
   return {};
 }
 
-Result<> Subscription::take() {
+Result<> Subscription::take(std::ostream* each) {
   std::array<void*, kDepth> samples{};  // empty: DDS lends its own
   std::array<dds_sample_info_t, kDepth> infos{};
   const dds_return_t count =
       dds_take(reader_.get(), samples.data(), infos.data(), samples.size(), kDepth);
   if (count < 0) return tl::unexpected(dds_error("take from " + report_.topic, count));
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    if (infos[i].valid_data) this->count(samples[i], infos[i]);
+    if (!infos[i].valid_data || !this->count(samples[i], infos[i])) continue;
+    if (each != nullptr) *each << report_.topic << ": " << describe() << '\n';
   }
   if (count > 0) {
     const dds_return_t returned = dds_return_loan(reader_.get(), samples.data(), count);
@@ -61,11 +63,11 @@ Result<> Subscription::take() {
   return {};
 }
 
-void Subscription::count(const void* sample, const dds_sample_info_t& info) {
+bool Subscription::count(const void* sample, const dds_sample_info_t& info) {
   if (const auto accepted = accept(sample); !accepted) {
     ++report_.refused;
     report_.refusal = accepted.error().message;
-    return;
+    return false;
   }
   ++report_.received;
   ++interval_.samples;
@@ -78,6 +80,7 @@ void Subscription::count(const void* sample, const dds_sample_info_t& info) {
   const dds_time_t now = dds_time();
   interval_.since_write_ms += milliseconds_between(info.source_timestamp, now);
   interval_.since_exposure_ms += milliseconds_between(since_epoch(stamp(sample)).count(), now);
+  return true;
 }
 
 std::string Subscription::line(double seconds) {
@@ -148,7 +151,9 @@ Result<> ProcessStateSubscription::accept(const void* sample) {
                 ", 0 to 3 are known");
   }
   newest_ = std::string(name_of(static_cast<SystemState>(state.system_state))) + ", frame set " +
-            std::to_string(state.frame_set) + ", heartbeat " + std::to_string(state.heartbeat);
+            std::to_string(state.frame_set) +
+            (state.trigger != 0 ? ", trigger " + std::to_string(state.trigger) : "") +
+            ", heartbeat " + std::to_string(state.heartbeat);
   return {};
 }
 

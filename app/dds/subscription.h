@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ class Subscription {
   Result<> open(const Entity& participant);
   const Entity& reader() const { return reader_; }
 
-  /// Takes what DDS holds at this moment, without waiting. Error: DDS refuses.
-  Result<> take();
+  /// Takes what DDS holds at this moment, without waiting; writes a line on each sample to `each`
+  /// unless that is null. Error: DDS refuses.
+  Result<> take(std::ostream* each);
 
   /// One line on the time since the last call, `seconds` long: rate, latest content, latency.
   std::string line(double seconds);
@@ -60,7 +62,8 @@ class Subscription {
   TopicReport report_;
 
  private:
-  void count(const void* sample, const dds_sample_info_t& info);
+  /// Whether it was in order.
+  bool count(const void* sample, const dds_sample_info_t& info);
 
   /// Sums over the samples since the last line().
   struct Interval {

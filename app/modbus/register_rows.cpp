@@ -148,7 +148,7 @@ std::vector<Row> system_block() {
             "Frame sets that took longer than their deadline",
             [](S s, Index) { return low_word(s.status.overruns); }),
       input(kBase + 18, Type::U32, "unmatched", kCounter,
-            "Frame sets in which a camera's frame was older than the window",
+            "Frame sets in which a camera had no frame within the window",
             [](S s, Index) { return low_word(s.status.unmatched); }),
       input(kBase + 20, Type::U32, "modbus_answered", kCounter,
             "Requests answered, with or without an exception",
@@ -162,11 +162,15 @@ std::vector<Row> system_block() {
       input(kBase + 26, Type::U16, "modbus_connections", {1, "", 0, kMaxU16},
             "Connections that are open now",
             [](S s, Index) { return low_word(s.server.connections); }),
-      reserved(Table::Input, kBase + 27, kBase + 28),
+      input(kBase + 27, Type::U16, "skew", kLatency,
+            "Largest between the exposure starts of a frame set, of the last full second",
+            [](S s, Index) { return saturated(s.status.skew_ms, 0.1); }),
       input(kBase + 28, Type::U32, "process_inputs", {1, "", 0, kMaxU32},
             "Bit n: the process input that is the configuration's nth is active",
             [](S s, Index) { return s.status.process_inputs; }),
-      reserved(Table::Input, kBase + 30, kSignalBlock),
+      input(kBase + 30, Type::U32, "trigger", kCounter,
+            "Number of the hardware trigger that began the newest frame set; 0: none did",
+            [](S s, Index) { return low_word(s.status.trigger); }),
   };
 }
 
@@ -240,7 +244,10 @@ std::vector<Row> camera_block() {
         base + 12, Type::U32, name + "_missed", kCounter,
         "Triggers without a frame: faster than the camera, or its fault",
         [](S s, Index n) { return low_word(s.status.cameras[n].missed); }, i));
-    rows.push_back(reserved(Table::Input, base + 14, base + kCameraStride));
+    rows.push_back(input(
+        base + 14, Type::U32, name + "_unmatched", kCounter,
+        "Frames delivered while the pacing camera had none of that moment",
+        [](S s, Index n) { return low_word(s.status.cameras[n].unmatched); }, i));
   }
   return rows;
 }

@@ -87,15 +87,12 @@ void Pipeline::stop() {
 }
 
 CommandResult Pipeline::command(const Command& command) {
-  switch (command.code) {
-    case CommandCode::SelectView:
-      if (command.argument < 0 || command.argument >= static_cast<int>(plan_.views.size())) {
-        return CommandResult::ArgumentOutOfRange;
-      }
-      selected_view_ = static_cast<std::size_t>(command.argument);
-      return CommandResult::Done;
+  if (command.code != CommandCode::SelectView) return CommandResult::UnknownCommand;
+  if (command.argument < 0 || command.argument >= static_cast<int>(plan_.views.size())) {
+    return CommandResult::ArgumentOutOfRange;
   }
-  return CommandResult::UnknownCommand;
+  selected_view_ = static_cast<std::size_t>(command.argument);
+  return CommandResult::Done;
 }
 
 void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
@@ -144,6 +141,7 @@ void Pipeline::process(const hal::FrameSet& set) {
   }
   status_.frame_set = set.id;
   status_.stamp = set.stamp;
+  status_.trigger = set.trigger.value_or(0);
   status_.unmatched += set.matched ? 0 : 1;
   skew_of_second_ = std::max(skew_of_second_, set.skew);
   note_timing(hal::Clock::now() - begin);

@@ -60,6 +60,7 @@ struct Status {
   std::uint64_t heartbeat = 0;  ///< advances with the pipeline, at least ten times a second
   std::uint64_t frame_set = 0;  ///< number of the newest frame set; 0: none yet
   hal::TimePoint stamp;         ///< exposure start of that frame set
+  std::uint64_t trigger = 0;    ///< number of the hardware trigger that began it; 0: none did
   std::uint64_t overruns = 0;   ///< frame sets that took longer than their deadline
   std::uint64_t unmatched = 0;  ///< frame sets in which a camera had no frame within the window
   double skew_ms = 0;           ///< largest between the exposures of a set, of the last full second

@@ -141,7 +141,8 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
       {.topics = {"orbwatch/front/image_raw", "rt/orbwatch/front/radiometric/image_raw",
                   "/orbwatch/process_state"},
        .save = folder,
-       .stats = true});
+       .stats = true,
+       .each = true});
   const auto view = make_view(0, "front", 3, 64, 48, true);
   ASSERT_TRUE(eventually([&] {
     sink.accept(view);
@@ -153,7 +154,9 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
     return printed.matches("front/image_raw" + figures + "64x48 rgb8, lost [0-9]+\n") &&
            printed.matches("radiometric/image_raw" + figures + "64x48 mono16, lost [0-9]+\n") &&
            printed.matches("process_state" + figures +
-                           "degraded, frame set 1000000000002, heartbeat 1000000000001, lost");
+                           "degraded, frame set 1000000000002, trigger 1000000000003, "
+                           "heartbeat 1000000000001, lost") &&
+           printed.matches("front/image_raw: 64x48 rgb8\n");
   })) << subscriber.printed().text();
   const auto report = subscriber.cancel();
   ASSERT_TRUE(report) << report.error().message;

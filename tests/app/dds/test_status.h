@@ -13,6 +13,8 @@ inline Status make_status() {
   status.stamp = hal::Clock::now();
   status.overruns = 3;
   status.unmatched = 4;
+  status.trigger = 1'000'000'000'003;
+  status.skew_ms = 0.375;
   status.load = 0.625;
   status.selected_view = 1;
   status.process_inputs = 0b101;
@@ -21,9 +23,16 @@ inline Status make_status() {
   std::uint64_t next = 100;
   for (auto& camera : status.cameras) {
     const auto base = static_cast<double>(next);
-    camera = {hal::Fault::Stalled, next, next + 1, next + 2, base + 0.5, base + 0.25, base + 0.75};
+    camera.fault = hal::Fault::Stalled;
+    camera.frames = next;
+    camera.lost = next + 1;
+    camera.dropped = next + 2;
+    camera.frames_per_second = base + 0.5;
+    camera.latency_p50_ms = base + 0.25;
+    camera.latency_p99_ms = base + 0.75;
     camera.triggers = next + 3;
     camera.missed = next + 4;
+    camera.unmatched = next + 5;
     next += 10;
   }
   for (auto& view : status.views) {

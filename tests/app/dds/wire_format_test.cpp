@@ -186,9 +186,11 @@ TEST_F(WireFormatTest, StateIsPlainCdr) {
   EXPECT_EQ(sample.header, (Bytes{0, 1})) << "CDR_LE";
   Cdr expected;
   expected.number<std::int32_t>(0).number<std::uint32_t>(0).number<std::uint64_t>(0);
+  expected.number(status.trigger);
   expected.number<std::uint8_t>(2).number(status.heartbeat).number<std::uint32_t>(1);
   expected.number(status.process_inputs);
-  expected.number(status.overruns).number(status.unmatched).number(status.load);
+  expected.number(status.overruns).number(status.unmatched).number(status.skew_ms);
+  expected.number(status.load);
   for (const auto& signal : signals::kSignals) expected.number(status.signals.*signal.member);
   expected.number<std::uint32_t>(2);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -196,7 +198,7 @@ TEST_F(WireFormatTest, StateIsPlainCdr) {
     expected.number<std::uint8_t>(2).number(camera.frames).number(camera.lost);
     expected.number(camera.dropped).number(camera.frames_per_second);
     expected.number(camera.latency_p50_ms).number(camera.latency_p99_ms);
-    expected.number(camera.triggers).number(camera.missed);
+    expected.number(camera.triggers).number(camera.missed).number(camera.unmatched);
   }
   const auto& view = status.views[0];
   expected.number<std::uint32_t>(1).text("front").number(view.published).number(view.skipped);

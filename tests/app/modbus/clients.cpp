@@ -56,8 +56,8 @@ Status example_status() {
   status.selected_view = 2;
   status.camera_count = 2;
   status.view_count = 3;
-  status.cameras[0] = {hal::Fault::None, 0x0033'0506, 0x0044'0607, 0x0055'0708, 29.974};
-  status.cameras[1] = {hal::Fault::Stalled, 0x0066'0809, 0x0077'090a, 0x0088'0a0b, 12.5};
+  status.cameras[0] = {hal::Fault::None, 0x0033'0506, 0x0044'0607, 0x0055'0708, 0, 29.974};
+  status.cameras[1] = {hal::Fault::Stalled, 0x0066'0809, 0x0077'090a, 0x0088'0a0b, 0, 12.5};
   status.views[2] = {0x0099'0b0c, 0x00aa'0c0d, 24.996, 41.26, 87.64, 0};
   status.signals.hot_spot_yaw = -123.456;
   status.signals.hot_spot_pitch = 12.344;

@@ -197,6 +197,7 @@ TEST_F(PipelineTest, ATriggeredCameraGivesOneFrameForEachTriggerAndTheRestIsMiss
   }
   const Status status =
       sink.wait_for([&](const Status& s) { return s.cameras[0].triggers == kTriggers; });
+  EXPECT_EQ(status.trigger, kTriggers);
   EXPECT_EQ(status.cameras[0].frames, frames);
   EXPECT_EQ(status.cameras[0].missed, kTriggers - frames);
   EXPECT_EQ(status.cameras[0].lost, 0U) << "frames without a trigger are not lost";
