@@ -15,6 +15,7 @@ void visit(Visitor& v, ComplianceSettings& settings) {
   int most_frames = static_cast<int>(settings.most_frames);
   v.optional("most_frames", most_frames, app::Range::between(2, 89), "Per case");
   settings.most_frames = static_cast<std::size_t>(most_frames);
+  v.optional("counts_all", settings.counts_all, "Frames without a buffer have a number, too");
   v.optional("unplug", settings.unplug, "Shell command that takes the camera away");
   v.optional("replug", settings.replug, "Shell command that brings it back");
   v.tables("camera", settings.cameras, 1, 2, "The camera, and another one");

@@ -16,6 +16,7 @@ namespace orbwatch::tests {
 struct ComplianceSettings {
   std::vector<app::CameraSettings> cameras;
   std::size_t most_frames = 89;
+  bool counts_all = true;
   std::string unplug;
   std::string replug;
 };
@@ -36,6 +37,9 @@ class CameraUnderTest {
 
   /// `count`, or as many as a case may take here.
   std::size_t limited(std::size_t count) const { return std::min(count, settings_.most_frames); }
+
+  /// Whether the sequence counts frames for which there was no buffer.
+  bool counts_all() const { return settings_.counts_all; }
 
   bool can_be_unplugged() const { return is_scripted() || !settings_.unplug.empty(); }
   /// One that shows its first frames, and the next ones as well once it was unplugged and
