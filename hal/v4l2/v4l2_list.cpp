@@ -58,67 +58,87 @@ std::vector<std::string> links_to(const fs::path& node, const fs::path& folder) 
   return found;
 }
 
-std::vector<V4l2FormatInfo> formats_of(const V4l2Device& device) {
-  std::vector<V4l2FormatInfo> formats;
+std::vector<CameraMode> modes_of(const V4l2Device& device) {
+  std::vector<CameraMode> modes;
   for (const std::uint32_t fourcc : device.formats()) {
     const PixelCoding* const coding = find_coding(fourcc);
-    V4l2FormatInfo format{fourcc_text(fourcc), coding ? std::string(coding->name) : "", {}};
+    const std::string format = coding ? std::string(coding->name) : fourcc_text(fourcc);
     for (const FrameSizeOffer& size : device.sizes(fourcc)) {
-      format.sizes.push_back({size, device.frame_rates(fourcc, size.max_width, size.max_height)});
+      modes.push_back(
+          {format, size_text(size), device.frame_rates(fourcc, size.max_width, size.max_height)});
     }
-    formats.push_back(std::move(format));
   }
-  return formats;
+  return modes;
 }
 
-V4l2ControlInfo info_of(const V4l2Device& device, const v4l2_query_ext_ctrl& control) {
-  V4l2ControlInfo info{control_variable(control.name),
-                       control.minimum,
-                       control.maximum,
-                       static_cast<std::int64_t>(control.step),
-                       control.default_value,
-                       (control.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0,
-                       (control.flags & V4L2_CTRL_FLAG_INACTIVE) != 0,
-                       {}};
+/// "1 = manual mode"
+std::vector<std::string> menu_of(const V4l2Device& device, const v4l2_query_ext_ctrl& control) {
+  std::vector<std::string> menu;
   if (control.type != V4L2_CTRL_TYPE_MENU && control.type != V4L2_CTRL_TYPE_INTEGER_MENU) {
-    return info;
+    return menu;
   }
   constexpr std::int64_t kLongestMenu = 1024;
   const std::int64_t last = std::min(control.maximum, control.minimum + kLongestMenu);
   for (std::int64_t i = control.minimum; i <= last; ++i) {
-    if (auto text = device.menu_entry(control, i)) info.menu.emplace_back(i, std::move(*text));
+    if (const auto text = device.menu_entry(control, i)) {
+      menu.push_back(std::to_string(i) + " = " + *text);
+    }
   }
-  return info;
+  return menu;
+}
+
+std::string state_of(const v4l2_query_ext_ctrl& control) {
+  if ((control.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) return "read only";
+  return (control.flags & V4L2_CTRL_FLAG_INACTIVE) != 0 ? "inactive" : "";
+}
+
+CameraControl entry_of(const V4l2Device& device, const v4l2_query_ext_ctrl& control) {
+  return {.name = control_variable(control.name),
+          .minimum = static_cast<double>(control.minimum),
+          .maximum = static_cast<double>(control.maximum),
+          .step = static_cast<double>(control.step),
+          .default_value = static_cast<double>(control.default_value),
+          .state = state_of(control),
+          .values = menu_of(device, control)};
 }
 
 }  // namespace
 
-V4l2DeviceInfo describe(const V4l2Device& device) {
-  V4l2DeviceInfo info{device.path(),      {}, {}, device.driver(), device.card(), device.bus(),
-                      formats_of(device), {}};
+CameraEntry describe(const V4l2Device& device) {
+  CameraEntry entry{.id = device.path(),
+                    .back_end = "v4l2",
+                    .model = device.card(),
+                    .driver = device.driver(),
+                    .bus = device.bus(),
+                    .paths = {device.path()},
+                    .problem = {},
+                    .modes = modes_of(device),
+                    .controls = {}};
   for (auto control = device.next_control(0); control; control = device.next_control(control->id)) {
-    if (takes_number(*control)) info.controls.push_back(info_of(device, *control));
+    if (takes_number(*control)) entry.controls.push_back(entry_of(device, *control));
   }
-  return info;
+  return entry;
 }
 
-std::vector<V4l2DeviceInfo> list_v4l2_devices(const fs::path& folder) {
-  std::vector<V4l2DeviceInfo> devices;
+std::vector<CameraEntry> list_v4l2_cameras(const fs::path& folder) {
+  std::vector<CameraEntry> cameras;
   for (const fs::path& node : nodes(folder)) {
     const auto device = V4l2Device::open(node.string());
     // Nodes of other kinds: outputs, codecs, metadata of cameras.
     if (!device && device.error().fault == Fault::WrongFormat) continue;
-    V4l2DeviceInfo info;
+    CameraEntry camera;
     if (device) {
-      info = describe(*device);
+      camera = describe(*device);
     } else {
-      info.path = node.string();
-      info.problem = device.error().detail;
+      camera.back_end = "v4l2";
+      camera.problem = device.error().detail;
     }
-    info.stable_paths = links_to(node, folder);
-    devices.push_back(std::move(info));
+    camera.paths = links_to(node, folder);
+    camera.paths.push_back(node.string());
+    camera.id = camera.paths.front();
+    cameras.push_back(std::move(camera));
   }
-  return devices;
+  return cameras;
 }
 
 DeviceResult<std::string> find_v4l2_device(const std::string& name, const fs::path& folder) {

@@ -63,15 +63,15 @@ TEST_F(DeviceFolder, ListsOnlyNodesThatMayBeCamerasInTheirOrder) {
   for (const char* name : {"video10", "video2"}) {
     fs::create_symlink(folder_.path() / "nothing", folder_.path() / name);
   }
-  const auto devices = list_v4l2_devices(folder_.path());
-  ASSERT_EQ(devices.size(), 2U);
-  EXPECT_EQ(devices[0].path, (folder_.path() / "video2").string());
-  EXPECT_THAT(devices[0].problem, HasSubstr("No such file"));
-  EXPECT_EQ(devices[1].path, (folder_.path() / "video10").string());
+  const auto cameras = list_v4l2_cameras(folder_.path());
+  ASSERT_EQ(cameras.size(), 2U);
+  EXPECT_EQ(cameras[0].id, (folder_.path() / "video2").string());
+  EXPECT_THAT(cameras[0].problem, HasSubstr("No such file"));
+  EXPECT_EQ(cameras[1].id, (folder_.path() / "video10").string());
 }
 
 TEST_F(DeviceFolder, MayBeMissing) {
-  EXPECT_TRUE(list_v4l2_devices(folder_.path() / "nowhere").empty());
+  EXPECT_TRUE(list_v4l2_cameras(folder_.path() / "nowhere").empty());
 }
 
 }  // namespace

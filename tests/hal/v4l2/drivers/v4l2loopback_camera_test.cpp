@@ -15,8 +15,8 @@ constexpr StreamRequest kRequest{.width = kBallWidth, .height = kBallHeight};
 constexpr std::size_t kPixels = std::size_t{kBallWidth} * kBallHeight;
 
 std::string loopback() {
-  for (const V4l2DeviceInfo& device : list_v4l2_devices()) {
-    if (device.card == "orbwatch") return device.path;
+  for (const CameraEntry& camera : list_v4l2_cameras()) {
+    if (camera.model == "orbwatch") return camera.paths.back();
   }
   // It is no camera before somebody feeds it; the scenario knows its node.
   const char* const path = std::getenv("ORBWATCH_V4L2LOOPBACK");

@@ -9,67 +9,58 @@
 namespace orbwatch::hal {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
-using testing::Pair;
 
 constexpr StreamRequest kRequest{.width = 320, .height = 180, .frame_rate = 60};
 
-const V4l2DeviceInfo* find_vivid(const std::vector<V4l2DeviceInfo>& devices) {
-  const auto found = std::find_if(devices.begin(), devices.end(),
-                                  [](const V4l2DeviceInfo& d) { return d.bus == kVivid; });
-  return found == devices.end() ? nullptr : &*found;
+CameraEntry listed_vivid() {
+  for (const CameraEntry& camera : list_v4l2_cameras()) {
+    if (camera.bus == kVivid) return camera;
+  }
+  ADD_FAILURE() << "vivid is not listed";
+  return {};
 }
 
-TEST(VividList, HasDriverCardBusAndStablePath) {
-  const auto devices = list_v4l2_devices();
-  const V4l2DeviceInfo* const vivid = find_vivid(devices);
-  ASSERT_TRUE(vivid);
-  EXPECT_EQ(vivid->driver, "vivid");
-  EXPECT_EQ(vivid->card, "vivid");
-  EXPECT_EQ(vivid->problem, "");
-  EXPECT_THAT(vivid->path, HasSubstr("/dev/video"));
-  ASSERT_THAT(vivid->stable_paths, Contains(HasSubstr("/dev/v4l/by-path/")));
-  const std::string link = std::filesystem::path(vivid->stable_paths[0]).filename();
-  EXPECT_EQ(find_v4l2_device(link).value(), vivid->stable_paths[0]);
-  EXPECT_TRUE(V4l2Device::open(vivid->stable_paths[0]));
+TEST(VividList, HasDriverModelBusAndStablePath) {
+  const CameraEntry vivid = listed_vivid();
+  EXPECT_EQ(vivid.driver, "vivid");
+  EXPECT_EQ(vivid.model, "vivid");
+  EXPECT_EQ(vivid.problem, "");
+  EXPECT_THAT(vivid.id, HasSubstr("/dev/v4l/by-path/"));
+  ASSERT_EQ(vivid.paths.size(), 2U);
+  EXPECT_EQ(vivid.paths[0], vivid.id);
+  EXPECT_THAT(vivid.paths[1], HasSubstr("/dev/video"));
+  const std::string link = std::filesystem::path(vivid.id).filename();
+  EXPECT_EQ(find_v4l2_device(link).value(), vivid.id);
+  EXPECT_TRUE(V4l2Device::open(vivid.id));
 }
 
 TEST(VividList, HasFormatsWithSizesAndRates) {
-  const auto devices = list_v4l2_devices();
-  const V4l2DeviceInfo* const vivid = find_vivid(devices);
-  ASSERT_TRUE(vivid);
-  const auto yuyv =
-      std::find_if(vivid->formats.begin(), vivid->formats.end(),
-                   [](const V4l2FormatInfo& format) { return format.fourcc == "YUYV"; });
-  ASSERT_NE(yuyv, vivid->formats.end());
-  EXPECT_EQ(yuyv->pixel_format, "yuyv");
-  ASSERT_FALSE(yuyv->sizes.empty());
-  EXPECT_EQ(size_text(yuyv->sizes[0].size), "320x180");
-  EXPECT_THAT(yuyv->sizes[0].frame_rates, Contains(60.0));
-  const auto big_endian =
-      std::find_if(vivid->formats.begin(), vivid->formats.end(),
-                   [](const V4l2FormatInfo& format) { return format.fourcc == "Y16-BE"; });
-  ASSERT_NE(big_endian, vivid->formats.end());
-  EXPECT_EQ(big_endian->pixel_format, "y16_be");
+  const CameraEntry vivid = listed_vivid();
+  EXPECT_THAT(vivid.modes, Contains(AllOf(Field(&CameraMode::format, "yuyv"),
+                                          Field(&CameraMode::size, "320x180"),
+                                          Field(&CameraMode::frame_rates, Contains(60.0)))));
+  EXPECT_THAT(vivid.modes, Contains(Field(&CameraMode::format, "y16_be")));
 }
 
 TEST(VividList, HasControlsWithRangesAndMenus) {
-  const V4l2DeviceInfo vivid = describe(open_vivid());
+  const CameraEntry vivid = describe(open_vivid());
   const auto control = [&vivid](const char* name) {
     const auto found = std::find_if(vivid.controls.begin(), vivid.controls.end(),
-                                    [name](const V4l2ControlInfo& c) { return c.name == name; });
+                                    [name](const CameraControl& c) { return c.name == name; });
     EXPECT_NE(found, vivid.controls.end()) << name;
-    return found == vivid.controls.end() ? V4l2ControlInfo() : *found;
+    return found == vivid.controls.end() ? CameraControl() : *found;
   };
-  const V4l2ControlInfo brightness = control("brightness");
+  const CameraControl brightness = control("brightness");
   EXPECT_EQ(brightness.minimum, 0);
   EXPECT_EQ(brightness.maximum, 255);
   EXPECT_EQ(brightness.default_value, 128);
-  EXPECT_TRUE(brightness.menu.empty());
-  EXPECT_THAT(control("test_pattern").menu, Contains(Pair(1, "100% Colorbar")));
-  EXPECT_TRUE(control("read_only_integer_32_bits").read_only);
+  EXPECT_TRUE(brightness.values.empty());
+  EXPECT_THAT(control("test_pattern").values, Contains("1 = 100% Colorbar"));
+  EXPECT_EQ(control("read_only_integer_32_bits").state, "read only");
 }
 
 TEST(VividControls, AreSetByAnySpellingAndRefusedOutsideTheirRange) {
