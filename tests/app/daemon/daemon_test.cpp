@@ -220,7 +220,6 @@ line_name = "WIRE"
   const auto answered = read("camera_0_frames") + read("camera_0_missed");
   EXPECT_GE(answered, before - 33) << "32 may wait for their frame, which may be on its way";
   EXPECT_LE(answered, read("camera_0_triggers"));
-  EXPECT_EQ(read("camera_0_lost"), 0) << "frames without a trigger are not lost";
 }
 
 TEST_F(Daemon, ExposesOncePerPulseThatIsCommanded) {

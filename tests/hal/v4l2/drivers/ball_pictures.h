@@ -16,8 +16,8 @@ inline constexpr int kBallHeight = 240;
 /// The luminance that a mirror ball in a striped room shows at a pixel, 0..1, when the room is
 /// turned by `turn`: normals of a unit sphere reflect rays along -z.
 inline double ball_luminance(int x, int y, double turn) {
-  const double u = (x - kBallWidth / 2) / 110.0;
-  const double v = (y - kBallHeight / 2) / 110.0;
+  const double u = (x - kBallWidth / 2.0) / 110.0;
+  const double v = (y - kBallHeight / 2.0) / 110.0;
   const double rr = u * u + v * v;
   if (rr >= 1) return 0.1;
   const double nz = std::sqrt(1 - rr);
