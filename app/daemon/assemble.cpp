@@ -103,7 +103,7 @@ Result<> open_camera(const CameraSettings& settings, const optics::Rig& rig,
   }
   if (!ViewRenderer::is_supported(format->format)) {
     return fail("camera " + settings.name + ": delivers " + std::string(info(format->format).name) +
-                "; views take grey, y16, yuyv and rgb");
+                ", of which no view can be made");
   }
   if (settings.kelvin_per_count > 0 && format->format != PixelFormat::Y16) {
     return fail("camera " + settings.name + ": has kelvin_per_count but delivers " +
