@@ -7,7 +7,7 @@
 
 namespace orbwatch::hal {
 
-/// Pauses between attempts to reach a camera again: 1 s, 2 s, 4 s, 8 s, then 10 s each.
+/// Pauses between attempts to reach a camera or a line again: 1 s, 2 s, 4 s, 8 s, then 10 s each.
 class BackOff {
  public:
   Clock::duration next() {
@@ -15,7 +15,7 @@ class BackOff {
     next_ = std::min(2 * next_, kLongest);
     return pause;
   }
-  /// The camera delivered.
+  /// It was reached.
   void reset() { next_ = kFirst; }
 
  private:

@@ -1,14 +1,11 @@
 #include "hal/lines/watched_input.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 namespace orbwatch::hal {
 namespace {
 
-constexpr Clock::duration kFirstPause = std::chrono::seconds(1);
-constexpr Clock::duration kLongestPause = std::chrono::seconds(10);
 /// Kernels before 6.6 wake nobody when a chip goes away.
 constexpr Clock::duration kCheckPeriod = std::chrono::seconds(1);
 /// Read in one go; after these the other lines have their turn.
@@ -17,10 +14,7 @@ constexpr int kBatches = 4;
 }  // namespace
 
 WatchedInput::WatchedInput(LineBackEnd& back_end, InputSettings settings, OnFault on_fault)
-    : back_end_(back_end),
-      settings_(std::move(settings)),
-      on_fault_(std::move(on_fault)),
-      pause_(kFirstPause) {}
+    : back_end_(back_end), settings_(std::move(settings)), on_fault_(std::move(on_fault)) {}
 
 Result<std::unique_ptr<WatchedInput>> WatchedInput::open(LineBackEnd& back_end,
                                                          const InputSettings& settings,
@@ -82,18 +76,17 @@ void WatchedInput::give(const std::optional<EdgeEvent>& edge) {
 void WatchedInput::fail_with(const LineFaultReport& report, TimePoint now) {
   lost_before_ = lost_;
   input_.reset();
-  retry_ = now + pause_;
+  retry_ = now + pause_.next();
   on_fault_(report);
 }
 
 void WatchedInput::reopen(TimePoint now) {
   const bool before = level_;
   if (const auto opened = open_line(); !opened) {
-    pause_ = std::min(2 * pause_, kLongestPause);
-    retry_ = now + pause_;
+    retry_ = now + pause_.next();
     return;
   }
-  pause_ = kFirstPause;
+  pause_.reset();
   on_fault_({});
   // What changed meanwhile is one edge, stamped when it was found.
   if (level_ != before) give(EdgeEvent{edge_to(level_), now});

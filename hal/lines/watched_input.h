@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/back_off.h"
 #include "hal/lines/edge_filter.h"
 #include "hal/lines/line_back_end.h"
 #include "hal/lines/line_task.h"
@@ -66,7 +67,7 @@ class WatchedInput : public LineTask {
   unsigned opened_ = 0;
   TimePoint retry_ = TimePoint::max();
   TimePoint check_ = TimePoint::min();  ///< when the open line is asked whether it is still there
-  Clock::duration pause_;
+  BackOff pause_;
   std::uint64_t lost_before_ = 0;  ///< of files that were closed
   std::atomic<std::uint64_t> lost_{0};
 };
