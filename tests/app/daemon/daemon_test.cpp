@@ -197,22 +197,28 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
-TEST_F(Daemon, TriggersFasterThanTheCameraAreFramesOrMissed) {
-  std::string text = small_machine() + R"(
-[[line]]
-name = "pace"
-use = "trigger_out"
-back_end = "simulated"
-line_name = "WIRE"
-rate = 100
+/// Its first camera is triggered over a wire, by a line that has `pace` among its keys.
+std::string triggered_machine(const std::string& mode, const std::string& pace = "") {
+  std::string text = small_machine();
+  text.insert(text.find("frame_rate"),
+              "trigger_mode = \"" + mode + "\"\ntrigger_source = \"start\"\n");
+  return text + R"(
 [[line]]
 name = "start"
 use = "trigger_in"
 back_end = "simulated"
 line_name = "WIRE"
-)";
-  text.insert(text.find("frame_rate"), "trigger_mode = \"line\"\ntrigger_source = \"start\"\n");
-  Subprocess daemon = start(write_config(text));
+[[line]]
+name = "pulse"
+use = "trigger_out"
+back_end = "simulated"
+line_name = "WIRE"
+)" + pace +
+         "\n";
+}
+
+TEST_F(Daemon, TriggersFasterThanTheCameraAreFramesOrMissed) {
+  Subprocess daemon = start(write_config(triggered_machine("line", "rate = 100")));
   ASSERT_TRUE(eventually(daemon, [&] {
     return read("camera_0_missed") > 50 && read("camera_0_frames") > 5;
   })) << daemon.output();
@@ -223,20 +229,7 @@ line_name = "WIRE"
 }
 
 TEST_F(Daemon, ExposesOncePerPulseThatIsCommanded) {
-  std::string text = small_machine() + R"(
-[[line]]
-name = "pulse"
-use = "trigger_out"
-back_end = "simulated"
-line_name = "WIRE"
-[[line]]
-name = "start"
-use = "trigger_in"
-back_end = "simulated"
-line_name = "WIRE"
-)";
-  text.insert(text.find("frame_rate"), "trigger_mode = \"software\"\ntrigger_source = \"start\"\n");
-  Subprocess daemon = start(write_config(text));
+  Subprocess daemon = start(write_config(triggered_machine("software")));
   ASSERT_TRUE(eventually(daemon, [&] { return read("camera_1_frames") > 0; })) << daemon.output();
   constexpr std::uint16_t kPulses = 5;
   for (std::uint16_t n = 1; n <= kPulses; ++n) {
