@@ -116,15 +116,12 @@ Result<ViewProjection> ViewProjection::make(const ViewSpec& spec, const BallProj
 }
 
 ViewProjection::ViewProjection(const ViewSpec& spec)
-    : kind_(spec.kind),
-      width_(spec.width),
-      height_(spec.height),
-      orientation_(rotation(spec.orientation)) {
-  if (kind_ == ViewKind::Ball) return;
-  const double h_fov = spec.h_fov.value_or(field_of_view(kind_).h_default);
-  step_u_ = 2 * reach(kind_, false, h_fov) / width_;
-  if (spec.v_fov || kind_ == ViewKind::Equirectangular) {
-    step_v_ = 2 * reach(kind_, true, spec.v_fov.value_or(180)) / height_;
+    : spec_(spec), orientation_(rotation(spec.orientation)) {
+  if (spec_.kind == ViewKind::Ball) return;
+  const double h_fov = spec.h_fov.value_or(field_of_view(spec_.kind).h_default);
+  step_u_ = 2 * reach(spec_.kind, false, h_fov) / spec_.width;
+  if (spec.v_fov || spec_.kind == ViewKind::Equirectangular) {
+    step_v_ = 2 * reach(spec_.kind, true, spec.v_fov.value_or(180)) / spec_.height;
   } else {
     step_v_ = step_u_;
   }
@@ -136,21 +133,22 @@ Result<> ViewProjection::crop(const BallProjection& ball) {
   const double c = std::cos(radians(limb->angle)), s = std::sin(radians(limb->angle));
   const double half_width = std::hypot(limb->rx * c, limb->ry * s);
   const double half_height = std::hypot(limb->rx * s, limb->ry * c);
-  step_u_ = step_v_ = 2 * kCropMargin * std::max(half_width / width_, half_height / height_);
+  step_u_ = step_v_ =
+      2 * kCropMargin * std::max(half_width / spec_.width, half_height / spec_.height);
   crop_centre_ = limb->centre;
   ball_ = ball;
   return {};
 }
 
 Vec2 ViewProjection::camera_pixel(double u, double v) const {
-  return {crop_centre_.u + (u - (width_ - 1) / 2.0) * step_u_,
-          crop_centre_.v + (v - (height_ - 1) / 2.0) * step_v_};
+  return {crop_centre_.u + (u - (spec_.width - 1) / 2.0) * step_u_,
+          crop_centre_.v + (v - (spec_.height - 1) / 2.0) * step_v_};
 }
 
 std::optional<Vec3> ViewProjection::direction(double u, double v) const {
-  const double x = (u - (width_ - 1) / 2.0) * step_u_;
-  const double y = ((height_ - 1) / 2.0 - v) * step_v_;
-  switch (kind_) {
+  const double x = (u - (spec_.width - 1) / 2.0) * step_u_;
+  const double y = ((spec_.height - 1) / 2.0 - v) * step_v_;
+  switch (spec_.kind) {
     case ViewKind::Perspective:
       return perspective(orientation_, x, y);
     case ViewKind::Equirectangular:
@@ -177,7 +175,7 @@ std::optional<Vec3> ViewProjection::direction(double u, double v) const {
 
 void ViewProjection::directions(const Vec2Lanes& pixels, Vec3Lanes& out) const {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  if (kind_ != ViewKind::Perspective) {
+  if (spec_.kind != ViewKind::Perspective) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       out.set(k, direction(pixels.u[k], pixels.v[k]).value_or(Vec3{kNothing, kNothing, kNothing}));
     }
@@ -185,7 +183,7 @@ void ViewProjection::directions(const Vec2Lanes& pixels, Vec3Lanes& out) const {
   }
   // Copies, so that no store into `out` could change them.
   const Mat3 orientation = orientation_;
-  const Vec2 middle{(width_ - 1) / 2.0, (height_ - 1) / 2.0}, step{step_u_, step_v_};
+  const Vec2 middle{(spec_.width - 1) / 2.0, (spec_.height - 1) / 2.0}, step{step_u_, step_v_};
   for (std::size_t k = 0; k < kLanes; ++k) {
     const double x = (pixels.u[k] - middle.u) * step.u, y = (middle.v - pixels.v[k]) * step.v;
     out.set(k, perspective(orientation, x, y));
@@ -194,11 +192,11 @@ void ViewProjection::directions(const Vec2Lanes& pixels, Vec3Lanes& out) const {
 
 std::optional<Vec2> ViewProjection::pixel(const Vec3& direction) const {
   const auto at = [&](double x, double y) {
-    return Vec2{(width_ - 1) / 2.0 + x / step_u_, (height_ - 1) / 2.0 - y / step_v_};
+    return Vec2{(spec_.width - 1) / 2.0 + x / step_u_, (spec_.height - 1) / 2.0 - y / step_v_};
   };
   const Vec3 d = transposed(orientation_) * direction;
   const double along = std::hypot(d.x, d.y), across = std::hypot(d.x, d.z);
-  switch (kind_) {
+  switch (spec_.kind) {
     case ViewKind::Perspective:
       if (!(d.y > 0)) return std::nullopt;
       return at(d.x / d.y, d.z / d.y);
@@ -224,10 +222,10 @@ std::optional<Vec2> ViewProjection::pixel(const Vec3& direction) const {
 }
 
 double ViewProjection::solid_angle(double u, double v) const {
-  const double x = (u - (width_ - 1) / 2.0) * step_u_;
-  const double y = ((height_ - 1) / 2.0 - v) * step_v_;
+  const double x = (u - (spec_.width - 1) / 2.0) * step_u_;
+  const double y = ((spec_.height - 1) / 2.0 - v) * step_v_;
   const double area = step_u_ * step_v_, r2 = x * x + y * y;
-  switch (kind_) {
+  switch (spec_.kind) {
     case ViewKind::Perspective:
       return area / ((1 + r2) * std::sqrt(1 + r2));
     case ViewKind::Equirectangular:
@@ -255,14 +253,14 @@ double ViewProjection::ball_solid_angle(double u, double v) const {
 }
 
 std::optional<Intrinsics> ViewProjection::intrinsics() const {
-  if (kind_ != ViewKind::Perspective) return std::nullopt;
+  if (spec_.kind != ViewKind::Perspective) return std::nullopt;
   Intrinsics of_view;
-  of_view.width = width_;
-  of_view.height = height_;
+  of_view.width = spec_.width;
+  of_view.height = spec_.height;
   of_view.fx = 1 / step_u_;
   of_view.fy = 1 / step_v_;
-  of_view.cx = (width_ - 1) / 2.0;
-  of_view.cy = (height_ - 1) / 2.0;
+  of_view.cx = (spec_.width - 1) / 2.0;
+  of_view.cy = (spec_.height - 1) / 2.0;
   return of_view;
 }
 

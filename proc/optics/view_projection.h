@@ -65,9 +65,11 @@ class ViewProjection {
   /// What ROS' camera_info says of a perspective view; nothing for other kinds.
   std::optional<Intrinsics> intrinsics() const;
 
-  ViewKind kind() const { return kind_; }
-  int width() const { return width_; }
-  int height() const { return height_; }
+  /// What it was made of.
+  const ViewSpec& spec() const { return spec_; }
+  ViewKind kind() const { return spec_.kind; }
+  int width() const { return spec_.width; }
+  int height() const { return spec_.height; }
 
  private:
   explicit ViewProjection(const ViewSpec& spec);
@@ -76,9 +78,7 @@ class ViewProjection {
   Vec2 camera_pixel(double u, double v) const;
   double ball_solid_angle(double u, double v) const;
 
-  ViewKind kind_;
-  int width_;
-  int height_;
+  ViewSpec spec_;
   Mat3 orientation_;
   /// Per pixel: radians where the projection is linear in an angle, else of the tangent (for
   /// Stereographic of half the angle), for Ball camera pixels.

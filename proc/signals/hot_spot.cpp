@@ -1,117 +1,129 @@
 #include "proc/signals/hot_spot.h"
 
-#include <algorithm>
-#include <utility>
-
-#include "proc/image/validity.h"
+#include <cmath>
 
 namespace orbwatch::signals {
+namespace {
 
 using optics::Vec3;
 
-HotSpotDetector::HotSpotDetector(const optics::ViewProjection& view)
-    : width_(view.width()), height_(view.height()) {
-  pixels_.reserve(static_cast<std::size_t>(width_) * height_);
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      // Where the projection ends there is nothing to measure: such pixels are never Seen.
-      const Vec3 d = view.direction(x, y).value_or(Vec3{});
-      pixels_.push_back({static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
-                         static_cast<float>(view.solid_angle(x, y))});
-    }
+/// A quantity of the geometry at a place of which these are the weights.
+template <class Quantity>
+auto mean_of(const Corners& corners, const std::array<double, 4>& weights, Quantity quantity) {
+  return quantity(*corners.geometry[0]) * weights[0] + quantity(*corners.geometry[1]) * weights[1] +
+         quantity(*corners.geometry[2]) * weights[2] + quantity(*corners.geometry[3]) * weights[3];
+}
+
+Vec3 vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+/// Weighted sums up to the second order of a quantity that runs linearly over each piece.
+struct Moments {
+  double weight = 0;
+  Vec3 first;
+  Symmetric3 second;
+
+  template <class Quantity>
+  void add(const Piece& piece, const Corners& corners, const std::array<double, 4>& weights,
+           double amount, Quantity quantity) {
+    const Vec3 a = quantity(*corners.geometry[0]), b = quantity(*corners.geometry[1]);
+    const Vec3 c = quantity(*corners.geometry[2]), d = quantity(*corners.geometry[3]);
+    const Vec3 middle = a * weights[0] + b * weights[1] + c * weights[2] + d * weights[3];
+    const Vec3 along_u = (b - a + c - d) * 0.5, along_v = (d - a + c - b) * 0.5;
+    weight += amount;
+    first = first + middle * amount;
+    second.add(middle, amount);
+    second.add(along_u, amount * piece.uu);
+    second.add(along_v, amount * piece.vv);
+    second.add(along_u, along_v, 2 * amount * piece.uv);
   }
-  // A row has at most every second pixel as a run, so this is the most there can ever be.
-  const std::size_t runs_per_row = static_cast<std::size_t>(width_ + 1) / 2;
-  regions_.reserve(runs_per_row * height_);
-  above_.reserve(runs_per_row);
-  current_.reserve(runs_per_row);
+
+  Vec3 mean() const { return first * (1 / weight); }
+  PrincipalAxes axes() const {
+    const Vec3 m = mean();
+    Symmetric3 covariance = second;
+    covariance.add(m, -weight);
+    const double s = 1 / weight;
+    return principal_axes({covariance.xx * s, covariance.yy * s, covariance.zz * s,
+                           covariance.xy * s, covariance.xz * s, covariance.yz * s});
+  }
+};
+
+Vec3 direction_of(const PixelGeometry& pixel) { return vec(pixel.direction); }
+Vec3 position_of(const PixelGeometry& pixel) { return vec(pixel.position); }
+double solid_angle_of(const PixelGeometry& pixel) { return pixel.solid_angle; }
+double area_of(const PixelGeometry& pixel) { return pixel.area; }
+
+template <class T>
+double saturated_share(const ImageView<const T>& values, const BlobPixels& pixels,
+                       double full_scale) {
+  double all = 0, saturated = 0;
+  for (const Span& span : pixels.spans()) {
+    const T* row = values.row(span.y);
+    for (int x = span.begin; x < span.end; ++x) saturated += row[x] >= full_scale ? 1 : 0;
+    all += span.end - span.begin;
+  }
+  return saturated / all;
 }
 
-HotSpot HotSpotDetector::measure(const ImageView<const std::uint8_t>& values,
-                                 const ImageView<const std::uint8_t>& validity, double threshold) {
-  return measure_any(values, validity, threshold);
-}
+}  // namespace
 
-HotSpot HotSpotDetector::measure(const ImageView<const std::uint16_t>& values,
-                                 const ImageView<const std::uint8_t>& validity, double threshold) {
-  return measure_any(values, validity, threshold);
+template <class T>
+HotSpot measure_hot_spot(const ImageView<const T>& values,
+                         const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
+                         double threshold, double full_scale, const RegionGeometry& geometry,
+                         const Radiometry& radiometry) {
+  Moments angular, extent;
+  double area = 0, counts = 0, celsius = 0;
+  pixels.for_each_piece(
+      values, validity, threshold, geometry, [&](const Piece& piece, const Corners& corners) {
+        const auto weights = corner_weights(piece.u, piece.v);
+        const double omega = piece.area * mean_of(corners, weights, solid_angle_of);
+        const double mm2 = piece.area * mean_of(corners, weights, area_of);
+        const double value = mean_of(weights, corners.counts);
+        area += piece.area;
+        counts += omega * value;
+        if (radiometry.is_radiometric()) celsius += omega * radiometry.celsius(value);
+        angular.add(piece, corners, weights, omega, direction_of);
+        extent.add(piece, corners, weights, mm2, position_of);
+      });
+  HotSpot spot;
+  if (!(angular.weight > 0)) return spot;
+  spot.pixels = area;
+  spot.solid_angle = angular.weight;
+  spot.direction = optics::normalized(angular.first);
+  spot.angular = angular.axes();
+  spot.area = extent.weight;
+  spot.position = extent.mean();
+  spot.extent = extent.axes();
+  spot.mean = counts / angular.weight;
+  spot.mean_celsius = celsius / angular.weight;
+  spot.saturated = saturated_share(values, pixels, full_scale);
+  return spot;
 }
 
 template <class T>
-HotSpot HotSpotDetector::measure_any(const ImageView<const T>& values,
-                                     const ImageView<const std::uint8_t>& validity,
-                                     double threshold) {
-  regions_.clear();
-  above_.clear();
-  for (int y = 0; y < height_; ++y) {
-    current_.clear();
-    collect_runs(values, validity, threshold, y);
-    join_with_row_above();
-    std::swap(above_, current_);
-  }
-  const auto largest = std::max_element(
-      regions_.begin(), regions_.end(),
-      [](const Region& a, const Region& b) { return a.solid_angle < b.solid_angle; });
-  if (largest == regions_.end() || !(largest->solid_angle > 0)) return {};
-  return {true, optics::normalized(largest->moment), largest->solid_angle, largest->peak,
-          largest->weighted / largest->solid_angle};
+double measure_solid_angle(const ImageView<const T>& values,
+                           const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
+                           double threshold, const RegionGeometry& geometry) {
+  double sum = 0;
+  pixels.for_each_piece(
+      values, validity, threshold, geometry, [&](const Piece& piece, const Corners& corners) {
+        sum += piece.area * mean_of(corners, corner_weights(piece.u, piece.v), solid_angle_of);
+      });
+  return sum;
 }
 
-template <class T>
-void HotSpotDetector::collect_runs(const ImageView<const T>& values,
-                                   const ImageView<const std::uint8_t>& validity, double threshold,
-                                   int y) {
-  const T* value = values.row(y);
-  const std::uint8_t* seen = validity.row(y);
-  const PixelGeometry* pixel = pixels_.data() + static_cast<std::size_t>(y) * width_;
-  const auto hot = [&](int x) {
-    return value[x] >= threshold && seen[x] == static_cast<std::uint8_t>(Validity::Seen);
-  };
-  for (int x = 0; x < width_; ++x) {
-    if (!hot(x)) continue;
-    const auto index = static_cast<std::int32_t>(regions_.size());
-    Region region{{}, 0, 0, 0, index};
-    const int begin = x;
-    for (; x < width_ && hot(x); ++x) {
-      const double omega = pixel[x].solid_angle;
-      // Counting from just below the threshold keeps a region of equal values a plain centroid.
-      const double weight = omega * (value[x] - threshold + 1);
-      region.moment = region.moment + Vec3{pixel[x].x, pixel[x].y, pixel[x].z} * weight;
-      region.solid_angle += omega;
-      region.weighted += omega * value[x];
-      region.peak = std::max<double>(region.peak, value[x]);
-    }
-    current_.push_back({begin, x, index});
-    regions_.push_back(region);
-  }
-}
-
-void HotSpotDetector::join_with_row_above() {
-  std::size_t first = 0;
-  for (const Run& run : current_) {
-    // Diagonal neighbours count: runs touch when they overlap by one pixel more on either side.
-    while (first < above_.size() && above_[first].end < run.begin) ++first;
-    for (std::size_t i = first; i < above_.size() && above_[i].begin <= run.end; ++i) {
-      const std::int32_t a = root(above_[i].region), b = root(run.region);
-      if (a == b) continue;
-      Region& kept = regions_[std::min(a, b)];
-      Region& joined = regions_[std::max(a, b)];
-      kept.moment = kept.moment + joined.moment;
-      kept.solid_angle += joined.solid_angle;
-      kept.weighted += joined.weighted;
-      kept.peak = std::max(kept.peak, joined.peak);
-      joined.parent = kept.parent;
-      joined.solid_angle = 0;
-    }
-  }
-}
-
-std::int32_t HotSpotDetector::root(std::int32_t region) {
-  while (regions_[region].parent != region) {
-    regions_[region].parent = regions_[regions_[region].parent].parent;
-    region = regions_[region].parent;
-  }
-  return region;
-}
+template HotSpot measure_hot_spot(const ImageView<const std::uint8_t>&,
+                                  const ImageView<const std::uint8_t>&, const BlobPixels&, double,
+                                  double, const RegionGeometry&, const Radiometry&);
+template HotSpot measure_hot_spot(const ImageView<const std::uint16_t>&,
+                                  const ImageView<const std::uint8_t>&, const BlobPixels&, double,
+                                  double, const RegionGeometry&, const Radiometry&);
+template double measure_solid_angle(const ImageView<const std::uint8_t>&,
+                                    const ImageView<const std::uint8_t>&, const BlobPixels&, double,
+                                    const RegionGeometry&);
+template double measure_solid_angle(const ImageView<const std::uint16_t>&,
+                                    const ImageView<const std::uint8_t>&, const BlobPixels&, double,
+                                    const RegionGeometry&);
 
 }  // namespace orbwatch::signals

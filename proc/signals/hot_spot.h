@@ -1,71 +1,42 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "proc/image/image_view.h"
 #include "proc/optics/vec.h"
-#include "proc/optics/view_projection.h"
+#include "proc/signals/blob_pixels.h"
+#include "proc/signals/principal_axes.h"
+#include "proc/signals/radiometry.h"
 
 namespace orbwatch::signals {
 
-/// The hottest connected place of a view.
+/// The hot spot of one frame set, measured to a fraction of a pixel. Lengths are those of the
+/// machine's surface and not a number where that is not known.
 struct HotSpot {
-  bool present = false;
-  optics::Vec3 direction;  ///< unit vector to its centroid, weighted by solid angle and excess
-  double solid_angle = 0;  ///< steradian
-  double peak = 0;         ///< counts
-  double mean = 0;         ///< counts, weighted by solid angle
+  double pixels = 0;
+  double solid_angle = 0;   ///< steradian
+  optics::Vec3 direction;   ///< unit vector to its centroid
+  PrincipalAxes angular;    ///< of directions, square radians
+  double area = 0;          ///< mm2
+  optics::Vec3 position;    ///< its centroid, mm from the ball's centre
+  PrincipalAxes extent;     ///< of positions, mm2
+  double mean = 0;          ///< counts, by solid angle
+  double mean_celsius = 0;  ///< by solid angle; not a number unless radiometric
+  double saturated = 0;     ///< share of its pixels
 };
 
-/// Finds the connected region (8 neighbours) of pixels at or above a threshold that covers the
-/// largest solid angle. All memory is taken when it is made, so measuring neither allocates nor
-/// needs trigonometry. Thread-bound.
-class HotSpotDetector {
- public:
-  explicit HotSpotDetector(const optics::ViewProjection& view);
+/// Measures the blob in `pixels`, which holds at least one and was found with `threshold`.
+/// `full_scale`: counts of a saturated pixel. No allocation. Reentrant.
+template <class T>
+HotSpot measure_hot_spot(const ImageView<const T>& values,
+                         const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
+                         double threshold, double full_scale, const RegionGeometry& geometry,
+                         const Radiometry& radiometry);
 
-  /// `values` and `validity` have the view's size; pixels that are not Validity::Seen do not count.
-  /// `threshold` in counts.
-  HotSpot measure(const ImageView<const std::uint8_t>& values,
-                  const ImageView<const std::uint8_t>& validity, double threshold);
-  HotSpot measure(const ImageView<const std::uint16_t>& values,
-                  const ImageView<const std::uint8_t>& validity, double threshold);
-
- private:
-  /// Unit vector and solid angle of one pixel; float keeps 1e-7, far below a pixel.
-  struct PixelGeometry {
-    float x, y, z, solid_angle;
-  };
-  /// Sums over one region, or over a part of it that is still to be joined.
-  struct Region {
-    optics::Vec3 moment;
-    double solid_angle = 0;
-    double weighted = 0;
-    double peak = 0;
-    std::int32_t parent = 0;
-  };
-  /// Pixels [begin, end) of a row that belong to a region.
-  struct Run {
-    int begin, end;
-    std::int32_t region;
-  };
-
-  template <class T>
-  HotSpot measure_any(const ImageView<const T>& values,
-                      const ImageView<const std::uint8_t>& validity, double threshold);
-  template <class T>
-  void collect_runs(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity,
-                    double threshold, int y);
-  void join_with_row_above();
-  std::int32_t root(std::int32_t region);
-
-  int width_;
-  int height_;
-  std::vector<PixelGeometry> pixels_;
-  std::vector<Region> regions_;
-  std::vector<Run> above_;
-  std::vector<Run> current_;
-};
+/// The solid angle alone, steradian.
+template <class T>
+double measure_solid_angle(const ImageView<const T>& values,
+                           const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
+                           double threshold, const RegionGeometry& geometry);
 
 }  // namespace orbwatch::signals

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <chrono>
+#include <cstddef>
+#include <span>
+
+#include "proc/image/result.h"
+#include "proc/signals/alarm.h"
+#include "proc/signals/signals.h"
+
+namespace orbwatch::signals {
+
+inline constexpr std::size_t kMaxAlarms = 32;
+
+/// A choice among the alarms of a board, by their index.
+using AlarmSet = std::bitset<kMaxAlarms>;
+
+/// What happened to one alarm at one step.
+struct AlarmEvent {
+  std::size_t alarm = 0;  ///< index on the board
+  AlarmEventKind kind = AlarmEventKind::Raised;
+  AlarmState state = AlarmState::Normal;  ///< after it
+  /// That was raised or eased to; else the worst that was acknowledged, cleared or suppressed.
+  AlarmLevel level = AlarmLevel::None;
+  double value = kNotValid;  ///< of the signal at this step; not finite: not measured
+  std::chrono::nanoseconds time{0};
+};
+
+/// One moment of everything that is watched.
+struct AlarmBoardInputs {
+  std::chrono::nanoseconds now{0};   ///< as in AlarmInputs
+  std::span<const Signals> regions;  ///< by region; what is not there was not measured
+  bool process_active = true;
+  AlarmSet acknowledged;  ///< since the last step; what is no alarm is ignored
+};
+
+/// The alarms of one recipe. Of fixed size, so stepping allocates nothing. Thread-bound.
+class AlarmBoard {
+ public:
+  /// A board without alarms.
+  AlarmBoard() = default;
+
+  /// Errors: more than kMaxAlarms; a region of `region_count` or above; limits that do not pass
+  /// check(). They name the alarm by its place in the list, from 0, and its signal.
+  static Result<AlarmBoard> make(std::span<const AlarmLimits> limits, std::size_t region_count);
+
+  /// Acknowledges, then steps every alarm. What happened, by alarm, an acknowledgement before what
+  /// came after it; it stays readable until the next step or the end of the board.
+  std::span<const AlarmEvent> step(const AlarmBoardInputs& inputs);
+
+  std::size_t size() const { return size_; }
+  /// `index` below size().
+  const AlarmLimits& limits(std::size_t index) const { return limits_[index]; }
+  const Alarm& alarm(std::size_t index) const { return memories_[index].alarm; }
+
+ private:
+  void acknowledge(std::size_t index, const AlarmInputs& now);
+  void step(std::size_t index, const AlarmInputs& now);
+  void note(std::size_t index, AlarmEventKind kind, AlarmLevel level, const AlarmInputs& now);
+
+  std::size_t size_ = 0;
+  std::array<AlarmLimits, kMaxAlarms> limits_;
+  std::array<AlarmMemory, kMaxAlarms> memories_;
+  std::size_t event_count_ = 0;
+  std::array<AlarmEvent, 2 * kMaxAlarms> events_;  ///< one alarm is acknowledged and then changes
+};
+
+}  // namespace orbwatch::signals

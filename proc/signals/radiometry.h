@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::signals {
+
+/// How a camera's counts stand for temperature. The camera gives the temperature of a black body:
+/// T[K] = kelvin_per_count * count.
+struct RadiometrySettings {
+  double kelvin_per_count = 0;           ///< 0: the camera is not radiometric
+  double wavelength = 10;                ///< um, the camera's effective one
+  std::optional<double> emissivity{};    ///< of the target, (0, 1]; nothing: 1
+  double surroundings = 20;              ///< degC, of what the target reflects
+  std::optional<double> reflectivity{};  ///< of the ball, (0, 1]; nothing: 1
+  double ball_temperature = 20;          ///< degC, for what the ball emits itself
+};
+
+/// From counts to the target's temperature and back, by
+///   L(T camera) = rho L_scene + (1 - rho) L(T ball),
+///   L_scene = eps L(T target) + (1 - eps) L(T surroundings),
+/// where L is Planck's law at the camera's wavelength. With rho = eps = 1 both are the camera's own
+/// linear scale exactly. Immutable; reentrant.
+class Radiometry {
+ public:
+  /// Not radiometric: nothing has a temperature.
+  Radiometry() = default;
+
+  /// Error: a number out of range; the message names it.
+  static Result<Radiometry> make(const RadiometrySettings& settings);
+
+  bool is_radiometric() const { return !celsius_.empty(); }
+
+  /// Neither the target's emissivity nor the ball's reflectivity was given, so temperatures are
+  /// those that black bodies seen without the ball would have.
+  bool is_apparent() const { return !settings_.emissivity && !settings_.reflectivity; }
+
+  /// degC of `counts` in [0, 65535], by a table and straight lines between whole counts; not a
+  /// number for less light than ball and surroundings send by themselves. For radiometric ones.
+  double celsius(double counts) const {
+    const auto whole = static_cast<std::size_t>(counts);
+    const double below = celsius_[whole];
+    return below + (counts - static_cast<double>(whole)) * (celsius_[whole + 1] - below);
+  }
+
+  /// The counts of a target at `celsius`, for thresholds; may lie beyond 65535. For radiometric
+  /// ones; not for the frame path.
+  double counts(double celsius) const;
+
+ private:
+  explicit Radiometry(const RadiometrySettings& settings);
+
+  double reflectivity() const { return settings_.reflectivity.value_or(1); }
+  double emissivity() const { return settings_.emissivity.value_or(1); }
+  double exact_celsius(double counts) const;
+
+  RadiometrySettings settings_;
+  std::vector<float> celsius_;  ///< over whole counts, and one more
+};
+
+}  // namespace orbwatch::signals

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "proc/image/image_view.h"
+#include "proc/image/result.h"
+#include "proc/optics/view_projection.h"
+#include "proc/signals/blob_pixels.h"
+#include "proc/signals/cooling.h"
+#include "proc/signals/hot_spot.h"
+#include "proc/signals/level_set.h"
+#include "proc/signals/radiometry.h"
+#include "proc/signals/region.h"
+#include "proc/signals/region_geometry.h"
+#include "proc/signals/region_mask.h"
+#include "proc/signals/signals.h"
+#include "proc/signals/spatter.h"
+#include "proc/signals/statistics.h"
+
+namespace orbwatch::signals {
+
+/// Measures one region of interest, frame set by frame set. Everything that depends on view, region
+/// or calibration is compiled when it is made; measuring allocates nothing and needs no
+/// trigonometry but for the angles of the hot spot it tells, once per frame set. Movable.
+/// Thread-bound.
+class RegionMeter {
+ public:
+  /// Error: an outline that is none or outside of the view, thresholds that no count can be or that
+  /// stand in the wrong order, radiometry out of range.
+  static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
+                                  const RegionSettings& settings);
+  RegionMeter(RegionMeter&&) = default;
+  RegionMeter& operator=(RegionMeter&&) = default;
+  RegionMeter(const RegionMeter&) = delete;  // a copy would lack the memory taken beforehand
+  RegionMeter& operator=(const RegionMeter&) = delete;
+
+  /// The signals of a frame set. `values` and `validity` have the view's size; pixels that are not
+  /// Validity::Seen do not count. `seconds`: when it was exposed, on any clock that goes on; when
+  /// it does not, everything starts anew as by reset().
+  Signals measure(const ImageView<const std::uint8_t>& values,
+                  const ImageView<const std::uint8_t>& validity, double seconds);
+  Signals measure(const ImageView<const std::uint16_t>& values,
+                  const ImageView<const std::uint8_t>& validity, double seconds);
+
+  /// Forgets the frame sets before: statistics, sparks, what was hot.
+  void reset();
+
+  /// For thresholds, and whether temperatures are apparent ones.
+  const Radiometry& radiometry() const { return radiometry_; }
+
+  /// Sparks since it was made that were too many to be followed and are missing in spatter_rate.
+  std::uint64_t untracked_sparks() const { return spatter_.untracked(); }
+
+ private:
+  RegionMeter(const optics::ViewProjection& view, const RegionScene& scene,
+              const RegionSettings& settings, RegionMask mask, Radiometry radiometry);
+
+  template <class T>
+  Signals measure_any(const ImageView<const T>& values,
+                      const ImageView<const std::uint8_t>& validity, double seconds);
+  template <class T>
+  void find_levels(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity);
+  std::size_t choose_hot_spot(const LevelSet& hot, double passed);
+  template <class T>
+  double plume(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity);
+  void write(const HotSpot& spot, const Blob& blob, Signals& signals) const;
+  void find_sparks(Signals& signals, double seconds);
+  void add_statistics(Signals& signals, double seconds);
+
+  RegionSettings settings_;
+  optics::Vec3 ball_centre_;
+  bool knows_surface_;
+  RegionMask mask_;
+  Radiometry radiometry_;
+  RegionGeometry geometry_;
+  std::vector<LevelSet> levels_;  ///< by rising threshold
+  std::size_t hot_ = 0;           ///< of levels_
+  std::optional<std::size_t> plume_level_;
+  std::optional<std::size_t> spatter_level_;
+  BlobPixels hot_pixels_;
+  std::optional<optics::Vec3> usual_;  ///< unit vector to where the hot spot was lately
+  BlobPixels plume_pixels_;
+  CoolingMeter cooling_;
+  std::optional<optics::Vec3> hot_direction_;
+  SpatterTracker spatter_;
+  std::array<Statistics, kMainSignals.size()> statistics_;
+  double last_ = -std::numeric_limits<double>::infinity();
+  /// Where the hot spot's brightest pixel is, or was last.
+  int peak_x_ = -1;
+  int peak_y_ = -1;
+};
+
+}  // namespace orbwatch::signals

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "proc/signals/last_second.h"
+#include "proc/signals/signals.h"
+
+namespace orbwatch::signals {
+
+/// Mean, standard deviation and trend of one signal over the last second, of its valid values.
+/// No allocation. Thread-bound.
+class Statistics {
+ public:
+  /// Takes the signal's value at `now`, s; kNotValid is left out. Time never goes back.
+  void add(double now, double value);
+
+  void reset() { bins_.clear(); }
+
+  struct Figures {
+    double mean = kNotValid;       ///< of at least one value
+    double deviation = kNotValid;  ///< of the sample (n - 1), of at least two
+    double trend = kNotValid;      ///< slope of the least-squares line per second, of two moments
+  };
+  Figures figures() const;
+
+ private:
+  /// Centred sums, which neither large values nor large times spoil.
+  struct Moments {
+    double count = 0;
+    double time = 0;   ///< mean, s
+    double value = 0;  ///< mean
+    double time_time = 0;
+    double time_value = 0;
+    double value_value = 0;
+
+    /// Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample
+    /// variances, 1979.
+    void join(const Moments& other);
+  };
+
+  LastSecond<Moments> bins_;
+};
+
+}  // namespace orbwatch::signals

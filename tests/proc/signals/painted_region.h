@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "proc/image/validity.h"
+#include "proc/optics/angle.h"
+#include "proc/optics/view_projection.h"
+#include "proc/signals/region_meter.h"
+
+namespace orbwatch::signals {
+
+/// A measured view that tests paint, all of it seen.
+struct PaintedView {
+  explicit PaintedView(const optics::ViewSpec& spec, std::uint16_t background = 100)
+      : view(optics::ViewProjection::make(spec).value()),
+        values(static_cast<std::size_t>(spec.width) * spec.height, background),
+        validity(values.size(), static_cast<std::uint8_t>(Validity::Seen)) {}
+
+  std::uint16_t& at(int x, int y) { return values[static_cast<std::size_t>(y) * view.width() + x]; }
+  std::uint8_t& validity_at(int x, int y) {
+    return validity[static_cast<std::size_t>(y) * view.width() + x];
+  }
+
+  /// Every pixel becomes the value of `paint` at its direction, if that is more than it has.
+  template <class Paint>
+  void paint(const Paint& value_at) {
+    for (int y = 0; y < view.height(); ++y) {
+      for (int x = 0; x < view.width(); ++x) {
+        const double value = std::round(value_at(*view.direction(x, y)));
+        if (value > at(x, y)) at(x, y) = static_cast<std::uint16_t>(value);
+      }
+    }
+  }
+  /// A smooth hill around `centre` that passes `level` at `radius`, radians, and falls by half of
+  /// it within another 0.7 radii.
+  void paint_hill(const optics::Vec3& centre, double radius, double level) {
+    paint([&](const optics::Vec3& d) {
+      const double share = optics::angle_between(d, centre) / radius;
+      return 1.5 * level * std::pow(2.0 / 3, share * share);
+    });
+  }
+  void clear(std::uint16_t value = 100) { values.assign(values.size(), value); }
+
+  ImageView<const std::uint16_t> plane() const {
+    return {values.data(), view.width(), view.height(), 1, view.width()};
+  }
+  ImageView<const std::uint8_t> seen() const {
+    return {validity.data(), view.width(), view.height(), 1, view.width()};
+  }
+
+  optics::ViewProjection view;
+  std::vector<std::uint16_t> values;
+  std::vector<std::uint8_t> validity;
+};
+
+}  // namespace orbwatch::signals
