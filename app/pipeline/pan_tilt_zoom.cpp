@@ -1,5 +1,6 @@
 #include "app/pipeline/pan_tilt_zoom.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -7,45 +8,82 @@ namespace orbwatch::app {
 namespace {
 
 Result<optics::ViewProjection> pointed(const ViewPlan& view, const Pointing& pointing) {
-  if (view.measured) {
-    return fail(
-        "it is measured, so it keeps looking where the configuration says; point a view "
-        "that is only looked at");
-  }
-  return optics::ViewProjection::make({view.projection.kind(), pointing.orientation, pointing.h_fov,
-                                       pointing.v_fov, view.projection.width(),
-                                       view.projection.height()});
+  const optics::ViewSpec spec{view.projection.kind(),  pointing.orientation,
+                              pointing.h_fov,          pointing.v_fov,
+                              view.projection.width(), view.projection.height()};
+  if (spec.kind != optics::ViewKind::Ball) return optics::ViewProjection::make(spec);
+  return optics::check_view(spec).map([&] { return view.projection; });
 }
 
 }  // namespace
 
 PanTiltZoom::PanTiltZoom(std::span<const ViewPlan> views) : views_(views), slots_(views.size()) {
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const optics::ViewSpec& spec = views_[i].projection.spec();
+    slots_[i].aim.pointing = {spec.orientation, spec.h_fov, spec.v_fov};
+    for (const ViewSource& source : views_[i].sources) {
+      slots_[i].aim.weights.push_back(source.weight);
+    }
+  }
   thread_ = std::thread([this] { run(); });
 }
 
 PanTiltZoom::~PanTiltZoom() { stop(); }
 
-Result<std::uint64_t> PanTiltZoom::point(std::size_t view, const Pointing& pointing) {
+/// `change` makes the aim that is asked for of the one asked for last.
+template <class Change>
+Result<std::uint64_t> PanTiltZoom::ask(std::size_t view, const Change& change) {
   if (view >= views_.size()) {
-    return fail("view " + std::to_string(view) + ": does not exist; views are numbered 0 to " +
-                std::to_string(views_.size() - 1));
+    return fail("view " + std::to_string(view) + ": is none that can be pointed; there are " +
+                std::to_string(views_.size()) + ", from 0");
   }
   const auto refused = [&](const std::string& reason) {
     return fail("view " + views_[view].name + ": " + reason);
   };
-  const auto projection = pointed(views_[view], pointing);
-  if (!projection) return refused(projection.error().message);
   std::uint64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return refused("cannot be pointed any more; the pipeline has stopped");
     Slot& slot = slots_[view];
+    Aim aim = slot.aim;
+    if (const auto done = change(aim); !done) return refused(done.error().message);
+    const auto projection = pointed(views_[view], aim.pointing);
+    if (!projection) return refused(projection.error().message);
+    slot.aim = std::move(aim);
     slot.superseded += slot.request ? 1 : 0;
     number = ++slot.requests;
-    slot.request = Request{*projection, number};
+    slot.request = Request{*projection, slot.aim.weights, number};
   }
   work_.notify_one();
   return number;
+}
+
+Result<std::uint64_t> PanTiltZoom::point(std::size_t view, const Pointing& pointing) {
+  return ask(view, [&](Aim& aim) -> Result<> {
+    aim.pointing = pointing;
+    return {};
+  });
+}
+
+Result<std::uint64_t> PanTiltZoom::turn(std::size_t view, double yaw, double pitch, double h_fov) {
+  return ask(view, [&](Aim& aim) -> Result<> {
+    aim.pointing.orientation.yaw = yaw;
+    aim.pointing.orientation.pitch = pitch;
+    if (h_fov > 0) aim.pointing = {aim.pointing.orientation, h_fov, {}};
+    return {};
+  });
+}
+
+Result<std::uint64_t> PanTiltZoom::mix(std::size_t view, std::size_t source, double weight) {
+  return ask(view, [&](Aim& aim) -> Result<> {
+    if (source >= aim.weights.size()) {
+      return fail("has no source " + std::to_string(source) + "; it has " +
+                  std::to_string(aim.weights.size()) + ", from 0");
+    }
+    if (!(weight > 0) || !std::isfinite(weight)) return fail("a weight must be above 0");
+    aim.weights[source] = weight;
+    return {};
+  });
 }
 
 void PanTiltZoom::exchange(std::span<PointedRenderer> shown) {
@@ -106,6 +144,9 @@ std::optional<PanTiltZoom::Work> PanTiltZoom::take_work(std::size_t last) {
 void PanTiltZoom::compile(std::size_t view, const Request& request) {
   ViewPlan plan = views_[view];
   plan.projection = request.projection;
+  for (std::size_t i = 0; i < plan.sources.size(); ++i) {
+    plan.sources[i].weight = request.weights[i];
+  }
   // In the end what it replaced, freed after the lock.
   PointedRenderer renderer{std::make_unique<ViewRenderer>(std::move(plan)), request.number};
   const std::lock_guard lock(mutex_);

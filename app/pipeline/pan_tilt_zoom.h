@@ -20,7 +20,7 @@ namespace orbwatch::app {
 /// Where a view looks: all of a ViewSpec but its kind and size, which a view keeps. Degrees.
 struct Pointing {
   optics::YawPitchRoll orientation;
-  double h_fov = 0;  ///< above 0
+  std::optional<double> h_fov;
   std::optional<double> v_fov;
 };
 
@@ -44,10 +44,16 @@ class PanTiltZoom {
 
   /// Asks for a view of the same kind and size that looks elsewhere. Does not wait for it: returns
   /// the request's number, from 1 in each view, which View::pointing reaches or passes with the
-  /// first frame that shows it or a newer one. Error: no such view; a view that is measured,
-  /// because pan and zoom never change a measurement; what optics::check_view() refuses; after
-  /// stop().
+  /// first frame that shows it or a newer one. Error: no such view; what optics::check_view()
+  /// refuses; after stop().
   Result<std::uint64_t> point(std::size_t view, const Pointing& pointing);
+
+  /// The same for a view that keeps its roll and, where `h_fov` is 0, its field of view. Degrees.
+  Result<std::uint64_t> turn(std::size_t view, double yaw, double pitch, double h_fov);
+
+  /// Asks for another weight of one of the view's sources. Returns and errors as point(); no such
+  /// source, a weight that is not above 0.
+  Result<std::uint64_t> mix(std::size_t view, std::size_t source, double weight);
 
   /// Between two frames: replaces what is `shown`, by view, with what has been compiled since.
   /// Waits for no compilation, neither allocates nor frees: the thread frees what was replaced.
@@ -61,11 +67,18 @@ class PanTiltZoom {
   void stop();
 
  private:
+  /// All that can be asked for.
+  struct Aim {
+    Pointing pointing;
+    std::vector<double> weights;  ///< by source
+  };
   struct Request {
     optics::ViewProjection projection;
+    std::vector<double> weights;
     std::uint64_t number;
   };
   struct Slot {
+    Aim aim;  ///< of the newest request, or as configured
     std::optional<Request> request;
     PointedRenderer renderer;  ///< to be shown if `compiled`, else to be freed
     bool compiled = false;
@@ -77,6 +90,8 @@ class PanTiltZoom {
     std::optional<Request> request;  ///< nothing: only a renderer was to be freed
   };
 
+  template <class Change>
+  Result<std::uint64_t> ask(std::size_t view, const Change& change);
   void run();
   std::optional<Work> take_work(std::size_t last);
   void compile(std::size_t view, const Request& request);

@@ -35,29 +35,51 @@ Pipeline::Pipeline(PipelinePlan plan)
       sync_(plan_.cameras.size(), plan_.sync),
       workers_(plan_.workers),
       pan_tilt_zoom_(plan_.views),
-      view_meters_(plan_.views.size()) {
+      view_meters_(plan_.view_count) {
   for (const ViewPlan& view : plan_.views) {
     auto renderer = std::make_unique<ViewRenderer>(view);
     std::vector<std::unique_ptr<View>> buffers;
-    for (std::size_t i = 0; i < plan_.view_buffers; ++i) {
+    for (std::size_t i = 0; i < kViewBuffers; ++i) {
       buffers.push_back(std::make_unique<View>(renderer->make_view()));
       buffers.back()->name = view.name;  // the renderer's own copy goes when the view is pointed
     }
     renderers_.push_back({std::move(renderer), 0});
     pools_.emplace_back(std::move(buffers));
   }
-  for (std::size_t i = 0; i < renderers_.size(); ++i) order_.push_back(i);
-  if (plan_.measurement) {
-    detector_.emplace(plan_.views[plan_.measurement->view].projection);
-    unshared_ = renderers_[plan_.measurement->view].renderer->make_view();
-    std::swap(order_[0], order_[plan_.measurement->view]);
-  }
   plan_.triggers.resize(plan_.cameras.size());
   for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
     if (plan_.triggers[i]) plan_.cameras[i]->set_gate(stamp_with(plan_.triggers[i]));
   }
   status_.camera_count = plan_.cameras.size();
-  status_.view_count = plan_.views.size();
+  status_.view_count = plan_.view_count;
+  status_.configuration_checksum = plan_.configuration_checksum;
+  if (!plan_.recipes.empty()) start_measuring();
+}
+
+void Pipeline::start_measuring() {
+  std::vector<RecipeControls> recipes;
+  bool any = false;
+  for (const auto& recipe : plan_.recipes) {
+    recipes.push_back({recipe->plan().number, recipe->plan().controls});
+    any = any || !recipes.back().controls.empty();
+  }
+  RecipeSwitch::Apply apply;
+  if (any) apply = [this, recipes](std::size_t recipe) { return set_cameras(recipes[recipe]); };
+  measurement_.emplace(std::move(plan_.recipes), plan_.process_inputs, std::move(apply));
+}
+
+/// On the recipe switch's thread. One that is refused does not keep the others from being set: on
+/// the way back they must be.
+Result<> Pipeline::set_cameras(const RecipeControls& recipe) {
+  Result<> result;
+  for (const CameraControl& control : recipe.controls) {
+    hal::Camera& camera = *plan_.cameras[control.camera];
+    const auto done = camera.set(control.name, control.value);
+    if (done || !result) continue;
+    result = fail("recipe " + std::to_string(recipe.number) + ": camera " + camera.info().id +
+                  ": " + done.error().message);
+  }
+  return result;
 }
 
 Pipeline::~Pipeline() { stop(); }
@@ -84,15 +106,33 @@ void Pipeline::stop() {
   sync_.close();
   if (thread_.joinable()) thread_.join();
   pan_tilt_zoom_.stop();
+  if (measurement_) measurement_->stop();
 }
 
 CommandResult Pipeline::command(const Command& command) {
-  if (command.code != CommandCode::SelectView) return CommandResult::UnknownCommand;
-  if (command.argument < 0 || command.argument >= static_cast<int>(plan_.views.size())) {
-    return CommandResult::ArgumentOutOfRange;
+  switch (command.code) {
+    case CommandCode::SelectView:
+      if (whole(command, 0) >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
+      selected_view_ = whole(command, 0);
+      return CommandResult::Done;
+    case CommandCode::PointView:
+    case CommandCode::MixSources:
+      return aim(command);
+    default:
+      return measurement_ ? measurement_->command(command) : CommandResult::NotPossible;
   }
-  selected_view_ = static_cast<std::size_t>(command.argument);
-  return CommandResult::Done;
+}
+
+/// A recipe's view keeps what it shows, so that nobody changes a measurement.
+CommandResult Pipeline::aim(const Command& command) {
+  const std::size_t view = whole(command, 0);
+  if (view >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
+  if (view >= plan_.views.size()) return CommandResult::NotPossible;
+  const auto& arguments = command.arguments;
+  const auto done = command.code == CommandCode::MixSources
+                        ? pan_tilt_zoom_.mix(view, whole(command, 1), arguments[2])
+                        : pan_tilt_zoom_.turn(view, arguments[1], arguments[2], arguments[3]);
+  return done ? CommandResult::Done : CommandResult::ArgumentOutOfRange;
 }
 
 void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
@@ -105,6 +145,7 @@ void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
     const std::lock_guard lock(camera_meters_[camera].mutex);
     camera_meters_[camera].meter.add(hal::Clock::now() - frame->metadata.exposure_start);
   }
+  last_frames_[camera] = hal::Clock::now();
   sync_.put(camera, std::move(frame));
 }
 
@@ -123,20 +164,30 @@ void Pipeline::run() {
   while (!stopping_) {
     const auto set = sync_.next(hal::Clock::now() + kHeartbeatPeriod);
     if (stopping_) break;
-    if (set) process(*set);
+    if (set) {
+      process(*set);
+    } else if (measurement_) {
+      measurement_->idle(state() == SystemState::Fault);
+    }
     publish_status();
   }
 }
 
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
-  const bool display_due = throttle_.is_due(set.id);
+  for (Sink* sink : sinks_) sink->accept_frames(set);
+  if (measurement_) {
+    measurement_->process(set, workers_, [&](std::size_t view, const std::shared_ptr<View>& seen) {
+      publish(view, seen);
+    });
+  }
   pan_tilt_zoom_.exchange(renderers_);
-  for (const std::size_t i : order_) {
-    if (!is_measured(i) && !display_due) {
-      ++status_.views[i].skipped;
+  const bool display_due = throttle_.is_due(set.id);
+  for (std::size_t i = 0; i < renderers_.size(); ++i) {
+    if (display_due) {
+      show(i, set);
     } else {
-      make_view(i, set);
+      ++status_.views[i].skipped;
     }
   }
   status_.frame_set = set.id;
@@ -147,37 +198,26 @@ void Pipeline::process(const hal::FrameSet& set) {
   note_timing(hal::Clock::now() - begin);
 }
 
-void Pipeline::make_view(std::size_t index, const hal::FrameSet& set) {
-  ViewStatus& figures = status_.views[index];
-  const auto shared = pools_[index].acquire();
-  if (!shared) {
-    ++figures.skipped;
-    if (!is_measured(index)) return;
+void Pipeline::show(std::size_t index, const hal::FrameSet& set) {
+  const auto view = pools_[index].acquire();
+  if (view) {
+    const auto& [renderer, pointing] = renderers_[index];
+    renderer->render(set, *view, workers_);
+    view->pointing = pointing;
   }
-  View& view = shared ? *shared : *unshared_;
-  const auto& [renderer, pointing] = renderers_[index];
-  renderer->render(set, view, workers_);
-  view.pointing = pointing;
-  if (is_measured(index)) measure(view, renderer->is_measured());
-  if (!shared) return;
-  for (Sink* sink : sinks_) sink->accept(ViewPtr(shared));
-  ++figures.published;
-  view_meters_[index].add(hal::Clock::now() - set.stamp);
+  publish(index, view);
 }
 
-void Pipeline::measure(const View& view, bool delivered) {
-  if (!delivered) {
-    status_.signals = {};
+/// Null: the sinks hold every buffer of it.
+void Pipeline::publish(std::size_t index, const std::shared_ptr<View>& view) {
+  ViewStatus& figures = status_.views[index];
+  if (!view) {
+    ++figures.skipped;
     return;
   }
-  const MeasurementPlan& plan = *plan_.measurement;
-  const bool wide = !view.radiometric.empty();
-  const signals::HotSpot spot =
-      wide ? detector_->measure(view.radiometric, view.validity, plan.threshold)
-           : detector_->measure(view.luminance, view.validity, plan.threshold);
-  const double full_scale =
-      wide ? std::numeric_limits<std::uint16_t>::max() : std::numeric_limits<std::uint8_t>::max();
-  status_.signals = signals::hot_spot_signals(spot, plan.scale, full_scale);
+  for (Sink* sink : sinks_) sink->accept(ViewPtr(view));
+  ++figures.published;
+  view_meters_[index].add(hal::Clock::now() - view->stamp);
 }
 
 hal::Clock::duration Pipeline::deadline() const {
@@ -207,6 +247,7 @@ SystemState Pipeline::state() const {
   }
   if (faulty == plan_.cameras.size()) return SystemState::Fault;
   if (status_.frame_set == 0) return SystemState::Starting;
+  if (measurement_ && measurement_->is_stopped()) return SystemState::Stopped;
   return faulty > 0 ? SystemState::Degraded : SystemState::Running;
 }
 
@@ -224,9 +265,24 @@ void Pipeline::publish_status() {
   status_.state = state();
   status_.selected_view = selected_view_;
   status_.process_inputs = process_inputs();
+  if (plan_.health) status_.health = plan_.health(now);
   for (std::size_t i = 0; i < plan_.views.size(); ++i) {
     status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
   }
+  count_cameras();
+  if (measurement_) {
+    measurement_->watch(now, [this](const AlarmNotice& notice) { note(notice); });
+    measurement_->report(status_);
+  }
+  if (now - last_roll_ >= std::chrono::seconds(1)) roll_figures(now);
+  for (Sink* sink : sinks_) sink->accept(status_);
+}
+
+void Pipeline::note(const AlarmNotice& notice) {
+  for (Sink* sink : sinks_) sink->note(notice);
+}
+
+void Pipeline::count_cameras() {
   for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
     const hal::FrameCounts counts = sync_.counts(i);
     CameraStatus& camera = status_.cameras[i];
@@ -235,14 +291,12 @@ void Pipeline::publish_status() {
     camera.lost = counts.lost;
     camera.dropped = counts.dropped();
     camera.unmatched = counts.unmatched;
+    camera.last_frame = last_frames_[i];
     if (!plan_.triggers[i]) continue;
     const hal::TriggerCounts triggers = plan_.triggers[i]->counts();
     camera.triggers = triggers.triggers;
     camera.missed = triggers.missed;
   }
-  if (status_.state == SystemState::Fault) status_.signals = {};
-  if (now - last_roll_ >= std::chrono::seconds(1)) roll_figures(now);
-  for (Sink* sink : sinks_) sink->accept(status_);
 }
 
 void Pipeline::roll_figures(hal::TimePoint now) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/pipeline/compiled_recipe.h"
 #include "app/pipeline/display_throttle.h"
+#include "app/pipeline/measurement.h"
 #include "app/pipeline/pan_tilt_zoom.h"
 #include "app/pipeline/second_meter.h"
 #include "app/pipeline/sink.h"
@@ -23,17 +26,8 @@
 #include "hal/frame_sync.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/lines/process_input.h"
-#include "proc/signals/hot_spot.h"
-#include "proc/signals/measure.h"
 
 namespace orbwatch::app {
-
-/// What is measured, and where.
-struct MeasurementPlan {
-  std::size_t view = 0;  ///< index of the view whose measured plane counts
-  signals::RadiometricScale scale;
-  double threshold = 0;  ///< counts at which a pixel belongs to the hot spot
-};
 
 /// Everything the pipeline needs; cameras are configured already.
 struct PipelinePlan {
@@ -42,12 +36,15 @@ struct PipelinePlan {
   std::vector<std::shared_ptr<hal::FrameTrigger>>
       triggers;  ///< by camera; null or none: runs freely
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
-  std::vector<ViewPlan> views;                                           ///< 1..kMaxViews, by index
-  std::optional<MeasurementPlan> measurement;
+  std::vector<ViewPlan> views;  ///< to look at, by index; those of the recipes come after them
+  std::vector<std::unique_ptr<CompiledRecipe>> recipes;  ///< at most kMaxRecipes
+  std::size_t view_count = 0;                            ///< those of the recipes included
+  std::uint32_t configuration_checksum = 0;
+  /// The newest figures, without waiting; null: none are known.
+  std::function<Health(hal::TimePoint now)> health;
   hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
   hal::SyncSettings sync;
-  std::size_t workers = 1;       ///< threads besides the pipeline's own
-  std::size_t view_buffers = 6;  ///< per view, shared with the sinks
+  std::size_t workers = 1;  ///< threads besides the pipeline's own
 };
 
 /// Frames in, views and status out, on one thread and its workers. Nothing here waits for a sink.
@@ -63,13 +60,16 @@ class Pipeline {
   Result<> start(std::vector<Sink*> sinks);
   void stop();
 
-  /// Takes effect at the next frame set.
-  CommandResult command(const Command& command);
+  /// Those of the recipes included.
+  std::size_t view_count() const { return plan_.view_count; }
 
   /// Points a view that is only looked at elsewhere: see PanTiltZoom::point().
   Result<std::uint64_t> point(std::size_t view, const Pointing& pointing) {
     return pan_tilt_zoom_.point(view, pointing);
   }
+
+  /// All that concerns views and measuring; takes effect between two frame sets.
+  CommandResult command(const Command& command);
 
  private:
   /// Fed by the camera's thread, read once a second by the pipeline's.
@@ -78,15 +78,23 @@ class Pipeline {
     SecondMeter meter;
   };
 
+  /// What a recipe sets cameras to.
+  struct RecipeControls {
+    std::uint16_t number = 0;
+    std::vector<CameraControl> controls;
+  };
+
   void on_frame(std::size_t camera, hal::Frame frame);
   void on_fault(std::size_t camera, const hal::FaultReport& report);
   void run();
   void process(const hal::FrameSet& set);
-  bool is_measured(std::size_t view) const {
-    return plan_.measurement && plan_.measurement->view == view;
-  }
-  void make_view(std::size_t index, const hal::FrameSet& set);
-  void measure(const View& view, bool delivered);
+  void show(std::size_t index, const hal::FrameSet& set);
+  void publish(std::size_t index, const std::shared_ptr<View>& view);
+  void start_measuring();
+  Result<> set_cameras(const RecipeControls& recipe);
+  CommandResult aim(const Command& command);
+  void note(const AlarmNotice& notice);
+  void count_cameras();
   void note_timing(hal::Clock::duration took);
   void publish_status();
   void roll_figures(hal::TimePoint now);
@@ -98,15 +106,14 @@ class Pipeline {
   hal::FrameSync sync_;
   WorkerPool workers_;
   PanTiltZoom pan_tilt_zoom_;
-  std::vector<PointedRenderer> renderers_;    ///< by view
-  std::vector<std::size_t> order_;            ///< of rendering: what is measured comes first
-  std::vector<hal::BufferPool<View>> pools_;  ///< by view
-  std::optional<View> unshared_;              ///< to measure in when sinks hold every buffer
-  std::optional<signals::HotSpotDetector> detector_;
+  std::vector<PointedRenderer> renderers_;    ///< by view to look at
+  std::vector<hal::BufferPool<View>> pools_;  ///< by view to look at
+  std::optional<Measurement> measurement_;    ///< if there are recipes
   DisplayThrottle throttle_;
   std::vector<SecondMeter> view_meters_;
   std::array<std::atomic<hal::Fault>, kMaxCameras> faults_;
   std::array<CameraMeter, kMaxCameras> camera_meters_;
+  std::array<std::atomic<hal::TimePoint>, kMaxCameras> last_frames_;  ///< arrival
   std::atomic<std::size_t> selected_view_{0};
   std::atomic<bool> stopping_{false};
   Status status_;

@@ -2,6 +2,7 @@
 
 #include "app/pipeline/status.h"
 #include "app/pipeline/view.h"
+#include "hal/frame_set.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -19,9 +20,16 @@ class Sink {
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 
+  /// The cameras' own pictures, before the views made of them. Their buffers are the cameras': a
+  /// sink that keeps many makes a camera lose frames.
+  virtual void accept_frames(const hal::FrameSet& /*set*/) {}
   virtual void accept(const ViewPtr& view) = 0;
   /// Called after the views of the same frame set, and at least ten times a second without frames.
   virtual void accept(const Status& status) = 0;
+
+  /// What happened to an alarm, before the status that shows it. Newest-wins does not do here: a
+  /// sink that passes notices on keeps a queue.
+  virtual void note(const AlarmNotice& /*notice*/) {}
 };
 
 }  // namespace orbwatch::app

@@ -8,8 +8,13 @@
 #include "hal/clock.h"
 #include "proc/image/image_view.h"
 #include "proc/image/validity.h"
+#include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
+
+/// Buffers of one view, shared with the sinks: one is rendered, one is the newest that all have,
+/// and five DDS topics and the snapshots may each be at work on an older one.
+inline constexpr std::size_t kViewBuffers = 8;
 
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
 /// memory comes from the view's pool and returns to it with the last ViewPtr.
@@ -25,6 +30,7 @@ struct View {
   std::uint64_t frame_set = 0;
   hal::TimePoint stamp;        ///< exposure start of the frame set
   std::uint64_t pointing = 0;  ///< number of the request that it shows; 0: as configured
+  optics::ViewSpec spec;       ///< where it looks
 
   ImageView<std::uint8_t> colour;    ///< RGB, what people look at: blended, colour-mapped
   ImageView<std::uint8_t> validity;  ///< one Validity per pixel

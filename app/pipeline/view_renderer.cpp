@@ -90,7 +90,7 @@ View ViewRenderer::make_view() const {
 void ViewRenderer::render(const hal::FrameSet& set, View& view, WorkerPool& workers) {
   view.frame_set = set.id;
   view.stamp = set.stamp;
-  measured_delivers_ = plan_.measured && set.frames[plan_.sources[*plan_.measured].camera];
+  view.spec = plan_.projection.spec();
   fill_pyramids(set, workers);
 
   std::array<remap::MergedSource, remap::kMaxSources> sources;

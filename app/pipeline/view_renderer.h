@@ -61,9 +61,6 @@ class ViewRenderer {
   /// Fills `view` from the frames of `set`; a missing frame leaves its part blind.
   void render(const hal::FrameSet& set, View& view, WorkerPool& workers);
 
-  /// The measured source delivered in the set that was rendered last.
-  bool is_measured() const { return measured_delivers_; }
-
   const ViewPlan& plan() const { return plan_; }
 
  private:
@@ -83,7 +80,6 @@ class ViewRenderer {
   std::vector<Source> sources_;
   remap::BlendGrid blend_;
   std::vector<std::uint8_t> unseen_;  ///< per pixel the Validity when no camera delivers
-  bool measured_delivers_ = false;
 };
 
 }  // namespace orbwatch::app

@@ -14,8 +14,8 @@
 #include "hal/frame_pool.h"
 #include "hal/frame_sync.h"
 #include "hal/mailbox.h"
-#include "proc/signals/hot_spot.h"
 #include "tests/app/pipeline/hand_camera.h"
+#include "tests/app/pipeline/measured_recipe.h"
 
 namespace {
 
@@ -64,11 +64,11 @@ TEST(FramePath, DoesNotAllocate) {
   hal::FramePool thermal = hal::make_frame_pool(PixelFormat::Y16, kSize, kSize);
   hal::FramePool colour = hal::make_frame_pool(PixelFormat::Rgb, kSize, kSize);
   hal::FrameSync sync(2, {std::chrono::seconds(1), std::chrono::seconds(1)});
-  ViewRenderer renderer(plan());
-  std::vector<std::unique_ptr<View>> buffers;
-  for (int i = 0; i < 3; ++i) buffers.push_back(std::make_unique<View>(renderer.make_view()));
-  hal::BufferPool<View> views(std::move(buffers));
-  signals::HotSpotDetector detector(renderer.plan().projection);
+  RecipePlan measured = recipe_plan(plan(), 20000, 0.04);
+  signals::AlarmLimits limits;
+  limits.high_alarm = 0.5;  // of hot_spot_present: passed all the time
+  measured.alarms.push_back(limits);
+  const auto recipe = compiled(std::move(measured));
   WorkerPool workers(1);
   hal::Mailbox<ViewPtr> mailbox;
 
@@ -83,10 +83,10 @@ TEST(FramePath, DoesNotAllocate) {
     }
     const auto set = sync.next(hal::Clock::now() + std::chrono::seconds(5));
     ASSERT_TRUE(set);
-    const auto view = views.acquire();
-    renderer.render(*set, *view, workers);
-    detector.measure(view->radiometric, view->validity, 20000);
-    mailbox.put(view);
+    auto view = recipe->render(0, *set, workers);
+    recipe->measure(set->stamp);
+    recipe->watch(set->stamp, true, {});
+    mailbox.put(std::move(view));
   }
   EXPECT_EQ(allocations, before);
 }
@@ -134,6 +134,7 @@ TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
   looked_at.formats.push_back(camera.configure({}).value());
   looked_at.cameras.push_back(std::move(hand));
   looked_at.deadline = std::chrono::seconds(20);
+  looked_at.view_count = 1;
   looked_at.views.push_back(plan());
   looked_at.views[0].measured.reset();
   looked_at.views[0].sources.resize(1, looked_at.views[0].sources[0]);

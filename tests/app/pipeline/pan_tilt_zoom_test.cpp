@@ -39,19 +39,17 @@ class PanTiltZoomTest : public testing::Test {
     return number ? "none, but number " + std::to_string(*number) : number.error().message;
   }
 
-  std::array<ViewPlan, 3> plans = three_views();
+  std::array<ViewPlan, 2> plans = two_views();
   PanTiltZoom pan_tilt_zoom{plans};
-  std::array<PointedRenderer, 3> shown;
+  std::array<PointedRenderer, 2> shown;
 
  private:
-  static std::array<ViewPlan, 3> three_views() {
+  static std::array<ViewPlan, 2> two_views() {
     std::array plans{view_plan(kLeft, optics::ViewKind::Perspective, kHome),
-                     view_plan(kRight, optics::ViewKind::Perspective, kHome),
-                     view_plan(kMeasured, optics::ViewKind::Perspective, kHome)};
+                     view_plan(kRight, optics::ViewKind::Perspective, kHome)};
     plans[kRight].projection =
         optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 100, {}, 640, 480})
             .value();
-    plans[kMeasured].measured = 0;
     return plans;
   }
 };
@@ -87,18 +85,15 @@ TEST_F(PanTiltZoomTest, LeavesWhatNobodyPointed) {
 }
 
 TEST_F(PanTiltZoomTest, RefusesWithAReason) {
-  EXPECT_EQ(refusal(3, kHome), "view 3: does not exist; views are numbered 0 to 2");
-  EXPECT_EQ(refusal(kMeasured, kHome),
-            "view measured: it is measured, so it keeps looking where the configuration "
-            "says; point a view that is only looked at");
+  EXPECT_EQ(refusal(2, kHome), "view 2: is none that can be pointed; there are 2, from 0");
   EXPECT_EQ(refusal(kLeft, {{}, 180, {}}),
             "view left: the view's h_fov is 180.000000 degrees; it must be above 0 "
             "and below 180");
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (const Pointing& bad :
-       {Pointing{}, Pointing{{}, -1, {}}, Pointing{{}, kNan, {}}, Pointing{{}, 90, kInfinity},
-        Pointing{{kNan, 0, 0}, 90, {}}, Pointing{{0, kInfinity, 0}, 90, {}}}) {
+  for (const Pointing& bad : {Pointing{{}, 0, {}}, Pointing{{}, -1, {}}, Pointing{{}, kNan, {}},
+                              Pointing{{}, 90, kInfinity}, Pointing{{kNan, 0, 0}, 90, {}},
+                              Pointing{{0, kInfinity, 0}, 90, {}}}) {
     EXPECT_FALSE(pan_tilt_zoom.point(kLeft, bad));
   }
   EXPECT_EQ(refusal(kLeft, {{30, 0, 0}, 90, {}}), "none, but number 1")

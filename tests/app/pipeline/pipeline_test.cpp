@@ -8,6 +8,7 @@
 #include "app/pictures/colour_maps.h"
 #include "proc/optics/rotation.h"
 #include "tests/app/pipeline/hand_camera.h"
+#include "tests/app/pipeline/measured_recipe.h"
 
 namespace orbwatch::app {
 namespace {
@@ -60,9 +61,9 @@ class PipelineTest : public testing::Test {
     plan.workers = 1;
     plan.deadline = std::chrono::seconds(20);
     plan.sync.window = plan.sync.patience = std::chrono::milliseconds(1);
-    add_view("seen", {1}, std::nullopt);
-    add_view("measured", {0, 1}, 0);
-    plan.measurement = MeasurementPlan{1, {0.04}, 30000};
+    plan.views.push_back(view("seen", 0, {1}));
+    plan.recipes.push_back(compiled(recipe_plan(view("measured", 1, {0, 1}), 30000, 0.04)));
+    plan.view_count = 2;
   }
 
   void add_camera(const std::string& name, PixelFormat format) {
@@ -71,13 +72,12 @@ class PipelineTest : public testing::Test {
     cameras.push_back(camera.get());
     plan.cameras.push_back(std::move(camera));
   }
-  void add_view(const std::string& name, const std::vector<std::size_t>& sources,
-                std::optional<std::size_t> measured) {
+  ViewPlan view(const std::string& name, std::size_t index,
+                const std::vector<std::size_t>& sources) const {
     const auto projection =
         optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 120, {}, 96, 64}).value();
-    ViewPlan view{
-        plan.views.size(), name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear,
-        measured};
+    ViewPlan view{index,       name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear,
+                  std::nullopt};
     for (const std::size_t n : sources) {
       const auto ball = optics::BallProjection::make(optics::BallModel::exact(350).value(),
                                                      {{49.5, 49.5}, 48, 48, 0}, {})
@@ -85,7 +85,7 @@ class PipelineTest : public testing::Test {
       const double high = plan.formats[n].format == PixelFormat::Y16 ? 65535 : 255;
       view.sources.push_back({n, plan.formats[n], ball, 1, {colour_map_table("hot"), 0, high}});
     }
-    plan.views.push_back(std::move(view));
+    return view;
   }
   void start() {
     pipeline.emplace(std::move(plan));
@@ -109,9 +109,9 @@ TEST_F(PipelineTest, MakesViewsAndMeasuresThem) {
   const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 1; });
   EXPECT_EQ(status.state, SystemState::Running);
   EXPECT_EQ(sink.views(), (std::vector<std::string>{"measured", "seen"})) << "measured comes first";
-  EXPECT_NEAR(status.signals.hot_spot_peak_temperature, 40000 * 0.04 - 273.15, 0.1);
-  EXPECT_GT(status.signals.hot_spot_yaw, 20) << "left in the ball's picture is +X";
-  EXPECT_GT(status.signals.hot_spot_area, 0);
+  EXPECT_NEAR(status.regions[0].signals.hot_spot_peak_temperature, 40000 * 0.04 - 273.15, 0.1);
+  EXPECT_GT(status.regions[0].signals.hot_spot_yaw, 20) << "left in the ball's picture is +X";
+  EXPECT_GT(status.regions[0].signals.hot_spot_solid_angle, 0);
   EXPECT_EQ(status.views[0].published, 1U);
   EXPECT_EQ(status.cameras[0].frames, 1U);
 }
@@ -120,7 +120,7 @@ TEST_F(PipelineTest, TheHeartbeatGoesOnWithoutFrames) {
   start();
   const Status status = sink.wait_for([](const Status& s) { return s.heartbeat >= 3; });
   EXPECT_EQ(status.state, SystemState::Starting);
-  EXPECT_FALSE(signals::is_valid(status.signals.hot_spot_area));
+  EXPECT_FALSE(signals::is_valid(status.regions[0].signals.hot_spot_solid_angle));
 }
 
 TEST_F(PipelineTest, AMissingCameraIsAStateAndTheOtherGoesOn) {
@@ -132,12 +132,13 @@ TEST_F(PipelineTest, AMissingCameraIsAStateAndTheOtherGoesOn) {
   Status status = sink.wait_for([](const Status& s) { return s.frame_set == 2; });
   EXPECT_EQ(status.state, SystemState::Degraded);
   EXPECT_EQ(status.cameras[0].fault, hal::Fault::Unplugged);
-  EXPECT_FALSE(signals::is_valid(status.signals.hot_spot_area)) << "the measured camera is away";
+  EXPECT_FALSE(signals::is_valid(status.regions[0].signals.hot_spot_solid_angle))
+      << "the measured camera is away";
   cameras[1]->fail_with(hal::Fault::Stalled);
   sink.wait_for([](const Status& s) { return s.state == SystemState::Fault; });
   expose_both(40000);
   status = sink.wait_for([](const Status& s) {
-    return s.state == SystemState::Running && signals::is_valid(s.signals.hot_spot_yaw);
+    return s.state == SystemState::Running && signals::is_valid(s.regions[0].signals.hot_spot_yaw);
   });
   EXPECT_EQ(status.cameras[0].fault, hal::Fault::None);
 }
@@ -159,11 +160,12 @@ TEST_F(PipelineTest, ASinkThatHoldsAllViewsLosesThemButNotTheMeasurement) {
   for (std::uint64_t n = 1; n <= 10; ++n) {
     expose_both(static_cast<std::uint16_t>(40000 + n));
     const Status status = sink.wait_for([n](const Status& s) { return s.frame_set == n; });
-    EXPECT_NEAR(status.signals.hot_spot_peak_temperature, (40000.0 + n) * 0.04 - 273.15, 0.021);
+    EXPECT_NEAR(status.regions[0].signals.hot_spot_peak_temperature, (40000.0 + n) * 0.04 - 273.15,
+                0.021);
   }
   const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 10; });
-  EXPECT_EQ(status.views[1].published, 6U);
-  EXPECT_EQ(status.views[1].skipped, 4U);
+  EXPECT_EQ(status.views[1].published, kViewBuffers);
+  EXPECT_EQ(status.views[1].skipped, 10 - kViewBuffers);
 }
 
 TEST_F(PipelineTest, OverrunsAreCountedAndSlowDisplayViewsOnly) {
@@ -229,11 +231,10 @@ TEST_F(PipelineTest, TellsWhichProcessInputsAreActive) {
 
 TEST_F(PipelineTest, SelectsAViewOnCommand) {
   start();
-  EXPECT_EQ(pipeline->command({CommandCode::SelectView, 1}), CommandResult::Done);
+  EXPECT_EQ(pipeline->command({CommandCode::SelectView, {1}}), CommandResult::Done);
   sink.wait_for([](const Status& s) { return s.selected_view == 1; });
-  EXPECT_EQ(pipeline->command({CommandCode::SelectView, 2}), CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(pipeline->command({CommandCode::SelectView, -1}), CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(pipeline->command({static_cast<CommandCode>(99), 0}), CommandResult::UnknownCommand);
+  EXPECT_EQ(pipeline->command({CommandCode::SelectView, {2}}), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->command({CommandCode::Pulse, {0}}), CommandResult::UnknownCommand);
 }
 
 TEST_F(PipelineTest, StopsTwiceAndWithoutAStart) {

@@ -10,6 +10,7 @@
 #include <random>
 #include <thread>
 
+#include "tests/app/pipeline/measured_recipe.h"
 #include "tests/app/pipeline/pointed_views.h"
 
 namespace orbwatch::app {
@@ -81,10 +82,10 @@ class Stage {
     plan.cameras.push_back(std::move(hand));
     plan.deadline = std::chrono::seconds(20);
     plan.views = {view_plan(kLeft, kind, left),
-                  view_plan(kRight, optics::ViewKind::Perspective, kHome),
-                  view_plan(kMeasured, optics::ViewKind::Perspective, kHome)};
-    plan.views[kMeasured].measured = 0;
-    plan.measurement = MeasurementPlan{kMeasured, {}, 199};
+                  view_plan(kRight, optics::ViewKind::Perspective, kHome)};
+    plan.recipes.push_back(
+        compiled(recipe_plan(view_plan(kMeasured, optics::ViewKind::Perspective, kHome), 199)));
+    plan.view_count = 3;
     pipeline.emplace(std::move(plan));
   }
 

@@ -1,0 +1,144 @@
+#include "app/health/board_health.h"
+
+#include <sys/statvfs.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "app/health/system_file.h"
+
+namespace orbwatch::app {
+namespace {
+
+namespace fs = std::filesystem;
+using signals::kNotValid;
+
+constexpr double kMebibyte = 1024.0 * 1024.0;
+
+/// The larger one; what is not valid does not count.
+double larger(double a, double b) { return signals::is_valid(a) ? std::max(a, b) : b; }
+
+bool is_within(const HealthInfo& figure, double value) {
+  return value >= figure.minimum && value <= figure.maximum;
+}
+
+constexpr const HealthInfo& info_of(double Health::*member) {
+  return *std::find_if(kHealthFigures.begin(), kHealthFigures.end(),
+                       [member](const HealthInfo& figure) { return figure.member == member; });
+}
+
+/// Zones without a sensor report nonsense, so each one is checked before the largest is taken.
+double board_temperature(const fs::path& sys) {
+  double hottest = kNotValid;
+  for (const fs::path& zone : entries(sys / "class/thermal", "thermal_zone")) {
+    const auto thousandths = read_integer(zone / "temp");
+    if (!thousandths) continue;
+    const double celsius = static_cast<double>(*thousandths) / 1000;
+    if (is_within(info_of(&Health::board_temperature), celsius)) hottest = larger(hottest, celsius);
+  }
+  return hottest;
+}
+
+double processor_frequency(const fs::path& sys) {
+  double fastest = kNotValid;
+  for (const fs::path& policy : entries(sys / "devices/system/cpu/cpufreq", "policy")) {
+    const auto kilohertz = read_integer(policy / "scaling_cur_freq");
+    if (kilohertz) fastest = larger(fastest, static_cast<double>(*kilohertz) / 1000);
+  }
+  return fastest;
+}
+
+/// A line "key:   123 kB" of a file of lines, in MiB.
+double memory_line(const fs::path& file, std::string_view key) {
+  std::istringstream lines(read_system_file(file).value_or(""));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(key) || !line.ends_with(" kB")) continue;
+    const std::string_view number = std::string_view(line).substr(key.size());
+    const auto kibibytes = to_integer(number.substr(0, number.size() - 3));
+    return kibibytes ? static_cast<double>(*kibibytes) / 1024 : kNotValid;
+  }
+  return kNotValid;
+}
+
+double open_descriptors(const fs::path& proc) {
+  std::size_t count = 0;
+  std::error_code error;
+  for (const fs::path& descriptor : entries(proc / "self/fd")) {
+    // The one by which they were listed is closed by now.
+    count += fs::exists(fs::symlink_status(descriptor, error)) ? 1 : 0;
+  }
+  return count > 0 ? static_cast<double>(count) : kNotValid;  // none: they could not be listed
+}
+
+void note_disk(const fs::path& folder, Health& health) {
+  struct statvfs disk {};
+  if (::statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;
+  const double free = static_cast<double>(disk.f_bavail);
+  health.disk_free = free * static_cast<double>(disk.f_frsize) / kMebibyte;
+  health.disk_free_share = 100 * free / static_cast<double>(disk.f_blocks);
+}
+
+}  // namespace
+
+BoardHealth::BoardHealth(HealthSources sources)
+    : sources_(std::move(sources)), throttling_(sources_.sys) {}
+
+Health BoardHealth::read() {
+  Health health;
+  health.board_temperature = board_temperature(sources_.sys);
+  if (const auto bits = throttling_.read()) health.throttling = *bits;
+  health.processor_load = processor_load();
+  health.processor_frequency = processor_frequency(sources_.sys);
+  health.memory_available = memory_line(sources_.proc / "meminfo", "MemAvailable:");
+  note_disk(sources_.disk, health);
+  timex clock{};
+  note_clock(::adjtimex(&clock), clock, health);
+  health.resident_memory = memory_line(sources_.proc / "self/status", "VmRSS:");
+  health.open_descriptors = open_descriptors(sources_.proc);
+  for (const HealthInfo& figure : kHealthFigures) {
+    double& value = health.*figure.member;
+    if (!is_within(figure, value)) value = kNotValid;
+  }
+  return health;
+}
+
+/// The first line of /proc/stat: "cpu" and the ticks spent as user, nice, system, idle, iowait,
+/// irq, softirq and steal; what comes after is contained in the first two.
+std::optional<BoardHealth::ProcessorTime> BoardHealth::processor_time(const fs::path& proc) {
+  const std::string text = read_system_file(proc / "stat").value_or("");
+  std::istringstream line(text.substr(0, text.find('\n')));
+  std::string word;
+  if (!(line >> word) || word != "cpu") return std::nullopt;
+  std::array<double, 8> ticks{};
+  for (double& tick : ticks) {
+    if (!(line >> word)) return std::nullopt;
+    const auto count = to_integer(word);
+    if (!count || *count < 0) return std::nullopt;
+    tick = static_cast<double>(*count);
+  }
+  ProcessorTime time{ticks[3] + ticks[4], 0};
+  for (const double tick : ticks) time.total += tick;
+  return time;
+}
+
+double BoardHealth::processor_load() {
+  const auto before = std::exchange(processor_time_, processor_time(sources_.proc));
+  if (!before || !processor_time_) return kNotValid;
+  const double passed = processor_time_->total - before->total;
+  return passed > 0 ? 100 * (1 - (processor_time_->idle - before->idle) / passed) : kNotValid;
+}
+
+void note_clock(int state, const timex& clock, Health& health) {
+  if (state < 0) return;
+  const bool synchronised = (clock.status & STA_UNSYNC) == 0;
+  health.clock_synchronised = synchronised ? 1 : 0;
+  if (!synchronised) return;
+  health.clock_estimated_error = static_cast<double>(clock.esterror) / 1000;
+  health.clock_maximum_error = static_cast<double>(clock.maxerror) / 1000;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,66 @@
+#include "app/health/system_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+
+#include "hal/file_descriptor.h"
+
+namespace orbwatch::app {
+namespace fs = std::filesystem;
+
+std::optional<std::string> read_system_file(const fs::path& file) {
+  const hal::FileDescriptor in(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!in.is_open()) return std::nullopt;
+  std::string text(std::size_t{16} << 10, '\0');
+  std::size_t size = 0;
+  while (size < text.size()) {
+    const ssize_t got = ::read(in.get(), text.data() + size, text.size() - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return std::nullopt;
+    if (got == 0) break;
+    size += static_cast<std::size_t>(got);
+  }
+  text.resize(size);
+  return text;
+}
+
+std::optional<std::int64_t> to_integer(std::string_view text, int base) {
+  constexpr std::string_view kSpace = " \t\n";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return std::nullopt;
+  text = text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+  if (base == 16 && text.starts_with("0x")) text.remove_prefix(2);
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<std::int64_t> read_integer(const fs::path& file, int base) {
+  const auto text = read_system_file(file);
+  return text ? to_integer(*text, base) : std::nullopt;
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    found.push_back(entry->path());
+  }
+  return found;
+}
+
+std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
+  std::vector<fs::path> found = entries(folder);
+  std::erase_if(found, [prefix](const fs::path& path) {
+    return !path.filename().native().starts_with(prefix);
+  });
+  return found;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace orbwatch::app {
+
+/// A moment as ISO 8601 has it, to the nanosecond: "2026-11-21T20:57:46.000000000Z"; nothing for
+/// the epoch, which stands for "never". Reentrant.
+std::optional<std::string> utc_text(std::chrono::system_clock::time_point moment);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,102 @@
+#include "app/pipeline/compiled_recipe.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orbwatch::app {
+namespace {
+
+Quality quality_of(const signals::Radiometry& radiometry) {
+  const bool apparent = radiometry.is_radiometric() && radiometry.is_apparent();
+  return apparent ? Quality::Apparent : Quality::Good;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CompiledRecipe>> CompiledRecipe::make(RecipePlan plan,
+                                                             const signals::RegionScene& scene) {
+  std::unique_ptr<CompiledRecipe> recipe(new CompiledRecipe(std::move(plan)));
+  for (const ViewPlan& view : recipe->plan_.views) {
+    auto renderer = std::make_unique<ViewRenderer>(view);
+    std::vector<std::unique_ptr<View>> buffers;
+    for (std::size_t i = 0; i < kViewBuffers; ++i) {
+      buffers.push_back(std::make_unique<View>(renderer->make_view()));
+    }
+    View unshared = renderer->make_view();
+    recipe->outputs_.push_back(
+        {std::move(renderer), hal::BufferPool<View>(std::move(buffers)), std::move(unshared)});
+  }
+  for (const RegionPlan& region : recipe->plan_.regions) {
+    auto meter = signals::RegionMeter::make(recipe->plan_.views[region.view].projection, scene,
+                                            region.settings);
+    if (!meter) return fail("region " + region.name + ": " + meter.error().message);
+    const Quality quality = quality_of(meter->radiometry());
+    recipe->meters_.push_back({std::move(*meter), region.view, quality});
+  }
+  auto board = signals::AlarmBoard::make(recipe->plan_.alarms, recipe->plan_.regions.size());
+  if (!board) return tl::unexpected(board.error());
+  recipe->fresh_board_ = *board;
+  recipe->begin();
+  return recipe;
+}
+
+void CompiledRecipe::begin() {
+  for (Region& region : meters_) region.meter.reset();
+  skip();
+  board_ = fresh_board_;
+  for (std::size_t i = 0; i < board_.size(); ++i) {
+    const signals::AlarmLimits& limits = board_.limits(i);
+    alarms_[i] = {{}, limits.region, limits.signal, signals::kNotValid, {}};
+  }
+}
+
+std::shared_ptr<View> CompiledRecipe::render(std::size_t n, const hal::FrameSet& set,
+                                             WorkerPool& workers) {
+  Output& output = outputs_[n];
+  auto shared = output.pool.acquire();
+  View& view = shared ? *shared : output.unshared;
+  output.renderer->render(set, view, workers);
+  const ViewPlan& plan = plan_.views[n];
+  const hal::Frame& measured = set.frames[plan.sources[*plan.measured].camera];
+  output.rendered = measured ? &view : nullptr;
+  if (measured) output.exposed = measured->metadata.exposure_start;
+  return shared;
+}
+
+void CompiledRecipe::measure(hal::TimePoint stamp, hal::TimePoint set_since) {
+  const double seconds = std::chrono::duration<double>(stamp.time_since_epoch()).count();
+  for (std::size_t i = 0; i < meters_.size(); ++i) {
+    auto& [meter, view, quality] = meters_[i];
+    regions_[i] = {};
+    const View* seen = outputs_[view].rendered;
+    if (!seen || outputs_[view].exposed < set_since) continue;
+    regions_[i].quality = quality;
+    regions_[i].signals = seen->radiometric.empty()
+                              ? meter.measure(seen->luminance, seen->validity, seconds)
+                              : meter.measure(seen->radiometric, seen->validity, seconds);
+  }
+}
+
+void CompiledRecipe::skip() { regions_.fill({}); }
+
+bool CompiledRecipe::has_hot_spot() const {
+  return std::ranges::any_of(regions(), [](const RegionStatus& region) {
+    return region.signals.hot_spot_present > 0;  // false for NaN, too
+  });
+}
+
+std::span<const signals::AlarmEvent> CompiledRecipe::watch(hal::TimePoint now, bool process_active,
+                                                           const signals::AlarmSet& acknowledged) {
+  for (std::size_t i = 0; i < meters_.size(); ++i) signals_[i] = regions_[i].signals;
+  const auto events = board_.step(
+      {now.time_since_epoch(), {signals_.data(), meters_.size()}, process_active, acknowledged});
+  for (std::size_t i = 0; i < board_.size(); ++i) {
+    AlarmStatus& alarm = alarms_[i];
+    if (alarm.alarm.state != board_.alarm(i).state) alarm.since = now;
+    alarm.alarm = board_.alarm(i);
+    alarm.value = signals_[alarm.region].*signals::kSignals[alarm.signal].member;
+  }
+  return events;
+}
+
+}  // namespace orbwatch::app

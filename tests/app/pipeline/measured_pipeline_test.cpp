@@ -1,0 +1,394 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "app/pipeline/pipeline.h"
+#include "tests/app/pipeline/hand_camera.h"
+#include "tests/app/pipeline/measured_recipe.h"
+#include "tests/app/pipeline/thermal_view.h"
+
+namespace orbwatch::app {
+namespace {
+
+using hal::Clock;
+using std::chrono::seconds;
+
+/// A camera whose exposure time can be set, and whose pictures are as bright as it says.
+class SettableCamera : public HandCamera {
+ public:
+  SettableCamera() : HandCamera("thermal", PixelFormat::Y16) {}
+
+  Result<> set(std::string_view control, double value) override {
+    if (control != "ExposureTime") return Camera::set(control, value);
+    std::this_thread::sleep_for(std::chrono::microseconds(200));  // its driver takes a while
+    const std::lock_guard lock(mutex_);
+    exposure_ = static_cast<std::uint16_t>(value);
+    return {};
+  }
+  /// A frame whose exposure begins now, with what the camera is set to now.
+  void expose_as_set() {
+    std::uint16_t bright = 0;
+    hal::TimePoint moment;
+    {
+      const std::lock_guard lock(mutex_);
+      bright = exposure_;
+      moment = Clock::now();
+    }
+    expose(bright, moment);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::uint16_t exposure_ = 0;
+};
+
+/// Calls what examines, one at a time; the test waits for a status that it expects.
+class ExaminingSink : public Sink {
+ public:
+  Result<> start() override { return {}; }
+  void stop() override {}
+  void accept(const ViewPtr& view) override {
+    const std::lock_guard lock(mutex_);
+    if (on_view) on_view(*view);
+  }
+  void accept(const Status& status) override {
+    const std::lock_guard lock(mutex_);
+    if (on_status) on_status(status);
+    status_ = status;
+    changed_.notify_all();
+  }
+  void note(const AlarmNotice& notice) override {
+    const std::lock_guard lock(mutex_);
+    if (on_notice) on_notice(notice);
+  }
+  template <class Condition>
+  Status wait_for(Condition condition) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, seconds(30), [&] { return condition(status_); }));
+    return status_;
+  }
+
+  // Set before the pipeline starts.
+  std::function<void(const View&)> on_view;
+  std::function<void(const Status&)> on_status;
+  std::function<void(const AlarmNotice&)> on_notice;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Status status_;
+};
+
+constexpr std::size_t kSeen = 0;  ///< the view that is only looked at; those of recipes follow
+constexpr std::uint32_t kChecksum = 0xC0FFEE01;
+
+/// A recipe in a scale and with an exposure of its own.
+double scale(std::uint16_t recipe) { return 0.05 - 0.01 * recipe; }
+double exposure(std::uint16_t recipe) { return 31000 + 5000 * recipe; }
+double celsius(std::uint16_t recipe) { return exposure(recipe) * scale(recipe) - 273.15; }
+
+RecipePlan plan(std::uint16_t number) {
+  return recipe_plan(thermal_view(number, "measured_" + std::to_string(number)), 30000,
+                     scale(number), number);
+}
+RecipePlan plan_with_exposure(std::uint16_t number) {
+  RecipePlan measured = plan(number);
+  measured.controls.push_back({0, "ExposureTime", exposure(number)});
+  return measured;
+}
+
+class MeasuredPipeline : public testing::Test {
+ protected:
+  void start(std::vector<RecipePlan> recipes) {
+    PipelinePlan plan;
+    auto hand = std::make_unique<SettableCamera>();
+    plan.formats.push_back(hand->configure({}).value());
+    camera = hand.get();
+    EXPECT_TRUE(camera->set("ExposureTime", exposure(1)));
+    plan.cameras.push_back(std::move(hand));
+    plan.deadline = seconds(20);
+    plan.workers = 1;
+    plan.configuration_checksum = kChecksum;
+    plan.views.push_back(thermal_view(kSeen, "seen"));
+    plan.view_count = 1 + recipes.size();
+    for (RecipePlan& recipe : recipes) plan.recipes.push_back(compiled(std::move(recipe)));
+    pipeline.emplace(std::move(plan));
+    ASSERT_TRUE(pipeline->start({&sink}));
+  }
+  Status next_frame() {
+    camera->expose_as_set();
+    return sink.wait_for([n = ++frames](const Status& status) { return status.frame_set == n; });
+  }
+  CommandResult command(CommandCode code, double first = 0, double second = 0, double third = 0,
+                        double fourth = 0) {
+    return pipeline->command({code, {first, second, third, fourth}});
+  }
+
+  ExaminingSink sink;  // outlives the pipeline
+  SettableCamera* camera = nullptr;
+  std::optional<Pipeline> pipeline;
+  std::uint64_t frames = 0;
+};
+
+TEST_F(MeasuredPipeline, EveryStatusTellsRecipeAndConfiguration) {
+  std::atomic<std::uint64_t> wrong{0}, told{0};
+  sink.on_status = [&](const Status& status) {
+    ++told;
+    wrong += status.configuration_checksum != kChecksum ? 1U : 0U;
+    wrong += status.recipe != 1 && status.recipe != 2 ? 1U : 0U;
+  };
+  start({plan(1), plan(2)});
+  sink.wait_for([](const Status& status) { return status.heartbeat > 1; });
+  next_frame();
+  ASSERT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::Done);
+  sink.wait_for([](const Status& status) { return status.recipe == 2; });
+  EXPECT_EQ(next_frame().recipe, 2);
+  EXPECT_EQ(wrong, 0U);
+  EXPECT_GT(told, 2U);
+}
+
+TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
+  std::map<std::uint16_t, std::uint64_t> measured;
+  std::uint64_t mixed = 0, unknown_view = 0;
+  std::uint16_t recipe_of_views = 0;
+  sink.on_view = [&](const View& view) {
+    if (view.index != kSeen) recipe_of_views = static_cast<std::uint16_t>(view.index);
+  };
+  sink.on_status = [&](const Status& status) {
+    const RegionStatus& region = status.regions[0];
+    if (region.quality == Quality::NotMeasured) return;
+    const double off = region.signals.hot_spot_peak_temperature - celsius(status.recipe);
+    mixed += std::abs(off) < 0.1 ? 0U : 1U;
+    unknown_view += recipe_of_views == status.recipe ? 0U : 1U;
+    ++measured[status.recipe];
+  };
+  start({plan_with_exposure(1), plan_with_exposure(2), plan_with_exposure(3)});
+  {
+    const std::jthread exposing([this](const std::stop_token& stop) {
+      while (!stop.stop_requested()) {
+        camera->expose_as_set();
+        std::this_thread::sleep_for(std::chrono::microseconds(100));  // its frame period
+      }
+    });
+    std::mt19937 random(5);
+    for (int n = 0; n < 90; ++n) {
+      const double number = 1.0 + random() % 3;
+      ASSERT_EQ(command(CommandCode::SelectRecipe, number), CommandResult::Done);
+      if (n % 3 != 0) continue;
+      sink.wait_for([number](const Status& status) {
+        return status.recipe == number && status.regions[0].quality != Quality::NotMeasured;
+      });
+    }
+  }
+  pipeline->stop();
+  EXPECT_EQ(mixed, 0U) << "the camera's setting, the scale and the number belong together";
+  EXPECT_EQ(unknown_view, 0U);
+  for (const std::uint16_t recipe : {1, 2, 3}) EXPECT_GT(measured[recipe], 2U) << recipe;
+}
+
+TEST_F(MeasuredPipeline, SettingsThatACameraRefusesAreReported) {
+  RecipePlan impossible = plan_with_exposure(2);
+  impossible.controls.push_back({0, "Flux", 88});
+  start({plan_with_exposure(1), impossible});
+  next_frame();
+  ASSERT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::Done);
+  const Status refused = sink.wait_for([](const Status& status) { return status.recipe_refused; });
+  EXPECT_EQ(refused.recipe, 1);
+  const Status after = next_frame();
+  EXPECT_EQ(after.recipe, 1);
+  EXPECT_NEAR(after.regions[0].signals.hot_spot_peak_temperature, celsius(1), 0.1)
+      << "the camera went back to what it was set to";
+}
+
+TEST_F(MeasuredPipeline, StoppedIsAStateAndCamerasAndViewsGoOn) {
+  start({plan(1)});
+  EXPECT_EQ(next_frame().state, SystemState::Running);
+  ASSERT_EQ(command(CommandCode::Stop), CommandResult::Done);
+  sink.wait_for([](const Status& status) { return status.state == SystemState::Stopped; });
+  const Status stopped = next_frame();
+  EXPECT_EQ(stopped.state, SystemState::Stopped);
+  EXPECT_EQ(stopped.regions[0].quality, Quality::NotMeasured);
+  EXPECT_FALSE(stopped.process_active);
+  EXPECT_EQ(stopped.views[kSeen].published, 2U);
+  EXPECT_EQ(stopped.views[1].published, 2U);
+  EXPECT_EQ(stopped.cameras[0].frames, 2U);
+  ASSERT_EQ(command(CommandCode::Start), CommandResult::Done);
+  const Status running = next_frame();
+  EXPECT_EQ(running.state, SystemState::Running);
+  EXPECT_EQ(running.regions[0].quality, Quality::Apparent);
+}
+
+TEST_F(MeasuredPipeline, StartStopAndStateBelongTogetherInEveryStatus) {
+  std::uint64_t torn = 0, running = 0, stopped = 0;
+  sink.on_status = [&](const Status& status) {
+    const bool measured = status.regions[0].quality != Quality::NotMeasured;
+    if (status.frame_set == 0) return;
+    const bool is_stopped = status.state == SystemState::Stopped;
+    // It runs without a measurement from a start on until a frame comes.
+    torn += measured && (is_stopped || !status.process_active) ? 1U : 0U;
+    torn += is_stopped && status.process_active ? 1U : 0U;
+    ++(measured ? running : stopped);
+  };
+  start({plan(1)});
+  {
+    const std::jthread commanding([this](const std::stop_token& stop) {
+      for (int n = 0; !stop.stop_requested(); ++n) {
+        command(n % 2 == 0 ? CommandCode::Stop : CommandCode::Start);
+        std::this_thread::sleep_for(std::chrono::microseconds(n % 7 * 100));  // an operator's pace
+      }
+    });
+    for (int n = 0; n < 100; ++n) next_frame();
+  }
+  pipeline->stop();
+  EXPECT_EQ(torn, 0U);
+  EXPECT_GE(running + stopped, 100U);
+}
+
+TEST_F(MeasuredPipeline, EveryTriggeredFrameIsAResultThatASinkSeesOnce) {
+  std::vector<std::uint64_t> results;
+  std::uint64_t last = 0;
+  sink.on_status = [&](const Status& status) {
+    if (status.result == last) return;
+    last = status.result;
+    results.push_back(status.result);
+  };
+  start({plan(1)});
+  std::uint64_t granted = 0;
+  for (int n = 0; n < 60; ++n) {
+    if (n % 3 == 0) granted += command(CommandCode::Trigger) == CommandResult::Done ? 1U : 0U;
+    next_frame();
+  }
+  pipeline->stop();
+  EXPECT_EQ(granted, 20U);
+  ASSERT_EQ(results.size(), granted);
+  for (std::uint64_t n = 0; n < granted; ++n) EXPECT_EQ(results[n], n + 1);
+}
+
+TEST_F(MeasuredPipeline, NoticesComeOnceAndInOrderBeforeTheStatusThatShowsThem) {
+  RecipePlan watched = plan(1);
+  signals::AlarmLimits limits;  // of kSignals[0], whichever it is: only the present spot counts
+  limits.high_alarm = 0.5;
+  limits.loss_delay.reset();
+  watched.alarms = {limits};
+  std::vector<AlarmNotice> notices;
+  std::uint64_t early = 0;
+  sink.on_notice = [&](const AlarmNotice& notice) { notices.push_back(notice); };
+  sink.on_status = [&](const Status& status) {
+    if (status.alarms[0].alarm.state == signals::AlarmState::Unacknowledged && notices.empty()) {
+      ++early;
+    }
+  };
+  start({watched});
+  EXPECT_EQ(next_frame().alarms[0].alarm.state, signals::AlarmState::Unacknowledged);
+  EXPECT_EQ(command(CommandCode::AcknowledgeAlarm, 2), CommandResult::ArgumentOutOfRange);
+  ASSERT_EQ(command(CommandCode::AcknowledgeAlarm, 1), CommandResult::Done);
+  sink.wait_for([](const Status& status) {
+    return status.alarms[0].alarm.state == signals::AlarmState::Acknowledged;
+  });
+  ASSERT_EQ(command(CommandCode::Stop), CommandResult::Done);
+  sink.wait_for([](const Status& status) { return status.state == SystemState::Stopped; });
+  pipeline->stop();
+  EXPECT_EQ(early, 0U);
+  ASSERT_EQ(notices.size(), 3U);
+  EXPECT_EQ(notices[0].event.kind, signals::AlarmEventKind::Raised);
+  EXPECT_EQ(notices[1].event.kind, signals::AlarmEventKind::Acknowledged);
+  EXPECT_EQ(notices[2].event.kind, signals::AlarmEventKind::Suppressed);
+  for (std::size_t n = 0; n < notices.size(); ++n) EXPECT_EQ(notices[n].number, n + 1);
+}
+
+TEST_F(MeasuredPipeline, OnlyViewsToLookAtArePointedAndMixed) {
+  start({plan(1), plan(2)});
+  EXPECT_EQ(command(CommandCode::PointView, kSeen, 20, -10, 80), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::PointView, kSeen, 20, -10, 0), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::PointView, kSeen, 0, 0, 180), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::MixSources, kSeen, 0, 2.5), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::MixSources, kSeen, 1, 2.5), CommandResult::ArgumentOutOfRange);
+  for (const double measured : {1.0, 2.0}) {
+    EXPECT_EQ(command(CommandCode::PointView, measured, 20), CommandResult::NotPossible);
+    EXPECT_EQ(command(CommandCode::MixSources, measured, 0, 2), CommandResult::NotPossible);
+    EXPECT_EQ(command(CommandCode::SelectView, measured), CommandResult::Done);
+  }
+  EXPECT_EQ(command(CommandCode::PointView, 3), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::MixSources, 3, 0, 1), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::SelectView, 3), CommandResult::ArgumentOutOfRange);
+}
+
+TEST_F(MeasuredPipeline, WhatOperatorsPointNeverChangesAMeasurement) {
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint16_t> words;
+  std::uint64_t measured = 0, changed = 0, moved = 0, pointings = 0;
+  double yaw = 0;
+  sink.on_view = [&](const View& view) {
+    if (view.index == kSeen) {
+      pointings = view.pointing;
+      return;
+    }
+    if (measured++ == 0) {
+      bytes = view.bytes;
+      words = view.words;
+    }
+    changed += view.bytes == bytes && view.words == words ? 0U : 1U;
+  };
+  sink.on_status = [&](const Status& status) {
+    if (status.frame_set == 0) return;
+    const signals::Signals& signals = status.regions[0].signals;
+    if (status.frame_set == 1) yaw = signals.hot_spot_yaw;
+    moved += signals.hot_spot_yaw == yaw ? 0U : 1U;
+    moved += std::abs(signals.hot_spot_peak_temperature - celsius(1)) < 0.1 ? 0U : 1U;
+  };
+  start({plan(1)});
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> angle(-80, 80), fov(20, 150), weight(0.1, 10);
+  for (int n = 0; n < 150; ++n) {
+    ASSERT_EQ(command(CommandCode::PointView, kSeen, angle(random), angle(random), fov(random)),
+              CommandResult::Done);
+    ASSERT_EQ(command(CommandCode::MixSources, kSeen, 0, weight(random)), CommandResult::Done);
+    next_frame();
+  }
+  const auto end = Clock::now() + seconds(30);
+  while (pointings == 0 && Clock::now() < end) next_frame();
+  pipeline->stop();
+  EXPECT_GT(pointings, 0U) << "the other view was pointed indeed";
+  EXPECT_EQ(measured, frames);
+  EXPECT_EQ(changed, 0U);
+  EXPECT_EQ(moved, 0U);
+}
+
+TEST_F(MeasuredPipeline, WithoutARecipeNothingIsMeasured) {
+  start({});
+  const Status status = next_frame();
+  EXPECT_EQ(status.state, SystemState::Running);
+  EXPECT_EQ(status.recipe, 0);
+  EXPECT_EQ(status.region_count, 0U);
+  for (const CommandCode code : {CommandCode::Start, CommandCode::Stop, CommandCode::Trigger,
+                                 CommandCode::AcknowledgeAlarm, CommandCode::SetProcessActive}) {
+    EXPECT_EQ(command(code), CommandResult::NotPossible);
+  }
+  EXPECT_EQ(command(CommandCode::SelectRecipe, 1), CommandResult::NotPossible);
+}
+
+TEST_F(MeasuredPipeline, StopsWhileRecipesAreSelected) {
+  for (int round = 0; round < 10; ++round) {
+    frames = 0;
+    start({plan_with_exposure(1), plan_with_exposure(2)});
+    for (int n = 0; n < round; ++n) {
+      ASSERT_EQ(command(CommandCode::SelectRecipe, 1 + n % 2), CommandResult::Done);
+    }
+    next_frame();
+    ASSERT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::Done);
+    pipeline->stop();
+    pipeline.reset();
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::app
