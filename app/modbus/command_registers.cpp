@@ -1,16 +1,25 @@
 #include "app/modbus/command_registers.h"
 
-#include <algorithm>
-
 namespace orbwatch::app::modbus {
 
-void carry_out(CommandRegisters& registers, const CommandHandler& handler) {
-  if (registers.sequence == registers.acknowledged) return;
-  const auto code = static_cast<CommandCode>(registers.command);
-  const bool known = std::ranges::count(kCommands, code, &CommandInfo::code) > 0;
-  registers.result = known ? handler({code, registers.argument}) : CommandResult::UnknownCommand;
+Command command_in(const CommandRegisters& registers) {
+  Command command{static_cast<CommandCode>(registers.command), {}};
+  const CommandInfo* info = find_command(command.code);
+  if (!info) return command;
+  for (std::size_t i = 0; i < info->argument_count(); ++i) {
+    command.arguments[i] = registers.arguments[i] * info->arguments[i].scale;
+  }
+  return command;
+}
+
+bool carry_out(CommandRegisters& registers, const CommandHandler& handler) {
+  if (registers.sequence == registers.acknowledged) return false;
+  const Command command = command_in(registers);
+  registers.result = check(command);
+  if (registers.result == CommandResult::Done) registers.result = handler(command);
   registers.last_command = registers.command;
   registers.acknowledged = registers.sequence;
+  return true;
 }
 
 }  // namespace orbwatch::app::modbus

@@ -6,10 +6,14 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
+
+#include "app/modbus/socket_address.h"
 
 namespace orbwatch::app::modbus {
 namespace {
@@ -19,10 +23,6 @@ namespace {
 constexpr std::uint64_t kStop = 0;
 constexpr std::uint64_t kListener = 1;
 constexpr std::uint64_t kFirstConnection = 2;
-
-constexpr std::size_t kPrefix = 6;    // transaction, protocol and length
-constexpr std::size_t kShortest = 2;  // unit and function code: what the length counts
-constexpr std::size_t kLongest = 254;
 
 /// Answers that a client has not taken yet, at most; the kernel doubles it for its bookkeeping.
 constexpr int kSendBuffer = 16384;
@@ -66,14 +66,14 @@ int watch_file(int epoll, int operation, int file, std::uint64_t id, std::uint32
 }  // namespace
 
 Result<std::unique_ptr<ModbusFront>> ModbusFront::open(const ModbusSettings& settings,
-                                                       Answer answer, Counters& counters) {
+                                                       Answer answer, Duty duty,
+                                                       Counters& counters) {
   if (auto checked = check(settings); !checked) return tl::unexpected(checked.error());
-  std::unique_ptr<ModbusFront> front(new ModbusFront(settings, std::move(answer), counters));
-  for (const std::string& writer : settings.writers) {
-    const auto address = parse_address(writer, 0);
-    if (!address) return fail("modbus: writer '" + writer + "' is not a numeric IP address");
-    front->writers_.push_back(host_of(*address));
-  }
+  std::unique_ptr<ModbusFront> front(
+      new ModbusFront(settings, std::move(answer), std::move(duty), counters));
+  auto access = AccessList::create(settings.readers, settings.writers);
+  if (!access) return tl::unexpected(access.error());
+  front->access_ = std::move(*access);
   if (auto listening = front->listen(); !listening) return tl::unexpected(listening.error());
   if (auto watching = front->watch(); !watching) return tl::unexpected(watching.error());
   return front;
@@ -127,7 +127,7 @@ void ModbusFront::run() {
   std::array<epoll_event, 32> events;
   for (;;) {
     const int count = ::epoll_wait(epoll_.get(), events.data(), static_cast<int>(events.size()),
-                                   milliseconds_to_wait());
+                                   milliseconds_to_wait(duty_()));
     for (int i = 0; i < count; ++i) {
       const std::uint64_t id = events[static_cast<std::size_t>(i)].data.u64;
       if (id == kStop) return;
@@ -157,6 +157,11 @@ void ModbusFront::accept_client() {
     }
     return;
   }
+  const Permission permission = access_.of(host_of(peer));
+  if (permission == Permission::None) {
+    ++counters_.dropped;
+    return;
+  }
   make_room();
   const int on = 1;
   const std::uint64_t id = next_id_++;
@@ -166,11 +171,9 @@ void ModbusFront::accept_client() {
     ++counters_.dropped;
     return;
   }
-  const bool may_write =
-      writers_.empty() || std::ranges::find(writers_, host_of(peer)) != writers_.end();
   connections_.push_back({.id = id,
                           .socket = std::move(socket),
-                          .may_write = may_write,
+                          .may_write = permission == Permission::Write,
                           .last_request = hal::Clock::now()});
   counters_.connections = connections_.size();
 }
@@ -181,59 +184,49 @@ void ModbusFront::pause_accepting() {
   accept_again_ = hal::Clock::now() + kAcceptPause;
 }
 
-/// The oldest unused connection goes (Modbus Messaging on TCP/IP Implementation Guide): first
-/// those that never asked anything, so that empty connections cannot push a PLC out.
+/// The oldest unused connection goes (Modbus Messaging on TCP/IP Implementation Guide): those of
+/// clients that may only read before those of writers, and among either first those that never
+/// asked anything, so that neither readers nor empty connections can push a PLC out.
 void ModbusFront::make_room() {
   if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return;
   ++counters_.dropped;
   drop(std::ranges::min_element(connections_, {}, [](const Connection& connection) {
-    return std::pair(connection.has_asked, connection.last_request);
+    return std::tuple(connection.may_write, connection.has_asked, connection.last_request);
   }));
 }
 
 void ModbusFront::serve(std::uint64_t id) {
   const auto connection = std::ranges::find(connections_, id, &Connection::id);
   if (connection == connections_.end()) return;  // dropped in this round
-  const auto now = hal::Clock::now();
-  const std::size_t filled = connection->filled;
-  const ssize_t received = ::recv(connection->socket.get(), connection->buffer.data() + filled,
-                                  connection->buffer.size() - filled, 0);
+  const auto room = connection->framer.room();
+  const ssize_t received = ::recv(connection->socket.get(), room.data(), room.size(), 0);
   if (received < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (received <= 0) return drop(connection);  // the client's own wish or failure
-  if (filled == 0) connection->frame_begin = now;
-  connection->filled += static_cast<std::size_t>(received);
+  if (connection->framer.is_empty()) connection->frame_begin = hal::Clock::now();
+  connection->framer.take(static_cast<std::size_t>(received));
   if (answer_frames(*connection)) return;
   ++counters_.dropped;
   drop(connection);
 }
 
-/// Answers the whole frames in the buffer; false when the connection is of no more use.
+/// Answers the whole frames that came; false when the connection is of no more use.
 bool ModbusFront::answer_frames(Connection& connection) {
-  std::size_t done = 0;
-  const std::span<const std::uint8_t> bytes(connection.buffer.data(), connection.filled);
-  while (bytes.size() - done >= kPrefix) {
-    const auto frame = bytes.subspan(done);
-    const int protocol = frame[2] << 8 | frame[3];
-    const auto length = static_cast<std::size_t>(frame[4] << 8 | frame[5]);
-    if (protocol != 0 || length < kShortest || length > kLongest) {
-      ++counters_.refused;
-      return false;
-    }
-    if (frame.size() < kPrefix + length) break;
-    const Answered answered =
-        answer_(connection.socket.get(), frame.first(kPrefix + length), connection.may_write);
+  bool any = false;
+  while (const auto frame = connection.framer.next()) {
+    const Answered answered = answer_(connection.socket.get(), *frame, connection.may_write);
     if (answered == Answered::NotModbus || answered == Answered::Refused) ++counters_.refused;
     if (answered == Answered::NotModbus || answered == Answered::NotTaken) return false;
     ++counters_.answered;
-    done += kPrefix + length;
+    any = true;
   }
-  if (done == 0) return true;
-  std::copy(connection.buffer.begin() + static_cast<std::ptrdiff_t>(done),
-            connection.buffer.begin() + static_cast<std::ptrdiff_t>(connection.filled),
-            connection.buffer.begin());
-  connection.filled -= done;
-  connection.has_asked = true;
-  connection.last_request = connection.frame_begin = hal::Clock::now();
+  if (connection.framer.is_broken()) {
+    ++counters_.refused;
+    return false;
+  }
+  if (any) {
+    connection.has_asked = true;
+    connection.last_request = connection.frame_begin = hal::Clock::now();
+  }
   return true;
 }
 
@@ -244,7 +237,7 @@ void ModbusFront::drop(Connections::iterator connection) {
 
 hal::TimePoint ModbusFront::deadline(const Connection& connection) const {
   const auto idle = connection.last_request + settings_.idle_timeout;
-  if (connection.filled == 0) return idle;
+  if (connection.framer.is_empty()) return idle;
   return std::min(idle, connection.frame_begin + settings_.frame_timeout);
 }
 
@@ -255,9 +248,8 @@ void ModbusFront::drop_overdue() {
   counters_.connections = connections_.size();
 }
 
-/// Until the next connection is overdue, rounded up; -1: no limit.
-int ModbusFront::milliseconds_to_wait() const {
-  auto next = hal::TimePoint::max();
+/// Until `next` or until a connection is overdue before it, rounded up; -1: no limit.
+int ModbusFront::milliseconds_to_wait(hal::TimePoint next) const {
   for (const Connection& connection : connections_) next = std::min(next, deadline(connection));
   if (!accepting_) next = std::min(next, accept_again_);
   if (next == hal::TimePoint::max()) return -1;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,28 +7,20 @@
 #include <span>
 #include <vector>
 
+#include "app/modbus/access_list.h"
+#include "app/modbus/counters.h"
+#include "app/modbus/mbap_framer.h"
 #include "app/modbus/modbus_settings.h"
 #include "app/modbus/responder.h"
-#include "app/modbus/snapshot.h"
-#include "app/modbus/socket_address.h"
 #include "hal/clock.h"
 #include "hal/file_descriptor.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::app::modbus {
 
-/// Counts of Statistics; written by the serving thread, read by any.
-struct Counters {
-  std::atomic<std::uint64_t> answered{0};
-  std::atomic<std::uint64_t> refused{0};
-  std::atomic<std::uint64_t> dropped{0};
-  std::atomic<std::uint64_t> connections{0};
-
-  Statistics read() const { return {answered, refused, dropped, connections}; }
-};
-
-/// The sockets before libmodbus: takes clients, cuts what they send into frames by the MBAP header,
-/// and ends every connection that is too slow, too quiet, takes no answers, or sends something else
-/// than Modbus. No client can delay another: nothing here waits for one.
+/// The sockets before libmodbus: takes the clients that are let in, hands on what they ask frame by
+/// frame, and ends every connection that is too slow, too quiet, takes no answers, or sends
+/// something else than Modbus. No client can delay another: nothing here waits for one.
 /// Thread rule: open, run and the destructor by one owner each after the other; stop is
 /// thread-safe.
 class ModbusFront {
@@ -39,10 +29,14 @@ class ModbusFront {
   using Answer =
       std::function<Answered(int socket, std::span<const std::uint8_t> frame, bool may_write)>;
 
+  /// What else the serving thread does: called again and again, at the latest at the time that it
+  /// returned.
+  using Duty = std::function<hal::TimePoint()>;
+
   /// Listens; clients can connect from now on. Errors: address or port cannot be used. `counters`
   /// outlives the front.
   static Result<std::unique_ptr<ModbusFront>> open(const ModbusSettings& settings, Answer answer,
-                                                   Counters& counters);
+                                                   Duty duty, Counters& counters);
 
   /// The port that is listened on.
   int port() const { return port_; }
@@ -53,22 +47,22 @@ class ModbusFront {
   void stop();
 
  private:
-  static constexpr std::size_t kLongestFrame = 260;
-
   struct Connection {
     std::uint64_t id = 0;
     hal::FileDescriptor socket{};
     bool may_write = false;
     bool has_asked = false;         ///< at least one whole request
     hal::TimePoint last_request{};  ///< or when it was opened
-    hal::TimePoint frame_begin{};   ///< when the first byte in the buffer came
-    std::size_t filled = 0;
-    std::array<std::uint8_t, kLongestFrame> buffer{};
+    hal::TimePoint frame_begin{};   ///< when the first byte of a frame came that is not whole yet
+    MbapFramer framer{};
   };
   using Connections = std::vector<Connection>;
 
-  ModbusFront(const ModbusSettings& settings, Answer answer, Counters& counters)
-      : settings_(settings), answer_(std::move(answer)), counters_(counters) {}
+  ModbusFront(const ModbusSettings& settings, Answer answer, Duty duty, Counters& counters)
+      : settings_(settings),
+        answer_(std::move(answer)),
+        duty_(std::move(duty)),
+        counters_(counters) {}
 
   Result<> listen();
   Result<> watch();
@@ -80,12 +74,13 @@ class ModbusFront {
   void drop(Connections::iterator connection);
   void drop_overdue();
   hal::TimePoint deadline(const Connection& connection) const;
-  int milliseconds_to_wait() const;
+  int milliseconds_to_wait(hal::TimePoint next) const;
 
   const ModbusSettings settings_;
   const Answer answer_;
+  const Duty duty_;
   Counters& counters_;
-  std::vector<HostAddress> writers_;
+  AccessList access_;
   hal::FileDescriptor listener_;
   hal::FileDescriptor epoll_;
   hal::FileDescriptor stop_;

@@ -1,11 +1,13 @@
 #include "app/modbus/modbus_sink.h"
 
+#include <chrono>
 #include <utility>
+
+#include "app/log.h"
 
 namespace orbwatch::app {
 
 using std::chrono::microseconds;
-using std::chrono::milliseconds;
 
 ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler)
     : settings_(std::move(settings)), handler_(std::move(handler)) {}
@@ -14,30 +16,69 @@ ModbusSink::~ModbusSink() { stop(); }
 
 Result<> ModbusSink::start() {
   if (!settings_.enabled || front_) return {};
-  auto responder = modbus::Responder::create(map_, handler_, [this] { return take(); });
+  start_ = hal::Clock::now();
+  const std::chrono::duration<double, std::milli> plc_timeout(settings_.plc_timeout_ms);
+  plc_ = std::make_unique<modbus::PlcLink>(
+      handler_, std::chrono::duration_cast<hal::Clock::duration>(plc_timeout), start_);
+  auto responder = modbus::Responder::create(
+      map_, [this](const modbus::Write& registers) { write(registers); },
+      [this] { return take(); });
   if (!responder) return tl::unexpected(responder.error());
   responder_ = std::move(*responder);
+  if (auto opened = open_serial_line(); !opened) return opened;
+  if (auto opened = open_tcp(); !opened) return opened;
+  {
+    const std::lock_guard lock(mutex_);
+    received_at_ = hal::Clock::now();  // from here on the pipeline's silence counts
+  }
+  tcp_thread_ = std::thread([this] { front_->run(); });
+  if (serial_line_) serial_thread_ = std::thread([this] { serial_line_->run(); });
+  return {};
+}
+
+Result<> ModbusSink::open_tcp() {
+  auto tcp = modbus::TcpTransport::create(settings_.unit_ids);
+  if (!tcp) return tl::unexpected(tcp.error());
+  tcp_ = std::move(*tcp);
   auto front = modbus::ModbusFront::open(
       settings_,
       [this](int socket, std::span<const std::uint8_t> frame, bool may_write) {
-        return responder_->answer(socket, frame, may_write);
+        tcp_->use(socket);
+        return responder_->answer(*tcp_, frame, may_write);
       },
-      counters_);
+      [this] { return plc_->watch(hal::Clock::now()); }, counters_);
   if (!front) return tl::unexpected(front.error());
   front_ = std::move(*front);
-  {
-    const std::lock_guard lock(mutex_);
-    received_.at = hal::Clock::now();  // from here on the pipeline's silence counts
-  }
-  thread_ = std::thread([this] { front_->run(); });
+  return {};
+}
+
+Result<> ModbusSink::open_serial_line() {
+  if (!settings_.serial) return {};
+  auto server = modbus::RtuServer::open(
+      *settings_.serial,
+      [this](modbus::Transport& transport, std::span<const std::uint8_t> frame) {
+        return responder_->answer(transport, frame, settings_.serial->may_write);
+      },
+      [this](const Result<>& line) {
+        log_line(line ? LogLevel::Info : LogLevel::Warning,
+                 line ? "modbus: the serial line " + settings_.serial->device + " is back"
+                      : line.error().message);
+      },
+      counters_);
+  if (!server) return tl::unexpected(server.error());
+  serial_line_ = std::move(*server);
   return {};
 }
 
 void ModbusSink::stop() {
   if (!front_) return;
   front_->stop();
-  thread_.join();
+  if (serial_line_) serial_line_->stop();
+  tcp_thread_.join();
+  if (serial_line_) serial_thread_.join();
   front_.reset();
+  serial_line_.reset();
+  tcp_.reset();
   responder_.reset();
   counters_.connections = 0;
 }
@@ -47,34 +88,40 @@ void ModbusSink::accept(const Status& status) {
   const auto utc = hal::to_utc(status.stamp).time_since_epoch();
   const std::lock_guard lock(mutex_);
   // Once per frame set: measured again it would come out a microsecond different each time.
-  if (status.stamp != received_.status.stamp) {
-    received_.utc = std::chrono::duration_cast<microseconds>(utc);
+  if (status.frame_set != newest_.status.frame_set || status.stamp != newest_.status.stamp) {
+    newest_.utc =
+        status.frame_set == 0 ? microseconds(0) : std::chrono::duration_cast<microseconds>(utc);
   }
-  received_.status = status;
-  received_.at = now;
+  const bool is_result = status.result != 0 && status.result != newest_.status.result;
+  newest_.status = status;
+  received_at_ = now;
+  if (is_result) results_.push(newest_);
 }
 
 int ModbusSink::port() const { return front_ ? front_->port() : 0; }
 
+void ModbusSink::write(const modbus::Write& write) {
+  const std::uint32_t taken = plc_->write(write, map_, hal::Clock::now());
+  const std::lock_guard lock(mutex_);
+  if (taken != 0) results_.take(taken);
+}
+
 modbus::Snapshot ModbusSink::take() const {
-  Received received;
+  modbus::Snapshot snapshot;
+  snapshot.now = hal::Clock::now();
+  snapshot.start = start_;
+  snapshot.server = counters_.read();
+  snapshot.plc = plc_->state(snapshot.now);
   {
     const std::lock_guard lock(mutex_);
-    received = received_;
+    snapshot.live = newest_;
+    snapshot.results = results_.waiting();
+    snapshot.stale = snapshot.now - received_at_ > settings_.status_timeout;
   }
-  const auto now = hal::Clock::now();
-  modbus::Snapshot snapshot;
-  snapshot.status = received.status;
-  snapshot.server = counters_.read();
-  snapshot.stale = now - received.at > settings_.status_timeout;
   if (snapshot.stale) {
-    snapshot.status.state = SystemState::Fault;
-    snapshot.status.signals = {};
+    snapshot.live.status.state = SystemState::Fault;
+    snapshot.live.status.regions = {};
   }
-  const bool any = received.status.frame_set != 0;
-  snapshot.utc = any ? received.utc : microseconds(0);
-  snapshot.age = any ? std::chrono::duration_cast<milliseconds>(now - received.status.stamp)
-                     : milliseconds::max();
   return snapshot;
 }
 

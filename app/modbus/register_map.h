@@ -2,12 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/modbus/command_registers.h"
+#include "app/modbus/plc_registers.h"
 #include "app/modbus/snapshot.h"
 
 namespace orbwatch::app::modbus {
@@ -23,23 +24,31 @@ std::string_view name_of(Access access);
 
 /// Grows by one with every change that an existing PLC program could notice; new rows in reserved
 /// places are not such a change.
-inline constexpr int kMapVersion = 1;
+inline constexpr int kMapVersion = 2;
 
-/// Discrete input n is also coil n + 1000, and input register n holding register n + 1000: some
+/// Discrete input n is also coil n + 5000, and input register n holding register n + 5000: some
 /// PLCs can read only coils and holding registers.
-inline constexpr int kMirrorOffset = 1000;
+inline constexpr int kMirrorOffset = 5000;
 
-/// Where the blocks of input registers begin and how far apart their entries stand. The system
-/// block and the signals fit into one request (125 registers), so that a PLC gets the frame set's
-/// number and its values together.
+/// What one request reads at most.
+inline constexpr int kMaxReadRegisters = 125;
+
+/// Where the blocks of input registers begin, and how far apart their entries stand.
 inline constexpr int kSystemBlock = 0;
-inline constexpr int kSignalBlock = 32;
-inline constexpr int kSignalStride = 4;
-inline constexpr int kSignalSlots = 16;
-inline constexpr int kCameraBlock = 100;
-inline constexpr int kCameraStride = 16;
-inline constexpr int kViewBlock = 300;
+inline constexpr int kHealthBlock = 100;
+inline constexpr int kCameraBlock = 200;
+inline constexpr int kCameraStride = 32;
+inline constexpr int kViewBlock = 400;
 inline constexpr int kViewStride = 16;
+inline constexpr int kAlarmBlock = 700;
+inline constexpr int kFirstAlarm = 720;
+inline constexpr int kAlarmStride = 8;
+inline constexpr int kLiveBlock = 1000;
+inline constexpr int kResultBlock = 2000;
+inline constexpr int kRegionStride = 128;
+
+/// In an entry of either block of regions: the first signal, two registers each.
+inline constexpr int kRegionSignals = 20;
 
 /// One row of the map: a value, or a stretch that is reserved for later and reads 0.
 struct Row {
@@ -55,11 +64,10 @@ struct Row {
   double maximum = 0;
   std::string description{};
 
-  std::size_t index = 0;  ///< for `read`: which signal, camera, view or bit
-  /// The register's content; 16-bit values in the low half. Null for reserved rows.
-  std::uint32_t (*read)(const Snapshot& snapshot, std::size_t index) = nullptr;
-  /// Null for rows that are only read.
-  void (*write)(CommandRegisters& registers, std::uint32_t value) = nullptr;
+  /// The register's content; 16-bit values in the low half. Empty for reserved rows.
+  std::function<std::uint32_t(const Snapshot& snapshot)> read{};
+  /// Empty for rows that are only read.
+  std::function<void(PlcRegisters& registers, std::uint32_t value)> write{};
 };
 
 /// The one declaration of what PLCs read and write. Immutable; reentrant.

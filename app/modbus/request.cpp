@@ -1,7 +1,5 @@
 #include "app/modbus/request.h"
 
-#include <cstddef>
-
 namespace orbwatch::app::modbus {
 namespace {
 
@@ -10,7 +8,6 @@ using Parsed = tl::expected<Request, Exception>;
 
 // The largest quantities, so that request and answer fit into 253 bytes (V1.1b3, 6).
 constexpr int kMaxReadBits = 2000;
-constexpr int kMaxReadRegisters = 125;
 constexpr int kMaxWriteBits = 1968;
 constexpr int kMaxWriteRegisters = 123;
 constexpr int kMaxReadWriteRegisters = 121;
@@ -128,9 +125,36 @@ Parsed parse(Pdu pdu) {
   }
 }
 
+std::optional<std::size_t> request_length(Pdu pdu) {
+  // Fields of fixed size, the last of them the number of bytes that follow.
+  const auto counted = [&](std::size_t fixed) {
+    return pdu.size() < fixed ? fixed : fixed + pdu[fixed - 1];
+  };
+  switch (pdu[0]) {
+    case 0x01:
+    case 0x02:
+    case 0x03:
+    case 0x04:
+    case 0x05:
+    case 0x06:
+      return 5;
+    case 0x0f:
+    case 0x10:
+      return counted(6);
+    case 0x16:
+      return 7;
+    case 0x17:
+      return counted(10);
+    case 0x2b:  // as Read Device Identification has it
+      return 4;
+    default:
+      return std::nullopt;
+  }
+}
+
 Write resolved(const MaskWrite& mask, const RegisterMap& map, const Snapshot& now) {
   const Row* row = map.find(Table::Holding, mask.address);
-  const auto old = static_cast<std::uint16_t>(row && row->read ? row->read(now, row->index) : 0);
+  const auto old = static_cast<std::uint16_t>(row && row->read ? row->read(now) : 0);
   const int value = (old & mask.and_mask) | (mask.or_mask & ~mask.and_mask);
   return {{Table::Holding, mask.address, 1}, {static_cast<std::uint16_t>(value)}};
 }
@@ -160,7 +184,7 @@ std::optional<Exception> check(const Write& write, const RegisterMap& map) {
   return std::nullopt;
 }
 
-void apply(const Write& write, const RegisterMap& map, CommandRegisters& registers) {
+void apply(const Write& write, const RegisterMap& map, PlcRegisters& registers) {
   for (int i = 0; i < write.range.count;) {
     const Row* row = map.find(write.range.table, write.range.address + i);
     row->write(registers, written(write, static_cast<std::size_t>(i), *row));

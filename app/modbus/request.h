@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -49,6 +50,11 @@ struct Request {
 /// that is not served; a quantity out of range or a length that contradicts it. Reentrant.
 tl::expected<Request, Exception> parse(std::span<const std::uint8_t> pdu);
 
+/// How long the protocol data unit is whose beginning this is, function code first; of some
+/// functions that can be said only of 6 or 10 bytes, and is that number before. None: a function
+/// that is not served. Reentrant.
+std::optional<std::size_t> request_length(std::span<const std::uint8_t> pdu);
+
 /// The write that a mask comes to, given the register's content now; unchecked. Reentrant.
 Write resolved(const MaskWrite& mask, const RegisterMap& map, const Snapshot& now);
 
@@ -60,6 +66,6 @@ std::optional<Exception> check(const Range& read, const RegisterMap& map);
 std::optional<Exception> check(const Write& write, const RegisterMap& map);
 
 /// Carries out a write that was checked.
-void apply(const Write& write, const RegisterMap& map, CommandRegisters& registers);
+void apply(const Write& write, const RegisterMap& map, PlcRegisters& registers);
 
 }  // namespace orbwatch::app::modbus

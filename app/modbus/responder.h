@@ -3,15 +3,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 
-#include "app/commands.h"
 #include "app/modbus/register_map.h"
 #include "app/modbus/request.h"
-
-// libmodbus' own names for what its header declares.
-struct _modbus;            // NOLINT(bugprone-reserved-identifier)
-struct _modbus_mapping_t;  // NOLINT(bugprone-reserved-identifier)
+#include "app/modbus/transport.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::app::modbus {
 
@@ -19,49 +18,44 @@ namespace orbwatch::app::modbus {
 enum class Answered : std::uint8_t {
   Done,
   Refused,  ///< with an exception
-  // Not, and the connection is of no more use:
+  // Not, and a connection is of no more use:
   NotModbus,
   NotTaken,  ///< the client does not read, or it is gone
 };
 
-/// Answers one request after the other. libmodbus encodes and sends; it is only ever handed
-/// requests that were checked against the map, and what it writes to its own image of the registers
-/// does not count: the image is filled anew for each request. Thread rule: thread-bound to the
-/// thread that serves the sockets.
+/// Answers requests of any transport. libmodbus encodes and sends; it is only ever handed requests
+/// that were checked against the map, and what it writes to its own image of the registers does not
+/// count: of the image only what this request reads is used, and filled anew. Thread-safe: several
+/// transports share the registers, one request after the other.
 class Responder {
  public:
   using TakeSnapshot = std::function<Snapshot()>;
+  using WriteRegisters = std::function<void(const Write&)>;
 
-  /// `carry_out` runs the PLC's commands on the serving thread; `take` gives what a request is
-  /// answered from, without the command registers.
-  static Result<std::unique_ptr<Responder>> create(const RegisterMap& map, CommandHandler handler,
+  /// `write` carries out what a PLC writes, checked, on the serving thread; `take` gives what a
+  /// request reads, once per request and after it has written.
+  static Result<std::unique_ptr<Responder>> create(const RegisterMap& map, WriteRegisters write,
                                                    TakeSnapshot take);
 
-  /// Answers `frame`, one whole frame with its MBAP header of 7 bytes and at least a function code,
-  /// on `socket`, which must not block.
-  Answered answer(int socket, std::span<const std::uint8_t> frame, bool may_write);
+  /// Answers `frame`, one whole frame of `transport` with at least a function code. Does not wait.
+  Answered answer(Transport& transport, std::span<const std::uint8_t> frame, bool may_write);
 
  private:
   struct Free {
-    void operator()(_modbus* context) const;
     void operator()(_modbus_mapping_t* image) const;
   };
-  using Context = std::unique_ptr<_modbus, Free>;
   using Image = std::unique_ptr<_modbus_mapping_t, Free>;
 
-  Responder(const RegisterMap& map, CommandHandler handler, TakeSnapshot take, Context context,
-            Image image);
+  Responder(const RegisterMap& map, WriteRegisters write, TakeSnapshot take, Image image);
 
-  Answered refuse(std::span<const std::uint8_t> frame, Exception exception);
-  Answered answer_identification(int socket, std::span<const std::uint8_t> frame);
+  std::optional<Exception> carry_out_request(Request request, bool may_write);
   std::optional<Exception> check_access(const Request& request, bool may_write) const;
-  void fill_image(const Snapshot& snapshot);
+  void fill_image(const Range& range, const Snapshot& snapshot);
 
   const RegisterMap& map_;
-  CommandHandler handler_;
-  TakeSnapshot take_;
-  CommandRegisters command_;
-  Context context_;
+  const WriteRegisters write_;
+  const TakeSnapshot take_;
+  std::mutex mutex_;  ///< of what follows, and held while a request is carried out
   Image image_;
 };
 

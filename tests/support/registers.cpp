@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <vector>
 
 namespace orbwatch::tests {
 namespace {
@@ -64,16 +65,25 @@ std::int64_t read_register(int port, const std::string& name) {
   return row.type == "i32" ? std::int64_t{static_cast<std::int32_t>(value)} : std::int64_t{value};
 }
 
-void write_command(int port, std::uint16_t code, std::int32_t argument, std::uint16_t sequence) {
+void write_command(int port, std::uint16_t code, const std::vector<std::int32_t>& arguments,
+                   std::uint16_t sequence) {
   const Connection connection = connect_to(port);
   ASSERT_TRUE(connection);
-  const auto bits = static_cast<std::uint32_t>(argument);
-  const std::array<std::uint16_t, 4> words{static_cast<std::uint16_t>(bits >> 16),
-                                           static_cast<std::uint16_t>(bits & 0xFFFF), code,
-                                           sequence};
-  ASSERT_EQ(find_row("command_sequence").address - find_row("argument").address, 3);
-  EXPECT_EQ(modbus_write_registers(connection.get(), find_row("argument").address, 4, words.data()),
-            4);
+  const auto address = [](const std::string& name) { return find_row(name).address; };
+  std::vector<std::uint16_t> words;
+  for (const std::int32_t argument : arguments) {
+    const auto bits = static_cast<std::uint32_t>(argument);
+    words.push_back(static_cast<std::uint16_t>(bits >> 16));
+    words.push_back(static_cast<std::uint16_t>(bits));
+  }
+  const auto write = [&](int first) {
+    const int count = static_cast<int>(words.size());
+    EXPECT_EQ(modbus_write_registers(connection.get(), first, count, words.data()), count);
+  };
+  if (!words.empty()) write(address("argument_0"));
+  ASSERT_EQ(address("command_sequence"), address("command") + 1);
+  words = {code, sequence};
+  write(address("command"));
 }
 
 }  // namespace orbwatch::tests

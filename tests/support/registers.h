@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace orbwatch::tests {
 
@@ -10,7 +11,8 @@ namespace orbwatch::tests {
 /// Unscaled.
 std::int64_t read_register(int port, const std::string& name);
 
-/// Writes a command, its argument and a new sequence in one request.
-void write_command(int port, std::uint16_t code, std::int32_t argument, std::uint16_t sequence);
+/// Writes arguments (value / scale), then a command and a new sequence.
+void write_command(int port, std::uint16_t code, const std::vector<std::int32_t>& arguments,
+                   std::uint16_t sequence);
 
 }  // namespace orbwatch::tests

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <stdexcept>
@@ -51,6 +52,11 @@ Status example_status() {
   status.frame_set = 0x1'8001'0203;
   status.stamp = hal::Clock::now();
   status.overruns = 0x0011'0304;
+  status.trigger = 0x0012'0015;
+  status.result = 0x0013'0016;
+  status.recipe = 7;
+  status.configuration_checksum = 0x89ab'cdef;
+  status.process_active = true;
   status.unmatched = 0x0022'0405;
   status.load = 0.4567;
   status.selected_view = 2;
@@ -59,14 +65,23 @@ Status example_status() {
   status.cameras[0] = {hal::Fault::None, 0x0033'0506, 0x0044'0607, 0x0055'0708, 0, 29.974};
   status.cameras[1] = {hal::Fault::Stalled, 0x0066'0809, 0x0077'090a, 0x0088'0a0b, 0, 12.5};
   status.views[2] = {0x0099'0b0c, 0x00aa'0c0d, 24.996, 41.26, 87.64, 0};
-  status.signals.hot_spot_yaw = -123.456;
-  status.signals.hot_spot_pitch = 12.344;
-  status.signals.hot_spot_area = 0.7;
-  status.signals.hot_spot_peak_temperature = -20.04;
+  status.region_count = 1;
+  status.regions[0].quality = Quality::Good;
+  status.regions[0].signals.hot_spot_yaw = -123.456;
+  status.regions[0].signals.hot_spot_pitch = 12.344;
+  status.regions[0].signals.hot_spot_solid_angle = 0.7;
+  status.regions[0].signals.hot_spot_peak_temperature = -20.04;
   return status;
 }
 
-Plc::Plc(int port, int unit) : context_(modbus_new_tcp("127.0.0.1", port)) {
+Plc::Plc(int port, int unit) : context_(modbus_new_tcp("127.0.0.1", port)) { connect(unit); }
+
+Plc::Plc(const std::string& line, int unit)
+    : context_(modbus_new_rtu(line.c_str(), 19200, 'N', 8, 1)) {
+  connect(unit);
+}
+
+void Plc::connect(int unit) {
   require(context_ && modbus_set_slave(context_.get(), unit) == 0 &&
           modbus_set_response_timeout(context_.get(), 60, 0) == 0 &&
           modbus_connect(context_.get()) == 0);
@@ -168,6 +183,15 @@ long RawClient::send_some(const Bytes& bytes) {
   return sent < 0 && errno == EAGAIN ? 0 : sent;
 }
 
+long RawClient::discard() {
+  std::array<std::uint8_t, 4096> bytes;
+  for (long count = 0;;) {
+    const auto got = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (got <= 0) return got < 0 && errno == EAGAIN ? count : -1;
+    count += got;
+  }
+}
+
 void RawClient::wait_writable() {
   pollfd file{socket_.get(), POLLOUT, 0};
   ::poll(&file, 1, static_cast<int>(std::chrono::milliseconds(kGuard).count()));
@@ -203,6 +227,25 @@ Bytes frame(const Bytes& pdu, std::uint8_t unit, std::uint16_t transaction) {
   bytes[5] = static_cast<std::uint8_t>(length);
   bytes[6] = unit;
   std::ranges::copy(pdu, bytes.begin() + 7);
+  return bytes;
+}
+
+Bytes rtu_frame(int unit, const Bytes& pdu) {
+  Bytes bytes(1 + pdu.size());
+  bytes[0] = static_cast<std::uint8_t>(unit);
+  std::ranges::copy(pdu, bytes.begin() + 1);
+  // As in Modbus over Serial Line V1.02, 6.2.2.
+  unsigned checksum = 0xffff;
+  for (const unsigned byte : bytes) {
+    checksum ^= byte;
+    for (int bit = 0; bit < 8; ++bit) {
+      const bool carry = (checksum & 1) != 0;
+      checksum >>= 1;
+      if (carry) checksum ^= 0xa001;
+    }
+  }
+  bytes.push_back(static_cast<std::uint8_t>(checksum));
+  bytes.push_back(static_cast<std::uint8_t>(checksum >> 8));
   return bytes;
 }
 

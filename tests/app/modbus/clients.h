@@ -9,7 +9,7 @@
 #include "app/modbus/modbus_sink.h"
 #include "hal/file_descriptor.h"
 
-struct _modbus;  // NOLINT(bugprone-reserved-identifier): libmodbus' own name
+struct _modbus;  // libmodbus' own name
 
 namespace orbwatch::app::tests {
 
@@ -31,6 +31,8 @@ Status example_status();
 class Plc {
  public:
   explicit Plc(int port, int unit = 1);
+  /// On a serial line of 19200 bit/s without parity.
+  Plc(const std::string& line, int unit);
 
   int read_bits(int address, int count);
   int read_discrete(int address, int count);
@@ -54,6 +56,7 @@ class Plc {
   struct Close {
     void operator()(_modbus* context) const;
   };
+  void connect(int unit);
   int outcome(int result) const;
   std::unique_ptr<_modbus, Close> context_;
 };
@@ -72,6 +75,8 @@ class RawClient {
   bool send(const Bytes& bytes);
   /// Sends as much as goes without waiting; -1 when the connection is broken.
   long send_some(const Bytes& bytes);
+  /// Throws away what has come: so many bytes; -1 when the connection is at its end.
+  long discard();
   /// Waits until all of this can be sent, or the connection is broken.
   void wait_writable();
   /// Exactly so many bytes, or fewer when the connection ended.
@@ -88,6 +93,9 @@ class RawClient {
 
 /// A frame with its MBAP header.
 Bytes frame(const Bytes& pdu, std::uint8_t unit = 1, std::uint16_t transaction = 0x1234);
+
+/// A frame of a serial line, with its checksum.
+Bytes rtu_frame(int unit, const Bytes& pdu);
 
 /// Yields until the condition holds; false after a minute.
 bool eventually(const std::function<bool()>& condition);

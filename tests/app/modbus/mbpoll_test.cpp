@@ -54,16 +54,17 @@ class Mbpoll : public testing::Test {
   }
 
   ModbusSink sink_{tests::loopback(), [](const Command& command) {
-                     return command.argument == 2 ? CommandResult::Done
-                                                  : CommandResult::ArgumentOutOfRange;
+                     return command.arguments[0] == 7 ? CommandResult::ArgumentOutOfRange
+                                                      : CommandResult::Done;
                    }};
 };
 
 TEST_F(Mbpoll, ReadsHeartbeatAndInputs) {
   const Polled polled = poll("-t 3 -r 0 -c 8");
   ASSERT_EQ(polled.exit_code, 0) << polled.text;
-  const std::map<int, long> expected{{0, 1}, {1, 0x0102}, {2, 2}, {3, 0b100001010},
-                                     {4, 2}, {5, 3},      {6, 2}, {7, 457}};
+  const std::map<int, long> expected{
+      {0, 2}, {1, 0x0102}, {2, 2}, {3, 0b1010'0010}, {4, 0b1'0000'0001}, {5, 0b10'0000'0000},
+      {6, 7}, {7, 2}};
   EXPECT_EQ(polled.values, expected) << polled.text;
   Status status = tests::example_status();
   ++status.heartbeat;
@@ -76,34 +77,45 @@ TEST_F(Mbpoll, ReadsDiscreteInputsAndTheirMirror) {
   ASSERT_EQ(polled.exit_code, 0) << polled.text;
   ASSERT_EQ(polled.values.size(), 16U);
   for (const auto& [address, value] : polled.values) {
-    EXPECT_EQ(value, address == 1 || address == 3 || address == 8 ? 1 : 0) << address;
+    EXPECT_EQ(value, address == 1 || address == 5 || address == 7 ? 1 : 0) << address;
   }
-  EXPECT_EQ(poll("-t 0 -r 1003 -c 1").values[1003], 1);
+  EXPECT_EQ(poll("-t 0 -r 5005 -c 1").values[5005], 1);
 }
 
 TEST_F(Mbpoll, ReadsSignalsAsDoubleWordsAlsoFromTheMirror) {
-  const Polled polled = poll("-t 3:int -B -r 32 -c 1");
+  const Polled polled = poll("-t 3:int -B -r 1042 -c 1");
   ASSERT_EQ(polled.exit_code, 0) << polled.text;
-  EXPECT_EQ(polled.values.at(32), -12346);
-  EXPECT_EQ(poll("-t 4:int -B -r 1032 -c 1").values[1032], -12346);
-  EXPECT_EQ(poll("-t 4:int -B -r 1044 -c 1").values[1044], -2147483648L);
+  EXPECT_EQ(polled.values.at(1042), -12346);
+  EXPECT_EQ(poll("-t 4:int -B -r 6042 -c 1").values[6042], -12346);
+  EXPECT_EQ(poll("-t 4:int -B -r 6038 -c 1").values[6038], -2147483648L);
 }
 
 TEST_F(Mbpoll, GivesACommandAndSeesItAcknowledged) {
-  ASSERT_EQ(poll("-t 4 -r 0", "0 2 1 41").exit_code, 0);
-  Polled polled = poll("-t 4 -r 4 -c 3");
-  const std::map<int, long> done{{4, 41}, {5, 0}, {6, 1}};
+  ASSERT_EQ(poll("-t 4 -r 0", "0 2").exit_code, 0);
+  ASSERT_EQ(poll("-t 4 -r 11", "1 41").exit_code, 0);
+  Polled polled = poll("-t 4 -r 13 -c 3");
+  const std::map<int, long> done{{13, 41}, {14, 0}, {15, 1}};
   EXPECT_EQ(polled.values, done) << polled.text;
-  ASSERT_EQ(poll("-t 4 -r 0", "0 7 1 42").exit_code, 0);
-  polled = poll("-t 4 -r 4 -c 3");
-  const std::map<int, long> refused{{4, 42}, {5, 2}, {6, 1}};
+  ASSERT_EQ(poll("-t 4 -r 0", "0 7 0 0 0 0 0 0 0 0 0 1 42").exit_code, 0);
+  polled = poll("-t 4 -r 13 -c 3");
+  const std::map<int, long> refused{{13, 42}, {14, 2}, {15, 1}};
   EXPECT_EQ(polled.values, refused) << polled.text;
 }
 
+TEST_F(Mbpoll, ReadsAResultAndTakesIt) {
+  constexpr long kNumber = 0x0013'0016;
+  EXPECT_EQ(poll("-t 3:int -B -r 2000 -c 1").values[2000], kNumber);
+  ASSERT_EQ(poll("-t 4:int -B -r 8", std::to_string(kNumber - 1)).exit_code, 0);
+  EXPECT_EQ(poll("-t 4:int -B -r 7000 -c 1").values[7000], kNumber);
+  ASSERT_EQ(poll("-t 4:int -B -r 8", std::to_string(kNumber)).exit_code, 0);
+  EXPECT_EQ(poll("-t 3:int -B -r 2000 -c 1").values[2000], 0);
+  EXPECT_EQ(poll("-t 4:int -B -r 8 -c 1").values[8], kNumber);
+}
+
 TEST_F(Mbpoll, SeesExceptions) {
-  EXPECT_NE(poll("-t 3 -r 99 -c 1").text.find("Illegal data address"), std::string::npos);
+  EXPECT_NE(poll("-t 3 -r 328 -c 1").text.find("Illegal data address"), std::string::npos);
   EXPECT_NE(poll("-t 4 -r 0", "5").text.find("Illegal data address"), std::string::npos);
-  EXPECT_NE(poll("-t 4 -r 2", "99").text.find("Illegal data value"), std::string::npos);
+  EXPECT_NE(poll("-t 4 -r 11", "99").text.find("Illegal data value"), std::string::npos);
 }
 
 TEST_F(Mbpoll, TheManualsExamplesWork) {
@@ -121,7 +133,7 @@ TEST_F(Mbpoll, TheManualsExamplesWork) {
     EXPECT_EQ(polled.exit_code, 0) << line << "\n" << polled.text;
     ++examples;
   }
-  EXPECT_GE(examples, 5);
+  EXPECT_GE(examples, 12);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "clients.h"
@@ -28,31 +29,49 @@ TEST(ModbusSink, ServesSignalsScaledSignedOrNotValid) {
   ASSERT_TRUE(sink.start());
   sink.accept(tests::example_status());
   Plc plc(sink.port());
-  ASSERT_EQ(plc.read_input(32, 28), 0);
-  EXPECT_EQ(plc.i32(0), -12346);  // -123.456 deg by 0.01
-  EXPECT_EQ(plc.words[2], 1);
-  EXPECT_EQ(plc.i32(4), 1234);
-  EXPECT_EQ(plc.i32(8), 700);  // 0.7 msr by 0.001
-  EXPECT_EQ(plc.u32(12), 0x80000000U);
-  EXPECT_EQ(plc.words[14], 0);
-  EXPECT_EQ(plc.i32(20), -200);  // -20.04 degC by 0.1
-  EXPECT_EQ(plc.words[22], 1);
-  EXPECT_EQ(plc.u32(24), 0x80000000U);
-  EXPECT_EQ(plc.words[26], 0);
+  ASSERT_EQ(plc.read_input(1000, 125), 0);
+  EXPECT_EQ(plc.u32(0), 0x0013'0016U);  // result
+  EXPECT_EQ(plc.u32(2), 0x8001'0203U);  // frame set
+  EXPECT_EQ(plc.u32(8), 0x0012'0015U);  // trigger
+  EXPECT_EQ(plc.u32(10), 0x89ab'cdefU);
+  EXPECT_EQ(plc.words[12], 7);  // recipe
+  EXPECT_EQ(plc.words[13], 1);  // quality
+  EXPECT_EQ(plc.words[14], 1);  // process active
+  const auto signal = [&](double signals::Signals::*member) {
+    std::size_t n = 0;
+    while (signals::kSignals[n].member != member) ++n;
+    const bool is_valid = (plc.words[16 + n / 16] >> n % 16 & 1) != 0;
+    EXPECT_EQ(is_valid, plc.u32(20 + 2 * n) != 0x80000000U) << signals::kSignals[n].name;
+    return plc.i32(20 + 2 * n);
+  };
+  constexpr auto kNotValid = std::numeric_limits<std::int32_t>::min();
+  using signals::Signals;
+  EXPECT_EQ(signal(&Signals::hot_spot_yaw), -12346);  // -123.456 deg by 0.01
+  EXPECT_EQ(signal(&Signals::hot_spot_pitch), 1234);
+  EXPECT_EQ(signal(&Signals::hot_spot_solid_angle), 700);        // 0.7 msr by 0.001
+  EXPECT_EQ(signal(&Signals::hot_spot_peak_temperature), -200);  // -20.04 degC by 0.1
+  EXPECT_EQ(signal(&Signals::hot_spot_mean_temperature), kNotValid);
+  EXPECT_EQ(signal(&Signals::spatter_rate_trend), kNotValid);
 }
 
 TEST(ModbusSink, BeforeTheFirstFrameSetNothingIsValidAndTheAgeIsEndless) {
   ModbusSink sink(loopback(), accept_all);
   ASSERT_TRUE(sink.start());
   Plc plc(sink.port());
-  ASSERT_EQ(plc.read_input(0, 96), 0);
-  EXPECT_EQ(plc.words[0], 1);
+  ASSERT_EQ(plc.read_input(0, 100), 0);
+  EXPECT_EQ(plc.words[0], 2);
   EXPECT_EQ(plc.words[2], 0);  // starting
   EXPECT_EQ(plc.u32(8), 0U);
   EXPECT_EQ(plc.u32(10), 0x7fffffffU);
   EXPECT_EQ(plc.u32(12), 0U);
   EXPECT_EQ(plc.u32(14), 0U);
-  EXPECT_EQ(plc.u32(32), 0x80000000U);
+  for (const int block : {1000, 2000}) {
+    ASSERT_EQ(plc.read_input(block, 125), 0);
+    for (std::size_t place = 0; place < 20; ++place) EXPECT_EQ(plc.words[place], 0) << place;
+    for (std::size_t n = 0; n < signals::kSignals.size(); ++n) {
+      EXPECT_EQ(plc.u32(20 + 2 * n), 0x80000000U);
+    }
+  }
 }
 
 TEST(ModbusSink, TheAgeIsOfTheMomentOfTheAnswer) {
@@ -112,12 +131,26 @@ TEST(ModbusSink, SaysSoWhenThePipelineIsSilent) {
   sink.accept(status);
   Plc plc(sink.port());
   ASSERT_TRUE(eventually([&] { return plc.read_discrete(4, 1) == 0 && plc.bits[0] == 1; }));
-  ASSERT_EQ(plc.read_input(0, 96), 0);
+  ASSERT_EQ(plc.read_input(0, 100), 0);
   EXPECT_EQ(plc.words[2], 3);
-  EXPECT_EQ(plc.words[3], 0b10100);
-  EXPECT_EQ(plc.u32(8), 0x80010203U);  // the last frame set is still the last one
-  EXPECT_EQ(plc.u32(32), 0x80000000U);
-  EXPECT_EQ(plc.words[34], 0);
+  EXPECT_EQ(plc.words[3], 0b1011'0100);  // fault, stale, process active, result available
+  EXPECT_EQ(plc.words[4], 0);            // nobody knows whether the cameras still deliver
+  EXPECT_EQ(plc.words[5] & 1, 1);        // pipeline silent
+  EXPECT_EQ(plc.u32(8), 0x80010203U);    // the last frame set is still the last one
+  ASSERT_EQ(plc.read_input(1000, 125), 0);
+  EXPECT_EQ(plc.words[13], 0);  // quality: not measured
+  for (std::size_t word = 16; word < 20; ++word) EXPECT_EQ(plc.words[word], 0);
+  EXPECT_EQ(plc.u32(20 + 2 * 11), 0x80000000U);
+  // A result that waits is history, and stays what it was.
+  ASSERT_EQ(plc.read_input(2000, 125), 0);
+  EXPECT_EQ(plc.u32(0), 0x0013'0016U);
+  EXPECT_EQ(plc.words[13], 1);
+  EXPECT_EQ(plc.i32(20 + 2 * 11), -12346);  // hot_spot_yaw
+}
+
+/// A code in the signal's range that tells of the frame set's number.
+std::uint32_t code_of(std::uint32_t number, const signals::SignalInfo& signal) {
+  return number % static_cast<std::uint32_t>(signal.maximum / signal.scale);
 }
 
 /// Every figure follows from the number of the frame set.
@@ -129,7 +162,9 @@ Status status_of(std::uint32_t number) {
   status.camera_count = kMaxCameras;
   for (auto& camera : status.cameras) camera.frames = number;
   for (const auto& signal : signals::kSignals) {
-    status.signals.*signal.member = (number % 9000) * signal.scale;
+    for (auto& region : status.regions) {
+      region.signals.*signal.member = code_of(number, signal) * signal.scale;
+    }
   }
   return status;
 }
@@ -145,18 +180,20 @@ TEST(ModbusSink, NoAnswerMixesTwoFrameSets) {
   std::uint32_t last = 0;
   int changes = 0;
   for (int i = 0; i < 3000; ++i) {
-    ASSERT_EQ(plc.read_input(0, 96), 0);
-    const std::uint32_t number = plc.u32(8);
+    ASSERT_EQ(plc.read_input(0, 100), 0);
+    std::uint32_t number = plc.u32(8);
     ASSERT_EQ(plc.words[1], number & 0xffff);
-    ASSERT_EQ(plc.u32(16), number);
-    for (std::size_t signal = 0; signal < signals::kSignals.size(); ++signal) {
-      ASSERT_EQ(plc.u32(32 + 4 * signal), number % 9000);
+    ASSERT_EQ(plc.u32(30), number);  // overruns
+    ASSERT_EQ(plc.read_input(1128, 125), 0);
+    number = plc.u32(2);
+    for (std::size_t n = 0; n < signals::kSignals.size(); ++n) {
+      ASSERT_EQ(plc.u32(20 + 2 * n), code_of(number, signals::kSignals[n]));
     }
     changes += number != last ? 1 : 0;
     last = number;
-    ASSERT_EQ(plc.read_input(100, 64), 0);
-    for (std::size_t camera = 1; camera < kMaxCameras; ++camera) {
-      ASSERT_EQ(plc.u32(16 * camera + 2), plc.u32(2));
+    ASSERT_EQ(plc.read_input(200, 125), 0);
+    for (std::size_t camera = 1; camera < 3; ++camera) {
+      ASSERT_EQ(plc.u32(32 * camera + 6), plc.u32(6));  // frames
     }
   }
   EXPECT_GT(changes, 10);
@@ -168,14 +205,15 @@ TEST(ModbusSink, EveryMappedPlaceIsReadableAndNoOther) {
   Plc plc(sink.port());
   const modbus::RegisterMap map;
   using modbus::Table;
-  for (int address = 0; address < 2000; ++address) {
+  for (int address = 0; address < 7600; ++address) {
     const auto expected = [&](Table table) { return map.find(table, address) ? 0 : 2; };
     ASSERT_EQ(plc.read_bits(address, 1), expected(Table::Coil)) << address;
     ASSERT_EQ(plc.read_discrete(address, 1), expected(Table::Discrete)) << address;
     ASSERT_EQ(plc.read_holding(address, 1), expected(Table::Holding)) << address;
     ASSERT_EQ(plc.read_input(address, 1), expected(Table::Input)) << address;
   }
-  EXPECT_EQ(plc.read_input(0, 97), 2);  // one more than the system block and the signals
+  EXPECT_EQ(plc.read_input(0, 125), 0);
+  EXPECT_EQ(plc.read_input(310, 20), 2);  // beyond the last camera
   EXPECT_EQ(plc.read_input(65535, 2), 2);
 }
 
@@ -184,13 +222,14 @@ TEST(ModbusSink, CountsWhatItServes) {
   ASSERT_TRUE(sink.start());
   Plc plc(sink.port());
   ASSERT_EQ(plc.read_input(0, 1), 0);
-  ASSERT_EQ(plc.read_input(99, 1), 2);
-  ASSERT_EQ(plc.read_input(20, 7), 0);
-  EXPECT_EQ(plc.u32(0), 2U);  // answered before this request
+  ASSERT_EQ(plc.read_input(999, 2), 0);
+  ASSERT_EQ(plc.read_input(999 + 2000, 1), 2);
+  ASSERT_EQ(plc.read_input(38, 13), 0);
+  EXPECT_EQ(plc.u32(0), 3U);  // answered before this request
   EXPECT_EQ(plc.u32(2), 1U);
   EXPECT_EQ(plc.u32(4), 0U);
-  EXPECT_EQ(plc.words[6], 1);
-  ASSERT_TRUE(eventually([&] { return sink.statistics().answered == 3; }));
+  EXPECT_EQ(plc.words[12], 1);
+  ASSERT_TRUE(eventually([&] { return sink.statistics().answered == 4; }));
   EXPECT_EQ(sink.statistics().refused, 1U);
   EXPECT_EQ(sink.statistics().connections, 1U);
 }
@@ -204,7 +243,7 @@ TEST(ModbusSink, StartsAndStopsAgain) {
     ASSERT_TRUE(sink.start());
     tests::RawClient client(sink.port());
     ASSERT_TRUE(client.send(tests::frame({4, 0, 0, 0, 1})));
-    EXPECT_EQ(client.receive_pdu(), (tests::Bytes{4, 2, 0, 1}));
+    EXPECT_EQ(client.receive_pdu(), (tests::Bytes{4, 2, 0, 2}));
     sink.stop();
     EXPECT_TRUE(client.is_closed_by_server());
     EXPECT_EQ(sink.statistics().connections, 0U);

@@ -79,7 +79,7 @@ TEST(RegisterManual, TheManualExplainsEveryCode) {
     EXPECT_NE(manual.find(line), manual.npos) << line;
   }
   for (const CommandInfo& command : kCommands) {
-    EXPECT_NE(manual.find("| " + std::string(command.name) + " |"), manual.npos);
+    EXPECT_NE(manual.find(" | " + std::string(command.name) + " | "), manual.npos);
   }
   EXPECT_NE(manual.find("| 3 | fault: "), manual.npos);
   EXPECT_NE(manual.find("| 2 | argument out of range |"), manual.npos);

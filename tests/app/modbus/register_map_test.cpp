@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace orbwatch::app::modbus {
@@ -51,10 +54,11 @@ TEST(RegisterMap, RowsAreConsistentInThemselves) {
     EXPECT_FALSE(row.description.empty()) << row.name;
     const bool is_bit = row.table == Table::Coil || row.table == Table::Discrete;
     EXPECT_EQ(row.type == Type::Bool, is_bit) << row.name;
-    EXPECT_EQ(row.write != nullptr, row.access == Access::ReadWrite) << row.name;
+    EXPECT_EQ(bool{row.write}, row.access == Access::ReadWrite) << row.name;
     if (!row.read) continue;  // reserved
     const bool is_double = row.type == Type::U32 || row.type == Type::I32;
     EXPECT_EQ(row.count, is_double ? 2 : 1) << row.name;
+    EXPECT_TRUE(!is_double || row.address % 2 == 0) << row.name;
     EXPECT_GT(row.scale, 0) << row.name;
     EXPECT_LT(row.minimum, row.maximum) << row.name;
   }
@@ -65,14 +69,12 @@ TEST(RegisterMap, EveryInputIsMirrored) {
   for (const Row& row : registers().rows()) {
     if (row.table != Table::Input && row.table != Table::Discrete) continue;
     const Table table = row.table == Table::Input ? Table::Holding : Table::Coil;
-    const Row* mirror = registers().find(table, row.address + 1000);
+    const Row* mirror = registers().find(table, row.address + 5000);
     ASSERT_NE(mirror, nullptr) << row.name;
     EXPECT_EQ(mirror->name, row.name);
-    EXPECT_EQ(mirror->address, row.address + 1000);
+    EXPECT_EQ(mirror->address, row.address + 5000);
     EXPECT_EQ(mirror->count, row.count);
     EXPECT_EQ(mirror->type, row.type);
-    EXPECT_EQ(mirror->read, row.read);
-    EXPECT_EQ(mirror->index, row.index);
     EXPECT_EQ(mirror->access, Access::Read);
     ++mirrored;
   }
@@ -85,8 +87,11 @@ TEST(RegisterMap, HasARowForEverySignalCameraAndView) {
     if (row.table == Table::Input || row.table == Table::Discrete) names.insert(row.name);
   }
   for (const auto& signal : signals::kSignals) {
-    EXPECT_TRUE(names.contains(std::string(signal.name))) << signal.name;
-    EXPECT_TRUE(names.contains(std::string(signal.name) + "_quality")) << signal.name;
+    for (std::size_t region = 0; region < signals::kMaxRegions; ++region) {
+      const std::string name = std::to_string(region) + "_" + std::string(signal.name);
+      EXPECT_TRUE(names.contains("region_" + name)) << name;
+      EXPECT_TRUE(names.contains("result_" + name)) << name;
+    }
   }
   for (std::size_t camera = 0; camera < kMaxCameras; ++camera) {
     EXPECT_TRUE(names.contains("camera_" + std::to_string(camera) + "_fault"));
@@ -94,6 +99,53 @@ TEST(RegisterMap, HasARowForEverySignalCameraAndView) {
   }
   for (std::size_t view = 0; view < kMaxViews; ++view) {
     EXPECT_TRUE(names.contains("view_" + std::to_string(view) + "_latency_p99"));
+  }
+  for (const HealthInfo& figure : kHealthFigures) {
+    EXPECT_TRUE(names.contains(std::string(figure.name))) << figure.name;
+  }
+  for (std::size_t alarm = 1; alarm <= signals::kMaxAlarms; ++alarm) {
+    EXPECT_TRUE(names.contains("alarm_" + std::to_string(alarm) + "_state"));
+    EXPECT_TRUE(names.contains("alarm_" + std::to_string(alarm) + "_active"));
+    EXPECT_TRUE(names.contains("alarm_" + std::to_string(alarm) + "_unacknowledged"));
+  }
+}
+
+const Row& row_named(const std::string& name) {
+  const auto found = std::ranges::find_if(registers().rows(), [&](const Row& row) {
+    return row.name == name && row.address < kMirrorOffset;
+  });
+  if (found == registers().rows().end()) throw std::out_of_range(name);
+  return *found;
+}
+
+/// Where PLC programs expect them: a row that moves needs another map version.
+TEST(RegisterMap, BlocksStandWhereTheyWereDecidedToStand) {
+  EXPECT_EQ(row_named("map_version").address, 0);
+  EXPECT_EQ(row_named("board_temperature").address, 100);
+  EXPECT_EQ(row_named("camera_0_fault").address, 200);
+  EXPECT_EQ(row_named("camera_3_fault").address, 296);
+  EXPECT_EQ(row_named("view_0_published").address, 400);
+  EXPECT_EQ(row_named("view_15_published").address, 640);
+  EXPECT_EQ(row_named("alarm_count").address, 700);
+  EXPECT_EQ(row_named("alarm_1_state").address, 720);
+  EXPECT_EQ(row_named("alarm_32_state").address, 968);
+  EXPECT_EQ(row_named("region_0_result").address, 1000);
+  EXPECT_EQ(row_named("region_3_result").address, 1384);
+  EXPECT_EQ(row_named("result_0_result").address, 2000);
+  EXPECT_EQ(row_named("result_3_result").address, 2384);
+}
+
+TEST(RegisterMap, LiveRegionsAndResultsAreTheSameStructure) {
+  for (int place = 0; place < 512; ++place) {
+    const Row* live = registers().find(Table::Input, 1000 + place);
+    const Row* result = registers().find(Table::Input, 2000 + place);
+    ASSERT_TRUE(live && result) << place;
+    EXPECT_EQ(live->address + 1000, result->address);
+    EXPECT_EQ(live->count, result->count);
+    EXPECT_EQ(live->type, result->type);
+    const bool is_reserved = !live->read;
+    EXPECT_TRUE(is_reserved || "result" + live->name.substr(6) == result->name) << result->name;
+    EXPECT_EQ(live->scale, result->scale);
   }
 }
 

@@ -8,7 +8,7 @@ namespace orbwatch::app::modbus {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr signals::SignalInfo kAngle{"angle", "deg", 0.01, -180, 180, "", nullptr};
+constexpr Quantity kAngle{0.01, "deg", -180, 180};
 
 std::int32_t code(double value) { return static_cast<std::int32_t>(scaled(value, kAngle)); }
 
@@ -34,8 +34,8 @@ TEST(RegisterValues, WhatIsNoNumberIsNotValid) {
 
 TEST(RegisterValues, NoValueInRangeReadsAsNotValid) {
   for (const auto& signal : signals::kSignals) {
-    EXPECT_NE(scaled(signal.minimum, signal), 0x80000000U) << signal.name;
-    EXPECT_NE(scaled(signal.maximum, signal), 0x80000000U) << signal.name;
+    EXPECT_NE(scaled(signal.minimum, quantity_of(signal)), 0x80000000U) << signal.name;
+    EXPECT_NE(scaled(signal.maximum, quantity_of(signal)), 0x80000000U) << signal.name;
   }
 }
 
@@ -58,28 +58,11 @@ TEST(RegisterValues, AnAgeIsNeverNegative) {
 }
 
 TEST(RegisterValues, CountersGoOnAtZero) {
-  EXPECT_EQ(low_word(0xffffffffU), 0xffffffffU);
-  EXPECT_EQ(low_word(0x100000000U), 0U);
-}
-
-TEST(RegisterValues, StatusBitsSayWhatTheStatusSays) {
-  Snapshot snapshot;
-  EXPECT_EQ(status_bits(snapshot), 0U);  // starting, no camera, no hot spot
-  snapshot.status.state = SystemState::Running;
-  EXPECT_EQ(status_bits(snapshot), 0b0001U);
-  snapshot.status.state = SystemState::Degraded;
-  EXPECT_EQ(status_bits(snapshot), 0b0010U);
-  snapshot.status.state = SystemState::Fault;
-  EXPECT_EQ(status_bits(snapshot), 0b0100U);
-  snapshot.status.signals.hot_spot_area = 0;
-  EXPECT_EQ(status_bits(snapshot), 0b0100U);
-  snapshot.status.signals.hot_spot_area = 0.001;
-  EXPECT_EQ(status_bits(snapshot), 0b1100U);
-  snapshot.status.camera_count = 3;
-  snapshot.status.cameras[1].fault = hal::Fault::Unplugged;
-  EXPECT_EQ(status_bits(snapshot), 0b101'0000'1100U);
-  snapshot.stale = true;  // nobody knows whether the cameras still deliver
-  EXPECT_EQ(status_bits(snapshot), 0b000'0001'1100U);
+  constexpr std::uint64_t kLarge = 0x1'0001'ffff;
+  EXPECT_EQ(encoded(kLarge, Type::U32, {}), 0x0001'ffffU);
+  EXPECT_EQ(encoded(kLarge + 0xfffe'0001, Type::U32, {}), 0U);
+  EXPECT_EQ(encoded(kLarge, Type::U16, {}), 0xffffU);
+  EXPECT_EQ(encoded(kLarge + 1, Type::U16, {}), 0U);
 }
 
 }  // namespace

@@ -111,6 +111,27 @@ TEST(Request, LengthsMustAgree) {
   EXPECT_EQ(refusal(Bytes{5, 0, 9, 0xff, 1}), Exception::IllegalDataValue);  // neither on nor off
 }
 
+TEST(Request, SaysHowLongItIsFromItsBeginning) {
+  const Bytes whole[] = {pdu(1, 1),          pdu(2, 1),
+                         pdu(3, 1),          pdu(4, 1),
+                         pdu(5, 0),          pdu(6, 1),
+                         pdu(15, 9, {2}, 2), pdu(16, 2, {4}, 4),
+                         pdu(22, 0, {0, 0}), pdu(23, 1, {0, 0, 0, 1, 2}, 2),
+                         {43, 14, 1, 0}};
+  for (const Bytes& request : whole) {
+    for (std::size_t size = 1; size < request.size(); ++size) {
+      const auto length = request_length(std::span(request).first(size));
+      ASSERT_TRUE(length);
+      EXPECT_GT(*length, size) << int{request[0]};
+      EXPECT_LE(*length, request.size()) << int{request[0]};
+    }
+    EXPECT_EQ(request_length(request), request.size()) << int{request[0]};
+  }
+  for (const std::uint8_t function : {0, 7, 8, 17, 20, 24, 99, 131, 255}) {
+    EXPECT_EQ(request_length(Bytes{function, 1, 2, 3}), std::nullopt);
+  }
+}
+
 TEST(Request, OtherFunctionsAreRefused) {
   const std::string served = "\1\2\3\4\5\6\17\20\26\27";
   for (int function = 0; function < 256; ++function) {
@@ -149,9 +170,9 @@ TEST(Request, DoubleWordsAreWrittenWhole) {
   EXPECT_EQ(check_write(0, {0}), Exception::IllegalDataAddress);
   EXPECT_EQ(check_write(1, {1}), Exception::IllegalDataAddress);
   EXPECT_EQ(check_write(1, {1, 1}), Exception::IllegalDataAddress);
-  EXPECT_EQ(check_write(3, {1, 1}), Exception::IllegalDataAddress);  // runs into a read-only one
-  EXPECT_EQ(check_write(2, {999}), Exception::IllegalDataValue);
-  EXPECT_EQ(check_write(2, {999, 1, 1}), Exception::IllegalDataAddress);  // addresses come first
+  EXPECT_EQ(check_write(12, {1, 1}), Exception::IllegalDataAddress);  // runs into a read-only one
+  EXPECT_EQ(check_write(11, {999}), Exception::IllegalDataValue);
+  EXPECT_EQ(check_write(11, {999, 1, 1}), Exception::IllegalDataAddress);  // addresses come first
   EXPECT_EQ(check_write(65535, {1, 1}), Exception::IllegalDataAddress);
 }
 

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "abuses.h"
+#include "clients.h"
+#include "tests/support/reference_data.h"
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::seconds;
+using tests::eventually;
+using tests::Plc;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kIsSanitized = true;
+#else
+constexpr bool kIsSanitized = false;
+#endif
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kHasTime = false;
+#else
+constexpr bool kHasTime = true;
+#endif
+
+/// A minute of random frames where everything is tested, in the release build and with
+/// AddressSanitizer.
+seconds duration(const tests::Abuse& abuse) {
+  const bool is_long = abuse.name == "random frames" && orbwatch::tests::acceptance_mode();
+  return is_long && kHasTime ? seconds(60) : seconds(1);
+}
+
+std::ptrdiff_t open_files() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+}
+
+/// Bytes in memory now.
+long resident() {
+  std::ifstream file("/proc/self/statm");
+  long size = 0;
+  long pages = 0;
+  file >> size >> pages;
+  return pages * ::sysconf(_SC_PAGESIZE);
+}
+
+class ModbusUnderAbuse : public testing::TestWithParam<tests::Abuse> {};
+
+TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
+  ModbusSettings settings = tests::loopback();
+  settings.frame_timeout = std::chrono::milliseconds(200);
+  settings.writers = {"127.0.0.1"};
+  ModbusSink sink(settings, tests::accept_all);
+  ASSERT_TRUE(sink.start());
+  sink.accept(tests::example_status());
+  Plc plc(sink.port());
+  const auto ask = [&] {
+    return plc.read_input(0, 2) == 0 && plc.words[0] == modbus::kMapVersion &&
+           plc.words[1] == 0x0102;
+  };
+  ASSERT_TRUE(ask());
+  const std::ptrdiff_t files = open_files();
+  std::uint64_t asked = 1;
+  const auto ask_for = [&](seconds time) {
+    const auto end = hal::Clock::now() + time;
+    while (hal::Clock::now() < end) {
+      ASSERT_TRUE(ask()) << "request " << asked;
+      ++asked;
+    }
+  };
+  modbus::Statistics statistics;
+  {
+    tests::Abused abused(GetParam(), sink.port());
+    ASSERT_NO_FATAL_FAILURE(ask_for(seconds(1)));
+    const long before = resident();
+    ASSERT_NO_FATAL_FAILURE(ask_for(duration(GetParam())));
+    if (!kIsSanitized) {
+      EXPECT_LT(resident() - before, 2'000'000) << "more than sockets can explain";
+    }
+    EXPECT_GT(abused.acts(), 10U);
+    statistics = sink.statistics();  // leaving clients take no more answers
+  }
+  EXPECT_TRUE(eventually([&] { return sink.statistics().connections == 1; }));
+  EXPECT_EQ(open_files(), files);
+  EXPECT_GE(statistics.answered + 1, asked) << "all but the last must be counted by now";
+  if (GetParam().is_allowed) {
+    EXPECT_EQ(statistics.refused + statistics.dropped, 0U);
+    EXPECT_GT(statistics.answered, 2 * asked);
+  } else {
+    EXPECT_GT(statistics.refused + statistics.dropped, 10U);
+  }
+  EXPECT_TRUE(ask());
+}
+
+INSTANTIATE_TEST_SUITE_P(, ModbusUnderAbuse, testing::ValuesIn(tests::abuses()),
+                         [](const auto& abuse) {
+                           std::string name(abuse.param.name);
+                           std::erase_if(name, [](char c) { return c == ' '; });
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace orbwatch::app
