@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "app/config/recipe.h"
+#include "app/config/view_settings.h"
 #include "app/dds/dds_sink.h"
 #include "app/modbus/modbus_settings.h"
-#include "app/pipeline/view_renderer.h"
+#include "app/snapshot/snapshot_sink.h"
 #include "hal/fault_script.h"
 #include "hal/frame_matcher.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/lines/line_back_end.h"
 #include "proc/optics/rig.h"
 #include "proc/optics/vec.h"
-#include "proc/optics/view_projection.h"
-#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 
@@ -51,12 +51,22 @@ struct LibcameraPart {
   int sensor_bit_depth = 0;
 };
 
+/// What a radiometric camera sees the machine by.
+struct RadiometrySettings {
+  double wavelength = 10;
+  double ball_reflectivity = 1;
+  double ball_temperature = 20;
+};
+
 struct ControlSettings {
   std::string name;
   double value = 0;
 };
 
 enum class BackEnd { Simulated, Replay, V4l2, Libcamera };
+
+/// The trigger_source of a camera that only commands trigger; no line has this name.
+inline constexpr const char* kSoftwareSource = "software";
 
 struct CameraSettings {
   int line = 0;  ///< in the file, for messages
@@ -66,11 +76,13 @@ struct CameraSettings {
   int height = 0;
   double frame_rate = 0;
   double kelvin_per_count = 0;
+  std::optional<RadiometrySettings> radiometry;
   hal::SyncPolicy sync = hal::SyncPolicy::Hold;
   hal::TriggerMode trigger_mode = hal::TriggerMode::Off;
   std::string trigger_source;
   hal::TriggerActivation trigger_activation = hal::TriggerActivation::RisingEdge;
   double trigger_delay_us = 0;
+  PixelFormat encoding = PixelFormat::Rgb;
   std::vector<ControlSettings> controls;
   std::optional<SimulatedCameraPart> simulated;
   std::optional<ReplayPart> replay;
@@ -113,37 +125,6 @@ struct LineSettings {
   double toggle_rate = 0;
 };
 
-struct SourceSettings {
-  int line = 0;
-  std::string camera;
-  double weight = 1;
-  std::string colour_map = "grey";
-  std::optional<std::array<double, 2>> range;
-};
-
-struct ViewSettings {
-  int line = 0;
-  std::string name;
-  optics::ViewKind kind = optics::ViewKind::Perspective;
-  double yaw = 0;
-  double pitch = 0;
-  double roll = 0;
-  std::optional<double> h_fov;
-  std::optional<double> v_fov;
-  int width = 0;
-  int height = 0;
-  Combine combine = Combine::Mix;
-  remap::Interpolation interpolation = remap::Interpolation::Area;
-  std::vector<SourceSettings> sources;
-};
-
-struct ProcessSettings {
-  int line = 0;
-  std::string view;
-  std::string camera;
-  double threshold = 0;
-};
-
 struct PipelineSettings {
   double deadline_ms = 0;
   double sync_window_ms = 10;
@@ -163,14 +144,26 @@ struct ConsoleSettings {
   double period = 1;
 };
 
+/// A recipe and the number by which it is selected.
+struct RecipeSettings {
+  int line = 0;
+  int number = 0;
+  std::filesystem::path file;
+  Recipe recipe;
+};
+
 struct Configuration {
+  /// CRC-32 of this file, the rig's, the calibrations' that it names, and the recipes'.
+  std::uint32_t checksum = 0;
+  std::filesystem::path rig_file;
   optics::Rig rig;  ///< has every camera of `cameras`, by name
   PipelineSettings pipeline;
   SimulationSettings simulation;
   std::vector<CameraSettings> cameras;
   std::vector<LineSettings> lines;
   std::vector<ViewSettings> views;
-  std::optional<ProcessSettings> process;
+  std::vector<RecipeSettings> recipes;  ///< the first one is measured from the start
+  std::optional<SnapshotSettings> snapshot;
   ConsoleSettings console;
   ModbusSettings modbus;
   DdsSettings dds;
@@ -183,6 +176,10 @@ Result<Configuration> load_configuration(const std::filesystem::path& file);
 /// The same for text that stands in for a file named `name`, with paths relative to `folder`.
 Result<Configuration> parse_configuration(const std::string& text, const std::string& name,
                                           const std::filesystem::path& folder);
+
+/// The name of every view by its index: those to look at, then those of the recipes, where views of
+/// one name in several recipes are one.
+std::vector<std::string> view_names(const Configuration& configuration);
 
 /// The manual of all keys in Markdown, generated from the same declaration that the loader checks.
 std::string configuration_manual();

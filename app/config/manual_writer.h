@@ -129,7 +129,14 @@ class ManualWriter {
   static std::string list_note(const std::array<double, N>*) {
     return ", list of " + std::to_string(N);
   }
-  static std::string list_note(const std::vector<double>*) { return ", list"; }
+  template <class T>
+  static std::string list_note(const std::vector<T>*) {
+    return ", list";
+  }
+  template <std::size_t N>
+  static std::string list_note(const std::vector<std::array<double, N>>*) {
+    return ", list of lists of " + std::to_string(N);
+  }
   static std::string list_note(const optics::Vec3*) { return ", list of 3"; }
   static std::string list_note(const optics::Mat3*) { return ", list of 9"; }
   template <class T>
@@ -161,14 +168,18 @@ class ManualWriter {
     return value.empty() ? "none" : "`" + value + "`";
   }
   static std::string show(const std::filesystem::path&) { return ""; }
-  static std::string show(const std::vector<std::string>&) { return "[]"; }
-  static std::string show(const std::vector<double>&) { return "[]"; }
   static std::string show(int value) { return std::to_string(value); }
   static std::string show(std::uint64_t value) { return std::to_string(value); }
   static std::string show(double value) {
     std::ostringstream text;
     text << value;
     return text.str();
+  }
+  template <class T>
+  static std::string show(const std::vector<T>& values) {
+    std::string text;
+    for (const T& value : values) text += (text.empty() ? "" : ", ") + show(value);
+    return "[" + text + "]";
   }
   template <class T>
   static std::string show(const std::optional<T>&) {

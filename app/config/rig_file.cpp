@@ -70,6 +70,17 @@ Result<optics::Rig> load_rig(const std::filesystem::path& file) {
   });
 }
 
+std::vector<std::filesystem::path> rig_files(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files{file};
+  Finding finding{file.string(), file.parent_path(), std::nullopt, false};
+  RigSettings settings;
+  read_toml(read_text_file(file, "a TOML file").value_or(""), settings, finding);
+  for (const RigCameraSettings& camera : settings.cameras) {
+    if (camera.calibration) files.push_back(*camera.calibration);
+  }
+  return files;
+}
+
 std::string rig_manual() {
   RigSettings rig;
   return manual(

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"
@@ -16,6 +17,10 @@ Result<optics::Rig> load_rig(const std::filesystem::path& file);
 /// The same for text that stands in for a file named `name`, with paths relative to `folder`.
 Result<optics::Rig> parse_rig(const std::string& text, const std::string& name,
                               const std::filesystem::path& folder);
+
+/// The files that a rig consists of: its own, then the calibrations that it names. For a file that
+/// load_rig() takes.
+std::vector<std::filesystem::path> rig_files(const std::filesystem::path& file);
 
 /// The manual of all keys in Markdown, generated from the same declaration that the loader checks.
 std::string rig_manual();

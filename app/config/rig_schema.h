@@ -52,6 +52,7 @@ struct OutlineSettings {
 
 struct RigCameraSettings : optics::RigCamera {
   int line = 0;
+  std::optional<std::filesystem::path> calibration;
 };
 
 struct RigSettings {
@@ -200,6 +201,7 @@ void visit(Visitor& v, RigCameraSettings& camera) {
       "the ball");
   v.table("window", camera.window, "A flat glass between camera and ball; needs intrinsics");
   if (lens) {
+    camera.calibration = lens->file;
     const auto known = intrinsics(*lens, camera.width, camera.height);
     v.require(known.has_value(), "intrinsics", known ? "" : known.error().message);
     if (known) camera.intrinsics = *known;

@@ -1,15 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/config/configuration.h"
 #include "app/config/constraint.h"
+#include "app/config/recipe_file.h"
 #include "app/config/rig_file.h"
-#include "app/pictures/colour_maps.h"
+#include "app/config/view_schema.h"
+#include "app/modbus/access_list.h"
 #include "app/pipeline/status.h"
+#include "hal/camera.h"
 #include "hal/v4l2/pixel_coding.h"
 
 /// The one declaration of every key of the configuration file: name, where its value lives, what is
@@ -23,18 +29,6 @@
 ///   require(truth, key, message): a rule between keys; line(number): where the table stands.
 namespace orbwatch::app {
 
-inline constexpr std::array kViewKinds{Word{"perspective", optics::ViewKind::Perspective},
-                                       Word{"equirectangular", optics::ViewKind::Equirectangular},
-                                       Word{"cylindrical", optics::ViewKind::Cylindrical},
-                                       Word{"stereographic", optics::ViewKind::Stereographic},
-                                       Word{"fisheye", optics::ViewKind::Fisheye},
-                                       Word{"ball", optics::ViewKind::Ball}};
-inline constexpr std::array kInterpolations{Word{"area", remap::Interpolation::Area},
-                                            Word{"bilinear", remap::Interpolation::Bilinear},
-                                            Word{"nearest", remap::Interpolation::Nearest}};
-inline constexpr std::array kCombines{Word{"mix", Combine::Mix},
-                                      Word{"sharpest", Combine::Sharpest},
-                                      Word{"switch", Combine::Switch}};
 inline constexpr std::array kBackEnds{Word{"simulated", BackEnd::Simulated},
                                       Word{"replay", BackEnd::Replay}, Word{"v4l2", BackEnd::V4l2},
                                       Word{"libcamera", BackEnd::Libcamera}};
@@ -64,7 +58,10 @@ inline constexpr std::array kLineBiases{
     Word{"as_is", hal::LineBias::AsIs}, Word{"disabled", hal::LineBias::Disabled},
     Word{"pull_up", hal::LineBias::PullUp}, Word{"pull_down", hal::LineBias::PullDown}};
 
-inline constexpr Range kSide = Range::between(1, kMaxSide);
+inline constexpr std::array kRosGenerations{Word{"humble", RosGeneration::Humble},
+                                            Word{"iron", RosGeneration::Iron}};
+inline constexpr std::array kParities{Word{"none", Parity::None}, Word{"even", Parity::Even},
+                                      Word{"odd", Parity::Odd}};
 
 template <class Visitor>
 void visit(Visitor& v, SimulatedCameraPart& part) {
@@ -79,6 +76,16 @@ template <class Visitor>
 void visit(Visitor& v, ReplayPart& part) {
   v.required("source", part.source, "Folder of numbered JPEG or PNG pictures, or a video");
   v.optional("loop", part.loop, "Begin again at the end");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RadiometrySettings& radiometry) {
+  v.optional("wavelength", radiometry.wavelength, Range::between(0.5, 20),
+             "Effective wavelength of its band, um");
+  v.optional("ball_reflectivity", radiometry.ball_reflectivity, Range::between(0.05, 1),
+             "Of the mirror ball at that wavelength");
+  v.optional("ball_temperature", radiometry.ball_temperature, Range::between(-273, 1000),
+             "Of the mirror ball, degC: what it does not reflect it emits");
 }
 
 template <class Visitor>
@@ -135,10 +142,12 @@ void visit(Visitor& v, CameraSettings& camera) {
              "Picture width, px, as in the rig; else the camera's own");
   v.optional("height", camera.height, kSide,
              "Picture height, px, as in the rig; else the camera's own");
-  v.optional("frame_rate", camera.frame_rate, Range::between(0.01, 1000),
+  v.optional("frame_rate", camera.frame_rate, Range::between(0.01, hal::kMaxFrameRate),
              "Frames per second; else the camera's own");
   v.optional("kelvin_per_count", camera.kelvin_per_count, Range::above(0, 10),
              "Radiometric scale of a 16-bit thermal camera; else it is none");
+  v.table("radiometry", camera.radiometry,
+          "Of a radiometric camera: makes true temperatures of apparent ones");
   v.optional(
       "sync", camera.sync, kSyncPolicies,
       "In a set without a frame of it within the window: hold its last one, or nearest, which "
@@ -149,11 +158,15 @@ void visit(Visitor& v, CameraSettings& camera) {
       "the controls TriggerMode and TriggerSoftware or a simulated one; line: the frame that "
       "begins "
       "after an edge counts, of a camera that sees the edge or runs freely");
-  v.optional("trigger_source", camera.trigger_source, "Name of the line, whose use is trigger_in");
+  v.optional(
+      "trigger_source", camera.trigger_source,
+      "Name of the line, whose use is trigger_in; or software: only the command trigger does");
   v.optional("trigger_activation", camera.trigger_activation, kTriggerActivations,
              "Which of its edges are triggers");
   v.optional("trigger_delay_us", camera.trigger_delay_us, Range::between(0, 1e7),
              "From the edge to the exposure, us");
+  v.optional("encoding", camera.encoding, kEncodings,
+             "Of its own pictures over DDS; 16-bit ones go out as mono16");
   v.tables("control", camera.controls, 0, 64,
            "What the camera is set to, in this order, for v4l2 and libcamera");
   v.table("simulated", camera.simulated, "For back_end simulated");
@@ -161,6 +174,8 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.table("v4l2", camera.v4l2, "For back_end v4l2");
   v.table("libcamera", camera.libcamera, "For back_end libcamera");
   v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
+  v.require(!camera.radiometry || camera.kelvin_per_count > 0, "radiometry",
+            "only a camera with kelvin_per_count is radiometric");
   v.require(camera.back_end != BackEnd::Simulated || camera.simulated, "back_end",
             "simulated needs a table [camera.simulated]");
   v.require(camera.back_end != BackEnd::Simulated || (camera.width && camera.height), "back_end",
@@ -226,56 +241,6 @@ void visit(Visitor& v, LineSettings& line) {
 }
 
 template <class Visitor>
-void visit(Visitor& v, SourceSettings& source) {
-  v.line(source.line);
-  v.required("camera", source.camera, "Name of the camera");
-  v.optional(
-      "weight", source.weight, Range::above(0, 1000),
-      "Its share where other cameras see too; sharpest multiplies it by (pixels per degree)^4");
-  v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
-  v.optional("range", source.range, kAnyNumber,
-             "First and last colour: degC for a radiometric camera, else percent of full scale");
-  v.require(!source.range || (*source.range)[0] < (*source.range)[1], "range",
-            "the first number must be below the second");
-}
-
-template <class Visitor>
-void visit(Visitor& v, ViewSettings& view) {
-  v.line(view.line);
-  v.required("name", view.name, "Part of its DDS topic: letters, digits and _");
-  v.optional("kind", view.kind, kViewKinds,
-             "Projection; ball is the first camera's own picture of it, which takes no angle");
-  v.optional("yaw", view.yaw, kAnyNumber, "deg, from +Y towards +X");
-  v.optional("pitch", view.pitch, kAnyNumber, "deg, up positive");
-  v.optional("roll", view.roll, kAnyNumber, "deg, the right side dips");
-  v.optional("h_fov", view.h_fov, Range::above(0, 360),
-             "deg, edge to edge; else 90 perspective (below 180), 180 stereographic and fisheye, "
-             "360 the others");
-  v.optional("v_fov", view.v_fov, Range::above(0, 360),
-             "deg; else 180 equirectangular, from square pixels the others");
-  v.required("width", view.width, kSide, "px");
-  v.required("height", view.height, kSide, "px");
-  v.optional(
-      "combine", view.combine, kCombines,
-      "mix: cameras by weight; sharpest: by resolution; switch: the first listed that sees "
-      "and delivers. A camera fills what others do not see, and fades out where it sees badly "
-      "unless it is switched");
-  v.optional("interpolation", view.interpolation, kInterpolations,
-             "Between source pixels; area takes means where the view is smaller than the picture");
-  v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
-}
-
-template <class Visitor>
-void visit(Visitor& v, ProcessSettings& process) {
-  v.line(process.line);
-  v.required("view", process.view, "Name of the view that is measured; it is never slowed down");
-  v.required("camera", process.camera, "Which of its cameras is measured");
-  v.required(
-      "threshold", process.threshold, Range::between(-273, 10000),
-      "Where the hot spot begins: degC for a radiometric camera, else percent of full scale");
-}
-
-template <class Visitor>
 void visit(Visitor& v, PipelineSettings& pipeline) {
   v.optional("deadline_ms", pipeline.deadline_ms, Range::between(0, 60000),
              "For one frame set; 0: the first camera's frame period");
@@ -304,13 +269,61 @@ void visit(Visitor& v, ConsoleSettings& console) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, ModbusSerialSettings& serial) {
+  v.required("device", serial.device, "The line, best as in /dev/serial/by-id");
+  v.optional("baud_rate", serial.baud_rate, Range::between(1200, 921600), "Bits per second");
+  v.require(std::ranges::count(kBaudRates, serial.baud_rate) == 1, "baud_rate",
+            "is not a rate of serial lines, as 9600, 19200, 38400, 57600 or 115200");
+  v.optional("parity", serial.parity, kParities, "none usually goes with 2 stop bits");
+  v.optional("stop_bits", serial.stop_bits, Range::between(1, 2), "At the end of a character");
+  v.optional("unit_id", serial.unit_id, Range::between(1, 247),
+             "The unit that is served; what is written to all units, 0, counts too");
+  v.optional("may_write", serial.may_write, "Masters on this line may write");
+}
+
+/// Every text must be an address or a prefix.
+template <class Visitor>
+void require_networks(Visitor& v, const char* key, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    const auto network = modbus::parse_network(text);
+    v.require(network.has_value(), key, network ? "" : network.error().message);
+  }
+}
+
+template <class Visitor>
 void visit(Visitor& v, ModbusSettings& modbus) {
-  v.optional("enabled", modbus.enabled, "Serve Modbus TCP");
+  v.optional("enabled", modbus.enabled, "Serve Modbus");
   v.optional("address", modbus.address, "Numeric address to listen on");
   v.optional("port", modbus.port, Range::between(0, 65535), "0: any free port");
   v.optional("max_connections", modbus.max_connections, Range::between(1, 1000),
              "One more client drops the one that was quiet for longest");
-  v.optional("writers", modbus.writers, "Numeric addresses of clients that may write; []: all");
+  v.optional("readers", modbus.readers,
+             "Numeric addresses or prefixes (10.0.0.0/24) of clients that may read; []: all");
+  require_networks(v, "readers", modbus.readers);
+  v.optional("writers", modbus.writers,
+             "Of clients that may write, and read; []: all that may read");
+  require_networks(v, "writers", modbus.writers);
+  v.optional("unit_ids", modbus.unit_ids, Range::between(0, 255),
+             "Units that are answered; requests for others get exception 11");
+  v.require(!modbus.unit_ids.empty(), "unit_ids", "names no unit, so nobody would be answered");
+  v.table("serial", modbus.serial, "Modbus RTU on a serial line, beside TCP");
+  v.optional("plc_timeout_ms", modbus.plc_timeout_ms, Range::between(0, 60000),
+             "For how long the PLC's heartbeat may stand still; 0: it is not watched");
+}
+
+template <class Visitor>
+void visit(Visitor& v, SecuritySettings& security) {
+  v.required("folder", security.folder,
+             "Certificate, key and permissions, as made by `orbwatch dds-keys`");
+}
+
+template <class Visitor>
+void visit(Visitor& v, JpegSettings& jpeg) {
+  v.optional("quality", jpeg.quality, Range::between(1, 100), "The best that is used");
+  v.optional("target_bytes", jpeg.target_bytes, Range::between(0, 1e8),
+             "Of a picture; the quality falls, down to 10, to stay below; 0: no limit");
+  v.optional("rate", jpeg.rate, Range::between(0, 1000),
+             "Pictures per second and topic at most; 0: all");
 }
 
 template <class Visitor>
@@ -318,14 +331,41 @@ void visit(Visitor& v, DdsSettings& dds) {
   v.optional("enabled", dds.enabled, "Publish views and process state over DDS");
   v.optional("domain", dds.domain, Range::between(0, 230), "ROS_DOMAIN_ID of ROS 2");
   v.optional("prefix", dds.prefix, "Topics are rt/<prefix>/...");
+  v.optional("profile", dds.profile,
+             "Settings of the network for Cyclone DDS, as in platform/dds; else those that "
+             "CYCLONEDDS_URI names");
+  v.optional("ros", dds.ros, kRosGenerations,
+             "How ROS 2's graph is told of the node orbwatch: iron is for Iron and later");
+  v.optional("commands", dds.commands, "Take commands over DDS, too");
+  v.table("security", dds.security,
+          "Authentication, access control and encryption: only who has keys sees and commands");
+  v.table("jpeg", dds.jpeg, "Of the compressed topics");
+}
+
+template <class Visitor>
+void visit(Visitor& v, SnapshotSettings& snapshot) {
+  v.required("folder", snapshot.folder, "Where the command snapshot writes PNG pictures");
+  v.optional("keep", snapshot.keep, Range::between(1, 100000),
+             "Snapshots that stay; one more removes the oldest");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RecipeSettings& settings) {
+  v.line(settings.line);
+  v.required("number", settings.number, Range::between(1, 65535), "What select_recipe calls it");
+  v.required("file", settings.file, "What is measured; see [RECIPE.md](RECIPE.md)");
+  if (settings.file.empty()) return;
+  auto recipe = load_recipe(settings.file);
+  v.require(recipe.has_value(), "file", recipe ? "" : recipe.error().message);
+  if (recipe) settings.recipe = std::move(*recipe);
 }
 
 template <class Visitor>
 void visit(Visitor& v, Configuration& configuration) {
-  std::optional<std::filesystem::path> rig_file;
-  v.required("rig", rig_file, "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
-  if (rig_file) {
-    auto rig = load_rig(*rig_file);
+  v.required("rig", configuration.rig_file,
+             "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
+  if (!configuration.rig_file.empty()) {
+    auto rig = load_rig(configuration.rig_file);
     v.require(rig.has_value(), "rig", rig ? "" : rig.error().message);
     if (rig) configuration.rig = std::move(*rig);
   }
@@ -334,8 +374,11 @@ void visit(Visitor& v, Configuration& configuration) {
   v.tables("camera", configuration.cameras, 1, kMaxCameras,
            "Cameras; the first without a fault sets the pace");
   v.tables("line", configuration.lines, 0, 32, "Digital inputs and outputs");
-  v.tables("view", configuration.views, 1, kMaxViews, "Virtual cameras in the ball's centre");
-  v.table("process", configuration.process, "What is measured");
+  v.tables("view", configuration.views, 0, kMaxViews,
+           "Virtual cameras in the ball's centre to look at, which can be pointed elsewhere");
+  v.tables("recipe", configuration.recipes, 0, kMaxRecipes,
+           "What is measured; the first one from the start");
+  v.table("snapshot", configuration.snapshot, "Pictures on command");
   v.table("console", configuration.console, "Figures on standard output");
   v.table("modbus", configuration.modbus, "Towards the PLC");
   v.table("dds", configuration.dds, "Towards the machine controller");

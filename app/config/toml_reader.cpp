@@ -134,17 +134,6 @@ void TomlReader::read(const toml::node& node, const std::string& key, std::uint6
   if (const auto given = read_integer(node, key, range)) value = static_cast<std::uint64_t>(*given);
 }
 
-void TomlReader::read(const toml::node& node, const std::string& key, std::vector<double>& value,
-                      const Range& range) {
-  const toml::array* list = node.as_array();
-  if (!list) {
-    finding_.note(line_of(node), key, "must be a list of numbers");
-    return;
-  }
-  value.clear();
-  for (const toml::node& item : *list) read(item, key, value.emplace_back(), range);
-}
-
 void TomlReader::read(const toml::node& node, const std::string& key, optics::Vec3& value,
                       const Range& range) {
   std::array<double, 3> n{};

@@ -141,8 +141,17 @@ class TomlReader {
   std::optional<std::int64_t> read_integer(const toml::node& node, const std::string& key,
                                            const Range& range);
 
-  void read(const toml::node& node, const std::string& key, std::vector<double>& value,
-            const Range& range);
+  template <class T>
+  void read(const toml::node& node, const std::string& key, std::vector<T>& value,
+            const Range& range) {
+    const toml::array* list = node.as_array();
+    if (!list) {
+      finding_.note(line_of(node), key, "must be a list of numbers");
+      return;
+    }
+    value.clear();
+    for (const toml::node& item : *list) read(item, key, value.emplace_back(), range);
+  }
   void read(const toml::node& node, const std::string& key, optics::Vec3& value,
             const Range& range);
   void read(const toml::node& node, const std::string& key, optics::Mat3& value,
@@ -159,11 +168,26 @@ class TomlReader {
     for (std::size_t i = 0; i < N; ++i) read((*list)[i], key, value[i], range);
   }
 
+  template <std::size_t N>
+  void read(const toml::node& node, const std::string& key,
+            std::vector<std::array<double, N>>& value, const Range& range) {
+    const toml::array* list = node.as_array();
+    if (!list || list->size() > kLongestList) {
+      finding_.note(line_of(node), key,
+                    "must be a list of lists, at most " + std::to_string(kLongestList));
+      return;
+    }
+    value.clear();
+    for (const toml::node& item : *list) read(item, key, value.emplace_back(), range);
+  }
+
   template <class T, class... Constraint>
   void read(const toml::node& node, const std::string& key, std::optional<T>& value,
             const Constraint&... constraint) {
     read(node, key, value.emplace(), constraint...);
   }
+
+  static constexpr std::size_t kLongestList = 64;
 
   const toml::table& table_;
   std::string path_;

@@ -5,66 +5,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/config/recipe_file.h"
 #include "app/config/rig_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/app/config/machine_files.h"
 
 namespace orbwatch::app {
 namespace {
-
-const std::string kRig = R"(
-[[camera]]
-name = "a"
-width = 100
-height = 80
-[camera.outline]
-centre = [50, 40]
-radius = 30
-alpha = 340
-
-[[camera]]
-name = "spare"
-width = 320
-height = 256
-[camera.outline]
-centre = [160, 128]
-radius = 90
-distance = 9
-)";
-
-const std::string kValid = R"(
-rig = "rig.toml"
-[[camera]]
-name = "a"
-back_end = "replay"
-[camera.replay]
-source = "pictures"
-
-[[view]]
-name = "front"
-width = 64
-height = 48
-[[view.source]]
-camera = "a"
-)";
-
-std::string replaced(const std::string& what, const std::string& with, std::string text = kValid) {
-  text.replace(text.find(what), what.size(), with);
-  return text;
-}
-
-/// Files of a machine: the rig beside the configuration, and one that is broken.
-class ConfigurationFile : public testing::Test {
- protected:
-  ConfigurationFile() {
-    std::ofstream(folder / "rig.toml") << kRig;
-    std::ofstream(folder / "broken.toml") << replaced("alpha = 340", "alpha = 180", kRig);
-  }
-  Result<Configuration> parse(const std::string& text) const {
-    return parse_configuration(text, "site.toml", folder.path());
-  }
-
-  tests::TemporaryFolder folder;
-};
 
 TEST_F(ConfigurationFile, IsReadAndTheRestIsByDefault) {
   const auto c = parse(kValid);
@@ -76,7 +22,32 @@ TEST_F(ConfigurationFile, IsReadAndTheRestIsByDefault) {
   EXPECT_EQ(c->views[0].kind, optics::ViewKind::Perspective);
   EXPECT_EQ(c->views[0].sources[0].weight, 1);
   EXPECT_EQ(c->modbus.port, 1502);
-  EXPECT_FALSE(c->process);
+  EXPECT_TRUE(c->recipes.empty());
+}
+
+TEST_F(ConfigurationFile, SaysWhoIsServedOverModbus) {
+  const auto c = parse(kValid + R"([modbus]
+readers = ["10.0.0.0/24", "fd00::/8"]
+writers = ["10.0.0.7"]
+unit_ids = [7]
+[modbus.serial]
+device = "/dev/ttyS0"
+baud_rate = 9600
+parity = "none"
+stop_bits = 2
+unit_id = 17
+may_write = false
+)");
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->modbus.readers.size(), 2u);
+  EXPECT_EQ(c->modbus.writers.size(), 1u);
+  EXPECT_EQ(c->modbus.unit_ids, std::vector{7});
+  ASSERT_TRUE(c->modbus.serial);
+  EXPECT_EQ(c->modbus.serial->baud_rate, 9600);
+  EXPECT_EQ(c->modbus.serial->parity, Parity::None);
+  EXPECT_EQ(c->modbus.serial->stop_bits, 2);
+  EXPECT_EQ(c->modbus.serial->unit_id, 17);
+  EXPECT_FALSE(c->modbus.serial->may_write);
 }
 
 TEST_F(ConfigurationFile, MayRepeatTheSizeThatTheRigStates) {
@@ -110,21 +81,6 @@ value = 8000)",
   EXPECT_EQ(controls[1].value, 8000);
 }
 
-const std::string kLines = R"(
-[[line]]
-name = "start"
-use = "trigger_in"
-line_name = "TRIGGER_IN"
-debounce_us = 50
-[[line]]
-name = "flash"
-use = "strobe"
-chip = "pinctrl"
-offset = 4
-source = "start"
-width_us = 200
-)";
-
 std::string triggered(const std::string& keys, const std::string& lines = kLines) {
   return replaced("name = \"a\"", "name = \"a\"\n" + keys) + lines;
 }
@@ -141,6 +97,12 @@ TEST_F(ConfigurationFile, HasLinesAndTriggers) {
   EXPECT_EQ(c->lines[1].source, "start");
   EXPECT_EQ(c->cameras[0].trigger_mode, hal::TriggerMode::Line);
   EXPECT_EQ(c->cameras[0].trigger_activation, hal::TriggerActivation::AnyEdge);
+}
+
+TEST_F(ConfigurationFile, ACameraMayBeTriggeredByCommandsOnly) {
+  const auto c = parse(triggered("trigger_mode = \"software\"\ntrigger_source = \"software\"", ""));
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->cameras[0].trigger_source, kSoftwareSource);
 }
 
 struct Refusal {
@@ -262,11 +224,24 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"RangeUpsideDown",
                 replaced("camera = \"a\"", "camera = \"a\"\nrange = [9, 3]"),
                 {"view.source.range", "below"}},
-        Refusal{"ProcessWithoutView",
-                kValid + "[process]\nview='x'\ncamera='a'\nthreshold=50\n",
-                {"process.view", "\"x\"", "front"}},
         Refusal{
             "PortOutOfRange", kValid + "[modbus]\nport = 70000\n", {"site.toml:16:", "0 to 65535"}},
+        Refusal{"PrefixThatIsAMachine",
+                kValid + "[modbus]\nreaders = ['10.0.0.0/24']\nwriters = ['10.0.0.7/24']\n",
+                {"site.toml:17: modbus.writers", "'10.0.0.7/24'", "after its first 24"}},
+        Refusal{"UnitOutOfRange",
+                kValid + "[modbus]\nunit_ids = [1, 256]\n",
+                {"site.toml:16:", "unit_ids", "0 to 255"}},
+        Refusal{"NoUnit", kValid + "[modbus]\nunit_ids = []\n", {"site.toml:16:", "no unit"}},
+        Refusal{"SerialLineWithoutDevice",
+                kValid + "[modbus.serial]\nunit_id = 2\n",
+                {"site.toml:15:", "modbus.serial.device", "must be given"}},
+        Refusal{"BaudRate",
+                kValid + "[modbus.serial]\ndevice = '/dev/ttyS0'\nbaud_rate = 19201\n",
+                {"site.toml:17: modbus.serial.baud_rate", "19200"}},
+        Refusal{"ALineCalledSoftware",
+                triggered("", replaced("\"flash\"", "\"software\"", kLines)),
+                {"line.name", "\"software\""}},
         Refusal{"NotToml", "[[camera\n", {"site.toml:1:", "not valid TOML"}},
         Refusal{
             "TableExpected", "rig = \"rig.toml\"\ncamera = 3\n", {"site.toml:2:", "[[camera]]"}}),
@@ -282,13 +257,17 @@ const std::filesystem::path kShipped =
     std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
 
 TEST(Configuration, ShippedFilesAreValid) {
-  int configurations = 0, rigs = 0;
+  int configurations = 0, rigs = 0, recipes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kShipped)) {
     if (entry.path().extension() != ".toml") continue;
     if (entry.path().stem().string().ends_with("-rig")) {
       const auto rig = load_rig(entry.path());
       EXPECT_TRUE(rig) << rig.error().message;
       ++rigs;
+    } else if (entry.path().stem().string().ends_with("-recipe")) {
+      const auto recipe = load_recipe(entry.path());
+      EXPECT_TRUE(recipe) << recipe.error().message;
+      ++recipes;
     } else {
       const auto c = load_configuration(entry.path());
       EXPECT_TRUE(c) << c.error().message;
@@ -297,6 +276,7 @@ TEST(Configuration, ShippedFilesAreValid) {
   }
   EXPECT_GE(configurations, 2);
   EXPECT_GE(rigs, 2);
+  EXPECT_GE(recipes, 2);
 }
 
 TEST(Configuration, SurvivesEveryTruncation) {
