@@ -6,8 +6,6 @@
 namespace orbwatch::hal {
 namespace {
 
-constexpr int kMaxFrameRate = 1000;
-
 /// Whether a request makes sense for any camera at all.
 Result<> check(const StreamRequest& request) {
   if (std::min(request.width, request.height) < 0 ||
@@ -72,7 +70,7 @@ void Camera::join() {
 Result<> Camera::trigger() { return fail("camera " + info_.id + ": has no software trigger"); }
 
 Result<> Camera::set(std::string_view control, double) {
-  return fail("camera " + info_.id + ": has no control \"" + std::string(control) + "\"");
+  return fail("has no control \"" + std::string(control) + "\"");
 }
 
 void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {

@@ -25,6 +25,9 @@ struct CameraInfo {
   std::string back_end;  ///< "simulated", "replay", "v4l2", ...
 };
 
+/// Of any camera, frames per second.
+inline constexpr int kMaxFrameRate = 1000;
+
 /// What the pipeline asks for. Zero leaves the choice to the camera.
 struct StreamRequest {
   int width = 0;

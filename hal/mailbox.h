@@ -26,7 +26,7 @@ class Mailbox {
     return !replaced;
   }
 
-  /// Waits for a value; nothing once the mailbox is closed. A value put in before closing is lost.
+  /// Waits for a value; nothing while the mailbox is closed. One put in before stays in it.
   std::optional<T> take() {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return value_.has_value() || closed_; });
@@ -40,13 +40,19 @@ class Mailbox {
     return std::exchange(value_, std::nullopt);
   }
 
-  /// Ends take() for good.
+  /// Ends take() until open().
   void close() {
     {
       const std::lock_guard lock(mutex_);
       closed_ = true;
     }
     filled_.notify_all();
+  }
+
+  /// Lets take() wait again.
+  void open() {
+    const std::lock_guard lock(mutex_);
+    closed_ = false;
   }
 
   std::uint64_t drops() const {

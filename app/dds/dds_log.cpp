@@ -2,10 +2,13 @@
 
 #include <dds/ddsrt/log.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <mutex>
-#include <utility>
+#include <string_view>
+
+#include "app/dds/rate_limit.h"
 
 namespace orbwatch::app {
 
@@ -13,9 +16,14 @@ namespace {
 
 constexpr int kLinesPerMinute = 20;
 
+std::atomic<std::uint64_t> malformed{0};
+
 void write_line(void*, const dds_log_data_t* line) {
+  if (std::string_view(line->message).find(": deserialization ") != std::string_view::npos) {
+    ++malformed;
+  }
   static std::mutex mutex;
-  static LineBudget budget(kLinesPerMinute);
+  static RateLimit budget(kLinesPerMinute, std::chrono::minutes(1));
   const std::lock_guard lock(mutex);
   const auto withheld = budget.admit(hal::Clock::now());
   if (!withheld) return;
@@ -29,18 +37,7 @@ void write_line(void*, const dds_log_data_t* line) {
 
 }  // namespace
 
-std::optional<std::uint64_t> LineBudget::admit(hal::TimePoint now) {
-  if (!minute_ || now - *minute_ >= std::chrono::minutes(1)) {
-    minute_ = now;
-    used_ = 0;
-  }
-  if (used_ >= limit_) {
-    ++withheld_;
-    return std::nullopt;
-  }
-  ++used_;
-  return std::exchange(withheld_, 0);
-}
+std::uint64_t malformed_samples() { return malformed; }
 
 void limit_dds_log() {
   static std::once_flag once;

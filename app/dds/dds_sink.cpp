@@ -1,25 +1,44 @@
 #include "app/dds/dds_sink.h"
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include "app/dds/dds_log.h"
 #include "app/dds/topic_names.h"
+#include "app/log.h"
 
 namespace orbwatch::app {
+namespace {
 
-DdsSink::Channel::Channel(const std::string& prefix, const std::string& view_name)
-    : name(view_name),
-      colour(image_topic(prefix, view_name)),
-      radiometric(radiometric_topic(prefix, view_name)) {}
+/// Between two looks at the host's addresses.
+constexpr auto kLookPeriod = std::chrono::seconds(1);
 
-DdsSink::DdsSink(DdsSettings settings, std::vector<std::string> view_names)
+PixelFormat encoding(const DdsSettings& settings, const std::string& camera) {
+  const auto found = settings.cameras.find(camera);
+  return found == settings.cameras.end() ? PixelFormat::Rgb : found->second;
+}
+
+}  // namespace
+
+DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera)
+    : name(camera),
+      ball(ball_topic(settings.prefix, camera), encoding(settings, camera), settings.jpeg) {}
+
+DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
+                 Addresses addresses)
     : settings_(std::move(settings)),
-      view_names_(std::move(view_names)),
-      selected_(image_topic(settings_.prefix, kSelectedView)),
-      state_(orbwatch_msgs_msg_dds__ProcessState__desc, process_state_topic(settings_.prefix)),
-      composer_(view_names_) {
-  for (const auto& name : view_names_) {
-    channels_.push_back(std::make_unique<Channel>(settings_.prefix, name));
+      names_(std::move(names)),
+      addresses_(std::move(addresses)),
+      selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg),
+      status_topics_(settings_.prefix, names_),
+      takes_commands_(settings_.commands && handler),
+      commands_(settings_.prefix, std::move(handler)) {
+  for (const auto& name : names_.views) {
+    views_.push_back(std::make_unique<ViewTopics>(settings_, name));
+  }
+  for (const auto& name : names_.cameras) {
+    cameras_.push_back(std::make_unique<CameraTopics>(settings_, name));
   }
 }
 
@@ -28,12 +47,11 @@ DdsSink::~DdsSink() { stop(); }
 Result<> DdsSink::start() {
   if (!settings_.enabled || thread_.joinable()) return {};
   limit_dds_log();
-  const auto opened = check_names().and_then([this] { return open(); });
-  if (!opened) {
-    close();
-    return opened;
-  }
+  if (const auto checked = check(); !checked) return checked;
+  next_look_ = {};
+  back_off_.reset();
   running_ = true;
+  keep_joined();
   thread_ = std::thread([this] { run(); });
   return {};
 }
@@ -42,41 +60,116 @@ void DdsSink::stop() {
   running_ = false;
   wake_.put({});
   if (thread_.joinable()) thread_.join();
-  close();
+  leave();
+  status_.try_take();
+  while (notices_.try_take()) {
+  }
 }
 
-Result<> DdsSink::check_names() const {
+Result<> DdsSink::check() const {
+  if (const auto checked = check_domain(settings_.domain); !checked) return checked;
+  if (const auto checked = check_profile(settings_.profile); !checked) return checked;
+  if (settings_.security) {
+    const auto secured = security_qos(*settings_.security, settings_.domain);
+    if (!secured) return tl::unexpected(secured.error());
+  }
   if (const auto checked = check_topic_path(settings_.prefix, "prefix"); !checked) return checked;
-  for (auto name = view_names_.begin(); name != view_names_.end(); ++name) {
+  for (auto name = names_.views.begin(); name != names_.views.end(); ++name) {
     if (const auto checked = check_topic_part(*name, "view name"); !checked) return checked;
-    if (*name == kSelectedView || std::find(view_names_.begin(), name, *name) != name) {
+    if (*name == kSelectedView || std::find(names_.views.begin(), name, *name) != name) {
       return fail("DDS: view name \"" + *name + "\" is taken, each needs one of its own");
     }
+  }
+  for (const auto& name : names_.cameras) {
+    if (const auto checked = check_topic_part(name, "camera name"); !checked) return checked;
   }
   return {};
 }
 
-Result<> DdsSink::open() {
-  auto participant = Participant::join(settings_.domain);
+Result<> DdsSink::join() {
+  auto participant = Participant::join(settings_.domain, settings_.security, kParticipantUserData,
+                                       settings_.profile);
   if (!participant) return tl::unexpected(participant.error());
   participant_ = std::move(*participant);
-  for (const auto& channel : channels_) {
-    if (const auto opened = channel->colour.open(participant_.entity()); !opened) return opened;
+  const Entity& entity = participant_.entity();
+  for (const auto& view : views_) {
+    if (const auto opened = view->open(entity); !opened) return opened;
   }
-  if (const auto opened = selected_.open(participant_.entity()); !opened) return opened;
-  return state_.open(participant_.entity(), state_qos());
+  for (const auto& camera : cameras_) {
+    if (const auto opened = camera->ball.open(entity); !opened) return opened;
+  }
+  return selected_.open(entity)
+      .and_then([&] { return status_topics_.open(entity); })
+      .and_then([&] { return takes_commands_ ? commands_.open(entity) : Result<>(); })
+      .and_then([&] { return discovery_.open(entity, settings_.ros); })
+      .and_then([&] { return announce_node(); })
+      .and_then([&] { return watch_types(); });
 }
 
-void DdsSink::close() {
-  for (const auto& channel : channels_) {
-    channel->colour.close();
-    channel->radiometric.close();
-    channel->mailbox.try_take();  // gives the view back to its pool
-  }
-  status_.try_take();
+std::vector<const TopicWriter*> DdsSink::writers() const {
+  std::vector<const TopicWriter*> all;
+  const auto add = [&all](const std::vector<const TopicWriter*>& writers) {
+    all.insert(all.end(), writers.begin(), writers.end());
+  };
+  for (const auto& view : views_) add(view->writers());
+  for (const auto& camera : cameras_) add(camera->ball.writers());
+  add(selected_.writers());
+  add(status_topics_.writers());
+  if (takes_commands_) add({&commands_.results()});
+  return all;
+}
+
+Result<> DdsSink::announce_node() {
+  std::vector<dds_entity_t> handles, readers;
+  for (const TopicWriter* writer : writers()) handles.push_back(writer->get());
+  if (takes_commands_) readers.push_back(commands_.requests().get());
+  return discovery_.announce(handles, readers);
+}
+
+Result<> DdsSink::watch_types() {
+  std::map<std::string, std::string> types;
+  for (const TopicWriter* writer : writers()) types[writer->name()] = writer->type_name();
+  if (takes_commands_) types[commands_.requests().name()] = commands_.requests().type_name();
+  return type_watch_.open(participant_.entity(), std::move(types));
+}
+
+void DdsSink::leave() {
+  joined_ = false;
+  type_watch_.close();
+  discovery_.close();
+  commands_.close();
+  for (const auto& view : views_) view->close();
+  for (const auto& camera : cameras_) camera->ball.close();
   selected_.close();
-  state_.close();
+  status_topics_.close();
   participant_.leave();
+}
+
+/// Cyclone DDS takes the addresses that it finds when it joins; later ones it never sees.
+void DdsSink::keep_joined() {
+  const auto now = hal::Clock::now();
+  if (now < next_look_) return;
+  next_look_ = now + kLookPeriod;
+  mistyped_ = type_watch_.look();
+  const auto addresses = addresses_();
+  if (joined_) {
+    if (!addresses || *addresses == joined_with_) return;
+    log_line(LogLevel::Warning, "DDS: the host's addresses changed, joins the domain again");
+    leave();
+    back_off_.reset();
+  }
+  if (const auto joined = join(); !joined) {
+    leave();
+    next_look_ = now + back_off_.next();
+    const std::string& refusal = joined.error().message;
+    if (refusal != refusal_) log_line(LogLevel::Warning, refusal + "; goes on trying");
+    refusal_ = refusal;
+    return;
+  }
+  if (!std::exchange(refusal_, {}).empty()) log_line(LogLevel::Info, "DDS: joined the domain");
+  joined_ = true;
+  joined_with_ = addresses.value_or(std::vector<std::string>());
+  ++joins_;
 }
 
 const TimeMessage& DdsSink::utc(hal::TimePoint stamp) {
@@ -87,58 +180,70 @@ const TimeMessage& DdsSink::utc(hal::TimePoint stamp) {
   return utc_;
 }
 
+void DdsSink::accept_frames(const hal::FrameSet& set) {
+  if (!running_) return;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const hal::Frame& frame = set.frames[i];
+    if (!frame || set.held[i]) continue;
+    CameraTopics& camera = *cameras_[i];
+    camera.ball.accept({frame, frame->picture, utc(set.stamp), &camera.name});
+  }
+}
+
 void DdsSink::accept(const ViewPtr& view) {
   if (!running_) return;
-  if (view->index >= channels_.size()) {
+  if (view->index >= views_.size()) {
     ++unknown_views_;
     return;
   }
-  channels_[view->index]->mailbox.put({view, utc(view->stamp)});
-  wake_.put({});
+  ViewTopics& topics = *views_[view->index];
+  const StampedPicture picture{view, picture_of(PixelFormat::Rgb, view->colour), utc(view->stamp),
+                               &topics.name()};
+  topics.accept(view, picture);
+  if (view->index == selected_view_) selected_.accept(picture);
 }
 
 void DdsSink::accept(const Status& status) {
   if (!running_) return;
+  selected_view_ = status.selected_view;
   status_.put({status, status.frame_set == 0 ? TimeMessage{} : utc(status.stamp)});
+  wake_.put({});
+}
+
+void DdsSink::note(const AlarmNotice& notice) {
+  if (!running_) return;
+  notices_.put({notice, utc(notice.stamp)});
   wake_.put({});
 }
 
 void DdsSink::run() {
   while (wake_.take() && running_) {
-    // The status first: it follows its views, so its selection is already theirs.
-    const auto status = status_.try_take();
-    if (status) selected_view_ = status->status.selected_view;
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-      if (const auto stamped = channels_[i]->mailbox.try_take()) {
-        publish(*channels_[i], i, *stamped);
-      }
+    keep_joined();
+    if (!joined_) continue;
+    while (const auto notice = notices_.try_take()) status_topics_.publish(*notice);
+    for (const auto& view : views_) view->publish_info();
+    if (const auto status = status_.try_take()) {
+      status_topics_.publish(*status, commands_.counts(), [this] { return statistics(); });
     }
-    if (status) state_.write(&composer_.compose(status->status, status->stamp));
-  }
-}
-
-void DdsSink::publish(Channel& channel, std::size_t index, const StampedView& stamped) {
-  const View& view = *stamped.view;
-  const ImagePlane colour = colour_plane(view.colour);
-  channel.colour.publish(colour, channel.name, stamped.stamp);
-  if (index == selected_view_) selected_.publish(colour, channel.name, stamped.stamp);
-  if (view.radiometric.empty()) return;
-  if (channel.radiometric.open(participant_.entity())) {
-    channel.radiometric.publish(radiometric_plane(view.radiometric), channel.name, stamped.stamp);
   }
 }
 
 DdsStatistics DdsSink::statistics() const {
   DdsStatistics statistics;
-  for (const auto& channel : channels_) {
-    statistics.topics.push_back(channel->colour.statistics());
-    statistics.topics.push_back(channel->radiometric.statistics());
-    statistics.dropped_views.push_back(channel->mailbox.drops());
+  for (const auto& view : views_) view->report(statistics.topics);
+  for (const auto& camera : cameras_) camera->ball.report(statistics.topics);
+  selected_.report(statistics.topics);
+  for (const TopicWriter* topic : status_topics_.writers()) {
+    statistics.topics.push_back(topic->statistics());
   }
-  statistics.topics.push_back(selected_.statistics());
-  statistics.topics.push_back(state_.statistics());
+  statistics.topics.push_back(commands_.results().statistics());
+  statistics.joins = joins_;
   statistics.dropped_states = status_.drops();
+  statistics.dropped_notices = notices_.drops();
+  statistics.commands = commands_.counts();
   statistics.unknown_views = unknown_views_;
+  statistics.mistyped = mistyped_;
+  statistics.malformed = malformed_samples();
   return statistics;
 }
 

@@ -1,5 +1,7 @@
 #include "app/dds/entity.h"
 
+#include <mutex>
+
 namespace orbwatch::app {
 
 namespace {
@@ -9,11 +11,11 @@ Result<Entity> checked(std::string_view what, dds_entity_t handle) {
   return Entity(handle);
 }
 
-Qos newest_reliably() {
+Qos newest_reliably(std::int32_t depth = 1) {
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE,
                        std::chrono::nanoseconds(kMaxBlockingTime).count());
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
   return qos;
 }
 
@@ -41,25 +43,40 @@ Qos state_qos() {
   return qos;
 }
 
+Qos event_qos() {
+  Qos qos = newest_reliably(kEventDepth);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  // What later readers get has a history of its own, one deep unless set.
+  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kEventDepth,
+                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  return qos;
+}
+
+Qos command_qos() {
+  Qos qos = newest_reliably(kCommandDepth);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+void show_order_of_calls() {
+  static std::mutex mutex;
+  const std::lock_guard passes_the_order_on(mutex);
+}
+
 Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
                           const std::string& name) {
   return checked("topic " + name,
                  dds_create_topic(participant.get(), &type, name.c_str(), nullptr, nullptr));
 }
 
-Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos) {
-  return checked("writer", dds_create_writer(participant.get(), topic.get(), qos.get(), nullptr));
+Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener) {
+  return checked("writer", dds_create_writer(participant.get(), topic.get(), qos.get(), listener));
 }
 
-Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos) {
-  return checked("reader", dds_create_reader(participant.get(), topic.get(), qos.get(), nullptr));
-}
-
-std::uint32_t matched_readers(const Entity& writer) {
-  dds_publication_matched_status_t status{};
-  // A writer of ours cannot be refused this; if it were, it would have no readers.
-  if (dds_get_publication_matched_status(writer.get(), &status) != DDS_RETCODE_OK) return 0;
-  return status.current_count;
+Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener) {
+  return checked("reader", dds_create_reader(participant.get(), topic.get(), qos.get(), listener));
 }
 
 }  // namespace orbwatch::app

@@ -42,19 +42,35 @@ struct QosDeleter {
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
+struct ListenerDeleter {
+  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
+};
+using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
+
 /// For pictures: reliable, the newest only, nothing for readers that come later; a write waits for
 /// slow readers at most `kMaxBlockingTime`.
 Qos frame_qos();
 /// For the process state: as for pictures, but a reader that comes later gets the newest state.
 Qos state_qos();
+/// For alarm events: reliable, and a reader that comes later gets the last kEventDepth.
+Qos event_qos();
+inline constexpr std::int32_t kEventDepth = 64;
+/// For commands and their results: reliable, nothing for readers that come later.
+Qos command_qos();
+inline constexpr std::int32_t kCommandDepth = 16;
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{100};
+
+/// Lets a race detector see that Cyclone DDS calls a listener after it was made and before it ends:
+/// Cyclone orders that by atomics of its own, which no detector sees. Called before a listener is
+/// handed over, at begin and end of each call, and after the entity is gone. Thread-safe.
+void show_order_of_calls();
 
 Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
                           const std::string& name);
-Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos);
-Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos);
-
-/// Readers that match `writer` at this moment.
-std::uint32_t matched_readers(const Entity& writer);
+/// `listener`, if there is one, is copied; it may be called before this returns.
+Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener = nullptr);
+Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener = nullptr);
 
 }  // namespace orbwatch::app

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/pictures/picture_file.h"
+#include "hal/jpeg/jpeg_decoder.h"
 
 namespace orbwatch::app {
 
@@ -37,9 +38,9 @@ cv::Mat to_mat(const ReceivedImage& image) {
   return result;
 }
 
-Result<std::vector<std::uint8_t>> encode(const ReceivedImage& image) try {
+Result<std::vector<std::uint8_t>> encode(const cv::Mat& image) try {
   std::vector<std::uint8_t> png;
-  if (!cv::imencode(".png", to_mat(image), png)) return fail("image: cannot be encoded as PNG");
+  if (!cv::imencode(".png", image, png)) return fail("image: cannot be encoded as PNG");
   return png;
 } catch (const cv::Exception& error) {
   return fail("image: cannot be encoded as PNG: " + error.err);
@@ -48,7 +49,18 @@ Result<std::vector<std::uint8_t>> encode(const ReceivedImage& image) try {
 }  // namespace
 
 Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path) {
-  const auto png = encode(image);
+  const auto png = encode(to_mat(image));
+  if (!png) return tl::unexpected(png.error());
+  return write_file(path, *png);
+}
+
+Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path) {
+  // OpenCV patches damaged pictures over.
+  hal::JpegDecoder strict;
+  if (const auto checked = strict.check(std::as_bytes(jpeg)); !checked) return checked;
+  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1,
+                      const_cast<std::uint8_t*>(jpeg.data()));
+  const auto png = encode(cv::imdecode(bytes, cv::IMREAD_UNCHANGED));
   if (!png) return tl::unexpected(png.error());
   return write_file(path, *png);
 }

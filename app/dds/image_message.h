@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <string_view>
 
 #include "app/dds/idl/image.h"
+#include "proc/image/pixel_format.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -16,17 +18,23 @@ using ImageMessage = sensor_msgs_msg_dds__Image_;
 /// How the pixels of an image message lie in memory (ROS 2, sensor_msgs/image_encodings.hpp).
 struct ImageEncoding {
   std::string_view name;  ///< of a literal, so zero-terminated
+  PixelFormat format;
   std::uint32_t channels;
   std::uint32_t bytes_per_sample;
 
   constexpr std::uint32_t bytes_per_pixel() const { return channels * bytes_per_sample; }
 };
 
-inline constexpr ImageEncoding kRgb8{"rgb8", 3, 1};
-inline constexpr ImageEncoding kBgr8{"bgr8", 3, 1};
-inline constexpr ImageEncoding kMono8{"mono8", 1, 1};
-inline constexpr ImageEncoding kMono16{"mono16", 1, 2};
+inline constexpr ImageEncoding kRgb8{"rgb8", PixelFormat::Rgb, 3, 1};
+inline constexpr ImageEncoding kBgr8{"bgr8", PixelFormat::Bgr, 3, 1};
+inline constexpr ImageEncoding kMono8{"mono8", PixelFormat::Grey, 1, 1};
+inline constexpr ImageEncoding kMono16{"mono16", PixelFormat::Y16, 1, 2};
 inline constexpr std::array kImageEncodings{kRgb8, kBgr8, kMono8, kMono16};
+
+/// That of Rgb, Bgr, Grey or Y16.
+constexpr const ImageEncoding& encoding_of(PixelFormat format) {
+  return *std::ranges::find(kImageEncodings, format, &ImageEncoding::format);
+}
 
 inline constexpr bool kBigEndianHost = std::endian::native == std::endian::big;
 

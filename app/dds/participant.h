@@ -1,11 +1,20 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "app/dds/entity.h"
+#include "app/dds/security/participant_security.h"
 
 namespace orbwatch::app {
+
+/// Whether there is such a DDS domain: 0 to 230.
+Result<> check_domain(int domain);
+/// Whether there is such a file with settings of the network; an empty path stands for none.
+Result<> check_profile(const std::filesystem::path& profile);
 
 /// One participant of a DDS domain. Participants of the same domain share what the process keeps of
 /// it (sockets, threads, configuration); the last to leave closes it, so that joining again starts
@@ -21,9 +30,17 @@ class Participant {
     return *this;
   }
 
-  /// Joins a domain as CYCLONEDDS_URI says; where that says nothing, with receive buffers that hold
-  /// pictures. Error: number not 0 to 230, no usable network interface, invalid CYCLONEDDS_URI.
-  static Result<Participant> join(int domain);
+  /// Joins a domain as the file `profile` says, or CYCLONEDDS_URI without one; where that says
+  /// nothing, with receive buffers that hold pictures. The first of the process to join a domain
+  /// says it for all. With `security` only authenticated participants see and are seen. There must
+  /// not be a second one of those in the domain in this process at the same time: it would get the
+  /// rights of the first one, and Cyclone DDS 0.10 leaks what it decrypts for both. `user_data` is
+  /// what others are told of it. Errors: as check_domain() and security_qos(), no usable network
+  /// interface, invalid CYCLONEDDS_URI or profile, no such file.
+  static Result<Participant> join(int domain,
+                                  const std::optional<SecuritySettings>& security = std::nullopt,
+                                  std::string_view user_data = {},
+                                  const std::filesystem::path& profile = {});
   void leave();
 
   const Entity& entity() const { return entity_; }

@@ -2,32 +2,45 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
+#include "app/dds/command_counts.h"
 #include "app/dds/idl/process_state.h"
-#include "app/dds/time_message.h"
-#include "app/pipeline/status.h"
+#include "app/pipeline/status_report.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::app {
 
 using ProcessStateMessage = orbwatch_msgs_msg_dds__ProcessState_;
 
-/// Turns a Status into the message of the process-state topic, in memory that is used again.
+/// Turns a status into the message of the process-state topic, in memory that is used again.
 /// Thread-bound.
 class ProcessStateComposer {
  public:
-  /// `view_names` in the order of View::index.
-  explicit ProcessStateComposer(std::vector<std::string> view_names)
-      : view_names_(std::move(view_names)) {}
+  explicit ProcessStateComposer(StatusNames names);
 
-  /// The message; valid until the next call. `stamp` is the Status' stamp in UTC.
-  const ProcessStateMessage& compose(const Status& status, const TimeMessage& stamp);
+  /// The message; valid until the next call.
+  const ProcessStateMessage& compose(const Status& status, const StatusTimes& times,
+                                     const CommandCounts& commands);
 
  private:
-  std::vector<std::string> view_names_;
+  void compose_lists(const Status& status, const StatusTimes& times);
+
+  StatusNames names_;
+  std::array<orbwatch_msgs_msg_dds__RegionStatus_, signals::kMaxRegions> regions_{};
+  std::array<orbwatch_msgs_msg_dds__AlarmStatus_, signals::kMaxAlarms> alarms_{};
   std::array<orbwatch_msgs_msg_dds__CameraStatus_, kMaxCameras> cameras_{};
   std::array<orbwatch_msgs_msg_dds__ViewStatus_, kMaxViews> views_{};
   ProcessStateMessage message_{};
 };
+
+/// A process state that came over DDS.
+struct ReceivedState {
+  StatusReport report;
+  CommandCounts commands;
+};
+
+/// Checks a message from the network and takes everything over. Errors: lists that are longer than
+/// ours, numbers that no list of ours has, signals that we do not know. Reentrant.
+Result<ReceivedState> check_process_state(const ProcessStateMessage& message);
 
 }  // namespace orbwatch::app

@@ -9,6 +9,7 @@
 
 #include "app/dds/dds_log.h"
 #include "app/dds/participant.h"
+#include "app/dds/samples.h"
 #include "app/dds/topic_names.h"
 #include "hal/clock.h"
 
@@ -38,6 +39,9 @@ Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
     }
     if (is_process_state_topic(topic)) {
       subscriptions.push_back(std::make_unique<ProcessStateSubscription>(topic));
+    } else if (is_compressed_topic(topic)) {
+      subscriptions.push_back(
+          std::make_unique<CompressedImageSubscription>(topic, !options.save.empty()));
     } else {
       subscriptions.push_back(std::make_unique<ImageSubscription>(topic, !options.save.empty()));
     }
@@ -45,32 +49,17 @@ Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
   return subscriptions;
 }
 
-/// Wakes when any of the readers has data.
-class Readers {
- public:
-  Result<> open(const Entity& participant, const Subscriptions& subscriptions) {
-    waitset_ = Entity(dds_create_waitset(participant.get()));
-    for (const auto& subscription : subscriptions) {
-      if (const auto opened = subscription->open(participant); !opened) return opened;
-      const dds_entity_t condition =
-          dds_create_readcondition(subscription->reader().get(), DDS_ANY_STATE);
-      const dds_return_t code = dds_waitset_attach(waitset_.get(), condition, 0);
-      if (code < 0) return tl::unexpected(dds_error("wait set", code));
+/// Opens all of them; returns what wakes when any has data.
+Result<Entity> open(const Subscriptions& subscriptions, const Entity& participant) {
+  std::vector<dds_entity_t> readers;
+  for (const auto& subscription : subscriptions) {
+    if (const auto opened = subscription->open(participant); !opened) {
+      return tl::unexpected(opened.error());
     }
-    return {};
+    readers.push_back(subscription->reader().get());
   }
-
-  Result<> wait(hal::Clock::duration timeout) const {
-    const auto nanoseconds = std::chrono::nanoseconds(timeout).count();
-    const dds_return_t code =
-        dds_waitset_wait(waitset_.get(), nullptr, 0, std::max<dds_duration_t>(nanoseconds, 0));
-    if (code < 0) return tl::unexpected(dds_error("wait", code));
-    return {};
-  }
-
- private:
-  Entity waitset_;
-};
+  return make_wait_set(participant, readers);
+}
 
 /// When something is due next.
 class Schedule {
@@ -104,7 +93,7 @@ class Schedule {
   hal::TimePoint end_ = hal::TimePoint::max();
 };
 
-Result<> read(const Subscriptions& subscriptions, const Readers& readers,
+Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
               const SubscribeOptions& options, const std::atomic<bool>& cancelled,
               std::ostream& out) {
   Schedule schedule(options.seconds);
@@ -112,9 +101,8 @@ Result<> read(const Subscriptions& subscriptions, const Readers& readers,
     const auto now = hal::Clock::now();
     // Once more after the end: what has arrived by then counts.
     last = cancelled || schedule.over(now);
-    if (const auto waited = readers.wait(last ? kNoTime : schedule.wait(now)); !waited) {
-      return waited;
-    }
+    const auto waited = wait_for_data(wait_set, last ? kNoTime : schedule.wait(now));
+    if (!waited) return tl::unexpected(waited.error());
     for (const auto& subscription : subscriptions) {
       if (const auto taken = subscription->take(options.each ? &out : nullptr); !taken)
         return taken;
@@ -149,16 +137,16 @@ Result<SubscribeReport> subscribe(const SubscribeOptions& options,
                                   const std::atomic<bool>& cancelled, std::ostream& out) {
   limit_dds_log();
   if (const auto made = make_folder(options.save); !made) return tl::unexpected(made.error());
-  const auto participant = Participant::join(options.domain);
+  const auto participant = Participant::join(options.domain, options.security);
   if (!participant) return tl::unexpected(participant.error());
   const auto subscriptions = make_subscriptions(options);
   if (!subscriptions) return tl::unexpected(subscriptions.error());
 
-  Readers readers;
-  const auto done =
-      readers.open(participant->entity(), *subscriptions)
-          .and_then([&] { return read(*subscriptions, readers, options, cancelled, out); })
-          .and_then([&] { return save(*subscriptions, options); });
+  const auto done = open(*subscriptions, participant->entity())
+                        .and_then([&](const Entity& wait_set) {
+                          return read(*subscriptions, wait_set, options, cancelled, out);
+                        })
+                        .and_then([&] { return save(*subscriptions, options); });
   if (!done) return tl::unexpected(done.error());
 
   SubscribeReport report;

@@ -3,17 +3,20 @@
 #include <atomic>
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/dds/security/participant_security.h"
 #include "app/dds/subscription.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
 
 struct SubscribeOptions {
-  int domain = 0;                   ///< DDS domain, 0 to 230
-  std::string prefix = "orbwatch";  ///< of the default topics; left out of file names
+  int domain = 0;                              ///< DDS domain, 0 to 230
+  std::optional<SecuritySettings> security{};  ///< needed where orbwatchd has it
+  std::string prefix = "orbwatch";             ///< of the default topics; left out of file names
   /// With or without "rt/". None: the selected view and the process state.
   std::vector<std::string> topics{};
   std::filesystem::path save{};  ///< folder for the newest image of each topic, made if missing
@@ -28,7 +31,8 @@ struct SubscribeReport {
 };
 
 /// Reads topics until the time is over or `cancelled` is set, and saves the newest images at the
-/// end. Topics that end in /process_state carry process states, all others images; samples that do
+/// end. Topics that end in /process_state carry process states, in /compressed JPEG pictures, all
+/// others images; samples that do
 /// not add up are refused and counted. Lines go to `out`. Thread-bound; `cancelled` is looked at
 /// ten times a second. Errors: a topic twice, no usable network interface, a file that cannot be
 /// written.

@@ -4,19 +4,20 @@
 #include <array>
 #include <cstdio>
 #include <ostream>
+#include <span>
 
+#include "app/dds/compressed_image_message.h"
 #include "app/dds/image_file.h"
+#include "app/dds/samples.h"
 #include "app/dds/topic_names.h"
 
 namespace orbwatch::app {
 
 namespace {
 
-/// Samples that a topic holds for a reader that is busy, so that none is missed for a hiccup.
-constexpr std::int32_t kDepth = 8;
-
+/// A topic holds some samples for a reader that is busy, so that none is missed for a hiccup.
 Qos deep(Qos qos) {
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kDepth);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kMaxTaken);
   return qos;
 }
 
@@ -28,34 +29,18 @@ double milliseconds_between(dds_time_t earlier, dds_time_t later) {
 }  // namespace
 
 Subscription::Subscription(std::string topic, const dds_topic_descriptor_t& type, Qos qos)
-    : type_(type), qos_(std::move(qos)) {
+    : qos_(std::move(qos)), reader_(type, topic) {
   report_.topic = std::move(topic);
 }
 
-Result<> Subscription::open(const Entity& participant) {
-  auto reader = make_topic(participant, type_, report_.topic).and_then([&](Entity topic) {
-    topic_ = std::move(topic);
-    return make_reader(participant, topic_, qos_);
-  });
-  if (!reader) return fail(reader.error().message + " (" + report_.topic + ")");
-  reader_ = std::move(*reader);
-  return {};
-}
-
 Result<> Subscription::take(std::ostream* each) {
-  std::array<void*, kDepth> samples{};  // empty: DDS lends its own
-  std::array<dds_sample_info_t, kDepth> infos{};
-  const dds_return_t count =
-      dds_take(reader_.get(), samples.data(), infos.data(), samples.size(), kDepth);
-  if (count < 0) return tl::unexpected(dds_error("take from " + report_.topic, count));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    if (!infos[i].valid_data || !this->count(samples[i], infos[i])) continue;
-    if (each != nullptr) *each << report_.topic << ": " << describe() << '\n';
-  }
-  if (count > 0) {
-    const dds_return_t returned = dds_return_loan(reader_.get(), samples.data(), count);
-    if (returned < 0) return tl::unexpected(dds_error("return to " + report_.topic, returned));
-  }
+  const auto taken =
+      take_samples(reader_.get(), [&](const void* sample, const dds_sample_info_t& info) {
+        if (count(sample, info) && each != nullptr) {
+          *each << report_.topic << ": " << describe() << '\n';
+        }
+      });
+  if (!taken) return fail(taken.error().message + " (" + report_.topic + ")");
   dds_sample_lost_status_t lost{};
   const dds_return_t code = dds_get_sample_lost_status(reader_.get(), &lost);
   if (code < 0) return tl::unexpected(dds_error("losses of " + report_.topic, code));
@@ -140,20 +125,54 @@ Result<> ImageSubscription::save(const std::filesystem::path& folder, const std:
   return {};
 }
 
+CompressedImageSubscription::CompressedImageSubscription(std::string topic, bool keep)
+    : Subscription(std::move(topic), sensor_msgs_msg_dds__CompressedImage__desc, deep(frame_qos())),
+      keep_(keep) {}
+
+Result<> CompressedImageSubscription::accept(const void* sample) {
+  const auto& data = static_cast<const CompressedImageMessage*>(sample)->data;
+  const auto size = decoder_.read_size(std::as_bytes(std::span(data._buffer, data._length)));
+  if (!size) return tl::unexpected(size.error());
+  constexpr int kMaxJpegSide = static_cast<int>(kMaxImageSide);
+  if (size->width > kMaxJpegSide || size->height > kMaxJpegSide) {
+    return fail("image: " + std::to_string(size->width) + " x " + std::to_string(size->height) +
+                " pixels, each side must be 1 to " + std::to_string(kMaxImageSide));
+  }
+  size_ = *size;
+  length_ = data._length;
+  if (keep_) jpeg_.assign(data._buffer, data._buffer + data._length);
+  return {};
+}
+
+TimeMessage CompressedImageSubscription::stamp(const void* sample) const {
+  return static_cast<const CompressedImageMessage*>(sample)->header.stamp;
+}
+
+std::string CompressedImageSubscription::describe() const {
+  return std::to_string(size_.width) + "x" + std::to_string(size_.height) + " jpeg, " +
+         std::to_string(length_) + " bytes";
+}
+
+Result<> CompressedImageSubscription::save(const std::filesystem::path& folder,
+                                           const std::string& prefix) {
+  if (jpeg_.empty()) return {};
+  const auto path = folder / (file_stem(report_.topic, prefix) + ".png");
+  if (const auto saved = save_jpeg_as_png(jpeg_, path); !saved) return saved;
+  report_.saved = path;
+  return {};
+}
+
 ProcessStateSubscription::ProcessStateSubscription(std::string topic)
     : Subscription(std::move(topic), orbwatch_msgs_msg_dds__ProcessState__desc, deep(state_qos())) {
 }
 
 Result<> ProcessStateSubscription::accept(const void* sample) {
-  const auto& state = *static_cast<const ProcessStateMessage*>(sample);
-  if (state.system_state > static_cast<std::uint8_t>(SystemState::Fault)) {
-    return fail("process state: system state " + std::to_string(state.system_state) +
-                ", 0 to 3 are known");
-  }
-  newest_ = std::string(name_of(static_cast<SystemState>(state.system_state))) + ", frame set " +
-            std::to_string(state.frame_set) +
-            (state.trigger != 0 ? ", trigger " + std::to_string(state.trigger) : "") +
-            ", heartbeat " + std::to_string(state.heartbeat);
+  const auto state = check_process_state(*static_cast<const ProcessStateMessage*>(sample));
+  if (!state) return tl::unexpected(state.error());
+  const Status& status = state->report.status;
+  newest_ = std::string(name_of(status.state)) + ", frame set " + std::to_string(status.frame_set) +
+            (status.trigger != 0 ? ", trigger " + std::to_string(status.trigger) : "") +
+            ", heartbeat " + std::to_string(status.heartbeat);
   return {};
 }
 

@@ -11,6 +11,8 @@
 #include "app/dds/image_message.h"
 #include "app/dds/process_state.h"
 #include "app/dds/time_message.h"
+#include "app/dds/topic_reader.h"
+#include "hal/jpeg/jpeg_decoder.h"
 
 namespace orbwatch::app {
 
@@ -34,8 +36,8 @@ class Subscription {
   Subscription& operator=(const Subscription&) = delete;
   virtual ~Subscription() = default;
 
-  Result<> open(const Entity& participant);
-  const Entity& reader() const { return reader_; }
+  Result<> open(const Entity& participant) { return reader_.open(participant, qos_); }
+  const TopicReader& reader() const { return reader_; }
 
   /// Takes what DDS holds at this moment, without waiting; writes a line on each sample to `each`
   /// unless that is null. Error: DDS refuses.
@@ -73,10 +75,8 @@ class Subscription {
     double longest_gap_ms = 0;
   };
 
-  const dds_topic_descriptor_t& type_;
   Qos qos_;
-  Entity topic_;
-  Entity reader_;
+  TopicReader reader_;
   Interval interval_;
   std::optional<dds_time_t> last_written_;
 };
@@ -96,6 +96,26 @@ class ImageSubscription final : public Subscription {
   bool keep_;
   ReceivedImage newest_;  ///< its data, if kept, are bytes_
   std::vector<std::uint8_t> bytes_;
+};
+
+/// A topic of sensor_msgs/CompressedImage that carries JPEG. The header of each picture is checked,
+/// the whole of it when it is saved.
+class CompressedImageSubscription final : public Subscription {
+ public:
+  /// `keep`: the newest image is wanted by save().
+  CompressedImageSubscription(std::string topic, bool keep);
+  Result<> save(const std::filesystem::path& folder, const std::string& prefix) override;
+
+ private:
+  Result<> accept(const void* sample) override;
+  TimeMessage stamp(const void* sample) const override;
+  std::string describe() const override;
+
+  bool keep_;
+  hal::JpegDecoder decoder_;
+  hal::JpegSize size_;
+  std::size_t length_ = 0;  ///< bytes
+  std::vector<std::uint8_t> jpeg_;
 };
 
 /// A topic of process states.

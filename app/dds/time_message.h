@@ -23,4 +23,9 @@ inline std::chrono::nanoseconds since_epoch(const TimeMessage& message) {
   return std::chrono::seconds(message.sec) + std::chrono::nanoseconds(message.nanosec);
 }
 
+/// The moment of any message.
+inline std::chrono::system_clock::time_point to_utc(const TimeMessage& message) {
+  return std::chrono::system_clock::time_point(since_epoch(message));
+}
+
 }  // namespace orbwatch::app

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::string_view kRosTopic = "rt/";
 constexpr std::string_view kImage = "/image_raw";
+constexpr std::string_view kCompressed = "/compressed";
 constexpr std::string_view kProcessState = "/process_state";
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -23,9 +24,33 @@ std::string radiometric_topic(std::string_view prefix, std::string_view view) {
   return image_topic(prefix, std::string(view) + "/radiometric");
 }
 
+std::string camera_info_topic(std::string_view prefix, std::string_view view) {
+  return std::string(kRosTopic).append(prefix).append("/").append(view).append("/camera_info");
+}
+
+std::string ball_topic(std::string_view prefix, std::string_view camera) {
+  return image_topic(prefix, std::string(camera) + "/ball");
+}
+
+std::string compressed_topic(std::string_view raw) { return std::string(raw).append(kCompressed); }
+
 std::string process_state_topic(std::string_view prefix) {
   return std::string(kRosTopic).append(prefix).append(kProcessState);
 }
+
+std::string event_topic(std::string_view prefix) {
+  return std::string(kRosTopic).append(prefix).append("/event");
+}
+
+std::string command_topic(std::string_view prefix) {
+  return std::string(kRosTopic).append(prefix).append("/command");
+}
+
+std::string command_result_topic(std::string_view prefix) {
+  return std::string(kRosTopic).append(prefix).append("/command_result");
+}
+
+bool is_compressed_topic(std::string_view topic) { return topic.ends_with(kCompressed); }
 
 bool is_process_state_topic(std::string_view topic) { return topic.ends_with(kProcessState); }
 
@@ -55,8 +80,11 @@ std::string file_stem(std::string_view topic, std::string_view prefix) {
   if (topic.starts_with(prefix) && topic.substr(prefix.size()).starts_with('/')) {
     topic.remove_prefix(prefix.size() + 1);
   }
+  const bool compressed = is_compressed_topic(topic);
+  if (compressed) topic.remove_suffix(kCompressed.size());
   if (topic.ends_with(kImage)) topic.remove_suffix(kImage.size());
   std::string stem(topic.empty() ? "image" : topic);
+  if (compressed) stem += "-compressed";
   for (char& c : stem) {
     if (c == '/')
       c = '-';

@@ -8,18 +8,33 @@
 namespace orbwatch::app {
 
 /// DDS topic names as ROS 2 derives them from its own: "rt/" before the ROS name. The topics:
-///   rt/<prefix>/<view>/image_raw              what people look at, rgb8
-///   rt/<prefix>/<view>/radiometric/image_raw  what is measured, mono16 counts
+///   rt/<prefix>/<view>/image_raw              what people look at
+///   rt/<prefix>/<view>/radiometric/image_raw  what is measured, mono16 counts or mono8
+///   rt/<prefix>/<view>/camera_info            the calibration of a perspective view
 ///   rt/<prefix>/selected/image_raw            the view that Status::selected_view names
+///   rt/<prefix>/<camera>/ball/image_raw       a camera's own picture
+///   .../image_raw/compressed                  each but the measured ones as JPEG
 ///   rt/<prefix>/process_state                 the process state
+///   rt/<prefix>/event                         what happens to alarms
+///   rt/<prefix>/command                       requests to orbwatch
+///   rt/<prefix>/command_result                answers to them
 std::string image_topic(std::string_view prefix, std::string_view view);
 std::string radiometric_topic(std::string_view prefix, std::string_view view);
+std::string camera_info_topic(std::string_view prefix, std::string_view view);
+std::string ball_topic(std::string_view prefix, std::string_view camera);
+/// The JPEG topic beside an image topic.
+std::string compressed_topic(std::string_view raw);
 std::string process_state_topic(std::string_view prefix);
+std::string event_topic(std::string_view prefix);
+std::string command_topic(std::string_view prefix);
+std::string command_result_topic(std::string_view prefix);
 
 /// The place of a view in the topics that carries whichever view is selected.
 inline constexpr std::string_view kSelectedView = "selected";
 
-/// Whether the topic of that name carries process states (else images).
+/// Whether the topic of that name carries JPEG pictures.
+bool is_compressed_topic(std::string_view topic);
+/// Whether the topic of that name carries process states.
 bool is_process_state_topic(std::string_view topic);
 
 /// The DDS name of a topic that a person wrote with or without "rt/" or a leading "/".
@@ -32,7 +47,8 @@ Result<> check_topic_part(std::string_view part, std::string_view what);
 Result<> check_topic_path(std::string_view path, std::string_view what);
 
 /// The file name, without extension, under which the newest image of `topic` is saved: "front" of
-/// rt/<prefix>/front/image_raw, "front-radiometric" of rt/<prefix>/front/radiometric/image_raw.
+/// rt/<prefix>/front/image_raw, "front-radiometric" of rt/<prefix>/front/radiometric/image_raw,
+/// "front-compressed" of rt/<prefix>/front/image_raw/compressed.
 /// Holds letters, digits, '_', '-' and '.' only and never starts with a dot, whatever the topic.
 std::string file_stem(std::string_view topic, std::string_view prefix);
 

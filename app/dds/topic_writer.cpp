@@ -1,13 +1,20 @@
 #include "app/dds/topic_writer.h"
 
+#include "app/dds/ros/type_hash.h"
+
 namespace orbwatch::app {
 
 Result<> TopicWriter::open(const Entity& participant, const Qos& qos) {
   if (writer_) return {};
-  auto writer = make_topic(participant, type_, name_).and_then([&](Entity topic) {
-    topic_ = std::move(topic);
-    return make_writer(participant, topic_, qos);
-  });
+  show_order_of_calls();
+  const Listener listener(dds_create_listener(this));
+  dds_lset_publication_matched(listener.get(), count_readers);
+  auto writer = announce_type_hash(qos, type_)
+                    .and_then([&] { return make_topic(participant, type_, name_); })
+                    .and_then([&](Entity topic) {
+                      topic_ = std::move(topic);
+                      return make_writer(participant, topic_, qos, listener.get());
+                    });
   if (!writer) {
     count_failure(writer.error().message);
     return fail(writer.error().message + " (" + name_ + ")");
@@ -17,13 +24,23 @@ Result<> TopicWriter::open(const Entity& participant, const Qos& qos) {
 }
 
 void TopicWriter::close() {
-  writer_.reset();
+  writer_.reset();  // waits for count_readers
+  show_order_of_calls();
   topic_.reset();
+  readers_ = 0;
+}
+
+void TopicWriter::count_readers(dds_entity_t, dds_publication_matched_status_t status,
+                                void* topic) {
+  auto& self = *static_cast<TopicWriter*>(topic);
+  show_order_of_calls();
+  self.readers_ = status.current_count;
+  show_order_of_calls();
 }
 
 void TopicWriter::count_failure(std::string message) {
   ++failed_;
-  const std::lock_guard lock(error_mutex_);
+  const std::lock_guard lock(mutex_);
   last_error_ = std::move(message);
 }
 
@@ -39,8 +56,8 @@ void TopicWriter::write(const void* sample) {
 }
 
 TopicStatistics TopicWriter::statistics() const {
-  const std::lock_guard lock(error_mutex_);
-  return {name_, written_, unread_, blocked_, failed_, last_error_};
+  const std::lock_guard lock(mutex_);
+  return {name_, written_, unread_, 0, 0, blocked_, failed_, last_error_};
 }
 
 }  // namespace orbwatch::app

@@ -9,49 +9,63 @@
 
 namespace orbwatch::app {
 
-/// What became of the samples of one topic since the program started.
+/// What became of the samples of one topic since the program started: each is counted once.
 struct TopicStatistics {
   std::string topic;
   std::uint64_t written = 0;
-  std::uint64_t unread = 0;   ///< not written: nobody reads the topic
-  std::uint64_t blocked = 0;  ///< given up after kMaxBlockingTime: a reader does not keep up
-  std::uint64_t failed = 0;   ///< refused by DDS, or the writer could not be made
-  std::string last_error;     ///< of the newest failure; empty when there was none
+  std::uint64_t unread = 0;    ///< nobody reads the topic
+  std::uint64_t replaced = 0;  ///< a newer one came before it was written
+  std::uint64_t limited = 0;   ///< more than the topic's rate
+  std::uint64_t blocked = 0;   ///< given up after kMaxBlockingTime: a reader does not keep up
+  std::uint64_t failed = 0;    ///< refused by DDS, or the writer could not be made
+  std::string last_error{};    ///< of the newest failure; empty when there was none
 };
 
 /// One topic and its writer, and the count of what went through.
-/// Thread rule: one owner; statistics() is thread-safe.
+/// Thread rule: one owner; has_reader(), the count_ functions and statistics() are thread-safe.
 class TopicWriter {
  public:
   TopicWriter(const dds_topic_descriptor_t& type, std::string name)
       : type_(type), name_(std::move(name)) {}
+  ~TopicWriter() { close(); }
+  TopicWriter(const TopicWriter&) = delete;  // Cyclone DDS calls it where it stands
+  TopicWriter& operator=(const TopicWriter&) = delete;
 
-  /// Creates topic and writer; does nothing when they exist. An error counts as a failed
-  /// sample.
+  /// Creates topic and writer, which announces its type's hash; does nothing when they exist. An
+  /// error counts as a failed sample.
   Result<> open(const Entity& participant, const Qos& qos);
   void close();
 
-  bool has_reader() const { return matched_readers(writer_) > 0; }
+  /// Whether somebody reads the topic now. Thread-safe, waits for nothing.
+  bool has_reader() const { return readers_ > 0; }
   void count_unread() { ++unread_; }
 
   /// Writes one sample of the topic's type and counts what became of it. Waits kMaxBlockingTime at
   /// most. Nothing of the sample is kept or released.
   void write(const void* sample);
 
+  void count_failure(std::string message);
+
   TopicStatistics statistics() const;
+  dds_entity_t get() const { return writer_.get(); }
+  const std::string& name() const { return name_; }
+  const char* type_name() const { return type_.m_typename; }
 
  private:
-  void count_failure(std::string message);
+  /// On a thread of Cyclone DDS.
+  static void count_readers(dds_entity_t writer, dds_publication_matched_status_t status,
+                            void* topic);
 
   const dds_topic_descriptor_t& type_;
   const std::string name_;
   Entity topic_;
   Entity writer_;
+  std::atomic<std::uint32_t> readers_{0};
   std::atomic<std::uint64_t> written_{0};
   std::atomic<std::uint64_t> unread_{0};
   std::atomic<std::uint64_t> blocked_{0};
   std::atomic<std::uint64_t> failed_{0};
-  mutable std::mutex error_mutex_;
+  mutable std::mutex mutex_;
   std::string last_error_;
 };
 

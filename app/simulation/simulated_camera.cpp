@@ -10,7 +10,6 @@ namespace orbwatch::app::simulation {
 namespace {
 
 constexpr int kMaxSimulatedSide = 8192;  // pixels
-constexpr double kMaxFrameRate = 1000;   // per second
 
 std::string_view model_of(CameraKind kind) {
   return kind == CameraKind::Colour ? "ray-traced colour camera" : "ray-traced thermal camera";
@@ -58,9 +57,9 @@ Result<> SimulatedCamera::check(int width, int height, double frame_rate) const 
     return refuse("size " + std::to_string(width) + "x" + std::to_string(height) +
                   "; both must be from 1 to " + std::to_string(kMaxSimulatedSide) + " pixels");
   }
-  if (!(frame_rate > 0 && frame_rate <= kMaxFrameRate)) {
-    return refuse("frame rate " + std::to_string(frame_rate) +
-                  "; it must be above 0 and at most 1000 per second");
+  if (!(frame_rate > 0 && frame_rate <= hal::kMaxFrameRate)) {
+    return refuse("frame rate " + std::to_string(frame_rate) + "; it must be above 0 and at most " +
+                  std::to_string(hal::kMaxFrameRate) + " per second");
   }
   if (!(settings_.horizontal_fov > 0 && settings_.horizontal_fov < 180)) {
     return refuse("horizontal field of view " + std::to_string(settings_.horizontal_fov) +
@@ -101,7 +100,7 @@ Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest
 
 Result<> SimulatedCamera::set(std::string_view control, double value) {
   if (control != "TriggerMode" || (value != 0 && value != 1)) {
-    return fail("camera " + info().id + ": control \"" + std::string(control) +
+    return fail("control \"" + std::string(control) +
                 "\" cannot be set; it takes TriggerMode, 0 or 1");
   }
   trigger_mode_ = value == 1;

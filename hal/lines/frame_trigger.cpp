@@ -21,14 +21,17 @@ bool FrameTrigger::is_trigger(Edge edge) const {
 }
 
 void FrameTrigger::take(const EdgeEvent& edge) {
-  if (!is_trigger(edge.edge)) return;
+  if (is_trigger(edge.edge)) fire(edge.stamp);
+}
+
+void FrameTrigger::fire(TimePoint moment) {
   const std::lock_guard lock(mutex_);
-  const TriggerStamp trigger{++counts_.triggers, edge.stamp};
+  const TriggerStamp trigger{++counts_.triggers, moment};
   if (counts_.waiting == kMaxWaiting) {
     ++counts_.missed;
     return;
   }
-  waiting_[counts_.waiting++] = {trigger, edge.stamp + settings_.delay, false};
+  waiting_[counts_.waiting++] = {trigger, moment + settings_.delay, false};
 }
 
 /// In mode Software the first one that the camera was not asked for yet.

@@ -46,8 +46,8 @@ struct TriggerCounts {
 /// A frame belongs to the newest trigger (edge and delay) that its exposure did not begin before;
 /// triggers before that one were missed. In mode Software the camera is asked for a frame when the
 /// trigger is due, unless it still owes the one before: then the trigger is missed.
-/// Thread rule: take, due and run on the line thread, claim and abandon on the camera's, counts on
-/// any. Bounded: of more than kMaxWaiting triggers the newest are missed,
+/// Thread rule: take, due and run on the line thread, claim and abandon on the camera's, fire and
+/// counts on any. Bounded: of more than kMaxWaiting triggers the newest are missed,
 /// since the oldest may belong to frames that are under way.
 class FrameTrigger : public LineTask {
  public:
@@ -59,6 +59,9 @@ class FrameTrigger : public LineTask {
 
   /// An edge of the line.
   void take(const EdgeEvent& edge);
+
+  /// A trigger without an edge (GenICam TriggerSoftware).
+  void fire(TimePoint moment);
 
   TimePoint due() const override;
   void run(TimePoint now) override;

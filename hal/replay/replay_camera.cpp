@@ -8,7 +8,6 @@ namespace orbwatch::hal {
 namespace {
 
 constexpr double kFolderFrameRate = 30.0;
-constexpr double kMaxFrameRate = 1000.0;
 constexpr std::chrono::seconds kLateEnoughToTell{1};
 
 Clock::duration offset(std::uint64_t exposure, double frame_rate) {
@@ -50,7 +49,8 @@ Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
   }
   if (!(format.frame_rate > 0 && format.frame_rate <= kMaxFrameRate)) {
     return fail(who + "frame rate " + std::to_string(format.frame_rate) +
-                "; it must be above 0 and at most 1000 per second");
+                "; it must be above 0 and at most " + std::to_string(kMaxFrameRate) +
+                " per second");
   }
   recording_ = std::move(*recording);
   format_ = format;

@@ -4,26 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include <chrono>
+#include <string>
 #include <utility>
 
 namespace orbwatch::app {
 namespace {
-
-using std::chrono::seconds;
-
-TEST(LineBudgetTest, AdmitsTheLimitPerMinuteAndTellsWhatItWithheld) {
-  LineBudget budget(2);
-  const hal::TimePoint start = hal::Clock::now();
-  EXPECT_EQ(budget.admit(start), 0u);
-  EXPECT_EQ(budget.admit(start + seconds(1)), 0u);
-  for (int i = 0; i < 1400; ++i) EXPECT_EQ(budget.admit(start + seconds(2)), std::nullopt);
-  EXPECT_EQ(budget.admit(start + seconds(59)), std::nullopt);
-  EXPECT_EQ(budget.admit(start + seconds(60)), 1401u);
-  EXPECT_EQ(budget.admit(start + seconds(61)), 0u);
-  EXPECT_EQ(budget.admit(start + seconds(62)), std::nullopt);
-}
 
 TEST(LimitDdsLogTest, WhatCycloneLogsArrivesAndIsLimited) {
   limit_dds_log();

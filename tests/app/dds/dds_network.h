@@ -32,8 +32,8 @@ class DdsNetwork {
               DDS_RETCODE_OK);
   }
 
- private:
-  static std::string configuration() {
+  /// Of a domain on this network; `more` stands in <Domain>.
+  static std::string configuration(const std::string& more = "") {
     // Ports of the domains up to 100 lie below those that the system gives to clients.
     const std::string domain = std::to_string(1 + getpid() % 100);
     return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
@@ -46,9 +46,11 @@ class DdsNetwork {
            "</Tag>"
            "<ParticipantIndex>auto</ParticipantIndex>"
            "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
-           "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
+           "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>" +
+           more + "</Domain></CycloneDDS>";
   }
 
+ private:
   Entity sink_domain_;
   Entity reader_domain_;
 };

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "app/dds/dds_sink.h"
+#include "tests/app/dds/dds_network.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -63,17 +66,42 @@ TEST(ParticipantTest, TheEnvironmentOverridesOurDefaults) {
   EXPECT_FALSE(Participant::join(kDomain + 1));
 }
 
-TEST(ParticipantTest, MissingInterfaceIsReportedInOneLineAndMayComeBack) {
+TEST(ParticipantTest, AProfileStandsForTheEnvironment) {
+  const orbwatch::tests::TemporaryFolder folder;
+  const auto profile = folder / "lo.xml";
+  std::ofstream(profile) << "<CycloneDDS><Domain><General><Interfaces><NetworkInterface "
+                            "name=\"lo\"/></Interfaces></General></Domain></CycloneDDS>";
   configure("absent0");
-  DdsSink sink({.enabled = true, .domain = kDomain, .prefix = "orbwatch"}, {"front"});
-  const auto started = sink.start();
-  ASSERT_FALSE(started);
-  EXPECT_THAT(started.error().message, testing::StartsWith("DDS domain 3: "));
-  EXPECT_THAT(started.error().message, testing::Not(testing::HasSubstr("\n")));
+  EXPECT_FALSE(Participant::join(kDomain));
+  const auto participant = Participant::join(kDomain, std::nullopt, {}, profile);
+  EXPECT_TRUE(participant) << participant.error().message;
+}
+
+TEST(ParticipantTest, AProfileThatIsMissingIsNamed) {
+  configure("lo");
+  EXPECT_EQ(Participant::join(kDomain, std::nullopt, {}, "/absent.xml").error().message,
+            "DDS profile /absent.xml: no such file");
+}
+
+TEST(ParticipantTest, MissingInterfaceIsReportedInOneLine) {
+  configure("absent0");
+  const auto participant = Participant::join(kDomain);
+  ASSERT_FALSE(participant);
+  EXPECT_THAT(participant.error().message, testing::StartsWith("DDS domain 3: "));
+  EXPECT_THAT(participant.error().message, testing::Not(testing::HasSubstr("\n")));
+}
+
+TEST(ParticipantTest, ASinkWaitsForAnInterfaceThatIsMissing) {
+  configure("absent0");
+  DdsSink sink({.domain = kDomain}, {{}, {"front"}, {}}, nullptr);
+  ASSERT_TRUE(sink.start());
+  EXPECT_EQ(sink.statistics().joins, 0u);
 
   configure("lo");
-  const auto again = sink.start();
-  EXPECT_TRUE(again) << again.error().message;
+  EXPECT_TRUE(tests::eventually([&] {
+    sink.accept(Status{});
+    return sink.statistics().joins == 1;
+  }));
 }
 
 }  // namespace

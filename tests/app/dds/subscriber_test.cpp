@@ -10,9 +10,9 @@
 #include <ostream>
 #include <streambuf>
 
+#include "app/dds/compressed_image_message.h"
 #include "app/dds/dds_sink.h"
-#include "app/dds/participant.h"
-#include "tests/app/dds/dds_network.h"
+#include "tests/app/dds/foreign_writer.h"
 #include "tests/app/dds/test_status.h"
 #include "tests/app/dds/test_views.h"
 #include "tests/support/temporary_folder.h"
@@ -22,6 +22,7 @@ namespace {
 
 using testing::HasSubstr;
 using tests::eventually;
+using tests::ForeignWriter;
 using tests::make_view;
 
 constexpr auto* kFrontTopic = "rt/orbwatch/front/image_raw";
@@ -78,31 +79,6 @@ class Subscriber {
   std::future<Result<SubscribeReport>> result_;
 };
 
-/// Any program on the network: writes what it is told, sound or not, and loses none of it.
-class ForeignWriter {
- public:
-  ForeignWriter(const dds_topic_descriptor_t& type, const std::string& topic, Qos qos)
-      : participant_(Participant::join(tests::DdsNetwork::kSinkDomain).value()),
-        topic_(make_topic(participant_.entity(), type, topic).value()) {
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 100);
-    writer_ = make_writer(participant_.entity(), topic_, qos).value();
-  }
-
-  bool wait_for_reader() const {
-    return eventually([this] { return matched_readers(writer_) > 0; });
-  }
-  void write(const void* sample) const {
-    EXPECT_EQ(dds_write(writer_.get(), sample), DDS_RETCODE_OK);
-  }
-  /// Whether every reader has everything.
-  bool flush() const { return dds_wait_for_acks(writer_.get(), DDS_SECS(60)) == DDS_RETCODE_OK; }
-
- private:
-  Participant participant_;
-  Entity topic_;
-  Entity writer_;
-};
-
 /// An image message of 4 x 3 grey pixels, unless the test spoils it.
 struct SmallImage {
   std::string frame_id = "front";
@@ -133,8 +109,7 @@ class SubscriberTest : public testing::Test {
 };
 
 TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
-  DdsSink sink({.enabled = true, .domain = tests::DdsNetwork::kSinkDomain, .prefix = "orbwatch"},
-               {"front"});
+  DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);
   ASSERT_TRUE(sink.start());
   const auto folder = folder_.path() / "new";
   Subscriber subscriber(
@@ -154,8 +129,8 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
     return printed.matches("front/image_raw" + figures + "64x48 rgb8, lost [0-9]+\n") &&
            printed.matches("radiometric/image_raw" + figures + "64x48 mono16, lost [0-9]+\n") &&
            printed.matches("process_state" + figures +
-                           "degraded, frame set 1000000000002, trigger 1000000000003, "
-                           "heartbeat 1000000000001, lost") &&
+                           "degraded, frame set 1000000000001, trigger 1000000000002, "
+                           "heartbeat 1000000000000, lost") &&
            printed.matches("front/image_raw: 64x48 rgb8\n");
   })) << subscriber.printed().text();
   const auto report = subscriber.cancel();
@@ -185,8 +160,46 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
   }
 }
 
+TEST_F(SubscriberTest, ReadsCompressedPicturesAndRefusesWhatIsNone) {
+  ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__CompressedImage__desc,
+                       "rt/orbwatch/front/image_raw/compressed", frame_qos());
+  const auto folder = folder_.path() / "jpeg";
+  Subscriber subscriber(
+      {.topics = {"orbwatch/front/image_raw/compressed"}, .save = folder, .each = true});
+  ASSERT_TRUE(writer.wait_for_reader());
+  const cv::Mat grey(24, 32, CV_8UC1, cv::Scalar(90));
+  std::vector<std::uint8_t> jpeg;
+  ASSERT_TRUE(cv::imencode(".jpg", grey, jpeg));
+  std::string frame_id = "front", format = "mono8; jpeg compressed mono8";
+  const auto write = [&](std::vector<std::uint8_t> bytes) {
+    CompressedImageMessage message{};
+    message.header.frame_id = frame_id.data();
+    message.format = format.data();
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    message.data = {size, size, bytes.data(), false};
+    writer.write(&message);
+  };
+  write({});
+  write({0xFF, 0xD8, 0xFF, 'n', 'o', 'n', 'e'});
+  write(jpeg);
+  ASSERT_TRUE(writer.flush());
+  ASSERT_TRUE(eventually([&] {
+    return subscriber.printed().matches("compressed: 32x24 jpeg, [0-9]+ bytes\n");
+  })) << subscriber.printed().text();
+  const auto report = subscriber.cancel();
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->topics[0].received, 1u);
+  EXPECT_EQ(report->topics[0].refused, 2u);
+  EXPECT_THAT(report->topics[0].refusal, HasSubstr("JPEG"));
+  EXPECT_EQ(report->topics[0].saved, folder / "front-compressed.png");
+  const cv::Mat saved = cv::imread(report->topics[0].saved.string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(saved.size(), grey.size());
+  EXPECT_LE(cv::norm(saved, grey, cv::NORM_INF), 2);
+}
+
 TEST_F(SubscriberTest, SavesTheNewest) {
-  const ForeignWriter writer(sensor_msgs_msg_dds__Image__desc, kFrontTopic, frame_qos());
+  const ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__Image__desc,
+                             kFrontTopic, frame_qos());
   Subscriber subscriber({.topics = {kFrontTopic}, .save = folder_.path()});
   ASSERT_TRUE(writer.wait_for_reader());
   SmallImage image;
@@ -203,7 +216,8 @@ TEST_F(SubscriberTest, SavesTheNewest) {
 }
 
 TEST_F(SubscriberTest, RefusesImagesThatDoNotAddUp) {
-  const ForeignWriter writer(sensor_msgs_msg_dds__Image__desc, kFrontTopic, frame_qos());
+  const ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__Image__desc,
+                             kFrontTopic, frame_qos());
   Subscriber subscriber({.topics = {kFrontTopic}, .save = folder_.path()});
   ASSERT_TRUE(writer.wait_for_reader());
   SmallImage good;
@@ -230,7 +244,8 @@ TEST_F(SubscriberTest, RefusesImagesThatDoNotAddUp) {
 }
 
 TEST_F(SubscriberTest, RefusesStatesThatItDoesNotKnow) {
-  const ForeignWriter writer(orbwatch_msgs_msg_dds__ProcessState__desc, kStateTopic, state_qos());
+  const ForeignWriter writer(tests::DdsNetwork::kSinkDomain,
+                             orbwatch_msgs_msg_dds__ProcessState__desc, kStateTopic, state_qos());
   Subscriber subscriber({.topics = {kStateTopic}});
   ASSERT_TRUE(writer.wait_for_reader());
   ProcessStateMessage message{};

@@ -1,47 +1,92 @@
 #pragma once
 
-#include "app/pipeline/status.h"
+#include <array>
+
+#include "app/pipeline/status_report.h"
 
 namespace orbwatch::app::tests {
 
-/// A status in which no two figures are equal.
+inline constexpr std::uint16_t kRecipe = 7;
+
+inline StatusNames make_names() {
+  return {{"colour", "thermal"}, {"front", "wide"}, {{kRecipe, {"weld", "edge"}}}};
+}
+
+/// Numbers of which no two are equal, and which double holds exactly.
+class Numbers {
+ public:
+  std::uint64_t whole() { return next_++; }
+  double real() { return static_cast<double>(next_++) + 0.125; }
+
+  template <class Struct, class Infos>
+  void fill(Struct& values, const Infos& infos) {
+    for (const auto& info : infos) values.*info.member = real();
+  }
+
+ private:
+  std::uint64_t next_ = 1'000'000'000'000;
+};
+
+inline CameraStatus make_camera(Numbers& numbers) {
+  CameraStatus camera;
+  camera.fault = hal::Fault::Stalled;
+  camera.frames = numbers.whole();
+  camera.lost = numbers.whole();
+  camera.dropped = numbers.whole();
+  camera.unmatched = numbers.whole();
+  camera.frames_per_second = numbers.real();
+  camera.latency_p50_ms = numbers.real();
+  camera.latency_p99_ms = numbers.real();
+  camera.triggers = numbers.whole();
+  camera.missed = numbers.whole();
+  return camera;
+}
+
+inline AlarmStatus make_alarm(std::size_t index, Numbers& numbers) {
+  AlarmStatus alarm;
+  alarm.alarm = {signals::AlarmState::LatchedUnacknowledged, signals::AlarmLevel::HighWarning,
+                 signals::AlarmLevel::HighAlarm, index % 2 == 0};
+  alarm.region = index % 2;
+  alarm.signal = index;
+  alarm.value = numbers.real();
+  return alarm;
+}
+
+/// A status in which no two figures are equal, with the names of make_names().
 inline Status make_status() {
+  Numbers numbers;
   Status status;
   status.state = SystemState::Degraded;
-  status.heartbeat = 1'000'000'000'001;
-  status.frame_set = 1'000'000'000'002;
+  status.heartbeat = numbers.whole();
+  status.frame_set = numbers.whole();
   status.stamp = hal::Clock::now();
-  status.overruns = 3;
-  status.unmatched = 4;
-  status.trigger = 1'000'000'000'003;
-  status.skew_ms = 0.375;
-  status.load = 0.625;
+  status.trigger = numbers.whole();
+  status.result = numbers.whole();
+  status.recipe = kRecipe;
+  status.configuration_checksum = 0xdeadbeef;
+  status.recipe_refused = true;
+  status.process_active = true;
+  status.overruns = numbers.whole();
+  status.unmatched = numbers.whole();
+  status.skew_ms = numbers.real();
+  status.load = numbers.real();
+  status.process_inputs = 0x80000005;
   status.selected_view = 1;
-  status.process_inputs = 0b101;
   status.camera_count = 2;
+  for (auto& camera : status.cameras) camera = make_camera(numbers);
   status.view_count = 2;
-  std::uint64_t next = 100;
-  for (auto& camera : status.cameras) {
-    const auto base = static_cast<double>(next);
-    camera.fault = hal::Fault::Stalled;
-    camera.frames = next;
-    camera.lost = next + 1;
-    camera.dropped = next + 2;
-    camera.frames_per_second = base + 0.5;
-    camera.latency_p50_ms = base + 0.25;
-    camera.latency_p99_ms = base + 0.75;
-    camera.triggers = next + 3;
-    camera.missed = next + 4;
-    camera.unmatched = next + 5;
-    next += 10;
-  }
   for (auto& view : status.views) {
-    const auto base = static_cast<double>(next);
-    view = {next, next + 1, base + 0.25, base + 0.5, base + 0.75, 0};
-    next += 10;
+    view = {numbers.whole(), numbers.whole(), numbers.real(),
+            numbers.real(),  numbers.real(),  numbers.whole()};
   }
-  double value = -7.125;
-  for (const auto& signal : signals::kSignals) status.signals.*signal.member = value *= -1.5;
+  status.region_count = 2;
+  for (auto& region : status.regions) {
+    region.quality = Quality::Apparent;
+    numbers.fill(region.signals, signals::kSignals);
+  }
+  status.alarm_count = 3;
+  for (std::size_t i = 0; i < status.alarm_count; ++i) status.alarms[i] = make_alarm(i, numbers);
+  numbers.fill(status.health, kHealthFigures);
   return status;
 }
 

@@ -10,6 +10,9 @@ TEST(TopicNamesTest, AreThoseOfRos2) {
   EXPECT_EQ(radiometric_topic("orbwatch", "front"), "rt/orbwatch/front/radiometric/image_raw");
   EXPECT_EQ(image_topic("cell3/orbwatch", kSelectedView), "rt/cell3/orbwatch/selected/image_raw");
   EXPECT_EQ(process_state_topic("orbwatch"), "rt/orbwatch/process_state");
+  EXPECT_EQ(event_topic("orbwatch"), "rt/orbwatch/event");
+  EXPECT_EQ(command_topic("orbwatch"), "rt/orbwatch/command");
+  EXPECT_EQ(command_result_topic("orbwatch"), "rt/orbwatch/command_result");
 }
 
 TEST(TopicNamesTest, KnowTheirContent) {

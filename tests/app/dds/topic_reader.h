@@ -15,14 +15,16 @@
 
 namespace orbwatch::app::tests {
 
-/// A plain reader of one topic on the readers' side of the network.
+/// A plain reader of one topic, on the readers' side of the network unless told otherwise.
 template <class Message>
 class TopicReader {
  public:
   using Look = std::function<void(const Message&)>;
 
-  TopicReader(const dds_topic_descriptor_t& type, const std::string& topic, const Qos& qos)
-      : participant_(Participant::join(DdsNetwork::kReaderDomain).value()),
+  TopicReader(const dds_topic_descriptor_t& type, const std::string& topic, const Qos& qos,
+              int domain = DdsNetwork::kReaderDomain,
+              const std::optional<SecuritySettings>& security = std::nullopt)
+      : participant_(Participant::join(domain, security).value()),
         topic_(make_topic(participant_.entity(), type, topic).value()),
         reader_(make_reader(participant_.entity(), topic_, qos).value()),
         condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE)),

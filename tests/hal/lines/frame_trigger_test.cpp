@@ -5,6 +5,7 @@
 #include <atomic>
 #include <random>
 #include <thread>
+#include <vector>
 
 #include "tests/hal/lines/edges.h"
 
@@ -108,6 +109,62 @@ TEST(FrameTrigger, ACameraFaultMissesWhatWaits) {
   trigger.abandon();
   EXPECT_EQ(trigger.counts().missed, 2U);
   EXPECT_FALSE(trigger.claim(at(3)));
+}
+
+TEST(FrameTrigger, ACommandIsATriggerWhateverTheActivation) {
+  for (const auto activation : {TriggerActivation::RisingEdge, TriggerActivation::FallingEdge,
+                                TriggerActivation::AnyEdge}) {
+    FrameTrigger trigger({.mode = TriggerMode::Line, .activation = activation}, never);
+    trigger.fire(at(10));
+    EXPECT_FALSE(trigger.claim(at(9))) << "began before";
+    const auto stamp = trigger.claim(at(10));
+    ASSERT_TRUE(stamp);
+    EXPECT_EQ(stamp->id, 1U);
+    EXPECT_EQ(stamp->edge, at(10));
+  }
+}
+
+TEST(FrameTrigger, CommandsAndEdgesAreNumberedTogether) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.take(rising(10));
+  trigger.fire(at(20));
+  trigger.take(rising(30));
+  for (const std::uint64_t id : {1U, 2U, 3U}) {
+    EXPECT_EQ(trigger.claim(at(10.0 * static_cast<double>(id) + 1))->id, id);
+  }
+  EXPECT_EQ(trigger.counts().triggers, 3U);
+}
+
+TEST(FrameTrigger, CommandsFromManyThreadsAreAllCounted) {
+  FrameTrigger trigger(line_settings(), never);
+  constexpr std::uint64_t kEach = 500;
+  {
+    std::vector<std::jthread> commanding;
+    for (int thread = 0; thread < 3; ++thread) {
+      commanding.emplace_back([&] {
+        for (std::uint64_t n = 0; n < kEach; ++n) trigger.fire(Clock::now());
+      });
+    }
+    const std::jthread claiming([&](const std::stop_token& stop) {
+      while (!stop.stop_requested()) trigger.claim(Clock::now());
+    });
+    commanding.clear();
+  }
+  EXPECT_EQ(trigger.counts().triggers, 3 * kEach);
+  EXPECT_EQ(sum(trigger.counts()), 3 * kEach) << "each is a frame, missed, or waits";
+}
+
+TEST(SoftwareTrigger, ACommandAsksTheCameraOnceTheDelayIsOver) {
+  int asked = 0;
+  TriggerSettings settings = software_settings();
+  settings.delay = milliseconds(5);
+  FrameTrigger trigger(settings, [&asked]() -> Result<> { return ++asked, Result<>(); });
+  trigger.fire(at(10));
+  EXPECT_EQ(asked, 0) << "fire does not wait for the camera: the line thread asks it";
+  EXPECT_EQ(trigger.due(), at(15));
+  trigger.run(at(15));
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(trigger.claim(at(15.1))->id, 1U);
 }
 
 TEST(SoftwareTrigger, AsksTheCameraWhenTheDelayIsOver) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "app/dds/participant.h"
+#include "app/dds/process_state.h"
+#include "app/dds/topic_reader.h"
+
+namespace orbwatch::app {
+
+/// Reads the process state of an orbwatchd; the newest wins. Thread-bound.
+class StateReader {
+ public:
+  explicit StateReader(const std::string& prefix);
+
+  /// Joins the domain, with `security` where orbwatchd has it. Errors: as Participant::join, DDS
+  /// refuses.
+  Result<> open(int domain, const std::optional<SecuritySettings>& security = std::nullopt);
+
+  /// The newest state that was not returned yet, if one comes within `timeout`. The first one comes
+  /// as soon as orbwatchd is found. Error: a state that does not add up.
+  Result<std::optional<ReceivedState>> next(std::chrono::nanoseconds timeout);
+
+ private:
+  Participant participant_;
+  TopicReader states_;
+  Entity wait_set_;
+};
+
+}  // namespace orbwatch::app

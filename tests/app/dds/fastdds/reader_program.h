@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <opencv2/core/persistence.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/network_namespace.h"
+#include "tests/support/subprocess.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::tests {
+
+/// A reader as a program in some network, and what it has printed so far: JSON, an object a line.
+class ReaderProgram {
+ public:
+  ReaderProgram(const NetworkNamespace& where, const std::vector<std::string>& command) {
+    where.run([&] { program_.emplace(command, folder_ / "printed"); });
+  }
+
+  Subprocess& program() { return *program_; }
+
+  std::string printed() const { return program_->output(); }
+
+  /// Whole lines that have a member of that name.
+  std::vector<std::string> lines_with(const std::string& member) const {
+    std::vector<std::string> found;
+    std::istringstream text(printed());
+    for (std::string line; std::getline(text, line) && !text.eof();) {
+      if (line.find('"' + member + "\":") != std::string::npos) found.push_back(line);
+    }
+    return found;
+  }
+
+  std::vector<std::string> samples() const { return lines_with("since_match_ms"); }
+
+  /// What the writer that it found said of itself; empty as long as it found none.
+  std::optional<std::string> match() const {
+    const auto lines = lines_with("matched");
+    if (lines.empty()) return std::nullopt;
+    return lines.front();
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::optional<Subprocess> program_;
+};
+
+/// The command of another vendor's reader; `options` are those of fastdds_reader besides the
+/// domain.
+inline std::vector<std::string> foreign_reader(int domain,
+                                               const std::vector<std::string>& options) {
+  std::vector<std::string> command{FASTDDS_READER_PROGRAM, "--domain", std::to_string(domain)};
+  command.insert(command.end(), options.begin(), options.end());
+  return command;
+}
+
+/// One printed line; its members as fs["name"].
+inline cv::FileStorage parsed(const std::string& line) {
+  return {line, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON};
+}
+
+}  // namespace orbwatch::tests

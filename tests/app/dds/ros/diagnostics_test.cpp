@@ -1,0 +1,200 @@
+#include "app/dds/ros/diagnostics.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/app/dds/test_status.h"
+
+namespace orbwatch::app {
+namespace {
+
+class Diagnostics : public testing::Test {
+ protected:
+  Diagnostics() {
+    report_.status = tests::make_status();
+    report_.names = tests::make_names();
+    report_.times.last_frame_age_s.fill(0.25);
+    report_.times.alarm_age_s.fill(5);
+    report_.status.recipe_refused = false;
+    report_.status.cameras[0].fault = report_.status.cameras[1].fault = hal::Fault::None;
+  }
+
+  Diagnostic found(const std::string& name) const {
+    for (const Diagnostic& diagnostic : diagnose(report_, commands_)) {
+      if (diagnostic.name == name) return diagnostic;
+    }
+    ADD_FAILURE() << "no diagnostic " << name;
+    return {};
+  }
+  DiagnosticLevel level(const std::string& name) const { return found(name).level; }
+
+  static std::string value(const Diagnostic& diagnostic, const std::string& key) {
+    for (const auto& [name, text] : diagnostic.values) {
+      if (name == key) return text;
+    }
+    ADD_FAILURE() << diagnostic.name << " has no " << key;
+    return {};
+  }
+
+  StatusReport report_;
+  CommandCounts commands_{1, 2, 3, 4};
+};
+
+TEST_F(Diagnostics, NameEveryPartOnce) {
+  std::set<std::string> names;
+  for (const Diagnostic& diagnostic : diagnose(report_, commands_)) {
+    EXPECT_TRUE(names.insert(diagnostic.name).second) << diagnostic.name;
+    EXPECT_FALSE(diagnostic.message.empty()) << diagnostic.name;
+    EXPECT_FALSE(diagnostic.values.empty()) << diagnostic.name;
+  }
+  const std::string first(signals::kSignals[0].name), second(signals::kSignals[1].name),
+      third(signals::kSignals[2].name);
+  EXPECT_EQ(names, (std::set<std::string>{
+                       "orbwatch: system", "orbwatch: camera colour", "orbwatch: camera thermal",
+                       "orbwatch: view front", "orbwatch: view wide", "orbwatch: region weld",
+                       "orbwatch: region edge", "orbwatch: alarm 1, region weld, " + first,
+                       "orbwatch: alarm 2, region edge, " + second,
+                       "orbwatch: alarm 3, region weld, " + third, "orbwatch: board",
+                       "orbwatch: commands"}));
+}
+
+TEST_F(Diagnostics, WhatHasNoNameHasItsNumber) {
+  report_.names = {};
+  EXPECT_EQ(found("orbwatch: camera 2").message, "camera delivers");
+  EXPECT_EQ(found("orbwatch: region 1").message, name_of(Quality::Apparent));
+}
+
+TEST_F(Diagnostics, SystemIsAsBadAsItsState) {
+  const std::array levels{DiagnosticLevel::Stale, DiagnosticLevel::Ok, DiagnosticLevel::Warn,
+                          DiagnosticLevel::Error, DiagnosticLevel::Ok};
+  for (std::size_t state = 0; state < levels.size(); ++state) {
+    report_.status.state = static_cast<SystemState>(state);
+    const Diagnostic system = found("orbwatch: system");
+    EXPECT_EQ(system.level, levels[state]);
+    EXPECT_EQ(system.message, name_of(report_.status.state));
+    EXPECT_EQ(value(system, "system_state"), name_of(report_.status.state));
+  }
+  report_.status.state = SystemState::Running;
+  report_.status.recipe_refused = true;
+  EXPECT_EQ(level("orbwatch: system"), DiagnosticLevel::Warn);
+  EXPECT_EQ(value(found("orbwatch: system"), "recipe_refused"), "True");
+  report_.status.state = SystemState::Fault;
+  EXPECT_EQ(level("orbwatch: system"), DiagnosticLevel::Error);
+}
+
+TEST_F(Diagnostics, CameraTellsItsFaultAndItsFigures) {
+  EXPECT_EQ(level("orbwatch: camera colour"), DiagnosticLevel::Ok);
+  report_.times.last_frame_age_s[0] = signals::kNotValid;
+  EXPECT_EQ(level("orbwatch: camera colour"), DiagnosticLevel::Stale);
+  report_.status.cameras[0].fault = hal::Fault::Unplugged;
+  const Diagnostic camera = found("orbwatch: camera colour");
+  EXPECT_EQ(camera.level, DiagnosticLevel::Error);
+  EXPECT_EQ(camera.message, "camera is not connected");
+  EXPECT_EQ(value(camera, "dropped"), std::to_string(report_.status.cameras[0].dropped));
+  EXPECT_EQ(value(camera, "last_frame_age_s"), "not valid");
+  EXPECT_EQ(level("orbwatch: camera thermal"), DiagnosticLevel::Ok);
+}
+
+TEST_F(Diagnostics, ViewAndRegionAreStaleBeforeTheyGiveAnything) {
+  EXPECT_EQ(level("orbwatch: view front"), DiagnosticLevel::Ok);
+  EXPECT_EQ(value(found("orbwatch: view front"), "skipped"),
+            std::to_string(report_.status.views[0].skipped));
+  report_.status.views[0].published = 0;
+  EXPECT_EQ(level("orbwatch: view front"), DiagnosticLevel::Stale);
+  EXPECT_EQ(level("orbwatch: region weld"), DiagnosticLevel::Ok);
+  report_.status.regions[0].quality = Quality::NotMeasured;
+  EXPECT_EQ(level("orbwatch: region weld"), DiagnosticLevel::Stale);
+}
+
+TEST_F(Diagnostics, AlarmIsAsBadAsItStands) {
+  using signals::AlarmLevel;
+  using signals::AlarmState;
+  struct Case {
+    AlarmState state;
+    AlarmLevel level, announced;
+    DiagnosticLevel expected;
+  };
+  for (const Case& c : {
+           Case{AlarmState::Normal, AlarmLevel::None, AlarmLevel::None, DiagnosticLevel::Ok},
+           Case{AlarmState::Unacknowledged, AlarmLevel::HighWarning, AlarmLevel::HighWarning,
+                DiagnosticLevel::Warn},
+           Case{AlarmState::Unacknowledged, AlarmLevel::LowAlarm, AlarmLevel::LowAlarm,
+                DiagnosticLevel::Error},
+           Case{AlarmState::Acknowledged, AlarmLevel::HighAlarm, AlarmLevel::None,
+                DiagnosticLevel::Error},
+           Case{AlarmState::Acknowledged, AlarmLevel::NoMeasurement, AlarmLevel::None,
+                DiagnosticLevel::Warn},
+           Case{AlarmState::ReturnedUnacknowledged, AlarmLevel::None, AlarmLevel::HighAlarm,
+                DiagnosticLevel::Warn},
+           Case{AlarmState::LatchedUnacknowledged, AlarmLevel::None, AlarmLevel::HighAlarm,
+                DiagnosticLevel::Error},
+           Case{AlarmState::SuppressedByDesign, AlarmLevel::HighAlarm, AlarmLevel::None,
+                DiagnosticLevel::Ok},
+       }) {
+    report_.status.alarms[0].alarm = {c.state, c.level, c.announced, false};
+    const Diagnostic alarm =
+        found("orbwatch: alarm 1, region weld, " + std::string(signals::kSignals[0].name));
+    EXPECT_EQ(alarm.level, c.expected) << signals::operator_text(c.state);
+    EXPECT_EQ(alarm.message, signals::operator_text(c.state));
+  }
+}
+
+TEST_F(Diagnostics, BoardWarnsOfWhatIsWrongNow) {
+  Health& health = report_.status.health;
+  health.throttling = 0xf0;  // was so once
+  health.clock_synchronised = 1;
+  EXPECT_EQ(level("orbwatch: board"), DiagnosticLevel::Ok);
+  health.throttling = 0x01;
+  EXPECT_EQ(level("orbwatch: board"), DiagnosticLevel::Warn);
+  health.throttling = 0;
+  health.clock_synchronised = 0;
+  EXPECT_EQ(found("orbwatch: board").message, "the clock follows no time server");
+  health = {};
+  EXPECT_EQ(level("orbwatch: board"), DiagnosticLevel::Stale);
+  health.disk_free = 7;
+  EXPECT_EQ(level("orbwatch: board"), DiagnosticLevel::Ok);
+}
+
+TEST_F(Diagnostics, KeysAreTheListsNamesWithTheirUnits) {
+  report_.status.health.board_temperature = 51.25;
+  report_.status.health.throttling = signals::kNotValid;
+  const Diagnostic board = found("orbwatch: board");
+  ASSERT_EQ(board.values.size(), kHealthFigures.size());
+  for (std::size_t i = 0; i < kHealthFigures.size(); ++i) {
+    EXPECT_TRUE(board.values[i].first.starts_with(kHealthFigures[i].name));
+  }
+  EXPECT_EQ(value(board, "board_temperature (degC)"), "51.25");
+  EXPECT_EQ(value(board, "throttling"), "not valid");
+  const Diagnostic commands = found("orbwatch: commands");
+  EXPECT_EQ(value(commands, "done") + value(commands, "refused") + value(commands, "repeated") +
+                value(commands, "dropped"),
+            "1234");
+}
+
+TEST_F(Diagnostics, TheMessageHoldsThemAll) {
+  DiagnosticsComposer composer("cell-7");
+  for (const std::size_t count : {12U, 1U, 5U}) {  // the memory is used again
+    auto diagnostics = diagnose(report_, commands_);
+    diagnostics.resize(count);
+    const DiagnosticsMessage& message = composer.compose(diagnostics, {17, 18});
+    EXPECT_EQ(message.header.stamp.sec, 17);
+    EXPECT_STREQ(message.header.frame_id, "");
+    ASSERT_EQ(message.status._length, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& entry = message.status._buffer[i];
+      EXPECT_EQ(entry.level, static_cast<std::uint8_t>(diagnostics[i].level));
+      EXPECT_EQ(entry.name, diagnostics[i].name);
+      EXPECT_EQ(entry.message, diagnostics[i].message);
+      EXPECT_STREQ(entry.hardware_id, "cell-7");
+      ASSERT_EQ(entry.values._length, diagnostics[i].values.size());
+      for (std::size_t v = 0; v < diagnostics[i].values.size(); ++v) {
+        EXPECT_EQ(entry.values._buffer[v].key, diagnostics[i].values[v].first);
+        EXPECT_EQ(entry.values._buffer[v].value, diagnostics[i].values[v].second);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,124 @@
+#include "app/dds/ros/type_hash.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "app/dds/idl/alarm_event.h"
+#include "app/dds/idl/camera_info.h"
+#include "app/dds/idl/command.h"
+#include "app/dds/idl/compressed_image.h"
+#include "app/dds/idl/diagnostics.h"
+#include "app/dds/idl/image.h"
+#include "app/dds/idl/participant_entities.h"
+#include "app/dds/idl/process_state.h"
+#include "app/dds/ros/message_types.h"
+
+namespace orbwatch::app {
+namespace {
+
+struct Published {
+  std::string_view type;
+  std::string_view hash;
+};
+
+/// What ROS 2's own generator wrote into packages that were published (Kilted).
+constexpr std::array kPublished{
+    Published{"builtin_interfaces/msg/Time",
+              "b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197"},
+    Published{"std_msgs/msg/Header",
+              "f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01"},
+    Published{"sensor_msgs/msg/Image",
+              "d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47"},
+    Published{"sensor_msgs/msg/CompressedImage",
+              "15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a"},
+    Published{"sensor_msgs/msg/RegionOfInterest",
+              "ad16bcba5f9131dcdba6fbded19f726f5440e3c513b4fb586dd3027eeed8abb1"},
+    Published{"sensor_msgs/msg/CameraInfo",
+              "b3dfd68ff46c9d56c80fd3bd4ed22c7a4ddce8c8348f2f59c299e73118e7e275"},
+    Published{"diagnostic_msgs/msg/KeyValue",
+              "d68081eaa540288c5440753baecef0c4e16e81a5f78ad68902ded5100413bb42"},
+    Published{"diagnostic_msgs/msg/DiagnosticStatus",
+              "b0e3e692ea2d54a8af2f4ef1930e81556a2db55216b771f8a7d2724ed47bf0e4"},
+    Published{"diagnostic_msgs/msg/DiagnosticArray",
+              "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"},
+    Published{"rmw_dds_common/msg/Gid",
+              "ab6f21cfbb0a6dbb837161e1110c2051a2850ed9f9c53944d7115d9bcebedf71"},
+    Published{"rmw_dds_common/msg/NodeEntitiesInfo",
+              "8ffef65ee2d088c63b1e8fcd31e800ba9fc8dbe0ee15ca60d1676de5218087a7"},
+    Published{"rmw_dds_common/msg/ParticipantEntitiesInfo",
+              "91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e"},
+};
+
+TEST(TypeHash, IsTheOneThatRos2Publishes) {
+  ASSERT_TRUE(message_types()) << message_types().error().message;
+  for (const Published& published : kPublished) {
+    const auto hash = type_hash(*message_types(), published.type);
+    ASSERT_TRUE(hash) << hash.error().message;
+    EXPECT_EQ(*hash, "RIHS01_" + std::string(published.hash)) << published.type;
+  }
+}
+
+TEST(TypeHash, ChangesWithEveryFactOfATypeAndOfThoseInIt) {
+  const auto hash = [](const MessageType& inner, const MessageType& outer) {
+    return type_hash({{inner.name, inner}, {outer.name, outer}}, outer.name).value();
+  };
+  MessageType inner{"a/msg/Inner", {}, std::vector<MessageField>(1)};
+  inner.fields[0].name = "x";
+  inner.fields[0].kind = FieldKind::Int8;
+  MessageType outer{"a/msg/Outer", {}, std::vector<MessageField>(1)};
+  outer.fields[0].name = "inner";
+  outer.fields[0].nested = "a/msg/Inner";
+  const std::string before = hash(inner, outer);
+  MessageType changed = inner;
+  changed.fields[0].name = "y";
+  EXPECT_NE(hash(changed, outer), before);
+  changed = inner;
+  changed.fields[0].kind = FieldKind::Uint8;
+  EXPECT_NE(hash(changed, outer), before);
+  changed = inner;
+  changed.comment = {"says nothing about the wire"};
+  changed.fields[0].comment = "nor this";
+  EXPECT_EQ(hash(changed, outer), before);
+}
+
+TEST(TypeHash, RefusesATypeThatItDoesNotKnow) {
+  const auto hash = type_hash(*message_types(), "std_msgs/msg/String");
+  ASSERT_FALSE(hash);
+  EXPECT_EQ(hash.error().message, "no message type std_msgs/msg/String in the IDL");
+}
+
+std::string user_data(const Qos& qos) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (!dds_qget_userdata(qos.get(), &data, &size)) return {};
+  std::string text(static_cast<const char*>(data), size);
+  dds_free(data);
+  return text;
+}
+
+TEST(TypeHash, EveryTopicTypeAnnouncesOne) {
+  const std::regex form("typehash=RIHS01_[0-9a-f]{64};");
+  for (const dds_topic_descriptor_t* type :
+       {&sensor_msgs_msg_dds__Image__desc, &sensor_msgs_msg_dds__CompressedImage__desc,
+        &sensor_msgs_msg_dds__CameraInfo__desc, &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
+        &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
+        &orbwatch_msgs_msg_dds__ProcessState__desc, &orbwatch_msgs_msg_dds__AlarmEvent__desc,
+        &orbwatch_msgs_msg_dds__Command__desc, &orbwatch_msgs_msg_dds__CommandResult__desc}) {
+    const Qos qos(dds_create_qos());
+    const auto announced = announce_type_hash(qos, *type);
+    ASSERT_TRUE(announced) << announced.error().message;
+    EXPECT_TRUE(std::regex_match(user_data(qos), form)) << type->m_typename << user_data(qos);
+  }
+}
+
+TEST(TypeHash, AForeignTypeIsNotAnnounced) {
+  dds_topic_descriptor_t foreign = sensor_msgs_msg_dds__Image__desc;
+  foreign.m_typename = "std_msgs::msg::dds_::String_";
+  const Qos qos(dds_create_qos());
+  EXPECT_FALSE(announce_type_hash(qos, foreign));
+  EXPECT_EQ(user_data(qos), "");
+}
+
+}  // namespace
+}  // namespace orbwatch::app
