@@ -13,6 +13,9 @@ using CommandFunction = Result<> (*)(const std::vector<std::string>& arguments);
 Result<> project_command(const std::vector<std::string>& arguments);
 Result<> describe_command(const std::vector<std::string>& arguments);
 Result<> subscribe_command(const std::vector<std::string>& arguments);
+Result<> state_command(const std::vector<std::string>& arguments);
+Result<> command_command(const std::vector<std::string>& arguments);
+Result<> dds_keys_command(const std::vector<std::string>& arguments);
 Result<> list_command(const std::vector<std::string>& arguments);
 
 }  // namespace orbwatch::app

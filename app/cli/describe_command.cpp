@@ -6,6 +6,7 @@
 #include "app/cli/describe.h"
 #include "app/cli/options.h"
 #include "app/config/configuration.h"
+#include "app/config/recipe_file.h"
 #include "app/config/rig_file.h"
 #include "app/modbus/register_manual.h"
 
@@ -29,7 +30,10 @@ constexpr std::array kSubjects{
     Subject{"config", "manual of the configuration file", describe_manual<configuration_manual>},
     Subject{"rig", "manual of the rig file: cameras, ball and machine",
             describe_manual<rig_manual>},
+    Subject{"recipe", "manual of a recipe's file: what is measured",
+            describe_manual<recipe_manual>},
     Subject{"registers", "manual of the Modbus registers", describe_registers},
+    Subject{"messages", "our messages as a package of ROS 2, orbwatch_msgs", describe_messages},
     Subject{"view", "what cameras resolve in a view", describe_view},
     Subject{"camera", "what follows from a rig for one camera; its calibration", describe_camera},
 };

@@ -1,116 +1,11 @@
-#include <charconv>
-#include <cmath>
-#include <concepts>
-#include <cstdio>
-#include <string_view>
-
 #include "app/cli/list.h"
 #include "app/cli/list_fields.h"
+#include "app/json/json_object.h"
 
 namespace orbwatch::app {
-namespace {
-
-/// The length of the UTF-8 character that `text` begins with, or 0 if it begins with none (Unicode
-/// 15, table 3-7).
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const auto follows = [&byte](std::size_t i, unsigned least = 0x80, unsigned most = 0xbf) {
-    return byte(i) >= least && byte(i) <= most;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  if (first >= 0xc2 && first <= 0xdf) return follows(1) ? 2 : 0;
-  if (first >= 0xe0 && first <= 0xef) {
-    const bool second = follows(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf);
-    return second && follows(2) ? 3 : 0;
-  }
-  if (first >= 0xf0 && first <= 0xf4) {
-    const bool second = follows(1, first == 0xf0 ? 0x90 : 0x80, first == 0xf4 ? 0x8f : 0xbf);
-    return second && follows(2) && follows(3) ? 4 : 0;
-  }
-  return 0;
-}
-
-std::string value_text(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const auto first = static_cast<unsigned char>(text.front());
-    if (length == 0) {
-      quoted += "\\ufffd";
-    } else if (first < 0x20 || first == 0x7f) {
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\u%04x", unsigned{first});
-      quoted += escape;
-    } else {
-      if (first == '"' || first == '\\') quoted += '\\';
-      quoted += text.substr(0, length);
-    }
-    text.remove_prefix(length == 0 ? 1 : length);
-  }
-  return quoted + "\"";
-}
-
-std::string value_text(std::integral auto number) { return std::to_string(number); }
-
-std::string value_text(double number) {
-  if (!std::isfinite(number)) return "null";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, number).ptr};
-}
-
-template <class T>
-std::string value_text(const std::vector<T>& values) {
-  std::string list = "[";
-  for (const T& value : values) {
-    if (list.size() > 1) list += ", ";
-    list += value_text(value);
-  }
-  return list + "]";
-}
-
-/// Writes one object.
-class JsonObject {
- public:
-  explicit JsonObject(std::string indent) : indent_(std::move(indent)) {}
-
-  template <class T>
-  void field(const char* name, const T& value) {
-    add(name, value_text(value));
-  }
-
-  template <class Entry>
-  void list(const char* name, const std::vector<Entry>& entries) {
-    const std::string deeper = indent_ + "  ";
-    std::string objects;
-    for (const Entry& entry : entries) {
-      JsonObject object(deeper);
-      visit(object, entry);
-      objects += (objects.empty() ? "\n" : ",\n") + deeper + object.text();
-    }
-    add(name, "[" + objects + "]");
-  }
-
-  std::string text() const { return "{" + members_ + "}"; }
-
- private:
-  void add(const char* name, const std::string& value) {
-    if (!members_.empty()) members_ += ", ";
-    members_ += value_text(name) + ": " + value;
-  }
-
-  std::string indent_;
-  std::string members_;
-};
-
-}  // namespace
 
 std::string list_json(const hal::Inventory& inventory) {
-  JsonObject object("");
-  visit(object, inventory);
-  return object.text() + "\n";
+  return json_document(inventory, JsonLayout::EntryPerLine) + "\n";
 }
 
 }  // namespace orbwatch::app

@@ -1,16 +1,14 @@
-#include <algorithm>
 #include <charconv>
 #include <concepts>
 #include <string_view>
 
 #include "app/cli/list.h"
 #include "app/cli/list_fields.h"
+#include "app/cli/text_table.h"
 #include "app/config/finding.h"
 
 namespace orbwatch::app {
 namespace {
-
-using Row = std::vector<std::string>;
 
 std::string cell(const std::string& text) { return one_line(text); }
 std::string cell(std::integral auto number) { return std::to_string(number); }
@@ -26,37 +24,9 @@ std::string cell(const std::vector<T>& values) {
   return list;
 }
 
-std::string title(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-/// Columns padded to the widest cell; those without any content are left out.
-std::string aligned(const std::vector<Row>& rows, std::size_t first_content,
-                    const std::string& indent) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (std::size_t column = 0; column < widths.size(); ++column) {
-    const bool used = std::any_of(rows.begin() + static_cast<std::ptrdiff_t>(first_content),
-                                  rows.end(), [&](const Row& r) { return !r[column].empty(); });
-    for (const Row& row : rows) {
-      if (used) widths[column] = std::max(widths[column], row[column].size());
-    }
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line = indent;
-    for (std::size_t column = 0; column < widths.size(); ++column) {
-      if (widths[column] == 0) continue;
-      line += row[column] + std::string(widths[column] + 2 - row[column].size(), ' ');
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
-
 /// The fields of one entry, by name and as text; its lists are left to EntryText.
 struct Fields {
-  Row names, cells;
+  TableRow names, cells;
 
   template <class T>
   void field(const char* name, const T& value) {
@@ -77,7 +47,7 @@ class EntryText {
 
   template <class Entry>
   void list(const char*, const std::vector<Entry>& entries) {
-    std::vector<Row> rows;
+    std::vector<TableRow> rows;
     for (const Entry& entry : entries) {
       Fields fields;
       visit(fields, entry);
@@ -90,7 +60,7 @@ class EntryText {
   std::string text() const { return (rows_.empty() ? "" : aligned(rows_, 0, "")) + tables_; }
 
  private:
-  std::vector<Row> rows_;
+  std::vector<TableRow> rows_;
   std::string tables_;
 };
 

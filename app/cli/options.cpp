@@ -16,10 +16,12 @@ tl::unexpected<Error> refuse(const std::string& what) { return fail(what + "; se
 }  // namespace
 
 Result<std::vector<std::string>> parse_options(std::vector<std::string> arguments,
-                                               const std::vector<Option>& options) {
+                                               const std::vector<Option>& options,
+                                               OptionOrder order) {
   std::vector<option> table;
   table.reserve(options.size() + 1);
-  std::string letters = ":";  // errors are reported here, not by getopt
+  // The colon: errors are reported here, not by getopt.
+  std::string letters = order == OptionOrder::First ? "+:" : ":";
   for (std::size_t i = 0; i < options.size(); ++i) {
     const int takes = options[i].argument.empty() ? no_argument : required_argument;
     table.push_back({options[i].name.c_str(), takes, nullptr, kFirstLong + static_cast<int>(i)});

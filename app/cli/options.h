@@ -20,10 +20,17 @@ struct Option {
   std::function<Result<>(const std::string& value)> set;
 };
 
+/// Where options may stand.
+enum class OptionOrder {
+  Anywhere,
+  First  ///< nothing behind the first argument is an option, so -40 may be a number there
+};
+
 /// Reads `arguments` (the command's name first) and calls the options' set(). Returns the arguments
 /// that are no option. Errors: unknown option, missing value, whatever set() says.
 Result<std::vector<std::string>> parse_options(std::vector<std::string> arguments,
-                                               const std::vector<Option>& options);
+                                               const std::vector<Option>& options,
+                                               OptionOrder order = OptionOrder::Anywhere);
 
 /// The options as lines of --help.
 std::string options_help(const std::vector<Option>& options);

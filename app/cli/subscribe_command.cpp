@@ -1,18 +1,13 @@
-#include <atomic>
-#include <csignal>
 #include <iostream>
 
+#include "app/cli/cancelled.h"
 #include "app/cli/command.h"
+#include "app/cli/dds_options.h"
 #include "app/cli/options.h"
 #include "app/dds/subscriber.h"
 
 namespace orbwatch::app {
 namespace {
-
-std::atomic<bool> cancelled{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-void cancel(int) { cancelled = true; }
 
 std::vector<Option> declare(SubscribeOptions& o, bool& help) {
   return {
@@ -23,17 +18,9 @@ std::vector<Option> declare(SubscribeOptions& o, bool& help) {
          o.topics.push_back(v);
          return {};
        }},
-      {"domain", 0, "N", "DDS domain, 0 to 230 (default 0)",
-       [&o](const std::string& v) {
-         return parse_whole("domain", v).and_then([&o](int n) -> Result<> {
-           o.domain = n;
-           if (n >= 0 && n <= 230) return {};
-           return fail("--domain is " + std::to_string(n) + "; it must be 0 to 230");
-         });
-       }},
-      {"prefix", 0, "NAME",
-       "of the default topics, as in the configuration's\n[dds] (default orbwatch)",
-       text_option(o.prefix)},
+      domain_option(o.domain),
+      prefix_option(o.prefix),
+      security_option(o.security),
       {"save", 0, "DIR", "save the newest image of each topic as PNG", text_option(o.save)},
       {"seconds", 0, "N", "end after this time (default: Ctrl-C)",
        number_option("seconds", o.seconds)},
@@ -58,9 +45,7 @@ Result<> subscribe_command(const std::vector<std::string>& arguments) {
               << options_help(options);
     return {};
   }
-  std::signal(SIGINT, cancel);
-  std::signal(SIGTERM, cancel);
-  const auto report = subscribe(o, cancelled, std::cout);
+  const auto report = subscribe(o, cancelled_by_signal(), std::cout);
   if (!report) return tl::unexpected(report.error());
   for (const TopicReport& topic : report->topics) {
     if (topic.received == 0)

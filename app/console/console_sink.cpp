@@ -1,5 +1,6 @@
 #include "app/console/console_sink.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -14,16 +15,26 @@ std::string number(double value, int digits) {
   return text.str();
 }
 
-/// One entry per signal that has a value, in the list's order.
-std::string signals_text(const signals::Signals& signals) {
+/// The main figures that have a value, in the list's order.
+std::string region_text(const signals::Signals& signals) {
   std::string text;
-  for (const auto& signal : signals::kSignals) {
-    const double value = signals.*signal.member;
+  for (const auto& main : signals::kMainSignals) {
+    const double value = signals.*main.value;
     if (!signals::is_valid(value)) continue;
-    text += (text.empty() ? "" : ", ") + std::string(signal.name) + " " +
-            number(value, signal.scale < 0.01 ? 3 : 1) + " " + std::string(signal.unit);
+    const auto& signal =
+        *std::ranges::find(signals::kSignals, main.value, &signals::SignalInfo::member);
+    text += (text.empty() ? "" : ", ") + std::string(signal.name) + " " + number(value, 1) + " " +
+            std::string(signal.unit);
   }
   return text.empty() ? "no measurement" : text;
+}
+
+std::string process_text(const Status& status) {
+  std::string text = "recipe " + std::to_string(status.recipe);
+  for (std::size_t i = 0; i < status.region_count; ++i) {
+    text += " | region " + std::to_string(i) + ": " + region_text(status.regions[i].signals);
+  }
+  return text;
 }
 
 std::string camera_text(const std::string& name, const CameraStatus& camera) {
@@ -84,7 +95,7 @@ void ConsoleSink::run() {
     }
     if (cameras_.size() > 1) line += " | skew " + number(now.skew_ms, 1) + " ms";
     line += " | load " + number(100 * now.load, 0) + " %, overruns " + std::to_string(now.overruns);
-    out_ << line << " | " << signals_text(now.signals) << std::endl;
+    out_ << line << " | " << process_text(now) << std::endl;
   }
 }
 
@@ -109,7 +120,7 @@ void ConsoleSink::stop() {
     out_ << "  view " << views_[i] << ": " << last.views[i].published << " published, "
          << last.views[i].skipped << " skipped\n";
   }
-  out_ << "  process: " << signals_text(last.signals) << std::endl;
+  out_ << "  process: " << process_text(last) << std::endl;
 }
 
 }  // namespace orbwatch::app

@@ -31,6 +31,15 @@ std::unique_ptr<hal::LineBackEnd> make_simulated(const std::vector<LineSettings>
       std::vector<std::string>(names.begin(), names.end()));
 }
 
+/// Some limit of the alarms, not only one of the warnings, was passed.
+bool has_alarm(const Status& status) {
+  return std::any_of(status.alarms.begin(),
+                     status.alarms.begin() + static_cast<std::ptrdiff_t>(status.alarm_count),
+                     [](const AlarmStatus& alarm) {
+                       return is_active(alarm.alarm.state) && severity(alarm.alarm.announced) == 2;
+                     });
+}
+
 void log_fault(const std::string& name, const hal::LineFaultReport& report) {
   log_line(report.fault == hal::LineFault::None ? LogLevel::Info : LogLevel::Warning,
            name + ": " + std::string(operator_text(report.fault)) +
@@ -125,35 +134,44 @@ void Lines::open_watchdog(const LineSettings& settings,
 
 std::shared_ptr<hal::FrameTrigger> Lines::trigger(const CameraSettings& settings,
                                                   hal::Camera& camera) {
-  if (settings.trigger_mode == hal::TriggerMode::Off) return nullptr;
+  if (settings.trigger_mode == hal::TriggerMode::Off) return triggers_.emplace_back();
   hal::TriggerSettings wanted;
   wanted.mode = settings.trigger_mode;
   wanted.activation = settings.trigger_activation;
   wanted.delay = microseconds(settings.trigger_delay_us);
   auto trigger =
       std::make_shared<hal::FrameTrigger>(wanted, [&camera] { return camera.trigger(); });
-  input(settings.trigger_source).hear([trigger](const hal::EdgeEvent& edge) {
-    trigger->take(edge);
-  });
+  if (settings.trigger_source != kSoftwareSource) {
+    input(settings.trigger_source).hear([trigger](const hal::EdgeEvent& edge) {
+      trigger->take(edge);
+    });
+  }
   thread_.add(*trigger);
   triggers_.push_back(trigger);
   return trigger;
 }
 
 CommandResult Lines::command(const Command& command) {
-  if (command.code != CommandCode::Pulse) return CommandResult::UnknownCommand;
-  if (command.argument < 0 || command.argument >= static_cast<int>(trigger_outputs_.size())) {
-    return CommandResult::ArgumentOutOfRange;
+  if (command.code == CommandCode::Trigger) {
+    const auto now = hal::Clock::now();  // one for all: they may belong to one frame set
+    for (const auto& trigger : triggers_) {
+      if (trigger) trigger->fire(now);
+    }
+    thread_.ring();
+    return CommandResult::Done;
   }
-  hal::PulseOutput& output = *trigger_outputs_[static_cast<std::size_t>(command.argument)];
+  if (command.code != CommandCode::Pulse) return CommandResult::UnknownCommand;
+  if (whole(command, 0) >= trigger_outputs_.size()) return CommandResult::ArgumentOutOfRange;
+  hal::PulseOutput& output = *trigger_outputs_[whole(command, 0)];
   return output.fire(hal::Clock::now()) ? CommandResult::Done : CommandResult::Busy;
 }
 
 void Lines::accept(const Status& status) {
   const auto now = hal::Clock::now();
-  const bool works = status.state == SystemState::Running || status.state == SystemState::Degraded;
+  const bool works = status.state != SystemState::Starting && status.state != SystemState::Fault;
+  const bool sound = works && status.state != SystemState::Degraded && !has_alarm(status);
   for (const auto& line : process_ok_) line->report(works, now);
-  for (const auto& line : alarms_) line->report(status.state == SystemState::Running, now);
+  for (const auto& line : alarms_) line->report(sound, now);
 }
 
 }  // namespace orbwatch::app

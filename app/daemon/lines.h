@@ -26,11 +26,15 @@ class Lines : public Sink {
   static Result<std::unique_ptr<Lines>> open(const std::vector<LineSettings>& settings);
   ~Lines() override;
 
-  /// Joins the camera's trigger line with its frames; null when the camera runs freely. `camera`
-  /// outlives the run.
+  /// Joins the camera's trigger line with its frames; null when the camera runs freely. Called for
+  /// the cameras in the configuration's order. `camera` outlives the run.
   std::shared_ptr<hal::FrameTrigger> trigger(const CameraSettings& settings, hal::Camera& camera);
 
-  /// CommandCode::Pulse. On any thread; does not wait.
+  /// Frame sets begin with triggers, not by themselves.
+  bool triggers_first_camera() const { return !triggers_.empty() && triggers_.front(); }
+
+  /// CommandCode::Pulse, and Trigger, which every triggered camera takes as an edge. On any thread;
+  /// does not wait.
   CommandResult command(const Command& command);
 
   /// In the configuration's order.
@@ -61,7 +65,7 @@ class Lines : public Sink {
   std::unique_ptr<hal::LineBackEnd> simulated_;
   std::vector<Input> inputs_;
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs_;
-  std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;
+  std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;  ///< by camera; null: runs freely
   std::vector<std::unique_ptr<hal::PulseOutput>> pulses_;
   std::vector<hal::PulseOutput*> trigger_outputs_;  ///< of pulses_, in the configuration's order
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;

@@ -127,11 +127,21 @@ TEST_F(Describe, ACamerasCalibrationIsWhatOpenCvReads) {
       {"camera_name: front", "image_width: 300", "distortion_model"});
 }
 
+TEST_F(Describe, OurMessagesAreAPackageOfRos2) {
+  const std::string shown = described({"messages"});
+  expect_parts(shown, {"==> package.xml <==\n<?xml", "==> msg/Command.msg <==\n",
+                       "\nfloat64[] arguments  # ", "==> CMakeLists.txt <==\n"});
+  EXPECT_EQ(described({"messages", "--output", path("orbwatch_msgs")}), "");
+  std::ifstream file(path("orbwatch_msgs/msg/Command.msg"));
+  const std::string written{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(shown.find("==> msg/Command.msg <==\n" + written + "\n==>"), std::string::npos);
+}
+
 TEST_F(Describe, PrintsTheManuals) {
   expect_parts(described({"rig"}), {"[[camera]]", "intrinsics"});
   expect_parts(described({"config"}), {"[[camera]]"});
   EXPECT_NE(described({"registers"}), described({"registers", "--format", "csv"}));
-  expect_parts(described({"--help"}), {"config", "rig", "registers", "view", "camera"});
+  expect_parts(described({"--help"}), {"config", "rig", "registers", "messages", "view", "camera"});
   for (const char* subject : {"registers", "view", "camera"}) {
     expect_parts(described({subject, "--help"}), {"--format"});
   }
@@ -144,8 +154,9 @@ TEST_P(DescribeMistake, IsOneLineAndNoFile) { expect_refused("describe", GetPara
 INSTANTIATE_TEST_SUITE_P(
     All, DescribeMistake,
     testing::Values(
-        Mistake{"Nothing", {}, {"config, rig, registers, view, camera"}},
-        Mistake{"UnknownSubject", {"ball"}, {"config, rig, registers, view, camera"}},
+        Mistake{"Nothing", {}, {"config, rig, recipe, registers, messages, view, camera"}},
+        Mistake{
+            "UnknownSubject", {"ball"}, {"config, rig, recipe, registers, messages, view, camera"}},
         Mistake{"TooMuchForAManual", {"config", "view"}, {"unexpected", "view"}},
         Mistake{"ViewWithoutAnything", {"view"}, {"--ball", "--rig"}},
         Mistake{"ViewWithoutPictureSize",
@@ -167,6 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoFov",
                 {"view", "--rig", "DIR/rig.toml", "--camera", "front", "--h-fov", "0"},
                 {"h_fov"}},
+        Mistake{"MessagesInAFile", {"messages", "-o", "DIR/rig.toml"}, {"rig.toml"}},
         Mistake{"CameraWithoutRig", {"camera", "--camera", "front"}, {"--rig"}},
         Mistake{"CameraWithoutName", {"camera", "--rig", "DIR/rig.toml"}, {"--camera"}},
         Mistake{"UnknownCamera",

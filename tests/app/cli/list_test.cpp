@@ -4,14 +4,14 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 
-#include "tests/support/subprocess.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/app/cli/equal_json.h"
 
 namespace orbwatch::app {
 namespace {
+
+using tests::expect_equal_json;
 
 hal::Inventory two_cameras_and_a_chip() {
   hal::CameraEntry plain{.id = "/dev/v4l/by-id/usb-cam",
@@ -34,22 +34,6 @@ hal::Inventory two_cameras_and_a_chip() {
             "/dev/gpiochip1",
             "",
             {{2, "TRIGGER_IN", "input", "orbwatchd"}, {3, "", "output", ""}}}}};
-}
-
-/// Whether Python's parser finds the same in both documents.
-void expect_equal_json(const std::string& text, const std::string& expected) {
-  constexpr const char* kCompare = R"(
-import json, sys
-a, b = (json.loads(open(f, 'rb').read().decode('utf-8')) for f in sys.argv[1:])
-sys.exit(0 if a == b else 'differs: %r' % (a,))
-)";
-  const tests::TemporaryFolder folder;
-  std::ofstream(folder / "text", std::ios::binary) << text;
-  std::ofstream(folder / "expected", std::ios::binary) << expected;
-  tests::Subprocess python({"/usr/bin/python3", "-c", kCompare, (folder / "text").string(),
-                            (folder / "expected").string()},
-                           folder / "said");
-  EXPECT_EQ(python.wait(), 0) << python.output() << text;
 }
 
 TEST(ListJson, HasEveryFieldOfEveryEntry) {

@@ -5,173 +5,16 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 #include <opencv2/imgcodecs.hpp>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "tests/app/daemon/daemon_program.h"
 #include "tests/support/reference_data.h"
-#include "tests/support/registers.h"
-#include "tests/support/subprocess.h"
-#include "tests/support/temporary_folder.h"
 
 /// `orbwatchd` as it is installed: the program, a file, and clients of its own kind on the network.
 namespace orbwatch::tests {
 namespace {
-
-/// A port that nobody uses at this moment.
-int free_port() {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  EXPECT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), size), 0);
-  EXPECT_EQ(getsockname(s, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  close(s);
-  return ntohs(address.sin_port);
-}
-
-const std::string kMachine = R"(
-[ball]
-centre = [120, 60, 430]
-radius = 50
-[scene]
-room = "box"
-low = [-600, -500, 0]
-high = [600, 500, 800]
-[[scene.obstacle]]
-name = "table"
-low = [-250, -200, 100]
-high = [250, 200, 140]
-[[scene.obstacle]]
-name = "workpiece"
-low = [-190, -130, 140]
-high = [-30, 30, 178]
-)";
-
-// One camera is calibrated, of the other one knows the limb and the registration.
-const std::string kSmallRig = kMachine + R"(
-[[camera]]
-name = "colour"
-width = 200
-height = 200
-[camera.intrinsics]
-fx = 1143.00523
-fy = 1143.00523
-cx = 99.5
-cy = 99.5
-[camera.pose]
-position = [208.6, -530.5, 489.0]
-rotation = [0.98893021, 0.1483814, 0, 0.014590408, -0.097241939, -0.99515382,
-            -0.147662317, 0.984137676, -0.098330437]
-[[camera]]
-name = "thermal"
-width = 160
-height = 128
-[camera.outline]
-centre = [79.5, 63.5]
-radius = 58.06
-alpha = 343.571
-rotation = [-11.887, 11.639, 0]
-)";
-
-class Daemon : public testing::Test {
- protected:
-  Daemon() {
-    // DDS on the loopback interface only, apart from everybody else's.
-    setenv("CYCLONEDDS_URI",
-           ("<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-            "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>orbwatch_" +
-            std::to_string(getpid()) +
-            "</Tag><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-            "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
-            "</Domain></CycloneDDS>")
-               .c_str(),
-           1);
-  }
-
-  std::string write_config(const std::string& text, const std::string& rig = kSmallRig) const {
-    std::ofstream(folder / "rig.toml") << rig;
-    const auto path = folder / "site.toml";
-    std::ofstream(path) << "rig = \"rig.toml\"\n[modbus]\nport = " << port
-                        << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain << "\n"
-                        << text;
-    return path.string();
-  }
-  Subprocess start(const std::string& config) const {
-    return Subprocess({ORBWATCHD_PROGRAM, "--config", config}, folder.path() / "daemon.log");
-  }
-
-  /// Reads until `condition` holds or the daemon ends.
-  bool eventually(Subprocess& daemon, const std::function<bool()>& condition) const {
-    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(90);
-    while (daemon.runs() && std::chrono::steady_clock::now() < give_up) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polls a real server
-    }
-    return false;
-  }
-  std::int64_t read(const std::string& name) const { return read_register(port, name); }
-
-  TemporaryFolder folder;
-  int port = free_port();
-  int domain = 1 + getpid() % 100;
-};
-
-const std::string kSmallMachine = R"(
-[[camera]]
-name = "colour"
-back_end = "simulated"
-width = 200
-height = 200
-frame_rate = 20
-[camera.simulated]
-kind = "colour"
-position = [208.6, -530.5, 489.0]
-h_fov = 10
-[[camera]]
-name = "thermal"
-back_end = "simulated"
-width = 160
-height = 128
-frame_rate = 20
-kelvin_per_count = 0.04
-[camera.simulated]
-kind = "thermal"
-position = [49.4, 395.4, 500.6]
-h_fov = 22.5
-FAULTS
-[[view]]
-name = "process"
-yaw = -115
-pitch = -40
-width = 160
-height = 120
-[[view.source]]
-camera = "colour"
-[[view.source]]
-camera = "thermal"
-colour_map = "inferno"
-range = [20, 800]
-[[view]]
-name = "room"
-kind = "equirectangular"
-width = 200
-height = 100
-[[view.source]]
-camera = "colour"
-[process]
-view = "process"
-camera = "thermal"
-threshold = 1400
-)";
-
-std::string small_machine(const std::string& faults = "") {
-  std::string text = kSmallMachine;
-  return text.replace(text.find("FAULTS"), 6, faults);
-}
 
 TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   Subprocess daemon = start(write_config(small_machine()));
@@ -181,9 +24,10 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   EXPECT_EQ(read("system_state"), 1) << "running";
   // The pool's truth: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
   // from the ball at (120, 60, 430).
-  ASSERT_TRUE(eventually(daemon, [&] { return read("hot_spot_peak_temperature") > 17000; }));
-  EXPECT_NEAR(static_cast<double>(read("hot_spot_yaw")) / 100, -115.6, 10);
-  EXPECT_NEAR(static_cast<double>(read("hot_spot_pitch")) / 100, -45, 6);
+  ASSERT_TRUE(
+      eventually(daemon, [&] { return read("region_0_hot_spot_peak_temperature") > 17000; }));
+  EXPECT_NEAR(static_cast<double>(read("region_0_hot_spot_yaw")) / 100, -115.6, 10);
+  EXPECT_NEAR(static_cast<double>(read("region_0_hot_spot_pitch")) / 100, -45, 6);
 
   Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
                      "orbwatch/process/image_raw", "--topic", "orbwatch/room/image_raw", "--topic",
@@ -233,13 +77,13 @@ TEST_F(Daemon, ExposesOncePerPulseThatIsCommanded) {
   ASSERT_TRUE(eventually(daemon, [&] { return read("camera_1_frames") > 0; })) << daemon.output();
   constexpr std::uint16_t kPulses = 5;
   for (std::uint16_t n = 1; n <= kPulses; ++n) {
-    write_command(port, 2, 0, n);
+    write_command(port, 2, {0}, n);
     ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") == n; }))
         << daemon.output();
   }
   EXPECT_EQ(read("camera_0_triggers"), kPulses);
   EXPECT_EQ(read("camera_0_missed"), 0);
-  write_command(port, 2, 1, 9);
+  write_command(port, 2, {1}, 9);
   EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 9; }));
   EXPECT_EQ(read("command_result"), 2) << "there is no second trigger_out";
 }
@@ -248,14 +92,39 @@ TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
   Subprocess daemon = start(write_config(small_machine()));
   ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 0; })) << daemon.output();
   EXPECT_EQ(read("selected_view"), 0);
-  write_command(port, 1, 1, 7);
+  write_command(port, 1, {1}, 7);
   EXPECT_TRUE(eventually(
       daemon, [&] { return read("acknowledged_sequence") == 7 && read("selected_view") == 1; }));
-  write_command(port, 1, 9, 8);
+  write_command(port, 1, {9}, 8);
   EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 8; }));
   EXPECT_EQ(read("selected_view"), 1) << "there is no view 9";
   daemon.send(SIGINT);
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+TEST_F(Daemon, CarriesOutCommandsFromTheCommandLineAndShowsTheirEffect) {
+  Subprocess daemon = start(write_config(small_machine()));
+  const auto orbwatch = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1,
+                     {"--domain", std::to_string(domain), "--timeout", "60"});
+    arguments.insert(arguments.begin(), ORBWATCH_PROGRAM);
+    Subprocess program(arguments, folder.path() / "said");
+    const int code = program.wait();
+    return std::pair(code, program.output());
+  };
+  const auto selected_view = [&] {
+    const auto state = orbwatch({"state", "--json"}).second;
+    const std::string key = "\"selected_view\": ";
+    const std::size_t at = state.find(key);
+    return at == std::string::npos ? state : state.substr(at + key.size(), 1);
+  };
+  EXPECT_EQ(selected_view(), "0");
+  EXPECT_EQ(orbwatch({"command", "select_view", "1"}), (std::pair{0, std::string()}));
+  EXPECT_TRUE(eventually(daemon, [&] { return selected_view() == "1"; }));
+  const auto [code, said] = orbwatch({"command", "select_view", "99"});
+  EXPECT_EQ(code, 1) << "there is no such view";
+  EXPECT_NE(said.find("select_view: argument out of range"), std::string::npos) << said;
+  EXPECT_EQ(selected_view(), "1");
 }
 
 TEST_F(Daemon, LivesThroughAnUnpluggedCamera) {
@@ -318,8 +187,12 @@ kelvin_per_count = 0.04
 [camera.replay]
 source = ")" + (renders / "seq_thermal").string() +
                              R"("
+)";
+  const std::string recipe = R"(
+name = "merged"
 [[view]]
 name = "merged"
+measured = "thermal"
 yaw = -115
 pitch = -40
 h_fov = 100
@@ -331,14 +204,14 @@ camera = "colour"
 camera = "thermal"
 colour_map = "hot"
 range = [20, 400]
-[process]
+[[region]]
+name = "pool"
 view = "merged"
-camera = "thermal"
-threshold = 500
+hot_spot_threshold = 500
 )";
-  Subprocess daemon = start(write_config(config, rig));
+  Subprocess daemon = start(write_config(config, rig, recipe));
   ASSERT_TRUE(eventually(daemon, [&] {
-    return read("frame_set") > 24 && read("hot_spot_area") > 0;
+    return read("frame_set") > 24 && read("region_0_hot_spot_present") > 0;
   })) << daemon.output();
   Subprocess reader(
       {ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
@@ -352,8 +225,8 @@ threshold = 500
   ASSERT_TRUE(eventually(daemon, [&] {
     const std::int64_t set = read("frame_set");
     if (std::exchange(last_set, set) != set) {
-      yaw.push_back(static_cast<double>(read("hot_spot_yaw")) / 100);
-      pitch.push_back(static_cast<double>(read("hot_spot_pitch")) / 100);
+      yaw.push_back(static_cast<double>(read("region_0_hot_spot_yaw")) / 100);
+      pitch.push_back(static_cast<double>(read("region_0_hot_spot_pitch")) / 100);
     }
     return yaw.size() >= 25;
   })) << daemon.output();

@@ -1,24 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
-#include <optional>
 #include <random>
 
 #include "app/config/configuration.h"
-#include "app/pictures/colour_maps.h"
-#include "app/pipeline/view_renderer.h"
 #include "app/simulation/camera_truth.h"
-#include "app/simulation/process.h"
-#include "app/simulation/renderer.h"
 #include "app/simulation/static_scene.h"
-#include "hal/frame_pool.h"
 #include "proc/optics/angle.h"
-#include "proc/optics/lens.h"
 #include "proc/optics/rig.h"
-#include "proc/optics/scene_proxy.h"
-#include "proc/signals/hot_spot.h"
-#include "proc/signals/measure.h"
+#include "tests/app/daemon/simulated_scene.h"
 
 /// What the product computes beside what the simulated machine knows: its pictures come from plain
 /// vector reflection and never saw a ball model.
@@ -29,8 +19,6 @@ using optics::Vec3;
 using simulation::CameraTruth;
 using simulation::Pinhole;
 
-constexpr Vec3 kThermalPosition{49.4, 395.4, 500.6};
-
 optics::BallProjection projection_of(const CameraTruth& truth) {
   const auto& m = truth.rotation;
   const optics::Mat3 rotation{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
@@ -39,17 +27,6 @@ optics::BallProjection projection_of(const CameraTruth& truth) {
   return optics::BallProjection::make(optics::BallModel::exact(truth.alpha).value(), outline,
                                       rotation)
       .value();
-}
-
-optics::Box box(const simulation::Box& body) { return {body.lo, body.hi}; }
-
-/// What stands still in the machine, as a rig would state it.
-optics::Scene scene_of(const simulation::MachineSettings& machine) {
-  optics::Scene scene;
-  scene.room = optics::Scene::Room::Box;
-  scene.walls = box(machine.enclosure);
-  scene.obstacles = {box(machine.table), box(machine.workpiece)};
-  return scene;
 }
 
 void expect_equal(const Vec3& a, const Vec3& b) {
@@ -138,82 +115,6 @@ TEST(Truth, TheExactModelIsPlainReflection) {
     ASSERT_TRUE(direction);
     // Close to the limb rounding of the hit point counts most.
     EXPECT_LT(optics::degrees(optics::angle_between(*direction, sight.mirrored.direction)), 1e-5);
-  }
-}
-
-/// A thermal camera without noise that looks at a machine without sparks, and the measured view.
-class PoolTruth : public testing::Test {
- protected:
-  static constexpr int kWidth = 640, kHeight = 512;
-  static constexpr double kKelvinPerCount = 0.04;
-
-  PoolTruth() {
-    simulation::MachineSettings settings;
-    settings.sparks.rate = 0;
-    machine = simulation::Machine::make(settings, hal::Clock::now()).value();
-    pinhole = simulation::look_at(kThermalPosition, settings.ball.centre, 22.5, kWidth, kHeight);
-  }
-
-  signals::Signals measure(double seconds) {
-    const simulation::Renderer renderer(machine, pinhole,
-                                        {simulation::CameraKind::Thermal, kKelvinPerCount});
-    auto buffer = hal::make_frame_pool(PixelFormat::Y16, kWidth, kHeight, 1).acquire();
-    renderer.render(seconds, buffer->memory);
-    hal::FrameSet set;
-    set.frames[0] = buffer;
-
-    const auto view = optics::ViewProjection::make(
-                          {optics::ViewKind::Perspective, {-115, -40, 0}, 70, {}, 1000, 800})
-                          .value();
-    ViewPlan plan{0, "pool", view, {}, Combine::Mix, remap::Interpolation::Bilinear, 0};
-    plan.sources.push_back({0,
-                            {PixelFormat::Y16, {}, kWidth, kHeight, 30},
-                            projection(),
-                            1,
-                            {colour_map_table("grey"), 0, 65535}});
-    ViewRenderer remapper(plan);
-    View out = remapper.make_view();
-    WorkerPool workers(1);
-    remapper.render(set, out, workers);
-    const signals::RadiometricScale scale{kKelvinPerCount};
-    signals::HotSpotDetector detector(view);
-    return signals::hot_spot_signals(
-        detector.measure(out.radiometric, out.validity,
-                         scale.counts(machine->settings().pool.melting_point)),
-        scale, 65535);
-  }
-
-  /// The calibrated camera in a machine whose geometry is known.
-  optics::BallProjection projection() const {
-    const optics::Ball ball{machine->settings().ball.centre, machine->settings().ball.radius};
-    const optics::Intrinsics intrinsics{
-        pinhole.width, pinhole.height, pinhole.focal_length,     pinhole.focal_length,
-        pinhole.cx(),  pinhole.cy(),   optics::Distortion::None, {}};
-    return optics::BallProjection::make(
-               optics::BallModel::Kind::Exact,
-               {optics::Lens::make(intrinsics).value(),
-                {pinhole.rotation, pinhole.position},
-                std::nullopt},
-               ball, optics::SceneProxy::make(scene_of(machine->settings()), ball).value())
-        .value();
-  }
-
-  std::shared_ptr<const simulation::Machine> machine;
-  Pinhole pinhole;
-};
-
-TEST_F(PoolTruth, IsMeasuredWhereItIs) {
-  const Vec3 ball = machine->settings().ball.centre;
-  for (const double seconds : {0.0, 2.5, 5.0, 8.0, 10.5}) {
-    const signals::Signals signals = measure(seconds);
-    const auto truth = simulation::process_at(machine->settings(), seconds);
-    const Vec3 direction = optics::normalized(truth.pool.centre - ball);
-    const double yaw = optics::degrees(std::atan2(direction.x, direction.y));
-    const double pitch = optics::degrees(std::asin(direction.z));
-    EXPECT_NEAR(signals.hot_spot_yaw, yaw, 0.1) << seconds << " s";
-    EXPECT_NEAR(signals.hot_spot_pitch, pitch, 0.1) << seconds << " s";
-    EXPECT_LT(signals.hot_spot_peak_temperature, truth.pool.peak + 1) << seconds << " s";
-    EXPECT_GT(signals.hot_spot_peak_temperature, truth.pool.peak - 80) << seconds << " s";
   }
 }
 

@@ -1,0 +1,39 @@
+#include <iostream>
+
+#include "app/cli/cancelled.h"
+#include "app/cli/command.h"
+#include "app/cli/command_words.h"
+#include "app/cli/dds_options.h"
+#include "app/cli/options.h"
+#include "app/dds/command_client.h"
+
+namespace orbwatch::app {
+
+Result<> command_command(const std::vector<std::string>& arguments) {
+  CommandOptions o;
+  bool help = false;
+  const std::vector<Option> options{domain_option(o.domain),
+                                    prefix_option(o.prefix),
+                                    security_option(o.security),
+                                    timeout_option(o.timeout),
+                                    {"help", 'h', "", "this text", flag_option(help)}};
+  // Options first: angles are negative as often as not.
+  const auto words = parse_options(arguments, options, OptionOrder::First);
+  if (!words) return tl::unexpected(words.error());
+  if (help) {
+    std::cout << "Usage: orbwatch command [options] NAME [ARGUMENT...]\n\n"
+                 "Sends a command to a running orbwatchd over DDS and waits until it is carried "
+                 "out.\nOptions stand before NAME.\n\n"
+              << options_help(options) << "\nCommands:\n"
+              << commands_help();
+    return {};
+  }
+  const auto command = parse_command(*words);
+  if (!command) return tl::unexpected(command.error());
+  const auto answer = send_command(o, *command, cancelled_by_signal());
+  if (!answer) return tl::unexpected(answer.error());
+  if (answer->result != CommandResult::Done) return fail(words->front() + ": " + answer->text);
+  return {};
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,92 @@
+#include <chrono>
+#include <iostream>
+
+#include "app/cli/command.h"
+#include "app/cli/dds_options.h"
+#include "app/cli/options.h"
+#include "app/dds/security/keystore.h"
+#include "app/dds/topic_access.h"
+#include "app/dds/topic_names.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// A hundred years: the dates of DDS Security end in 2262.
+constexpr int kMaxDays = 36500;
+
+struct KeysOptions {
+  KeystoreRequest request;
+  int domain = 0;
+  std::string prefix = "orbwatch";
+  bool read_only = false;
+  bool help = false;
+};
+
+std::vector<Option> declare(KeysOptions& o) {
+  return {
+      {"subscriber", 0, "NAME",
+       "who may read views and state, and send commands;\nmay be repeated, and added later "
+       "(default: "
+       "one named\nsubscriber in a new FOLDER)",
+       [&o](const std::string& v) -> Result<> {
+         o.request.subscribers.push_back(v);
+         return {};
+       }},
+      {"read-only", 0, "", "these subscribers may not send commands", flag_option(o.read_only)},
+      domain_option(o.domain),
+      prefix_option(o.prefix),
+      {"days", 0, "N",
+       "for how long (default " + std::to_string(o.request.days) +
+           "), not longer than a\nFOLDER that they are added to",
+       [&o](const std::string& v) {
+         return parse_whole("days", v).and_then([&o](int days) -> Result<> {
+           o.request.days = days;
+           if (days >= 1 && days <= kMaxDays) return {};
+           return fail("--days must be 1 to " + std::to_string(kMaxDays));
+         });
+       }},
+      {"replace", 0, "", "make anew what is there: the subscribers named, or all\nof FOLDER",
+       flag_option(o.request.replace)},
+      {"help", 'h', "", "this text", flag_option(o.help)},
+  };
+}
+
+std::string help(const std::vector<Option>& options) {
+  return "Usage: orbwatch dds-keys FOLDER [options]\n\n"
+         "Makes keys, certificates and signed permissions for a DDS domain that nobody else can\n"
+         "read or command. FOLDER/enclaves/appliance is for orbwatchd ([dds.security] of its\n"
+         "configuration), FOLDER/enclaves/NAME for a subscriber (--security of orbwatch "
+         "subscribe,\n"
+         "state and command). Whoever has FOLDER/private can let anybody in: keep it "
+         "elsewhere.\n\n" +
+         options_help(options);
+}
+
+}  // namespace
+
+Result<> dds_keys_command(const std::vector<std::string>& arguments) {
+  KeysOptions o;
+  const std::vector<Option> options = declare(o);
+  const auto rest = parse_options(arguments, options);
+  if (!rest) return tl::unexpected(rest.error());
+  if (o.help) {
+    std::cout << help(options);
+    return {};
+  }
+  if (rest->size() != 1 || rest->front().empty()) {
+    return fail("say which FOLDER to make keys in, and one only; see --help");
+  }
+  if (const auto checked = check_topic_path(o.prefix, "prefix"); !checked) return checked;
+  o.request.folder = rest->front();
+  o.request.domains = {o.domain, o.domain};
+  o.request.appliance = appliance_access(o.prefix);
+  o.request.subscriber = o.read_only ? reader_access(o.prefix) : controller_access(o.prefix);
+  o.request.bulk_topics = bulk_topics(o.prefix);
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const auto made = make_keys(o.request, now);
+  if (!made) return tl::unexpected(made.error());
+  for (const auto& folder : *made) std::cout << folder.string() << '\n';
+  return {};
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "app/cli/cancelled.h"
+#include "app/cli/command.h"
+#include "app/cli/dds_options.h"
+#include "app/cli/options.h"
+#include "app/cli/state_text.h"
+#include "app/dds/state_reader.h"
+#include "app/dds/topic_names.h"
+#include "hal/clock.h"
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLookPeriod{100};
+/// People do not read faster.
+constexpr milliseconds kTablePeriod{1000};
+
+struct StateOptions {
+  int domain = 0;
+  std::string prefix = "orbwatch";
+  std::optional<SecuritySettings> security;
+  milliseconds timeout{5000};
+  bool json = false;
+  bool follow = false;
+  bool help = false;
+};
+
+std::vector<Option> declare(StateOptions& o) {
+  return {{"json", 0, "", "for programs, a line per state", flag_option(o.json)},
+          {"follow", 'f', "", "each one that comes, tables once a second", flag_option(o.follow)},
+          domain_option(o.domain),
+          prefix_option(o.prefix),
+          security_option(o.security),
+          timeout_option(o.timeout),
+          {"help", 'h', "", "this text", flag_option(o.help)}};
+}
+
+void print(const ReceivedState& state, bool json) {
+  std::cout << (json ? state_json(state) : state_table(state) + "\n") << std::flush;
+}
+
+/// Prints until cancelled, or the first one; fails when there is silence for the timeout.
+Result<> print_states(StateReader& reader, const StateOptions& o,
+                      const std::atomic<bool>& cancelled) {
+  const milliseconds period = o.follow && !o.json ? kTablePeriod : milliseconds(0);
+  auto heard = hal::Clock::now();
+  auto printed = heard - period;
+  while (!cancelled) {
+    const auto state = reader.next(std::min(kLookPeriod, o.timeout));
+    if (!state) return tl::unexpected(state.error());
+    const auto now = hal::Clock::now();
+    if (*state) heard = now;
+    if (*state && now - printed >= period) {
+      print(**state, o.json);
+      if (!o.follow) return {};
+      printed = now;
+    }
+    if (now - heard >= o.timeout) {
+      return fail("DDS: nothing on " + process_state_topic(o.prefix) +
+                  "; does orbwatchd run in this domain?");
+    }
+  }
+  return o.follow ? Result<>() : fail("DDS: cancelled before a state came");
+}
+
+}  // namespace
+
+Result<> state_command(const std::vector<std::string>& arguments) {
+  StateOptions o;
+  const std::vector<Option> options = declare(o);
+  const auto rest = parse_options(arguments, options);
+  if (!rest) return tl::unexpected(rest.error());
+  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
+  if (o.help) {
+    std::cout << "Usage: orbwatch state [options]\n\n"
+                 "Prints the newest process state of a running orbwatchd, which comes over DDS.\n\n"
+              << options_help(options);
+    return {};
+  }
+  StateReader reader(o.prefix);
+  return reader.open(o.domain, o.security).and_then([&] {
+    return print_states(reader, o, cancelled_by_signal());
+  });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,191 @@
+#include "app/daemon/dispatch.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "tests/app/pipeline/hand_camera.h"
+#include "tests/app/pipeline/measured_recipe.h"
+#include "tests/app/pipeline/thermal_view.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::seconds;
+
+/// A camera that exposes when it is triggered, too.
+class TriggeredCamera : public HandCamera {
+ public:
+  explicit TriggeredCamera(std::string name) : HandCamera(std::move(name), PixelFormat::Y16) {}
+  Result<> trigger() override {
+    ++triggers;
+    return {};
+  }
+  std::atomic<int> triggers{0};
+};
+
+class ResultSink : public Sink {
+ public:
+  Result<> start() override { return {}; }
+  void stop() override {}
+  void accept(const ViewPtr&) override {}
+  void accept(const Status& status) override {
+    const std::lock_guard lock(mutex_);
+    status_ = status;
+    changed_.notify_all();
+  }
+  Status wait_for_set(std::uint64_t number) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, seconds(30), [&] { return status_.frame_set >= number; }));
+    return status_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Status status_;
+};
+
+class Dispatch : public testing::Test {
+ protected:
+  /// Cameras by their trigger modes; commands are the source of every trigger.
+  void start(const std::vector<hal::TriggerMode>& modes) {
+    LineSettings pulse;
+    pulse.name = "pulse";
+    pulse.use = LineUse::TriggerOut;
+    pulse.back_end = LineKind::Simulated;
+    pulse.line_name = "OUT";
+    auto opened = Lines::open({pulse});
+    ASSERT_TRUE(opened) << opened.error().message;
+    lines = std::move(*opened);
+    PipelinePlan plan;
+    for (const hal::TriggerMode mode : modes) {
+      auto camera = std::make_unique<TriggeredCamera>("camera " + std::to_string(cameras.size()));
+      plan.formats.push_back(camera->configure({}).value());
+      CameraSettings settings;
+      settings.trigger_mode = mode;
+      if (mode != hal::TriggerMode::Off) settings.trigger_source = kSoftwareSource;
+      plan.triggers.push_back(lines->trigger(settings, *camera));
+      cameras.push_back(camera.get());
+      plan.cameras.push_back(std::move(camera));
+    }
+    plan.deadline = seconds(20);
+    plan.sync.window = plan.sync.patience = std::chrono::milliseconds(1);
+    plan.recipes.push_back(compiled(recipe_plan(thermal_view(0, "measured"), 30000, 0.04)));
+    plan.view_count = 1;
+    pipeline.emplace(std::move(plan));
+    ASSERT_TRUE(lines->start());
+    ASSERT_TRUE(pipeline->start({&sink, lines.get()}));
+  }
+  void TearDown() override {
+    if (pipeline) pipeline->stop();
+    if (lines) lines->stop();
+  }
+
+  CommandResult command(CommandCode code, double argument = 0) {
+    return dispatch({code, {argument}},
+                    {*pipeline, *lines, snapshots ? &*snapshots : nullptr, [this] { ++restarts; }});
+  }
+  /// A frame that becomes a set.
+  Status next_set(std::size_t camera = 0) {
+    cameras[camera]->expose(40000);
+    return sink.wait_for_set(++sets);
+  }
+  void wait_for_trigger(std::size_t camera, int number) {
+    const auto end = std::chrono::steady_clock::now() + seconds(30);
+    while (cameras[camera]->triggers < number && std::chrono::steady_clock::now() < end) {
+      std::this_thread::yield();
+    }
+    ASSERT_EQ(cameras[camera]->triggers, number);
+  }
+
+  ResultSink sink;
+  std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
+  std::unique_ptr<Lines> lines;
+  std::vector<TriggeredCamera*> cameras;
+  tests::TemporaryFolder folder;
+  std::optional<SnapshotSink> snapshots;
+  std::uint64_t sets = 0;
+  int restarts = 0;
+};
+
+TEST_F(Dispatch, ATriggerMakesAResultOfTheNextSetOfAFreeCamera) {
+  start({hal::TriggerMode::Off});
+  EXPECT_EQ(next_set().result, 0U);
+  ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::Trigger), CommandResult::Busy);
+  EXPECT_EQ(next_set().result, 1U);
+  EXPECT_EQ(next_set().result, 1U);
+}
+
+TEST_F(Dispatch, ATriggerAsksTheCameraThatIsTriggeredForItsFrame) {
+  start({hal::TriggerMode::Software});
+  cameras[0]->expose(40000);  // nobody asked for this one: it is in no set
+  for (int n = 1; n <= 3; ++n) {
+    ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+    wait_for_trigger(0, n);
+    const Status status = next_set();
+    EXPECT_EQ(status.result, static_cast<std::uint64_t>(n));
+    EXPECT_EQ(status.trigger, static_cast<std::uint64_t>(n));
+    EXPECT_EQ(status.cameras[0].missed, 0U);
+  }
+}
+
+TEST_F(Dispatch, ATriggerIsTheEdgeOfALine) {
+  start({hal::TriggerMode::Line});
+  ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+  EXPECT_EQ(next_set().result, 1U);
+  EXPECT_EQ(cameras[0]->triggers, 0) << "it sees the edge itself or runs freely";
+}
+
+TEST_F(Dispatch, ATriggerOfAnotherCameraIsAResultOfTheOneThatPaces) {
+  start({hal::TriggerMode::Off, hal::TriggerMode::Software});
+  ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+  wait_for_trigger(1, 1);
+  EXPECT_EQ(next_set().result, 1U);
+  EXPECT_EQ(next_set().result, 1U);
+}
+
+TEST_F(Dispatch, PulsesGoToTheLines) {
+  start({hal::TriggerMode::Off});
+  EXPECT_EQ(command(CommandCode::Pulse, 0), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::Pulse, 1), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::Pulse, 65535), CommandResult::ArgumentOutOfRange);
+}
+
+TEST_F(Dispatch, SnapshotsNeedAFolderAndAView) {
+  start({hal::TriggerMode::Off});
+  EXPECT_EQ(command(CommandCode::Snapshot), CommandResult::NotPossible);
+  snapshots.emplace(SnapshotSettings{folder.path(), 1});
+  EXPECT_EQ(command(CommandCode::Snapshot, 1), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::Snapshot, 0), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::Snapshot, 0), CommandResult::Busy);
+}
+
+TEST_F(Dispatch, ARestartIsAskedForOnce) {
+  start({hal::TriggerMode::Off});
+  EXPECT_EQ(command(CommandCode::Restart), CommandResult::Done);
+  EXPECT_EQ(restarts, 1);
+}
+
+TEST_F(Dispatch, AllElseGoesToThePipeline) {
+  start({hal::TriggerMode::Off});
+  EXPECT_EQ(command(CommandCode::SelectView, 0), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::SelectView, 1), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::SelectRecipe, 1), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::PointView, 0), CommandResult::NotPossible) << "it is measured";
+  EXPECT_EQ(command(CommandCode::Stop), CommandResult::Done);
+  EXPECT_EQ(next_set().state, SystemState::Stopped);
+  EXPECT_EQ(command(CommandCode::Start), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::SetProcessActive, 1), CommandResult::Done);
+  EXPECT_EQ(command(CommandCode::AcknowledgeAlarm, 0), CommandResult::Done);
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "app/pictures/colour_maps.h"
+#include "app/pipeline/view_renderer.h"
+#include "hal/frame_pool.h"
+#include "proc/optics/angle.h"
+#include "proc/signals/region_meter.h"
+#include "tests/support/error_distribution.h"
+#include "tests/support/reference_data.h"
+#include "tests/support/rendered_scene.h"
+#include "tests/support/rendered_sequence.h"
+
+/// The process in reference pictures that are rendered by a program that is not ours.
+namespace orbwatch::tests {
+namespace {
+
+using optics::Vec3;
+
+/// A sequence, remapped and measured frame by frame.
+class MeasuredSequence {
+ public:
+  MeasuredSequence(const RenderedSequence& sequence, PixelFormat format,
+                   const signals::RegionSettings& region)
+      : sequence_(sequence),
+        format_(format),
+        remapper_(plan(sequence, format)),
+        view_(remapper_.make_view()),
+        meter_(signals::RegionMeter::make(remapper_.plan().projection, sequence.scene(), region)
+                   .value()) {}
+
+  signals::Signals measure(std::size_t number) {
+    picture_ =
+        cv::imread(sequence_.frames()[number].picture.string(),
+                   format_ == PixelFormat::Y16 ? cv::IMREAD_UNCHANGED : cv::IMREAD_GRAYSCALE);
+    auto buffer = hal::make_frame_pool(format_, picture_.cols, picture_.rows, 1).acquire();
+    std::memcpy(buffer->memory, picture_.data, picture_.total() * picture_.elemSize());
+    hal::FrameSet set;
+    set.frames[0] = buffer;
+    app::WorkerPool workers(0);
+    remapper_.render(set, view_, workers);
+    const double seconds = static_cast<double>(number) / sequence_.frame_rate();
+    return view_.radiometric.empty() ? meter_.measure(view_.luminance, view_.validity, seconds)
+                                     : meter_.measure(view_.radiometric, view_.validity, seconds);
+  }
+
+  /// The brightest of the pixels around a place in the camera's picture.
+  double counts_at(const optics::Vec2& pixel) const {
+    const cv::Rect around(static_cast<int>(std::lround(pixel.u)) - 1,
+                          static_cast<int>(std::lround(pixel.v)) - 1, 3, 3);
+    double brightest = 0;
+    cv::minMaxLoc(picture_(around), nullptr, &brightest);
+    return brightest;
+  }
+
+ private:
+  static app::ViewPlan plan(const RenderedSequence& sequence, PixelFormat format) {
+    const auto view = optics::ViewProjection::make(
+                          {optics::ViewKind::Perspective, {-118, -44, 0}, 90, {}, 640, 480})
+                          .value();
+    const cv::Mat first = cv::imread(sequence.frames()[0].picture.string(), cv::IMREAD_UNCHANGED);
+    app::ViewPlan plan{0, "process", view, {}, {}, {}, 0};
+    plan.interpolation = remap::Interpolation::Area;
+    plan.sources.push_back({0,
+                            {format, {}, first.cols, first.rows, sequence.frame_rate()},
+                            sequence.camera(),
+                            1,
+                            {app::colour_map_table("grey"), 0, 65535}});
+    return plan;
+  }
+
+  const RenderedSequence& sequence_;
+  PixelFormat format_;
+  app::ViewRenderer remapper_;
+  app::View view_;
+  signals::RegionMeter meter_;
+  cv::Mat picture_;
+};
+
+Vec3 direction_of(const signals::Signals& s) {
+  const double yaw = optics::radians(s.hot_spot_yaw), pitch = optics::radians(s.hot_spot_pitch);
+  return {std::cos(pitch) * std::sin(yaw), std::cos(pitch) * std::cos(yaw), std::sin(pitch)};
+}
+
+/// Errors over a sequence. What hides the pool or touches it in a frame is told by the frame's own
+/// pixels and by scene.json, not by what is measured.
+struct Errors {
+  ErrorDistribution alone{"direction_deg_pool_alone"};
+  ErrorDistribution touched{"direction_deg_spark_beside_pool"};
+  int hidden = 0;  ///< frames whose pixel at the pool is cold: the nozzle stands before it
+  std::set<int> sparks;
+  double counted = 0;
+};
+
+Errors measure_all(MeasuredSequence& measured, const RenderedSequence& sequence, double threshold) {
+  constexpr double kBeside = 5;  // degrees
+  const Vec3 ball = sequence.scene().ball.centre;
+  Errors errors;
+  for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
+    const RenderedSequence::Frame& frame = sequence.frames()[i];
+    const signals::Signals s = measured.measure(i);
+    errors.counted = s.spatter_rate;  // all the frames are one second
+    const auto angle_to_pool = [&](const Vec3& direction) {
+      return optics::degrees(optics::angle_between(direction, frame.melt - ball));
+    };
+    bool beside = false;
+    for (const auto& spark : frame.sparks) {
+      errors.sparks.insert(spark.id);
+      beside = beside || angle_to_pool(spark.position - ball) < kBeside;
+    }
+    if (measured.counts_at(sequence.camera().pixel_of_point(frame.melt).value()) < threshold) {
+      ++errors.hidden;
+      continue;
+    }
+    EXPECT_EQ(s.hot_spot_present, 1) << "frame " << i;
+    (beside ? errors.touched : errors.alone).add(angle_to_pool(direction_of(s)));
+  }
+  errors.alone.report();
+  errors.touched.report();
+  std::printf("pool hidden in %d frames; %zu sparks, counted %.0f\n", errors.hidden,
+              errors.sparks.size(), errors.counted);
+  return errors;
+}
+
+TEST(RenderedProcess, ThermalCameraFindsThePool) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures() / "scene.json");
+  const RenderedSequence sequence("seq_thermal");
+  signals::RegionSettings region;
+  region.radiometry.kelvin_per_count = 0.04;
+  region.hot_spot_threshold = (450 + 273.15) / 0.04;
+  region.spatter_threshold = (300 + 273.15) / 0.04;
+  MeasuredSequence measured(sequence, PixelFormat::Y16, region);
+  const Errors errors = measure_all(measured, sequence, region.hot_spot_threshold);
+  EXPECT_GE(errors.alone.size(), 6U);
+  EXPECT_LE(errors.alone.max(), 0.3);
+  EXPECT_LE(errors.touched.p50(), 0.6);
+  // The camera has a pixel per degree there: a spark is a pixel or two.
+  EXPECT_NEAR(errors.counted, static_cast<double>(errors.sparks.size()), 7);
+}
+
+TEST(RenderedProcess, ColourCameraFindsThePool) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures() / "scene.json");
+  const RenderedSequence sequence("seq_spark");
+  signals::RegionSettings region;
+  region.full_scale = 255;
+  region.hot_spot_threshold = 235;
+  // The workpiece's top: walls have letters as bright as the pool.
+  for (const Vec3& corner :
+       {Vec3{-190, -130, 178}, {-30, -130, 178}, {-30, 30, 178}, {-190, 30, 178}}) {
+    region.outline.push_back(corner - sequence.scene().ball.centre);
+  }
+  MeasuredSequence measured(sequence, PixelFormat::Grey, region);
+  const Errors errors = measure_all(measured, sequence, region.hot_spot_threshold);
+  EXPECT_GE(errors.alone.size(), 6U);
+  EXPECT_LE(errors.alone.max(), 0.3);
+  EXPECT_LE(errors.touched.p50(), 0.6);
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
