@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <random>
 #include <span>
@@ -13,6 +11,7 @@
 #include "proc/remap/tolerance.h"
 #include "tests/fuzz/fenced_picture.h"
 #include "tests/fuzz/remap_scene.h"
+#include "tests/fuzz/stop.h"
 
 /// Random grids, sizes and formats: the map keeps to its tolerance, all kernels write the same
 /// bytes, and nobody reads or writes outside of the pictures.
@@ -23,12 +22,6 @@ using optics::Vec2;
 using remap::Coordinate;
 using remap::Interpolation;
 using remap::Kernel;
-
-/// Stops in a way that libFuzzer keeps the input.
-[[noreturn]] void stop(const std::string& why) {
-  std::fprintf(stderr, "remap_fuzz: %s\n", why.c_str());
-  std::abort();
-}
 
 std::string text(const Vec2& p) { return std::to_string(p.u) + ' ' + std::to_string(p.v); }
 

@@ -15,14 +15,6 @@ namespace {
 using optics::Mat3;
 using optics::Vec3;
 
-cv::FileStorage open_scene() {
-  std::ifstream in(rendered_pictures() / "scene.json");
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  // OpenCV's reader knows no null.
-  return {std::regex_replace(text, std::regex("\\bnull\\b"), "\"\""),
-          cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON};
-}
-
 double number(const cv::FileNode& node) { return static_cast<double>(node); }
 Vec3 vector(const cv::FileNode& n) { return {number(n[0]), number(n[1]), number(n[2])}; }
 Mat3 matrix(const cv::FileNode& n) { return {vector(n[0]), vector(n[1]), vector(n[2])}; }
@@ -80,10 +72,18 @@ std::string uncalibrated(const std::string& name, const cv::FileNode& camera, co
 
 }  // namespace
 
+cv::FileStorage open_rendered_scene() {
+  std::ifstream in(rendered_pictures() / "scene.json");
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  // OpenCV's reader knows no null.
+  return {std::regex_replace(text, std::regex("\\bnull\\b"), "\"\""),
+          cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON};
+}
+
 std::filesystem::path rendered_pictures() { return reference_data() / "renders"; }
 
 RenderedScene::RenderedScene(const std::string& name) {
-  const cv::FileStorage file = open_scene();
+  const cv::FileStorage file = open_rendered_scene();
   const cv::FileNode scene = file["scenes"][name];
   const Vec3 centre = vector(file["ball"]["centre"]);
   const double scale = number(scene["scale_about_ball_centre"]);

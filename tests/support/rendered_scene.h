@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <opencv2/core/persistence.hpp>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@ namespace orbwatch::tests {
 
 /// The rendered reference pictures beside the project, and the file that says how they were made.
 std::filesystem::path rendered_pictures();
+
+/// Their scene.json, with empty strings for null.
+cv::FileStorage open_rendered_scene();
 
 /// A view whose truth is among the reference pictures.
 struct RenderedView {

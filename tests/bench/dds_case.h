@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/bench/dds_reading.h"
+
+namespace orbwatch::bench {
+
+/// Pictures of one size at 30 per second to some readers.
+struct DdsCase {
+  std::string name;
+  app::tests::ShippedNetwork::Kind network;
+  int width;  ///< of an rgb8 picture
+  int height;
+  Vendor vendor;
+  int readers;
+  double allowed_loss;    ///< share of the pictures that were written
+  double allowed_cpu_ms;  ///< of the writing process, per picture
+};
+
+/// In the order of the table.
+std::vector<DdsCase> dds_cases();
+
+/// What the pipeline may have to wait: for a lock that is held for moments, not for a sink's work.
+inline constexpr double kAllowedWaitMs = 1;
+
+struct CaseFigures {
+  std::uint64_t accepted = 0;
+  std::uint64_t written = 0;
+  std::uint64_t dropped = 0;  ///< replaced by a newer one before they were written
+  double lost = 0;            ///< of those written, by the reader that lost most
+  double cpu_ms = 0;          ///< of the writing process, per picture
+  std::uint64_t waits = 0;    ///< hand-overs in which the pipeline had to wait
+  double longest_wait_ms = 0;
+  double memory_growth_mb = 0;  ///< of the writing process
+};
+
+/// With networks, readers and a sink of its own. Throws std::runtime_error when a reader gets
+/// nothing.
+CaseFigures measure(const DdsCase& one, std::chrono::seconds duration);
+
+extern const char* const kCaseHeader;
+void print(const DdsCase& one, const CaseFigures& figures);
+
+/// Megabytes of this process in memory.
+double resident_mb();
+
+}  // namespace orbwatch::bench

@@ -1,0 +1,201 @@
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "app/modbus/mbap_framer.h"
+#include "app/modbus/plc_link.h"
+#include "app/modbus/register_map.h"
+#include "app/modbus/responder.h"
+#include "app/modbus/transport.h"
+#include "hal/file_descriptor.h"
+#include "tests/fuzz/byte_stream.h"
+#include "tests/fuzz/stop.h"
+
+/// A client that sends anything in any pieces: what it gets are whole answers to its requests, one
+/// for each, and nothing is written without leave.
+///
+/// An input is one byte that says whether the client may write, then pieces: a byte of bits (see
+/// Piece), a length, and so many bytes.
+namespace orbwatch::fuzz {
+namespace {
+
+using app::modbus::Answered;
+using app::modbus::MbapFramer;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kHeader = 7;
+
+/// A piece is sent as it is, or made a frame of with a right header, which chance would hardly
+/// find.
+enum Piece : std::uint8_t { kIsProtocolDataUnit = 1, kForAnotherUnit = 2 };
+
+Bytes frame(std::span<const std::uint8_t> pdu, std::uint8_t unit) {
+  const std::size_t length = pdu.size() + 1;
+  Bytes bytes(kHeader + pdu.size());
+  bytes[0] = static_cast<std::uint8_t>(pdu.size());  // some transaction
+  bytes[4] = static_cast<std::uint8_t>(length >> 8);
+  bytes[5] = static_cast<std::uint8_t>(length);
+  bytes[6] = unit;
+  std::ranges::copy(pdu, bytes.begin() + kHeader);
+  return bytes;
+}
+
+std::size_t word(std::span<const std::uint8_t> bytes, std::size_t place) {
+  return static_cast<std::size_t>(bytes[place] << 8 | bytes[place + 1]);
+}
+
+/// The protocol data unit's length that the answer to a request which was carried out must have;
+/// 0: it says so itself.
+std::size_t answer_length(std::span<const std::uint8_t> request) {
+  switch (request[0]) {
+    case 1:
+    case 2:
+      return 2 + (word(request, 3) + 7) / 8;
+    case 3:
+    case 4:
+    case 23:
+      return 2 + 2 * word(request, 3);
+    case 5:
+    case 6:
+    case 15:
+    case 16:
+      return 5;
+    case 22:
+      return 7;
+    default:
+      return 0;
+  }
+}
+
+/// Made once: it never changes.
+const app::modbus::RegisterMap& shared_map() {
+  static const app::modbus::RegisterMap map;
+  return map;
+}
+
+/// One connection.
+class Connection {
+ public:
+  explicit Connection(bool may_write) : may_write_(may_write) {
+    std::array<int, 2> ends{};
+    require(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()) == 0, "no sockets");
+    server_ = hal::FileDescriptor(ends[0]);
+    client_ = hal::FileDescriptor(ends[1]);
+    auto responder = app::modbus::Responder::create(
+        map_, [this](const app::modbus::Write& write) { write_registers(write); },
+        [this] {
+          app::modbus::Snapshot snapshot;
+          snapshot.plc = plc_.state({});
+          return snapshot;
+        });
+    auto transport = app::modbus::TcpTransport::create({0, 1, 255});
+    require(responder && transport, "nothing to answer with");
+    responder_ = std::move(*responder);
+    transport_ = std::move(*transport);
+    transport_->use(server_.get());
+  }
+
+  /// False when the server ends the connection.
+  bool send(std::span<const std::uint8_t> bytes) {
+    sent_.insert(sent_.end(), bytes.begin(), bytes.end());
+    while (!bytes.empty()) {
+      const auto room = framer_.room();
+      require(!room.empty(), "no room although no frame is whole");
+      const std::size_t count = std::min(room.size(), bytes.size());
+      std::ranges::copy(bytes.first(count), room.begin());
+      framer_.take(count);
+      bytes = bytes.subspan(count);
+      while (const auto next = framer_.next()) {
+        check_frame(*next);
+        if (!answer(*next)) return false;
+      }
+      if (framer_.is_broken()) return false;
+    }
+    return true;
+  }
+
+ private:
+  void write_registers(const app::modbus::Write& write) {
+    require(may_write_, "a write of a client that may only read");
+    plc_.write(write, map_, {});
+  }
+
+  /// Frames are what was sent, without gaps.
+  void check_frame(std::span<const std::uint8_t> frame) {
+    require(frame.size() > kHeader && frame.size() <= MbapFramer::kLongestFrame, "frame's size");
+    require(word(frame, 2) == 0 && word(frame, 4) == frame.size() - 6, "frame's header");
+    require(std::ranges::equal(frame, std::span(sent_).subspan(cut_, frame.size())),
+            "a frame that was not sent");
+    cut_ += frame.size();
+  }
+
+  bool answer(std::span<const std::uint8_t> request) {
+    const Bytes copy(request.begin(), request.end());  // sized so that reading on is noticed
+    const Answered answered = responder_->answer(*transport_, copy, may_write_);
+    require(answered != Answered::NotTaken, "an answer was not taken");
+    std::array<std::uint8_t, 1024> buffer;
+    const ssize_t count = ::recv(client_.get(), buffer.data(), buffer.size(), 0);
+    const auto answer = std::span<const std::uint8_t>(buffer).first(
+        static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (answered == Answered::NotModbus) {
+      require(answer.empty() && copy[kHeader] >= 0x80, "a request was taken for an answer");
+      return false;
+    }
+    check_answer(copy, answer, answered);
+    return true;
+  }
+
+  static void check_answer(std::span<const std::uint8_t> request,
+                           std::span<const std::uint8_t> answer, Answered answered) {
+    require(answer.size() > kHeader && answer.size() <= MbapFramer::kLongestFrame, "answer's size");
+    require(word(answer, 4) == answer.size() - 6, "answer's length, or more than one answer");
+    require(std::ranges::equal(answer.first(4), request.first(4)) && answer[6] == request[6],
+            "answer's transaction, protocol or unit");
+    const auto pdu = answer.subspan(kHeader);
+    const std::uint8_t function = request[kHeader];
+    if (answered == Answered::Refused) {
+      require(pdu.size() == 2 && pdu[0] == (function | 0x80), "form of an exception");
+      require((pdu[1] >= 1 && pdu[1] <= 3) || pdu[1] == 11, "number of an exception");
+      return;
+    }
+    require(pdu[0] == function, "answer's function");
+    const std::size_t length = answer_length(request.subspan(kHeader));
+    require(length == 0 ? function == 43 : pdu.size() == length, "what is in the answer");
+  }
+
+  const bool may_write_;
+  hal::FileDescriptor server_;
+  hal::FileDescriptor client_;
+  const app::modbus::RegisterMap& map_ = shared_map();
+  app::modbus::PlcLink plc_{
+      [](const app::Command&) { return app::CommandResult::Done; }, std::chrono::seconds(1), {}};
+  std::unique_ptr<app::modbus::Responder> responder_;
+  std::unique_ptr<app::modbus::TcpTransport> transport_;
+  MbapFramer framer_;
+  Bytes sent_;
+  std::size_t cut_ = 0;  ///< so many of them came out as frames
+};
+
+void run(ByteStream input) {
+  Connection connection((input.byte() & 1) != 0);
+  while (!input.is_empty()) {
+    const std::uint8_t piece = input.byte();
+    const auto bytes = input.take(input.byte());
+    const std::uint8_t unit = piece & kForAnotherUnit ? 7 : 1;
+    const bool is_open =
+        piece & kIsProtocolDataUnit ? connection.send(frame(bytes, unit)) : connection.send(bytes);
+    if (!is_open) return;
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  orbwatch::fuzz::run(orbwatch::fuzz::ByteStream({data, size}));
+  return 0;
+}

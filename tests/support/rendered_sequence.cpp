@@ -1,0 +1,60 @@
+#include "tests/support/rendered_sequence.h"
+
+#include <opencv2/core.hpp>
+
+#include "proc/optics/lens.h"
+#include "tests/support/rendered_scene.h"
+
+namespace orbwatch::tests {
+namespace {
+
+using optics::Vec3;
+
+double number(const cv::FileNode& node) { return static_cast<double>(node); }
+Vec3 vector(const cv::FileNode& n) { return {number(n[0]), number(n[1]), number(n[2])}; }
+optics::Box box(const cv::FileNode& n) { return {vector(n["lo"]), vector(n["hi"])}; }
+
+optics::CalibratedCamera calibrated(const cv::FileNode& n) {
+  const cv::FileNode rotation = n["R_wc"];
+  // Its pixels have their centres at +0.5, the product's at integers.
+  const optics::Intrinsics intrinsics{static_cast<int>(n["width"]),
+                                      static_cast<int>(n["height"]),
+                                      number(n["fx"]),
+                                      number(n["fy"]),
+                                      number(n["cx"]) - 0.5,
+                                      number(n["cy"]) - 0.5,
+                                      optics::Distortion::None,
+                                      {}};
+  return {optics::Lens::make(intrinsics).value(),
+          {{vector(rotation[0]), vector(rotation[1]), vector(rotation[2])}, vector(n["C"])},
+          std::nullopt};
+}
+
+}  // namespace
+
+RenderedSequence::RenderedSequence(const std::string& name) {
+  const cv::FileStorage file = open_rendered_scene();
+  const cv::FileNode sequence = file["sequences"][name];
+  frame_rate_ = number(sequence["fps"]);
+  scene_.ball = {vector(file["ball"]["centre"]), number(file["ball"]["radius"])};
+  optics::Scene scene;
+  scene.room = optics::Scene::Room::Box;
+  scene.walls = box(file["box"]);
+  // The workpiece, on which the pool is, is in the pictures but not in the file.
+  scene.obstacles = {box(file["table"]), {{-190, -130, 140}, {-30, 30, 178}}};
+  scene_.proxy = optics::SceneProxy::make(scene, scene_.ball).value();
+  camera_.push_back(optics::BallProjection::make(optics::BallModel::Kind::Exact,
+                                                 calibrated(sequence["camera"]), scene_.ball,
+                                                 scene_.proxy)
+                        .value());
+  for (const auto& n : sequence["frames"]) {
+    Frame frame{rendered_pictures() / static_cast<std::string>(n["file"]), vector(n["melt"]), {}};
+    for (const auto& spark : n["sparks"]) {
+      frame.sparks.push_back({static_cast<int>(spark["id"]), vector(spark["xyz"]),
+                              number(spark["r"]), number(spark["tc"])});
+    }
+    frames_.push_back(std::move(frame));
+  }
+}
+
+}  // namespace orbwatch::tests
