@@ -33,6 +33,9 @@ const std::vector<Rule> kRules{
      {"proc", "hal", "app"},
      {"opencv2/", "toml++/", "yaml-cpp/", "dds/", "modbus/", "tl/expected"}},
     {"app/dds", {"proc", "hal", "app"}, {"dds/", "opencv2/", "tl/expected"}},
+    {"app/dds/security", {"proc/image", "app/dds"}, {"dds/", "openssl/", "tl/expected"}},
+    {"app/dds/ros", {"proc", "hal", "app"}, {"dds/", "openssl/", "tl/expected"}},
+    {"app/pictures", {"proc", "hal", "app"}, {"opencv2/", "turbojpeg", "tl/expected"}},
     {"app/modbus", {"proc", "hal", "app"}, {"modbus/", "tl/expected"}},
     {"app/pipeline", {"proc", "hal", "app"}, {"tl/expected"}},
 };
@@ -86,7 +89,7 @@ std::vector<Include> all_includes() {
 
 /// Headers without a folder or with one of the system's are the C and C++ libraries'.
 bool is_standard(const std::string& header) {
-  static const std::vector<std::string> kSystem{"sys/", "netinet/", "arpa/"};
+  static const std::vector<std::string> kSystem{"sys/", "net/", "netinet/", "arpa/"};
   if (std::any_of(kSystem.begin(), kSystem.end(),
                   [&](const auto& s) { return header.starts_with(s); })) {
     return true;

@@ -1,0 +1,2 @@
+// The precompiled header needs one file that uses it.
+#include "tests/support/headers.h"
