@@ -1,71 +1,72 @@
 #pragma once
 
-#include <condition_variable>
+#include <array>
+#include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <utility>
+
+#include "hal/doorbell.h"
 
 namespace orbwatch::hal {
 
 /// A queue of depth one between two threads: the newest value wins, each one that was replaced
-/// before it was taken is counted. The sender never waits. Thread-safe, any number of senders, one
-/// receiver.
+/// before it was taken is counted. A triple buffer: sender and receiver own one place each and swap
+/// it for the one between them, so neither ever waits for the other's work.
+/// Thread rule: put by one thread, take and try_take by one other; the rest by any.
 template <class T>
 class Mailbox {
  public:
   /// Puts a value in; returns false when it replaced one that nobody took.
   bool put(T value) {
-    std::optional<T> replaced;
-    {
-      const std::lock_guard lock(mutex_);
-      replaced = std::exchange(value_, std::move(value));
-      drops_ += replaced ? 1 : 0;
-    }
-    filled_.notify_one();
+    places_[sender_] = std::move(value);
+    const int between = between_.exchange(sender_ | kFull, std::memory_order_acq_rel);
+    sender_ = between & kPlace;
+    places_[sender_].reset();
+    bell_.ring();
+    const bool replaced = between & kFull;
+    drops_ += replaced ? 1 : 0;
     return !replaced;
   }
 
   /// Waits for a value; nothing while the mailbox is closed. One put in before stays in it.
   std::optional<T> take() {
-    std::unique_lock lock(mutex_);
-    filled_.wait(lock, [this] { return value_.has_value() || closed_; });
-    if (closed_) return std::nullopt;
-    return std::exchange(value_, std::nullopt);
+    while (!closed_) {
+      if (auto value = try_take()) return value;
+      bell_.wait();
+    }
+    return std::nullopt;
   }
 
   /// Takes what is there without waiting.
   std::optional<T> try_take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(value_, std::nullopt);
+    if (!(between_.load(std::memory_order_relaxed) & kFull)) return std::nullopt;
+    receiver_ = between_.exchange(receiver_, std::memory_order_acq_rel) & kPlace;
+    return std::exchange(places_[receiver_], std::nullopt);
   }
 
   /// Ends take() until open().
   void close() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-    }
-    filled_.notify_all();
+    closed_ = true;
+    bell_.ring();
   }
 
   /// Lets take() wait again.
-  void open() {
-    const std::lock_guard lock(mutex_);
-    closed_ = false;
-  }
+  void open() { closed_ = false; }
 
-  std::uint64_t drops() const {
-    const std::lock_guard lock(mutex_);
-    return drops_;
-  }
+  std::uint64_t drops() const { return drops_; }
 
  private:
-  mutable std::mutex mutex_;
-  std::condition_variable filled_;
-  std::optional<T> value_;
-  std::uint64_t drops_ = 0;
-  bool closed_ = false;
+  static constexpr int kPlace = 3;
+  static constexpr int kFull = 4;  ///< nobody has taken what is there
+
+  std::array<std::optional<T>, 3> places_;
+  int sender_ = 0;    // its place, the sender's
+  int receiver_ = 1;  // its place, the receiver's
+  std::atomic<int> between_{2};
+  Doorbell bell_;
+  std::atomic<std::uint64_t> drops_{0};
+  std::atomic<bool> closed_{false};
 };
 
 }  // namespace orbwatch::hal

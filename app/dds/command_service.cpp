@@ -29,7 +29,7 @@ void CommandService::close() {
   requests_.close();
   show_order_of_calls();
   running_ = false;
-  wake_.put({});
+  wake_.ring();
   if (thread_.joinable()) thread_.join();
   results_.close();
 }
@@ -44,13 +44,14 @@ void CommandService::receive(dds_entity_t reader, void* service) {
   for (auto taken = take_samples(reader, take); taken && *taken > 0;) {
     taken = take_samples(reader, take);
   }
-  self.wake_.put({});
+  self.wake_.ring();
   show_order_of_calls();
 }
 
 void CommandService::run() {
   // What came in before close() is still carried out.
-  for (bool last = false; !last && wake_.take();) {
+  for (bool last = false; !last;) {
+    wake_.wait();
     last = !running_;
     while (const auto request = queue_.try_take()) serve(*request);
   }

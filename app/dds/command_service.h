@@ -12,7 +12,7 @@
 #include "app/dds/request_ledger.h"
 #include "app/dds/topic_reader.h"
 #include "app/dds/topic_writer.h"
-#include "hal/mailbox.h"
+#include "hal/doorbell.h"
 
 namespace orbwatch::app {
 
@@ -39,7 +39,6 @@ class CommandService {
  private:
   static constexpr std::size_t kMaxWaiting = 64;
   static constexpr std::size_t kMaxClients = 256;
-  struct Wake {};
 
   static void receive(dds_entity_t reader, void* service);
   void run();
@@ -53,7 +52,7 @@ class CommandService {
 
   // Between the receive thread of DDS and the service's.
   BoundedQueue<CommandRequest, kMaxWaiting> queue_;
-  hal::Mailbox<Wake> wake_;
+  hal::Doorbell wake_;
   std::atomic<bool> running_{false};
 
   // The service's thread only; kept from one opening to the next.

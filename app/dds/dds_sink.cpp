@@ -58,7 +58,7 @@ Result<> DdsSink::start() {
 
 void DdsSink::stop() {
   running_ = false;
-  wake_.put({});
+  wake_.ring();
   if (thread_.joinable()) thread_.join();
   leave();
   status_.try_take();
@@ -207,17 +207,17 @@ void DdsSink::accept(const Status& status) {
   if (!running_) return;
   selected_view_ = status.selected_view;
   status_.put({status, status.frame_set == 0 ? TimeMessage{} : utc(status.stamp)});
-  wake_.put({});
+  wake_.ring();
 }
 
 void DdsSink::note(const AlarmNotice& notice) {
   if (!running_) return;
   notices_.put({notice, utc(notice.stamp)});
-  wake_.put({});
+  wake_.ring();
 }
 
 void DdsSink::run() {
-  while (wake_.take() && running_) {
+  for (wake_.wait(); running_; wake_.wait()) {
     keep_joined();
     if (!joined_) continue;
     while (const auto notice = notices_.try_take()) status_topics_.publish(*notice);

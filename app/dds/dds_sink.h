@@ -24,6 +24,7 @@
 #include "app/pipeline/sink.h"
 #include "app/pipeline/status_names.h"
 #include "hal/back_off.h"
+#include "hal/doorbell.h"
 #include "hal/mailbox.h"
 
 namespace orbwatch::app {
@@ -65,7 +66,6 @@ class DdsSink final : public Sink {
     const std::string name;
     PictureTopics ball;
   };
-  struct Wake {};
   /// Every alarm may be acknowledged and change in one frame set; some of those fit.
   static constexpr std::size_t kMaxNotices = 8 * signals::kMaxAlarms;
 
@@ -90,7 +90,7 @@ class DdsSink final : public Sink {
   PictureTopics selected_;
   hal::Mailbox<StampedStatus> status_;
   BoundedQueue<StampedNotice, kMaxNotices> notices_;
-  hal::Mailbox<Wake> wake_;
+  hal::Doorbell wake_;
   std::atomic<bool> running_{false};
   std::atomic<std::uint64_t> unknown_views_{0};
   std::atomic<std::uint64_t> joins_{0};

@@ -452,6 +452,7 @@ TEST_F(DdsSinkTest, CamerasPicturesAreSentWhileSomebodyReads) {
   sink_.accept_frames(set);
   EXPECT_EQ(sum(of_topic(sink_, "rt/orbwatch/thermal/ball/image_raw")), before)
       << "it was sent already";
+  sink_.stop();  // until then its thread may read the samples
 }
 
 TEST_F(DdsSinkTest, ViewsWithoutATopicAreCounted) {

@@ -16,9 +16,7 @@ namespace orbwatch::app::tests {
 
 /// Stands where the pipeline stands: hands views over at a camera's pace and counts how often the
 /// sink made it wait. A thread that waits for a lock, a socket or anything else gives its processor
-/// up of its own accord; the system counts that per thread, and here nothing else does it. That the
-/// sink's own thread holds a mailbox for a microsecond in that very moment does happen, about once
-/// in a thousand hand-overs.
+/// up of its own accord; the system counts that per thread, and here nothing else does it.
 class PacedViews {
  public:
   static constexpr auto kPeriod = std::chrono::milliseconds(33);
@@ -54,11 +52,6 @@ class PacedViews {
   /// Of all hand-overs, those that waited.
   std::uint64_t waits() const { return waits_; }
   double longest_wait_ms() const { return longest_wait_.count(); }
-  /// More waits than chance explains, which means that the sink holds the pipeline up.
-  bool held_up() const {
-    constexpr std::uint64_t kChance = 50;  // one in so many
-    return waits_ * kChance > accepted_;
-  }
 
   /// Whether the sink has let go of all views, so that its counts are complete.
   bool all_returned() const {
