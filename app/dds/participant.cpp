@@ -70,6 +70,10 @@ Result<> check_domain(int domain) {
 }
 
 Result<> check_profile(const std::filesystem::path& profile) {
+  if (profile.string().find(',') != std::string::npos) {
+    return fail("DDS profile " + profile.string() +
+                ": has a comma in its path, which Cyclone DDS takes for the end; rename it");
+  }
   std::error_code ignored;  // a file that cannot be looked at is none
   if (profile.empty() || std::filesystem::is_regular_file(profile, ignored)) return {};
   return fail("DDS profile " + profile.string() + ": no such file");

@@ -13,7 +13,8 @@ namespace orbwatch::app {
 
 /// Whether there is such a DDS domain: 0 to 230.
 Result<> check_domain(int domain);
-/// Whether there is such a file with settings of the network; an empty path stands for none.
+/// Whether there is such a file with settings of the network, and Cyclone DDS can be told its path;
+/// an empty one stands for none.
 Result<> check_profile(const std::filesystem::path& profile);
 
 /// One participant of a DDS domain. Participants of the same domain share what the process keeps of

@@ -24,7 +24,8 @@ struct StampedNotice {
 };
 
 /// The topics of what is known beside the pictures: the process state, what happens to alarms, and
-/// ROS' diagnostics once a second. Thread rule: one owner; report() is thread-safe.
+/// ROS' diagnostics once a second.
+/// Thread rule: one owner; writers()' statistics by any thread.
 class StatusTopics {
  public:
   StatusTopics(const std::string& prefix, StatusNames names);

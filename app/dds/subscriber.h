@@ -32,10 +32,9 @@ struct SubscribeReport {
 
 /// Reads topics until the time is over or `cancelled` is set, and saves the newest images at the
 /// end. Topics that end in /process_state carry process states, in /compressed JPEG pictures, all
-/// others images; samples that do
-/// not add up are refused and counted. Lines go to `out`. Thread-bound; `cancelled` is looked at
-/// ten times a second. Errors: a topic twice, no usable network interface, a file that cannot be
-/// written.
+/// others images; samples that do not add up are refused and counted. Lines go to `out`.
+/// Thread-bound; `cancelled` is looked at ten times a second. Errors: a topic twice, no usable
+/// network interface, a file that cannot be written.
 Result<SubscribeReport> subscribe(const SubscribeOptions& options,
                                   const std::atomic<bool>& cancelled, std::ostream& out);
 

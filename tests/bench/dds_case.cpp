@@ -9,15 +9,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/app/dds/fastdds/paced_views.h"
-
 namespace orbwatch::bench {
 
 namespace {
 
 using app::tests::ShippedNetwork;
 
-const std::string kTopic = "rt/orbwatch/front/image_raw";
 constexpr double kAnyCost = std::numeric_limits<double>::infinity();
 
 /// All threads of this process, user and system.
@@ -30,20 +27,20 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-app::TopicStatistics statistics_of(const app::DdsSink& sink) {
+app::TopicStatistics statistics_of(const app::DdsSink& sink, const std::string& topic) {
   const auto statistics = sink.statistics();
-  const auto found = std::ranges::find(statistics.topics, kTopic, &app::TopicStatistics::topic);
-  if (found == statistics.topics.end()) throw std::runtime_error("no topic " + kTopic);
+  const auto found = std::ranges::find(statistics.topics, topic, &app::TopicStatistics::topic);
+  if (found == statistics.topics.end()) throw std::runtime_error("no topic " + topic);
   return *found;
 }
 
 /// Until each reader has its first picture.
-void wait_for_all(const Readers& readers, app::tests::PacedViews& views) {
+void wait_for_all(const Readers& readers, app::tests::Pace& pace) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!std::ranges::all_of(readers, [](const auto& r) { return received(*r) > 0; })) {
-    views.hand_over();
+    pace.hand_over();
     if (std::chrono::steady_clock::now() > give_up) {
-      throw std::runtime_error("a reader gets nothing of " + kTopic);
+      throw std::runtime_error("a reader gets no picture");
     }
   }
 }
@@ -65,65 +62,65 @@ std::vector<DdsCase> dds_cases() {
   constexpr double kFew = 0.01;
   constexpr double kCheap = 3;
   return {
-      {"1080p rgb8, 6.2 MB", Kind::SameHost, 1920, 1080, Vendor::Ours, 1, kFew, kCheap},
-      {"1080p rgb8, 6.2 MB", Kind::SameHost, 1920, 1080, Vendor::Foreign, 1, kFew, kCheap},
-      {"2.1 MB, as 1080p mono8", Kind::SameHost, 1920, 360, Vendor::Ours, 1, kFew, kCheap},
-      {"2.1 MB, as 1080p mono8", Kind::SameHost, 1920, 360, Vendor::Ours, 4, kFew, kAnyCost},
-      {"2.1 MB, as 1080p mono8", Kind::SameHost, 1920, 360, Vendor::Foreign, 4, kFew, kAnyCost},
-      {"300 kB, as a JPEG", Kind::Lan, 400, 250, Vendor::Ours, 1, 0, kAnyCost},
-      {"300 kB, as a JPEG", Kind::Lan, 400, 250, Vendor::Foreign, 1, 0, kAnyCost},
+      {"view, rgb8", Kind::SameHost, Pictures::View, Vendor::Ours, 1, kFew, kCheap},
+      {"view, rgb8", Kind::SameHost, Pictures::View, Vendor::Foreign, 1, kFew, kCheap},
+      {"camera, NV12 to mono8", Kind::SameHost, Pictures::Camera, Vendor::Ours, 1, kFew, kCheap},
+      {"camera, NV12 to mono8", Kind::SameHost, Pictures::Camera, Vendor::Ours, 4, kFew, kAnyCost},
+      {"camera, NV12 to mono8", Kind::SameHost, Pictures::Camera, Vendor::Foreign, 4, kFew,
+       kAnyCost},
+      {"view, JPEG", Kind::Lan, Pictures::Jpeg, Vendor::Ours, 1, 0, kAnyCost},
+      {"view, JPEG", Kind::Lan, Pictures::Jpeg, Vendor::Foreign, 1, 0, kAnyCost},
   };
 }
 
 CaseFigures measure(const DdsCase& one, std::chrono::seconds duration) {
   const ShippedNetwork network(one.network);
-  app::DdsSink sink({.domain = app::tests::kDomain}, app::tests::make_names(), nullptr);
+  app::DdsSink sink(settings_for(one.pictures), app::tests::make_names(), nullptr);
   network.start(sink);
-  std::vector<std::shared_ptr<app::View>> pictures;
-  for (std::uint64_t set = 1; set <= app::kViewBuffers; ++set) {
-    pictures.push_back(app::tests::make_view(0, "front", set, one.width, one.height));
-  }
-  app::tests::PacedViews views(sink, pictures);
-  const Readers readers = start_readers(network, kTopic, one.vendor, one.readers);
-  wait_for_all(readers, views);
+  const std::string topic = topic_of(one.pictures);
+  const auto pace = paced(one.pictures, sink);
+  const Readers readers = start_readers(network, topic, one.vendor, one.readers);
+  wait_for_all(readers, *pace);
 
   const auto received_before = settled(readers);
-  const auto accepted_before = views.accepted();
-  const auto written_before = statistics_of(sink).written;
-  const auto dropped_before = statistics_of(sink).replaced;
+  const auto accepted_before = pace->accepted();
+  const auto before = statistics_of(sink, topic);
   const double cpu_before = cpu_seconds();
   const double memory_before = resident_mb();
-  views.restart();
-  views.hand_over(static_cast<int>(duration / app::tests::PacedViews::kPeriod));
+  pace->restart();
+  pace->hand_over(static_cast<int>(duration / app::tests::Pace::kPeriod));
   CaseFigures figures;
-  figures.accepted = views.accepted() - accepted_before;
+  figures.accepted = pace->accepted() - accepted_before;
   const double cpu = cpu_seconds() - cpu_before;
   figures.memory_growth_mb = resident_mb() - memory_before;
   const auto received_after = settled(readers);
-  figures.written = statistics_of(sink).written - written_before;
-  figures.dropped = statistics_of(sink).replaced - dropped_before;
+  const auto after = statistics_of(sink, topic);
+  figures.written = after.written - before.written;
+  figures.dropped = after.replaced - before.replaced;
+  figures.kilobytes = newest_kilobytes(*readers.front());
   figures.lost = worst_loss(received_before, received_after, figures.written);
   figures.cpu_ms = cpu * 1000 / static_cast<double>(figures.written);
-  figures.waits = views.waits();
-  figures.longest_wait_ms = views.longest_wait_ms();
+  figures.waits = pace->waits();
+  figures.longest_wait_ms = pace->longest_wait_ms();
   return figures;
 }
 
 const char* const kCaseHeader =
-    "| picture | network | readers | handed over | written | replaced | lost by the worst, % | "
+    "| 1080p pictures | kB each | network | readers | handed over | written | replaced | lost by "
+    "the worst, % | "
     "writer's CPU, ms each | waits of the pipeline | longest, ms | memory, MB more |\n"
-    "|---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|";
+    "|---|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|";
 
 void print(const DdsCase& one, const CaseFigures& figures) {
-  std::printf("| %s | %s | %d %s | %llu | %llu | %llu | %.2f | %.2f | %llu | %.2f | %.1f |\n",
-              one.name.c_str(),
-              one.network == ShippedNetwork::Kind::SameHost ? "same host" : "cable, MTU 1500",
-              one.readers, name_of(one.vendor).c_str(),
-              static_cast<unsigned long long>(figures.accepted),
-              static_cast<unsigned long long>(figures.written),
-              static_cast<unsigned long long>(figures.dropped), figures.lost * 100, figures.cpu_ms,
-              static_cast<unsigned long long>(figures.waits), figures.longest_wait_ms,
-              figures.memory_growth_mb);
+  std::printf(
+      "| %s | %.0f | %s | %d %s | %llu | %llu | %llu | %.2f | %.2f | %llu | %.2f | %.1f |\n",
+      one.name.c_str(), figures.kilobytes,
+      one.network == ShippedNetwork::Kind::SameHost ? "same host" : "cable, MTU 1500", one.readers,
+      name_of(one.vendor).c_str(), static_cast<unsigned long long>(figures.accepted),
+      static_cast<unsigned long long>(figures.written),
+      static_cast<unsigned long long>(figures.dropped), figures.lost * 100, figures.cpu_ms,
+      static_cast<unsigned long long>(figures.waits), figures.longest_wait_ms,
+      figures.memory_growth_mb);
   std::fflush(stdout);
 }
 

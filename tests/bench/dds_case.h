@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/dds_pictures.h"
 #include "tests/bench/dds_reading.h"
 
 namespace orbwatch::bench {
 
-/// Pictures of one size at 30 per second to some readers.
+/// Pictures at 30 per second to some readers.
 struct DdsCase {
   std::string name;
   app::tests::ShippedNetwork::Kind network;
-  int width;  ///< of an rgb8 picture
-  int height;
+  Pictures pictures;
   Vendor vendor;
   int readers;
   double allowed_loss;    ///< share of the pictures that were written
@@ -24,13 +24,11 @@ struct DdsCase {
 /// In the order of the table.
 std::vector<DdsCase> dds_cases();
 
-/// What the pipeline may have to wait: for a lock that is held for moments, not for a sink's work.
-inline constexpr double kAllowedWaitMs = 1;
-
 struct CaseFigures {
   std::uint64_t accepted = 0;
   std::uint64_t written = 0;
   std::uint64_t dropped = 0;  ///< replaced by a newer one before they were written
+  double kilobytes = 0;       ///< of the newest picture, as it came
   double lost = 0;            ///< of those written, by the reader that lost most
   double cpu_ms = 0;          ///< of the writing process, per picture
   std::uint64_t waits = 0;    ///< hand-overs in which the pipeline had to wait

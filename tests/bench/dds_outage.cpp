@@ -6,7 +6,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "tests/app/dds/fastdds/paced_views.h"
 #include "tests/bench/dds_case.h"
 #include "tests/bench/dds_reading.h"
 
@@ -15,7 +14,7 @@ namespace orbwatch::bench {
 namespace {
 
 using app::tests::kDomain;
-using app::tests::PacedViews;
+using app::tests::Pace;
 using app::tests::ShippedNetwork;
 using Clock = std::chrono::steady_clock;
 
@@ -43,13 +42,13 @@ double slowest_state(const ShippedNetwork& network) {
 }
 
 /// Seconds until each reader gets something that it has not had `before`.
-std::vector<double> time_to_next(const Readers& readers, PacedViews& views) {
+std::vector<double> time_to_next(const Readers& readers, Pace& pace) {
   const auto begin = Clock::now();
   std::vector<std::uint64_t> before;
   for (const auto& reader : readers) before.push_back(received(*reader));
   std::vector<double> waited(readers.size(), 0);
   while (std::ranges::find(waited, 0.0) != waited.end()) {
-    views.hand_over();
+    pace.hand_over();
     for (std::size_t i = 0; i < readers.size(); ++i) {
       if (waited[i] == 0 && received(*readers[i]) > before[i]) waited[i] = seconds_since(begin);
     }
@@ -61,33 +60,31 @@ std::vector<double> time_to_next(const Readers& readers, PacedViews& views) {
 }  // namespace
 
 OutageFigures measure_outage() {
-  const std::string topic = "rt/orbwatch/front/image_raw";
   const ShippedNetwork network(ShippedNetwork::Kind::Lan);
-  app::DdsSink sink({.domain = kDomain}, app::tests::make_names(), nullptr);
+  app::DdsSink sink(settings_for(Pictures::SmallView), app::tests::make_names(), nullptr);
   network.start(sink);
   sink.accept(app::tests::make_status());
   OutageFigures figures;
   figures.state_ms = slowest_state(network);
 
-  PacedViews views(sink, {app::tests::make_view(0, "front", 1, 400, 250),
-                          app::tests::make_view(0, "front", 2, 400, 250),
-                          app::tests::make_view(0, "front", 3, 400, 250)});
+  const auto pace = paced(Pictures::SmallView, sink);
+  const std::string topic = topic_of(Pictures::SmallView);
   Readers readers = start_readers(network, topic, Vendor::Ours, 1);
   readers.push_back(std::move(start_readers(network, topic, Vendor::Foreign, 1).front()));
-  time_to_next(readers, views);
-  views.hand_over(60);
+  time_to_next(readers, *pace);
+  pace->hand_over(60);
   const double memory_before = resident_mb();
   network.cable().pull();
-  views.restart();
-  views.hand_over(static_cast<int>(kOutage / PacedViews::kPeriod));
+  pace->restart();
+  pace->hand_over(static_cast<int>(kOutage / Pace::kPeriod));
   figures.memory_growth_mb = resident_mb() - memory_before;
   network.cable().plug();
-  views.restart();
-  const auto back = time_to_next(readers, views);
+  pace->restart();
+  const auto back = time_to_next(readers, *pace);
   figures.ours_back_s = back[0];
   figures.foreign_back_s = back[1];
-  figures.waits = views.waits();
-  figures.longest_wait_ms = views.longest_wait_ms();
+  figures.waits = pace->waits();
+  figures.longest_wait_ms = pace->longest_wait_ms();
   return figures;
 }
 

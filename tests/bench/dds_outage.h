@@ -16,8 +16,7 @@ struct OutageFigures {
   bool reached() const {
     constexpr double kSoon = 100;
     constexpr double kBack = 5;
-    return state_ms <= kSoon && ours_back_s <= kBack && foreign_back_s <= kBack &&
-           longest_wait_ms <= kAllowedWaitMs;
+    return state_ms <= kSoon && ours_back_s <= kBack && foreign_back_s <= kBack && waits == 0;
   }
 };
 

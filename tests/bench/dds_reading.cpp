@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "app/dds/compressed_image_message.h"
 #include "app/dds/image_message.h"
 #include "app/dds/participant.h"
+#include "app/dds/topic_names.h"
 
 namespace orbwatch::bench {
 
@@ -28,9 +30,12 @@ std::string own_path() { return std::filesystem::read_symlink("/proc/self/exe").
 
 int read_pictures(int domain, const std::string& topic_name) {
   std::signal(SIGTERM, [](int) { ended = 1; });
+  const bool jpeg = app::is_compressed_topic(topic_name);
   const auto participant = checked(app::Participant::join(domain));
-  const auto topic =
-      checked(app::make_topic(participant.entity(), sensor_msgs_msg_dds__Image__desc, topic_name));
+  const auto topic = checked(app::make_topic(
+      participant.entity(),
+      jpeg ? sensor_msgs_msg_dds__CompressedImage__desc : sensor_msgs_msg_dds__Image__desc,
+      topic_name));
   const auto reader = checked(app::make_reader(participant.entity(), topic, app::frame_qos()));
   const app::Entity condition(dds_create_readcondition(reader.get(), DDS_ANY_STATE));
   const app::Entity waitset(dds_create_waitset(participant.entity().get()));
@@ -41,8 +46,9 @@ int read_pictures(int domain, const std::string& topic_name) {
     dds_sample_info_t info{};
     const auto count = dds_take(reader.get(), &sample, &info, 1, 1);
     if (count > 0 && info.valid_data) {
-      const auto& image = *static_cast<const app::ImageMessage*>(sample);
-      std::printf("{\"since_match_ms\": 0, \"length\": %u}\n", image.data._length);
+      std::printf("{\"since_match_ms\": 0, \"length\": %u}\n",
+                  jpeg ? static_cast<const app::CompressedImageMessage*>(sample)->data._length
+                       : static_cast<const app::ImageMessage*>(sample)->data._length);
       std::fflush(stdout);
     }
     if (count > 0) dds_return_loan(reader.get(), &sample, count);
@@ -59,7 +65,9 @@ Readers start_readers(const app::tests::ShippedNetwork& network, const std::stri
       vendor == Vendor::Ours
           ? std::vector<std::string>{own_path(), "--read", std::to_string(kDomain), topic}
           : orbwatch::tests::foreign_reader(
-                kDomain, {"--topic", topic, "--type", "image", "--receive-buffer", "16777216"});
+                kDomain, {"--topic", topic, "--type",
+                          app::is_compressed_topic(topic) ? "compressed_image" : "image",
+                          "--receive-buffer", "16777216"});
   Readers readers;
   for (int i = 0; i < count; ++i) {
     readers.push_back(std::make_unique<orbwatch::tests::ReaderProgram>(network.readers(), command));
@@ -69,6 +77,10 @@ Readers start_readers(const app::tests::ShippedNetwork& network, const std::stri
 
 std::uint64_t received(const orbwatch::tests::ReaderProgram& reader) {
   return reader.samples().size();
+}
+
+double newest_kilobytes(const orbwatch::tests::ReaderProgram& reader) {
+  return static_cast<double>(orbwatch::tests::parsed(reader.samples().back())["length"]) * 1e-3;
 }
 
 std::vector<std::uint64_t> settled(const Readers& readers) {

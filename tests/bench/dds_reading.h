@@ -28,7 +28,10 @@ Readers start_readers(const app::tests::ShippedNetwork& network, const std::stri
 /// Pictures so far.
 std::uint64_t received(const orbwatch::tests::ReaderProgram& reader);
 
-/// The same for each, once nothing comes any more.
+/// The size of the newest one.
+double newest_kilobytes(const orbwatch::tests::ReaderProgram& reader);
+
+/// The pictures of each, once nothing comes any more.
 std::vector<std::uint64_t> settled(const Readers& readers);
 
 }  // namespace orbwatch::bench

@@ -77,6 +77,12 @@ TEST(ParticipantTest, AProfileStandsForTheEnvironment) {
   EXPECT_TRUE(participant) << participant.error().message;
 }
 
+TEST(ParticipantTest, AProfileWhosePathCannotBeToldIsNamed) {
+  const auto participant = Participant::join(kDomain, std::nullopt, {}, "/etc/a,b.xml");
+  ASSERT_FALSE(participant);
+  EXPECT_THAT(participant.error().message, testing::HasSubstr("/etc/a,b.xml: has a comma"));
+}
+
 TEST(ParticipantTest, AProfileThatIsMissingIsNamed) {
   configure("lo");
   EXPECT_EQ(Participant::join(kDomain, std::nullopt, {}, "/absent.xml").error().message,
