@@ -8,6 +8,7 @@
 #include "app/config/recipe_file.h"
 #include "app/config/rig_file.h"
 #include "tests/app/config/machine_files.h"
+#include "tests/app/config/refusal.h"
 
 namespace orbwatch::app {
 namespace {
@@ -105,23 +106,13 @@ TEST_F(ConfigurationFile, ACameraMayBeTriggeredByCommandsOnly) {
   EXPECT_EQ(c->cameras[0].trigger_source, kSoftwareSource);
 }
 
-struct Refusal {
-  std::string name;
-  std::string text;
-  std::vector<std::string> says;  ///< what the message must contain
-};
-
 class ConfigurationRefusal : public ConfigurationFile,
                              public testing::WithParamInterface<Refusal> {};
 
 TEST_P(ConfigurationRefusal, SaysFileLineKeyAndWhatIsAllowed) {
   const auto c = parse(GetParam().text);
   ASSERT_FALSE(c);
-  const std::string& message = c.error().message;
-  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
-  for (const auto& part : GetParam().says) {
-    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
-  }
+  expect_said(GetParam(), c.error());
 }
 
 INSTANTIATE_TEST_SUITE_P(

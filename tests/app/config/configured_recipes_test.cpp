@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/app/config/machine_files.h"
+#include "tests/app/config/refusal.h"
 
 /// What a configuration says about recipes, and what they may not say to each other.
 namespace orbwatch::app {
@@ -137,23 +138,13 @@ distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}
   EXPECT_EQ(checksum(), others);
 }
 
-struct Refusal {
-  std::string name;
-  std::string text;
-  std::vector<std::string> says;  ///< what the message must contain
-};
-
 class RefusedTogether : public ConfigurationWithRecipes,
                         public testing::WithParamInterface<Refusal> {};
 
 TEST_P(RefusedTogether, SaysFileLineKeyAndWhatIsAllowed) {
   const auto c = parse(GetParam().text);
   ASSERT_FALSE(c);
-  const std::string& message = c.error().message;
-  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
-  for (const auto& part : GetParam().says) {
-    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
-  }
+  expect_said(GetParam(), c.error());
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/config/camera_calibration.h"
+#include "tests/app/config/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -157,22 +158,12 @@ TEST(RigFile, ReadsACalibrationBesideIt) {
       << refused.error().message;
 }
 
-struct Refusal {
-  std::string name;
-  std::string text;
-  std::vector<std::string> says;  ///< what the message must contain
-};
-
 class RigFileRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(RigFileRefusal, SaysFileLineKeyAndReason) {
   const auto rig = parse(GetParam().text);
   ASSERT_FALSE(rig);
-  const std::string& message = rig.error().message;
-  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
-  for (const auto& part : GetParam().says) {
-    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
-  }
+  expect_said(GetParam(), rig.error());
 }
 
 INSTANTIATE_TEST_SUITE_P(
