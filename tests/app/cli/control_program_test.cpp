@@ -10,6 +10,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/equal_json.h"
 #include "tests/app/dds/test_status.h"
+#include "tests/support/loopback_dds.h"
 
 namespace orbwatch::tests {
 namespace {
@@ -21,18 +22,7 @@ using testing::HasSubstr;
 
 class Control : public CommandLine {
  protected:
-  Control() {
-    // DDS on the loopback interface only, apart from everybody else's.
-    setenv("CYCLONEDDS_URI",
-           ("<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-            "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>orbwatch_" +
-            std::to_string(getpid()) +
-            "</Tag><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-            "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
-            "</Domain></CycloneDDS>")
-               .c_str(),
-           1);
-  }
+  Control() { setenv("CYCLONEDDS_URI", loopback_dds().c_str(), 1); }
 
   void SetUp() override {
     const auto started = sink.start();

@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "tests/support/loopback_dds.h"
 #include "tests/support/registers.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
@@ -102,18 +103,7 @@ hot_spot_threshold = 1400
 
 class Daemon : public testing::Test {
  protected:
-  Daemon() {
-    // DDS on the loopback interface only, apart from everybody else's.
-    setenv("CYCLONEDDS_URI",
-           ("<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-            "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>orbwatch_" +
-            std::to_string(getpid()) +
-            "</Tag><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-            "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
-            "</Domain></CycloneDDS>")
-               .c_str(),
-           1);
-  }
+  Daemon() { setenv("CYCLONEDDS_URI", loopback_dds().c_str(), 1); }
 
   std::string write_config(const std::string& text, const std::string& rig = kSmallRig,
                            const std::string& recipe = kSmallRecipe) const {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/dds/entity.h"
+#include "tests/support/loopback_dds.h"
 
 namespace orbwatch::app::tests {
 
@@ -36,18 +37,8 @@ class DdsNetwork {
   static std::string configuration(const std::string& more = "") {
     // Ports of the domains up to 100 lie below those that the system gives to clients.
     const std::string domain = std::to_string(1 + getpid() % 100);
-    return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-           "<AllowMulticast>false</AllowMulticast></General><Discovery>"
-           "<ExternalDomainId>" +
-           domain +
-           "</ExternalDomainId>"
-           "<Tag>orbwatch_tests_" +
-           std::to_string(getpid()) +
-           "</Tag>"
-           "<ParticipantIndex>auto</ParticipantIndex>"
-           "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
-           "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>" +
-           more + "</Domain></CycloneDDS>";
+    return orbwatch::tests::loopback_dds(more,
+                                         "<ExternalDomainId>" + domain + "</ExternalDomainId>");
   }
 
  private:

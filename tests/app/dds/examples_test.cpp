@@ -10,6 +10,7 @@
 
 #include "app/dds/dds_sink.h"
 #include "tests/app/dds/test_views.h"
+#include "tests/support/loopback_dds.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -33,13 +34,7 @@ TEST(Examples, ImageSubscriberBuildsByItselfAndReadsAView) {
   ASSERT_TRUE(built) << made;
 
   const int domain = 1 + ::getpid() % 100;
-  const std::string network =
-      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-      "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>orbwatch_examples_" +
-      std::to_string(::getpid()) +
-      "</Tag><ParticipantIndex>auto</ParticipantIndex>"
-      "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
-  ::setenv("CYCLONEDDS_URI", network.c_str(), 1);
+  ::setenv("CYCLONEDDS_URI", orbwatch::tests::loopback_dds().c_str(), 1);
   ::setenv("ROS_DOMAIN_ID", std::to_string(domain).c_str(), 1);
   DdsSink sink({.domain = domain}, {{}, {"front"}, {}}, nullptr);
   ASSERT_TRUE(sink.start());
