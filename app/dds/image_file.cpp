@@ -38,10 +38,12 @@ cv::Mat to_mat(const ReceivedImage& image) {
   return result;
 }
 
-Result<std::vector<std::uint8_t>> encode(const cv::Mat& image) try {
+/// Of what `make_image` returns, which may throw as OpenCV does.
+template <class MakeImage>
+Result<> save(MakeImage make_image, const std::filesystem::path& path) try {
   std::vector<std::uint8_t> png;
-  if (!cv::imencode(".png", image, png)) return fail("image: cannot be encoded as PNG");
-  return png;
+  if (!cv::imencode(".png", make_image(), png)) return fail("image: cannot be encoded as PNG");
+  return write_file(path, png);
 } catch (const cv::Exception& error) {
   return fail("image: cannot be encoded as PNG: " + error.err);
 }
@@ -49,9 +51,7 @@ Result<std::vector<std::uint8_t>> encode(const cv::Mat& image) try {
 }  // namespace
 
 Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path) {
-  const auto png = encode(to_mat(image));
-  if (!png) return tl::unexpected(png.error());
-  return write_file(path, *png);
+  return save([&image] { return to_mat(image); }, path);
 }
 
 Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path) {
@@ -60,9 +60,7 @@ Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesys
   if (const auto checked = strict.check(std::as_bytes(jpeg)); !checked) return checked;
   const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1,
                       const_cast<std::uint8_t*>(jpeg.data()));
-  const auto png = encode(cv::imdecode(bytes, cv::IMREAD_UNCHANGED));
-  if (!png) return tl::unexpected(png.error());
-  return write_file(path, *png);
+  return save([&bytes] { return cv::imdecode(bytes, cv::IMREAD_UNCHANGED); }, path);
 }
 
 }  // namespace orbwatch::app

@@ -22,6 +22,10 @@ Result<ReceivedImage> check_image(const ImageMessage& message) {
     return fail("image: step of " + std::to_string(message.step) + " bytes, a row needs " +
                 std::to_string(width * encoding->bytes_per_pixel()));
   }
+  if (message.step % encoding->bytes_per_sample != 0) {
+    return fail("image: step of " + std::to_string(message.step) + " bytes, samples have " +
+                std::to_string(encoding->bytes_per_sample));
+  }
   const std::uint64_t size = std::uint64_t{message.step} * height;
   if (message.data._length != size) {
     return fail("image: " + std::to_string(message.data._length) +

@@ -52,8 +52,8 @@ struct ReceivedImage {
 };
 
 /// Checks a message from the network before any pixel is touched. Errors: unknown encoding, a side
-/// of 0 or beyond kMaxImageSide, rows longer than the step, data of another size than step *
-/// height.
+/// of 0 or beyond kMaxImageSide, rows longer than the step, a step that is no whole number of
+/// samples, data of another size than step * height.
 Result<ReceivedImage> check_image(const ImageMessage& message);
 
 }  // namespace orbwatch::app

@@ -36,7 +36,7 @@ TEST(CheckImageTest, SoundImagesPass) {
     EXPECT_EQ(image->width, 5u);
     EXPECT_EQ(image->height, 4u);
     EXPECT_EQ(image->data, tight.bytes.data());
-    const OwnedImage padded(std::string(encoding.name), 5, 4, 5 * encoding.bytes_per_pixel() + 3);
+    const OwnedImage padded(std::string(encoding.name), 5, 4, 5 * encoding.bytes_per_pixel() + 6);
     EXPECT_TRUE(check_image(padded.message)) << encoding.name;
   }
 }
@@ -79,6 +79,13 @@ INSTANTIATE_TEST_SUITE_P(
                            "image: 0 bytes of data, step and height say 144"},
                     Damage{"RowsLongerThanStep", [](OwnedImage& image) { image.message.width = 9; },
                            "image: step of 24 bytes, a row needs 27"},
+                    Damage{"HalfASampleMore",
+                           [](OwnedImage& image) {
+                             image.encoding = "mono16";
+                             image.message.encoding = image.encoding.data();
+                             image.message.step = 23;
+                           },
+                           "image: step of 23 bytes, samples have 2"},
                     // 2^31 rows of 2 bytes: in 32 bits the product would be 0.
                     Damage{"ProductOverflows",
                            [](OwnedImage& image) {
