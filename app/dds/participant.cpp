@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <string>
 
 namespace orbwatch::app {
 
@@ -15,20 +16,43 @@ constexpr int kMaxDomain = 230;
 /// A picture arrives faster than it is read; what does not fit the socket's buffer is lost. The
 /// system grants net.core.rmem_max at most. To end a thread that receives alone Cyclone DDS sends a
 /// packet to its own address, and waits for ever when that is gone; one that serves all sockets is
-/// told by other means.
-constexpr const char* kDefaults =
+/// told by other means. Without a limit anybody may fill the memory with one sample.
+const std::string kDefaults =
     "<CycloneDDS><Domain><Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
-    "<SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>"
+    "<MaxSampleSize>" +
+    std::to_string(kMaxSampleBytes) +
+    "B</MaxSampleSize><SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>"
     "</Internal></Domain></CycloneDDS>";
 
-/// Guards creation and end of domains: Cyclone DDS refuses to create one that still exists.
+struct OwnDomain {
+  Entity entity;
+  int users = 0;
+};
+/// Guards creation and end of domains, too: Cyclone DDS refuses to create one that still exists.
 std::mutex domains_mutex;
+std::map<int, OwnDomain> domains;  // by number
+
+/// One user of a domain of ours; the last one ends it.
+class DomainUse {
+ public:
+  /// The caller holds the mutex.
+  explicit DomainUse(int number) : number_(number) { ++domains[number].users; }
+  ~DomainUse() {
+    const std::lock_guard lock(domains_mutex);
+    if (--domains[number_].users == 0) domains.erase(number_);
+  }
+  DomainUse(const DomainUse&) = delete;
+  DomainUse& operator=(const DomainUse&) = delete;
+
+ private:
+  const int number_;
+};
 
 std::string configuration(const std::filesystem::path& profile) {
   // What stands later overrides.
-  if (!profile.empty()) return std::string(kDefaults) + ",file://" + profile.string();
+  if (!profile.empty()) return kDefaults + ",file://" + profile.string();
   const char* uri = std::getenv("CYCLONEDDS_URI");
-  return uri == nullptr ? kDefaults : std::string(kDefaults) + "," + uri;
+  return uri == nullptr ? kDefaults : kDefaults + "," + uri;
 }
 
 Error cannot_join(int domain, dds_return_t code) {
@@ -43,22 +67,17 @@ Error refused_by_plugins(int domain, const SecuritySettings& security) {
       "; do the documents in " + security.folder.string() + " follow DDS Security 1.1?"};
 }
 
-/// The domain as all of this process share it; empty when somebody else created it.
-Result<std::shared_ptr<Entity>> share_domain(int number, const std::filesystem::path& profile) {
-  static std::map<int, std::weak_ptr<Entity>> domains;
+/// Creates the domain unless it exists; empty when somebody else created it.
+Result<std::shared_ptr<const void>> use_domain(int number, const std::filesystem::path& profile) {
   const std::lock_guard lock(domains_mutex);
-  auto& known = domains[number];
-  if (auto domain = known.lock()) return domain;
-  const auto handle =
-      dds_create_domain(static_cast<dds_domainid_t>(number), configuration(profile).c_str());
-  if (handle == DDS_RETCODE_PRECONDITION_NOT_MET) return nullptr;
-  if (handle < 0) return tl::unexpected(cannot_join(number, handle));
-  const std::shared_ptr<Entity> domain(new Entity(handle), [](const Entity* ended) {
-    const std::lock_guard deletion(domains_mutex);
-    delete ended;
-  });
-  known = domain;
-  return domain;
+  if (!domains.contains(number)) {
+    const auto handle =
+        dds_create_domain(static_cast<dds_domainid_t>(number), configuration(profile).c_str());
+    if (handle == DDS_RETCODE_PRECONDITION_NOT_MET) return nullptr;
+    if (handle < 0) return tl::unexpected(cannot_join(number, handle));
+    domains[number].entity = Entity(handle);
+  }
+  return std::make_shared<const DomainUse>(number);
 }
 
 }  // namespace
@@ -87,10 +106,10 @@ Result<Participant> Participant::join(int domain, const std::optional<SecuritySe
   auto qos = security ? security_qos(*security, domain) : Qos(dds_create_qos());
   if (!qos) return tl::unexpected(qos.error());
   if (!user_data.empty()) dds_qset_userdata(qos->get(), user_data.data(), user_data.size());
-  auto shared = share_domain(domain, profile);
-  if (!shared) return tl::unexpected(shared.error());
+  auto used = use_domain(domain, profile);
+  if (!used) return tl::unexpected(used.error());
   Participant participant;
-  participant.domain_ = std::move(*shared);
+  participant.domain_ = std::move(*used);
   const auto handle =
       dds_create_participant(static_cast<dds_domainid_t>(domain), qos->get(), nullptr);
   if (handle == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,10 @@
 #include "app/dds/security/participant_security.h"
 
 namespace orbwatch::app {
+
+/// The largest sample that is sent or taken, serialised: a picture of 8192x5000 in rgb8. Larger
+/// ones are dropped; a profile may say otherwise.
+inline constexpr std::size_t kMaxSampleBytes = std::size_t{128} << 20;
 
 /// Whether there is such a DDS domain: 0 to 230.
 Result<> check_domain(int domain);
@@ -47,7 +52,7 @@ class Participant {
   const Entity& entity() const { return entity_; }
 
  private:
-  std::shared_ptr<Entity> domain_;  ///< empty when the domain is somebody else's
+  std::shared_ptr<const void> domain_;  ///< empty when the domain is somebody else's
   Entity entity_;
 };
 

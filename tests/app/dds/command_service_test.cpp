@@ -155,6 +155,17 @@ TEST_F(CommandServiceTest, CountsWhatIsNoRequestAtAll) {
   EXPECT_EQ(sink_.statistics().commands, before.commands);
 }
 
+TEST_F(CommandServiceTest, CountsWhatIsTooLargeToTake) {
+  const Controller controller;
+  ASSERT_TRUE(controller.connect());
+  const auto before = sink_.statistics();
+  controller.send({9, 1}, std::string(2'000'000, '%'), {});
+  EXPECT_TRUE(eventually([&] { return sink_.statistics().malformed > before.malformed; }));
+  EXPECT_EQ(controller.ask({9, 2}, "start", {}).result, CommandResult::Done);
+  EXPECT_EQ(counts().done, before.commands.done + 1);
+  EXPECT_EQ(counts().refused, before.commands.refused);
+}
+
 TEST_F(CommandServiceTest, CarriesEachRequestOutOnce) {
   const Controller controller;
   ASSERT_TRUE(controller.connect());

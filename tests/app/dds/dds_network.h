@@ -16,13 +16,16 @@ namespace orbwatch::app::tests {
 /// A DDS network of the test's own on the loopback interface: two domains of this process that are
 /// one domain on the wire. Sink and reader get one each, so all that they exchange crosses UDP as
 /// it would between two machines, and a tag keeps out every other test.
+/// The sink's side takes no sample above 1 MB.
 class DdsNetwork {
  public:
   static constexpr int kSinkDomain = 1;
   static constexpr int kReaderDomain = 2;
 
   DdsNetwork()
-      : sink_domain_(dds_create_domain(kSinkDomain, configuration().c_str())),
+      : sink_domain_(dds_create_domain(
+            kSinkDomain,
+            configuration("<Internal><MaxSampleSize>1MB</MaxSampleSize></Internal>").c_str())),
         reader_domain_(dds_create_domain(kReaderDomain, configuration().c_str())) {}
 
   bool valid() const { return sink_domain_ && reader_domain_; }

@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "app/dds/compressed_image_message.h"
 #include "app/dds/dds_sink.h"
+#include "app/dds/samples.h"
 #include "tests/app/dds/dds_network.h"
 #include "tests/support/temporary_folder.h"
 
@@ -75,6 +77,32 @@ TEST(ParticipantTest, AProfileStandsForTheEnvironment) {
   EXPECT_FALSE(Participant::join(kDomain));
   const auto participant = Participant::join(kDomain, std::nullopt, {}, profile);
   EXPECT_TRUE(participant) << participant.error().message;
+}
+
+TEST(ParticipantTest, SamplesThatFillTheMemoryAreDropped) {
+  configure("lo");
+  const auto participant = Participant::join(kDomain);
+  ASSERT_TRUE(participant) << participant.error().message;
+  const auto topic =
+      make_topic(participant->entity(), sensor_msgs_msg_dds__CompressedImage__desc, "rt/large");
+  const auto writer = make_writer(participant->entity(), *topic, frame_qos());
+  const auto reader = make_reader(participant->entity(), *topic, frame_qos());
+  ASSERT_TRUE(topic && writer && reader);
+  const auto arrives = [&](std::size_t size) {
+    std::vector<std::uint8_t> data(size);
+    char none = 0;
+    CompressedImageMessage message{};
+    message.header.frame_id = &none;
+    message.format = &none;
+    const auto length = static_cast<std::uint32_t>(size);
+    message.data = {length, length, data.data(), false};
+    dds_write(writer->get(), &message);
+    int count = 0;
+    EXPECT_TRUE(take_samples(reader->get(), [&](const void*, const auto&) { ++count; }));
+    return count == 1;
+  };
+  EXPECT_TRUE(arrives(kMaxSampleBytes - 4096));
+  EXPECT_FALSE(arrives(kMaxSampleBytes));
 }
 
 TEST(ParticipantTest, AProfileWhosePathCannotBeToldIsNamed) {
