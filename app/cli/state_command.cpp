@@ -50,11 +50,16 @@ Result<> print_states(StateReader& reader, const StateOptions& o,
   const milliseconds period = o.follow && !o.json ? kTablePeriod : milliseconds(0);
   auto heard = hal::Clock::now();
   auto printed = heard - period;
+  std::string refusal;
   while (!cancelled) {
     const auto state = reader.next(std::min(kLookPeriod, o.timeout));
     if (!state) return tl::unexpected(state.error());
     const auto now = hal::Clock::now();
     if (*state) heard = now;
+    if (reader.refusal() != refusal) {
+      refusal = reader.refusal();
+      std::cerr << "orbwatch: " << refusal << '\n';
+    }
     if (*state && now - printed >= period) {
       print(**state, o.json);
       if (!o.follow) return {};

@@ -22,9 +22,14 @@ Result<> StateReader::open(int domain, const std::optional<SecuritySettings>& se
 }
 
 Result<std::optional<ReceivedState>> StateReader::next(std::chrono::nanoseconds timeout) {
-  Result<std::optional<ReceivedState>> newest;
-  const auto look = [&newest](const void* sample, const dds_sample_info_t&) {
-    newest = check_process_state(*static_cast<const ProcessStateMessage*>(sample));
+  std::optional<ReceivedState> newest;
+  const auto look = [&](const void* sample, const dds_sample_info_t&) {
+    auto checked = check_process_state(*static_cast<const ProcessStateMessage*>(sample));
+    if (checked) {
+      newest = std::move(*checked);
+    } else {
+      refusal_ = checked.error().message;
+    }
   };
   const auto taken = wait_for_data(wait_set_, timeout).and_then([&](bool) {
     return take_samples(states_.get(), look);

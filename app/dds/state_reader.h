@@ -20,13 +20,18 @@ class StateReader {
   Result<> open(int domain, const std::optional<SecuritySettings>& security = std::nullopt);
 
   /// The newest state that was not returned yet, if one comes within `timeout`. The first one comes
-  /// as soon as orbwatchd is found. Error: a state that does not add up.
+  /// as soon as orbwatchd is found. One that does not add up is none: anybody may write them.
+  /// Error: DDS refuses.
   Result<std::optional<ReceivedState>> next(std::chrono::nanoseconds timeout);
+
+  /// Why the newest one that does not add up is none; empty when there was none.
+  const std::string& refusal() const { return refusal_; }
 
  private:
   Participant participant_;
   TopicReader states_;
   Entity wait_set_;
+  std::string refusal_;
 };
 
 }  // namespace orbwatch::app

@@ -113,13 +113,16 @@ TEST_F(StateReaderTest, RefusesWhatDoesNotAddUp) {
   ASSERT_TRUE(reader.open(DdsNetwork::kReaderDomain));
   ASSERT_TRUE(writer.wait_for_reader());
   const auto refusal = [&](const ProcessStateMessage& message) -> std::string {
+    const std::string before = reader.refusal();
     writer.write(&message);
-    Result<std::optional<ReceivedState>> state;
+    bool taken = false;
     EXPECT_TRUE(eventually([&] {
-      state = reader.next(milliseconds(20));
-      return !state || state->has_value();
+      const auto state = reader.next(milliseconds(20));
+      EXPECT_TRUE(state) << state.error().message;
+      taken = state && state->has_value();
+      return taken || reader.refusal() != before;
     }));
-    return state ? "" : state.error().message;
+    return taken ? "" : reader.refusal();
   };
   ProcessStateComposer composer(tests::make_names());
   const auto good = [&]() -> ProcessStateMessage {
