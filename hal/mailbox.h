@@ -45,6 +45,9 @@ class Mailbox {
     return std::exchange(places_[receiver_], std::nullopt);
   }
 
+  /// Drops what is there; it counts as replaced. By the receiver.
+  void discard() { drops_ += try_take() ? 1 : 0; }
+
   /// Ends take() until open().
   void close() {
     closed_ = true;

@@ -49,6 +49,8 @@ Result<> DdsSink::start() {
   limit_dds_log();
   if (const auto checked = check(); !checked) return checked;
   next_look_ = {};
+  next_try_ = {};
+  tried_with_.clear();
   back_off_.reset();
   running_ = true;
   keep_joined();
@@ -61,7 +63,7 @@ void DdsSink::stop() {
   wake_.ring();
   if (thread_.joinable()) thread_.join();
   leave();
-  status_.try_take();
+  status_.discard();
   while (notices_.try_take()) {
   }
 }
@@ -152,15 +154,19 @@ void DdsSink::keep_joined() {
   next_look_ = now + kLookPeriod;
   mistyped_ = type_watch_.look();
   const auto addresses = addresses_();
+  const bool changed = addresses && *addresses != tried_with_;
+  if (joined_ ? !changed : !changed && now < next_try_) return;
   if (joined_) {
-    if (!addresses || *addresses == joined_with_) return;
     log_line(LogLevel::Warning, "DDS: the host's addresses changed, joins the domain again");
     leave();
+  }
+  if (changed) {
     back_off_.reset();
+    tried_with_ = *addresses;
   }
   if (const auto joined = join(); !joined) {
     leave();
-    next_look_ = now + back_off_.next();
+    next_try_ = now + back_off_.next();
     const std::string& refusal = joined.error().message;
     if (refusal != refusal_) log_line(LogLevel::Warning, refusal + "; goes on trying");
     refusal_ = refusal;
@@ -168,7 +174,6 @@ void DdsSink::keep_joined() {
   }
   if (!std::exchange(refusal_, {}).empty()) log_line(LogLevel::Info, "DDS: joined the domain");
   joined_ = true;
-  joined_with_ = addresses.value_or(std::vector<std::string>());
   ++joins_;
 }
 

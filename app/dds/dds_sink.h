@@ -104,8 +104,9 @@ class DdsSink final : public Sink {
   // The sink's thread while it runs, else the owner's.
   Participant participant_;
   bool joined_ = false;
-  std::vector<std::string> joined_with_;  ///< addresses
-  hal::TimePoint next_look_;              ///< at the network
+  std::vector<std::string> tried_with_;  ///< addresses, when it joined or tried to
+  hal::TimePoint next_look_;             ///< at the network
+  hal::TimePoint next_try_;              ///< to join, unless the addresses change
   hal::BackOff back_off_;
   std::string refusal_;  ///< why it could not join last; empty when it could
   StatusTopics status_topics_;

@@ -32,6 +32,7 @@ Diagnostic diagnose_network(const DdsStatistics& network) {
   counters.normal("joins", network.joins);
   counters.normal("dropped_states", network.dropped_states);
   counters.bad("dropped_notices", network.dropped_notices, "events were lost");
+  counters.bad("unknown_views", network.unknown_views, "views have no topic");
   counters.bad("mistyped", network.mistyped, "somebody uses a topic of ours with another type");
   counters.bad("malformed", network.malformed, "somebody sends what does not fit its type");
   for (const TopicStatistics& topic : network.topics) {

@@ -1,5 +1,7 @@
 #include "app/dds/picture_topic.h"
 
+#include <utility>
+
 namespace orbwatch::app {
 namespace {
 
@@ -29,13 +31,12 @@ void PictureTopic::close() {
   open_ = false;
   mailbox_.close();
   if (thread_.joinable()) thread_.join();
-  if (mailbox_.try_take()) ++discarded_;
+  mailbox_.discard();
   topic_.close();
 }
 
 void PictureTopic::accept(const StampedPicture& picture) {
-  if (!open_) return;
-  if (!topic_.has_reader()) {
+  if (!open_ || !topic_.has_reader()) {
     topic_.count_unread();
   } else if (!is_due(picture.stamp)) {
     ++limited_;
@@ -47,18 +48,19 @@ void PictureTopic::accept(const StampedPicture& picture) {
 /// Pictures that jitter around the rate are not thinned out: a late one does not delay the next.
 bool PictureTopic::is_due(const TimeMessage& stamp) {
   const auto now = since_epoch(stamp);
-  if (now < due_ - period_ / 4 && now > due_ - 2 * period_) return false;
-  due_ = now < due_ + period_ ? due_ + period_ : now + period_;
+  const bool clock_was_set = now <= due_ - 2 * period_ || now >= due_ + period_;
+  if (!clock_was_set && now < due_ - period_ / 4) return false;
+  due_ = (clock_was_set ? now : due_) + period_;
   return true;
 }
 
 void PictureTopic::run() {
-  while (const auto picture = mailbox_.take()) writer_->write(*picture, topic_);
+  while (auto picture = mailbox_.take()) writer_->write(std::move(*picture), topic_);
 }
 
 TopicStatistics PictureTopic::statistics() const {
   TopicStatistics statistics = topic_.statistics();
-  statistics.replaced = mailbox_.drops() + discarded_;
+  statistics.replaced = mailbox_.drops();
   statistics.limited = limited_;
   return statistics;
 }

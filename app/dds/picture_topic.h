@@ -44,7 +44,6 @@ class PictureTopic {
   hal::Mailbox<StampedPicture> mailbox_;
   std::atomic<bool> open_{false};
   std::atomic<std::uint64_t> limited_{0};
-  std::atomic<std::uint64_t> discarded_{0};
   std::thread thread_;
 };
 

@@ -1,10 +1,14 @@
 #include "app/dds/picture_writer.h"
 
 #include "app/dds/compressed_image_message.h"
+#include "app/dds/participant.h"
 #include "app/pictures/picture_conversion.h"
 
 namespace orbwatch::app {
 namespace {
+
+/// Beside the rest of an image message.
+constexpr std::size_t kMaxPixelBytes = kMaxSampleBytes - 4096;
 
 // The C API takes no const pointers, but a write changes nothing.
 template <class To, class From>
@@ -18,18 +22,24 @@ const dds_topic_descriptor_t& RawPictureWriter::type() const {
   return sensor_msgs_msg_dds__Image__desc;
 }
 
-void RawPictureWriter::write(const StampedPicture& stamped, TopicWriter& topic) {
+void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const Picture& picture = stamped.picture;
   const bool counts = converts(picture.format, PixelFormat::Y16);
   const PixelFormat format = counts ? PixelFormat::Y16 : encoding_;
   const ImageEncoding& encoding = encoding_of(format);
   const int step = row_bytes(format, picture.width);
   const std::size_t size = packed_bytes(format, picture.width, picture.height);
+  if (size > kMaxPixelBytes) {
+    topic.count_failure("picture of " + std::to_string(size) + " bytes, DDS carries at most " +
+                        std::to_string(kMaxPixelBytes));
+    return;
+  }
   const std::byte* pixels = picture.planes[0].data;
   if ((picture.format != format && !counts) || picture.planes[0].stride != step) {
     converted_.resize(size);
     convert(picture, format, converted_.data());
     pixels = converted_.data();
+    stamped.owner.reset();
   }
   ImageMessage message{};
   message.header.stamp = stamped.stamp;
@@ -48,7 +58,7 @@ const dds_topic_descriptor_t& JpegPictureWriter::type() const {
   return sensor_msgs_msg_dds__CompressedImage__desc;
 }
 
-void JpegPictureWriter::write(const StampedPicture& stamped, TopicWriter& topic) {
+void JpegPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   auto jpeg = encoder_.encode(stamped.picture, quality_.now());
   while (jpeg && quality_.note(jpeg->size())) {
     jpeg = encoder_.encode(stamped.picture, quality_.now());
@@ -57,6 +67,7 @@ void JpegPictureWriter::write(const StampedPicture& stamped, TopicWriter& topic)
     topic.count_failure(jpeg.error().message);
     return;
   }
+  stamped.owner.reset();
   CompressedImageMessage message{};
   message.header.stamp = stamped.stamp;
   message.header.frame_id = writable<char>(stamped.frame_id->c_str());

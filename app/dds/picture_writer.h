@@ -16,8 +16,9 @@ class PictureWriter {
  public:
   virtual ~PictureWriter() = default;
   virtual const dds_topic_descriptor_t& type() const = 0;
-  /// Writes one sample, or counts a failure.
-  virtual void write(const StampedPicture& picture, TopicWriter& topic) = 0;
+  /// Writes one sample, or counts a failure. What was converted is let go of before it is written,
+  /// since that can take as long as the network likes and cameras have few buffers.
+  virtual void write(StampedPicture picture, TopicWriter& topic) = 0;
 };
 
 /// sensor_msgs/Image in one encoding; luminance of more than 8 bit goes as mono16 whatever the
@@ -28,7 +29,7 @@ class RawPictureWriter final : public PictureWriter {
   explicit RawPictureWriter(PixelFormat encoding) : encoding_(encoding) {}
 
   const dds_topic_descriptor_t& type() const override;
-  void write(const StampedPicture& picture, TopicWriter& topic) override;
+  void write(StampedPicture picture, TopicWriter& topic) override;
 
  private:
   PixelFormat encoding_;
@@ -41,7 +42,7 @@ class JpegPictureWriter final : public PictureWriter {
   explicit JpegPictureWriter(const JpegSettings& settings) : quality_(settings) {}
 
   const dds_topic_descriptor_t& type() const override;
-  void write(const StampedPicture& picture, TopicWriter& topic) override;
+  void write(StampedPicture picture, TopicWriter& topic) override;
 
  private:
   JpegQuality quality_;

@@ -17,7 +17,7 @@ class TypeWatch {
   void close();
 
   /// Logs those that are new, the first of each topic; returns how many were found since
-  /// construction.
+  /// construction, after each open() anew.
   std::uint64_t look();
 
  private:

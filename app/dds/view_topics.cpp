@@ -36,7 +36,7 @@ void ViewTopics::close() {
   looked_at_.close();
   if (measured_) measured_->close();
   if (info_) info_->close();
-  spec_.try_take();
+  spec_.discard();
 }
 
 void ViewTopics::accept(const ViewPtr& view, const StampedPicture& picture) {

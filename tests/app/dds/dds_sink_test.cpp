@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -520,6 +521,12 @@ TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
   const TopicStatistics result = of_topic(sink, topic);
   const std::uint64_t read = handed_over - result.unread;
   EXPECT_NEAR(static_cast<double>(result.limited), read * 2.0 / 3, 2);
+  // Also when the clock is set back.
+  for (int i = 0; i < 60; ++i) {
+    view->stamp = first - std::chrono::hours(1) + i * std::chrono::microseconds(33333);
+    sink.accept(view);
+  }
+  EXPECT_NEAR(static_cast<double>(of_topic(sink, topic).limited - result.limited), 40, 2);
 }
 
 TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
@@ -529,8 +536,10 @@ TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
     const std::lock_guard lock(mutex);
     addresses = std::move(to);
   };
+  std::atomic<int> looks = 0;
   DdsSink sink(settings(), tests::make_names(), nullptr, [&] {
     const std::lock_guard lock(mutex);
+    ++looks;
     return addresses;
   });
   ASSERT_TRUE(sink.start());
@@ -552,7 +561,13 @@ TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
     });
   };
   ASSERT_TRUE(arrives());
-  set(std::nullopt);  // not known: no reason to leave
+  set(std::nullopt);
+  const auto before = looks.load();
+  ASSERT_TRUE(eventually([&] {
+    sink.accept(Status{});
+    return looks >= before + 2;
+  }));
+  EXPECT_EQ(sink.statistics().joins, 1u) << "not known: no reason to leave";
   set({{"eth0 192.168.0.8"}});
   ASSERT_TRUE(joins(2));
   reader.drain();

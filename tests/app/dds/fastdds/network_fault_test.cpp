@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 
@@ -62,16 +63,12 @@ class NetworkFault : public testing::Test {
     });
   }
 
-  void expect_no_wait() const {
-    if (!kSanitized) {
-      EXPECT_EQ(views_.waits(), 0U) << "of " << views_.accepted();
-    }
-  }
-
   /// That the pipeline did not wait, and that each view was written, or dropped for a reason that
   /// is counted.
   void expect_accounted() {
-    expect_no_wait();
+    if (!kSanitized) {
+      EXPECT_EQ(views_.waits(), 0U) << "of " << views_.accepted();
+    }
     ASSERT_TRUE(eventually([&] { return views_.all_returned(); }));
     const auto statistics = sink_.statistics();
     const auto topic = std::ranges::find(statistics.topics, kTopic, &TopicStatistics::topic);
@@ -114,8 +111,10 @@ TEST_F(NetworkFault, ASlowReaderGetsFewerAndTheOthersAll) {
   ASSERT_TRUE(gets_more(*slow, 1)) << slow->printed();
   ASSERT_TRUE(gets_more(*healthy, 1)) << healthy->printed();
   const auto slow_before = slow->samples().size();
+  const auto begin = std::chrono::steady_clock::now();
   EXPECT_TRUE(gets_more(*healthy, 60));
-  EXPECT_LT(slow->samples().size() - slow_before, 30U);
+  const auto periods = (std::chrono::steady_clock::now() - begin) / std::chrono::milliseconds(300);
+  EXPECT_LE(static_cast<std::int64_t>(slow->samples().size() - slow_before), periods + 2);
   EXPECT_TRUE(gets_more(*slow, 2)) << "it still gets the newest";
   expect_accounted();
 }
@@ -167,7 +166,7 @@ TEST_F(NetworkFault, PicturesComeAgainUnderAnotherAddress) {
     return sink_.statistics().joins == 2;
   }));
   EXPECT_TRUE(gets_more(*far));
-  expect_no_wait();
+  expect_accounted();
 }
 
 TEST_F(NetworkFault, ALateReaderGetsTheLastState) {
@@ -175,6 +174,7 @@ TEST_F(NetworkFault, ALateReaderGetsTheLastState) {
       "--topic",          "rt/orbwatch/process_state",
       "--type",           "orbwatch_msgs::msg::dds_::ProcessState_",
       "--count",          "1",
+      "--seconds",        "60",
       "--transient-local"};
   sink_.accept(tests::make_status());
   for (int i = 0; i < 3; ++i) {
