@@ -46,11 +46,11 @@ void wait_for_all(const Readers& readers, app::tests::Pace& pace) {
 }
 
 double worst_loss(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after,
-                  std::uint64_t written) {
+                  std::uint64_t accepted) {
   double worst = 0;
   for (std::size_t i = 0; i < after.size(); ++i) {
     const auto got = static_cast<double>(after[i] - before[i]);
-    worst = std::max(worst, 1 - got / static_cast<double>(written));
+    worst = std::max(worst, 1 - got / static_cast<double>(accepted));
   }
   return worst;
 }
@@ -98,7 +98,7 @@ CaseFigures measure(const DdsCase& one, std::chrono::seconds duration) {
   figures.written = after.written - before.written;
   figures.dropped = after.replaced - before.replaced;
   figures.kilobytes = newest_kilobytes(*readers.front());
-  figures.lost = worst_loss(received_before, received_after, figures.written);
+  figures.lost = worst_loss(received_before, received_after, figures.accepted);
   figures.cpu_ms = cpu * 1000 / static_cast<double>(figures.written);
   figures.waits = pace->waits();
   figures.longest_wait_ms = pace->longest_wait_ms();

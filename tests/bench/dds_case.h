@@ -17,7 +17,7 @@ struct DdsCase {
   Pictures pictures;
   Vendor vendor;
   int readers;
-  double allowed_loss;    ///< share of the pictures that were written
+  double allowed_loss;    ///< share of the pictures that were handed over
   double allowed_cpu_ms;  ///< of the writing process, per picture
 };
 
@@ -29,7 +29,7 @@ struct CaseFigures {
   std::uint64_t written = 0;
   std::uint64_t dropped = 0;  ///< replaced by a newer one before they were written
   double kilobytes = 0;       ///< of the newest picture, as it came
-  double lost = 0;            ///< of those written, by the reader that lost most
+  double lost = 0;            ///< of those handed over, by the reader that lost most
   double cpu_ms = 0;          ///< of the writing process, per picture
   std::uint64_t waits = 0;    ///< hand-overs in which the pipeline had to wait
   double longest_wait_ms = 0;

@@ -16,7 +16,9 @@ struct OutageFigures {
   bool reached() const {
     constexpr double kSoon = 100;
     constexpr double kBack = 5;
-    return state_ms <= kSoon && ours_back_s <= kBack && foreign_back_s <= kBack && waits == 0;
+    constexpr double kFew = 8;  // megabytes: some pictures
+    return state_ms <= kSoon && ours_back_s <= kBack && foreign_back_s <= kBack && waits == 0 &&
+           memory_growth_mb <= kFew;
   }
 };
 
