@@ -67,7 +67,7 @@ void visit_view(Visitor& v, ViewSettings& view) {
       "unless it is switched");
   v.optional("interpolation", view.interpolation, kInterpolations,
              "Between source pixels; area takes means where the view is smaller than the picture");
-  v.optional("encoding", view.encoding, kEncodings, "Of its pictures over DDS");
+  v.optional("encoding", view.encoding, kEncodings, "Of its raw pictures over DDS");
   v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
 }
 
