@@ -11,6 +11,20 @@ Quality quality_of(const signals::Radiometry& radiometry) {
   return apparent ? Quality::Apparent : Quality::Good;
 }
 
+/// The direction is not in the blind cone, nor does the picture cut it off.
+bool sees(const ViewSource& source, const optics::Vec3& direction) {
+  const auto pixel = source.ball.pixel(direction);
+  return pixel && pixel->u >= 0 && pixel->u <= source.format.width - 1 && pixel->v >= 0 &&
+         pixel->v <= source.format.height - 1;
+}
+
+/// There is a frame, and not one of another part than the set's.
+bool is_of_trigger(const hal::FrameSet& set, const hal::Frame& frame) {
+  if (!frame) return false;
+  const auto& trigger = frame->metadata.trigger;
+  return !set.trigger || !trigger || *trigger == *set.trigger;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<CompiledRecipe>> CompiledRecipe::make(RecipePlan plan,
@@ -27,8 +41,11 @@ Result<std::unique_ptr<CompiledRecipe>> CompiledRecipe::make(RecipePlan plan,
         {std::move(renderer), hal::BufferPool<View>(std::move(buffers)), std::move(unshared)});
   }
   for (const RegionPlan& region : recipe->plan_.regions) {
-    auto meter = signals::RegionMeter::make(recipe->plan_.views[region.view].projection, scene,
-                                            region.settings);
+    const ViewPlan& view = recipe->plan_.views[region.view];
+    const ViewSource& measured = view.sources[*view.measured];
+    auto meter =
+        signals::RegionMeter::make(view.projection, scene, region.settings,
+                                   [&measured](const auto& to) { return sees(measured, to); });
     if (!meter) return fail("region " + region.name + ": " + meter.error().message);
     const Quality quality = quality_of(meter->radiometry());
     recipe->meters_.push_back({std::move(*meter), region.view, quality});
@@ -57,19 +74,23 @@ std::shared_ptr<View> CompiledRecipe::render(std::size_t n, const hal::FrameSet&
   View& view = shared ? *shared : output.unshared;
   output.renderer->render(set, view, workers);
   const ViewPlan& plan = plan_.views[n];
-  const hal::Frame& measured = set.frames[plan.sources[*plan.measured].camera];
-  output.rendered = measured ? &view : nullptr;
-  if (measured) output.exposed = measured->metadata.exposure_start;
+  const std::size_t camera = plan.sources[*plan.measured].camera;
+  output.rendered = is_of_trigger(set, set.frames[camera]) ? &view : nullptr;
+  if (output.rendered) output.exposed = set.frames[camera]->metadata.exposure_start;
+  output.held = set.held[camera];
   return shared;
 }
 
-void CompiledRecipe::measure(hal::TimePoint stamp, hal::TimePoint set_since) {
-  const double seconds = std::chrono::duration<double>(stamp.time_since_epoch()).count();
+void CompiledRecipe::measure(hal::TimePoint set_since) {
   for (std::size_t i = 0; i < meters_.size(); ++i) {
     auto& [meter, view, quality] = meters_[i];
+    const auto& [renderer, pool, unshared, seen, exposed, held] = outputs_[view];
+    const bool can_be_measured = seen && exposed >= set_since;
+    if (can_be_measured && held && regions_[i].quality != Quality::NotMeasured) continue;
+    stale_[i] = false;
     regions_[i] = {};
-    const View* seen = outputs_[view].rendered;
-    if (!seen || outputs_[view].exposed < set_since) continue;
+    if (!can_be_measured) continue;
+    const double seconds = std::chrono::duration<double>(exposed.time_since_epoch()).count();
     regions_[i].quality = quality;
     regions_[i].signals = seen->radiometric.empty()
                               ? meter.measure(seen->luminance, seen->validity, seconds)
@@ -88,8 +109,12 @@ bool CompiledRecipe::has_hot_spot() const {
 std::span<const signals::AlarmEvent> CompiledRecipe::watch(hal::TimePoint now, bool process_active,
                                                            const signals::AlarmSet& acknowledged) {
   for (std::size_t i = 0; i < meters_.size(); ++i) signals_[i] = regions_[i].signals;
-  const auto events = board_.step(
-      {now.time_since_epoch(), {signals_.data(), meters_.size()}, process_active, acknowledged});
+  const auto events = board_.step({now.time_since_epoch(),
+                                   {signals_.data(), meters_.size()},
+                                   process_active,
+                                   acknowledged,
+                                   stale_});
+  stale_.set();
   for (std::size_t i = 0; i < board_.size(); ++i) {
     AlarmStatus& alarm = alarms_[i];
     if (alarm.alarm.state != board_.alarm(i).state) alarm.since = now;

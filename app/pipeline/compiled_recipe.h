@@ -23,7 +23,8 @@ namespace orbwatch::app {
 /// pipeline's thread.
 class CompiledRecipe {
  public:
-  /// Errors: a region that cannot be measured, limits that contradict each other.
+  /// Errors: a region that cannot be measured, or that the measured camera does not see; limits
+  /// that contradict each other.
   static Result<std::unique_ptr<CompiledRecipe>> make(RecipePlan plan,
                                                       const signals::RegionScene& scene);
 
@@ -36,9 +37,11 @@ class CompiledRecipe {
   /// be measured all the same.
   std::shared_ptr<View> render(std::size_t n, const hal::FrameSet& set, WorkerPool& workers);
 
-  /// Measures every region in the views that were rendered from the set of that moment. A camera's
-  /// frame whose exposure began before `set_since`, with other settings, is not measured.
-  void measure(hal::TimePoint stamp, hal::TimePoint set_since = hal::TimePoint::min());
+  /// Measures every region in the views that were rendered last, at the moment of its camera's
+  /// exposure. Not measured is a frame whose exposure began before `set_since`, with other
+  /// settings, and in a triggered set the frame of another trigger. What was measured in a frame
+  /// stays as it is while that frame is held.
+  void measure(hal::TimePoint set_since = hal::TimePoint::min());
   /// There is nothing to measure in.
   void skip();
 
@@ -58,8 +61,9 @@ class CompiledRecipe {
     std::unique_ptr<ViewRenderer> renderer;
     hal::BufferPool<View> pool;
     View unshared;                   ///< to measure in when sinks hold every buffer
-    const View* rendered = nullptr;  ///< last; null: the measured camera had no frame
+    const View* rendered = nullptr;  ///< last; null: the measured camera had no frame of the set
     hal::TimePoint exposed{};        ///< when that one's exposure began
+    bool held = false;               ///< it was in an earlier set, too
   };
   struct Region {
     signals::RegionMeter meter;
@@ -74,7 +78,8 @@ class CompiledRecipe {
   std::vector<Region> meters_;   ///< by region
   std::array<RegionStatus, signals::kMaxRegions> regions_;
   std::array<signals::Signals, signals::kMaxRegions> signals_;  ///< of regions_, for the board
-  signals::AlarmBoard fresh_board_;                             ///< to begin with
+  signals::RegionSet stale_;         ///< regions without a new measurement since watch()
+  signals::AlarmBoard fresh_board_;  ///< to begin with
   signals::AlarmBoard board_;
   std::array<AlarmStatus, signals::kMaxAlarms> alarms_;
 };

@@ -67,7 +67,7 @@ void Measurement::process(const hal::FrameSet& set, WorkerPool& workers, const P
   const bool settling = selection_ && to_settle_ > 0;
   to_settle_ -= settling ? 1 : 0;
   if (selection_ && !settling && !stopped_) {
-    recipe_->measure(set.stamp, selection_->set_since);
+    recipe_->measure(selection_->set_since);
   } else {
     recipe_->skip();
   }

@@ -136,8 +136,9 @@ Alarm suppressed(const Alarm& before, bool latching) {
 
 AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const AlarmInputs& inputs) {
   AlarmMemory next;
-  next.stepped_at = inputs.now;
   next.measured = std::isfinite(inputs.value);
+  const bool tells = inputs.is_new || !next.measured;
+  next.stepped_at = tells ? inputs.now : memory.stepped_at;
   if (is_suppressed(limits, inputs)) {
     next.alarm = suppressed(memory.alarm, limits.latching);
     return next;
@@ -146,7 +147,7 @@ AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const Ala
   next.low_warning = memory.low_warning;
   next.high_warning = memory.high_warning;
   next.high_alarm = memory.high_alarm;
-  const nanoseconds elapsed = counted_time(memory, inputs.now);
+  const nanoseconds elapsed = tells ? counted_time(memory, inputs.now) : nanoseconds(0);
   if (limits.loss_delay) {
     next.loss = advanced(memory.loss, next.measured ? Evidence::Ended : Evidence::Holds, elapsed,
                          {*limits.loss_delay, limits.off_delay});

@@ -50,6 +50,7 @@ struct AlarmInputs {
   std::chrono::nanoseconds now{0};  ///< of a clock that is not set; its origin does not matter
   double value = 0;                 ///< of the signal, in its unit; not finite: not measured
   bool process_active = true;
+  bool is_new = true;  ///< `value` was measured since the last step
 };
 
 /// True when this moment cannot be an alarm of these limits.
@@ -65,6 +66,7 @@ inline bool is_suppressed(const AlarmLimits& limits, const AlarmInputs& inputs) 
 /// - A rise is raised, so it needs to be acknowledged again: from no level, from a warning to an
 ///   alarm, to the other side, and the loss of the measurement. From alarm to warning it only
 ///   eases.
+/// - While the value is not new delays stand still: what was measured once says nothing of later.
 /// - Without a measurement nothing begins or ends, and delays stand still; after the loss delay
 ///   that is raised, and delays start anew. It ends when there were values for the off delay.
 /// - While suppressed nothing is pending: what stood is cleared, except that a latching alarm stays

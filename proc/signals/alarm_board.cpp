@@ -48,7 +48,8 @@ Result<AlarmBoard> AlarmBoard::make(std::span<const AlarmLimits> limits, std::si
 std::span<const AlarmEvent> AlarmBoard::step(const AlarmBoardInputs& inputs) {
   event_count_ = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    const AlarmInputs now{inputs.now, value_of(limits_[i], inputs.regions), inputs.process_active};
+    const AlarmInputs now{inputs.now, value_of(limits_[i], inputs.regions), inputs.process_active,
+                          !inputs.stale[limits_[i].region]};
     if (inputs.acknowledged[i]) acknowledge(i, now);
     step(i, now);
   }

@@ -17,6 +17,9 @@ inline constexpr std::size_t kMaxAlarms = 32;
 /// A choice among the alarms of a board, by their index.
 using AlarmSet = std::bitset<kMaxAlarms>;
 
+/// A choice among regions, by their index.
+using RegionSet = std::bitset<kMaxRegions>;
+
 /// What happened to one alarm at one step.
 struct AlarmEvent {
   std::size_t alarm = 0;  ///< index on the board
@@ -34,6 +37,7 @@ struct AlarmBoardInputs {
   std::span<const Signals> regions;  ///< by region; what is not there was not measured
   bool process_active = true;
   AlarmSet acknowledged;  ///< since the last step; what is no alarm is ignored
+  RegionSet stale{};      ///< regions that were not measured anew since the last step
 };
 
 /// The alarms of one recipe. Of fixed size, so stepping allocates nothing. Thread-bound.

@@ -73,12 +73,14 @@ class MeasurementTest : public testing::Test {
     return process(stamp, trigger);
   }
   /// A set with the frame that is there, exposed earlier.
-  Status process(hal::TimePoint stamp, std::optional<std::uint64_t> trigger = {}) {
+  Status process(hal::TimePoint stamp, std::optional<std::uint64_t> trigger = {},
+                 bool held = false) {
     hal::FrameSet set;
     set.id = ++sets;
     set.stamp = stamp;
     set.trigger = trigger;
     set.frames[0] = frame;
+    set.held[0] = held;
     measurement->process(set, workers, [this](std::size_t, const std::shared_ptr<View>& view) {
       published += view && view->frame_set == sets ? 1 : 0;
     });

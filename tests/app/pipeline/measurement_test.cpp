@@ -164,6 +164,33 @@ TEST_F(MeasurementTest, AHeldFrameOfOtherSettingsIsNotMeasured) {
   EXPECT_TRUE(is_measured(expose()));
 }
 
+TEST_F(MeasurementTest, InATriggeredSetTheFrameOfAnotherTriggerIsNotMeasured) {
+  measure_by_two();
+  expose();
+  std::const_pointer_cast<hal::FrameBuffer>(frame)->metadata.trigger = 1;
+  EXPECT_TRUE(is_measured(process(Clock::now(), 1)));
+  const Status next = process(Clock::now(), 2, true);
+  EXPECT_FALSE(is_measured(next)) << "it shows the part before";
+  EXPECT_EQ(next.result, 2U);
+}
+
+TEST_F(MeasurementTest, AHeldFrameIsOneMeasurement) {
+  RecipePlan watched = plan(1);
+  watched.alarms.push_back(hotter_than(100));
+  watched.alarms[0].on_delay = std::chrono::nanoseconds(1);
+  measure_by({watched});
+  const Status measured = expose();
+  for (int n = 0; n < 3; ++n) {
+    const Status held = process(Clock::now(), {}, true);
+    EXPECT_TRUE(is_measured(held));
+    EXPECT_EQ(held.regions[0].signals.hot_spot_pixels, measured.regions[0].signals.hot_spot_pixels);
+    idle();
+  }
+  EXPECT_TRUE(notices.empty()) << "nobody has measured for longer than the delay";
+  expose();
+  EXPECT_EQ(notices.size(), 1U);
+}
+
 TEST_F(MeasurementTest, SettlesForAsManySetsAsTheRecipeSays) {
   RecipePlan slow = plan(2);
   slow.settle_frames = 3;

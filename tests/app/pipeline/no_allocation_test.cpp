@@ -84,7 +84,7 @@ TEST(FramePath, DoesNotAllocate) {
     const auto set = sync.next(hal::Clock::now() + std::chrono::seconds(5));
     ASSERT_TRUE(set);
     auto view = recipe->render(0, *set, workers);
-    recipe->measure(set->stamp);
+    recipe->measure();
     recipe->watch(set->stamp, true, {});
     mailbox.put(std::move(view));
   }

@@ -15,9 +15,9 @@ class AlarmClock {
   explicit AlarmClock(const AlarmLimits& limits) : limits_(limits) {}
 
   /// Moves the clock and steps.
-  const Alarm& after(std::chrono::nanoseconds time, double value) {
+  const Alarm& after(std::chrono::nanoseconds time, double value, bool is_new = true) {
     now_ += time;
-    memory_ = step(limits_, memory_, {now_, value, active_});
+    memory_ = step(limits_, memory_, {now_, value, active_, is_new});
     return memory_.alarm;
   }
   const Alarm& acknowledge() {

@@ -110,6 +110,22 @@ TEST(AlarmDelay, ALongGapCountsAsTheLongestStep) {
   EXPECT_EQ(clock.after(milliseconds(1), 15).level, Level::HighWarning);
 }
 
+TEST(AlarmDelay, StandsStillWhileTheValueIsNotNew) {
+  AlarmClock clock(both_sides());
+  clock.after(seconds(0), 10);
+  for (int n = 0; n < 100; ++n) clock.after(milliseconds(100), 10, false);
+  EXPECT_EQ(clock.level(), Level::None);
+  clock.after(milliseconds(100), 10);
+  EXPECT_EQ(clock.level(), Level::None) << "a gap counts as the longest step";
+  clock.after(seconds(1), 10);
+  EXPECT_EQ(clock.level(), Level::HighWarning);
+  for (int n = 0; n < 100; ++n) clock.after(milliseconds(100), 10, false);
+  EXPECT_FALSE(clock.alarm().measurement_lost) << "none was due";
+  clock.after(seconds(1), kNoValue, false);
+  for (int n = 0; n < 5; ++n) clock.after(seconds(1), kNoValue, false);
+  EXPECT_TRUE(clock.alarm().measurement_lost);
+}
+
 TEST(AlarmDelay, TimeThatGoesBackCountsNothingAndGoesOnFromThere) {
   AlarmClock clock(both_sides());
   keep(clock, milliseconds(1100), 15);
