@@ -54,7 +54,7 @@ struct LibcameraPart {
 /// What a radiometric camera sees the machine by.
 struct RadiometrySettings {
   double wavelength = 10;
-  double ball_reflectivity = 1;
+  std::optional<double> ball_reflectivity{};  ///< none: not known
   double ball_temperature = 20;
 };
 

@@ -83,7 +83,8 @@ void visit(Visitor& v, RadiometrySettings& radiometry) {
   v.optional("wavelength", radiometry.wavelength, Range::between(0.5, 20),
              "Effective wavelength of its band, um");
   v.optional("ball_reflectivity", radiometry.ball_reflectivity, Range::between(0.05, 1),
-             "Of the mirror ball at that wavelength");
+             "Of the mirror ball at that wavelength; temperatures are apparent unless it and the "
+             "region's emissivity are given");
   v.optional("ball_temperature", radiometry.ball_temperature, Range::between(-273, 1000),
              "Of the mirror ball, degC: what it does not reflect it emits");
 }

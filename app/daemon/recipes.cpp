@@ -1,7 +1,9 @@
 #include "app/daemon/recipes.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/config/alarm_settings.h"
@@ -60,8 +62,25 @@ Result<signals::RegionSettings> region_settings(const RegionOfInterest& region,
   return settings;
 }
 
+/// What a signal never has a value without, if it is missing.
+std::optional<std::string_view> missing_for(const signals::SignalInfo& signal,
+                                            const RegionOfInterest& region, bool has_scene,
+                                            bool is_radiometric) {
+  const auto is = [&signal](std::string_view part) {
+    return signal.name.find(part) != std::string_view::npos;
+  };
+  if (is("spatter") && !region.spatter_threshold) return "the region's spatter_threshold";
+  if (is("plume") && !region.plume_threshold) return "the region's plume_threshold";
+  if (is("width_error") && !region.width) return "the region's width";
+  if ((is("temperature") || is("cooling")) && !is_radiometric) {
+    return "a measured camera with kelvin_per_count";
+  }
+  if (signal.unit.starts_with("mm") && !has_scene) return "the rig's scene";
+  return std::nullopt;
+}
+
 Result<> plan_regions(const Configuration& configuration, const Recipe& recipe,
-                      const Formats& formats, RecipePlan& plan) {
+                      const Formats& formats, bool has_scene, RecipePlan& plan) {
   for (const RegionOfInterest& region : recipe.regions) {
     const std::size_t view = index_of(recipe.views, region.view);
     const std::size_t camera = index_of(configuration.cameras, recipe.views[view].measured);
@@ -71,6 +90,12 @@ Result<> plan_regions(const Configuration& configuration, const Recipe& recipe,
     for (const AlarmSettings& alarm : region.alarms) {
       auto limits = alarm_limits(alarm, plan.regions.size());
       if (!limits) return tl::unexpected(limits.error());
+      const auto missing = missing_for(signals::kSignals[limits->signal], region, has_scene,
+                                       settings->radiometry.kelvin_per_count > 0);
+      if (missing) {
+        return fail("region " + region.name + ": an alarm watches " + alarm.signal +
+                    ", which has no value without " + std::string(*missing));
+      }
       plan.alarms.push_back(*limits);
     }
     plan.regions.push_back({region.name, view, std::move(*settings)});
@@ -89,7 +114,7 @@ std::size_t process_input(const Configuration& configuration, const std::string&
 }
 
 Result<RecipePlan> plan_recipe(const Configuration& configuration, const RecipeSettings& settings,
-                               const Formats& formats) {
+                               const Formats& formats, bool has_scene) {
   const Recipe& recipe = settings.recipe;
   const auto names = view_names(configuration);
   RecipePlan plan;
@@ -101,7 +126,7 @@ Result<RecipePlan> plan_recipe(const Configuration& configuration, const RecipeS
     if (!planned) return tl::unexpected(planned.error());
     plan.views.push_back(std::move(*planned));
   }
-  if (auto done = plan_regions(configuration, recipe, formats, plan); !done) {
+  if (auto done = plan_regions(configuration, recipe, formats, has_scene, plan); !done) {
     return tl::unexpected(done.error());
   }
   for (const CameraControlSettings& control : recipe.controls) {
@@ -123,10 +148,10 @@ Result<std::vector<std::unique_ptr<CompiledRecipe>>> compile_recipes(
   if (!proxy) return tl::unexpected(proxy.error());
   std::vector<std::unique_ptr<CompiledRecipe>> recipes;
   for (const RecipeSettings& settings : configuration.recipes) {
-    auto recipe =
-        plan_recipe(configuration, settings, formats).and_then([&](const RecipePlan& plan) {
-          return CompiledRecipe::make(plan, {rig.ball, *proxy});
-        });
+    auto recipe = plan_recipe(configuration, settings, formats, !proxy->is_far())
+                      .and_then([&](const RecipePlan& plan) {
+                        return CompiledRecipe::make(plan, {rig.ball, *proxy});
+                      });
     if (!recipe) return fail(settings.file.string() + ": " + recipe.error().message);
     recipes.push_back(std::move(*recipe));
   }

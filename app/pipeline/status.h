@@ -37,7 +37,7 @@ constexpr std::string_view name_of(SystemState state) {
 enum class Quality : std::uint8_t {
   NotMeasured = 0,  ///< no such region, measuring is stopped, or its camera does not deliver
   Good = 1,
-  Apparent = 2,  ///< good, but temperatures are apparent ones: no reflectivity is configured
+  Apparent = 2,  ///< good, but temperatures are apparent: see Radiometry::is_apparent()
 };
 
 /// The name of a quality in manuals.

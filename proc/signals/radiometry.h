@@ -33,9 +33,9 @@ class Radiometry {
 
   bool is_radiometric() const { return !celsius_.empty(); }
 
-  /// Neither the target's emissivity nor the ball's reflectivity was given, so temperatures are
-  /// those that black bodies seen without the ball would have.
-  bool is_apparent() const { return !settings_.emissivity && !settings_.reflectivity; }
+  /// The target's emissivity or the ball's reflectivity was not given: temperatures are those of a
+  /// black body there, or as seen without the ball.
+  bool is_apparent() const { return !settings_.emissivity || !settings_.reflectivity; }
 
   /// degC of `counts` in [0, 65535], by a table and straight lines between whole counts; not a
   /// number for less light than ball and surroundings send by themselves. For radiometric ones.

@@ -76,7 +76,7 @@ class SphericalPolygon {
 }  // namespace
 
 Result<RegionMask> RegionMask::make(const optics::ViewProjection& view,
-                                    std::span<const Vec3> outline) {
+                                    std::span<const Vec3> outline, const Sees& sees) {
   std::optional<SphericalPolygon> polygon;
   if (!outline.empty()) {
     auto made = SphericalPolygon::make(outline);
@@ -85,7 +85,8 @@ Result<RegionMask> RegionMask::make(const optics::ViewProjection& view,
   }
   const auto inside = [&](int x, int y) {
     const auto direction = view.direction(x, y);
-    return direction && (!polygon || polygon->contains(*direction));
+    if (!direction || (polygon && !polygon->contains(*direction))) return false;
+    return !sees || sees(*direction);
   };
   RegionMask mask;
   for (int y = 0; y < view.height(); ++y) {
@@ -97,7 +98,9 @@ Result<RegionMask> RegionMask::make(const optics::ViewProjection& view,
     }
   }
   if (mask.spans_.empty()) {
-    return fail("region: it has no pixel of its measurement view inside; point the view at it");
+    return fail(
+        "region: it has no pixel of its measurement view inside that the measured camera sees; "
+        "point the view at it");
   }
   mask.top_ = mask.spans_.front().y;
   mask.bottom_ = mask.spans_.back().y + 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,10 +22,14 @@ struct Span {
 /// path, never the polygon. Immutable; reentrant.
 class RegionMask {
  public:
-  /// `outline`: as in RegionSettings. A pixel belongs to the region when its centre does. Error: an
-  /// outline that is none, or that has no pixel of the view inside.
+  /// Whether the measured camera sees what lies in a direction.
+  using Sees = std::function<bool(const optics::Vec3&)>;
+
+  /// `outline`: as in RegionSettings. A pixel belongs to the region when its centre does and the
+  /// camera sees it; without `sees` it sees everything. Error: an outline that is none, or that has
+  /// no such pixel.
   static Result<RegionMask> make(const optics::ViewProjection& view,
-                                 std::span<const optics::Vec3> outline);
+                                 std::span<const optics::Vec3> outline, const Sees& sees = nullptr);
 
   /// By row, then from left to right; pixels of the view.
   std::span<const Span> spans() const { return spans_; }

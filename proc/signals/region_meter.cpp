@@ -72,14 +72,15 @@ void write_angles(const HotSpot& spot, Signals& signals) {
 }  // namespace
 
 Result<RegionMeter> RegionMeter::make(const optics::ViewProjection& view, const RegionScene& scene,
-                                      const RegionSettings& settings) {
+                                      const RegionSettings& settings,
+                                      const RegionMask::Sees& sees) {
   if (auto checked = check(settings); !checked) return tl::unexpected(checked.error());
   if (auto checked = optics::check_ball(scene.ball); !checked) {
     return tl::unexpected(checked.error());
   }
   auto radiometry = Radiometry::make(settings.radiometry);
   if (!radiometry) return tl::unexpected(radiometry.error());
-  auto mask = RegionMask::make(view, settings.outline);
+  auto mask = RegionMask::make(view, settings.outline, sees);
   if (!mask) return tl::unexpected(mask.error());
   return RegionMeter(view, scene, settings, std::move(*mask), std::move(*radiometry));
 }

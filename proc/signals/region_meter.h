@@ -30,10 +30,11 @@ namespace orbwatch::signals {
 /// Thread-bound.
 class RegionMeter {
  public:
-  /// Error: an outline that is none or outside of the view, thresholds that no count can be or that
-  /// stand in the wrong order, radiometry out of range.
+  /// `sees`: as in RegionMask. Error: an outline that is none or outside of the view, thresholds
+  /// that no count can be or that stand in the wrong order, radiometry out of range.
   static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
-                                  const RegionSettings& settings);
+                                  const RegionSettings& settings,
+                                  const RegionMask::Sees& sees = nullptr);
   RegionMeter(RegionMeter&&) = default;
   RegionMeter& operator=(RegionMeter&&) = default;
   RegionMeter(const RegionMeter&) = delete;  // a copy would lack the memory taken beforehand

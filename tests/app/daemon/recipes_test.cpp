@@ -1,5 +1,6 @@
 #include "app/daemon/recipes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +66,7 @@ std::vector<RegionStatus> measured(const Configuration& configuration) {
   WorkerPool workers(0);
   const hal::FrameSet set = noisy_set(streams[kThermal]);
   for (std::size_t n = 0; n < recipe.plan().views.size(); ++n) recipe.render(n, set, workers);
-  recipe.measure(set.stamp);
+  recipe.measure();
   return {recipe.regions().begin(), recipe.regions().end()};
 }
 
@@ -103,14 +104,14 @@ TEST(Recipes, AnOutlineInDirectionsIsTheOneInPoints) {
   EXPECT_NE(regions[0].signals.hot_spot_pixels, regions[2].signals.hot_spot_pixels);
 }
 
-TEST(Recipes, TemperaturesAreTrueOnesOnceBallOrTargetIsKnown) {
+TEST(Recipes, TemperaturesAreTrueOnesOnceBallAndTargetAreKnown) {
   Configuration configuration = demo();
   const auto peak = [&] { return measured(configuration)[0]; };
   const RegionStatus apparent = peak();
   EXPECT_EQ(apparent.quality, Quality::Apparent);
   configuration.cameras[kThermal].radiometry = RadiometrySettings{10, 0.8, 20};
   const RegionStatus behind_the_ball = peak();
-  EXPECT_EQ(behind_the_ball.quality, Quality::Good);
+  EXPECT_EQ(behind_the_ball.quality, Quality::Apparent);
   first(configuration).regions[0].emissivity = 0.5;
   const RegionStatus true_ones = peak();
   EXPECT_EQ(true_ones.quality, Quality::Good);
@@ -128,6 +129,49 @@ TEST(Recipes, AThresholdIsATemperatureOfTheTarget) {
   const signals::Signals& signals = regions[0].signals;
   ASSERT_GT(signals.hot_spot_pixels, 0);
   EXPECT_GT(signals.hot_spot_mean_temperature, 1400) << "all of the spot is above its threshold";
+}
+
+TEST(Recipes, AlarmsOnWhatNeverHasAValueAreRefused) {
+  const auto refusal = [](const std::string& signal, auto spoil) {
+    Configuration configuration = demo();
+    RegionOfInterest& region = first(configuration).regions[0];
+    AlarmSettings alarm;
+    alarm.signal = signal;
+    alarm.high_alarm = 1;
+    region.alarms = {alarm};
+    spoil(configuration, region);
+    const auto recipes = compile_recipes(configuration, formats(configuration));
+    return recipes ? "none" : recipes.error().message;
+  };
+  const auto expect = [&](const std::string& signal, const std::string& what, auto spoil) {
+    EXPECT_THAT(refusal(signal, spoil),
+                testing::EndsWith(signal + ", which has no value without " + what));
+  };
+  expect("spatter_rate", "the region's spatter_threshold",
+         [](auto&, auto& region) { region.spatter_threshold.reset(); });
+  expect("plume_area", "the region's plume_threshold",
+         [](auto&, auto& region) { region.plume_threshold.reset(); });
+  expect("hot_spot_width_error", "the region's width",
+         [](auto&, auto& region) { region.width.reset(); });
+  expect("hot_spot_area_mean", "the rig's scene",
+         [](auto& configuration, auto&) { configuration.rig.scene = {}; });
+  EXPECT_EQ(refusal("hot_spot_pixels", [](auto&, auto&) {}), "none");
+}
+
+TEST(Recipes, ARegionBehindTheBallIsRefused) {
+  Configuration configuration = demo();
+  MeasuredViewSettings& view = first(configuration).views[0];
+  view.yaw = 168.1;  // the ball's far side, as the thermal camera stands
+  view.pitch = -11.6;
+  view.h_fov = 6;
+  first(configuration).regions[0].points.clear();
+  const auto refusal = [&] {
+    const auto recipes = compile_recipes(configuration, formats(configuration));
+    return recipes ? "none" : recipes.error().message;
+  };
+  EXPECT_THAT(refusal(), testing::HasSubstr("that the measured camera sees"));
+  view.yaw = -115;
+  EXPECT_EQ(refusal(), "none");
 }
 
 TEST(Recipes, EachHasItsNumberItsViewsAndItsControls) {
@@ -205,6 +249,7 @@ TEST(Check, FindsThresholdsThatNothingReaches) {
       << refusal(hotter_than_the_scale);
   const auto above_full_scale = [](Configuration& configuration) {
     configuration.cameras[kThermal].kelvin_per_count = 0;
+    for (RegionOfInterest& region : first(configuration).regions) region.alarms.clear();
     first(configuration).regions[1].spatter_threshold.reset();
     first(configuration).regions[0].plume_threshold.reset();
     first(configuration).regions[0].hot_spot_threshold = 101;

@@ -73,6 +73,15 @@ TEST(RegionMask, WithoutAnOutlineIsWhatTheViewShows) {
   EXPECT_GT(mask.pixels(), 2700U);
 }
 
+TEST(RegionMask, LeavesOutWhatTheCameraDoesNotSee) {
+  const auto view = ViewProjection::make({ViewKind::Perspective, {0, 0, 0}, 90, {}, 80, 60});
+  const auto mask = RegionMask::make(*view, {}, [](const Vec3& d) { return d.x > 0; }).value();
+  EXPECT_EQ(mask.left(), 40);
+  EXPECT_EQ(mask.right(), 80);
+  EXPECT_EQ(mask.pixels(), 40U * 60U);
+  EXPECT_FALSE(RegionMask::make(*view, {}, [](const Vec3&) { return false; }));
+}
+
 TEST(RegionMask, RefusesOutlinesThatAreNone) {
   const auto view = ViewProjection::make({ViewKind::Perspective, {}, 60, {}, 60, 40}).value();
   const auto refused = [&](const std::vector<Vec3>& outline) {
