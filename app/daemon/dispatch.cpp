@@ -7,9 +7,10 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
     case CommandCode::Pulse:
       return receivers.lines.command(command);
     case CommandCode::Trigger: {
-      // The result is the set that the first camera's trigger begins; without one, the next set.
+      // The result is the set that the pacing camera's trigger begins; without one, the next set.
+      const bool begins_a_set = receivers.lines.triggers(receivers.pipeline.pacing_camera());
       const auto done = receivers.lines.command(command);
-      return receivers.lines.triggers_first_camera() ? done : receivers.pipeline.command(command);
+      return begins_a_set ? done : receivers.pipeline.command(command);
     }
     case CommandCode::Snapshot:
       if (!receivers.snapshots) return CommandResult::NotPossible;

@@ -30,8 +30,8 @@ class Lines : public Sink {
   /// the cameras in the configuration's order. `camera` outlives the run.
   std::shared_ptr<hal::FrameTrigger> trigger(const CameraSettings& settings, hal::Camera& camera);
 
-  /// Frame sets begin with triggers, not by themselves.
-  bool triggers_first_camera() const { return !triggers_.empty() && triggers_.front(); }
+  /// The camera's frames begin with triggers, not by themselves.
+  bool triggers(std::size_t camera) const { return camera < triggers_.size() && triggers_[camera]; }
 
   /// CommandCode::Pulse, and Trigger, which every triggered camera takes as an edge. On any thread;
   /// does not wait.

@@ -56,6 +56,13 @@ Pipeline::Pipeline(PipelinePlan plan)
   if (!plan_.recipes.empty()) start_measuring();
 }
 
+std::size_t Pipeline::pacing_camera() const {
+  for (std::size_t camera = 0; camera < plan_.cameras.size(); ++camera) {
+    if (faults_[camera] == hal::Fault::None) return camera;
+  }
+  return 0;
+}
+
 void Pipeline::start_measuring() {
   std::vector<RecipeControls> recipes;
   bool any = false;

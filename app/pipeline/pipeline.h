@@ -63,6 +63,9 @@ class Pipeline {
   /// Those of the recipes included.
   std::size_t view_count() const { return plan_.view_count; }
 
+  /// Whose frames the sets begin with: the first one without a fault. On any thread.
+  std::size_t pacing_camera() const;
+
   /// Points a view that is only looked at elsewhere: see PanTiltZoom::point().
   Result<std::uint64_t> point(std::size_t view, const Pointing& pointing) {
     return pan_tilt_zoom_.point(view, pointing);

@@ -151,6 +151,14 @@ TEST_F(Dispatch, ATriggerOfAnotherCameraIsAResultOfTheOneThatPaces) {
   EXPECT_EQ(next_set().result, 1U);
 }
 
+TEST_F(Dispatch, ATriggerIsAResultOfTheFreeCameraThatPacesForATriggeredOne) {
+  start({hal::TriggerMode::Software, hal::TriggerMode::Off});
+  cameras[0]->fail_with(hal::Fault::Unplugged);
+  ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+  EXPECT_EQ(next_set(1).result, 1U);
+  EXPECT_EQ(next_set(1).result, 1U);
+}
+
 TEST_F(Dispatch, PulsesGoToTheLines) {
   start({hal::TriggerMode::Off});
   EXPECT_EQ(command(CommandCode::Pulse, 0), CommandResult::Done);
