@@ -40,22 +40,22 @@ Result<std::uint64_t> PanTiltZoom::ask(std::size_t view, const Change& change) {
   const auto refused = [&](const std::string& reason) {
     return fail("view " + views_[view].name + ": " + reason);
   };
-  std::uint64_t number = 0;
+  const std::lock_guard one_at_a_time(asking_);
+  Slot& slot = slots_[view];
+  Aim aim = slot.aim;
+  if (const auto done = change(aim); !done) return refused(done.error().message);
+  const auto projection = pointed(views_[view], aim.pointing);
+  if (!projection) return refused(projection.error().message);
+  Request request{*projection, aim.weights, slot.requests + 1};
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return refused("cannot be pointed any more; the pipeline has stopped");
-    Slot& slot = slots_[view];
-    Aim aim = slot.aim;
-    if (const auto done = change(aim); !done) return refused(done.error().message);
-    const auto projection = pointed(views_[view], aim.pointing);
-    if (!projection) return refused(projection.error().message);
-    slot.aim = std::move(aim);
     slot.superseded += slot.request ? 1 : 0;
-    number = ++slot.requests;
-    slot.request = Request{*projection, slot.aim.weights, number};
+    slot.request = std::move(request);
   }
+  slot.aim = std::move(aim);
   work_.notify_one();
-  return number;
+  return ++slot.requests;
 }
 
 Result<std::uint64_t> PanTiltZoom::point(std::size_t view, const Pointing& pointing) {

@@ -78,11 +78,11 @@ class PanTiltZoom {
     std::uint64_t number;
   };
   struct Slot {
-    Aim aim;  ///< of the newest request, or as configured
+    Aim aim;                     ///< of the newest request, or as configured; under asking_
+    std::uint64_t requests = 0;  ///< under asking_
     std::optional<Request> request;
     PointedRenderer renderer;  ///< to be shown if `compiled`, else to be freed
     bool compiled = false;
-    std::uint64_t requests = 0;
     std::uint64_t superseded = 0;
   };
   struct Work {
@@ -97,7 +97,8 @@ class PanTiltZoom {
   void compile(std::size_t view, const Request& request);
 
   const std::span<const ViewPlan> views_;
-  mutable std::mutex mutex_;  ///< never held while a renderer is made, used or freed
+  std::mutex asking_;         ///< held while a request is made, so that none loses another's
+  mutable std::mutex mutex_;  ///< the frame path takes it: held for no work
   std::condition_variable work_;
   std::vector<Slot> slots_;  ///< by view
   bool stopping_ = false;
