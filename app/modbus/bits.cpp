@@ -37,7 +37,7 @@ std::vector<Bit> make_status_bits() {
                SystemState::Degraded),
       in_state("fault", "No camera delivers, or the pipeline is silent", SystemState::Fault),
       in_state("stopped", "Told to stop measuring", SystemState::Stopped),
-      {"stale", "The pipeline is silent: the state reads fault and no signal is valid",
+      {"stale", "The pipeline is silent: the state reads fault and no region's signal is valid",
        [](S s) { return s.stale; }},
       {"process_active",
        "The process runs; while it does not, alarms that ask for it are suppressed",

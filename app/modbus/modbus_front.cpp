@@ -157,12 +157,12 @@ void ModbusFront::accept_client() {
     }
     return;
   }
-  const Permission permission = access_.of(host_of(peer));
-  if (permission == Permission::None) {
+  const HostAddress host = host_of(peer);
+  const Permission permission = access_.of(host);
+  if (permission == Permission::None || !has_room_for(permission)) {
     ++counters_.dropped;
     return;
   }
-  make_room();
   const int on = 1;
   const std::uint64_t id = next_id_++;
   if (::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on)) != 0 ||
@@ -173,6 +173,7 @@ void ModbusFront::accept_client() {
   }
   connections_.push_back({.id = id,
                           .socket = std::move(socket),
+                          .host = host,
                           .may_write = permission == Permission::Write,
                           .last_request = hal::Clock::now()});
   counters_.connections = connections_.size();
@@ -184,15 +185,23 @@ void ModbusFront::pause_accepting() {
   accept_again_ = hal::Clock::now() + kAcceptPause;
 }
 
-/// The oldest unused connection goes (Modbus Messaging on TCP/IP Implementation Guide): those of
-/// clients that may only read before those of writers, and among either first those that never
-/// asked anything, so that neither readers nor empty connections can push a PLC out.
-void ModbusFront::make_room() {
-  if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return;
+/// If need be the oldest unused connection goes (Modbus Messaging on TCP/IP Implementation Guide):
+/// those of clients that may only read before those of writers, and among either first those that
+/// never asked anything, then those of the machine that has most, so that neither readers nor many
+/// connections can push a PLC out. No writer goes for a reader.
+bool ModbusFront::has_room_for(Permission permission) {
+  if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return true;
+  const auto of_host = [this](const Connection& connection) {
+    return std::ranges::count(connections_, connection.host, &Connection::host);
+  };
+  const auto least = std::ranges::min_element(connections_, {}, [&](const Connection& connection) {
+    return std::tuple(connection.may_write, connection.has_asked, -of_host(connection),
+                      connection.last_request);
+  });
+  if (least->may_write && permission != Permission::Write) return false;
   ++counters_.dropped;
-  drop(std::ranges::min_element(connections_, {}, [](const Connection& connection) {
-    return std::tuple(connection.may_write, connection.has_asked, connection.last_request);
-  }));
+  drop(least);
+  return true;
 }
 
 void ModbusFront::serve(std::uint64_t id) {

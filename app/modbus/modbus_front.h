@@ -50,6 +50,7 @@ class ModbusFront {
   struct Connection {
     std::uint64_t id = 0;
     hal::FileDescriptor socket{};
+    HostAddress host{};
     bool may_write = false;
     bool has_asked = false;         ///< at least one whole request
     hal::TimePoint last_request{};  ///< or when it was opened
@@ -68,7 +69,7 @@ class ModbusFront {
   Result<> watch();
   void accept_client();
   void pause_accepting();
-  void make_room();
+  bool has_room_for(Permission permission);
   void serve(std::uint64_t id);
   bool answer_frames(Connection& connection);
   void drop(Connections::iterator connection);

@@ -41,7 +41,21 @@ Answered Responder::answer(Transport& transport, std::span<const std::uint8_t> f
   if (!request) return refuse(request.error());
   const std::lock_guard lock(mutex_);
   if (const auto exception = carry_out_request(*request, may_write)) return refuse(*exception);
+  // libmodbus would put what was written into the image before it reads there.
+  if (request->read && request->write) return done(transport.send(frame, words(*request->read)));
   return done(transport.reply(frame, *image_));
+}
+
+/// The answer to Read/Write Multiple Registers, from the image.
+std::vector<std::uint8_t> Responder::words(const Range& read) const {
+  std::vector<std::uint8_t> pdu{MODBUS_FC_WRITE_AND_READ_REGISTERS,
+                                static_cast<std::uint8_t>(2 * read.count)};
+  for (int at = read.address; at < read.address + read.count; ++at) {
+    const std::uint16_t word = image_->tab_registers[at];
+    pdu.push_back(static_cast<std::uint8_t>(word >> 8));
+    pdu.push_back(static_cast<std::uint8_t>(word));
+  }
+  return pdu;
 }
 
 /// Afterwards what the request reads is in the image.

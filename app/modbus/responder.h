@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "app/modbus/register_map.h"
 #include "app/modbus/request.h"
@@ -51,6 +52,7 @@ class Responder {
   std::optional<Exception> carry_out_request(Request request, bool may_write);
   std::optional<Exception> check_access(const Request& request, bool may_write) const;
   void fill_image(const Range& range, const Snapshot& snapshot);
+  std::vector<std::uint8_t> words(const Range& read) const;
 
   const RegisterMap& map_;
   const WriteRegisters write_;

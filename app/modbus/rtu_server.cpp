@@ -82,6 +82,8 @@ void RtuServer::answer_frames(RtuFramer& framer) {
   const std::uint64_t broken = framer.broken();
   const std::uint64_t for_others = framer.for_others();
   while (const auto frame = framer.next()) {
+    // Until then the master may still be switching its line from sending to receiving.
+    if (is_stopped_within(rtu_pause(settings_.baud_rate))) return;
     const Answered answered = answer_(*transport_, *frame);
     if (answered == Answered::NotModbus || answered == Answered::Refused) ++counters_.refused;
     if (answered == Answered::Done || answered == Answered::Refused) ++counters_.answered;

@@ -35,7 +35,8 @@ std::vector<Row> rows_of_camera(std::size_t index) {
            last_frame_age)
       .u32("frames", kCounter, "Frames delivered since start", &CameraStatus::frames)
       .u32("lost", kCounter, "Frames missing in the camera's sequence", &CameraStatus::lost)
-      .u32("dropped", kCounter, "Frames that a newer one replaced before they were used",
+      .u32("dropped", kCounter,
+           "Frames not used: a newer one was there, the queue was full, or the camera had a fault",
            &CameraStatus::dropped)
       .u32("unmatched", kCounter,
            "Frames delivered while the pacing camera had none of that moment",

@@ -146,7 +146,7 @@ TEST_F(ModbusAbuse, AStreamOfRequestsThatIsNeverAtRestIsNoPartialFrame) {
 
 TEST_F(ModbusAbuse, QuietConnectionsAreDropped) {
   ModbusSettings settings = loopback();
-  settings.idle_timeout = std::chrono::milliseconds(50);
+  settings.idle_timeout = std::chrono::seconds(1);
   sink_ = std::make_unique<ModbusSink>(settings, accept_all);
   ASSERT_TRUE(sink_->start());
   RawClient never_asked(port());
@@ -212,6 +212,37 @@ TEST_F(ModbusAbuse, ReadersDoNotPushWritersOut) {
   ASSERT_TRUE(silent_writer.send(kRead));
   EXPECT_EQ(silent_writer.receive_pdu(), kAnswer);
   EXPECT_EQ(statistics().dropped, 19U);
+}
+
+TEST_F(ModbusAbuse, AServerFullOfWritersTakesNoReader) {
+  ModbusSettings settings = loopback();
+  settings.max_connections = 2;
+  settings.writers = {"127.0.0.1"};
+  start(settings);
+  ASSERT_TRUE(plc_is_served());
+  RawClient silent_writer(port());
+  ASSERT_TRUE(silent_writer.send(kRead));
+  ASSERT_EQ(silent_writer.receive_pdu(), kAnswer);
+  RawClient reader(port(), "127.0.0.2");
+  EXPECT_TRUE(reader.is_closed_by_server());
+  ASSERT_TRUE(silent_writer.send(kRead));
+  EXPECT_EQ(silent_writer.receive_pdu(), kAnswer);
+  EXPECT_TRUE(plc_is_served());
+}
+
+TEST_F(ModbusAbuse, AMachineWithManyConnectionsPushesNobodyElseOut) {
+  ModbusSettings settings = loopback();
+  settings.max_connections = 4;
+  start(settings);
+  ASSERT_TRUE(plc_is_served());
+  std::vector<std::unique_ptr<RawClient>> many;
+  for (int i = 0; i < 20; ++i) {
+    many.push_back(std::make_unique<RawClient>(port(), "127.0.0.2"));
+    ASSERT_TRUE(many.back()->send(kRead));
+    EXPECT_EQ(many.back()->receive_pdu(), kAnswer);
+  }
+  EXPECT_TRUE(plc_is_served()) << "the quietest of all";
+  EXPECT_EQ(statistics().dropped, 17U);
 }
 
 TEST_F(ModbusAbuse, StrangersAreNotLetIn) {

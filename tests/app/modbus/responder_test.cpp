@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <random>
 
 #include "clients.h"
@@ -101,6 +102,19 @@ TEST_F(ResponderTest, BytesStandHighWordFirstAtTheDocumentedPlaces) {
   EXPECT_EQ(read(4, 438, 3), (Bytes{9, 196, 1, 157, 3, 108}));
   EXPECT_EQ(read(2, 0, 16), (Bytes{0b0010'0010, 0}));
   EXPECT_EQ(read(2, 16, 16), (Bytes{0b0000'0001, 0b0000'0001}));
+}
+
+TEST_F(ResponderTest, ReadingWithAWriteTellsWhatTheWriteHasLedTo) {
+  const Row& row = *std::ranges::find(map_.rows(), "result_taken", &Row::name);
+  const auto address = static_cast<std::uint8_t>(row.address);
+  const Bytes answer =
+      exchange(frame({23, 0, address, 0, 2, 0, address, 0, 2, 4, 0x12, 0x34, 0x56, 0x78}));
+  EXPECT_EQ(answered_, Answered::Done);
+  ASSERT_EQ(answer.size(), 13U);
+  EXPECT_EQ(Bytes(answer.begin() + 4, answer.begin() + 9), (Bytes{0, 7, 1, 23, 4}));
+  EXPECT_EQ(Bytes(answer.begin() + 9, answer.end()), read(3, row.address, 2))
+      << "that no such result was taken";
+  EXPECT_NE(read(3, row.address, 2), (Bytes{0x12, 0x34, 0x56, 0x78}));
 }
 
 TEST_F(ResponderTest, AnswersItsUnitsOnly) {
