@@ -151,8 +151,8 @@ void visit(Visitor& v, CameraSettings& camera) {
           "Of a radiometric camera: makes true temperatures of apparent ones");
   v.optional(
       "sync", camera.sync, kSyncPolicies,
-      "In a set without a frame of it within the window: hold its last one, or nearest, which "
-      "leaves it out");
+      "In a set without a frame of it within the window: hold its last one, which is not measured "
+      "again, or nearest, which leaves it out");
   v.optional(
       "trigger_mode", camera.trigger_mode, kTriggerModes,
       "off: every frame counts; software: each edge asks the camera for a frame, of a camera with "
