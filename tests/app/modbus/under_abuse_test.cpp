@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string>
+#include <tuple>
 
 #include "abuses.h"
 #include "clients.h"
@@ -28,10 +30,15 @@ constexpr bool kHasTime = false;
 constexpr bool kHasTime = true;
 #endif
 
+/// Who abuses how, and whether it may write as the PLC does, as everybody may unless told
+/// otherwise.
+using Case = std::tuple<tests::Abuse, bool>;
+
 /// A minute of random frames where everything is tested, in the release build and with
 /// AddressSanitizer.
-seconds duration(const tests::Abuse& abuse) {
-  const bool is_long = abuse.name == "random frames" && orbwatch::tests::acceptance_mode();
+seconds duration(const Case& abuse) {
+  const bool is_long = std::get<0>(abuse).name == "random frames" && std::get<1>(abuse) &&
+                       orbwatch::tests::acceptance_mode();
   return is_long && kHasTime ? seconds(60) : seconds(1);
 }
 
@@ -48,12 +55,13 @@ long resident() {
   return pages * ::sysconf(_SC_PAGESIZE);
 }
 
-class ModbusUnderAbuse : public testing::TestWithParam<tests::Abuse> {};
+class ModbusUnderAbuse : public testing::TestWithParam<Case> {};
 
 TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
   ModbusSettings settings = tests::loopback();
   settings.frame_timeout = std::chrono::milliseconds(200);
-  settings.writers = {"127.0.0.1"};
+  const auto& [abuse, all_may_write] = GetParam();
+  if (!all_may_write) settings.writers = {"127.0.0.1"};
   ModbusSink sink(settings, tests::accept_all);
   ASSERT_TRUE(sink.start());
   sink.accept(tests::example_status());
@@ -74,7 +82,7 @@ TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
   };
   modbus::Statistics statistics;
   {
-    tests::Abused abused(GetParam(), sink.port());
+    tests::Abused abused(abuse, sink.port());
     ASSERT_NO_FATAL_FAILURE(ask_for(seconds(1)));
     const long before = resident();
     ASSERT_NO_FATAL_FAILURE(ask_for(duration(GetParam())));
@@ -87,7 +95,7 @@ TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
   EXPECT_TRUE(eventually([&] { return sink.statistics().connections == 1; }));
   EXPECT_EQ(open_files(), files);
   EXPECT_GE(statistics.answered + 1, asked) << "all but the last must be counted by now";
-  if (GetParam().is_allowed) {
+  if (abuse.is_allowed) {
     EXPECT_EQ(statistics.refused + statistics.dropped, 0U);
     EXPECT_GT(statistics.answered, 2 * asked);
   } else {
@@ -96,11 +104,12 @@ TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
   EXPECT_TRUE(ask());
 }
 
-INSTANTIATE_TEST_SUITE_P(, ModbusUnderAbuse, testing::ValuesIn(tests::abuses()),
+INSTANTIATE_TEST_SUITE_P(, ModbusUnderAbuse,
+                         testing::Combine(testing::ValuesIn(tests::abuses()), testing::Bool()),
                          [](const auto& abuse) {
-                           std::string name(abuse.param.name);
+                           std::string name(std::get<0>(abuse.param).name);
                            std::erase_if(name, [](char c) { return c == ' '; });
-                           return name;
+                           return name + (std::get<1>(abuse.param) ? "OfWriters" : "OfReaders");
                          });
 
 }  // namespace
