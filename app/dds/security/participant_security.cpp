@@ -17,22 +17,22 @@ namespace fs = std::filesystem;
 /// One of the plugins, named as by Cyclone DDS (docs/manual/security).
 struct Plugin {
   const char* property;  ///< what the names of its properties begin with
-  const char* library;
+  const char* file;
   const char* init;
   const char* finalize;
 };
 
-constexpr std::array kPlugins{Plugin{"dds.sec.auth.library.", "libdds_security_auth.so",
-                                     "init_authentication", "finalize_authentication"},
-                              Plugin{"dds.sec.access.library.", "libdds_security_ac.so",
-                                     "init_access_control", "finalize_access_control"},
-                              Plugin{"dds.sec.crypto.library.", "libdds_security_crypto.so",
-                                     "init_crypto", "finalize_crypto"}};
+constexpr std::array kPlugins{
+    Plugin{"dds.sec.auth.", "libdds_security_auth.so", "init_authentication",
+           "finalize_authentication"},
+    Plugin{"dds.sec.access.", "libdds_security_ac.so", "init_access_control",
+           "finalize_access_control"},
+    Plugin{"dds.sec.crypto.", "libdds_security_crypto.so", "init_crypto", "finalize_crypto"}};
 
 /// The folder that Cyclone DDS itself was loaded from.
 fs::path library_folder() {
   Dl_info info{};
-  // The address as the loader knows it: the program's own may be that of a stub.
+  // The address as the loader knows it: in the program it may have another one.
   const void* const known = ::dlsym(RTLD_DEFAULT, "dds_create_participant");
   if (!known || ::dladdr(known, &info) == 0) return {};
   std::error_code error;
@@ -41,7 +41,7 @@ fs::path library_folder() {
 
 bool has_plugins(const fs::path& folder) {
   std::error_code error;
-  return fs::exists(folder / kPlugins[0].library, error);
+  return fs::exists(folder / kPlugins[0].file, error);
 }
 
 /// Debian keeps them in a folder that is named like libddsc's package, others beside it.
@@ -54,7 +54,7 @@ Result<fs::path> plugin_folder() {
     const fs::path& folder = entry->path();
     if (folder.filename().string().starts_with("libddsc") && has_plugins(folder)) return folder;
   }
-  return fail("DDS security: there is no " + (libraries / kPlugins[0].library).string() +
+  return fail("DDS security: there is no " + (libraries / kPlugins[0].file).string() +
               ", nor in a folder libddsc... beside it; was Cyclone DDS built with security?");
 }
 
@@ -69,8 +69,8 @@ void set_file(const Qos& qos, const std::string& name, const fs::path& file) {
 Result<> set_plugins(const Qos& qos) {
   return plugin_folder().map([&](const fs::path& folder) {
     for (const Plugin& plugin : kPlugins) {
-      const std::string property = plugin.property;
-      set(qos, property + "path", (folder / plugin.library).string());
+      const std::string property = std::string(plugin.property) + "library.";
+      set(qos, property + "path", (folder / plugin.file).string());
       set(qos, property + "init", plugin.init);
       set(qos, property + "finalize", plugin.finalize);
     }
