@@ -54,18 +54,8 @@ low = [-190, -130, 140]
 high = [-30, 30, 178]
 )";
 
-// One camera is calibrated, of the other one knows the limb and the registration.
-inline const std::string kSmallRig = kMachine + R"(
-[[camera]]
-name = "colour"
-width = 200
-height = 200
-[camera.intrinsics]
-fx = 1143.00523
-fy = 1143.00523
-cx = 99.5
-cy = 99.5
-[camera.pose]
+// Where the colour camera stands, and the thermal one, of which one knows limb and registration.
+inline const std::string kPlaces = R"([camera.pose]
 position = [208.6, -530.5, 489.0]
 rotation = [0.98893021, 0.1483814, 0, 0.014590408, -0.097241939, -0.99515382,
             -0.147662317, 0.984137676, -0.098330437]
@@ -79,6 +69,19 @@ radius = 58.06
 alpha = 343.571
 rotation = [-11.887, 11.639, 0]
 )";
+
+// The colour camera is calibrated.
+inline const std::string kSmallRig = kMachine + R"(
+[[camera]]
+name = "colour"
+width = 200
+height = 200
+[camera.intrinsics]
+fx = 1143.00523
+fy = 1143.00523
+cx = 99.5
+cy = 99.5
+)" + kPlaces;
 
 inline const std::string kSmallRecipe = R"(
 name = "pool"

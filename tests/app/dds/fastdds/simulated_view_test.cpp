@@ -69,20 +69,7 @@ fx = 2286.01046
 fy = 2286.01046
 cx = 199.5
 cy = 199.5
-[camera.pose]
-position = [208.6, -530.5, 489.0]
-rotation = [0.98893021, 0.1483814, 0, 0.014590408, -0.097241939, -0.99515382,
-            -0.147662317, 0.984137676, -0.098330437]
-[[camera]]
-name = "thermal"
-width = 160
-height = 128
-[camera.outline]
-centre = [79.5, 63.5]
-radius = 58.06
-alpha = 343.571
-rotation = [-11.887, 11.639, 0]
-)";
+)" + orbwatch::tests::kPlaces;
 
 std::string site() {
   std::string text = orbwatch::tests::small_machine();
@@ -95,9 +82,9 @@ std::string site() {
 }
 
 std::string recipe() {
-  return "name = \"work\"\n[[view]]\nname = \"work\"\nmeasured = \"thermal\"\n" + kWork.text() +
+  return "name = \"pool\"\n[[view]]\nname = \"pool\"\nmeasured = \"thermal\"\n" + kWork.text() +
          "[[view.source]]\ncamera = \"thermal\"\ncolour_map = \"grey\"\nrange = [20, 800]\n"
-         "[[region]]\nname = \"work\"\nview = \"work\"\nhot_spot_threshold = 1400\n";
+         "[[region]]\nname = \"pool\"\nview = \"pool\"\nhot_spot_threshold = 1400\n";
 }
 
 class SimulatedView : public orbwatch::tests::Daemon {
@@ -229,7 +216,7 @@ TEST_F(SimulatedView, DiagnosticsComeToSayThatAllIsWell) {
 }
 
 TEST_F(SimulatedView, CountsAreTheTemperaturesOfTheMachine) {
-  const auto [image, pixels] = read("rt/orbwatch/work/radiometric/image_raw");
+  const auto [image, pixels] = read("rt/orbwatch/pool/radiometric/image_raw");
   ASSERT_EQ(image["encoding"].string(), "mono16");
   ASSERT_EQ(static_cast<int>(image["is_bigendian"]), 0);
   ASSERT_EQ(pixels.size(), static_cast<std::size_t>(kWork.width) * kWork.height * 2);
