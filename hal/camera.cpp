@@ -6,7 +6,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Whether a request makes sense for any camera at all.
+/// Whether a request is valid for any camera.
 Result<> check(const StreamRequest& request) {
   if (std::min(request.width, request.height) < 0 ||
       std::max(request.width, request.height) > kMaxSide) {
@@ -21,12 +21,15 @@ Result<> check(const StreamRequest& request) {
   return {};
 }
 
+/// "cam video0" for "/dev/video0": the end of a path is what differs between cameras.
+std::string thread_name(const std::string& id) { return "cam " + id.substr(id.rfind('/') + 1); }
+
 }  // namespace
 
-Camera::~Camera() { join(); }
+Camera::~Camera() = default;
 
 Result<StreamFormat> Camera::configure(const StreamRequest& request) {
-  if (thread_.joinable()) {
+  if (thread_.is_running()) {
     return fail("camera " + info_.id + ": configure while it runs; stop it first");
   }
   if (auto sound = check(request); !sound) {
@@ -39,33 +42,19 @@ Result<StreamFormat> Camera::configure(const StreamRequest& request) {
 
 Result<> Camera::start(OnFrame on_frame, OnFault on_fault) {
   if (!configured_) return fail("camera " + info_.id + ": start before configure");
-  if (thread_.joinable() && !stop_.stop_requested()) {
+  if (thread_.is_running() && !thread_.stop_requested()) {
     return fail("camera " + info_.id + ": runs already");
   }
-  join();  // a thread that was stopped inside a callback of its own
+  thread_.stop();  // waits for a run that was stopped inside a callback of its own
   on_frame_ = std::move(on_frame);
   on_fault_ = std::move(on_fault);
   last_fault_ = Fault::None;
   withheld_ = 0;
-  stop_ = std::stop_source();
-  thread_ = std::thread([this, stop = stop_.get_token()] {
-    runner_ = std::this_thread::get_id();
-    run(stop);
-  });
+  thread_.start(thread_name(info_.id), [this] { run(thread_.stop_token()); });
   return {};
 }
 
-void Camera::stop() {
-  stop_.request_stop();
-  if (std::this_thread::get_id() != runner_.load()) join();
-}
-
-void Camera::join() {
-  if (!thread_.joinable()) return;
-  stop_.request_stop();
-  thread_.join();
-  runner_ = std::thread::id();  // the system may give the same one to another thread
-}
+void Camera::stop() { thread_.stop(); }
 
 Result<> Camera::trigger() { return fail("camera " + info_.id + ": has no software trigger"); }
 
@@ -74,7 +63,7 @@ Result<> Camera::set(std::string_view control, double) {
 }
 
 void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {
-  if (stop_.stop_requested()) return;
+  if (thread_.stop_requested()) return;
   if (gate_ && !gate_(frame->metadata)) {
     ++withheld_;
     return;
@@ -85,13 +74,14 @@ void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {
 
 void Camera::report(Fault fault, std::string detail) {
   if (fault == std::exchange(last_fault_, fault)) return;
-  if (!stop_.stop_requested()) on_fault_({fault, std::move(detail)});
+  if (!thread_.stop_requested()) on_fault_({fault, std::move(detail)});
 }
 
-bool Camera::wait_until(const std::stop_token& stop, TimePoint moment) {
-  std::unique_lock lock(wait_mutex_);
-  wake_.wait_until(lock, stop, moment, [] { return false; });
-  return !stop.stop_requested();
+bool Camera::wait_until(TimePoint moment) {
+  while (thread_.wait_until(moment)) {
+    if (Clock::now() >= moment) return true;
+  }
+  return false;
 }
 
 }  // namespace orbwatch::hal

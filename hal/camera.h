@@ -1,19 +1,18 @@
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <stop_token>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
+#include <vector>
 
 #include "hal/fault.h"
-#include "hal/frame.h"
+#include "hal/fault_script.h"
+#include "hal/frame/frame.h"
+#include "hal/thread/thread.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
@@ -28,14 +27,22 @@ struct CameraInfo {
 /// Of any camera, frames per second.
 inline constexpr int kMaxFrameRate = 1000;
 
-/// What the pipeline asks for. Zero leaves the choice to the camera.
+/// What a site states about a camera for every back-end's make_camera().
+struct CameraContext {
+  std::string name;             ///< in the site's files
+  double frame_rate = 0;        ///< per second; 0: the camera's own
+  double kelvin_per_count = 0;  ///< 0: not radiometric
+  std::vector<ScriptedFault> faults;
+};
+
+/// The requested stream. Zero leaves the choice to the camera.
 struct StreamRequest {
   int width = 0;
   int height = 0;
   double frame_rate = 0;  ///< frames per second (GenICam AcquisitionFrameRate)
 };
 
-/// What the camera will deliver. A size or format that was asked for is honoured or refused.
+/// The negotiated stream. A requested size or format is honoured or refused.
 struct StreamFormat {
   PixelFormat format = PixelFormat::Grey;
   ColourSpace colour_space;
@@ -44,8 +51,8 @@ struct StreamFormat {
   double frame_rate = 0;
 };
 
-/// A source of frames: real, replayed or simulated. This class is the shell that guards the rules;
-/// back-ends implement the protected part.
+/// A source of frames: real, replayed or simulated. This class is the shell that guards the
+/// invariants; back-ends implement the protected part.
 ///
 /// Life: configure, start, stop, in this order; start and stop may be repeated, and configure again
 /// while stopped. Frames and faults arrive on the camera's own thread, one at a time.
@@ -67,7 +74,7 @@ class Camera {
   /// Opens the device and fixes size, format and rate. Errors: running, not found, not possible.
   Result<StreamFormat> configure(const StreamRequest& request);
 
-  /// Asked for each frame before it is handed on, on the camera's thread: may complete the
+  /// Called for each frame before it is forwarded, on the camera's thread: may complete the
   /// metadata; false withholds the frame, which then counts as never exposed. Set while stopped.
   void set_gate(Gate gate) { gate_ = std::move(gate); }
 
@@ -75,8 +82,8 @@ class Camera {
   /// Errors: not configured, running already.
   Result<> start(OnFrame on_frame, OnFault on_fault);
 
-  /// Ends the stream; no callback comes after it returns, except when it is called inside one: then
-  /// that callback is the last. Repeating it does nothing.
+  /// Ends the stream; no callback begins after it returns. Called inside a callback, it does not
+  /// wait, and that callback is the last. Repeating it does nothing.
   void stop();
 
   /// GenICam TriggerSoftware: exposes one frame. Error: the camera has no software trigger.
@@ -91,19 +98,21 @@ class Camera {
   virtual Result<StreamFormat> do_configure(const StreamRequest& request) = 0;
 
   /// The camera's thread: delivers until `stop` is requested. Faults are reported, not thrown; the
-  /// back-end tries to come back by itself.
+  /// back-end reconnects by itself.
   virtual void run(const std::stop_token& stop) = 0;
 
-  /// For run(): hands a frame on.
+  /// For run(): forwards a frame.
   void deliver(std::shared_ptr<FrameBuffer> frame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
-  /// For run(): waits until `moment` or until stop is requested; false if it was.
-  bool wait_until(const std::stop_token& stop, TimePoint moment);
+  /// For run(): waits until `moment`. False: the stop was requested.
+  bool wait_until(TimePoint moment);
+  /// For run(): waits for a wake(). False: the stop was requested.
+  bool wait() { return thread_.wait(); }
+  /// On any thread.
+  void wake() { thread_.wake(); }
 
  private:
-  void join();
-
   CameraInfo info_;
   bool configured_ = false;
   Gate gate_;
@@ -111,11 +120,7 @@ class Camera {
   OnFrame on_frame_;
   OnFault on_fault_;
   Fault last_fault_ = Fault::None;
-  std::mutex wait_mutex_;
-  std::condition_variable_any wake_;
-  std::stop_source stop_;
-  std::atomic<std::thread::id> runner_;  ///< set by the camera's thread itself
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace orbwatch::hal

@@ -1,27 +1,55 @@
 #pragma once
 
 #include "hal/camera.h"
-#include "hal/frame_counter.h"
+#include "hal/frame/frame_counter.h"
 
 namespace orbwatch::hal {
 
-/// A camera whose device may break off: it is opened again after a BackOff, until it is back.
+/// How long a camera may be silent: 5 periods of `frame_rate`, and 1 s at least; 5 s at an unknown
+/// rate (0).
+Clock::duration stall_timeout(double frame_rate);
+
+/// A camera whose device may disconnect. This class is the loop that all such cameras share: it
+/// opens the stream, captures, reports a device that is silent for longer than stall_timeout() as
+/// stalled, closes, and opens again after a BackOff until the camera is stopped. Back-ends
+/// implement the protected part, which the camera's thread calls in the order open_stream,
+/// capture..., close_stream.
 class DeviceCamera : public Camera {
  protected:
   using Camera::Camera;
 
-  /// Opens the device and streams; returns what ended it, which means nothing after a stop.
-  virtual FaultReport stream_until_fault(const std::stop_token& stop) = 0;
+  /// Opens the device as it was configured and starts it. Returns the frame rate to expect, 0 if
+  /// unknown. After an error there is nothing to close.
+  virtual DeviceResult<double> open_stream() = 0;
 
-  /// For stream_until_fault(): hands a whole frame on, which ends a fault.
-  void hand_on(std::shared_ptr<FrameBuffer> frame);
+  /// Waits for frames and forwards them; returns how many were captured, 0 at `deadline` or after
+  /// interrupt(). An error ends the stream.
+  virtual DeviceResult<std::size_t> capture(TimePoint deadline) = 0;
 
-  void run(const std::stop_token& stop) final;
+  /// The device waits for a trigger, or has no buffer to fill: silence is no fault.
+  virtual bool may_be_silent() const = 0;
 
-  FrameCounter counter_;  ///< numbers frames across returns of the device
+  /// Ends a wait in capture(). On any thread.
+  virtual void interrupt() = 0;
+
+  /// Error: the device is lost for good; reported instead of what ended the stream.
+  virtual DeviceResult<> close_stream() = 0;
+
+  /// For capture(): the number of a frame, also of one that is not forwarded.
+  std::uint64_t sequence_of(std::uint32_t driver_sequence) {
+    return counter_.number(driver_sequence);
+  }
+
+  /// For capture(): delivers an intact frame, which ends a fault.
+  void forward(std::shared_ptr<FrameBuffer> frame);
 
  private:
-  bool delivered_ = false;  ///< since the device was opened
+  void run(const std::stop_token& stop) final;
+  FaultReport stream(const std::stop_token& stop);
+  FaultReport capture_until_fault(const std::stop_token& stop, double frame_rate);
+
+  FrameCounter counter_;    ///< numbers frames across reconnections
+  bool forwarded_ = false;  ///< since the device was opened
 };
 
 }  // namespace orbwatch::hal

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tl/expected.hpp>
 
 namespace orbwatch::hal {
 
-/// Everything that can be wrong with a camera while it runs. The numbers are what PLCs read
-/// (Modbus) and controllers receive (DDS): append, never renumber.
+/// The faults of a running camera. PLCs read the numbers (Modbus) and controllers receive them
+/// (DDS): append, never renumber.
 enum class Fault : std::uint8_t {
   None = 0,
   Unplugged = 1,
@@ -17,7 +18,7 @@ enum class Fault : std::uint8_t {
   WrongFormat = 5,
 };
 
-/// The one place of the operator's text for each fault.
+/// The one place of the operator's text for each fault. Empty for a number that is none.
 constexpr std::string_view operator_text(Fault fault) {
   switch (fault) {
     case Fault::None:
@@ -33,13 +34,17 @@ constexpr std::string_view operator_text(Fault fault) {
     case Fault::WrongFormat:
       return "camera sends another format than configured";
   }
-  return "unknown camera fault";
+  return {};
 }
 
-/// A change of a camera's state. `Fault::None` says that it delivers again.
+/// A change of a camera's state. Fault::None: it delivers again.
 struct FaultReport {
   Fault fault = Fault::None;
   std::string detail;  ///< device and system message; may be empty
 };
+
+/// A device's value, or the fault to report.
+template <class T = void>
+using DeviceResult = tl::expected<T, FaultReport>;
 
 }  // namespace orbwatch::hal

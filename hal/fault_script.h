@@ -1,14 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "hal/fault.h"
+#include "proc/settings/settings.h"
 
 namespace orbwatch::hal {
 
-/// A fault that simulated and replayed cameras are asked to show: from frame `from` (the exposure
-/// that first fails) up to, not including, frame `until`. "Unplug at 100, replug at 160" is
+/// A fault that simulated and replay cameras show: from exposure `from` up to, not including,
+/// exposure `until`. "Unplug at 100, replug at 160" is
 /// {Unplugged, 100, 160}.
 struct ScriptedFault {
   Fault fault = Fault::None;
@@ -16,7 +19,19 @@ struct ScriptedFault {
   std::uint64_t until = 0;
 };
 
-/// Faults by exposure number; the first that matches counts.
+inline constexpr std::array kFaultWords{
+    Word{"unplugged", Fault::Unplugged}, Word{"stalled", Fault::Stalled},
+    Word{"read_error", Fault::ReadError}, Word{"corrupt_frame", Fault::CorruptFrame},
+    Word{"wrong_format", Fault::WrongFormat}};
+
+template <class Visitor>
+void visit(Visitor& v, ScriptedFault& fault) {
+  v.required("fault", fault.fault, kFaultWords, "What fails");
+  v.required("from", fault.from, Range::between(0, 1e15), "First frame that fails");
+  v.required("until", fault.until, Range::between(0, 1e15), "First frame that works again");
+}
+
+/// Faults by exposure number; the first match counts.
 class FaultScript {
  public:
   FaultScript() = default;

@@ -6,14 +6,14 @@
 
 namespace orbwatch::hal {
 
-/// What is connected to this machine, for people and programs that write a configuration. Texts
-/// come from devices and may hold anything.
+/// What is connected to this machine, for writing a configuration. Texts come from devices and may
+/// contain anything.
 
 /// A format and size that a camera offers.
 struct CameraMode {
   std::string format;               ///< as the back-end's settings name it, or the driver does
-  std::string size;                 ///< "640x480", or "2x2..4096x2160" for all between two
-  std::vector<double> frame_rates;  ///< per second: each of them, or least and most; empty: unknown
+  std::string size;                 ///< "640x480", or a range "2x2..4096x2160"
+  std::vector<double> frame_rates;  ///< per second: each, or minimum and maximum; empty: unknown
 };
 
 struct CameraControl {
@@ -22,18 +22,18 @@ struct CameraControl {
   double maximum = 0;
   double step = 0;  ///< 0: any value between
   double default_value = 0;
-  std::string state;                ///< "read only", "inactive" (an automatism has it), or empty
+  std::string state;                ///< "read only", "inactive" (under automatic control), or empty
   std::vector<std::string> values;  ///< "1 = manual mode": of a menu; else empty
 };
 
 struct CameraEntry {
-  std::string id;        ///< what the configuration takes, the most stable that there is
+  std::string id;        ///< for the configuration, the most stable name that exists
   std::string back_end;  ///< as in the configuration
   std::string model;
   std::string driver;
-  std::string bus;                 ///< where it is plugged in
+  std::string bus;                 ///< the port that it is connected to
   std::vector<std::string> paths;  ///< all its device nodes and links
-  std::string problem;             ///< why the rest is not known; else empty
+  std::string problem;             ///< why the rest is unknown; else empty
   std::vector<CameraMode> modes;
   std::vector<CameraControl> controls;
 };
@@ -41,15 +41,15 @@ struct CameraEntry {
 /// A digital line of a GPIO chip.
 struct LineEntry {
   std::uint32_t offset = 0;
-  std::string name;       ///< empty: the board gives none
+  std::string name;       ///< the board's; may be empty
   std::string direction;  ///< "input" or "output"
-  std::string consumer;   ///< who uses it, as the kernel knows; empty: nobody
+  std::string consumer;   ///< the program that uses it, according to the kernel; empty: none
 };
 
 struct ChipEntry {
   std::string label;    ///< of the driver, stable
-  std::string path;     ///< device node: may be another after the next boot
-  std::string problem;  ///< why the rest is not known; else empty
+  std::string path;     ///< device node, may differ after the next boot
+  std::string problem;  ///< why the rest is unknown; else empty
   std::vector<LineEntry> lines;
 };
 

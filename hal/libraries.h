@@ -6,9 +6,8 @@
 
 namespace orbwatch::hal {
 
-/// Names and versions of the device libraries this program talks to, for `orbwatch --version`.
-/// libcamera and libgpiod answer themselves; libjpeg-turbo cannot, so its is that of the build.
-/// Thread-safe.
+/// Names and versions of the device libraries in use, for `orbwatch --version`. That of
+/// libjpeg-turbo is the build's, as the library does not report it. Thread-safe.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace orbwatch::hal

@@ -3,9 +3,9 @@
 #include "app/cli/cancelled.h"
 #include "app/cli/command.h"
 #include "app/cli/command_words.h"
-#include "app/cli/dds_options.h"
-#include "app/cli/options.h"
-#include "app/dds/command_client.h"
+#include "app/cli/dds/command_client.h"
+#include "app/cli/options/dds_options.h"
+#include "app/cli/options/options.h"
 
 namespace orbwatch::app {
 
@@ -17,7 +17,7 @@ Result<> command_command(const std::vector<std::string>& arguments) {
                                     security_option(o.security),
                                     timeout_option(o.timeout),
                                     {"help", 'h', "", "this text", flag_option(help)}};
-  // Options first: angles are negative as often as not.
+  // Options first: angles may be negative.
   const auto words = parse_options(arguments, options, OptionOrder::First);
   if (!words) return tl::unexpected(words.error());
   if (help) {

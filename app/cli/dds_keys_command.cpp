@@ -2,11 +2,11 @@
 #include <iostream>
 
 #include "app/cli/command.h"
-#include "app/cli/dds_options.h"
-#include "app/cli/options.h"
-#include "app/dds/security/keystore.h"
-#include "app/dds/topic_access.h"
-#include "app/dds/topic_names.h"
+#include "app/cli/keys/keystore.h"
+#include "app/cli/keys/topic_access.h"
+#include "app/cli/options/dds_options.h"
+#include "app/cli/options/options.h"
+#include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {
 namespace {
@@ -45,7 +45,7 @@ std::vector<Option> declare(KeysOptions& o) {
            return fail("--days must be 1 to " + std::to_string(kMaxDays));
          });
        }},
-      {"replace", 0, "", "make anew what is there: the subscribers named, or all\nof FOLDER",
+      {"replace", 0, "", "replace existing keys: of the subscribers named, or all\nof FOLDER",
        flag_option(o.request.replace)},
       {"help", 'h', "", "this text", flag_option(o.help)},
   };

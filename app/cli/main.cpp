@@ -23,8 +23,8 @@ constexpr std::array kCommandTable{
     Named{"subscribe", "read views and process state of a running orbwatchd over DDS",
           subscribe_command},
     Named{"state", "show the process state of a running orbwatchd", state_command},
-    Named{"command", "have a running orbwatchd carry out a command", command_command},
-    Named{"dds-keys", "make the keys of a DDS domain that only some may join", dds_keys_command},
+    Named{"command", "send a command to a running orbwatchd", command_command},
+    Named{"dds-keys", "make the keys of a secured DDS domain", dds_keys_command},
     Named{"list", "show the cameras and GPIO lines that are connected", list_command},
     Named{"describe", "print manuals, and what follows from a rig or a view", describe_command},
 };

@@ -2,16 +2,20 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "app/cli/camera_options.h"
 #include "app/cli/command.h"
-#include "app/cli/merged_view.h"
-#include "app/cli/options.h"
-#include "app/cli/view_options.h"
-#include "app/config/camera_calibration.h"
-#include "app/config/schema.h"
+#include "app/cli/options/camera_options.h"
+#include "app/cli/options/options.h"
+#include "app/cli/options/view_options.h"
+#include "app/files/camera_calibration.h"
+#include "app/pictures/colour_maps.h"
 #include "app/pictures/picture_file.h"
+#include "app/pipeline/views/view_renderer.h"
+#include "app/pipeline/views/view_settings.h"
 #include "hal/replay/picture_decoder.h"
 
 namespace orbwatch::app {
@@ -56,7 +60,7 @@ std::vector<Option> declare(ProjectOptions& o) {
       {"undefined", 0, "black|transparent", "what no camera shows (default black)",
        word_option("undefined", kUndefined, o.transparent)},
       {"interpolation", 0, "area|bilinear|nearest", "between pixels (default area)",
-       word_option("interpolation", kInterpolations, o.interpolation)},
+       word_option("interpolation", remap::kInterpolations, o.interpolation)},
       {"match", 0, "photometric|none",
        "bring the cameras to the first one's exposure and\nwhite balance (default photometric)",
        word_option("match", kMatches, o.match)},
@@ -67,7 +71,7 @@ std::vector<Option> declare(ProjectOptions& o) {
   return options;
 }
 
-/// Gives the one picture that stands alone to the one camera, or sees that every camera has one.
+/// Assigns a lone picture to the only camera, or checks that every camera has a picture.
 Result<> assign_pictures(const std::vector<std::string>& alone,
                          std::vector<ChosenCamera>& cameras) {
   if (cameras.size() == 1 && cameras.front().picture.empty()) {
@@ -109,7 +113,7 @@ Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenC
   return pictures;
 }
 
-/// Tells the user of cameras whose exposure stays as it is.
+/// Warns of cameras whose exposure stays as it is.
 void report(const std::vector<remap::PhotometricMatch>& matches,
             const std::vector<ChosenCamera>& cameras) {
   using Outcome = remap::PhotometricMatch::Outcome;
@@ -122,6 +126,50 @@ void report(const std::vector<remap::PhotometricMatch>& matches,
                      ? "it shares too little with the others"
                      : "it differs from the others more than exposures do");
   }
+}
+
+/// The cameras' pictures merged by resolution, as orbwatchd does it. Owns its pixels; cannot be
+/// copied, since `picture` points at them.
+struct MergedView {
+  MergedView(PixelFormat format, int width, int height)
+      : pixels(static_cast<std::size_t>(row_bytes(format, width)) * height),
+        validity(static_cast<std::size_t>(width) * height),
+        picture(MutablePicture::contiguous(format, width, height, pixels.data(),
+                                           row_bytes(format, width))) {}
+  MergedView(const MergedView&) = delete;
+  MergedView& operator=(const MergedView&) = delete;
+
+  ImageView<std::uint8_t> validity_plane() {
+    return {validity.data(), picture.width, picture.height, 1, picture.width};
+  }
+
+  std::vector<std::byte> pixels;
+  std::vector<std::uint8_t> validity;  ///< one Validity per pixel
+  MutablePicture picture;
+};
+
+void merge(const ProjectOptions& o, const optics::ViewProjection& projection,
+           const std::vector<ChosenCamera>& cameras,
+           const std::vector<hal::DecodedPicture>& pictures, MergedView& merged) {
+  const remap::ColourMap unused(colour_map_table("grey"), 0, 255);  // the picture keeps its format
+  ViewPlan plan{0, "view", projection, {}, Combine::Sharpest, o.interpolation, std::nullopt};
+  std::vector<hal::StreamFormat> formats;
+  hal::FrameSet set;
+  for (std::size_t n = 0; n < cameras.size(); ++n) {
+    const auto frame = std::make_shared<hal::FrameBuffer>();
+    frame->picture = pictures[n].picture;
+    formats.push_back({frame->picture.format, {}, frame->picture.width, frame->picture.height, 0});
+    plan.sources.push_back({n, formats.back(), cameras[n].ball, 1, unused});
+    set.frames[n] = frame;
+  }
+  WorkerPool workers(0);
+  ViewRenderer renderer(std::move(plan));
+  MipLevelCounts levels{};
+  renderer.require_levels(levels);
+  FramePyramids pyramids(formats);
+  pyramids.build(set, levels, workers);
+  if (o.match && cameras.size() > 1) report(renderer.match_photometry(pyramids), cameras);
+  renderer.render(pyramids, {merged.picture, merged.validity_plane(), {}}, workers);
 }
 
 Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
@@ -142,15 +190,11 @@ Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone)
   const PixelFormat format = pictures->front().picture.format;
   if (auto named = check_picture_name(o.output, format, o.transparent); !named) return named;
 
-  std::vector<ViewedPicture> viewed;
-  for (std::size_t n = 0; n < cameras->size(); ++n) {
-    viewed.push_back({(*pictures)[n].picture, (*cameras)[n].ball});
-  }
-  MergedView merged = merge_pictures(*view, viewed, o.interpolation, o.match && viewed.size() > 1);
-  report(merged.matches, *cameras);
+  MergedView merged(format, view->width(), view->height());
+  merge(o, *view, *cameras, *pictures, merged);
   if (auto written = write_camera_info(o, *view); !written) return written;
   return write_picture(o.output, merged.picture,
-                       o.transparent ? merged.validity() : ImageView<std::uint8_t>{});
+                       o.transparent ? merged.validity_plane() : ImageView<std::uint8_t>{});
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 
 #include "app/cli/cancelled.h"
 #include "app/cli/command.h"
-#include "app/cli/dds_options.h"
-#include "app/cli/options.h"
+#include "app/cli/dds/state_reader.h"
+#include "app/cli/options/dds_options.h"
+#include "app/cli/options/options.h"
 #include "app/cli/state_text.h"
-#include "app/dds/state_reader.h"
-#include "app/dds/topic_names.h"
+#include "app/ports/dds/topics/topic_names.h"
 #include "hal/clock.h"
 
 namespace orbwatch::app {
@@ -16,8 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLookPeriod{100};
-/// People do not read faster.
+constexpr milliseconds kPollPeriod{100};
 constexpr milliseconds kTablePeriod{1000};
 
 struct StateOptions {
@@ -32,7 +31,7 @@ struct StateOptions {
 
 std::vector<Option> declare(StateOptions& o) {
   return {{"json", 0, "", "for programs, a line per state", flag_option(o.json)},
-          {"follow", 'f', "", "each one that comes, tables once a second", flag_option(o.follow)},
+          {"follow", 'f', "", "each one that arrives, tables once a second", flag_option(o.follow)},
           domain_option(o.domain),
           prefix_option(o.prefix),
           security_option(o.security),
@@ -44,33 +43,32 @@ void print(const ReceivedState& state, bool json) {
   std::cout << (json ? state_json(state) : state_table(state) + "\n") << std::flush;
 }
 
-/// Prints until cancelled, or the first one; fails when there is silence for the timeout.
+/// Prints the first state, or all until cancelled; fails when none arrives within the timeout.
 Result<> print_states(StateReader& reader, const StateOptions& o,
                       const std::atomic<bool>& cancelled) {
   const milliseconds period = o.follow && !o.json ? kTablePeriod : milliseconds(0);
-  auto heard = hal::Clock::now();
-  auto printed = heard - period;
+  auto received = hal::Clock::now();
+  auto printed = received - period;
   std::string refusal;
   while (!cancelled) {
-    const auto state = reader.next(std::min(kLookPeriod, o.timeout));
-    if (!state) return tl::unexpected(state.error());
-    const auto now = hal::Clock::now();
-    if (*state) heard = now;
+    const auto next = reader.next(std::min(kPollPeriod, o.timeout), [&](const auto& state) {
+      received = hal::Clock::now();
+      if (received - printed < period) return;
+      print(state, o.json);
+      printed = received;
+    });
+    if (!next) return tl::unexpected(next.error());
+    if (*next && !o.follow) return {};
     if (reader.refusal() != refusal) {
       refusal = reader.refusal();
       std::cerr << "orbwatch: " << refusal << '\n';
     }
-    if (*state && now - printed >= period) {
-      print(**state, o.json);
-      if (!o.follow) return {};
-      printed = now;
-    }
-    if (now - heard >= o.timeout) {
+    if (hal::Clock::now() - received >= o.timeout) {
       return fail("DDS: nothing on " + process_state_topic(o.prefix) +
                   "; does orbwatchd run in this domain?");
     }
   }
-  return o.follow ? Result<>() : fail("DDS: cancelled before a state came");
+  return o.follow ? Result<>() : fail("DDS: cancelled before a state arrived");
 }
 
 }  // namespace
@@ -83,7 +81,7 @@ Result<> state_command(const std::vector<std::string>& arguments) {
   if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
   if (o.help) {
     std::cout << "Usage: orbwatch state [options]\n\n"
-                 "Prints the newest process state of a running orbwatchd, which comes over DDS.\n\n"
+                 "Prints the newest process state of a running orbwatchd, received over DDS.\n\n"
               << options_help(options);
     return {};
   }

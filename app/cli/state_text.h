@@ -2,17 +2,15 @@
 
 #include <string>
 
-#include "app/dds/process_state.h"
+#include "app/cli/dds/received_state.h"
 
 namespace orbwatch::app {
 
-/// A process state as one line of JSON (RFC 8259): every signal and health figure by its name, in
-/// the unit of its list, null where it is not valid; of an enumeration the number and, as
-/// <name>_text, its meaning. Reentrant.
+/// A process state as one line of JSON (RFC 8259): the members of the message, then its components
+/// as app/model/json.h writes them. Bytes that are not UTF-8 become U+FFFD. Reentrant.
 std::string state_json(const ReceivedState& state);
 
-/// A process state as text for people. What a terminal would obey becomes a question mark.
-/// Reentrant.
+/// A process state as text for people. Control characters become question marks. Reentrant.
 std::string state_table(const ReceivedState& state);
 
 }  // namespace orbwatch::app

@@ -2,9 +2,9 @@
 
 #include "app/cli/cancelled.h"
 #include "app/cli/command.h"
-#include "app/cli/dds_options.h"
-#include "app/cli/options.h"
-#include "app/dds/subscriber.h"
+#include "app/cli/dds/subscriber.h"
+#include "app/cli/options/dds_options.h"
+#include "app/cli/options/options.h"
 
 namespace orbwatch::app {
 namespace {

@@ -1,19 +1,26 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
+/// Aligned text for people. Underscores in names become spaces, control characters question marks.
+/// Whatever holds nothing but empty cells and kNoValue is left out. All reentrant.
 namespace orbwatch::app {
 
-using TableRow = std::vector<std::string>;
+inline constexpr const char* kNoValue = "-";
 
-/// Columns padded to the widest cell, a line per row; columns in which all rows from
-/// `first_content` on are empty are left out. Every row has as many cells as the first. Reentrant.
-std::string aligned(const std::vector<TableRow>& rows, std::size_t first_content,
-                    const std::string& indent);
+/// The fields of one thing: names and cells.
+using Fields = std::vector<std::pair<std::string, std::string>>;
 
-/// A field's name for people: without underscores. Reentrant.
-std::string title(std::string name);
+/// A line per field, name and cell; all that are not empty.
+std::string field_lines(const Fields& fields);
+
+/// An indented table with a line per record, and a column per field under its name. Records may
+/// differ in their fields.
+std::string record_lines(const std::vector<Fields>& records);
+
+/// An indented table with a line per field, and a column per record under its first field.
+std::string record_columns(const std::vector<Fields>& records);
 
 }  // namespace orbwatch::app

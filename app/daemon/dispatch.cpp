@@ -1,29 +1,60 @@
 #include "app/daemon/dispatch.h"
 
 namespace orbwatch::app {
+namespace {
+
+/// A result is the frame set that begins with the pacing camera's trigger; without a trigger line,
+/// the next frame set.
+CommandResult trigger(const Receivers& receivers) {
+  const bool begins_a_set = receivers.lines.triggers(receivers.pipeline.pacing_camera());
+  receivers.lines.trigger();
+  return begins_a_set ? CommandResult::Done : receivers.pipeline.trigger();
+}
+
+CommandResult snapshot(const Receivers& receivers, std::size_t view) {
+  if (!receivers.snapshots) return CommandResult::NotPossible;
+  if (view >= receivers.pipeline.view_count()) return CommandResult::ArgumentOutOfRange;
+  return receivers.snapshots->request(view);
+}
+
+CommandResult restart(const Receivers& receivers) {
+  receivers.restart();
+  return CommandResult::Done;
+}
+
+}  // namespace
 
 CommandResult dispatch(const Command& command, const Receivers& receivers) {
+  Pipeline& pipeline = receivers.pipeline;
+  const auto& arguments = command.arguments;
+  // Without a default the compiler refuses a command without a handler.
   switch (command.code) {
+    case CommandCode::SelectView:
+      return pipeline.select_view(command.integer(0));
     case CommandCode::Pulse:
-      return receivers.lines.command(command);
-    case CommandCode::Trigger: {
-      // The result is the set that the pacing camera's trigger begins; without one, the next set.
-      const bool begins_a_set = receivers.lines.triggers(receivers.pipeline.pacing_camera());
-      const auto done = receivers.lines.command(command);
-      return begins_a_set ? done : receivers.pipeline.command(command);
-    }
+      return receivers.lines.pulse(command.integer(0));
+    case CommandCode::Start:
+      return pipeline.start_measuring();
+    case CommandCode::Stop:
+      return pipeline.stop_measuring();
+    case CommandCode::SelectRecipe:
+      return pipeline.select_recipe(command.integer(0));
+    case CommandCode::PointView:
+      return pipeline.point_view(command.integer(0), arguments[1], arguments[2], arguments[3]);
+    case CommandCode::MixSources:
+      return pipeline.mix_sources(command.integer(0), command.integer(1), arguments[2]);
+    case CommandCode::Trigger:
+      return trigger(receivers);
+    case CommandCode::AcknowledgeAlarm:
+      return pipeline.acknowledge_alarm(command.integer(0));
     case CommandCode::Snapshot:
-      if (!receivers.snapshots) return CommandResult::NotPossible;
-      if (whole(command, 0) >= receivers.pipeline.view_count()) {
-        return CommandResult::ArgumentOutOfRange;
-      }
-      return receivers.snapshots->command(command);
+      return snapshot(receivers, command.integer(0));
+    case CommandCode::SetProcessActive:
+      return pipeline.set_process_active(command.integer(0) == 1);
     case CommandCode::Restart:
-      receivers.restart();
-      return CommandResult::Done;
-    default:
-      return receivers.pipeline.command(command);
+      return restart(receivers);
   }
+  return CommandResult::UnknownCommand;
 }
 
 }  // namespace orbwatch::app

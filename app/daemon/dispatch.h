@@ -2,23 +2,22 @@
 
 #include <functional>
 
-#include "app/commands.h"
-#include "app/daemon/lines.h"
+#include "app/model/command.h"
 #include "app/pipeline/pipeline.h"
-#include "app/snapshot/snapshot_sink.h"
+#include "app/ports/lines/lines.h"
+#include "app/ports/snapshot/snapshot_sink.h"
 
 namespace orbwatch::app {
 
-/// Those who carry commands out.
+/// What executes commands.
 struct Receivers {
   Pipeline& pipeline;
   Lines& lines;
   SnapshotSink* snapshots;        ///< null: no folder for them is configured
-  std::function<void()> restart;  ///< asks for it and returns
+  std::function<void()> restart;  ///< requests it and returns
 };
 
-/// Takes a command that check() let pass to the one that carries it out. Thread-safe, does not
-/// wait.
+/// Executes a command that passed check(): the one list of handlers. Thread-safe, does not wait.
 CommandResult dispatch(const Command& command, const Receivers& receivers);
 
 }  // namespace orbwatch::app

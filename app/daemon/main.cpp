@@ -11,19 +11,18 @@
 #include <optional>
 #include <string>
 
-#include "app/console/console_sink.h"
-#include "app/daemon/assemble.h"
-#include "app/daemon/check.h"
+#include "app/daemon/build.h"
+#include "app/daemon/cameras.h"
 #include "app/daemon/dispatch.h"
-#include "app/daemon/lines.h"
-#include "app/dds/dds_sink.h"
+#include "app/daemon/sinks.h"
+#include "app/files/resolve.h"
 #include "app/health/board_health.h"
 #include "app/health/health_sampler.h"
 #include "app/log.h"
-#include "app/modbus/modbus_sink.h"
-#include "app/snapshot/snapshot_sink.h"
+#include "app/ports/lines/lines.h"
+#include "app/ports/snapshot/snapshot_sink.h"
 #include "app/version.h"
-#include "proc/remap/kernel.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 namespace {
@@ -45,7 +44,7 @@ struct Arguments {
   bool check = false;
 };
 
-/// Nothing: say the exit code and end.
+/// Nullopt: main returns `exit_code`.
 std::optional<Arguments> parse(int argc, char** argv, int& exit_code) {
   constexpr option kOptions[] = {{"config", required_argument, nullptr, 'c'},
                                  {"check", no_argument, nullptr, 'k'},
@@ -71,39 +70,7 @@ std::optional<Arguments> parse(int argc, char** argv, int& exit_code) {
   return exit_code == 0 ? std::optional(arguments) : std::nullopt;
 }
 
-template <class Named>
-std::vector<std::string> names(const std::vector<Named>& list) {
-  std::vector<std::string> names;
-  names.reserve(list.size());
-  for (const Named& item : list) names.push_back(item.name);
-  return names;
-}
-
-StatusNames status_names(const Configuration& configuration) {
-  StatusNames result{names(configuration.cameras), view_names(configuration), {}};
-  for (const RecipeSettings& recipe : configuration.recipes) {
-    result.regions[static_cast<std::uint16_t>(recipe.number)] = names(recipe.recipe.regions);
-  }
-  return result;
-}
-
-DdsSettings dds_settings(const Configuration& configuration) {
-  DdsSettings settings = configuration.dds;
-  const auto publish = [&settings](const ViewSettings& view, bool measured) {
-    const bool perspective = view.kind == optics::ViewKind::Perspective;
-    settings.views[view.name] = {view.encoding, perspective, measured};
-  };
-  for (const ViewSettings& view : configuration.views) publish(view, false);
-  for (const RecipeSettings& recipe : configuration.recipes) {
-    for (const ViewSettings& view : recipe.recipe.views) publish(view, true);
-  }
-  for (const CameraSettings& camera : configuration.cameras) {
-    settings.cameras[camera.name] = camera.encoding;
-  }
-  return settings;
-}
-
-/// What ends or restarts goes to the one thread that waits for it.
+/// Signals that end or restart are delivered to the one thread that waits for them.
 sigset_t block_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -112,8 +79,8 @@ sigset_t block_signals() {
   return signals;
 }
 
-/// Waits for a signal; a restart with files that would not start is refused here, while all goes
-/// on. True: start again.
+/// Waits for a signal. A restart with wrong files is refused here, and the daemon keeps running.
+/// True: start again.
 bool wait_for_end(const sigset_t& signals, const std::filesystem::path& file) {
   while (true) {
     int signal = 0;
@@ -122,7 +89,7 @@ bool wait_for_end(const sigset_t& signals, const std::filesystem::path& file) {
       log_line(LogLevel::Info, "ended by signal " + std::to_string(signal));
       return false;
     }
-    const auto checked = load_configuration(file).and_then(check_plans);
+    const auto checked = resolve(file).and_then(check_site);
     if (checked) {
       log_line(LogLevel::Info, "restarts with its files read again");
       return true;
@@ -137,16 +104,34 @@ HealthSources health_sources(const Configuration& configuration) {
   return sources;
 }
 
-/// Until a signal. True: to be started again.
-Result<bool> run(const Configuration& configuration, const sigset_t& signals,
-                 const std::filesystem::path& file) {
+/// Adds to the plan what runs: cameras, their triggers, process inputs.
+Result<PipelinePlan> open_site(const Resolved& site, Lines& lines) {
+  auto cameras = open_cameras(site);
+  if (!cameras) return tl::unexpected(cameras.error());
+  std::vector<hal::StreamFormat> formats;
+  for (const OpenCamera& camera : *cameras) formats.push_back(camera.format);
+  auto plan = build(site, std::move(formats));
+  if (!plan) return plan;
+  for (std::size_t i = 0; i < cameras->size(); ++i) {
+    const CameraSettings& settings = site.site.cameras[i];
+    hal::Camera& camera = *(*cameras)[i].camera;
+    plan->triggers.push_back(lines.trigger(settings.trigger, settings.trigger_source, camera));
+    plan->cameras.push_back(std::move((*cameras)[i].camera));
+  }
+  plan->process_inputs = lines.process_inputs();
+  return plan;
+}
+
+/// Runs until a signal. True: to be started again.
+Result<bool> run(const Resolved& site, const sigset_t& signals, const std::filesystem::path& file) {
+  const Configuration& configuration = site.site;
   HealthSampler health([board = std::make_shared<BoardHealth>(health_sources(configuration))] {
     return board->read();
   });
   std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
-  auto lines = Lines::open(configuration.lines);
+  auto lines = Lines::open({configuration.lines.begin(), configuration.lines.end()});
   if (!lines) return tl::unexpected(lines.error());
-  auto plan = assemble(configuration, **lines);
+  auto plan = open_site(site, **lines);
   if (!plan) return tl::unexpected(plan.error());
   plan->health = [&health](hal::TimePoint now) { return health.latest(now); };
   pipeline.emplace(std::move(*plan));
@@ -154,25 +139,19 @@ Result<bool> run(const Configuration& configuration, const sigset_t& signals,
   if (configuration.snapshot) snapshots.emplace(*configuration.snapshot);
   const Receivers receivers{*pipeline, **lines, snapshots ? &*snapshots : nullptr,
                             [] { ::kill(::getpid(), SIGHUP); }};
-  const auto handler = [&](const Command& command) { return dispatch(command, receivers); };
-  const auto views = view_names(configuration);
-  ConsoleSink console(configuration.console, names(configuration.cameras), views, std::cout);
-  DdsSink dds(dds_settings(configuration), status_names(configuration), handler);
-  ModbusSink modbus(configuration.modbus, handler);
+  const auto made =
+      make_sinks(site, [&](const Command& command) { return dispatch(command, receivers); });
   std::vector<Sink*> sinks{lines->get()};
-  if (configuration.dds.enabled) sinks.push_back(&dds);
-  if (configuration.modbus.enabled) sinks.push_back(&modbus);
-  if (configuration.console.enabled) sinks.push_back(&console);
   if (snapshots) sinks.push_back(&*snapshots);
+  for (const auto& sink : made) sinks.push_back(sink.get());
   for (Sink* sink : sinks) {
     if (auto started = sink->start(); !started) return tl::unexpected(started.error());
   }
   health.start();
   if (auto started = pipeline->start(sinks); !started) return tl::unexpected(started.error());
-  log_line(LogLevel::Info, "runs with " + std::to_string(configuration.cameras.size()) +
-                               " cameras, " + std::to_string(views.size()) + " views and " +
-                               std::to_string(configuration.recipes.size()) +
-                               " recipes, remap kernel " +
+  log_line(LogLevel::Info, "runs with " + std::to_string(site.names.cameras.size()) + " cameras, " +
+                               std::to_string(site.names.views.size()) + " views and " +
+                               std::to_string(site.recipes.size()) + " recipes, remap kernel " +
                                std::string(remap::default_kernel().name));
   const bool restarts = wait_for_end(signals, file);
   pipeline->stop();
@@ -191,17 +170,17 @@ int main(int argc, char** argv) {
   const auto arguments = parse(argc, argv, exit_code);
   if (!arguments) return exit_code;
   const sigset_t signals = block_signals();
-  const auto configuration = load_configuration(*arguments->config);
+  const auto site = resolve(*arguments->config);
   const auto kernel = remap::requested_kernel();
   Result<> result;
-  if (!configuration) {
-    result = tl::unexpected(configuration.error());
+  if (!site) {
+    result = tl::unexpected(site.error());
   } else if (!kernel) {
     result = tl::unexpected(kernel.error());
   } else if (arguments->check) {
-    result = check_plans(*configuration);
+    result = check_site(*site);
   } else {
-    result = run(*configuration, signals, *arguments->config).and_then([&](bool restarts) {
+    result = run(*site, signals, *arguments->config).and_then([&](bool restarts) {
       return restarts ? start_again(argv) : Result<>();
     });
   }

@@ -19,7 +19,7 @@ using signals::kNotValid;
 
 constexpr double kMebibyte = 1024.0 * 1024.0;
 
-/// The larger one; what is not valid does not count.
+/// The larger valid value.
 double larger(double a, double b) { return signals::is_valid(a) ? std::max(a, b) : b; }
 
 bool is_within(const HealthInfo& figure, double value) {
@@ -31,7 +31,7 @@ constexpr const HealthInfo& info_of(double Health::*member) {
                        [member](const HealthInfo& figure) { return figure.member == member; });
 }
 
-/// Zones without a sensor report nonsense, so each one is checked before the largest is taken.
+/// Zones without a sensor report arbitrary values, so each one is checked.
 double board_temperature(const fs::path& sys) {
   double hottest = kNotValid;
   for (const fs::path& zone : entries(sys / "class/thermal", "thermal_zone")) {
@@ -68,10 +68,10 @@ double open_descriptors(const fs::path& proc) {
   std::size_t count = 0;
   std::error_code error;
   for (const fs::path& descriptor : entries(proc / "self/fd")) {
-    // The one by which they were listed is closed by now.
+    // The listing's own descriptor is closed by now.
     count += fs::exists(fs::symlink_status(descriptor, error)) ? 1 : 0;
   }
-  return count > 0 ? static_cast<double>(count) : kNotValid;  // none: they could not be listed
+  return count > 0 ? static_cast<double>(count) : kNotValid;  // none: not listable
 }
 
 void note_disk(const fs::path& folder, Health& health) {
@@ -106,8 +106,8 @@ Health BoardHealth::read() {
   return health;
 }
 
-/// The first line of /proc/stat: "cpu" and the ticks spent as user, nice, system, idle, iowait,
-/// irq, softirq and steal; what comes after is contained in the first two.
+/// The first line of /proc/stat: "cpu" and the ticks as user, nice, system, idle, iowait, irq,
+/// softirq and steal; the other columns are contained in the first two.
 std::optional<BoardHealth::ProcessorTime> BoardHealth::processor_time(const fs::path& proc) {
   const std::string text = read_system_file(proc / "stat").value_or("");
   std::istringstream line(text.substr(0, text.find('\n')));

@@ -4,21 +4,21 @@
 
 #include <filesystem>
 
-#include "app/health/health.h"
 #include "app/health/throttling.h"
+#include "app/model/health.h"
 
 namespace orbwatch::app {
 
-/// Where the figures are read. Tests make up trees of their own.
+/// Where the figures are read; tests use trees of their own.
 struct HealthSources {
   std::filesystem::path sys = "/sys";
   std::filesystem::path proc = "/proc";
-  std::filesystem::path disk = "/";  ///< a folder on the disk that counts
+  std::filesystem::path disk = "/";  ///< a folder on the monitored disk
 };
 
-/// Reads the figures of the board and of this process. Nothing it finds is believed before it is
-/// checked; what cannot be read or is out of its range is not valid. Thread-bound; may wait for the
-/// disk, so it is for a thread of its own (HealthSampler).
+/// Reads the figures of the board and of this process. Every value is range-checked; unreadable and
+/// implausible ones are not valid. Thread-bound; may wait for the disk, so it needs a thread of its
+/// own (HealthSampler).
 class BoardHealth {
  public:
   explicit BoardHealth(HealthSources sources);
@@ -41,9 +41,8 @@ class BoardHealth {
   std::optional<ProcessorTime> processor_time_;  ///< at the last reading
 };
 
-/// What the kernel says of its clock: `state` is what adjtimex() returned, below 0 when it failed.
-/// Sets the clock_ figures of `health`; errors of a clock that nobody sets are not valid.
-/// Reentrant.
+/// Sets the clock_ figures of `health` from adjtimex(), whose result is `state`, below 0 on
+/// failure. The errors of an unsynchronised clock are not valid. Reentrant.
 void note_clock(int state, const timex& clock, Health& health);
 
 }  // namespace orbwatch::app

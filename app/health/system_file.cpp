@@ -7,7 +7,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "hal/file_descriptor.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app {
 namespace fs = std::filesystem;

@@ -9,21 +9,21 @@
 
 namespace orbwatch::app {
 
-/// The start of a file that the kernel makes up, at most 16 KiB; nothing when it cannot be read.
-/// Never waits, whatever the file is. Reentrant.
+/// The first 16 KiB of a file of procfs or sysfs; nullopt when it cannot be read. Never blocks, for
+/// any kind of file. Reentrant.
 std::optional<std::string> read_system_file(const std::filesystem::path& file);
 
-/// A whole text that is one number, with white space around it; nothing when it is not. Base 16 may
-/// begin with 0x. Reentrant.
+/// A text that is one number, with white space around it; else nullopt. Base 16 may begin with 0x.
+/// Reentrant.
 std::optional<std::int64_t> to_integer(std::string_view text, int base = 10);
 
-/// The number that a file holds. Reentrant.
+/// The number in a file. Reentrant.
 std::optional<std::int64_t> read_integer(const std::filesystem::path& file, int base = 10);
 
-/// What a folder holds, in any order; nothing when it cannot be listed. Reentrant.
+/// The entries of a folder, in any order; empty when it cannot be listed. Reentrant.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder);
 
-/// The same, of names that begin with `prefix`.
+/// The same, for names that begin with `prefix`.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder,
                                            std::string_view prefix);
 

@@ -16,7 +16,7 @@ struct Bits {
   unsigned before = 0;
 };
 
-/// The firmware's word: what is now in bits 0 to 3, what was in 16 to 19.
+/// The firmware's word: current causes in bits 0 to 3, past ones in 16 to 19.
 std::optional<Bits> of_firmware(const fs::path& sys) {
   for (const fs::path& device : entries(sys / "bus/platform/devices")) {
     if (!device.native().ends_with(":firmware")) continue;
@@ -28,7 +28,7 @@ std::optional<Bits> of_firmware(const fs::path& sys) {
   return std::nullopt;
 }
 
-/// The same chip's supply monitor, which kernels without that word have too.
+/// The supply monitor of the same chip, also in kernels without that word.
 std::optional<Bits> of_supply_monitor(const fs::path& sys) {
   for (const fs::path& device : entries(sys / "class/hwmon")) {
     if (read_system_file(device / "name") != "rpi_volt\n") continue;
@@ -38,7 +38,7 @@ std::optional<Bits> of_supply_monitor(const fs::path& sys) {
   return std::nullopt;
 }
 
-/// A processor as a cooling device: its state is 0 while it may run as fast as it can.
+/// A processor as a cooling device: its state is 0 at full speed.
 std::optional<Bits> of_cooling_devices(const fs::path& sys) {
   std::optional<Bits> bits;
   for (const fs::path& device : entries(sys / "class/thermal", "cooling_device")) {
@@ -52,7 +52,7 @@ std::optional<Bits> of_cooling_devices(const fs::path& sys) {
   return bits;
 }
 
-/// How often x86 processors were throttled since power-on.
+/// Throttling events of x86 processors since power-on.
 std::optional<std::int64_t> count_of_processors(const fs::path& sys) {
   std::optional<std::int64_t> sum;
   for (const fs::path& cpu : entries(sys / "devices/system/cpu", "cpu")) {

@@ -6,9 +6,8 @@
 
 namespace orbwatch::app {
 
-/// What holds the processors back; the low bits of Health::throttling. The bits and their order are
-/// those of the Raspberry Pi's firmware (vcgencmd get_throttled). The numbers go to the PLC:
-/// append, never renumber.
+/// Causes of throttling, the low bits of Health::throttling. The bits are those of the Raspberry
+/// Pi's firmware (vcgencmd get_throttled). The PLC reads the numbers: append, never renumber.
 enum class Throttling : std::uint8_t {
   UnderVoltage = 1,
   FrequencyCapped = 2,
@@ -16,19 +15,19 @@ enum class Throttling : std::uint8_t {
   SoftTemperatureLimit = 8,
 };
 
-/// A bit that many places up says that it was so at some time since power-on, as far as the board
-/// or this program noticed.
+/// Shifted up by so many places, a bit states that the cause occurred since power-on, as far as the
+/// board or this program detected it.
 inline constexpr int kSincePowerOn = 4;
 
-/// Asks everything that can know of throttling: the Raspberry Pi's firmware and its supply monitor,
-/// cooling devices that slow the processors down (most arm boards), the counters of x86 processors.
+/// Reads every source of throttling: the Raspberry Pi's firmware and supply monitor, cooling
+/// devices that slow processors down (most arm boards), the counters of x86 processors.
 /// Thread-bound.
 class ThrottlingMonitor {
  public:
   /// `sys`: where sysfs is mounted.
   explicit ThrottlingMonitor(std::filesystem::path sys) : sys_(std::move(sys)) {}
 
-  /// The bits; nothing when this board tells nothing.
+  /// The bits; nullopt when the board has no source.
   std::optional<std::uint8_t> read();
 
  private:

@@ -3,11 +3,11 @@
 #include <array>
 #include <string_view>
 
-#include "proc/remap/colour_map.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 
-/// The colour maps there are: OpenCV's of these names, and plain grey.
+/// Every colour map: OpenCV's of these names, and plain grey.
 inline constexpr std::array<std::string_view, 5> kColourMapNames{"grey", "inferno", "turbo", "hot",
                                                                  "viridis"};
 

@@ -11,14 +11,14 @@
 
 namespace orbwatch::app {
 
-/// Pictures to JPEG by libjpeg-turbo: grey ones as grey, others as Y'CbCr with chroma of half the
-/// resolution. Memory is kept from picture to picture. Thread-bound.
+/// Encodes JPEG by libjpeg-turbo: one-channel pictures as grey, others as Y'CbCr 4:2:0. Keeps its
+/// memory from picture to picture. Thread-bound.
 class JpegEncoder {
  public:
   JpegEncoder();
 
-  /// The picture as JPEG, valid until the next call. `quality` is 1 to 100. 16 bit luminance keeps
-  /// its upper 8. Error: out of memory.
+  /// Returns the picture as JPEG, valid until the next call. `quality` is 1 to 100. Of 16 bit
+  /// luminance the upper 8 bits remain. Error: out of memory.
   Result<std::span<std::uint8_t>> encode(const Picture& picture, int quality);
 
  private:

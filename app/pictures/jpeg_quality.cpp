@@ -5,7 +5,7 @@
 
 namespace orbwatch::app {
 
-bool JpegQuality::note(std::size_t bytes) {
+bool JpegQuality::adapt(std::size_t bytes) {
   if (target_ == 0) return false;
   const double ratio = static_cast<double>(bytes) / static_cast<double>(target_);
   if (ratio > 1 && quality_ > kLeast && repeats_ < kMaxRepeats) {

@@ -2,17 +2,28 @@
 
 #include <cstddef>
 
+#include "proc/settings/settings.h"
+
 namespace orbwatch::app {
 
-/// How JPEG pictures are made.
+/// Quality and rate of a stream of JPEG pictures.
 struct JpegSettings {
-  int quality = 85;              ///< 1 to 100, the best that is used
+  int quality = 85;              ///< 1 to 100, the upper limit
   std::size_t target_bytes = 0;  ///< of a picture; 0: no limit
   double rate = 0;               ///< pictures per second at most; 0: all
 };
 
-/// Finds the quality that keeps pictures below a size: down at once, by how much they are too
-/// large, and up again in small steps while there is room. Thread-bound.
+template <class Visitor>
+void visit(Visitor& v, JpegSettings& jpeg) {
+  v.optional("quality", jpeg.quality, Range::between(1, 100), "The best that is used");
+  v.optional("target_bytes", jpeg.target_bytes, Range::between(0, 1e8),
+             "Of a picture; the quality falls, down to 10, to stay below; 0: no limit");
+  v.optional("rate", jpeg.rate, Range::between(0, 1000),
+             "Pictures per second and topic at most; 0: all");
+}
+
+/// Adapts the quality so that pictures stay below a size: down at once, in proportion to the
+/// excess, and up again in small steps while there is room. Thread-bound.
 class JpegQuality {
  public:
   static constexpr int kLeast = 10;
@@ -20,15 +31,15 @@ class JpegQuality {
   explicit JpegQuality(const JpegSettings& settings)
       : best_(settings.quality), target_(settings.target_bytes), quality_(settings.quality) {}
 
-  int now() const { return quality_; }
+  int current() const { return quality_; }
 
-  /// Tells how large a picture of this quality became. True: too large and the quality is lower
-  /// now, so it should be made again. Each picture is made again kMaxRepeats times at most.
-  bool note(std::size_t bytes);
+  /// Adapts to the size of a picture of the current quality. True: it was too large, and should be
+  /// encoded again with the quality lowered; at most kMaxRepeats times for each picture.
+  bool adapt(std::size_t bytes);
 
  private:
   static constexpr int kMaxRepeats = 4;
-  /// A picture this much below the target leaves room for a better one.
+  /// Below this share of the target a picture leaves room for a better one.
   static constexpr double kRoom = 0.9;
 
   int best_;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "proc/remap/colour_conversion.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 namespace {
@@ -19,7 +19,7 @@ const std::uint16_t* words(const Picture& picture, int y) {
   return reinterpret_cast<const std::uint16_t*>(row(picture, 0, y));
 }
 
-/// Where one row of a Y'CbCr picture has its samples.
+/// The samples of one row of a Y'CbCr picture.
 struct YuvRow {
   const Sample *y, *u, *v;
   int luma_step;
@@ -42,7 +42,7 @@ YuvRow yuv_row(const Picture& picture, int y) {
   }
 }
 
-/// Hands each pixel of a row as R'G'B' to `put(x, rgb)`.
+/// Calls `put(x, rgb)` with each pixel of a row as R'G'B'.
 template <class Put>
 void each_rgb(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, const Put& put) {
   const PixelFormatInfo& facts = info(picture.format);
@@ -90,7 +90,7 @@ void grey_row(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, Samp
 void colour_row(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, bool blue_first,
                 Sample* out) {
   if (info(picture.format).colour == ColourModel::Luminance) {
-    // The row's last third holds them until they are spread, which never reaches unread ones.
+    // In the row's last third: spreading from the left never overwrites an unread one.
     Sample* grey = out + 2 * picture.width;
     grey_row(picture, y, to_rgb, grey);
     for (int x = 0; x < picture.width; ++x) std::memset(out + 3 * x, grey[x], 3);

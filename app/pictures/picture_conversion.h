@@ -10,12 +10,12 @@ namespace orbwatch::app {
 std::size_t packed_bytes(PixelFormat format, int width, int height);
 
 /// Writes `picture` as Rgb, Bgr, Grey or Y16, rows without padding, to `out`, which holds
-/// packed_bytes(to, width, height). Luminance becomes grey; Y16 takes counts as they are, Grey the
-/// upper 8 of their bits, and Y' as the camera gave it, not stretched. From any format but colour
-/// to Y16. Allocates nothing; reentrant.
+/// packed_bytes(to, width, height). Luminance becomes grey. Y16 has the counts unchanged, Grey the
+/// upper 8 of their bits, or Y' in the camera's own range. Every pair of formats but colour to Y16:
+/// see converts(). Allocates nothing; reentrant.
 void convert(const Picture& picture, PixelFormat to, std::byte* out);
 
-/// Whether convert() does it.
+/// Whether convert() supports this pair of formats.
 bool converts(PixelFormat from, PixelFormat to);
 
 }  // namespace orbwatch::app

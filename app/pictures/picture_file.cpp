@@ -38,17 +38,17 @@ tl::unexpected<Error> cannot_write(const std::filesystem::path& path) {
   return fail(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 
-/// OpenCV's order: blue first.
+/// In OpenCV's order of channels.
 cv::Mat to_bgr(const Picture& picture) {
   const PixelFormatInfo& format = info(picture.format);
   const int type = CV_MAKETYPE(format.bytes_per_sample() == 2 ? CV_16U : CV_8U, format.channels());
   // OpenCV has no view of constant data; the matrix is only read.
-  const cv::Mat whole(picture.height, picture.width, type,
-                      const_cast<std::byte*>(picture.planes[0].data),
-                      static_cast<std::size_t>(picture.planes[0].stride));
-  if (format.channels() == 1) return whole;
+  const cv::Mat rgb(picture.height, picture.width, type,
+                    const_cast<std::byte*>(picture.planes[0].data),
+                    static_cast<std::size_t>(picture.planes[0].stride));
+  if (format.channels() == 1) return rgb;
   cv::Mat bgr;
-  cv::cvtColor(whole, bgr, cv::COLOR_RGB2BGR);
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   return bgr;
 }
 
@@ -73,11 +73,11 @@ Result<> write_file(const std::filesystem::path& path, std::span<const std::uint
       path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
   const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (file < 0) return cannot_write(path);
-  const bool whole = write_all(file, bytes) && ::fsync(file) == 0;
+  const bool written = write_all(file, bytes) && ::fsync(file) == 0;
   const int reason = errno;
   const bool closed = ::close(file) == 0;
-  if (whole && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return {};
-  if (!whole) errno = reason;
+  if (written && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return {};
+  if (!written) errno = reason;
   auto error = cannot_write(path);
   ::unlink(temporary.c_str());
   return error;
@@ -105,11 +105,11 @@ Result<> write_picture(const std::filesystem::path& path, const Picture& picture
   std::vector<std::uint8_t> bytes;
   try {
     const cv::Mat bgr = to_bgr(picture);
-    const cv::Mat whole = validity.empty() ? bgr : with_alpha(bgr, validity);
+    const cv::Mat encoded = validity.empty() ? bgr : with_alpha(bgr, validity);
     const bool jpeg = lower_extension(path) != ".png";
     const std::vector<int> options =
         jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95} : std::vector<int>{};
-    if (!cv::imencode(jpeg ? ".jpg" : ".png", whole, bytes, options)) {
+    if (!cv::imencode(jpeg ? ".jpg" : ".png", encoded, bytes, options)) {
       return fail(path.string() + ": the picture cannot be encoded");
     }
   } catch (const cv::Exception& error) {

@@ -9,17 +9,17 @@
 
 namespace orbwatch::app {
 
-/// Writes a whole file or nothing: readers see the old one or the new one, and a failure leaves
-/// neither a part nor a temporary file. Errors: folder missing or not writable, disk full.
+/// Writes a file atomically: readers find the old one or the new one, and a failure leaves neither
+/// a part nor a temporary file. Errors: folder missing or not writable, disk full.
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
-/// Says why a picture of `format` could not be written to `path`, judging by the name alone: only
-/// .png, .jpg and .jpeg are written, and JPEG has 8 bit and no transparency.
+/// Checks by the name alone whether a picture of `format` can be written to `path`. Errors: not
+/// .png, .jpg or .jpeg; 16 bit or transparency as JPEG.
 Result<> check_picture_name(const std::filesystem::path& path, PixelFormat format,
                             bool transparency);
 
-/// Writes a Grey, Y16, Rgb or Rgb16 picture as PNG or JPEG by the name's ending. With `validity`
-/// (the picture's size) pixels that are not Validity::Seen become transparent.
+/// Writes a Grey, Y16, Rgb or Rgb16 picture as PNG or JPEG, by the extension. With `validity`, of
+/// the picture's size, pixels that are not Validity::Seen become transparent.
 /// Errors: as write_file and check_picture_name.
 Result<> write_picture(const std::filesystem::path& path, const Picture& picture,
                        const ImageView<const std::uint8_t>& validity = {});

@@ -1,7 +1,8 @@
 #include "app/pipeline/pipeline.h"
 
 #include <algorithm>
-#include <limits>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 #include "app/log.h"
@@ -9,84 +10,46 @@
 namespace orbwatch::app {
 namespace {
 
-using std::chrono::milliseconds;
+/// Without frames the status is still published this often: the PLC's heartbeat.
+constexpr std::chrono::milliseconds kHeartbeatPeriod{100};
 
-/// Without frames the status still goes out this often: the PLC's heartbeat.
-constexpr milliseconds kHeartbeatPeriod{100};
-
-bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
-  return picture.format == format.format && picture.width == format.width &&
-         picture.height == format.height;
+std::size_t worker_count(int asked) {
+  if (asked >= 0) return static_cast<std::size_t>(asked);
+  return std::max(1U, std::thread::hardware_concurrency()) - 1;
 }
 
-/// Lets the frames pass that belong to a trigger, and numbers them.
-hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) {
-  return [trigger](hal::FrameMetadata& metadata) {
-    const auto stamp = trigger->claim(metadata.exposure_start);
-    if (stamp) metadata.trigger = stamp->id;
-    return stamp.has_value();
-  };
+hal::Clock::duration deadline(const PipelinePlan& plan) {
+  if (plan.deadline.count() > 0) return plan.deadline;
+  const double rate = plan.formats.front().frame_rate;
+  if (!(rate > 0)) return std::chrono::seconds(1);
+  return std::chrono::duration_cast<hal::Clock::duration>(std::chrono::duration<double>(1 / rate));
 }
 
 }  // namespace
 
 Pipeline::Pipeline(PipelinePlan plan)
     : plan_(std::move(plan)),
-      sync_(plan_.cameras.size(), plan_.sync),
-      workers_(plan_.workers),
+      cameras_(std::move(plan_.cameras), plan_.formats, plan_.triggers, plan_.sync),
+      workers_(worker_count(plan_.workers)),
+      pyramids_(plan_.formats),
+      displays_(plan_.views.begin(), plan_.views.end()),
       pan_tilt_zoom_(plan_.views),
+      budget_(deadline(plan_)),
       view_meters_(plan_.view_count) {
-  for (const ViewPlan& view : plan_.views) {
-    auto renderer = std::make_unique<ViewRenderer>(view);
-    std::vector<std::unique_ptr<View>> buffers;
-    for (std::size_t i = 0; i < kViewBuffers; ++i) {
-      buffers.push_back(std::make_unique<View>(renderer->make_view()));
-      buffers.back()->name = view.name;  // the renderer's own copy goes when the view is pointed
-    }
-    renderers_.push_back({std::move(renderer), 0});
-    pools_.emplace_back(std::move(buffers));
-  }
-  plan_.triggers.resize(plan_.cameras.size());
-  for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    if (plan_.triggers[i]) plan_.cameras[i]->set_gate(stamp_with(plan_.triggers[i]));
-  }
-  status_.camera_count = plan_.cameras.size();
+  status_.camera_count = cameras_.size();
   status_.view_count = plan_.view_count;
   status_.configuration_checksum = plan_.configuration_checksum;
-  if (!plan_.recipes.empty()) start_measuring();
+  if (!plan_.recipes.empty()) make_measurement();
 }
 
-std::size_t Pipeline::pacing_camera() const {
-  for (std::size_t camera = 0; camera < plan_.cameras.size(); ++camera) {
-    if (faults_[camera] == hal::Fault::None) return camera;
-  }
-  return 0;
-}
-
-void Pipeline::start_measuring() {
-  std::vector<RecipeControls> recipes;
-  bool any = false;
-  for (const auto& recipe : plan_.recipes) {
-    recipes.push_back({recipe->plan().number, recipe->plan().controls});
-    any = any || !recipes.back().controls.empty();
-  }
+void Pipeline::make_measurement() {
+  std::vector<const RecipePlan*> recipes;  // they live as long as the measurement
+  for (const auto& recipe : plan_.recipes) recipes.push_back(&recipe->plan());
   RecipeSwitch::Apply apply;
-  if (any) apply = [this, recipes](std::size_t recipe) { return set_cameras(recipes[recipe]); };
-  measurement_.emplace(std::move(plan_.recipes), plan_.process_inputs, std::move(apply));
-}
-
-/// On the recipe switch's thread. One that is refused does not keep the others from being set: on
-/// the way back they must be.
-Result<> Pipeline::set_cameras(const RecipeControls& recipe) {
-  Result<> result;
-  for (const CameraControl& control : recipe.controls) {
-    hal::Camera& camera = *plan_.cameras[control.camera];
-    const auto done = camera.set(control.name, control.value);
-    if (done || !result) continue;
-    result = fail("recipe " + std::to_string(recipe.number) + ": camera " + camera.info().id +
-                  ": " + done.error().message);
+  if (std::ranges::any_of(recipes, [](const auto* recipe) { return !recipe->controls.empty(); })) {
+    apply = [this, recipes](std::size_t n) { return cameras_.apply(*recipes[n]); };
   }
-  return result;
+  measurement_.emplace(std::move(plan_.recipes), plan_.process_inputs, std::move(apply));
 }
 
 Pipeline::~Pipeline() { stop(); }
@@ -94,168 +57,133 @@ Pipeline::~Pipeline() { stop(); }
 Result<> Pipeline::start(std::vector<Sink*> sinks) {
   sinks_ = std::move(sinks);
   last_roll_ = hal::Clock::now();
-  thread_ = std::thread([this] { run(); });
-  for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    auto started =
-        plan_.cameras[i]->start([this, i](hal::Frame frame) { on_frame(i, std::move(frame)); },
-                                [this, i](const hal::FaultReport& report) { on_fault(i, report); });
-    if (!started) {
-      stop();
-      return started;
-    }
-  }
-  return {};
+  thread_.start("pipeline", [this] { run(); });
+  auto started = cameras_.start();
+  if (!started) stop();
+  return started;
 }
 
 void Pipeline::stop() {
-  for (auto& camera : plan_.cameras) camera->stop();
-  stopping_ = true;
-  sync_.close();
-  if (thread_.joinable()) thread_.join();
+  cameras_.stop();
+  thread_.stop();
   pan_tilt_zoom_.stop();
   if (measurement_) measurement_->stop();
 }
 
-CommandResult Pipeline::command(const Command& command) {
-  switch (command.code) {
-    case CommandCode::SelectView:
-      if (whole(command, 0) >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
-      selected_view_ = whole(command, 0);
-      return CommandResult::Done;
-    case CommandCode::PointView:
-    case CommandCode::MixSources:
-      return aim(command);
-    default:
-      return measurement_ ? measurement_->command(command) : CommandResult::NotPossible;
-  }
-}
-
-/// A recipe's view keeps what it shows, so that nobody changes a measurement.
-CommandResult Pipeline::aim(const Command& command) {
-  const std::size_t view = whole(command, 0);
-  if (view >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
-  if (view >= plan_.views.size()) return CommandResult::NotPossible;
-  const auto& arguments = command.arguments;
-  const auto done = command.code == CommandCode::MixSources
-                        ? pan_tilt_zoom_.mix(view, whole(command, 1), arguments[2])
-                        : pan_tilt_zoom_.turn(view, arguments[1], arguments[2], arguments[3]);
-  return done ? CommandResult::Done : CommandResult::ArgumentOutOfRange;
-}
-
-void Pipeline::on_frame(std::size_t camera, hal::Frame frame) {
-  if (!is_as_configured(frame->picture, plan_.formats[camera])) {
-    on_fault(camera, {hal::Fault::WrongFormat, {}});
-    return;
-  }
-  if (faults_[camera] != hal::Fault::None) on_fault(camera, {});
-  {
-    const std::lock_guard lock(camera_meters_[camera].mutex);
-    camera_meters_[camera].meter.add(hal::Clock::now() - frame->metadata.exposure_start);
-  }
-  last_frames_[camera] = hal::Clock::now();
-  sync_.put(camera, std::move(frame));
-}
-
-void Pipeline::on_fault(std::size_t camera, const hal::FaultReport& report) {
-  if (faults_[camera].exchange(report.fault) == report.fault) return;
-  if (report.fault != hal::Fault::None) {
-    sync_.clear(camera);
-    if (plan_.triggers[camera]) plan_.triggers[camera]->abandon();
-  }
-  log_line(report.fault == hal::Fault::None ? LogLevel::Info : LogLevel::Warning,
-           plan_.cameras[camera]->info().id + ": " + std::string(operator_text(report.fault)) +
-               (report.detail.empty() ? "" : " (" + report.detail + ")"));
-}
-
 void Pipeline::run() {
-  while (!stopping_) {
-    const auto set = sync_.next(hal::Clock::now() + kHeartbeatPeriod);
-    if (stopping_) break;
+  const std::stop_callback end_wait(thread_.stop_token(), [this] { cameras_.close(); });
+  while (true) {
+    const auto set = cameras_.next(hal::Clock::now() + kHeartbeatPeriod);
+    if (thread_.stop_requested()) return;
     if (set) {
       process(*set);
-    } else if (measurement_) {
-      measurement_->idle(state() == SystemState::Fault);
+    } else {
+      idle();
     }
     publish_status();
   }
 }
 
+/// The way of a frame set through the product. Measured views come first and with every set;
+/// display views slow down under overload.
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
   for (Sink* sink : sinks_) sink->accept_frames(set);
+
+  // Commands take effect here, between two sets.
+  std::span<ViewChannel> measured;
   if (measurement_) {
-    measurement_->process(set, workers_, [&](std::size_t view, const std::shared_ptr<View>& seen) {
-      publish(view, seen);
-    });
+    measurement_->apply_commands(set.stamp);
+    measured = measurement_->views();
   }
-  pan_tilt_zoom_.exchange(renderers_);
-  const bool display_due = throttle_.is_due(set.id);
-  for (std::size_t i = 0; i < renderers_.size(); ++i) {
-    if (display_due) {
-      show(i, set);
-    } else {
-      ++status_.views[i].skipped;
-    }
+  for (std::size_t i = 0; i < displays_.size(); ++i) {
+    pan_tilt_zoom_.exchange(i, displays_[i].renderer());
   }
+  const bool is_display_due = budget_.is_display_due(set.id);
+
+  // A camera's picture is halved once for all views that sample its mip levels.
+  MipLevelCounts levels{};
+  for (const ViewChannel& view : measured) view.require_levels(levels);
+  if (is_display_due) {
+    for (const ViewChannel& view : displays_) view.require_levels(levels);
+  }
+  pyramids_.build(set, levels, workers_);
+
+  if (measurement_) measurement_->process(set, pyramids_, workers_);
+  for (ViewChannel& view : measured) publish(view);
+  for (ViewChannel& view : displays_) {
+    if (is_display_due) view.render(set, pyramids_, workers_);
+    publish(view);
+  }
+  count(set, hal::Clock::now() - begin);
+}
+
+/// Replaces process() while no set comes.
+void Pipeline::idle() {
+  if (!measurement_) return;
+  measurement_->apply_commands(hal::Clock::now());
+  measurement_->idle(cameras_.faulty() == cameras_.size());
+}
+
+/// Forwards the view that was rendered last; without one, since it was not due or the sinks hold
+/// every buffer of it, it counts as skipped.
+void Pipeline::publish(ViewChannel& channel) {
+  const std::size_t index = channel.plan().index;
+  const ViewPtr view = channel.take();
+  if (!view) {
+    ++status_.views[index].skipped;
+    return;
+  }
+  for (Sink* sink : sinks_) sink->accept(view);
+  ++status_.views[index].published;
+  view_meters_[index].add(hal::Clock::now() - view->stamp);
+}
+
+void Pipeline::count(const hal::FrameSet& set, hal::Clock::duration spent) {
   status_.frame_set = set.id;
   status_.stamp = set.stamp;
   status_.trigger = set.trigger.value_or(0);
   status_.unmatched += set.matched ? 0 : 1;
-  skew_of_second_ = std::max(skew_of_second_, set.skew);
-  note_timing(hal::Clock::now() - begin);
-}
-
-void Pipeline::show(std::size_t index, const hal::FrameSet& set) {
-  const auto view = pools_[index].acquire();
-  if (view) {
-    const auto& [renderer, pointing] = renderers_[index];
-    renderer->render(set, *view, workers_);
-    view->pointing = pointing;
-  }
-  publish(index, view);
-}
-
-/// Null: the sinks hold every buffer of it.
-void Pipeline::publish(std::size_t index, const std::shared_ptr<View>& view) {
-  ViewStatus& figures = status_.views[index];
-  if (!view) {
-    ++figures.skipped;
-    return;
-  }
-  for (Sink* sink : sinks_) sink->accept(ViewPtr(view));
-  ++figures.published;
-  view_meters_[index].add(hal::Clock::now() - view->stamp);
-}
-
-hal::Clock::duration Pipeline::deadline() const {
-  if (plan_.deadline.count() > 0) return plan_.deadline;
-  const double rate = plan_.formats.front().frame_rate;
-  if (!(rate > 0)) return std::chrono::seconds(1);
-  return std::chrono::duration_cast<hal::Clock::duration>(std::chrono::duration<double>(1 / rate));
-}
-
-void Pipeline::note_timing(hal::Clock::duration took) {
-  const double load =
-      std::chrono::duration<double>(took) / std::chrono::duration<double>(deadline());
-  load_of_second_ = std::max(load_of_second_, load);
-  const bool overran = load > 1;
-  if (overran && status_.overruns++ == 0) {
+  largest_skew_ = std::max(largest_skew_, set.skew);
+  if (budget_.add(spent) && budget_.overruns() == 1) {
     log_line(LogLevel::Warning,
              "a frame set took longer than its deadline; display views slow down");
   }
-  const double sets_per_second = 1 / std::chrono::duration<double>(deadline()).count();
-  throttle_.note(overran, load < 0.5, sets_per_second);
 }
 
-SystemState Pipeline::state() const {
-  std::size_t faulty = 0;
-  for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    faulty += faults_[i] != hal::Fault::None ? 1 : 0;
+/// Steps the alarms, whose notices come before the status that shows them, and publishes it.
+void Pipeline::publish_status() {
+  const auto now = hal::Clock::now();
+  if (measurement_) {
+    measurement_->watch(now, [this](const AlarmNotice& notice) {
+      for (Sink* sink : sinks_) sink->accept_event(notice);
+    });
+    measurement_->report(status_);
   }
-  if (faulty == plan_.cameras.size()) return SystemState::Fault;
-  if (status_.frame_set == 0) return SystemState::Starting;
-  if (measurement_ && measurement_->is_stopped()) return SystemState::Stopped;
-  return faulty > 0 ? SystemState::Degraded : SystemState::Running;
+  ++status_.heartbeat;
+  status_.state = state();
+  status_.selected_view = selected_view_;
+  status_.process_inputs = process_inputs();
+  status_.overruns = budget_.overruns();
+  if (plan_.health) status_.health = plan_.health(now);
+  for (std::size_t i = 0; i < displays_.size(); ++i) {
+    status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
+  }
+  const bool is_second_over = now - last_roll_ >= std::chrono::seconds(1);
+  std::optional<hal::Clock::duration> elapsed;
+  if (is_second_over) elapsed = now - std::exchange(last_roll_, now);
+  cameras_.report(status_, elapsed);
+  if (elapsed) roll_rates(*elapsed);
+  for (Sink* sink : sinks_) sink->accept(status_);
+}
+
+void Pipeline::roll_rates(hal::Clock::duration elapsed) {
+  for (std::size_t i = 0; i < view_meters_.size(); ++i) {
+    view_meters_[i].roll(elapsed, status_.views[i]);
+  }
+  status_.load = budget_.roll_load();
+  const auto skew = std::exchange(largest_skew_, hal::Clock::duration::zero());
+  status_.skew_ms = std::chrono::duration<double, std::milli>(skew).count();
 }
 
 std::uint32_t Pipeline::process_inputs() const {
@@ -266,65 +194,60 @@ std::uint32_t Pipeline::process_inputs() const {
   return bits;
 }
 
-void Pipeline::publish_status() {
-  const auto now = hal::Clock::now();
-  ++status_.heartbeat;
-  status_.state = state();
-  status_.selected_view = selected_view_;
-  status_.process_inputs = process_inputs();
-  if (plan_.health) status_.health = plan_.health(now);
-  for (std::size_t i = 0; i < plan_.views.size(); ++i) {
-    status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
-  }
-  count_cameras();
-  if (measurement_) {
-    measurement_->watch(now, [this](const AlarmNotice& notice) { note(notice); });
-    measurement_->report(status_);
-  }
-  if (now - last_roll_ >= std::chrono::seconds(1)) roll_figures(now);
-  for (Sink* sink : sinks_) sink->accept(status_);
+SystemState Pipeline::state() const {
+  const std::size_t faulty = cameras_.faulty();
+  if (faulty == cameras_.size()) return SystemState::Fault;
+  if (status_.frame_set == 0) return SystemState::Starting;
+  if (measurement_ && measurement_->is_paused()) return SystemState::Stopped;
+  return faulty > 0 ? SystemState::Degraded : SystemState::Running;
 }
 
-void Pipeline::note(const AlarmNotice& notice) {
-  for (Sink* sink : sinks_) sink->note(notice);
+CommandResult Pipeline::select_view(std::size_t view) {
+  if (view >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
+  selected_view_ = view;
+  return CommandResult::Done;
 }
 
-void Pipeline::count_cameras() {
-  for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    const hal::FrameCounts counts = sync_.counts(i);
-    CameraStatus& camera = status_.cameras[i];
-    camera.fault = faults_[i];
-    camera.frames = counts.frames;
-    camera.lost = counts.lost;
-    camera.dropped = counts.dropped();
-    camera.unmatched = counts.unmatched;
-    camera.last_frame = last_frames_[i];
-    if (!plan_.triggers[i]) continue;
-    const hal::TriggerCounts triggers = plan_.triggers[i]->counts();
-    camera.triggers = triggers.triggers;
-    camera.missed = triggers.missed;
-  }
+/// The views of recipes cannot be pointed, so that no operator changes a measurement.
+CommandResult Pipeline::check_display_view(std::size_t view) const {
+  if (view >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
+  return view < plan_.views.size() ? CommandResult::Done : CommandResult::NotPossible;
 }
 
-void Pipeline::roll_figures(hal::TimePoint now) {
-  const auto elapsed = now - std::exchange(last_roll_, now);
-  for (std::size_t i = 0; i < plan_.cameras.size(); ++i) {
-    const std::lock_guard lock(camera_meters_[i].mutex);
-    const auto figures = camera_meters_[i].meter.roll(elapsed);
-    status_.cameras[i].frames_per_second = figures.per_second;
-    status_.cameras[i].latency_p50_ms = figures.p50_ms;
-    status_.cameras[i].latency_p99_ms = figures.p99_ms;
-  }
-  for (std::size_t i = 0; i < view_meters_.size(); ++i) {
-    const auto figures = view_meters_[i].roll(elapsed);
-    status_.views[i].frames_per_second = figures.per_second;
-    status_.views[i].latency_p50_ms = figures.p50_ms;
-    status_.views[i].latency_p99_ms = figures.p99_ms;
-  }
-  status_.load = std::exchange(load_of_second_, 0);
-  status_.skew_ms = std::chrono::duration<double, std::milli>(
-                        std::exchange(skew_of_second_, hal::Clock::duration::zero()))
-                        .count();
+CommandResult Pipeline::point_view(std::size_t view, double yaw, double pitch, double h_fov) {
+  if (const auto checked = check_display_view(view); checked != CommandResult::Done) return checked;
+  return pan_tilt_zoom_.turn(view, yaw, pitch, h_fov) ? CommandResult::Done
+                                                      : CommandResult::ArgumentOutOfRange;
+}
+
+CommandResult Pipeline::mix_sources(std::size_t view, std::size_t source, double weight) {
+  if (const auto checked = check_display_view(view); checked != CommandResult::Done) return checked;
+  return pan_tilt_zoom_.mix(view, source, weight) ? CommandResult::Done
+                                                  : CommandResult::ArgumentOutOfRange;
+}
+
+CommandResult Pipeline::start_measuring() {
+  return measurement_ ? measurement_->resume() : CommandResult::NotPossible;
+}
+
+CommandResult Pipeline::stop_measuring() {
+  return measurement_ ? measurement_->pause() : CommandResult::NotPossible;
+}
+
+CommandResult Pipeline::select_recipe(std::size_t number) {
+  return measurement_ ? measurement_->select_recipe(number) : CommandResult::NotPossible;
+}
+
+CommandResult Pipeline::trigger() {
+  return measurement_ ? measurement_->trigger() : CommandResult::NotPossible;
+}
+
+CommandResult Pipeline::acknowledge_alarm(std::size_t number) {
+  return measurement_ ? measurement_->acknowledge_alarm(number) : CommandResult::NotPossible;
+}
+
+CommandResult Pipeline::set_process_active(bool active) {
+  return measurement_ ? measurement_->set_process_active(active) : CommandResult::NotPossible;
 }
 
 }  // namespace orbwatch::app

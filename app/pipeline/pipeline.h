@@ -1,54 +1,52 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <string>
-#include <thread>
+#include <span>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/pipeline/compiled_recipe.h"
-#include "app/pipeline/display_throttle.h"
-#include "app/pipeline/measurement.h"
-#include "app/pipeline/pan_tilt_zoom.h"
+#include "app/model/command.h"
+#include "app/model/sink.h"
+#include "app/model/status.h"
+#include "app/model/view.h"
+#include "app/pipeline/camera_group.h"
+#include "app/pipeline/frame_budget.h"
+#include "app/pipeline/measurement/compiled_recipe.h"
+#include "app/pipeline/measurement/measurement.h"
+#include "app/pipeline/pipeline_settings.h"
 #include "app/pipeline/second_meter.h"
-#include "app/pipeline/sink.h"
-#include "app/pipeline/status.h"
-#include "app/pipeline/view.h"
-#include "app/pipeline/view_renderer.h"
+#include "app/pipeline/views/frame_pyramids.h"
+#include "app/pipeline/views/pan_tilt_zoom.h"
+#include "app/pipeline/views/view_channel.h"
 #include "app/pipeline/worker_pool.h"
-#include "hal/buffer_pool.h"
 #include "hal/camera.h"
-#include "hal/frame_sync.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/lines/process_input.h"
+#include "hal/sync/frame_sync.h"
+#include "hal/thread/thread.h"
 
 namespace orbwatch::app {
 
 /// Everything the pipeline needs; cameras are configured already.
-struct PipelinePlan {
+struct PipelinePlan : PipelineSettings {
   std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< 1..kMaxCameras; the first one paces
   std::vector<hal::StreamFormat> formats;             ///< by camera
   std::vector<std::shared_ptr<hal::FrameTrigger>>
       triggers;  ///< by camera; null or none: runs freely
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
-  std::vector<ViewPlan> views;  ///< to look at, by index; those of the recipes come after them
+  std::vector<ViewPlan> views;  ///< display views, by index; those of the recipes follow them
   std::vector<std::unique_ptr<CompiledRecipe>> recipes;  ///< at most kMaxRecipes
   std::size_t view_count = 0;                            ///< those of the recipes included
   std::uint32_t configuration_checksum = 0;
   /// The newest figures, without waiting; null: none are known.
   std::function<Health(hal::TimePoint now)> health;
-  hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
-  hal::SyncSettings sync;
-  std::size_t workers = 1;  ///< threads besides the pipeline's own
 };
 
-/// Frames in, views and status out, on one thread and its workers. Nothing here waits for a sink.
-/// Thread rule: start and stop on the main thread, command and point on any.
+/// Frames in, views and status out, on one thread and its workers; see process(). Nothing here
+/// waits for a sink.
+/// Thread rule: start and stop on the main thread, all else on any.
 class Pipeline {
  public:
   explicit Pipeline(PipelinePlan plan);
@@ -63,68 +61,59 @@ class Pipeline {
   /// Those of the recipes included.
   std::size_t view_count() const { return plan_.view_count; }
 
-  /// Whose frames the sets begin with: the first one without a fault. On any thread.
-  std::size_t pacing_camera() const;
+  /// The first camera without a fault: its frames begin the sets.
+  std::size_t pacing_camera() const { return cameras_.pacing_camera(); }
 
-  /// Points a view that is only looked at elsewhere: see PanTiltZoom::point().
+  /// Points a display view elsewhere: see PanTiltZoom::point().
   Result<std::uint64_t> point(std::size_t view, const Pointing& pointing) {
     return pan_tilt_zoom_.point(view, pointing);
   }
 
-  /// All that concerns views and measuring; takes effect between two frame sets.
-  CommandResult command(const Command& command);
+  // Commands: each returns at once and takes effect between two frame sets. Those that concern
+  // measurement are NotPossible without a recipe; see Measurement.
+
+  /// Publishes this view as the selected one. ArgumentOutOfRange: no such view.
+  CommandResult select_view(std::size_t view);
+  /// Turns a display view: see PanTiltZoom::turn(). ArgumentOutOfRange: no such view, or what it
+  /// refuses; NotPossible: the view is a recipe's.
+  CommandResult point_view(std::size_t view, double yaw, double pitch, double h_fov);
+  /// Changes a source's weight in a display view: see PanTiltZoom::mix(). Results as point_view().
+  CommandResult mix_sources(std::size_t view, std::size_t source, double weight);
+  CommandResult start_measuring();
+  CommandResult stop_measuring();
+  CommandResult select_recipe(std::size_t number);
+  CommandResult trigger();
+  CommandResult acknowledge_alarm(std::size_t number);
+  CommandResult set_process_active(bool active);
 
  private:
-  /// Fed by the camera's thread, read once a second by the pipeline's.
-  struct CameraMeter {
-    std::mutex mutex;
-    SecondMeter meter;
-  };
-
-  /// What a recipe sets cameras to.
-  struct RecipeControls {
-    std::uint16_t number = 0;
-    std::vector<CameraControl> controls;
-  };
-
-  void on_frame(std::size_t camera, hal::Frame frame);
-  void on_fault(std::size_t camera, const hal::FaultReport& report);
+  void make_measurement();
+  CommandResult check_display_view(std::size_t view) const;
   void run();
   void process(const hal::FrameSet& set);
-  void show(std::size_t index, const hal::FrameSet& set);
-  void publish(std::size_t index, const std::shared_ptr<View>& view);
-  void start_measuring();
-  Result<> set_cameras(const RecipeControls& recipe);
-  CommandResult aim(const Command& command);
-  void note(const AlarmNotice& notice);
-  void count_cameras();
-  void note_timing(hal::Clock::duration took);
+  void idle();
+  void publish(ViewChannel& channel);
+  void count(const hal::FrameSet& set, hal::Clock::duration spent);
   void publish_status();
-  void roll_figures(hal::TimePoint now);
+  void roll_rates(hal::Clock::duration elapsed);
   std::uint32_t process_inputs() const;
-  hal::Clock::duration deadline() const;
   SystemState state() const;
 
   PipelinePlan plan_;
-  hal::FrameSync sync_;
+  CameraGroup cameras_;
   WorkerPool workers_;
+  FramePyramids pyramids_;
+  std::vector<ViewChannel> displays_;
+  std::optional<Measurement> measurement_;  ///< if there are recipes
   PanTiltZoom pan_tilt_zoom_;
-  std::vector<PointedRenderer> renderers_;    ///< by view to look at
-  std::vector<hal::BufferPool<View>> pools_;  ///< by view to look at
-  std::optional<Measurement> measurement_;    ///< if there are recipes
-  DisplayThrottle throttle_;
-  std::vector<SecondMeter> view_meters_;
-  std::array<std::atomic<hal::Fault>, kMaxCameras> faults_;
-  std::array<CameraMeter, kMaxCameras> camera_meters_;
-  std::array<std::atomic<hal::TimePoint>, kMaxCameras> last_frames_;  ///< arrival
+  FrameBudget budget_;
+  std::vector<SecondMeter> view_meters_;  ///< by index; recipes may share a view's name
   std::atomic<std::size_t> selected_view_{0};
-  std::atomic<bool> stopping_{false};
   Status status_;
-  double load_of_second_ = 0;
-  hal::Clock::duration skew_of_second_{0};
+  hal::Clock::duration largest_skew_{0};  ///< since last_roll_
   hal::TimePoint last_roll_;
   std::vector<Sink*> sinks_;
-  std::thread thread_;
+  hal::Thread thread_;
 };
 
 }  // namespace orbwatch::app

@@ -18,7 +18,7 @@ class SecondMeter {
     double p99_ms = 0;
   };
 
-  /// One more, `latency` old.
+  /// Counts one more, `latency` old.
   void add(hal::Clock::duration latency) {
     if (count_ < samples_.size()) {
       samples_[count_] = std::chrono::duration<float, std::milli>(latency).count();
@@ -26,7 +26,7 @@ class SecondMeter {
     ++count_;
   }
 
-  /// The figures of the time since the last call, which was `elapsed` ago; starts the next second.
+  /// The figures since the last call, which was `elapsed` ago; starts the next second.
   Figures roll(hal::Clock::duration elapsed) {
     Figures figures;
     figures.per_second =
@@ -36,6 +36,15 @@ class SecondMeter {
     figures.p99_ms = percentile(kept, 0.99);
     count_ = 0;
     return figures;
+  }
+
+  /// The same, into the members of a CameraStatus or ViewStatus.
+  template <class FigureStatus>
+  void roll(hal::Clock::duration elapsed, FigureStatus& status) {
+    const Figures figures = roll(elapsed);
+    status.frames_per_second = figures.per_second;
+    status.latency_p50_ms = figures.p50_ms;
+    status.latency_p99_ms = figures.p99_ms;
   }
 
  private:

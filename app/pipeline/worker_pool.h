@@ -2,10 +2,11 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <cstdint>
+#include <cstddef>
 #include <mutex>
-#include <thread>
 #include <vector>
+
+#include "hal/thread/thread.h"
 
 namespace orbwatch::app {
 
@@ -14,9 +15,6 @@ class WorkerPool {
  public:
   /// `threads` besides the caller's own; 0 makes run() a plain loop.
   explicit WorkerPool(std::size_t threads);
-  ~WorkerPool();
-  WorkerPool(const WorkerPool&) = delete;
-  WorkerPool& operator=(const WorkerPool&) = delete;
 
   /// Calls work(band) for every band in [0, bands), each once, and returns when all are done. The
   /// work must not throw. Does not allocate.
@@ -30,20 +28,18 @@ class WorkerPool {
   using Call = void (*)(void*, int);
 
   void run_bands(int bands, Call call, void* context);
-  void serve();
-  void take_bands(Call call, void* context, int bands);
+  void serve(hal::Thread& thread);
+  void call_bands();
 
-  std::mutex mutex_;
-  std::condition_variable work_;
-  std::condition_variable done_;
-  std::uint64_t round_ = 0;
-  std::size_t busy_ = 0;
-  bool stopping_ = false;
+  // Written by the caller while no worker is busy.
   Call call_ = nullptr;
   void* context_ = nullptr;
   int bands_ = 0;
-  std::atomic<int> next_{0};
-  std::vector<std::thread> threads_;
+  std::atomic<int> next_{0};  ///< band that nobody has begun
+  std::mutex mutex_;
+  std::condition_variable done_;
+  std::size_t busy_ = 0;  ///< workers that share the current run
+  std::vector<hal::Thread> threads_;
 };
 
 }  // namespace orbwatch::app

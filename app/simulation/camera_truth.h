@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "app/simulation/pinhole.h"
+#include "app/simulation/tracing/pinhole.h"
 
 namespace orbwatch::app::simulation {
 

@@ -23,7 +23,7 @@ bool touches(const Sphere& ball, const Box& box) {
   return norm(ball.centre - nearest) <= ball.radius;
 }
 
-bool valid(const Range& range) { return range.lo > 0 && range.lo <= range.hi; }
+bool valid(const Interval& range) { return range.lo > 0 && range.lo <= range.hi; }
 
 Result<> check_bodies(const MachineSettings& s) {
   const double r = s.ball.radius;

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "app/simulation/ray.h"
+#include "app/simulation/tracing/ray.h"
 #include "hal/clock.h"
 #include "proc/image/result.h"
+#include "proc/settings/settings.h"
 
 namespace orbwatch::app::simulation {
 
@@ -14,7 +15,7 @@ namespace orbwatch::app::simulation {
 inline constexpr std::size_t kMaxSparks = 64;
 
 /// A value is drawn evenly from lo to hi.
-struct Range {
+struct Interval {
   double lo = 0;
   double hi = 0;
 };
@@ -34,12 +35,12 @@ struct PoolSettings {
 
 /// Drops of metal that leave the pool and fly ballistically.
 struct SparkSettings {
-  double rate = 60;               ///< per second, mean; 0: none
-  Range speed{600, 1800};         ///< mm/s at the start
-  Range lifetime{0.12, 0.35};     ///< s, unless it lands earlier
-  Range radius{2.5, 5};           ///< mm
-  Range temperature{1500, 1900};  ///< degC at the start
-  double end_temperature = 1250;  ///< degC at the end of its lifetime, reached linearly
+  double rate = 60;                  ///< per second, mean; 0: none
+  Interval speed{600, 1800};         ///< mm/s at the start
+  Interval lifetime{0.12, 0.35};     ///< s, unless it lands earlier
+  Interval radius{2.5, 5};           ///< mm
+  Interval temperature{1500, 1900};  ///< degC at the start
+  double end_temperature = 1250;     ///< degC at the end of its lifetime, reached linearly
 };
 
 /// The processing head above the pool: a cone with its tip down, and a column up to the ceiling.
@@ -64,6 +65,17 @@ struct MachineSettings {
   NozzleSettings nozzle;
   std::uint64_t seed = 1;  ///< of everything random: same seed, same sparks and same noise
 };
+
+/// What a site's file states of it.
+template <class Visitor>
+void visit(Visitor& v, MachineSettings& machine) {
+  v.optional("seed", machine.seed, Range::between(0, 2147483647), "Of sparks and noise");
+  v.optional("spark_rate", machine.sparks.rate, Range::between(0, 150), "Per second, mean");
+  v.optional("pool_radius", machine.pool.radius, Range::between(1, 20),
+             "Of the molten pool, mm, mean");
+  v.optional("pool_temperature", machine.pool.peak, Range::between(1500, 2300),
+             "In the pool's centre, degC, mean");
+}
 
 /// One machine and its clock, shared by all cameras that look into it. Immutable, reentrant.
 class Machine {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/simulation/hash.h"
+#include "app/simulation/scene/hash.h"
 
 namespace orbwatch::app::simulation {
 namespace {
@@ -114,34 +114,35 @@ Result<> SimulatedCamera::trigger() {
     if (trigger_) return fail("camera " + info().id + ": has not done the exposure before");
     trigger_ = hal::Clock::now();
   }
-  triggered_.notify_one();
+  wake();
   return {};
 }
 
-std::optional<hal::TimePoint> SimulatedCamera::next_trigger(const std::stop_token& stop) {
-  std::unique_lock lock(trigger_mutex_);
-  triggered_.wait(lock, stop, [this] { return trigger_.has_value(); });
+std::optional<hal::TimePoint> SimulatedCamera::take_trigger() {
+  const std::lock_guard lock(trigger_mutex_);
   return std::exchange(trigger_, std::nullopt);
 }
 
-void SimulatedCamera::run_triggered(const std::stop_token& stop) {
-  for (std::uint64_t n = 0;; ++n) {
-    const auto moment = next_trigger(stop);
-    if (!moment || stop.stop_requested()) return;
+void SimulatedCamera::run_triggered() {
+  std::uint64_t n = 0;
+  do {
+    const auto moment = take_trigger();
+    if (!moment) continue;
     if (const hal::Fault fault = script_.at(n); fault != hal::Fault::None) {
       report(fault, "as scripted");
     } else {
       expose(n, *moment);
     }
-  }
+    ++n;
+  } while (wait());
 }
 
-void SimulatedCamera::run(const std::stop_token& stop) {
-  if (trigger_mode_) return run_triggered(stop);
+void SimulatedCamera::run(const std::stop_token&) {
+  if (trigger_mode_) return run_triggered();
   const hal::TimePoint start = hal::Clock::now();
   const auto moment = [&](std::uint64_t n) { return moment_of(n, start, format_.frame_rate); };
-  for (std::uint64_t n = 0; wait_until(stop, moment(n)); ++n) {
-    // Faults are shown in order even when frames are late, so that a script always plays in full.
+  for (std::uint64_t n = 0; wait_until(moment(n)); ++n) {
+    // Also when late, so that a fault script is always shown completely.
     if (const hal::Fault fault = script_.at(n); fault != hal::Fault::None) {
       report(fault, "as scripted");
     } else if (hal::Clock::now() < moment(n + 1)) {
@@ -152,7 +153,7 @@ void SimulatedCamera::run(const std::stop_token& stop) {
 
 void SimulatedCamera::expose(std::uint64_t sequence, hal::TimePoint moment) {
   const auto buffer = pool_->acquire();
-  if (!buffer) return;  // lost: everybody holds on to earlier frames
+  if (!buffer) return;  // lost: all buffers are in use
   buffer->metadata = {.sequence = sequence, .exposure_start = moment};
   renderer_->render(machine_->process_time(moment), buffer->memory);
   add_noise(*buffer);
@@ -166,6 +167,14 @@ void SimulatedCamera::add_noise(hal::FrameBuffer& buffer) const {
   } else {
     add_to_rows<std::uint16_t>(*noise_, buffer);
   }
+}
+
+std::unique_ptr<hal::Camera> make_camera(SimulatedCameraSettings settings,
+                                         const SimulationContext& context) {
+  settings.name = context.name;
+  if (context.kelvin_per_count > 0) settings.kelvin_per_count = context.kelvin_per_count;
+  settings.faults = context.faults;
+  return std::make_unique<SimulatedCamera>(context.machine, std::move(settings));
 }
 
 }  // namespace orbwatch::app::simulation

@@ -6,10 +6,9 @@
 
 namespace orbwatch::hal {
 
-/// Writes planes of U and V as the U V pairs of Nv12: `pairs`, 2 channels, one pixel for 2x2 of the
-/// picture. The planes have as many pixels as `pairs` in each direction, twice as many, which are
-/// averaged, or half as many columns, which are repeated; empty planes become neutral chroma.
-/// Reentrant.
+/// Interleaves planes of U and V as Nv12: `pairs` has 2 channels and one pixel for 2x2 of the
+/// picture. In each direction the planes have as many pixels as `pairs`, twice as many (averaged),
+/// or half as many columns (repeated); empty planes become neutral chroma. Reentrant.
 void interleave_chroma(const ImageView<const std::uint8_t>& u,
                        const ImageView<const std::uint8_t>& v,
                        const ImageView<std::uint8_t>& pairs);

@@ -11,8 +11,7 @@
 namespace orbwatch::hal {
 namespace {
 
-// A progressive picture may carry any number of scans over the same pixels; the limit keeps a
-// hostile one from taking minutes.
+// A progressive picture may have any number of scans; the limit bounds the time of a hostile one.
 constexpr int kStrict = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
 
 const unsigned char* bytes(std::span<const std::byte> jpeg) {
@@ -25,9 +24,8 @@ JpegDecoder::JpegDecoder() : decoder_(tjInitDecompress()) {}
 
 void JpegDecoder::Close::operator()(void* decoder) const { tjDestroy(decoder); }
 
-/// libjpeg-turbo 2.1 stays in the middle of a header that it could not read and takes the next
-/// picture for its rest; and it keeps the tables of damaged ones. So after an error it is made
-/// anew.
+/// After a bad header, libjpeg-turbo 2.1 reads the next picture as the rest of it, and it keeps the
+/// tables of damaged pictures. So it is created again after an error.
 tl::unexpected<Error> JpegDecoder::failed(const char* what) {
   std::string message = std::string(what) + tjGetErrorStr2(decoder_.get());
   decoder_.reset(tjInitDecompress());
@@ -69,7 +67,7 @@ Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
 Result<> JpegDecoder::check(std::span<const std::byte> jpeg) {
   const auto header = read_header(jpeg);
   if (!header) return tl::unexpected(header.error());
-  // At an eighth, the entropy-coded data is read as for the full picture and little else is done.
+  // At an eighth of the size, the entropy-coded data is still read completely.
   constexpr tjscalingfactor kEighth{1, 8};
   const int width = TJSCALED(header->size.width, kEighth);
   const int height = TJSCALED(header->size.height, kEighth);

@@ -13,16 +13,16 @@
 
 namespace orbwatch::hal {
 
-/// What the header of a JPEG picture states, before its EXIF orientation is applied.
+/// From the header of a JPEG picture, before its EXIF orientation is applied.
 struct JpegSize {
   int width = 0;
   int height = 0;
 };
 
-/// libjpeg-turbo without its forgiveness: whatever it would patch over (a file that ends early, a
-/// broken code, bytes lost on the USB) is an error here, because a patched picture must not be
-/// measured. Reads grey and YCbCr pictures, baseline and progressive, also those that leave out the
-/// standard Huffman tables as USB cameras do. Thread-bound; keep one per thread, it is reused.
+/// libjpeg-turbo in strict mode: data that it would repair (a truncated file, a broken code, bytes
+/// lost on USB) is an error here, because a repaired picture must not be measured. Reads grey and
+/// YCbCr pictures, baseline and progressive, also without the standard Huffman tables, which USB
+/// cameras omit. Thread-bound and reusable.
 class JpegDecoder {
  public:
   JpegDecoder();
@@ -30,18 +30,17 @@ class JpegDecoder {
   /// Errors: not a JPEG picture, header damaged, CMYK.
   Result<JpegSize> read_size(std::span<const std::byte> jpeg);
 
-  /// Reads all of the compressed data without making a picture of full size. Errors as read_size,
-  /// and damaged data.
+  /// Reads all compressed data without decoding at full size. Errors as read_size, and damaged
+  /// data.
   Result<> check(std::span<const std::byte> jpeg);
 
-  /// The luminance alone into `target`, 1 channel of 8 bit; a colour picture's colours are not
-  /// even computed. Errors as check, and another size than target's; target's pixels are then
-  /// undefined.
+  /// Decodes the luminance only, into `target`, 1 channel of 8 bit. Errors as check, and another
+  /// size than target's; target's pixels are then undefined.
   Result<> decode_grey(std::span<const std::byte> jpeg, const ImageView<std::uint8_t>& target);
 
-  /// Into `target`, Nv12, without a detour through R G B: BT.601, full range. Chroma with more
-  /// detail than Nv12 has is averaged; grey pictures get none. Errors as decode_grey, an RGB
-  /// picture, and widths that are no multiple of 4 with chroma shared by 4 pixels.
+  /// Decodes into `target`, Nv12, BT.601 of full range, without conversion to RGB. Finer chroma is
+  /// averaged; grey pictures get neutral chroma. Errors as decode_grey, an RGB picture, and widths
+  /// that are no multiple of 4 with chroma shared by 4 pixels.
   Result<> decode_nv12(std::span<const std::byte> jpeg, const MutablePicture& target);
 
  private:
@@ -49,7 +48,7 @@ class JpegDecoder {
     void operator()(void* decoder) const;
   };
 
-  /// What the header says in turbojpeg's words.
+  /// turbojpeg's header fields.
   struct Header {
     JpegSize size;
     int subsampling = 0;
@@ -62,8 +61,8 @@ class JpegDecoder {
   Result<> decompress_grey(std::span<const std::byte> jpeg, const ImageView<std::uint8_t>& target);
 
   std::unique_ptr<void, Close> decoder_;
-  std::vector<std::uint8_t> thumbnail_;              ///< what check() decodes into
-  std::array<std::vector<std::uint8_t>, 2> chroma_;  ///< U and V with the detail of the file
+  std::vector<std::uint8_t> thumbnail_;              ///< target of check()
+  std::array<std::vector<std::uint8_t>, 2> chroma_;  ///< U and V in the file's resolution
 };
 
 }  // namespace orbwatch::hal

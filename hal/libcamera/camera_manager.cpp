@@ -12,15 +12,15 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Who wants to hear of removals. A list of our own: disconnecting from libcamera's signal while it
-/// is being emitted on its thread is not safe.
+/// The receivers of removals. Not libcamera's signal: disconnecting from it while it is emitted on
+/// libcamera's thread is not safe.
 struct RemovalWatches {
   std::mutex mutex;
   std::vector<const RemovalWatch*> watches;
 
-  void tell(const libcamera::Camera* removed) {
+  void notify(const libcamera::Camera* removed) {
     const std::lock_guard lock(mutex);
-    for (const RemovalWatch* watch : watches) watch->tell(removed);
+    for (const RemovalWatch* watch : watches) watch->notify(removed);
   }
 };
 
@@ -68,9 +68,10 @@ Result<std::shared_ptr<libcamera::CameraManager>> camera_manager() {
   if (const int error = starting->start(); error < 0) {
     return fail("libcamera does not start: " + std::generic_category().message(-error));
   }
-  starting->cameraRemoved.connect(
-      &the.watches,
-      [&the](const std::shared_ptr<libcamera::Camera>& camera) { the.watches.tell(camera.get()); });
+  starting->cameraRemoved.connect(&the.watches,
+                                  [&the](const std::shared_ptr<libcamera::Camera>& camera) {
+                                    the.watches.notify(camera.get());
+                                  });
   the.exists = true;
   const std::shared_ptr<libcamera::CameraManager> manager(starting.release(), StopManager{});
   the.share = manager;
@@ -119,7 +120,7 @@ RemovalWatch::~RemovalWatch() {
   std::erase(all.watches, this);
 }
 
-void RemovalWatch::tell(const libcamera::Camera* removed) const {
+void RemovalWatch::notify(const libcamera::Camera* removed) const {
   if (removed == camera_.get()) on_removed_();
 }
 

@@ -25,7 +25,7 @@ struct ListedCamera {
 /// The cameras that are there now. Thread-safe.
 std::vector<ListedCamera> list_cameras(const libcamera::CameraManager& manager);
 
-/// What the sensor calls itself, or "unknown".
+/// The sensor's own name, or "unknown".
 std::string model_of(const libcamera::Camera& camera);
 
 /// The id of the camera that `wanted` names: its whole id, or a part of id or model that only one
@@ -33,8 +33,8 @@ std::string model_of(const libcamera::Camera& camera);
 Result<std::string> choose_camera(const std::vector<ListedCamera>& cameras,
                                   std::string_view wanted);
 
-/// Tells of a camera's removal for as long as it lives. `on_removed` is called on libcamera's
-/// thread and must return at once.
+/// Reports a camera's removal while it exists. `on_removed` is called on libcamera's thread and
+/// must return at once.
 class RemovalWatch {
  public:
   RemovalWatch(std::shared_ptr<const libcamera::Camera> camera, std::function<void()> on_removed);
@@ -42,8 +42,8 @@ class RemovalWatch {
   RemovalWatch& operator=(const RemovalWatch&) = delete;
   ~RemovalWatch();
 
-  /// For the manager's signal.
-  void tell(const libcamera::Camera* removed) const;
+  /// Called for each removed camera.
+  void notify(const libcamera::Camera* removed) const;
 
  private:
   std::shared_ptr<const libcamera::Camera> camera_;

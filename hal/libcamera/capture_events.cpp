@@ -8,16 +8,16 @@ namespace orbwatch::hal {
 void CaptureEvents::complete(std::size_t request) {
   {
     const std::lock_guard lock(mutex_);
-    assert(news_.completed_count < kMaxRequests);
-    news_.completed[news_.completed_count++] = static_cast<std::uint8_t>(request);
+    assert(pending_.completed_count < kMaxRequests);
+    pending_.completed[pending_.completed_count++] = static_cast<std::uint8_t>(request);
   }
   changed_.notify_one();
 }
 
-void CaptureEvents::put_back(std::size_t buffer) {
+void CaptureEvents::return_buffer(std::size_t buffer) {
   {
     const std::lock_guard lock(mutex_);
-    news_.returned |= 1U << buffer;
+    pending_.returned |= 1U << buffer;
   }
   changed_.notify_one();
 }
@@ -25,25 +25,26 @@ void CaptureEvents::put_back(std::size_t buffer) {
 void CaptureEvents::remove_camera() {
   {
     const std::lock_guard lock(mutex_);
-    news_.removed = true;
+    pending_.removed = true;
   }
   changed_.notify_one();
 }
 
-void CaptureEvents::ring() {
+void CaptureEvents::wake() {
   {
     const std::lock_guard lock(mutex_);
-    news_.rung = true;
+    pending_.woken = true;
   }
   changed_.notify_one();
 }
 
-CaptureEvents::News CaptureEvents::wait(TimePoint deadline) {
+CaptureEvents::Pending CaptureEvents::wait(TimePoint deadline) {
   std::unique_lock lock(mutex_);
   changed_.wait_until(lock, deadline, [this] {
-    return news_.completed_count != 0 || news_.returned != 0 || news_.removed || news_.rung;
+    return pending_.completed_count != 0 || pending_.returned != 0 || pending_.removed ||
+           pending_.woken;
   });
-  return std::exchange(news_, {});
+  return std::exchange(pending_, {});
 }
 
 }  // namespace orbwatch::hal

@@ -10,36 +10,36 @@
 
 namespace orbwatch::hal {
 
-/// Where libcamera's thread and those that release frames leave word for the camera's thread. It
-/// outlives the stream for as long as frames are held. Holds one entry per request, so it cannot
-/// overflow. Thread-safe, one waiter; nobody who leaves word waits for it.
+/// Events for the camera's thread from libcamera's thread and from those that release frames.
+/// Outlives the stream for as long as frames are held. Holds one entry per request, so it cannot
+/// overflow. Thread-safe with one waiter; senders never wait for it.
 class CaptureEvents {
  public:
   static constexpr std::size_t kMaxRequests = 32;
 
-  /// What happened since the last wait().
-  struct News {
+  /// Events since the last wait().
+  struct Pending {
     std::array<std::uint8_t, kMaxRequests> completed{};  ///< request numbers, oldest first
     std::size_t completed_count = 0;
     std::uint32_t returned = 0;  ///< one bit per buffer whose last frame was released
     bool removed = false;        ///< the camera was unplugged
-    bool rung = false;
+    bool woken = false;
   };
 
-  /// A request came back; a request is under way at most once.
+  /// A request was completed; each is queued at most once.
   void complete(std::size_t request);
-  void put_back(std::size_t buffer);
+  void return_buffer(std::size_t buffer);
   void remove_camera();
-  /// Ends a wait, for a stop.
-  void ring();
+  /// Ends a wait.
+  void wake();
 
-  /// Takes the news, and waits for some until `deadline`.
-  News wait(TimePoint deadline);
+  /// Waits for events until `deadline` and takes them.
+  Pending wait(TimePoint deadline);
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  News news_;
+  Pending pending_;
 };
 
 }  // namespace orbwatch::hal

@@ -4,9 +4,9 @@
 
 namespace orbwatch::hal {
 
-/// True when a device node that the camera works through has vanished. Of libcamera's pipelines
-/// only that of USB cameras notices; libcamera 0.4 ends the process by an assertion when another
-/// camera is stopped or destroyed then, or comes back. False where libcamera names no nodes.
+/// True when a device node of the camera has vanished. Only libcamera's pipeline of USB cameras
+/// detects that; libcamera 0.4 aborts the process when such a camera of another pipeline is
+/// stopped, destroyed or connected again. False where libcamera lists no nodes.
 bool has_lost_its_nodes(const libcamera::Camera& camera);
 
 }  // namespace orbwatch::hal

@@ -6,7 +6,7 @@
 
 #include "hal/libcamera/device_nodes.h"
 
-/// libcamera from 0.2 on names the nodes: properties::SystemDevices.
+/// libcamera from 0.2 on lists the nodes: properties::SystemDevices.
 namespace orbwatch::hal {
 
 bool has_lost_its_nodes(const libcamera::Camera& camera) {

@@ -1,16 +1,11 @@
 #include "hal/libcamera/libcamera_camera.h"
 
 #include <algorithm>
-#include <chrono>
-#include <stop_token>
 
-#include "hal/back_off.h"
 #include "hal/libcamera/request_metadata.h"
 
 namespace orbwatch::hal {
 namespace {
-
-using namespace std::chrono_literals;
 
 CameraInfo info_of(const std::string& wanted, libcamera::CameraManager* manager) {
   CameraInfo info{wanted, "unknown", "libcamera"};
@@ -39,7 +34,7 @@ LibcameraCamera::LibcameraCamera(LibcameraSettings settings, SharedManager manag
 
 LibcameraCamera::~LibcameraCamera() { stop(); }
 
-/// Whether the settings make sense for any camera at all.
+/// Whether the settings are valid for any camera.
 Result<> LibcameraCamera::check() const {
   const std::string who = "camera " + info().id + ": ";
   std::string names = "auto";
@@ -86,12 +81,12 @@ Result<StreamFormat> LibcameraCamera::do_configure(const StreamRequest& request)
   if (!camera) return tl::unexpected(camera.error());
   const auto acquired = AcquiredCamera::acquire(std::move(*camera));
   if (!acquired) return fail(acquired.error().detail);
-  const auto agreed =
-      agree_on_configuration(**acquired, settings_.pixel_format, settings_.sensor_mode, request);
-  if (!agreed) return tl::unexpected(agreed.error());
+  const auto negotiated =
+      negotiate_configuration(**acquired, settings_.pixel_format, settings_.sensor_mode, request);
+  if (!negotiated) return tl::unexpected(negotiated.error());
   id_ = (*acquired)->id();
-  format_ = agreed->stream;
-  pixel_format_ = agreed->pixels->name;
+  format_ = negotiated->stream;
+  pixel_format_ = negotiated->pixels->name;
   expected_rate_ = format_.frame_rate != 0 ? format_.frame_rate : request.frame_rate;
   return format_;
 }
@@ -106,44 +101,35 @@ Result<> LibcameraCamera::set(std::string_view control, double value) {
   return {};
 }
 
-FaultReport LibcameraCamera::stream_until_fault(const std::stop_token& stop) {
+DeviceResult<double> LibcameraCamera::open_stream() {
   auto started = start_again();
-  if (!started) return started.error();
-  FaultReport fault = stream_with(**started, stop);
-  if ((*started)->end()) return fault;
+  if (!started) return tl::unexpected(started.error());
+  stream_ = std::move(*started);
+  return expected_rate_;
+}
+
+DeviceResult<std::size_t> LibcameraCamera::capture(TimePoint deadline) {
+  return stream_->wait(deadline, [this](const auto& captured) { forward_intact(captured); });
+}
+
+DeviceResult<> LibcameraCamera::close_stream() {
+  if (stream_->end()) {
+    stream_.reset();
+    return {};
+  }
   const std::lock_guard lock(camera_mutex_);
   is_lost_ = true;
-  // Kept for as long as the process lives: libcamera does not survive their end.
-  static_cast<void>(started->release());
+  // Leaked on purpose: libcamera crashes when they are destroyed.
+  static_cast<void>(stream_.release());
   static_cast<void>(new SharedManager(manager_));
-  return {Fault::Unplugged, lost_text()};
+  return tl::unexpected(FaultReport{Fault::Unplugged, lost_text()});
 }
 
 std::string LibcameraCamera::lost_text() const {
-  return id_ + ": its driver let go of it, which libcamera has not noticed; restart this program";
+  return id_ + ": its driver released it, unnoticed by libcamera; restart this program";
 }
 
-FaultReport LibcameraCamera::stream_with(LibcameraStream& stream, const std::stop_token& stop) {
-  const std::stop_callback wake(stop, [&stream] { stream.ring(); });
-
-  counter_.restart();
-  const LibcameraStream::OnCaptured on_captured = [this](const auto& captured) { take(captured); };
-  const Clock::duration timeout = stall_timeout(expected_rate_);
-  TimePoint deadline = Clock::now() + std::max(timeout, kFirstFrameTimeout);
-  while (!stop.stop_requested()) {
-    const bool starved = stream.is_starved();
-    const auto captured = stream.wait(deadline, on_captured);
-    if (!captured) return captured.error();
-    if (*captured != 0 || starved) {
-      deadline = Clock::now() + timeout;
-    } else if (Clock::now() >= deadline) {
-      return {Fault::Stalled, id_ + ": no frame for " + std::to_string(timeout / 1ms) + " ms"};
-    }
-  }
-  return {};
-}
-
-/// Sets the camera up as it was configured.
+/// Starts the camera with the configured format.
 DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
   const std::lock_guard lock(camera_mutex_);
   auto camera = open();
@@ -151,29 +137,30 @@ DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
   auto acquired = AcquiredCamera::acquire(std::move(*camera));
   if (!acquired) return tl::unexpected(acquired.error());
   const StreamRequest request{format_.width, format_.height, format_.frame_rate};
-  const auto agreed =
-      agree_on_configuration(**acquired, pixel_format_, settings_.sensor_mode, request);
-  if (!agreed) return tl::unexpected(FaultReport{Fault::WrongFormat, agreed.error().message});
-  return LibcameraStream::start(std::move(*acquired), *agreed, controls_);
+  const auto negotiated =
+      negotiate_configuration(**acquired, pixel_format_, settings_.sensor_mode, request);
+  if (!negotiated)
+    return tl::unexpected(FaultReport{Fault::WrongFormat, negotiated.error().message});
+  return LibcameraStream::start(std::move(*acquired), *negotiated, controls_);
 }
 
-void LibcameraCamera::take(const LibcameraStream::Captured& captured) {
-  const std::uint64_t sequence = counter_.number(captured.buffer.sequence);
-  if (!is_whole(captured)) return;
+void LibcameraCamera::forward_intact(const LibcameraStream::Captured& captured) {
+  const std::uint64_t sequence = sequence_of(captured.buffer.sequence);
+  if (!is_intact(captured)) return;
   captured.frame->metadata =
       metadata_of(captured.metadata, captured.buffer.timestamp, ClockReading::now());
   captured.frame->metadata.sequence = sequence;
-  hand_on(captured.frame);
+  forward(captured.frame);
 }
 
-/// Whether the camera delivered all of a frame; reports it if not.
-bool LibcameraCamera::is_whole(const LibcameraStream::Captured& captured) {
+/// Whether the camera delivered a complete frame; reports it if not.
+bool LibcameraCamera::is_intact(const LibcameraStream::Captured& captured) {
   if (captured.buffer.status != libcamera::FrameMetadata::FrameSuccess) {
     report(Fault::CorruptFrame, id_ + ": the driver marks a frame as damaged");
     return false;
   }
   const Picture& picture = captured.frame->picture;
-  // The last row need not be padded.
+  // The last row may be unpadded.
   const auto stride = static_cast<std::size_t>(picture.planes[0].stride);
   const std::size_t padding =
       stride - static_cast<std::size_t>(row_bytes(picture.format, picture.width));
@@ -184,6 +171,10 @@ bool LibcameraCamera::is_whole(const LibcameraStream::Captured& captured) {
     return false;
   }
   return true;
+}
+
+std::unique_ptr<Camera> make_camera(const LibcameraSettings& settings, const CameraContext&) {
+  return std::make_unique<LibcameraCamera>(settings);
 }
 
 }  // namespace orbwatch::hal

@@ -6,21 +6,20 @@
 #include <memory>
 #include <vector>
 
-#include "hal/dma_buffer.h"
-#include "hal/frame.h"
-#include "hal/libcamera/libcamera_format.h"
-#include "hal/mapped_memory.h"
+#include "hal/frame/device_memory.h"
+#include "hal/frame/frame.h"
+#include "hal/libcamera/format/libcamera_format.h"
 
 namespace orbwatch::hal {
 
-/// A dma-buf of libcamera's, mapped for reading.
+/// A dma-buf of libcamera, mapped for reading.
 struct MappedDmaBuffer {
   DmaBuffer file;
   MappedMemory memory;
 };
 
-/// A frame in libcamera's buffer, which stays mapped for as long as the frame is held, also after
-/// its stream has ended. Nobody but the device writes to it.
+/// A frame in libcamera's buffer, which stays mapped while the frame is held, also after its stream
+/// has ended. Only the device writes to it.
 struct LibcameraFrame : FrameBuffer {
   std::vector<MappedDmaBuffer> dma_buffers;
 

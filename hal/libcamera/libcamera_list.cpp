@@ -4,7 +4,7 @@
 #include <libcamera/logging.h>
 
 #include "hal/libcamera/camera_manager.h"
-#include "hal/libcamera/libcamera_controls.h"
+#include "hal/libcamera/controls/libcamera_controls.h"
 
 namespace orbwatch::hal {
 namespace {

@@ -6,9 +6,8 @@
 
 namespace orbwatch::hal {
 
-/// Every camera that libcamera finds, with its modes for video and its controls; one entry that
-/// says why, when libcamera does not start. Disturbs no camera that streams. libcamera's own log is
-/// silent from then on. Thread-safe.
+/// Every camera of libcamera, with its video modes and controls; one entry with the reason when
+/// libcamera does not start. Disturbs no stream. Silences libcamera's own log. Thread-safe.
 std::vector<CameraEntry> list_libcamera_cameras();
 
 }  // namespace orbwatch::hal

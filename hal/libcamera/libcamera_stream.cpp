@@ -19,17 +19,17 @@ LibcameraStream::LibcameraStream(AcquiredCamera camera, ControlSettings& control
       allocator_(camera_.share()) {}
 
 DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraStream::start(
-    AcquiredCamera camera, const LibcameraAgreement& agreed, ControlSettings& controls) {
+    AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls) {
   std::unique_ptr<LibcameraStream> stream(new LibcameraStream(std::move(camera), controls));
   const auto named = [&stream](const Error& error) {
     return tl::unexpected(
         FaultReport{Fault::ReadError, stream->camera_->id() + ": " + error.message});
   };
-  if (auto made = stream->make_buffers(agreed); !made) return named(made.error());
-  if (auto made = stream->make_requests(agreed.picture().stream()); !made) {
+  if (auto made = stream->make_buffers(negotiated); !made) return named(made.error());
+  if (auto made = stream->make_requests(negotiated.picture().stream()); !made) {
     return named(made.error());
   }
-  if (auto runs = stream->run(agreed.stream.frame_rate); !runs) {
+  if (auto runs = stream->run(negotiated.stream.frame_rate); !runs) {
     return tl::unexpected(runs.error());
   }
   return stream;
@@ -41,42 +41,42 @@ LibcameraStream::~LibcameraStream() {
 
 bool LibcameraStream::end() {
   ended_ = true;
-  // Of what libcamera itself knows to be gone it takes the stop.
+  // libcamera allows the stop of a camera that it has removed itself.
   const bool gone = !removed_ && has_lost_its_nodes(*camera_);
   if (gone) return false;
-  // Cancels what is queued.
+  // Cancels queued requests.
   camera_->stop();
   camera_->requestCompleted.disconnect(events_.get());
   return true;
 }
 
-Result<> LibcameraStream::make_buffers(const LibcameraAgreement& agreed) {
-  stream_ = agreed.picture().stream();
+Result<> LibcameraStream::make_buffers(const NegotiatedConfiguration& negotiated) {
+  stream_ = negotiated.picture().stream();
   if (const int made = allocator_.allocate(stream_); made <= 0) {
     return fail("has no buffers: " + std::generic_category().message(-made));
   }
-  const StreamFormat& format = agreed.stream;
+  const StreamFormat& format = negotiated.stream;
   std::vector<std::unique_ptr<LibcameraFrame>> frames;
   for (const auto& buffer : allocator_.buffers(stream_)) {
     if (frames.size() == CaptureEvents::kMaxRequests) break;
-    auto frame =
-        LibcameraFrame::map(*buffer, *agreed.pixels, format.width, format.height, agreed.stride);
+    auto frame = LibcameraFrame::map(*buffer, *negotiated.pixels, format.width, format.height,
+                                     negotiated.stride);
     if (!frame) return tl::unexpected(frame.error());
     (*frame)->picture.colour_space = format.colour_space;
     frames_.push_back(frame->get());
     frames.push_back(std::move(*frame));
   }
   pool_.emplace(std::move(frames),
-                [events = events_](std::size_t buffer) { events->put_back(buffer); });
+                [events = events_](std::size_t buffer) { events->return_buffer(buffer); });
   return {};
 }
 
 Result<> LibcameraStream::make_requests(libcamera::Stream* stream) {
   for (std::size_t number = 0; number < pool_->size(); ++number) {
     auto request = camera_->createRequest(number);
-    if (!request) return fail("makes no request");
+    if (!request) return fail("creates no request");
     const int error = request->addBuffer(stream, allocator_.buffers(stream)[number].get());
-    if (error < 0) return fail("takes no buffer: " + std::generic_category().message(-error));
+    if (error < 0) return fail("refuses a buffer: " + std::generic_category().message(-error));
     requests_.push_back(std::move(request));
   }
   CaptureEvents* const events = events_.get();
@@ -99,7 +99,7 @@ DeviceResult<> LibcameraStream::queue(std::size_t number) {
   libcamera::Request& request = *requests_[number];
   controls_.add_changes(request.controls());
   if (const int error = camera_->queueRequest(&request); error < 0) {
-    return failed("take a request", error);
+    return failed("accept a request", error);
   }
   ++queued_;
   return {};
@@ -135,18 +135,19 @@ DeviceResult<LibcameraStream::Captured> LibcameraStream::take(std::size_t number
 }
 
 DeviceResult<std::size_t> LibcameraStream::wait(TimePoint deadline, const OnCaptured& on_captured) {
-  const CaptureEvents::News news = events_->wait(deadline);
-  if (news.removed) {
+  const CaptureEvents::Pending pending = events_->wait(deadline);
+  if (pending.removed) {
     removed_ = true;
     return tl::unexpected(FaultReport{Fault::Unplugged, camera_->id() + ": was removed"});
   }
-  if (auto queued = queue_returned(news.returned); !queued) return tl::unexpected(queued.error());
-  for (std::size_t i = 0; i < news.completed_count; ++i) {
-    const auto captured = take(news.completed[i]);
+  if (auto queued = queue_returned(pending.returned); !queued)
+    return tl::unexpected(queued.error());
+  for (std::size_t i = 0; i < pending.completed_count; ++i) {
+    const auto captured = take(pending.completed[i]);
     if (!captured) return tl::unexpected(captured.error());
     on_captured(*captured);
   }
-  return news.completed_count;
+  return pending.completed_count;
 }
 
 tl::unexpected<FaultReport> LibcameraStream::failed(const std::string& action, int error) const {

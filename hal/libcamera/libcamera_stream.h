@@ -8,21 +8,21 @@
 #include <optional>
 #include <vector>
 
-#include "hal/buffer_pool.h"
-#include "hal/libcamera/camera_configuration.h"
+#include "hal/frame/buffer_pool.h"
 #include "hal/libcamera/camera_manager.h"
 #include "hal/libcamera/capture_events.h"
-#include "hal/libcamera/control_settings.h"
+#include "hal/libcamera/controls/control_settings.h"
+#include "hal/libcamera/format/camera_configuration.h"
 #include "hal/libcamera/libcamera_frame.h"
 
 namespace orbwatch::hal {
 
-/// A camera that streams: one request per buffer, queued again when the last frame of its buffer
-/// is released. Its end stops and releases the camera; frames that are still held stay valid.
-/// Thread-bound but for ring().
+/// A streaming camera: one request per buffer, queued again when the last frame of its buffer is
+/// released. Its end stops and releases the camera; held frames stay valid.
+/// Thread-bound but for wake().
 class LibcameraStream {
  public:
-  /// A completed request. Its frame's picture is set, and the memory can be read.
+  /// A completed request. Its frame's picture is set, its memory readable.
   struct Captured {
     std::shared_ptr<LibcameraFrame> frame;
     const libcamera::ControlList& metadata;
@@ -30,34 +30,33 @@ class LibcameraStream {
   };
   using OnCaptured = std::function<void(const Captured&)>;
 
-  /// Makes the buffers and starts the camera, which was configured as agreed, with `controls`; what
-  /// is set later goes along with the next request.
-  static DeviceResult<std::unique_ptr<LibcameraStream>> start(AcquiredCamera camera,
-                                                              const LibcameraAgreement& agreed,
-                                                              ControlSettings& controls);
+  /// Makes the buffers and starts the configured camera with `controls`; later settings are part of
+  /// the next request.
+  static DeviceResult<std::unique_ptr<LibcameraStream>> start(
+      AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls);
   LibcameraStream(const LibcameraStream&) = delete;
   LibcameraStream& operator=(const LibcameraStream&) = delete;
   ~LibcameraStream();
 
-  /// Waits until something happens or `deadline`: queues the buffers that were returned, and calls
-  /// `on_captured` for each completed request. Returns how many there were. Faults: the camera was
-  /// removed, refuses a request or cancelled one.
+  /// Waits for events until `deadline`: queues returned buffers and calls `on_captured` for each
+  /// completed request. Returns their number. Faults: the camera was removed, refuses a request or
+  /// cancelled one.
   DeviceResult<std::size_t> wait(TimePoint deadline, const OnCaptured& on_captured);
 
-  /// Ends the stream, as the destructor does. False: the device went away behind libcamera's back.
-  /// Whoever owns this object must then never destroy it: see has_lost_its_nodes().
+  /// Ends the stream, as the destructor does. False: the device vanished unnoticed by libcamera.
+  /// Then the owner must never destroy this object: see has_lost_its_nodes().
   bool end();
 
   /// True when frames in use hold all buffers: the camera has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
   /// Ends a wait(). Thread-safe.
-  void ring() { events_->ring(); }
+  void wake() { events_->wake(); }
 
  private:
   LibcameraStream(AcquiredCamera camera, ControlSettings& controls);
 
-  Result<> make_buffers(const LibcameraAgreement& agreed);
+  Result<> make_buffers(const NegotiatedConfiguration& negotiated);
   Result<> make_requests(libcamera::Stream* stream);
   DeviceResult<> run(double frame_rate);
   DeviceResult<> queue(std::size_t number);
@@ -65,7 +64,7 @@ class LibcameraStream {
   DeviceResult<Captured> take(std::size_t number);
   tl::unexpected<FaultReport> failed(const std::string& action, int error) const;
 
-  // In the order in which they are needed: requests go first, the camera last.
+  // In order of dependence: requests are destroyed first, the camera last.
   AcquiredCamera camera_;
   ControlSettings& controls_;
   std::shared_ptr<CaptureEvents> events_ = std::make_shared<CaptureEvents>();
@@ -76,7 +75,7 @@ class LibcameraStream {
   std::vector<const LibcameraFrame*> frames_;                  ///< the pool's, by buffer
   std::vector<std::unique_ptr<libcamera::Request>> requests_;  ///< by buffer
   std::size_t queued_ = 0;
-  bool removed_ = false;  ///< libcamera said so
+  bool removed_ = false;  ///< reported by libcamera
   bool ended_ = false;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Older than any frame that six buffers can still hold: a stamp of another clock.
+/// Six buffers hold no older frame: the stamp is of another clock.
 constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace

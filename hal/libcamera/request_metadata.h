@@ -6,26 +6,25 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/frame.h"
+#include "hal/frame/frame.h"
 
 namespace orbwatch::hal {
 
-/// What two clocks of the kernel showed at one moment.
+/// Two of the kernel's clocks at one moment.
 struct ClockReading {
   TimePoint steady;               ///< CLOCK_MONOTONIC
-  std::chrono::nanoseconds boot;  ///< CLOCK_BOOTTIME, which counts on while the machine sleeps
+  std::chrono::nanoseconds boot;  ///< CLOCK_BOOTTIME, which includes suspend
 
   static ClockReading now();
 };
 
-/// A frame's stamp on the steady clock, or nothing if it cannot be: in the future, or a minute old.
-/// libcamera says that stamps are of CLOCK_BOOTTIME, but several pipelines hand on their driver's
-/// of CLOCK_MONOTONIC. Only after a sleep do they differ, and then the boot clock's lie in the
-/// future.
+/// A frame's stamp on the steady clock, or nullopt when it is in the future or a minute old.
+/// libcamera documents CLOCK_BOOTTIME, but several pipelines forward their driver's
+/// CLOCK_MONOTONIC. The two differ only after a suspend, and then boot stamps are in the future.
 std::optional<TimePoint> to_steady(std::chrono::nanoseconds stamp, const ClockReading& arrival);
 
-/// A frame's metadata out of its request's; its sequence is left at 0. `buffer_stamp` (ns) counts
-/// where there is no SensorTimestamp, `arrival` where that is of no use, too.
+/// A frame's metadata from its request; the sequence stays 0. Without SensorTimestamp,
+/// `buffer_stamp` (ns) counts; where that is not plausible, `arrival`.
 FrameMetadata metadata_of(const libcamera::ControlList& request, std::uint64_t buffer_stamp,
                           const ClockReading& arrival);
 

@@ -7,34 +7,33 @@
 
 namespace orbwatch::hal {
 
-/// Edges as they come from a line, made edges to act on. With a period it debounces: a level counts
-/// once it has been kept for that long, and the edge to it is stamped with the moment it was taken.
-/// Without one (or when the kernel debounces) each edge passes at once, as the opposite of the one
-/// before: the kernel names an edge by the level it finds some microseconds later, so that of a
-/// short pulse both edges may be named alike. Either way the level is asked for again after a
-/// burst, since queues overflow: what comes out last agrees with the line. Pure; time comes in with
-/// the edges.
+/// Debounces edges and makes them alternate. With a period, a level counts once it was kept for
+/// that long; its edge has the stamp of the change. Without one (or when the kernel debounces) each
+/// edge passes at once, as the opposite of the one before: the kernel derives the direction from a
+/// level that it reads some microseconds later, so both edges of a short pulse may have the same
+/// one. As queues overflow, the level is read again after a burst, so that the last edge agrees
+/// with the line. Pure: time is an argument.
 class EdgeFilter {
  public:
-  /// How long after the last edge the level is asked for when nothing is debounced.
+  /// From the last edge to reading the level, without debounce.
   static constexpr Clock::duration kQuiet = std::chrono::milliseconds(5);
 
   EdgeFilter(Clock::duration period, bool level)
       : period_(period), level_(level), last_{edge_to(level), {}} {}
 
-  /// The next edge of the line, in order. Gives the edge that counts because of it: this one, or
-  /// one before that had been kept for long enough.
+  /// The next edge of the line, in order. Returns the edge that counts now: this one, or an earlier
+  /// one that was kept for long enough.
   std::optional<EdgeEvent> take(const EdgeEvent& edge);
 
-  /// When settle() wants the level; TimePoint::max(): not before another edge.
+  /// When settle() is to be called; TimePoint::max(): not before another edge.
   TimePoint due() const { return due_; }
 
-  /// The line's level, asked for at `now`, not before due(), when no edge was left to take. Gives
-  /// the edge that counts because of it. A level that the last edge does not lead to may belong to
-  /// an edge still on its way: it is believed when it is the same a period later.
+  /// The line's level at `now`, not before due(), with no edge left to take. Returns the edge that
+  /// counts now. A level that contradicts the last edge may belong to an edge that has not arrived:
+  /// it counts when it is the same a period later.
   std::optional<EdgeEvent> settle(bool level, TimePoint now);
 
-  /// Edges that were lost on the way, found by the level after a burst.
+  /// Lost edges, as derived from the level after a burst.
   std::uint64_t found_lost() const { return found_lost_; }
 
  private:
@@ -42,7 +41,7 @@ class EdgeFilter {
   std::optional<EdgeEvent> change_to(bool level, TimePoint stamp);
 
   Clock::duration period_;
-  bool level_;  ///< as the edges that were given out say
+  bool level_;  ///< of the newest returned edge
   EdgeEvent last_;
   TimePoint due_ = TimePoint::max();
   bool doubted_ = false;

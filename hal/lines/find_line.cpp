@@ -17,7 +17,7 @@ bool is_at(const ChipInfo& chip, const LineInfo& line, const LineAddress& addres
                               : line.name == address.name;
 }
 
-/// What there is instead of a line that was not found.
+/// The existing chips and lines, for a line that was not found.
 std::string what_there_is(const std::vector<ChipInfo>& chips) {
   std::string names, labels, closed;
   const auto append = [](std::string& list, const std::string& item) {
@@ -80,7 +80,8 @@ std::string open_error(const FoundLine& found, const LineAddress& address, int c
     case ENOTSUP:
     case 524:  // the kernel's own ENOTSUPP, which has no name here
       return line + "its chip " + found.chip->label +
-             " cannot do what was asked; bias needs a chip that has resistors, an input one with "
+             " does not support these settings; bias needs a chip with resistors, an input one "
+             "with "
              "interrupts";
     default:
       return line + system_text(code);

@@ -6,20 +6,20 @@
 
 namespace orbwatch::hal {
 
-/// A line that exists: pointers into the list of chips it was found in.
+/// An existing line: pointers into the searched list of chips.
 struct FoundLine {
   const ChipInfo* chip = nullptr;
   const LineInfo* line = nullptr;
 };
 
-/// The line at `address`. Errors: none there, with the lines that have names and the chips that
-/// could not be opened; two of that name or label.
+/// The line at `address`. Errors: no such line, with the named lines and the chips that could not
+/// be opened; an ambiguous name or label.
 Result<FoundLine> find_line(const std::vector<ChipInfo>& chips, const LineAddress& address);
 
-/// What to tell when opening `found` failed with the system's error `code` (errno).
+/// The message for a failure to open `found` with the system's error `code` (errno).
 std::string open_error(const FoundLine& found, const LineAddress& address, int code);
 
-/// Why the device node `path` could not be opened, with the group that may.
+/// Why the device node `path` could not be opened, with the group that has permission.
 std::string chip_error(const std::string& path, int code);
 
 }  // namespace orbwatch::hal

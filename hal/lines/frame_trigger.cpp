@@ -20,7 +20,7 @@ bool FrameTrigger::is_trigger(Edge edge) const {
   return false;
 }
 
-void FrameTrigger::take(const EdgeEvent& edge) {
+void FrameTrigger::on_edge(const EdgeEvent& edge) {
   if (is_trigger(edge.edge)) fire(edge.stamp);
 }
 
@@ -34,7 +34,7 @@ void FrameTrigger::fire(TimePoint moment) {
   waiting_[counts_.waiting++] = {trigger, moment + settings_.delay, false};
 }
 
-/// In mode Software the first one that the camera was not asked for yet.
+/// In mode Software the first trigger without an exposure request.
 TimePoint FrameTrigger::due() const {
   if (settings_.mode != TriggerMode::Software) return TimePoint::max();
   const std::lock_guard lock(mutex_);
@@ -53,14 +53,14 @@ void FrameTrigger::run(TimePoint now) {
   }
 }
 
-/// Takes the trigger that is due; true when the camera is to be asked for its frame.
+/// Handles the trigger that is due; true when the camera is to be triggered.
 bool FrameTrigger::prepare_exposure(TimePoint now, std::uint64_t& id) {
   const std::lock_guard lock(mutex_);
-  if (counts_.waiting == 0) return false;  // the camera's fault came between
+  if (counts_.waiting == 0) return false;  // abandoned meanwhile
   if (waiting_[0].exposed) {
     ++counts_.missed;
     if (now - waiting_[0].moment <= settings_.timeout) {
-      std::swap(waiting_[0], waiting_[1]);  // it is the new trigger that is missed
+      std::swap(waiting_[0], waiting_[1]);  // the new trigger is missed
       drop_oldest(1);
       return false;
     }
@@ -75,7 +75,7 @@ bool FrameTrigger::prepare_exposure(TimePoint now, std::uint64_t& id) {
 std::optional<TriggerStamp> FrameTrigger::claim(TimePoint exposure_start) {
   const std::lock_guard lock(mutex_);
   const bool software = settings_.mode == TriggerMode::Software;
-  std::size_t due = 0;  // triggers that the exposure did not begin before
+  std::size_t due = 0;  // triggers at or before the exposure
   while (due < counts_.waiting && waiting_[due].moment <= exposure_start &&
          (!software || waiting_[due].exposed)) {
     ++due;

@@ -12,8 +12,8 @@
 
 namespace orbwatch::hal {
 
-/// What makes a camera's frames count. Off: each one. Software: an edge makes the camera expose.
-/// Line: the camera sees the edge itself, or runs freely; the edge stamps the frame.
+/// Which of a camera's frames count. Off: all. Software: an edge makes the camera expose. Line: the
+/// camera has the trigger line itself, or runs freely; the edge stamps the frame.
 enum class TriggerMode : std::uint8_t { Off, Software, Line };
 
 /// Which edges are triggers.
@@ -23,7 +23,7 @@ struct TriggerSettings {
   TriggerMode mode = TriggerMode::Line;
   TriggerActivation activation = TriggerActivation::RisingEdge;
   Clock::duration delay{0};  ///< from the edge to the exposure
-  /// A camera that has not delivered so long after it was triggered does not deliver (Software).
+  /// Software: without a frame for so long after an exposure request, the request has failed.
   Clock::duration timeout = std::chrono::seconds(1);
 };
 
@@ -36,19 +36,20 @@ struct TriggerStamp {
 /// At any moment triggers = frames + missed + waiting.
 struct TriggerCounts {
   std::uint64_t triggers = 0;  ///< edges that are triggers
-  std::uint64_t frames = 0;    ///< that belong to one
-  std::uint64_t missed = 0;    ///< triggers without a frame: faster than the camera, or its fault
-  std::uint64_t waiting = 0;   ///< triggers whose frame may still come, at most kMaxWaiting
-  std::uint64_t untriggered = 0;  ///< frames that belong to no trigger
+  std::uint64_t frames = 0;    ///< with a trigger
+  std::uint64_t missed = 0;    ///< triggers without a frame: too fast for the camera, or its fault
+  std::uint64_t waiting = 0;   ///< triggers whose frame may still arrive, at most kMaxWaiting
+  std::uint64_t untriggered = 0;  ///< frames without a trigger
 };
 
 /// Joins the edges of a trigger line with the frames of one camera.
-/// A frame belongs to the newest trigger (edge and delay) that its exposure did not begin before;
-/// triggers before that one were missed. In mode Software the camera is asked for a frame when the
-/// trigger is due, unless it still owes the one before: then the trigger is missed.
-/// Thread rule: take, due and run on the line thread, claim and abandon on the camera's, fire and
-/// counts on any. Bounded: of more than kMaxWaiting triggers the newest are missed,
-/// since the oldest may belong to frames that are under way.
+/// A frame belongs to the newest trigger (edge plus delay) at or before its exposure's start;
+/// earlier triggers without a frame are missed. In mode Software the camera is triggered when the
+/// trigger is due, unless the frame before is outstanding: then the trigger is missed.
+/// Bounded: of more than kMaxWaiting triggers the newest are missed, as the oldest may belong to
+/// frames that are on their way.
+/// Thread rule: on_edge, due and run on the line thread, claim and abandon on the camera's, fire
+/// and counts on any.
 class FrameTrigger : public LineTask {
  public:
   static constexpr std::size_t kMaxWaiting = 32;
@@ -58,7 +59,7 @@ class FrameTrigger : public LineTask {
   FrameTrigger(const TriggerSettings& settings, Expose expose);
 
   /// An edge of the line.
-  void take(const EdgeEvent& edge);
+  void on_edge(const EdgeEvent& edge);
 
   /// A trigger without an edge (GenICam TriggerSoftware).
   void fire(TimePoint moment);
@@ -66,10 +67,10 @@ class FrameTrigger : public LineTask {
   TimePoint due() const override;
   void run(TimePoint now) override;
 
-  /// The trigger of a frame; nothing: it has none, and is to be dropped.
+  /// The trigger of a frame; nullopt: it has none and is to be dropped.
   std::optional<TriggerStamp> claim(TimePoint exposure_start);
 
-  /// The camera has a fault: nothing will come for the triggers that wait.
+  /// The camera has a fault: waiting triggers are missed.
   void abandon();
 
   TriggerCounts counts() const;
@@ -77,8 +78,8 @@ class FrameTrigger : public LineTask {
  private:
   struct Waiting {
     TriggerStamp trigger;
-    TimePoint moment;      ///< edge and delay; once asked for, when it was
-    bool exposed = false;  ///< Software: the camera was asked for the frame
+    TimePoint moment;      ///< edge plus delay; once exposed, the exposure request
+    bool exposed = false;  ///< Software: the camera was triggered
   };
 
   bool is_trigger(Edge edge) const;

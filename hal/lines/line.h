@@ -9,8 +9,8 @@
 
 namespace orbwatch::hal {
 
-/// Which line: the name that the board gives it, or the label of its chip and its offset there.
-/// A chip's number is no address: it changes from one boot to the next.
+/// A line's address: the board's name of it, or the label of its chip and its offset there. A
+/// chip's number is no address: it changes between boots.
 struct LineAddress {
   std::string name{};  ///< empty: by chip and offset
   std::string chip{};  ///< label
@@ -22,7 +22,7 @@ struct LineAddress {
   }
 };
 
-/// The resistor that the chip puts on a line; a chip without one refuses.
+/// The chip's pull resistor; a chip without one refuses.
 enum class LineBias : std::uint8_t { AsIs, Disabled, PullUp, PullDown };
 
 /// A change of a line's logical level, which is the wire's unless the line is active low.
@@ -33,10 +33,10 @@ constexpr Edge edge_to(bool active) { return active ? Edge::Rising : Edge::Falli
 
 struct EdgeEvent {
   Edge edge = Edge::Rising;
-  TimePoint stamp;  ///< the kernel's; with debounce: when the line took the level that it kept
+  TimePoint stamp;  ///< the kernel's; with debounce: of the edge to the level that was kept
 };
 
-/// Everything that can be wrong with a line while it is used. Append, never renumber.
+/// The faults of a line in use. Append, never renumber.
 enum class LineFault : std::uint8_t {
   None = 0,
   Gone = 1,
@@ -56,7 +56,7 @@ constexpr std::string_view operator_text(LineFault fault) {
   return "unknown line fault";
 }
 
-/// A change of a line's state. `LineFault::None` says that it works again.
+/// A change of a line's state. LineFault::None: it works again.
 struct LineFaultReport {
   LineFault fault = LineFault::None;
   std::string detail;  ///< line and system message; may be empty

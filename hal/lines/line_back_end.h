@@ -13,7 +13,7 @@
 
 namespace orbwatch::hal {
 
-/// What other programs see as the user of our lines.
+/// The consumer's name of our lines in the kernel.
 inline constexpr const char* kLineConsumer = "orbwatch";
 
 struct InputSettings {
@@ -26,10 +26,10 @@ struct InputSettings {
 struct OutputSettings {
   LineAddress address{};
   bool active_low = false;
-  LineBias bias = LineBias::AsIs;  ///< what holds the wire when nobody drives it
+  LineBias bias = LineBias::AsIs;  ///< holds the wire when it is not driven
 };
 
-/// A line that is read. Both edges are watched from the moment it is opened.
+/// An input. Both edges are recorded once it is open.
 /// Thread-bound, apart from level().
 class DigitalInput {
  public:
@@ -38,28 +38,27 @@ class DigitalInput {
   DigitalInput& operator=(const DigitalInput&) = delete;
   virtual ~DigitalInput() = default;
 
-  /// A file that is readable, for epoll, when edges wait or the line has a fault.
+  /// A file descriptor for epoll, readable when edges wait or the line has a fault.
   virtual int descriptor() const = 0;
 
-  /// Takes edges that wait, oldest first, at most `edges.size()`; says how many. Never waits.
+  /// Takes waiting edges, oldest first, at most `edges.size()`; returns how many. Never waits.
   virtual LineResult<std::size_t> take(std::span<EdgeEvent> edges) = 0;
 
-  /// Whether the line is active at this moment.
+  /// Whether the line is active now.
   virtual LineResult<bool> level() const = 0;
 
-  /// Edges that were dropped because nobody took them in time, where edges are numbered; else
-  /// nothing, and only EdgeFilter can tell.
+  /// Edges dropped by a full queue, where edges are numbered; else nullopt, and EdgeFilter
+  /// estimates.
   virtual std::optional<std::uint64_t> lost() const = 0;
 
-  /// Whether the edges are debounced already as InputSettings::debounce asks.
+  /// Whether the edges are debounced already, with InputSettings::debounce.
   virtual bool is_debounced() const = 0;
 };
 
-/// A line that is driven: inactive from the moment it is opened, and made inactive before it is
-/// given back. When the process dies, the kernel gives it back at once, and what the wire then does
-/// is the driver's choice: most chips keep the level, some turn the line into an input, where the
-/// pull resistor decides. A safe state needs that resistor, or a WatchdogOutput behind a time
-/// relay.
+/// An output: inactive when opened, and set inactive before it is released. When the process dies,
+/// the kernel releases it, and the driver decides on the wire: most chips keep the level, some turn
+/// the line into an input, where the pull resistor decides. A safe state needs that resistor, or a
+/// WatchdogOutput with a time relay.
 class DigitalOutput {
  public:
   DigitalOutput() = default;
@@ -72,20 +71,20 @@ class DigitalOutput {
 
 struct LineInfo {
   unsigned offset = 0;
-  std::string name;  ///< empty: the board gives none
+  std::string name;  ///< the board's; may be empty
   bool is_output = false;
   bool is_used = false;
-  std::string consumer;  ///< who uses it, as the kernel knows
+  std::string consumer;  ///< according to the kernel
 };
 
 struct ChipInfo {
   std::string path;     ///< device node: for messages, never stored
   std::string label{};  ///< of the driver, stable
   std::vector<LineInfo> lines{};
-  std::string error{};  ///< why it could not be opened; then it has no label and no lines
+  std::string error{};  ///< why it could not be opened; then label and lines are empty
 };
 
-/// A kind of lines: the kernel's or simulated ones. Thread-safe.
+/// A back-end of lines: the kernel's or simulated. Thread-safe.
 class LineBackEnd {
  public:
   LineBackEnd() = default;
@@ -93,11 +92,11 @@ class LineBackEnd {
   LineBackEnd& operator=(const LineBackEnd&) = delete;
   virtual ~LineBackEnd() = default;
 
-  /// All chips of this moment, also those that cannot be opened.
+  /// The chips that are connected now, including those that cannot be opened.
   virtual std::vector<ChipInfo> chips() const = 0;
 
-  /// Errors: no such line (with those there are), used by another (with its name), no permission
-  /// (with the group that has it), not possible on this chip.
+  /// Errors: no such line (with a list of the existing ones), in use (with the consumer's name), no
+  /// permission (with the group that has it), not supported by the chip.
   virtual Result<std::unique_ptr<DigitalInput>> open_input(const InputSettings& settings) = 0;
   virtual Result<std::unique_ptr<DigitalOutput>> open_output(const OutputSettings& settings) = 0;
 };

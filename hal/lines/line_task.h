@@ -4,8 +4,7 @@
 
 namespace orbwatch::hal {
 
-/// Work of the line thread that is due at moments: pulses, delays, watchdogs. Tests call it with
-/// times of their own.
+/// Timed work of the line thread: pulses, delays, watchdogs. Tests pass their own times.
 class LineTask {
  public:
   LineTask() = default;
@@ -13,10 +12,10 @@ class LineTask {
   LineTask& operator=(const LineTask&) = delete;
   virtual ~LineTask() = default;
 
-  /// When run() is wanted; TimePoint::max(): not until something happens.
+  /// When run() is to be called; TimePoint::max(): not before an event.
   virtual TimePoint due() const = 0;
 
-  /// Does what is due at `now`; called earlier, it does nothing.
+  /// Does the work that is due at `now`; does nothing before due().
   virtual void run(TimePoint now) = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "hal/lines/line_thread.h"
 
 #include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/timerfd.h>
 
 #include <algorithm>
@@ -29,45 +28,24 @@ itimerspec alarm_at(TimePoint moment) {
   return setting;
 }
 
-/// Empties a timer or an eventfd; fails when there is nothing in it, which is as good.
-void drain(const FileDescriptor& file) {
-  eventfd_t count = 0;  // a timer is read alike
-  static_cast<void>(::eventfd_read(file.get(), &count));
-}
-
 }  // namespace
-
-LineThread::~LineThread() { stop(); }
 
 Result<> LineThread::start() {
   poll_ = FileDescriptor(::epoll_create1(EPOLL_CLOEXEC));
-  bell_ = FileDescriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
   timer_ = FileDescriptor(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC));
-  if (!poll_.is_open() || !bell_.is_open() || !timer_.is_open() ||
-      !poll_for_input(poll_, bell_.get(), nullptr) ||
+  if (!poll_.is_open() || !woken_.is_open() || !timer_.is_open() ||
+      !poll_for_input(poll_, woken_.get(), nullptr) ||
       !poll_for_input(poll_, timer_.get(), nullptr)) {
     return fail("lines: " + std::generic_category().message(errno));
   }
   for (Watched& watched : watched_) watched.registered = 0;
-  stopping_ = false;
-  thread_ = std::thread([this] { run(); });
+  thread_.start("lines", [this] { run(); });
   return {};
 }
 
-void LineThread::stop() {
-  if (!thread_.joinable()) return;
-  stopping_ = true;
-  ring();
-  thread_.join();
-}
-
-void LineThread::ring() {
-  // Fails before start(), and when 2^64 - 1 rings were not heard; then nothing has to be told.
-  if (bell_.is_open()) static_cast<void>(::eventfd_write(bell_.get(), 1));
-}
-
 void LineThread::run() {
-  while (!stopping_) {
+  const std::stop_callback wake_to_stop(thread_.stop_token(), [this] { wake(); });
+  while (!thread_.stop_requested()) {
     poll_open_files();
     set_timer();
     wait();
@@ -75,7 +53,7 @@ void LineThread::run() {
   }
 }
 
-/// Files that were opened since the last time; closed ones have left by themselves.
+/// Adds files that were opened since the last time; the kernel removes closed ones.
 void LineThread::poll_open_files() {
   for (Watched& watched : watched_) {
     const WatchedInput& input = *watched.input;
@@ -96,15 +74,14 @@ TimePoint LineThread::next_due() const {
 void LineThread::set_timer() {
   const TimePoint next = next_due();
   const itimerspec setting = next == TimePoint::max() ? itimerspec{} : alarm_at(next);
-  ::timerfd_settime(timer_.get(), TFD_TIMER_ABSTIME, &setting, nullptr);
+  ::timerfd_settime(timer_.get(), TFD_TIMER_ABSTIME, &setting, nullptr);  // also clears it
 }
 
-/// Until edges, the timer or the bell; takes the edges.
+/// Waits for edges, the timer or wake(), and reads the edges.
 void LineThread::wait() {
   std::array<epoll_event, 16> events;
   const int count = ::epoll_wait(poll_.get(), events.data(), static_cast<int>(events.size()), -1);
-  drain(bell_);
-  drain(timer_);
+  woken_.clear();
   for (int i = 0; i < count; ++i) {
     auto* input = static_cast<WatchedInput*>(events[static_cast<std::size_t>(i)].data.ptr);
     if (input) input->read(Clock::now());

@@ -1,36 +1,31 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
-#include <thread>
 #include <vector>
 
-#include "hal/file_descriptor.h"
 #include "hal/lines/line_task.h"
 #include "hal/lines/watched_input.h"
+#include "hal/thread/event_fd.h"
+#include "hal/thread/file_descriptor.h"
+#include "hal/thread/thread.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
 
-/// The one thread of all lines: hands on edges and runs tasks when they are due.
-/// Thread rule: watch, add, start and stop on one thread; ring on any.
+/// The one thread of all lines: forwards edges and runs tasks when they are due.
+/// Thread rule: watch, add, start and stop on one thread; wake on any.
 class LineThread {
  public:
-  LineThread() = default;
-  LineThread(const LineThread&) = delete;
-  LineThread& operator=(const LineThread&) = delete;
-  ~LineThread();
-
-  /// Inputs and tasks are the caller's and outlive the run; given before start().
+  /// Inputs and tasks are the caller's and outlive the run; added before start().
   void watch(WatchedInput& input) { watched_.push_back({&input, 0}); }
   void add(LineTask& task) { tasks_.push_back(&task); }
 
-  /// Errors: no more files.
+  /// Error: too many open files.
   Result<> start();
-  void stop();
+  void stop() { thread_.stop(); }
 
   /// A task's due() changed on another thread.
-  void ring();
+  void wake() { woken_.signal(); }
 
  private:
   struct Watched {
@@ -48,10 +43,9 @@ class LineThread {
   std::vector<Watched> watched_;
   std::vector<LineTask*> tasks_;
   FileDescriptor poll_;
-  FileDescriptor bell_;
+  EventFd woken_;
   FileDescriptor timer_;
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace orbwatch::hal

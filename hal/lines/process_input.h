@@ -7,19 +7,19 @@
 
 namespace orbwatch::hal {
 
-/// What an input of the machine says, laser on for one. Thread-safe.
+/// The state of an input from the machine, for example laser on. Thread-safe.
 class ProcessInput {
  public:
   struct State {
     bool active = false;
-    TimePoint since;          ///< the edge; or when the line was opened
-    std::uint64_t edges = 0;  ///< since then
+    TimePoint since;          ///< of the newest edge, else of opening
+    std::uint64_t edges = 0;  ///< since opening
   };
 
   ProcessInput(bool active, TimePoint now) : state_{active, now, 0} {}
 
   /// An edge of the line.
-  void take(const EdgeEvent& edge) {
+  void on_edge(const EdgeEvent& edge) {
     const std::lock_guard lock(mutex_);
     state_ = {edge.edge == Edge::Rising, edge.stamp, state_.edges + 1};
   }

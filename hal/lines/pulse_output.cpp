@@ -4,9 +4,9 @@
 
 namespace orbwatch::hal {
 
-PulseOutput::PulseOutput(const PulseSettings& settings, Outputs outputs, std::function<void()> ring)
+PulseOutput::PulseOutput(const PulseSettings& settings, Outputs outputs, std::function<void()> wake)
     : settings_(settings),
-      ring_(std::move(ring)),
+      wake_(std::move(wake)),
       outputs_(std::move(outputs)),
       rise_(settings.period.count() > 0 ? TimePoint::min() : TimePoint::max()) {}
 
@@ -19,7 +19,7 @@ bool PulseOutput::fire(TimePoint moment) {
     }
     rise_ = moment + settings_.delay;
   }
-  ring_();
+  wake_();
   return true;
 }
 
@@ -32,7 +32,7 @@ void PulseOutput::run(TimePoint now) {
   schedule(now);
   if (driven_ == active_) return;
   driven_ = active_;
-  // Without the lock: fire() never waits for a line.
+  // Without the lock, so that fire() does not wait for a line.
   std::uint64_t failed = 0;
   for (const auto& output : outputs_) failed += output->set(driven_) ? 0 : 1;
   const std::lock_guard lock(mutex_);

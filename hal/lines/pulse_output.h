@@ -12,31 +12,31 @@
 namespace orbwatch::hal {
 
 struct PulseSettings {
-  Clock::duration period{0};  ///< 0: pulses on command; else longer than the pulse
-  Clock::duration delay{0};   ///< from the command to the pulse
+  Clock::duration period{0};  ///< 0: pulses on request; else longer than the pulse
+  Clock::duration delay{0};   ///< from the request to the pulse
   Clock::duration width = std::chrono::milliseconds(1);
 };
 
 struct PulseCounts {
   std::uint64_t pulses = 0;
-  std::uint64_t missed = 0;  ///< commands during a pulse; at a rate, pulses that came too late
-  std::uint64_t failed = 0;  ///< changes that a line refused
+  std::uint64_t missed = 0;  ///< requests during a pulse; skipped periods
+  std::uint64_t failed = 0;  ///< refused by a line
 };
 
-/// Pulses on several lines at once: triggers for cameras, at a rate or on command, or a strobe that
-/// is fired by the edges of the trigger. A pulse is never shorter than its width; under load it may
-/// begin later and be longer. At a rate, pulses stay on the grid of the first: no drift.
+/// Pulses on several lines at once: camera triggers, periodic or on request, or a strobe on the
+/// trigger's edges. A pulse is never shorter than its width; under load it may be late or longer.
+/// Periodic pulses do not drift: they stay on the grid of the first.
 /// Thread rule: fire and counts on any thread, the others on the line thread.
 class PulseOutput : public LineTask {
  public:
   using Outputs = std::vector<std::unique_ptr<DigitalOutput>>;
 
-  /// `ring` is called when due() changed on the thread of fire(). At a rate the first pulse comes
-  /// `delay` after the first run().
-  PulseOutput(const PulseSettings& settings, Outputs outputs, std::function<void()> ring);
+  /// `wake` is called when fire() has changed due(). The first periodic pulse is `delay` after the
+  /// first run().
+  PulseOutput(const PulseSettings& settings, Outputs outputs, std::function<void()> wake);
 
-  /// One pulse, `delay` after `moment`. Returns false, and counts, when one is under way or pulses
-  /// come at a rate.
+  /// One pulse, `delay` after `moment`. Returns false, and counts it as missed, during a pulse or
+  /// with periodic pulses.
   bool fire(TimePoint moment);
 
   TimePoint due() const override;
@@ -49,12 +49,12 @@ class PulseOutput : public LineTask {
   void begin_pulse(TimePoint now);
 
   const PulseSettings settings_;
-  const std::function<void()> ring_;
+  const std::function<void()> wake_;
   Outputs outputs_;
   mutable std::mutex mutex_;
-  bool driven_ = false;  ///< what the lines were set to; of the line thread alone
+  bool driven_ = false;  ///< the lines' level; the line thread's
   bool active_ = false;
-  TimePoint rise_;  ///< of the next pulse; max(): none is asked for; min(): at a rate, not begun
+  TimePoint rise_;  ///< of the next pulse; max(): none; min(): periodic, not begun
   TimePoint fall_ = TimePoint::max();
   PulseCounts counts_;
 };

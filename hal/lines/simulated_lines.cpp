@@ -1,20 +1,19 @@
 #include "hal/lines/simulated_lines.h"
 
-#include <sys/eventfd.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
 #include <mutex>
+#include <optional>
 #include <utility>
 
-#include "hal/file_descriptor.h"
 #include "hal/lines/find_line.h"
+#include "hal/thread/event_fd.h"
 
 namespace orbwatch::hal {
 
-/// One wire, shared by whoever drives, reads or simulates it.
+/// One wire, shared by its input, output and simulation.
 struct SimulatedLines::Wire {
   std::string name;
   OnChange on_change;
@@ -22,7 +21,7 @@ struct SimulatedLines::Wire {
   bool level = false;
   bool has_input = false;
   bool has_output = false;
-  FileDescriptor bell;  ///< of the input
+  std::optional<EventFd> readable;  ///< the input's descriptor, while it is open
   std::array<EdgeEvent, kQueue> edges;
   std::size_t waiting = 0;
   std::uint64_t edge_count = 0;
@@ -31,16 +30,15 @@ struct SimulatedLines::Wire {
 
   LineFaultReport report() const { return {fault, "line " + name + ": simulated fault"}; }
 
-  /// Wakes the input; fails only when it is awake already.
-  void ring() {
-    if (bell.is_open()) static_cast<void>(::eventfd_write(bell.get(), 1));
+  void signal() {
+    if (readable) readable->signal();
   }
 
   void set_fault(LineFault now) {
-    if (std::exchange(fault, now) != now) ring();
+    if (std::exchange(fault, now) != now) signal();
   }
 
-  /// The fault that the script has for edge `number`; without a script it stays what it is.
+  /// Sets the script's fault of edge `number`; without a script the fault is unchanged.
   void follow_script(std::uint64_t number) {
     if (faults.empty()) return;
     const auto entry = std::ranges::find_if(faults, [number](const ScriptedLineFault& f) {
@@ -56,7 +54,7 @@ struct SimulatedLines::Wire {
     if (on_change) on_change(name, active);
     if (fault != LineFault::None || !has_input || waiting == kQueue) return;
     edges[waiting++] = {edge_to(active), stamp};
-    ring();
+    signal();
   }
 };
 
@@ -67,10 +65,10 @@ class SimulatedLines::Input : public DigitalInput {
   ~Input() override {
     const std::lock_guard lock(wire_->mutex);
     wire_->has_input = false;
-    wire_->bell = FileDescriptor();
+    wire_->readable.reset();
   }
 
-  int descriptor() const override { return wire_->bell.get(); }
+  int descriptor() const override { return wire_->readable->get(); }
 
   LineResult<std::size_t> take(std::span<EdgeEvent> edges) override {
     const std::lock_guard lock(wire_->mutex);
@@ -84,9 +82,7 @@ class SimulatedLines::Input : public DigitalInput {
     std::move(begin + static_cast<std::ptrdiff_t>(count),
               begin + static_cast<std::ptrdiff_t>(wire_->waiting), begin);
     wire_->waiting -= count;
-    eventfd_t rings = 0;
-    static_cast<void>(::eventfd_read(wire_->bell.get(), &rings));  // fails when nobody rang
-    if (wire_->waiting > 0) wire_->ring();
+    if (wire_->waiting == 0) wire_->readable->clear();
     return count;
   }
 
@@ -170,8 +166,8 @@ Result<std::unique_ptr<DigitalInput>> SimulatedLines::open_input(const InputSett
     return fail("line " + settings.address.text() + ": is read already, by \"" + kLineConsumer +
                 "\"");
   }
-  (*wire)->bell = FileDescriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
-  if (!(*wire)->bell.is_open()) {
+  (*wire)->readable.emplace();
+  if (!(*wire)->readable->is_open()) {
     return fail("line " + settings.address.text() + ": too many open files");
   }
   (*wire)->has_input = true;

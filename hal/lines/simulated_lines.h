@@ -10,27 +10,27 @@
 
 namespace orbwatch::hal {
 
-/// A fault that a simulated line shows: from its edge number `from` up to, not including, `until`.
-/// Meanwhile edges reach nobody.
+/// A simulated line's fault, from edge number `from` up to, not including, `until`. Its edges are
+/// lost meanwhile.
 struct ScriptedLineFault {
   LineFault fault = LineFault::None;
   std::uint64_t from = 0;
   std::uint64_t until = 0;
 };
 
-/// An edge of a wire, at a moment of the script's choice.
+/// A scripted edge of a wire.
 struct ScriptedEdge {
   std::string line;
   bool level = false;
   TimePoint stamp;
 };
 
-/// Lines of a chip that exists only here, labelled "simulated": ordinary lines with the manners of
-/// the kernel's, without debounce. A line may be opened once as an input and once as an output:
-/// then it is a wire from one to the other. Thread-safe; opened lines may outlive it.
+/// Lines of a simulated chip, labelled "simulated", that behave as the kernel's without debounce. A
+/// line may be opened once as an input and once as an output: then it is a wire between the two.
+/// Thread-safe; opened lines may outlive it.
 class SimulatedLines : public LineBackEnd {
  public:
-  /// Edges that wait for each input; of more, the newest are dropped, as the kernel does it.
+  /// Edges that wait for each input; of more, the newest are dropped, as by the kernel.
   static constexpr std::size_t kQueue = 16;
 
   /// Called with each new level of a wire, on the thread that changed it, in order.
@@ -44,16 +44,16 @@ class SimulatedLines : public LineBackEnd {
   Result<std::unique_ptr<DigitalInput>> open_input(const InputSettings& settings) override;
   Result<std::unique_ptr<DigitalOutput>> open_output(const OutputSettings& settings) override;
 
-  /// Puts a level on a wire from outside; an edge if it differs. The line must exist.
+  /// Drives a wire from outside; an edge if the level differs. The line must exist.
   void drive(const std::string& line, bool level, TimePoint stamp = Clock::now());
   void play(const std::vector<ScriptedEdge>& script);
 
-  /// What is on the wire.
+  /// The wire's level.
   bool level(const std::string& line) const;
 
   /// Faults by number of the edge, from 0.
   void script_faults(const std::string& line, std::vector<ScriptedLineFault> faults);
-  /// A fault from now on, until another call says None.
+  /// A fault from now on, until a call with None.
   void fail_with(const std::string& line, LineFault fault);
 
  private:

@@ -6,8 +6,8 @@
 namespace orbwatch::hal {
 
 WatchdogOutput::WatchdogOutput(const WatchdogSettings& settings,
-                               std::unique_ptr<DigitalOutput> output, std::function<void()> ring)
-    : settings_(settings), ring_(std::move(ring)), output_(std::move(output)) {}
+                               std::unique_ptr<DigitalOutput> output, std::function<void()> wake)
+    : settings_(settings), wake_(std::move(wake)), output_(std::move(output)) {}
 
 void WatchdogOutput::report(bool healthy, TimePoint now) {
   bool changed = false;
@@ -17,7 +17,7 @@ void WatchdogOutput::report(bool healthy, TimePoint now) {
     if (healthy) last_ = now;
     changed = healthy != is_up_;
   }
-  if (changed) ring_();
+  if (changed) wake_();
 }
 
 TimePoint WatchdogOutput::due() const {
@@ -31,7 +31,7 @@ TimePoint WatchdogOutput::due() const {
 void WatchdogOutput::run(TimePoint now) {
   const bool level = next_level(now);
   if (level == std::exchange(active_, level)) return;
-  failed_ += output_->set(level) ? 0 : 1;  // without the lock: report() never waits for a line
+  failed_ += output_->set(level) ? 0 : 1;  // without the lock, so that report() does not wait
 }
 
 bool WatchdogOutput::next_level(TimePoint now) {

@@ -12,41 +12,41 @@
 namespace orbwatch::hal {
 
 struct WatchdogSettings {
-  Clock::duration timeout = std::chrono::seconds(1);  ///< without a report the line falls
-  Clock::duration half_period{0};  ///< 0: held active; else toggled, each level for so long
+  Clock::duration timeout = std::chrono::seconds(1);  ///< without a report the line goes inactive
+  Clock::duration half_period{0};                     ///< of the toggling; 0: held active
 };
 
-/// A line that says "all is well", active or toggling only while reports of good health keep
-/// coming: process OK (the pipeline works), or an alarm line on the closed-circuit principle (no
-/// alarm). It falls when a report is bad, when none comes in time, when the product ends, and,
-/// where the board pulls the wire down, when it dies. Only a toggling line also shows that a line
-/// hangs. Thread rule: report on any thread, the others on the line thread.
+/// A line that is active or toggles only while healthy reports arrive: process OK (the pipeline
+/// works), or an alarm line on the closed-circuit principle (no alarm). It goes inactive on an
+/// unhealthy report, without a report in time, when the program ends, and, where the board pulls
+/// the wire down, when it crashes. Only toggling also reveals a stuck line. Thread rule: report on
+/// any thread, the others on the line thread.
 class WatchdogOutput : public LineTask {
  public:
-  /// `ring` is called when due() changed on the thread of report().
+  /// `wake` is called when report() has changed due().
   WatchdogOutput(const WatchdogSettings& settings, std::unique_ptr<DigitalOutput> output,
-                 std::function<void()> ring);
+                 std::function<void()> wake);
 
   void report(bool healthy, TimePoint now);
 
   TimePoint due() const override;
   void run(TimePoint now) override;
 
-  /// Changes that the line refused.
+  /// Refused by the line.
   std::uint64_t failed() const { return failed_; }
 
  private:
   bool next_level(TimePoint now);
 
   const WatchdogSettings settings_;
-  const std::function<void()> ring_;
+  const std::function<void()> wake_;
   const std::unique_ptr<DigitalOutput> output_;
   mutable std::mutex mutex_;
   bool healthy_ = false;
-  TimePoint last_;         ///< report of good health
+  TimePoint last_;         ///< healthy report
   bool is_up_ = false;     ///< held or toggling
   TimePoint next_toggle_;  ///< while it is up
-  bool active_ = false;    ///< the line's level; of the line thread alone
+  bool active_ = false;    ///< the line's level; the line thread's
   std::atomic<std::uint64_t> failed_{0};
 };
 

@@ -6,9 +6,9 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Kernels before 6.6 wake nobody when a chip goes away.
+/// Kernels before 6.6 do not signal the removal of a chip.
 constexpr Clock::duration kCheckPeriod = std::chrono::seconds(1);
-/// Read in one go; after these the other lines have their turn.
+/// Batches per read(), so that one line does not starve the others.
 constexpr int kBatches = 4;
 
 }  // namespace
@@ -25,7 +25,7 @@ Result<std::unique_ptr<WatchedInput>> WatchedInput::open(LineBackEnd& back_end,
   return watched;
 }
 
-/// Also the level at this moment, where edges begin.
+/// Also reads the level, from which edges alternate.
 Result<> WatchedInput::open_line() {
   auto input = back_end_.open_input(settings_);
   if (!input) return tl::unexpected(input.error());
@@ -44,7 +44,7 @@ void WatchedInput::read(TimePoint now) {
   for (int batch = 0; input_ && batch < kBatches; ++batch) {
     const auto count = input_->take(edges);
     if (!count) return fail_with(count.error(), now);
-    for (std::size_t i = 0; i < *count; ++i) give(filter_.take(edges[i]));
+    for (std::size_t i = 0; i < *count; ++i) forward(filter_.take(edges[i]));
     count_lost();
     if (*count == 0) return;
   }
@@ -53,13 +53,13 @@ void WatchedInput::read(TimePoint now) {
 void WatchedInput::run(TimePoint now) {
   if (now < due()) return;
   if (!input_) return reopen(now);
-  // Level first, then edges: one that comes between the two is not taken for lost.
+  // Level before edges: an edge between the two must not count as lost.
   const auto level = input_->level();
   if (!level) return fail_with(level.error(), now);
   check_ = now + kCheckPeriod;
   read(now);
   if (!input_ || now < filter_.due()) return;
-  give(filter_.settle(*level, now));
+  forward(filter_.settle(*level, now));
   count_lost();
 }
 
@@ -67,7 +67,7 @@ void WatchedInput::count_lost() {
   lost_ = lost_before_ + input_->lost().value_or(filter_.found_lost());
 }
 
-void WatchedInput::give(const std::optional<EdgeEvent>& edge) {
+void WatchedInput::forward(const std::optional<EdgeEvent>& edge) {
   if (!edge) return;
   level_ = edge->edge == Edge::Rising;
   for (const OnEdge& on_edge : on_edge_) on_edge(*edge);
@@ -88,8 +88,8 @@ void WatchedInput::reopen(TimePoint now) {
   }
   pause_.reset();
   on_fault_({});
-  // What changed meanwhile is one edge, stamped when it was found.
-  if (level_ != before) give(EdgeEvent{edge_to(level_), now});
+  // Changes meanwhile count as one edge, stamped now.
+  if (level_ != before) forward(EdgeEvent{edge_to(level_), now});
 }
 
 }  // namespace orbwatch::hal

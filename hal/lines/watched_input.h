@@ -14,9 +14,9 @@
 
 namespace orbwatch::hal {
 
-/// An input line whose edges are handed on, debounced. A line that breaks off (a chip on USB) is
-/// reported once, closed, and opened again after 1 s, then 2 s, up to every 10 s.
-/// Thread rule: thread-bound (the line thread), apart from lost().
+/// An input line that forwards its debounced edges. A line that fails (a chip on USB may
+/// disconnect) is reported once, closed, and opened again after a BackOff. Thread rule:
+/// thread-bound (the line thread), apart from lost().
 class WatchedInput : public LineTask {
  public:
   using OnEdge = std::function<void(const EdgeEvent&)>;
@@ -28,23 +28,23 @@ class WatchedInput : public LineTask {
                                                     const InputSettings& settings,
                                                     OnFault on_fault);
 
-  /// Whether the line was active when it was opened.
+  /// The level at the first open().
   bool initial_level() const { return initial_level_; }
 
-  /// Several users may hear the same edges; called before the line thread starts.
-  void hear(OnEdge on_edge) { on_edge_.push_back(std::move(on_edge)); }
+  /// Adds a receiver of edges; called before the line thread starts.
+  void subscribe(OnEdge on_edge) { on_edge_.push_back(std::move(on_edge)); }
 
-  /// Of the open line, else -1. Another number of times opened(), another file.
+  /// Of the open line, else -1. A new file for each opened().
   int descriptor() const { return input_ ? input_->descriptor() : -1; }
   unsigned opened() const { return opened_; }
 
-  /// Takes the edges that wait.
+  /// Reads the waiting edges.
   void read(TimePoint now);
 
   TimePoint due() const override { return input_ ? std::min(filter_.due(), check_) : retry_; }
   void run(TimePoint now) override;
 
-  /// Edges known to be lost: dropped by the kernel before they could be taken.
+  /// Edges that the kernel dropped before they were read.
   std::uint64_t lost() const { return lost_; }
 
  private:
@@ -52,7 +52,7 @@ class WatchedInput : public LineTask {
 
   Result<> open_line();
   void count_lost();
-  void give(const std::optional<EdgeEvent>& edge);
+  void forward(const std::optional<EdgeEvent>& edge);
   void fail_with(const LineFaultReport& report, TimePoint now);
   void reopen(TimePoint now);
 
@@ -63,12 +63,12 @@ class WatchedInput : public LineTask {
   std::unique_ptr<DigitalInput> input_;
   EdgeFilter filter_{Clock::duration(0), false};
   bool initial_level_ = false;
-  bool level_ = false;  ///< that users were told last
+  bool level_ = false;  ///< of the newest forwarded edge
   unsigned opened_ = 0;
   TimePoint retry_ = TimePoint::max();
-  TimePoint check_ = TimePoint::min();  ///< when the open line is asked whether it is still there
+  TimePoint check_ = TimePoint::min();  ///< when the open line is probed next
   BackOff pause_;
-  std::uint64_t lost_before_ = 0;  ///< of files that were closed
+  std::uint64_t lost_before_ = 0;  ///< of closed files
   std::atomic<std::uint64_t> lost_{0};
 };
 

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
-/// OpenCV fills in what is missing from a damaged file and says so on stderr only; so the file is
-/// checked first. Returns the longer side.
+/// OpenCV repairs a damaged file and reports it on stderr only; so the file is checked first.
+/// Returns the longer side.
 Result<std::uint32_t> check_file(std::span<const std::byte> file) {
   if (is_png(file)) {
     const auto size = check_png(file);

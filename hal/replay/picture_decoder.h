@@ -17,12 +17,12 @@ struct DecodedPicture {
   std::unique_ptr<std::byte[]> storage;
 };
 
-/// True when the name ends as that of a picture that read_picture reads; case does not count.
+/// True for the file extensions of read_picture, regardless of case.
 bool has_picture_name(const std::filesystem::path& path);
 
-/// Decodes a whole JPEG or PNG file that was read into memory. Grey stays grey and 16 bit stay 16
-/// bit; alpha is dropped; EXIF orientation is applied. `name` stands in messages. Errors: another
-/// kind of file, ends early or damaged in any way, a side above kMaxSide. Reentrant.
+/// Decodes a JPEG or PNG file in memory. Grey stays grey and 16 bit stay 16 bit; alpha is dropped;
+/// EXIF orientation is applied. `name` is for messages. Errors: another kind of file, truncated or
+/// damaged, a side above kMaxSide. Reentrant.
 Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::string_view name);
 
 /// Reads and decodes one file. Errors as decode_picture, and no such file or not readable.

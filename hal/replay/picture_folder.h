@@ -9,15 +9,15 @@
 
 namespace orbwatch::hal {
 
-/// Folders up to this size, decoded, are decoded once and kept: playing them costs one copy per
-/// frame. Larger ones are decoded picture by picture while they play.
+/// Folders up to this size, decoded, are decoded once and cached: a frame costs one copy. Larger
+/// ones are decoded while they play.
 inline constexpr std::size_t kKeptFolderBytes = std::size_t{64} << 20;
 
-/// True when `a` comes before `b` for people: digits count as numbers, so "f2" comes before "f10".
+/// Natural order: digits count as numbers, so "f2" is before "f10".
 bool natural_order(std::string_view a, std::string_view b);
 
-/// The JPEG and PNG pictures of one folder in natural order of their names; other files and hidden
-/// ones are left alone.
+/// The JPEG and PNG pictures of one folder in natural order of their names; other and hidden files
+/// are ignored.
 class PictureFolder : public Recording {
  public:
   /// The format is that of the first picture. Errors: no pictures, the first cannot be decoded.
@@ -34,7 +34,7 @@ class PictureFolder : public Recording {
   std::vector<std::filesystem::path> files_;
   bool loop_;
   StreamFormat format_;
-  std::vector<Shown<DecodedPicture>> kept_;  ///< one per file, or empty when they are too large
+  std::vector<Shown<DecodedPicture>> kept_;  ///< one per file, or empty when too large
 };
 
 }  // namespace orbwatch::hal

@@ -8,7 +8,7 @@
 
 namespace orbwatch::hal {
 
-/// What the header of a PNG picture states.
+/// From the header of a PNG picture.
 struct PngSize {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -17,9 +17,8 @@ struct PngSize {
 /// True when `file` starts as a PNG picture does.
 bool is_png(std::span<const std::byte> file);
 
-/// Walks the chunks of a PNG picture up to its end and checks the sum of each (ISO/IEC 15948, 5.3),
-/// so that the decoder, which is lenient and prints to stderr, meets whole files only. Errors: not
-/// a PNG picture, ends early, damaged. Reentrant.
+/// Checks the CRC of each chunk of a PNG picture up to its end (ISO/IEC 15948, 5.3), as the decoder
+/// is lenient and prints to stderr. Errors: not a PNG picture, truncated, damaged. Reentrant.
 Result<PngSize> check_png(std::span<const std::byte> file);
 
 }  // namespace orbwatch::hal

@@ -8,16 +8,16 @@
 
 #include "hal/camera.h"
 #include "hal/fault.h"
-#include "hal/frame.h"
+#include "hal/frame/frame.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
 
-/// A value or the fault that a camera shows instead.
+/// A value, or the fault to report.
 template <class T = void>
 using Shown = tl::expected<T, FaultReport>;
 
-/// Pictures that were taken earlier, by number. Thread-bound.
+/// Recorded pictures by number. Thread-bound.
 class Recording {
  public:
   Recording() = default;
@@ -25,14 +25,12 @@ class Recording {
   Recording& operator=(const Recording&) = delete;
   virtual ~Recording() = default;
 
-  /// Size and format of every picture; the rate at which it was recorded, or 0 if that is not
-  /// known.
+  /// Size and format of every picture, and the recorded rate; 0: unknown.
   virtual const StreamFormat& format() const = 0;
 
-  /// Copies the pixels of picture `number` into `target`, which has the size and format of all. A
-  /// looped recording counts on past its end: it shows number modulo count. Faults: CorruptFrame or
-  /// WrongFormat, for this picture only; Unplugged when the recording is over. May give up with any
-  /// fault when `stop` is requested.
+  /// Copies the pixels of picture `number` into `target`, which has the recording's size and
+  /// format. A looped recording shows number modulo count. Faults: CorruptFrame or WrongFormat, for
+  /// this picture only; Unplugged at the recording's end; any fault once `stop` is requested.
   virtual Shown<> show(std::uint64_t number, FrameBuffer& target, const std::stop_token& stop) = 0;
 };
 

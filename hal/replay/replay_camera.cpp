@@ -15,7 +15,7 @@ Clock::duration offset(std::uint64_t exposure, double frame_rate) {
       std::chrono::duration<double>(static_cast<double>(exposure) / frame_rate));
 }
 
-/// The exposure that was due last when `elapsed` has passed since the start.
+/// The newest exposure that is due `elapsed` after the start.
 std::uint64_t exposure_at(Clock::duration elapsed, double frame_rate) {
   return static_cast<std::uint64_t>(std::chrono::duration<double>(elapsed).count() * frame_rate);
 }
@@ -61,7 +61,7 @@ Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
 void ReplayCamera::run(const std::stop_token& stop) {
   const TimePoint start = Clock::now();
   std::uint64_t exposure = 0;
-  for (TimePoint due = start; wait_until(stop, due);) {
+  for (TimePoint due = start; wait_until(due);) {
     if (!expose(exposure, due, stop)) return;
     exposure = std::max(exposure + 1, exposure_at(Clock::now() - start, format_.frame_rate));
     due = start + offset(exposure, format_.frame_rate);
@@ -75,7 +75,7 @@ bool ReplayCamera::expose(std::uint64_t exposure, TimePoint due, const std::stop
     return true;
   }
   const auto buffer = pool_->acquire();
-  if (!buffer) return true;  // lost: everybody holds on to earlier frames
+  if (!buffer) return true;  // lost: all buffers are in use
   if (const auto shown = recording_->show(exposure, *buffer, stop); !shown) {
     report(shown.error().fault, shown.error().detail);
     return shown.error().fault != Fault::Unplugged;
@@ -88,6 +88,13 @@ bool ReplayCamera::expose(std::uint64_t exposure, TimePoint due, const std::stop
   report(Fault::None);
   deliver(buffer);
   return true;
+}
+
+std::unique_ptr<Camera> make_camera(ReplaySettings settings, const CameraContext& context) {
+  settings.name = context.name;
+  settings.frame_rate = context.frame_rate;
+  settings.faults = context.faults;
+  return std::make_unique<ReplayCamera>(std::move(settings));
 }
 
 }  // namespace orbwatch::hal

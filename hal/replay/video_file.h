@@ -7,9 +7,8 @@
 
 namespace orbwatch::hal {
 
-/// A video file, decoded by FFmpeg through OpenCV: 8 bit colour. Pictures are decoded in their
-/// order; one with a number further on is reached by decoding those in between, an earlier one by
-/// starting over.
+/// A video file, decoded by FFmpeg through OpenCV: 8 bit colour. Pictures are decoded in order; a
+/// later number is reached by decoding those in between, an earlier one from the start.
 class VideoFile : public Recording {
  public:
   /// Errors: not a video, its first picture cannot be decoded.
@@ -24,7 +23,7 @@ class VideoFile : public Recording {
 
   VideoFile(std::filesystem::path file, bool loop);
 
-  /// Starts over; false when the file can no longer be opened.
+  /// Back to the start; false when the file can no longer be opened.
   bool rewind();
   /// Decodes forward up to picture `number`; false when the recording ends before it.
   bool skip_to(std::uint64_t number, const std::stop_token& stop);
@@ -36,8 +35,8 @@ class VideoFile : public Recording {
   bool loop_;
   StreamFormat format_;
   std::unique_ptr<Decoder> decoder_;
-  std::uint64_t position_ = 0;          ///< number of the picture that is decoded next
-  std::optional<std::uint64_t> count_;  ///< known once the end was met: headers only estimate it
+  std::uint64_t position_ = 0;          ///< of the next picture to decode
+  std::optional<std::uint64_t> count_;  ///< known after the end was reached; headers estimate it
 };
 
 }  // namespace orbwatch::hal

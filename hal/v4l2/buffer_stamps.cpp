@@ -3,7 +3,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Older than any frame that a driver of six buffers can still hold: a stamp of another clock.
+/// A driver with six buffers holds no older frame: the stamp is of another clock.
 constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace

@@ -1,20 +1,15 @@
 #include "hal/v4l2/v4l2_camera.h"
 
 #include <algorithm>
-#include <chrono>
-#include <stop_token>
 
-#include "hal/back_off.h"
 #include "hal/v4l2/buffer_stamps.h"
-#include "hal/v4l2/v4l2_controls.h"
-#include "hal/v4l2/v4l2_list.h"
+#include "hal/v4l2/device/v4l2_controls.h"
+#include "hal/v4l2/device/v4l2_list.h"
 
 namespace orbwatch::hal {
 namespace {
 
-using namespace std::chrono_literals;
-
-/// What the device calls itself, if it is there.
+/// The device's own name, if it is connected.
 std::string model_of(const std::string& name) {
   const auto device = find_v4l2_device(name).and_then(V4l2Device::open);
   return device ? device->card() : "unknown";
@@ -39,11 +34,11 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   if (auto ready = set_up(*device, settings_.pixel_format, request); !ready)
     return fail(ready.error().detail);
   decoder_.reset();
-  if (!agreed_.is_handed_on()) decoder_ = std::make_unique<FrameDecoder>(agreed_);
-  return agreed_.stream;
+  if (!negotiated_.is_zero_copy()) decoder_ = std::make_unique<FrameDecoder>(negotiated_);
+  return negotiated_.stream;
 }
 
-/// Whether the settings make sense for any device at all.
+/// Whether the settings are valid for any device.
 Result<> V4l2Camera::check() const {
   const auto& names = kPixelCodingNames;
   if (std::find(names.begin(), names.end(), settings_.pixel_format) == names.end()) {
@@ -55,11 +50,11 @@ Result<> V4l2Camera::check() const {
   return {};
 }
 
-/// Format and controls of a device that was just opened.
+/// Sets format and controls of an opened device.
 DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_format,
                                   const StreamRequest& request) {
-  const auto agreed = agree_on_format(device, {pixel_format, settings_.colour, request});
-  if (!agreed) return tl::unexpected(agreed.error());
+  const auto negotiated = negotiate_format(device, {pixel_format, settings_.colour, request});
+  if (!negotiated) return tl::unexpected(negotiated.error());
   std::vector<Control> controls;
   {
     const std::lock_guard lock(controls_mutex_);
@@ -71,14 +66,14 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
     }
   }
   triggered_ = waits_for_trigger(device);
-  agreed_ = *agreed;
+  negotiated_ = *negotiated;
   return {};
 }
 
 Result<> V4l2Camera::trigger() { return set("TriggerSoftware", 1); }
 
 Result<> V4l2Camera::set(std::string_view control, double value) {
-  // Controls do not belong to the stream: any opened device will do, and no thread has to wait.
+  // Controls do not belong to the stream: another descriptor of the device will do.
   auto device = open();
   if (!device) return fail(device.error().detail);
   if (auto done = set_control(*device, control, value); !done) return done;
@@ -96,47 +91,43 @@ Result<> V4l2Camera::set(std::string_view control, double value) {
   return {};
 }
 
-FaultReport V4l2Camera::stream_until_fault(const std::stop_token& stop) {
+DeviceResult<double> V4l2Camera::open_stream() {
   auto device = open();
-  if (!device) return device.error();
-  if (auto ready = set_up_again(*device); !ready) return ready.error();
-  const auto stream = V4l2Stream::start(std::move(*device), agreed_);
-  if (!stream) return stream.error();
-  const std::stop_callback wake(stop, [&stream] { (*stream)->ring(); });
+  if (!device) return tl::unexpected(device.error());
+  if (auto ready = set_up_again(*device); !ready) return tl::unexpected(ready.error());
+  auto stream = V4l2Stream::start(std::move(*device), negotiated_);
+  if (!stream) return tl::unexpected(stream.error());
+  stream_ = std::move(*stream);
+  return negotiated_.stream.frame_rate;
+}
 
-  counter_.restart();
-  const Clock::duration timeout = stall_timeout(agreed_.stream.frame_rate);
-  TimePoint deadline = Clock::now() + std::max(timeout, kFirstFrameTimeout);
-  while (!stop.stop_requested()) {
-    const bool may_be_silent = (*stream)->is_starved() || triggered_;
-    const auto captured = (*stream)->next(deadline);
-    if (!captured) return captured.error();
-    if (*captured) take(**captured);
-    if (*captured || may_be_silent) {
-      deadline = Clock::now() + timeout;
-    } else if (Clock::now() >= deadline) {
-      return {Fault::Stalled,
-              settings_.device + ": no frame for " + std::to_string(timeout / 1ms) + " ms"};
-    }
-  }
+DeviceResult<std::size_t> V4l2Camera::capture(TimePoint deadline) {
+  const auto captured = stream_->next(deadline);
+  if (!captured) return tl::unexpected(captured.error());
+  if (*captured) forward_intact(**captured);
+  return *captured ? 1 : 0;
+}
+
+DeviceResult<> V4l2Camera::close_stream() {
+  stream_.reset();
   return {};
 }
 
-/// As it was configured: frames in use and buffers for decoded ones are of that kind.
+/// With the configured format, which frames in use and the decoder's buffers have.
 DeviceResult<> V4l2Camera::set_up_again(V4l2Device& device) {
-  const V4l2Agreement before = agreed_;
+  const NegotiatedFormat before = negotiated_;
   const StreamFormat& stream = before.stream;
   auto ready = set_up(device, before.coding.name, {stream.width, stream.height, stream.frame_rate});
-  if (ready && decoder_) decoder_->follow(agreed_);
+  if (ready && decoder_) decoder_->follow(negotiated_);
   return ready;
 }
 
-void V4l2Camera::take(const V4l2Stream::Captured& captured) {
+void V4l2Camera::forward_intact(const V4l2Stream::Captured& captured) {
   const FrameStamp stamp = frame_stamp(captured.buffer, Clock::now());
-  const FrameMetadata metadata{.sequence = counter_.number(captured.buffer.sequence),
+  const FrameMetadata metadata{.sequence = sequence_of(captured.buffer.sequence),
                                .exposure_start = stamp.moment,
                                .stamp_source = stamp.source};
-  if (!is_whole(captured)) return;
+  if (!is_intact(captured)) return;
   std::shared_ptr<FrameBuffer> frame = captured.frame;
   if (decoder_) {
     auto decoded = decoder_->decode(captured.samples(0));
@@ -145,27 +136,31 @@ void V4l2Camera::take(const V4l2Stream::Captured& captured) {
     }
     frame = std::move(*decoded);
   }
-  // All decoded buffers are in use: the frame is lost, which the gap in the sequence tells.
+  // All buffers of decoded frames are in use: the frame is lost, a gap in the sequence.
   if (!frame) return;
   frame->metadata = metadata;
-  hand_on(std::move(frame));
+  forward(std::move(frame));
 }
 
-/// Whether the driver delivered all of a frame; reports it if not.
-bool V4l2Camera::is_whole(const V4l2Stream::Captured& captured) {
+/// Whether the driver delivered a complete frame; reports it if not.
+bool V4l2Camera::is_intact(const V4l2Stream::Captured& captured) {
   if ((captured.buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
     report(Fault::CorruptFrame, settings_.device + ": the driver marks a frame as damaged");
     return false;
   }
-  for (std::size_t i = 0; i < agreed_.layout.memory_count; ++i) {
+  for (std::size_t i = 0; i < negotiated_.layout.memory_count; ++i) {
     const std::size_t got = captured.samples(i).size();
-    const std::size_t needed = agreed_.layout.needed[i];
+    const std::size_t needed = negotiated_.layout.needed[i];
     if (got >= needed) continue;
     report(Fault::CorruptFrame, settings_.device + ": a frame of " + std::to_string(got) +
                                     " bytes; it takes " + std::to_string(needed));
     return false;
   }
   return true;
+}
+
+std::unique_ptr<Camera> make_camera(const V4l2Settings& settings, const CameraContext&) {
+  return std::make_unique<V4l2Camera>(settings);
 }
 
 }  // namespace orbwatch::hal

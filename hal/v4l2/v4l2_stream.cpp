@@ -1,36 +1,27 @@
 #include "hal/v4l2/v4l2_stream.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 
 namespace orbwatch::hal {
 namespace {
 
-/// For poll(): rounded up, so that the deadline has passed when it returns.
-int milliseconds_until(TimePoint deadline) {
-  using std::chrono::milliseconds;
-  const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
-  return static_cast<int>(std::clamp(left, milliseconds(0), milliseconds(60'000)).count());
-}
-
-/// The picture that a driver put into its memory.
-Picture describe(const DriverFrame& frame, const V4l2Agreement& agreement,
+/// The picture in a driver's memory.
+Picture describe(const DriverFrame& frame, const NegotiatedFormat& format,
                  const FilledBuffer& buffer) {
-  const StreamFormat& stream = agreement.stream;
+  const StreamFormat& stream = format.stream;
   Picture picture{stream.format, stream.colour_space, stream.width, stream.height, {}};
-  for (std::size_t n = 0; n < agreement.layout.plane_count; ++n) {
-    const DriverLayout::Plane& plane = agreement.layout.planes[n];
+  for (std::size_t n = 0; n < format.layout.plane_count; ++n) {
+    const DriverLayout::Plane& plane = format.layout.planes[n];
     const std::size_t offset = buffer.samples[plane.memory].offset + plane.offset;
-    picture.planes[n] = {frame.stretches[plane.memory].mapping.bytes().data() + offset,
+    picture.planes[n] = {frame.memory_planes[plane.memory].mapping.bytes().data() + offset,
                          static_cast<std::ptrdiff_t>(plane.stride)};
   }
   return picture;
@@ -39,9 +30,9 @@ Picture describe(const DriverFrame& frame, const V4l2Agreement& agreement,
 }  // namespace
 
 DriverFrame::DriverFrame(std::vector<BufferMemory> driver_memory)
-    : stretches(std::move(driver_memory)) {
-  memory = stretches.front().mapping.bytes().data();
-  capacity = stretches.front().mapping.bytes().size();
+    : memory_planes(std::move(driver_memory)) {
+  memory = memory_planes.front().mapping.bytes().data();
+  capacity = memory_planes.front().mapping.bytes().size();
 }
 
 Result<> DriverFrame::begin_read() {
@@ -55,7 +46,7 @@ Result<> DriverFrame::end_read() {
 }
 
 Result<> DriverFrame::synchronise(Result<> (DmaBuffer::*moment)() const) {
-  for (BufferMemory& stretch : stretches) {
+  for (BufferMemory& stretch : memory_planes) {
     if (!stretch.dma_buffer) continue;
     if (auto done = ((*stretch.dma_buffer).*moment)(); !done) return done;
   }
@@ -64,26 +55,18 @@ Result<> DriverFrame::synchronise(Result<> (DmaBuffer::*moment)() const) {
 
 std::span<const std::byte> V4l2Stream::Captured::samples(std::size_t number) const {
   const auto [offset, size] = buffer.samples[number];
-  const std::span<const std::byte> all = frame->stretches[number].mapping.bytes();
+  const std::span<const std::byte> all = frame->memory_planes[number].mapping.bytes();
   if (offset > all.size() || size > all.size() - offset) return {};
   return all.subspan(offset, size);
 }
 
-ReturnedBuffers::ReturnedBuffers() : bell_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
-
 void ReturnedBuffers::put(std::size_t index) {
   returned_.fetch_or(1U << index);
-  ring();
-}
-
-void ReturnedBuffers::ring() {
-  // Fails only when 2^64 - 1 rings were not heard; then it rings already.
-  static_cast<void>(::eventfd_write(bell_.get(), 1));
+  wake();
 }
 
 std::uint32_t ReturnedBuffers::take() {
-  eventfd_t rings = 0;
-  static_cast<void>(::eventfd_read(bell_.get(), &rings));  // fails when nobody rang
+  woken_.clear();
   return returned_.exchange(0);
 }
 
@@ -92,8 +75,8 @@ tl::unexpected<FaultReport> V4l2Stream::failed(const std::string& message) const
 }
 
 DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(V4l2Device device,
-                                                            const V4l2Agreement& agreement) {
-  std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device), agreement));
+                                                            const NegotiatedFormat& format) {
+  std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device), format));
   if (!stream->returned_->is_open()) return stream->failed("too many open files");
   if (auto made = stream->make_buffers(); !made) return tl::unexpected(made.error());
   if (auto queued = stream->queue_returned(); !queued) return tl::unexpected(queued.error());
@@ -102,8 +85,8 @@ DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(V4l2Device device,
 }
 
 V4l2Stream::~V4l2Stream() {
-  // Mapped buffers keep the device's file open; giving them back sets the device free for the next
-  // stream all the same. Both calls fail when the device is gone, and then nothing is left to do.
+  // Mapped buffers keep the device's file open; freeing them still releases the device for the next
+  // stream. Both calls fail when the device is gone, and then nothing is left to do.
   static_cast<void>(device_.stream_off());
   static_cast<void>(device_.request_buffers(0));
 }
@@ -115,9 +98,9 @@ DeviceResult<> V4l2Stream::make_buffers() {
   for (std::size_t i = 0; i < std::min<std::size_t>(*made, ReturnedBuffers::kMaxBuffers); ++i) {
     auto memory = device_.map_buffer(static_cast<std::uint32_t>(i));
     if (!memory) return tl::unexpected(memory.error());
-    if (memory->size() != agreement_.layout.memory_count) {
+    if (memory->size() != format_.layout.memory_count) {
       return failed("has buffers in " + std::to_string(memory->size()) + " pieces instead of " +
-                    std::to_string(agreement_.layout.memory_count));
+                    std::to_string(format_.layout.memory_count));
     }
     frames.push_back(std::make_unique<DriverFrame>(std::move(*memory)));
     frames_.push_back(frames.back().get());
@@ -131,9 +114,9 @@ DeviceResult<> V4l2Stream::make_buffers() {
 }
 
 DeviceResult<> V4l2Stream::check_size(const DriverFrame& frame) const {
-  for (std::size_t i = 0; i < frame.stretches.size(); ++i) {
-    const std::size_t size = frame.stretches[i].mapping.bytes().size();
-    const std::size_t needed = agreement_.layout.needed[i];
+  for (std::size_t i = 0; i < frame.memory_planes.size(); ++i) {
+    const std::size_t size = frame.memory_planes[i].mapping.bytes().size();
+    const std::size_t needed = format_.layout.needed[i];
     if (size >= needed) continue;
     return tl::unexpected(FaultReport{Fault::WrongFormat,
                                       device_.path() + ": has buffers of " + std::to_string(size) +
@@ -159,17 +142,17 @@ DeviceResult<> V4l2Stream::queue(std::uint32_t index) {
 }
 
 DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::next(TimePoint deadline) {
-  // A driver without a buffer to fill reports an error to poll(), so it is left out then.
+  // A driver without a buffer to fill makes poll() report an error, so it is left out then.
   std::array<pollfd, 2> files{{{returned_->descriptor(), POLLIN, 0},
                                {is_starved() ? -1 : device_.descriptor(), POLLIN, 0}}};
-  if (::poll(files.data(), files.size(), milliseconds_until(deadline)) <= 0) return std::nullopt;
+  if (::poll(files.data(), files.size(), poll_timeout(deadline)) <= 0) return std::nullopt;
   if (files[0].revents != 0) {
     if (auto queued = queue_returned(); !queued) return tl::unexpected(queued.error());
   }
   if (files[1].revents == 0) return std::nullopt;
   auto captured = take();
   if (captured && !*captured && (files[1].revents & (POLLERR | POLLHUP)) != 0) {
-    return failed("the stream broke off");
+    return failed("the stream was interrupted");
   }
   return captured;
 }
@@ -182,13 +165,13 @@ DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::take() {
   if (index >= pool_->size()) {
     return failed("filled buffer " + std::to_string(index) + ", which does not exist");
   }
-  // v4l2loopback fills buffers that it was not given. One that is in use is no new frame; that one
-  // is lost, which the gap in the sequence tells.
+  // v4l2loopback fills buffers that were not queued. One in use is no new frame; the new frame is
+  // lost, visible as a gap in the sequence.
   if ((queued_ >> index & 1U) == 0) return std::nullopt;
   queued_ &= ~(1U << index);
   auto frame = pool_->acquire(index);
   if (auto begun = frame->begin_read(); !begun) return failed(begun.error().message);
-  if (agreement_.is_handed_on()) frame->picture = describe(*frame, agreement_, **buffer);
+  if (format_.is_zero_copy()) frame->picture = describe(*frame, format_, **buffer);
   return Captured{std::move(frame), **buffer};
 }
 

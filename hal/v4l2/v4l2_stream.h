@@ -9,23 +9,24 @@
 #include <string>
 #include <vector>
 
-#include "hal/buffer_pool.h"
-#include "hal/frame.h"
-#include "hal/v4l2/v4l2_device.h"
-#include "hal/v4l2/v4l2_format.h"
+#include "hal/frame/buffer_pool.h"
+#include "hal/frame/frame.h"
+#include "hal/thread/event_fd.h"
+#include "hal/v4l2/device/v4l2_device.h"
+#include "hal/v4l2/format/v4l2_format.h"
 
 namespace orbwatch::hal {
 
-/// A frame in a driver's memory, which stays mapped for as long as the frame is held.
+/// A frame in a driver's memory, which stays mapped while the frame is held.
 struct DriverFrame : FrameBuffer {
   explicit DriverFrame(std::vector<BufferMemory> driver_memory);
 
-  /// For the camera's thread: before the first look at what the device wrote, and before the device
+  /// For the camera's thread: before the first read of what the device wrote, and before the device
   /// writes again. Error: as DmaBuffer.
   Result<> begin_read();
   Result<> end_read();
 
-  std::vector<BufferMemory> stretches;  ///< in the order of the format's
+  std::vector<BufferMemory> memory_planes;  ///< in the format's order
 
  private:
   Result<> synchronise(Result<> (DmaBuffer::*moment)() const);
@@ -33,60 +34,56 @@ struct DriverFrame : FrameBuffer {
   bool is_read_ = false;
 };
 
-/// The door bell of a stream: buffers whose last frame was released wait here until the camera's
-/// thread, which alone talks to the device, queues them again. It outlives the stream for as long
-/// as frames are held, so a late release rings where nobody listens. Thread-safe, lock-free.
+/// Buffers whose last frame was released: the camera's thread, which alone talks to the device,
+/// queues them again. Outlives the stream for as long as frames are held. Thread-safe, lock-free.
 class ReturnedBuffers {
  public:
   static constexpr std::size_t kMaxBuffers = 32;
 
-  ReturnedBuffers();
-
-  bool is_open() const { return bell_.is_open(); }
-  int descriptor() const { return bell_.get(); }  ///< readable after put() or ring()
+  bool is_open() const { return woken_.is_open(); }
+  int descriptor() const { return woken_.get(); }  ///< readable after put() or wake(), until take()
   void put(std::size_t index);
-  void ring();
-  /// One bit per returned buffer; silences the bell.
+  void wake() { woken_.signal(); }
+  /// One bit per returned buffer.
   std::uint32_t take();
 
  private:
-  FileDescriptor bell_;
+  EventFd woken_;
   std::atomic<std::uint32_t> returned_{0};
 };
 
 /// A device that streams into mapped buffers. Its end stops the device and closes it; frames that
-/// are still held stay valid. Thread-bound but for ring().
+/// are still held stay valid. Thread-bound but for wake().
 class V4l2Stream {
  public:
   struct Captured {
     std::shared_ptr<DriverFrame> frame;  ///< its picture is set, if the driver's memory is one
-    FilledBuffer buffer;                 ///< the driver's words about it
+    FilledBuffer buffer;                 ///< the driver's description of it
 
-    /// What is in one stretch of memory: empty when the driver says it is where it cannot be.
+    /// The samples in one memory plane; empty when the driver's offset or size is invalid.
     std::span<const std::byte> samples(std::size_t memory) const;
   };
 
-  /// Makes the buffers and starts the device, whose format was agreed on.
+  /// Makes the buffers and starts the device, whose format was negotiated.
   static DeviceResult<std::unique_ptr<V4l2Stream>> start(V4l2Device device,
-                                                         const V4l2Agreement& agreement);
+                                                         const NegotiatedFormat& format);
   V4l2Stream(const V4l2Stream&) = delete;
   V4l2Stream& operator=(const V4l2Stream&) = delete;
   ~V4l2Stream();
 
-  /// Waits for the next frame; nothing when the bell rang or `deadline` passed. Queues the buffers
-  /// that were returned.
+  /// Waits for the next frame; nullopt after wake() or at `deadline`. Queues returned buffers.
   DeviceResult<std::optional<Captured>> next(TimePoint deadline);
 
   /// True when frames in use hold all buffers: the device has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
   /// Ends a wait in next(). Thread-safe.
-  void ring() { returned_->ring(); }
+  void wake() { returned_->wake(); }
 
  private:
-  V4l2Stream(V4l2Device device, const V4l2Agreement& agreement)
+  V4l2Stream(V4l2Device device, const NegotiatedFormat& format)
       : device_(std::move(device)),
-        agreement_(agreement),
+        format_(format),
         returned_(std::make_shared<ReturnedBuffers>()) {}
 
   DeviceResult<> make_buffers();
@@ -98,7 +95,7 @@ class V4l2Stream {
   tl::unexpected<FaultReport> failed(const std::string& message) const;
 
   V4l2Device device_;
-  V4l2Agreement agreement_;
+  NegotiatedFormat format_;
   std::shared_ptr<ReturnedBuffers> returned_;
   std::optional<BufferPool<DriverFrame>> pool_;
   std::vector<DriverFrame*> frames_;  ///< the pool's, by index

@@ -5,7 +5,7 @@
 
 namespace orbwatch {
 
-/// A picture that somebody else owns: `height` rows of `width` pixels, each of `channels` samples
+/// A non-owning picture: `height` rows of `width` pixels, each of `channels` samples
 /// of type T, interleaved. `stride` is the distance between rows in samples (not bytes) and may
 /// exceed width * channels. Copying copies the reference, never the samples. Reentrant.
 template <class T>

@@ -10,12 +10,12 @@
 
 namespace orbwatch {
 
-/// Largest side of a picture or view, pixels: no camera makes larger ones, and a forged size must
-/// not eat the memory. Fixed-point coordinates rely on it.
+/// Largest side of a picture or view, pixels: a bound of memory against forged sizes, larger than
+/// any camera's. Fixed-point coordinates rely on it.
 inline constexpr int kMaxSide = 16384;
 
-/// A picture in a format of kPixelFormats that somebody else owns. Copying copies the reference,
-/// never the samples. Reentrant.
+/// A non-owning picture in a format of kPixelFormats. Copying copies the reference, never the
+/// samples. Reentrant.
 template <class Byte>
 struct BasicPicture {
   struct Plane {

@@ -20,7 +20,7 @@ enum class PixelFormat : std::uint8_t {
   I420,   ///< 8 bit Y, then planes of U and of V, each shared by 2x2 pixels; both sides are even
   Rgb,    ///< 8 bit R G B
   Bgr,    ///< 8 bit B G R
-  Bgra,   ///< 8 bit B G R and one that is not looked at
+  Bgra,   ///< 8 bit B G R and one that is ignored
   Rgb16,  ///< 16 bit R G B
 };
 
@@ -37,7 +37,7 @@ struct PlaneInfo {
 
 inline constexpr std::size_t kMaxPlanes = 3;
 
-/// Fixed facts about a PixelFormat.
+/// The description of a PixelFormat.
 struct PixelFormatInfo {
   PixelFormat format;
   std::string_view name;

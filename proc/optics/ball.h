@@ -8,14 +8,14 @@
 
 namespace orbwatch::optics {
 
-/// The mirror ball in the machine frame, millimetres. A ball whose size nobody knows has radius 1:
-/// lengths then count in ball radii.
+/// The mirror ball in the machine frame, millimetres. A ball of unknown size has radius 1: lengths
+/// then count in ball radii.
 struct Ball {
   Vec3 centre;
   double radius = 1;
 };
 
-/// Refuses a radius that is not above 0 and numbers that are not finite.
+/// Error: a radius that is not above 0, numbers that are not finite.
 inline Result<> check_ball(const Ball& ball) {
   const Vec3& c = ball.centre;
   if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) {

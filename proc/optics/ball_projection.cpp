@@ -10,9 +10,9 @@
 namespace orbwatch::optics {
 namespace {
 
-/// A ray through a window and its displacement depend on each other. Each round is better by about
-/// thickness / distance to the ball, so that a few do; what runs almost along the glass may not
-/// settle and is not shown.
+/// A ray through a window and its displacement depend on each other. Each iteration improves by
+/// about thickness / distance to the ball, so that a few are enough; a ray almost along the glass
+/// may not converge and is not shown.
 constexpr int kWindowRounds = 50;
 constexpr double kWindowTolerance = 1e-12;  // of that distance: radians
 
@@ -83,9 +83,7 @@ std::optional<Ray> BallProjection::Viewpoint::reflected(const Vec3& place) const
   if (!phi) return std::nullopt;
   const Vec3 across = rho > 0 ? place * (1 / rho) : Vec3{};
   const auto towards = [&](const CosSin& a) { return facing * a.cos + across * a.sin; };
-  // The other models know directions only.
-  const bool exact = model.kind() == BallModel::Kind::Exact;
-  return Ray{exact ? towards(model.theta(rho)) : Vec3{}, towards(*phi)};
+  return Ray{model.has_parallax() ? towards(model.theta(rho)) : Vec3{}, towards(*phi)};
 }
 
 BallProjection::LimbPicture::LimbPicture(const Outline& limb, const Mat3& registration)
@@ -132,8 +130,8 @@ Result<BallProjection> BallProjection::make(BallModel::Kind kind, const Calibrat
 }
 
 std::optional<Vec2> BallProjection::pixel(const Vec3& direction) const {
-  const bool parallax = viewpoint_.model.kind() == BallModel::Kind::Exact;
-  return pixel(direction, parallax ? proxy_.hit(direction).closeness : 0);
+  const bool has_parallax = viewpoint_.model.has_parallax();
+  return pixel(direction, has_parallax ? proxy_.hit(direction).closeness : 0);
 }
 
 std::optional<Vec2> BallProjection::pixel(const Vec3& direction, double closeness) const {
@@ -201,8 +199,8 @@ std::optional<Vec2> BallProjection::pixel_through_window(const CalibratedCamera&
   for (int round = 0; round < kWindowRounds; ++round) {
     const Viewpoint viewpoint = seen_from(camera.pose.position + shift);
     const auto place = viewpoint.place(direction, closeness);
-    // The glass moves a ray against the side to which it leans, so that the ball shows less there:
-    // what is behind the limb already stays there.
+    // The glass displaces a ray against its tilt, so that the ball shows less there: a direction
+    // behind the limb stays behind it.
     if (!place) return std::nullopt;
     const Vec3 ray = normalized(viewpoint.camera_ray(*place));
     const Vec3 next = displacement(*camera.window, ray);
@@ -234,7 +232,7 @@ std::optional<Ray> BallProjection::ray(const Vec2& pixel) const {
 std::optional<Vec3> BallProjection::direction(const Vec2& pixel) const {
   const auto ray = reflected(pixel);
   if (!ray) return std::nullopt;
-  if (viewpoint_.model.kind() != BallModel::Kind::Exact) return ray->direction;
+  if (!viewpoint_.model.has_parallax()) return ray->direction;
   const auto point = proxy_.meet(*ray);
   return point ? normalized(*point) : ray->direction;
 }

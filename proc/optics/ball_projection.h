@@ -32,13 +32,12 @@ struct CalibratedCamera {
 /// Where one camera shows the room on the ball. Reentrant, immutable.
 ///
 /// Directions are unit vectors from the ball's centre in the reference (machine) frame. With a
-/// scene proxy they stand for the point of the machine that lies there, so that cameras agree; far
-/// away else. The paper's and the classical model take the room to be far away always. That one
-/// part of the scene hides another from the ball's surface, though not from its centre, is not
-/// modelled.
+/// scene proxy a direction is that of the machine's point there, so that cameras agree; else, and
+/// for models without parallax, the room is far away. Occlusion of one part of the scene by
+/// another, as seen from the ball's surface but not from its centre, is not modelled.
 class BallProjection {
  public:
-  /// A camera without calibration: the limb in its picture and a registration. It stands on +Y of
+  /// An uncalibrated camera: the limb in its picture and a registration. It is on +Y of
   /// the ball and looks along -Y, image right = -X, image up = +Z; v_reference = registration
   /// v_camera. Error: no ellipse, no rotation.
   static Result<BallProjection> make(const BallModel& model, const Outline& outline,
@@ -50,29 +49,29 @@ class BallProjection {
   static Result<BallProjection> make(BallModel::Kind kind, const CalibratedCamera& camera,
                                      const Ball& ball, const SceneProxy& proxy = {});
 
-  /// The pixel that shows what lies in `direction`; nothing in the blind cone. It may lie outside
-  /// the picture when the picture cuts the ball.
+  /// The pixel that shows `direction`; nullopt in the blind cone. It may lie outside the picture
+  /// when the picture cuts the ball.
   std::optional<Vec2> pixel(const Vec3& direction) const;
 
-  /// The same when what lies there stands at `closeness` = ball radius / distance from the ball's
-  /// centre, whatever the proxy says. Smooth in both, also a little beyond closeness 0.
+  /// The same for a point there at `closeness` = ball radius / distance from the ball's centre,
+  /// instead of the proxy's. Smooth in both, also a little beyond closeness 0.
   std::optional<Vec2> pixel(const Vec3& direction, double closeness) const;
 
-  /// The same for many; not a number where it gives nothing.
+  /// The same for many; not a number for nullopt.
   void pixels(const Vec3Lanes& directions, const Lanes& closeness, Vec2Lanes& out) const;
 
-  /// The pixel that shows a point, machine frame, mm. Nothing in the blind cone and within the
+  /// The pixel that shows a point, machine frame, mm. nullopt in the blind cone and within the
   /// ball.
   std::optional<Vec2> pixel_of_point(const Vec3& point) const;
 
-  /// The ray that `pixel` sees after its reflection: it starts on the ball, machine frame, mm.
-  /// Nothing outside the limb.
+  /// The reflected ray of `pixel`: it starts on the ball, machine frame, mm. nullopt outside the
+  /// limb.
   std::optional<Ray> ray(const Vec2& pixel) const;
 
-  /// The direction of what `pixel` shows: where its ray meets the scene. Nothing outside the limb.
+  /// The direction to where the ray of `pixel` meets the scene. nullopt outside the limb.
   std::optional<Vec3> direction(const Vec2& pixel) const;
 
-  /// The limb in the picture; nothing when the lens does not show all of it.
+  /// The limb in the picture; nullopt when the lens does not show all of it.
   std::optional<Outline> outline() const;
 
   /// From the ball's centre towards the camera: the best-resolved direction.
@@ -101,13 +100,13 @@ class BallProjection {
     /// A direction's part across the axis times a number is its place.
     struct Scaled {
       Vec3 across;
-      BallModel::Stretch stretch;
+      Stretch stretch;
     };
     std::optional<Scaled> place(const Vec3& direction, double closeness) const;
-    /// Shown is what has an `along` above 0.
+    /// Shown if `along` is above 0.
     struct ScaledLanes {
       Vec3Lanes across;
-      BallModel::StretchLanes stretch;
+      StretchLanes stretch;
     };
     void places(const Vec3Lanes& directions, const Lanes& closeness, ScaledLanes& out) const;
     /// Camera ray of any length.

@@ -5,8 +5,8 @@
 
 #include "proc/optics/vec.h"
 
-/// So many numbers, points or directions at once, by component: loops over them become vector code.
-/// What a function for one of them returns as nothing is not a number here.
+/// kLanes numbers, points or directions by component, for loops that compilers vectorize. The
+/// nullopt of a scalar function is not-a-number here.
 namespace orbwatch::optics {
 
 inline constexpr std::size_t kLanes = 32;

@@ -48,7 +48,7 @@ Distorted distort(const Coefficients& k, const Vec2& x) {
   const Radial radial = pinhole_radial(k, r2);
   const double along = p2 * x.u + p1 * x.v;  // of the decentring, times the radius
   const double scale = radial.ratio + 2 * along;
-  // slope - ratio = r d(ratio)/dr: what the ratio's own change adds.
+  // slope - ratio = r d(ratio)/dr: the part of the ratio's own change.
   const double change = r2 > 0 ? (radial.slope - radial.ratio) / r2 : 0;
   return {{x.u * scale + p2 * r2, x.v * scale + p1 * r2},
           scale + change * x.u * x.u + 4 * p2 * x.u,
@@ -210,7 +210,7 @@ std::optional<Vec2> Lens::distorted_pixel(const Vec3& direction) const {
     const double across = std::hypot(direction.x, direction.y);
     const double angle = std::atan2(across, direction.z);
     if (!(angle <= limit_) || (across == 0 && !(direction.z > 0))) return std::nullopt;
-    // Along the axis the angle is the tangent, so that nothing is divided by 0.
+    // On the axis the angle equals the tangent; avoids a division by 0.
     const double scale =
         fisheye_radial(i.coefficients, angle).ratio * (across > 0 ? angle / across : 0);
     point = {direction.x * scale, direction.y * scale};

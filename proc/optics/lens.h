@@ -28,8 +28,8 @@ struct Intrinsics {
 };
 
 /// From directions in the camera frame to pixels and back. Source: OpenCV's calib3d documentation.
-/// Only the part of the distortion that is one to one counts: beyond the angle where the picture
-/// would fold back, nothing is shown. Reentrant, immutable.
+/// Only the injective part of the distortion is used: beyond the angle where the picture would fold
+/// back, functions return nullopt. Reentrant, immutable.
 class Lens {
  public:
   /// Error: sizes outside 1..kMaxSide, focal lengths that are not above 0, numbers that are not
@@ -37,13 +37,13 @@ class Lens {
   /// even a tenth of the picture's shorter side away from the principal point.
   static Result<Lens> make(const Intrinsics& intrinsics);
 
-  /// The pixel that shows a direction (any length); it may lie outside of the picture. Nothing
+  /// The pixel that shows a direction (any length); it may lie outside of the picture. nullopt
   /// beyond the fold or, but for a fisheye, behind the camera.
   std::optional<Vec2> pixel(const Vec3& direction) const {
     return straight_ ? straight_pixel(direction) : distorted_pixel(direction);
   }
 
-  /// Unit vector of a pixel; nothing beyond the fold.
+  /// Unit vector of a pixel; nullopt beyond the fold.
   std::optional<Vec3> direction(const Vec2& pixel) const;
 
   const Intrinsics& intrinsics() const { return intrinsics_; }

@@ -113,7 +113,7 @@ std::array<double, N> solve(std::array<std::array<double, N + 1>, N> rows) {
   return x;
 }
 
-/// The ellipse a u^2 + b uv + c v^2 + d u + e v = 1 in the outline's terms; nothing when it is a
+/// The ellipse a u^2 + b uv + c v^2 + d u + e v = 1 in the outline's terms; nullopt when it is a
 /// parabola or hyperbola.
 std::optional<Outline> ellipse(const std::array<double, 5>& conic) {
   const auto [a, b, c, d, e] = conic;

@@ -16,24 +16,24 @@ struct Outline {
   double angle = 0;
 };
 
-/// Refuses what is no ellipse: numbers that are not finite, axes that are not above 0.
+/// Error: numbers that are not finite, axes that are not above 0.
 Result<> check_ellipse(const Outline& outline);
 
-/// Refuses an outline whose centre lies outside of a picture of this size. A ball that the picture
-/// cuts is allowed: what it shows beyond the border is undefined.
+/// Error: an outline whose centre lies outside of a picture of this size. The picture may cut the
+/// ball; its part beyond the border is undefined.
 Result<> check_outline(const Outline& outline, int picture_width, int picture_height);
 
-/// Where the ball stands as seen from a camera.
+/// The position of the ball relative to a camera.
 struct BallSight {
   Vec3 axis;            ///< unit vector towards the ball's centre, camera frame
   double distance = 0;  ///< from camera to the ball's centre, ball radii, > 1
 };
 
-/// The ball's place from its limb and a known lens, on or off the optical axis: the limb's rays lie
-/// on a circular cone, a . w = cos(psi_max), which a linear fit over the ellipse's points solves;
-/// 1/distance = sin(psi_max). `window`: a glass before the lens, normal in the camera frame,
-/// thickness in ball radii; none when that is 0. Error: no ellipse, a limb that the lens cannot
-/// show, or one that is no ball's (rays off the cone by more than 5 % of its aperture).
+/// The ball's position from its limb and a known lens, on or off the optical axis: the limb's rays
+/// lie on a circular cone, a . w = cos(psi_max), which a linear fit over the ellipse's points
+/// solves; 1/distance = sin(psi_max). `window`: a glass before the lens, normal in the camera
+/// frame, thickness in ball radii; none when that is 0. Error: no ellipse, a limb that the lens
+/// cannot show, or one that is no ball's (rays off the cone by more than 5 % of its aperture).
 Result<BallSight> sight_from_outline(const Outline& outline, const Lens& lens,
                                      const Window& window = {});
 

@@ -7,10 +7,9 @@
 
 namespace orbwatch::optics {
 
-/// How many source pixels a degree has at what `direction` shows, in the worse of the picture's two
-/// main directions: the smaller singular value of d(source pixel) / d(direction) at that distance
-/// from the ball, as for a thing that faces it. 0 in the blind cone. Towards the blind side it
-/// falls to 0, since the ball squeezes the room there.
+/// Source pixels per degree in `direction`, along the worse of the picture's two main directions:
+/// the smaller singular value of d(source pixel) / d(direction) at that distance from the ball, for
+/// an object that faces it. 0 in the blind cone, and towards it falling to 0.
 double resolution(const BallProjection& ball, const Vec3& direction);
 
 /// resolution() at every pixel of a view, row by row: 0 also where the view's projection ends and

@@ -10,7 +10,7 @@
 
 namespace orbwatch::optics {
 
-/// One camera of a rig, as a file or an alignment states it: its place is known by
+/// One camera of a rig, as a file or an alignment states it. Its position follows from
 /// - intrinsics and pose, or
 /// - intrinsics, outline and registration: the ball's direction and distance follow from the limb;
 ///   the registration turns the camera's own axes (X = -right, Y = -forward, Z = -down), or
@@ -29,15 +29,15 @@ struct RigCamera {
   std::optional<Window> window;  ///< needs intrinsics
 };
 
-/// Everything that is known about where things stand: written by alignment, read by everybody.
+/// The known geometry: written by alignment.
 struct Rig {
   Ball ball;
   Scene scene;
   std::vector<RigCamera> cameras;
 };
 
-/// The projection of one of the rig's cameras. Error: what is missing, too much or impossible, with
-/// the camera's name in front.
+/// The projection of one of the rig's cameras. Error: missing, superfluous or impossible members,
+/// after the camera's name.
 Result<BallProjection> ball_projection(const Rig& rig, const RigCamera& camera);
 
 }  // namespace orbwatch::optics

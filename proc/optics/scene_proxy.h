@@ -29,9 +29,8 @@ struct Scene {
   std::vector<Box> obstacles;  ///< within any room, seen from outside: table, spindle
 };
 
-/// How far away what the ball shows is, in every direction from the ball's centre: what parallax
-/// needs. Watertight: every direction meets exactly one surface, on edges and corners too.
-/// Reentrant, immutable.
+/// The distance of the scene in every direction from the ball's centre, for parallax. Watertight:
+/// every direction meets exactly one surface, on edges and corners too. Reentrant, immutable.
 class SceneProxy {
  public:
   /// Everything is far away.
@@ -41,7 +40,7 @@ class SceneProxy {
   /// or anything that cuts it; the message names the part.
   static Result<SceneProxy> make(const Scene& scene, const Ball& ball);
 
-  /// What lies in a direction.
+  /// The surface in a direction.
   struct Hit {
     double closeness = 0;  ///< ball radius / distance from the ball's centre, in [0, 1]; 0 is far
     int surface = -1;      ///< of the smooth surfaces: 0..5 the room, then 6 per obstacle; -1 far
@@ -53,19 +52,19 @@ class SceneProxy {
   /// its whole plane, below 0 on the plane's far side. Equals hit().closeness where hit() names it.
   double closeness(int surface, const Vec3& direction) const;
 
-  /// Where a ray from outside of everything solid first meets the scene; nothing when that is far
-  /// away. Frame: relative to the ball's centre, in ball radii.
+  /// The first intersection of a ray from free space with the scene; nullopt when that is far away.
+  /// Frame: relative to the ball's centre, in ball radii.
   std::optional<Vec3> meet(const Ray& ray) const;
 
   bool is_far() const { return room_ == Scene::Room::None && obstacles_.empty(); }
 
   /// The edges where two of its surfaces meet or one hides another, as pairs of points relative to
   /// the ball's centre, in ball radii: the boxes' edges, their silhouettes among them. Obstacles
-  /// end at the walls of a box; where they cut other rooms or one another is not looked for.
+  /// end at the walls of a box; their intersections with other rooms or one another are left out.
   std::vector<std::pair<Vec3, Vec3>> edges() const;
 
-  /// edges() leaves nothing out: no plane's horizon, no obstacle in a sphere or before a plane, and
-  /// no two obstacles in one place.
+  /// Whether edges() is complete: no plane's horizon, no obstacle in a sphere or before a plane,
+  /// and no intersecting obstacles.
   bool lists_every_edge() const;
 
  private:

@@ -28,8 +28,8 @@ struct ViewSpec {
   int height = 0;
 };
 
-/// Refuses sizes outside 1..kMaxSide, angles that are not finite, fields of view that the kind
-/// cannot have, and any angle for Ball.
+/// Error: sizes outside 1..kMaxSide, angles that are not finite, fields of view that the kind
+/// cannot have, any angle for Ball.
 Result<> check_view(const ViewSpec& spec);
 
 /// From a view's pixels to directions in the reference frame and back. Reentrant, immutable.
@@ -47,22 +47,22 @@ class ViewProjection {
   /// and a margin, with square pixels. Error: also a limb that the lens does not show.
   static Result<ViewProjection> make(const ViewSpec& spec, const BallProjection& ball);
 
-  /// Unit vector of a pixel (OpenCV convention), also a little outside the picture. Nothing where
+  /// Unit vector of a pixel (OpenCV convention), also a little outside the picture. nullopt where
   /// the projection ends: beyond 180 degrees from a fisheye's axis, outside of the ball's limb.
   std::optional<Vec3> direction(double u, double v) const;
 
-  /// The same for many; not a number where it gives nothing.
+  /// The same for many; not a number for nullopt.
   void directions(const Vec2Lanes& pixels, Vec3Lanes& out) const;
 
-  /// The pixel that shows a unit vector; it may lie outside of the picture. Nothing for what the
-  /// projection shows nowhere, or not at one place: behind a perspective camera, the poles of a
-  /// cylinder, straight behind the others, the blind cone of a ball's picture.
+  /// The pixel that shows a unit vector; it may lie outside of the picture. nullopt for directions
+  /// without one pixel: behind a perspective camera, the poles of a cylinder, straight behind the
+  /// others, the blind cone of a ball's picture.
   std::optional<Vec2> pixel(const Vec3& direction) const;
 
   /// The solid angle that the pixel at (u, v) covers, in steradian; 0 where direction() ends.
   double solid_angle(double u, double v) const;
 
-  /// What ROS' camera_info says of a perspective view; nothing for other kinds.
+  /// ROS' camera_info of a perspective view; nullopt for other kinds.
   std::optional<Intrinsics> intrinsics() const;
 
   /// What it was made of.

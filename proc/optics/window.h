@@ -13,11 +13,11 @@ struct Window {
   double index = 1.52;   ///< of refraction
 };
 
-/// Refuses a normal of length 0, a thickness below 0, an index outside [1, 5].
+/// Error: a normal of length 0, a thickness below 0, an index outside [1, 5].
 Result<> check_window(const Window& window);
 
-/// By how much a ray of that unit direction leaves the glass beside where it would have gone, mm,
-/// perpendicular to the normal: thickness (t / (n t) - r / (n r)) with t the direction within the
+/// The lateral displacement of a ray of that unit direction by the glass, mm, perpendicular to the
+/// normal: thickness (t / (n t) - r / (n r)) with t the direction within the
 /// glass (Snell). Zero for a ray along the glass, which never enters it. Reentrant.
 Vec3 displacement(const Window& window, const Vec3& direction);
 

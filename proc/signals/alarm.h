@@ -8,7 +8,7 @@
 
 namespace orbwatch::signals {
 
-/// What is known outside about one alarm.
+/// The published part of one alarm.
 struct Alarm {
   AlarmState state = AlarmState::Normal;
   AlarmLevel level = AlarmLevel::None;  ///< of the signal now, after hysteresis and delays
@@ -21,16 +21,16 @@ struct Alarm {
   bool operator==(const Alarm&) const = default;
 };
 
-/// Whether a condition counts, and how long what would change that has lasted.
+/// Whether a condition holds, and how long the evidence against that has lasted.
 struct AlarmCondition {
   bool on = false;
-  bool pending = false;  ///< what would change `on` was seen, and nothing else since
+  bool pending = false;  ///< every measurement since contradicts `on`
   std::chrono::nanoseconds pending_for{0};
 
   bool operator==(const AlarmCondition&) const = default;
 };
 
-/// All that an alarm knows of its past.
+/// The state of an alarm between steps.
 struct AlarmMemory {
   Alarm alarm;
   AlarmCondition low_alarm, low_warning, high_warning, high_alarm;
@@ -41,11 +41,11 @@ struct AlarmMemory {
   bool operator==(const AlarmMemory&) const = default;
 };
 
-/// No more than this of the time between two steps counts towards a delay: nobody knows what the
-/// signal did in a longer gap. So step at least this often.
+/// The most time between two steps that counts towards a delay: the signal is unknown in a longer
+/// gap. So step at least this often.
 inline constexpr std::chrono::nanoseconds kLongestStep = std::chrono::seconds(1);
 
-/// One moment.
+/// The inputs of one step.
 struct AlarmInputs {
   std::chrono::nanoseconds now{0};  ///< of a clock that is not set; its origin does not matter
   double value = 0;                 ///< of the signal, in its unit; not finite: not measured
@@ -53,32 +53,32 @@ struct AlarmInputs {
   bool is_new = true;  ///< `value` was measured since the last step
 };
 
-/// True when this moment cannot be an alarm of these limits.
+/// True when the process is inactive and these limits are for the active one.
 inline bool is_suppressed(const AlarmLimits& limits, const AlarmInputs& inputs) {
   return limits.only_while_active && !inputs.process_active;
 }
 
-/// The alarm one moment later. Reentrant, allocates nothing. For limits that passed check():
+/// The alarm one step later. Reentrant, allocates nothing. For limits that passed check():
 /// - A limit is reached at the value itself and left beyond the hysteresis; in between nothing
-///   changes and both delays start anew. Delays count the time between measurements that say the
-///   same. Time that goes back counts nothing, a gap at most kLongestStep.
-/// - What begins on one side ends what the off delay still held on the other.
-/// - A rise is raised, so it needs to be acknowledged again: from no level, from a warning to an
+///   changes and both delays restart. Delays count the time between agreeing measurements, a gap at
+///   most kLongestStep. Time that goes back counts nothing.
+/// - A condition that begins on one side ends one that the off delay still holds on the other.
+/// - A rise raises the alarm, which needs a new acknowledgement: from no level, from a warning to
+/// an
 ///   alarm, to the other side, and the loss of the measurement. From alarm to warning it only
 ///   eases.
-/// - While the value is not new delays stand still: what was measured once says nothing of later.
-/// - Without a measurement nothing begins or ends, and delays stand still; after the loss delay
-///   that is raised, and delays start anew. It ends when there were values for the off delay.
-/// - While suppressed nothing is pending: what stood is cleared, except that a latching alarm stays
+/// - Delays are paused while the value is not new.
+/// - Without a measurement nothing begins or ends, and delays are paused; after the loss delay the
+///   loss is raised, and delays restart. It ends after measurements for the off delay.
+/// - While suppressed nothing is pending: an alarm is cleared, except that a latching one stays
 ///   latched. Delays start when the process does.
 AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const AlarmInputs& inputs);
 
-/// The alarm once an operator has acknowledged what it is in `memory`; a latched one is reset.
-/// Acknowledge before the step of the same moment: what rises in it was not seen yet. Reentrant.
+/// The alarm after an operator's acknowledgement; a latched one is reset. Acknowledge before the
+/// step of the same time, whose rise the operator has not seen. Reentrant.
 AlarmMemory acknowledge(const AlarmLimits& limits, const AlarmMemory& memory);
 
-/// True when `after`, one step later than `before`, has something to acknowledge that `before` had
-/// not. Reentrant.
+/// True when `after`, one step later than `before`, needs a new acknowledgement. Reentrant.
 bool is_raised(const Alarm& before, const Alarm& after);
 
 }  // namespace orbwatch::signals

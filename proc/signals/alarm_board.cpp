@@ -6,7 +6,7 @@
 namespace orbwatch::signals {
 namespace {
 
-/// What a step made of an alarm; nothing when that is no news.
+/// The event of a step, if there is one.
 std::optional<AlarmEventKind> change(const Alarm& before, const Alarm& after, bool suppressed) {
   if (suppressed) {
     const bool stood = before.state != AlarmState::Normal && after != before;
@@ -61,7 +61,7 @@ void AlarmBoard::acknowledge(std::size_t index, const AlarmInputs& now) {
   const Alarm before = memory.alarm;
   memory = signals::acknowledge(limits_[index], memory);
   if (memory.alarm.state == before.state) return;
-  note(index, AlarmEventKind::Acknowledged, before.announced, now);
+  record(index, AlarmEventKind::Acknowledged, before.announced, now);
 }
 
 void AlarmBoard::step(std::size_t index, const AlarmInputs& now) {
@@ -71,11 +71,11 @@ void AlarmBoard::step(std::size_t index, const AlarmInputs& now) {
   const auto kind = change(before, memory.alarm, is_suppressed(limits_[index], now));
   if (!kind) return;
   const bool begins = *kind == AlarmEventKind::Raised || *kind == AlarmEventKind::Eased;
-  note(index, *kind, begins ? memory.alarm.level : before.announced, now);
+  record(index, *kind, begins ? memory.alarm.level : before.announced, now);
 }
 
-void AlarmBoard::note(std::size_t index, AlarmEventKind kind, AlarmLevel level,
-                      const AlarmInputs& now) {
+void AlarmBoard::record(std::size_t index, AlarmEventKind kind, AlarmLevel level,
+                        const AlarmInputs& now) {
   events_[event_count_++] = {index, kind, memories_[index].alarm.state, level, now.value, now.now};
 }
 

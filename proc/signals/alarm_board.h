@@ -20,23 +20,23 @@ using AlarmSet = std::bitset<kMaxAlarms>;
 /// A choice among regions, by their index.
 using RegionSet = std::bitset<kMaxRegions>;
 
-/// What happened to one alarm at one step.
+/// An event of one alarm at one step.
 struct AlarmEvent {
   std::size_t alarm = 0;  ///< index on the board
   AlarmEventKind kind = AlarmEventKind::Raised;
   AlarmState state = AlarmState::Normal;  ///< after it
-  /// That was raised or eased to; else the worst that was acknowledged, cleared or suppressed.
+  /// The level it was raised or eased to; else the worst one acknowledged, cleared or suppressed.
   AlarmLevel level = AlarmLevel::None;
   double value = kNotValid;  ///< of the signal at this step; not finite: not measured
   std::chrono::nanoseconds time{0};
 };
 
-/// One moment of everything that is watched.
+/// The inputs of one step.
 struct AlarmBoardInputs {
   std::chrono::nanoseconds now{0};   ///< as in AlarmInputs
-  std::span<const Signals> regions;  ///< by region; what is not there was not measured
+  std::span<const Signals> regions;  ///< by region; beyond its end: not measured
   bool process_active = true;
-  AlarmSet acknowledged;  ///< since the last step; what is no alarm is ignored
+  AlarmSet acknowledged;  ///< since the last step; indices beyond the board are ignored
   RegionSet stale{};      ///< regions that were not measured anew since the last step
 };
 
@@ -50,8 +50,8 @@ class AlarmBoard {
   /// check(). They name the alarm by its place in the list, from 0, and its signal.
   static Result<AlarmBoard> make(std::span<const AlarmLimits> limits, std::size_t region_count);
 
-  /// Acknowledges, then steps every alarm. What happened, by alarm, an acknowledgement before what
-  /// came after it; it stays readable until the next step or the end of the board.
+  /// Acknowledges, then steps every alarm. Returns the events by alarm, an acknowledgement first;
+  /// valid until the next step or the end of the board.
   std::span<const AlarmEvent> step(const AlarmBoardInputs& inputs);
 
   std::size_t size() const { return size_; }
@@ -62,7 +62,7 @@ class AlarmBoard {
  private:
   void acknowledge(std::size_t index, const AlarmInputs& now);
   void step(std::size_t index, const AlarmInputs& now);
-  void note(std::size_t index, AlarmEventKind kind, AlarmLevel level, const AlarmInputs& now);
+  void record(std::size_t index, AlarmEventKind kind, AlarmLevel level, const AlarmInputs& now);
 
   std::size_t size_ = 0;
   std::array<AlarmLimits, kMaxAlarms> limits_;

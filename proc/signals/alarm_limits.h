@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "proc/image/result.h"
+#include "proc/settings/settings.h"
+#include "proc/signals/signals.h"
 
 namespace orbwatch::signals {
 
@@ -16,16 +20,47 @@ struct AlarmLimits {
   std::optional<double> low_warning;
   std::optional<double> high_warning;
   std::optional<double> high_alarm;
-  double hysteresis = 0;  ///< how far the value must come back from a limit to end what it began
-  std::chrono::nanoseconds on_delay{0};   ///< a limit counts once it was reached for so long
-  std::chrono::nanoseconds off_delay{0};  ///< and until the value was back for so long
-  /// Not measured for so long is a condition of its own. Nothing: never, what stands is only held.
+  double hysteresis = 0;                 ///< distance back from a limit that ends its condition
+  std::chrono::nanoseconds on_delay{0};  ///< a condition begins after the limit was reached so long
+  std::chrono::nanoseconds off_delay{0};  ///< and ends after the value was back so long
+  /// No measurement for so long is a condition of its own. nullopt: never; the state is held.
   std::optional<std::chrono::nanoseconds> loss_delay = std::chrono::seconds(1);
-  bool latching = false;  ///< stands, at its worst level, until acknowledged without its cause
+  bool latching =
+      false;  ///< stays, at its worst level, until acknowledged after its condition ended
   bool only_while_active = true;  ///< suppressed while the process is not active
 };
 
 inline constexpr std::chrono::nanoseconds kLongestDelay = std::chrono::hours(1);
+
+/// Every signal's index by its name.
+inline constexpr auto kSignalWords = [] {
+  std::array<Word<std::size_t>, kSignals.size()> words{};
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = {kSignals[i].name, i};
+  return words;
+}();
+
+/// All but the region, in whose table the limits stand.
+template <class Visitor>
+void visit(Visitor& v, AlarmLimits& limits) {
+  const Seconds delay{Range::between(0, std::chrono::duration<double>(kLongestDelay).count())};
+  v.required("signal", limits.signal, kSignalWords, "What is watched");
+  v.optional("low_alarm", limits.low_alarm, kAnyNumber, "In the signal's unit");
+  v.optional("low_warning", limits.low_warning, kAnyNumber, "In the signal's unit");
+  v.optional("high_warning", limits.high_warning, kAnyNumber, "In the signal's unit");
+  v.optional("high_alarm", limits.high_alarm, kAnyNumber, "In the signal's unit");
+  v.optional("hysteresis", limits.hysteresis, Range::between(0, 1e9),
+             "How far the signal must come back from a limit to end its alarm");
+  v.optional("on_delay", limits.on_delay, delay,
+             "A limit counts once it was reached for so long, s");
+  v.optional("off_delay", limits.off_delay, delay, "And until the signal was back for so long, s");
+  v.optional("loss_delay", limits.loss_delay, delay,
+             "Not measured for so long is an alarm of its own, s; 0: never");
+  if (limits.loss_delay == std::chrono::nanoseconds::zero()) limits.loss_delay.reset();
+  v.optional("latching", limits.latching,
+             "Stands until it is acknowledged, even after its cause has gone");
+  v.optional("only_while_active", limits.only_while_active,
+             "Suppressed while the process is not active");
+}
 
 /// Errors: no limit at all; limits that are not finite, outside the signal's range or not in the
 /// order low alarm < low warning < high warning < high alarm; a hysteresis that is negative, that

@@ -5,7 +5,7 @@
 
 namespace orbwatch::signals {
 
-/// Where an alarm stands, in the states of ISA-18.2 / IEC 62682 (A to F and H of their state
+/// The state of an alarm, after ISA-18.2 / IEC 62682 (A to F and H of their state
 /// diagram). The standard's reset of a latched alarm is its acknowledgement once the condition has
 /// gone. The numbers go to PLC and controller: append, never renumber.
 enum class AlarmState : std::uint8_t {
@@ -29,7 +29,7 @@ enum class AlarmLevel : std::uint8_t {
   NoMeasurement = 5,  ///< within the limits when it was last measured
 };
 
-/// What happened to an alarm. The numbers go to the controller: append, never renumber.
+/// An event of an alarm. The numbers go to the controller: append, never renumber.
 enum class AlarmEventKind : std::uint8_t {
   Raised = 0,
   Eased = 1,
@@ -38,7 +38,7 @@ enum class AlarmEventKind : std::uint8_t {
   Suppressed = 4,
 };
 
-/// The one place of the operator's text for each state. Empty for a number that is none.
+/// The operator's text for a state. Empty for a number without a state.
 constexpr std::string_view operator_text(AlarmState state) {
   switch (state) {
     case AlarmState::Normal:
@@ -59,7 +59,7 @@ constexpr std::string_view operator_text(AlarmState state) {
   return {};
 }
 
-/// The one place of the operator's text for each level. Empty for a number that is none.
+/// The operator's text for a level. Empty for a number without a level.
 constexpr std::string_view operator_text(AlarmLevel level) {
   switch (level) {
     case AlarmLevel::None:
@@ -78,7 +78,7 @@ constexpr std::string_view operator_text(AlarmLevel level) {
   return {};
 }
 
-/// The one place of the operator's text for each event. Empty for a number that is none.
+/// The operator's text for an event. Empty for a number without an event.
 constexpr std::string_view operator_text(AlarmEventKind kind) {
   switch (kind) {
     case AlarmEventKind::Raised:
@@ -95,13 +95,13 @@ constexpr std::string_view operator_text(AlarmEventKind kind) {
   return {};
 }
 
-/// True while the alarm stands: its condition holds, or it is latched. The bit that a PLC acts on.
+/// True while the condition holds or the alarm is latched: the bit that a PLC acts on.
 constexpr bool is_active(AlarmState state) {
   return state == AlarmState::Unacknowledged || state == AlarmState::Acknowledged ||
          state == AlarmState::LatchedUnacknowledged || state == AlarmState::LatchedAcknowledged;
 }
 
-/// True where acknowledging changes something.
+/// True in states that an acknowledgement changes.
 constexpr bool awaits_acknowledgement(AlarmState state) {
   return state == AlarmState::Unacknowledged || state == AlarmState::ReturnedUnacknowledged ||
          state == AlarmState::LatchedUnacknowledged || state == AlarmState::LatchedAcknowledged;

@@ -5,13 +5,12 @@
 
 namespace orbwatch::signals {
 
-/// What happened within the last second, in bins of up to 1/64 s each, so that memory is bounded
-/// whatever the frame rate; up to 64 frames per second each has a bin of its own. `Bin` is
-/// default-made empty. No allocation. Thread-bound.
+/// The last second in bins of up to 1/64 s, so that memory is bounded at any frame rate; up to 64
+/// frames per second each has its own bin. A default `Bin` is empty. No allocation. Thread-bound.
 template <class Bin>
 class LastSecond {
  public:
-  /// Forgets what is a second old, or older, at `now`, s. Time never goes back.
+  /// Removes bins a second old or older at `now`, s, which is monotonic.
   void advance(double now) {
     while (size_ > 0 && slots_[first_].last <= now - kSpan) {
       first_ = (first_ + 1) % kCapacity;
@@ -19,7 +18,7 @@ class LastSecond {
     }
   }
 
-  /// The bin for what happens at `now`; after advance(now).
+  /// The bin of `now`; after advance(now).
   Bin& at(double now) {
     if (size_ == 0 || now - newest().begin >= kBinWidth) {
       ++size_;

@@ -4,19 +4,35 @@
 #include <vector>
 
 #include "proc/image/result.h"
+#include "proc/settings/settings.h"
 
 namespace orbwatch::signals {
 
-/// How a camera's counts stand for temperature. The camera gives the temperature of a black body:
+/// How a camera's counts represent temperature, that of a black body:
 /// T[K] = kelvin_per_count * count.
 struct RadiometrySettings {
   double kelvin_per_count = 0;           ///< 0: the camera is not radiometric
   double wavelength = 10;                ///< um, the camera's effective one
-  std::optional<double> emissivity{};    ///< of the target, (0, 1]; nothing: 1
+  std::optional<double> emissivity{};    ///< of the target, (0, 1]; nullopt: 1
   double surroundings = 20;              ///< degC, of what the target reflects
-  std::optional<double> reflectivity{};  ///< of the ball, (0, 1]; nothing: 1
+  std::optional<double> reflectivity{};  ///< of the ball, (0, 1]; nullopt: 1
   double ball_temperature = 20;          ///< degC, for what the ball emits itself
 };
+
+/// What a camera's table [camera.radiometry] states; kelvin_per_count is a key of the camera's own
+/// table, the rest are the region's.
+template <class Visitor>
+void visit(Visitor& v, RadiometrySettings& radiometry) {
+  v.require(radiometry.kelvin_per_count > 0, "wavelength",
+            "only a camera with kelvin_per_count is radiometric");
+  v.optional("wavelength", radiometry.wavelength, Range::between(0.5, 20),
+             "Effective wavelength of the camera's band, um");
+  v.optional("ball_reflectivity", radiometry.reflectivity, Range::between(0.05, 1),
+             "Of the mirror ball at that wavelength; temperatures are apparent unless it and the "
+             "region's emissivity are given");
+  v.optional("ball_temperature", radiometry.ball_temperature, Range::between(-273, 1000),
+             "Of the mirror ball, degC, for what it emits itself");
+}
 
 /// From counts to the target's temperature and back, by
 ///   L(T camera) = rho L_scene + (1 - rho) L(T ball),
@@ -25,7 +41,7 @@ struct RadiometrySettings {
 /// linear scale exactly. Immutable; reentrant.
 class Radiometry {
  public:
-  /// Not radiometric: nothing has a temperature.
+  /// Not radiometric.
   Radiometry() = default;
 
   /// Error: a number out of range; the message names it.
@@ -33,12 +49,12 @@ class Radiometry {
 
   bool is_radiometric() const { return !celsius_.empty(); }
 
-  /// The target's emissivity or the ball's reflectivity was not given: temperatures are those of a
-  /// black body there, or as seen without the ball.
+  /// Without the target's emissivity or the ball's reflectivity: temperatures are those of a black
+  /// body, or of one seen without the ball.
   bool is_apparent() const { return !settings_.emissivity || !settings_.reflectivity; }
 
-  /// degC of `counts` in [0, 65535], by a table and straight lines between whole counts; not a
-  /// number for less light than ball and surroundings send by themselves. For radiometric ones.
+  /// degC of `counts` in [0, 65535], interpolated in a table; not a number for less light than ball
+  /// and surroundings emit. For radiometric ones.
   double celsius(double counts) const {
     const auto whole = static_cast<std::size_t>(counts);
     const double below = celsius_[whole];

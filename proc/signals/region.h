@@ -7,6 +7,7 @@
 #include "proc/optics/scene_proxy.h"
 #include "proc/optics/vec.h"
 #include "proc/signals/radiometry.h"
+#include "proc/signals/signals.h"
 
 namespace orbwatch::signals {
 
@@ -29,5 +30,15 @@ struct RegionScene {
   optics::Ball ball;
   optics::SceneProxy proxy;
 };
+
+/// What these settings provide of what signals require. `has_scene`: the proxy is not far away.
+inline Requires provided_by(const RegionSettings& settings, bool has_scene) {
+  using enum Requires;
+  return (settings.spatter_threshold ? SpatterThreshold : Nothing) |
+         (settings.plume_threshold ? PlumeThreshold : Nothing) |
+         (settings.width_set_point ? WidthSetPoint : Nothing) |
+         (settings.radiometry.kelvin_per_count > 0 ? RadiometricCamera : Nothing) |
+         (has_scene ? Scene : Nothing);
+}
 
 }  // namespace orbwatch::signals

@@ -10,12 +10,13 @@
 
 namespace orbwatch::signals {
 
-/// Where a pixel's centre looks and what it covers. Single precision keeps 1e-7, far below a pixel.
+/// The direction of a pixel's centre and its footprint. Single precision keeps 1e-7, far below a
+/// pixel.
 struct PixelGeometry {
   std::array<float, 3> direction{};  ///< unit vector from the ball's centre, machine frame
   float solid_angle = 0;             ///< steradian
-  std::array<float, 3> position{};   ///< mm from the ball's centre; not a number for what is far
-  float area = 0;                    ///< mm2 of the surface there; not a number for what is far
+  std::array<float, 3> position{};   ///< mm from the ball's centre; not a number if far
+  float area = 0;                    ///< mm2 of the surface there; not a number if far
 };
 
 /// The geometry of the pixels in a region's bounding box, compiled once. Immutable; reentrant.

@@ -22,12 +22,12 @@ struct Span {
 /// path, never the polygon. Immutable; reentrant.
 class RegionMask {
  public:
-  /// Whether the measured camera sees what lies in a direction.
+  /// Whether the measured camera sees a direction.
   using Sees = std::function<bool(const optics::Vec3&)>;
 
   /// `outline`: as in RegionSettings. A pixel belongs to the region when its centre does and the
-  /// camera sees it; without `sees` it sees everything. Error: an outline that is none, or that has
-  /// no such pixel.
+  /// camera sees it; without `sees` it sees everything. Error: an outline that is no polygon, or
+  /// without such a pixel.
   static Result<RegionMask> make(const optics::ViewProjection& view,
                                  std::span<const optics::Vec3> outline, const Sees& sees = nullptr);
 

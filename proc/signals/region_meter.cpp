@@ -47,8 +47,7 @@ double angle_of(double variance) {
   return optics::degrees(2 * std::asin(std::min(1.0, 2 * std::sqrt(variance))));
 }
 
-/// Of a line without a sense, degrees in (-90, 90]; not valid when the ellipse is so round that it
-/// has none.
+/// Of an axis, degrees in (-90, 90]; not valid when the ellipse is too round to have one.
 double orientation(const PrincipalAxes& axes, double right, double up) {
   constexpr double kRound = 1.05;  // long axis / short axis
   if (axes.largest <= kRound * kRound * axes.second) return kNotValid;
@@ -167,9 +166,9 @@ Signals RegionMeter::measure_any(const ImageView<const T>& values,
   return signals;
 }
 
-/// The largest blob, but one in another place than the hot spot's usual one counts as smaller, down
-/// to a ninth: a spark near the ball may look larger than the pool. The usual place follows within
-/// a tenth of a second.
+/// The largest blob, weighted by its distance from the hot spot's usual place, down to a ninth: a
+/// spark near the ball may look larger than the pool. The usual place follows within a tenth of a
+/// second.
 std::size_t RegionMeter::choose_hot_spot(const LevelSet& hot, double passed) {
   constexpr double kNear = optics::radians(3);
   constexpr double kLeast = 1.0 / 9;
@@ -194,7 +193,7 @@ std::size_t RegionMeter::choose_hot_spot(const LevelSet& hot, double passed) {
   return best;
 }
 
-/// One pass over the region for the lowest threshold; the others look only at what that found.
+/// One pass over the region for the lowest threshold; the others search its runs.
 template <class T>
 void RegionMeter::find_levels(const ImageView<const T>& values,
                               const ImageView<const std::uint8_t>& validity) {
@@ -204,7 +203,7 @@ void RegionMeter::find_levels(const ImageView<const T>& values,
   }
 }
 
-/// Steradian above the plume's threshold around the hot spot, which it holds.
+/// Steradian above the plume's threshold around and with the hot spot.
 template <class T>
 double RegionMeter::plume(const ImageView<const T>& values,
                           const ImageView<const std::uint8_t>& validity) {
@@ -239,8 +238,8 @@ void RegionMeter::write(const HotSpot& spot, const Blob& blob, Signals& signals)
   signals.hot_spot_z = ball_centre_.z + spot.position.z;
 }
 
-/// Sparks are the blobs at their threshold other than the hot spot, or than what glows on where it
-/// was last.
+/// Sparks are the blobs at their threshold other than the hot spot, or its afterglow at its last
+/// place.
 void RegionMeter::find_sparks(Signals& signals, double seconds) {
   const LevelSet& level = levels_[*spatter_level_];
   const std::size_t around_hot_spot = level.blob_at(peak_x_, peak_y_);
@@ -248,7 +247,7 @@ void RegionMeter::find_sparks(Signals& signals, double seconds) {
     const Blob& blob = level.blob(i);
     if (!level.is_whole(i) || i == around_hot_spot) continue;
     if (hot_pixels_.contains(blob.peak_x, blob.peak_y)) continue;
-    spatter_.see(blob.moment);
+    spatter_.add(blob.moment);
   }
   spatter_.update(seconds, hot_direction_);
   spatter_.write(signals);

@@ -10,10 +10,10 @@
 #include "proc/image/image_view.h"
 #include "proc/image/result.h"
 #include "proc/optics/view_projection.h"
-#include "proc/signals/blob_pixels.h"
-#include "proc/signals/cooling.h"
-#include "proc/signals/hot_spot.h"
-#include "proc/signals/level_set.h"
+#include "proc/signals/hot_spot/blob_pixels.h"
+#include "proc/signals/hot_spot/cooling.h"
+#include "proc/signals/hot_spot/hot_spot.h"
+#include "proc/signals/hot_spot/level_set.h"
 #include "proc/signals/radiometry.h"
 #include "proc/signals/region.h"
 #include "proc/signals/region_geometry.h"
@@ -25,36 +25,35 @@
 namespace orbwatch::signals {
 
 /// Measures one region of interest, frame set by frame set. Everything that depends on view, region
-/// or calibration is compiled when it is made; measuring allocates nothing and needs no
-/// trigonometry but for the angles of the hot spot it tells, once per frame set. Movable.
-/// Thread-bound.
+/// or calibration is compiled when it is made; measuring allocates nothing, and computes
+/// trigonometry only for the hot spot's angles, once per frame set. Movable. Thread-bound.
 class RegionMeter {
  public:
-  /// `sees`: as in RegionMask. Error: an outline that is none or outside of the view, thresholds
-  /// that no count can be or that stand in the wrong order, radiometry out of range.
+  /// `sees`: as in RegionMask. Error: an outline that is no polygon or outside of the view,
+  /// thresholds out of range or in the wrong order, radiometry out of range.
   static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
                                   const RegionSettings& settings,
                                   const RegionMask::Sees& sees = nullptr);
   RegionMeter(RegionMeter&&) = default;
   RegionMeter& operator=(RegionMeter&&) = default;
-  RegionMeter(const RegionMeter&) = delete;  // a copy would lack the memory taken beforehand
+  RegionMeter(const RegionMeter&) = delete;  // a copy would lack the reserved memory
   RegionMeter& operator=(const RegionMeter&) = delete;
 
   /// The signals of a frame set. `values` and `validity` have the view's size; pixels that are not
-  /// Validity::Seen do not count. `seconds`: when it was exposed, on any clock that goes on; when
-  /// it does not, everything starts anew as by reset().
+  /// Validity::Seen do not count. `seconds`: its exposure on a monotonic clock; a time that does
+  /// not increase acts as reset().
   Signals measure(const ImageView<const std::uint8_t>& values,
                   const ImageView<const std::uint8_t>& validity, double seconds);
   Signals measure(const ImageView<const std::uint16_t>& values,
                   const ImageView<const std::uint8_t>& validity, double seconds);
 
-  /// Forgets the frame sets before: statistics, sparks, what was hot.
+  /// Forgets earlier frame sets: statistics, sparks, hot spot.
   void reset();
 
   /// For thresholds, and whether temperatures are apparent ones.
   const Radiometry& radiometry() const { return radiometry_; }
 
-  /// Sparks since it was made that were too many to be followed and are missing in spatter_rate.
+  /// Sparks since it was made that were too many to be tracked; they are missing in spatter_rate.
   std::uint64_t untracked_sparks() const { return spatter_.untracked(); }
 
  private:
@@ -84,14 +83,14 @@ class RegionMeter {
   std::optional<std::size_t> plume_level_;
   std::optional<std::size_t> spatter_level_;
   BlobPixels hot_pixels_;
-  std::optional<optics::Vec3> usual_;  ///< unit vector to where the hot spot was lately
+  std::optional<optics::Vec3> usual_;  ///< unit vector to the hot spot of the last frame sets
   BlobPixels plume_pixels_;
   CoolingMeter cooling_;
   std::optional<optics::Vec3> hot_direction_;
   SpatterTracker spatter_;
   std::array<Statistics, kMainSignals.size()> statistics_;
   double last_ = -std::numeric_limits<double>::infinity();
-  /// Where the hot spot's brightest pixel is, or was last.
+  /// The hot spot's brightest pixel, or its last one.
   int peak_x_ = -1;
   int peak_y_ = -1;
 };

@@ -11,16 +11,16 @@ namespace {
 using optics::Vec3;
 
 constexpr double kFastest = optics::radians(600);   // per s
-constexpr double kSlack = optics::radians(1.5);     // of a spark's place
-constexpr double kOneSpark = optics::radians(2.5);  // its parts are nearer than this
-/// Radians per s^2: gravity as it looks at a third of a metre, and by how much that may be wrong
-/// for sparks nearer or farther, which one ball cannot tell.
+constexpr double kSlack = optics::radians(1.5);     // of a spark's position
+constexpr double kOneSpark = optics::radians(2.5);  // distance of parts of one spark, at most
+/// Radians per s^2: gravity at a distance of a third of a metre, and its error for sparks nearer or
+/// farther.
 constexpr double kGravity = 9.81 / 0.33;
 constexpr double kGravityError = 0.5 * kGravity;
 constexpr double kBend = 0.3;          // share of a step by which the next one may differ
-constexpr double kNearest = 0.2;       // weight of being near, where nothing is known of the speed
+constexpr double kNearest = 0.2;       // weight of nearness while the speed is unknown
 constexpr double kLongestMiss = 0.07;  // s, or one frame set
-constexpr double kStretch = 0.05;      // s over which a speed is measured at least
+constexpr double kSegment = 0.05;      // s, shortest time over which a speed is measured
 constexpr double kLongestGap = 0.25;   // s between frame sets; then all are new
 constexpr double kBinWidth = 50;       // deg/s
 
@@ -50,7 +50,7 @@ void SpatterTracker::reset() {
   beyond_ = 0;
 }
 
-void SpatterTracker::see(const Vec3& moment) {
+void SpatterTracker::add(const Vec3& moment) {
   const Vec3 direction = optics::normalized(moment);
   const auto same = std::ranges::find_if(sparks_, [&](const Spark& spark) {
     const Vec3 apart = spark.direction - direction;
@@ -66,7 +66,7 @@ void SpatterTracker::see(const Vec3& moment) {
   }
 }
 
-/// Above 1: it cannot be that one.
+/// Above 1: not a continuation of that track.
 double SpatterTracker::cost(const Track& track, const Vec3& spark, double now) {
   const double passed = now - track.seen;
   const Vec3 step = spark - track.direction;
@@ -75,12 +75,12 @@ double SpatterTracker::cost(const Track& track, const Vec3& spark, double now) {
   // The velocity is that of half an interval ago.
   const double fall = passed * (passed + track.interval) / 2;
   const double bend = kSlack + kGravityError * fall;
-  if (track.sightings > 1) {
+  if (track.detections > 1) {
     const Vec3 expected = track.velocity * passed + down(track.direction) * (kGravity * fall);
     return optics::norm(step - expected) / (bend + kBend * optics::norm(expected));
   }
   if (!track.has_origin) return length / (kFastest * passed + kSlack);
-  // It goes on the way that it came from the hot spot.
+  // On the line from the hot spot.
   const Vec3 came = track.direction - track.origin;
   const Vec3 way = unit_or(came, unit_or(step, came));
   const double along = optics::dot(step, way);
@@ -96,7 +96,7 @@ void SpatterTracker::update(double now, const std::optional<Vec3>& hot_spot) {
   std::erase_if(tracks_, [&](Track& track) {
     if (track.matched) return false;
     const bool lost =
-        track.sightings < 2 || (++track.missed > 1 && now - track.seen > kLongestMiss);
+        track.detections < 2 || (++track.missed > 1 && now - track.seen > kLongestMiss);
     if (lost) end(track, now);
     return lost;
   });
@@ -107,7 +107,7 @@ void SpatterTracker::update(double now, const std::optional<Vec3>& hot_spot) {
   sparks_.clear();
 }
 
-/// Gives sparks to tracks, the best pairs first.
+/// Assigns sparks to tracks, the best pairs first.
 void SpatterTracker::match(double now) {
   candidates_.clear();
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
@@ -122,15 +122,15 @@ void SpatterTracker::match(double now) {
   for (const Candidate& candidate : candidates_) {
     Track& track = tracks_[candidate.track];
     Spark& spark = sparks_[candidate.spark];
-    if (track.matched || spark.taken) continue;
-    spark.taken = true;
-    take(track, spark.direction, now);
+    if (track.matched || spark.matched) continue;
+    spark.matched = true;
+    extend(track, spark.direction, now);
   }
 }
 
 void SpatterTracker::add_tracks(double now, const std::optional<Vec3>& hot_spot) {
   for (const Spark& spark : sparks_) {
-    if (spark.taken) continue;
+    if (spark.matched) continue;
     if (tracks_.size() == kMaxSparks) {
       ++untracked_;
       continue;
@@ -146,7 +146,7 @@ void SpatterTracker::add_tracks(double now, const std::optional<Vec3>& hot_spot)
   }
 }
 
-void SpatterTracker::take(Track& track, const Vec3& spark, double now) {
+void SpatterTracker::extend(Track& track, const Vec3& spark, double now) {
   const Vec3 step = spark - track.direction;
   track.interval = now - track.seen;
   track.velocity = step * (1 / track.interval);
@@ -154,11 +154,11 @@ void SpatterTracker::take(Track& track, const Vec3& spark, double now) {
   track.seen = now;
   track.missed = 0;
   track.matched = true;
-  if (now - track.measured >= kStretch) measure_path(track);
-  ++track.sightings;
+  if (now - track.measured >= kSegment) measure_path(track);
+  ++track.detections;
 }
 
-/// Adds the stretch up to the last sighting.
+/// Adds the segment up to the last detection.
 void SpatterTracker::measure_path(Track& track) {
   track.path += angle_of(optics::norm(track.direction - track.measured_from));
   track.measured_from = track.direction;
@@ -166,7 +166,7 @@ void SpatterTracker::measure_path(Track& track) {
 }
 
 void SpatterTracker::end(Track& track, double now) {
-  if (track.sightings < 2) return;
+  if (track.detections < 2) return;
   if (track.path == 0) measure_path(track);
   const double speed = optics::degrees(track.path) / (track.measured - track.first);
   Bin& bin = bins_.at(now);

@@ -12,27 +12,27 @@
 
 namespace orbwatch::signals {
 
-/// Sparks that are followed at once.
+/// Sparks that are tracked at once.
 inline constexpr std::size_t kMaxSparks = 128;
 
-/// Follows sparks from frame set to frame set, so that each counts once and has a speed. Speeds are
-/// those of directions, deg/s: how far away a spark flies, one ball cannot know.
+/// Tracks sparks from frame set to frame set, so that each counts once and has a speed. Speeds are
+/// those of directions, deg/s: one ball does not measure the distance of a spark.
 ///
-/// A spark goes on along a great circle as fast as it came; what is nearest to where it should be,
-/// within reach of its gravity and of errors, is taken for it. One that was seen only once is taken
-/// to come from the hot spot. It stays when it is missed for a frame set or 0.07 s, as behind
-/// another one. All memory is taken when it is made; no trigonometry. Thread-bound.
+/// A spark is predicted along a great circle with its last velocity; the detection nearest to the
+/// prediction, within bounds for gravity and errors, continues its track. A track with one
+/// detection is assumed to start at the hot spot. It survives a gap of one frame set or 0.07 s, as
+/// behind another spark. Allocates when it is made only; no trigonometry. Thread-bound.
 class SpatterTracker {
  public:
   SpatterTracker();
 
-  /// Takes a spark, or a part of one, of the frame set that update() will follow: its direction
-  /// times its weight. Parts that are very near are one: pixels of a ball's picture are large, and
-  /// where the machine's surfaces have edges they stand apart in a view.
-  void see(const optics::Vec3& moment);
+  /// Adds a detection of the frame set that update() completes: a spark or a part of one, as its
+  /// direction times its weight. Parts that are very near are one spark: pixels of a ball's picture
+  /// are large, and edges of the machine's surfaces separate them in a view.
+  void add(const optics::Vec3& moment);
 
-  /// Follows what was seen since it was called before. `now`: s; `hot_spot`: unit vector to it, if
-  /// there is one.
+  /// Continues the tracks with the detections since the last call. `now`: s; `hot_spot`: unit
+  /// vector to it, if there is one.
   void update(double now, const std::optional<optics::Vec3>& hot_spot);
 
   void reset();
@@ -40,8 +40,8 @@ class SpatterTracker {
   /// Writes the number of sparks in the frame set, and rate and speeds of the last second.
   void write(Signals& signals) const;
 
-  /// Sparks since the start that were seen but not followed, nor counted as new: more than
-  /// kMaxSparks at once.
+  /// Sparks since the start that were neither tracked nor counted as new: more than kMaxSparks at
+  /// once.
   std::uint64_t untracked() const { return untracked_; }
 
  private:
@@ -49,26 +49,26 @@ class SpatterTracker {
 
   struct Track {
     optics::Vec3 direction;
-    optics::Vec3 velocity;  ///< 1/s, across the direction; 0 until seen twice
-    optics::Vec3 origin;    ///< where it came from when it has no velocity yet: the hot spot
+    optics::Vec3 velocity;  ///< 1/s, across the direction; 0 until detected twice
+    optics::Vec3 origin;    ///< of a track without a velocity yet: the hot spot
     bool has_origin = false;
-    int sightings = 1;
+    int detections = 1;
     int missed = 0;
-    double seen = 0;      ///< s, when last
-    double interval = 0;  ///< s, between the last two sightings
+    double seen = 0;      ///< s, of the last detection
+    double interval = 0;  ///< s, between the last two detections
     double first = 0;     ///< s
-    // Speed is measured over stretches long enough for the error of a place to be small.
-    optics::Vec3 measured_from;  ///< where the current stretch begins
-    double measured = 0;         ///< s, when
+    // Speed is measured over segments long enough for the error of a position to be small.
+    optics::Vec3 measured_from;  ///< start of the current segment
+    double measured = 0;         ///< s, of that start
     double path = 0;             ///< radians
     bool matched = false;
   };
   struct Candidate {
-    double cost;  ///< distance from where it should be, as a share of what is allowed
+    double cost;  ///< distance from the prediction, as a share of the allowed one
     std::uint32_t track;
     std::uint32_t spark;
   };
-  /// What happened in a part of the last second.
+  /// Sums over a part of the last second.
   struct Bin {
     double born = 0;
     double ended = 0;  ///< that had been seen at least twice
@@ -80,13 +80,13 @@ class SpatterTracker {
   struct Spark {
     optics::Vec3 moment;
     optics::Vec3 direction;
-    bool taken = false;
+    bool matched = false;
   };
 
   static double cost(const Track& track, const optics::Vec3& spark, double now);
   void match(double now);
   void add_tracks(double now, const std::optional<optics::Vec3>& hot_spot);
-  void take(Track& track, const optics::Vec3& spark, double now);
+  void extend(Track& track, const optics::Vec3& spark, double now);
   static void measure_path(Track& track);
   void end(Track& track, double now);
 

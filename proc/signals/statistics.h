@@ -9,7 +9,7 @@ namespace orbwatch::signals {
 /// No allocation. Thread-bound.
 class Statistics {
  public:
-  /// Takes the signal's value at `now`, s; kNotValid is left out. Time never goes back.
+  /// Adds the signal's value at `now`, s; ignores kNotValid. `now` is monotonic.
   void add(double now, double value);
 
   void reset() { bins_.clear(); }
@@ -22,7 +22,7 @@ class Statistics {
   Figures figures() const;
 
  private:
-  /// Centred sums, which neither large values nor large times spoil.
+  /// Centred sums, which stay exact for large values and times.
   struct Moments {
     double count = 0;
     double time = 0;   ///< mean, s

@@ -41,6 +41,27 @@ TEST(Documents, LinksLeadToFiles) {
   EXPECT_GT(links, 10);
 }
 
+/// Links, and `folder/file` in backticks: from the root of the project or from the page's own
+/// folder.
+TEST(Documents, HowToAddNamesFilesThatExist) {
+  const fs::path root = ORBWATCH_SOURCE_DIR;
+  static const std::regex kFile(R"rx(\]\(([^)#:]+)\)|`([a-z0-9_/]+/[a-z0-9_]+\.[a-z]+)`)rx");
+  for (const char* folder : {"app", "proc"}) {
+    const std::string page = read(root / folder / "README.md");
+    const std::size_t begin = page.find("## How to add");
+    ASSERT_NE(begin, std::string::npos) << folder;
+    const std::string section = page.substr(begin);
+    int files = 0;
+    for (std::sregex_iterator it(section.begin(), section.end(), kFile), end; it != end; ++it) {
+      const std::string file = (*it)[1].matched ? (*it)[1] : (*it)[2];
+      EXPECT_TRUE(fs::exists(root / file) || fs::exists(root / folder / file))
+          << folder << "/README.md names " << file;
+      ++files;
+    }
+    EXPECT_GT(files, 10) << folder;
+  }
+}
+
 TEST(Documents, CommandsOfTheReadmeAreExecutable) {
   const fs::path root = ORBWATCH_SOURCE_DIR;
   const std::string readme = read(root / "README.md");

@@ -3,9 +3,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "app/dds/topic_names.h"
-#include "tests/app/dds/fastdds/paced_views.h"
-#include "tests/app/dds/fastdds/shipped_network.h"
+#include "app/ports/dds/topics/topic_names.h"
+#include "tests/app/ports/dds/fastdds/paced_views.h"
+#include "tests/app/ports/dds/fastdds/shipped_network.h"
 
 namespace orbwatch::bench {
 

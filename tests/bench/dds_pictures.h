@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "app/dds/dds_sink.h"
-#include "tests/app/dds/fastdds/pace.h"
+#include "app/ports/dds/dds_sink.h"
+#include "tests/app/ports/dds/fastdds/pace.h"
 
 namespace orbwatch::bench {
 

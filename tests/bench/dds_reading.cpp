@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/dds/compressed_image_message.h"
-#include "app/dds/image_message.h"
-#include "app/dds/participant.h"
-#include "app/dds/topic_names.h"
+#include "app/cli/dds/subscribed_topic.h"
+#include "app/ports/dds/participant/participant.h"
+#include "app/ports/dds/pictures/image_message.h"
+#include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::bench {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/dds/fastdds/reader_program.h"
-#include "tests/app/dds/fastdds/shipped_network.h"
+#include "tests/app/ports/dds/fastdds/reader_program.h"
+#include "tests/app/ports/dds/fastdds/shipped_network.h"
 
 namespace orbwatch::bench {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/modbus/modbus_sink.h"
+#include "app/ports/modbus/modbus_sink.h"
 #include "hal/clock.h"
-#include "tests/app/modbus/abuses.h"
-#include "tests/app/modbus/clients.h"
+#include "tests/app/ports/modbus/abuses.h"
+#include "tests/app/ports/modbus/clients.h"
 
 /// How long a PLC waits for its answers while others abuse the server.
 namespace orbwatch::app {

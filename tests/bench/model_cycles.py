@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """model_cycles.py BUILD_FOLDER: what llvm-mca says of the NEON kernels' inner loops.
 
-Compiles remap_neon.cpp to assembler as BUILD_FOLDER does for aarch64, finds the innermost loops
+Compiles kernel/neon.cpp to assembler as BUILD_FOLDER does for aarch64, finds the innermost loops
 with table look-ups and prints a JSON list of cycles per turn on Cortex-A72 and A76. A model: every
 load hits the first cache. LLVM describes the A76 only as Neoverse N1, the same core for servers.
 """
@@ -25,10 +25,10 @@ def output_of(command, text=None):
 
 def assembler(build):
     entries = json.loads((build / "compile_commands.json").read_text())
-    entry = next(e for e in entries if e["file"].endswith("proc/remap/remap_neon.cpp"))
+    entry = next(e for e in entries if e["file"].endswith("proc/remap/kernel/neon.cpp"))
     command = shlex.split(entry["command"])
     with tempfile.TemporaryDirectory() as folder:
-        out = pathlib.Path(folder) / "remap_neon.s"
+        out = pathlib.Path(folder) / "neon.s"
         command[command.index("-o") + 1] = str(out)
         command[command.index("-c")] = "-S"
         subprocess.run(command, cwd=entry["directory"], check=True)
@@ -79,7 +79,7 @@ def cycles(loop, processor, turns=200):
 
 def layouts():
     """The names of remap::Layout."""
-    header = pathlib.Path("proc/remap/kernel.h").read_text()
+    header = pathlib.Path("proc/remap/kernel/kernel.h").read_text()
     members = re.search(r"enum class Layout\b.*?\{(.*?)\};", header, re.DOTALL)[1]
     return re.findall(r"^\s*(\w+),", members, re.MULTILINE)
 
@@ -111,7 +111,7 @@ def main(build):
                 found.append({"loop": shown, "cpu": label, "cycles": per_turn,
                               "per_pixel": per_turn / pixels})
     if not found:
-        sys.exit("model_cycles: no loop with table look-ups in remap_neon.cpp")
+        sys.exit("model_cycles: no loop with table look-ups in kernel/neon.cpp")
     print(json.dumps(sorted(found, key=lambda entry: (entry["loop"], entry["cpu"])), indent=1))
 
 

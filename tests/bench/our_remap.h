@@ -1,8 +1,7 @@
 #pragma once
 
 #include "proc/image/picture.h"
-#include "proc/remap/coordinate_grid.h"
-#include "proc/remap/kernel.h"
+#include "proc/remap/remap.h"
 #include "tests/bench/frame.h"
 #include "tests/bench/rig.h"
 

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "proc/optics/scene_proxy.h"
-#include "proc/remap/coordinate_grid.h"
+#include "proc/remap/remap.h"
 #include "tests/bench/rig.h"
 
 /// Re-pointing a 1080p view, in the bench's rig and with a machine's walls and table, beside what a

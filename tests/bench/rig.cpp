@@ -15,8 +15,9 @@ optics::ViewProjection projection_of(const NamedView& named) {
 /// 1490 px of radius in 3000, and as much of other sizes.
 optics::BallProjection ball_in(int source) {
   const double middle = (source - 1) / 2.0, radius = source * (1490.0 / 3000);
-  return optics::BallProjection::make(optics::BallModel::exact(348.5).value(),
-                                      {{middle, middle}, radius, radius, 0}, {})
+  return optics::BallProjection::make(
+             optics::BallModel::make(optics::BallModel::Kind::Exact, 348.5).value(),
+             {{middle, middle}, radius, radius, 0}, {})
       .value();
 }
 

@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <variant>
 
-#include "app/config/schema.h"
-#include "app/config/text_file.h"
-#include "app/config/toml_reader.h"
 #include "app/daemon/cameras.h"
+#include "app/files/text_file.h"
+#include "app/files/toml_reader.h"
 
 namespace orbwatch::tests {
 template <class Visitor>
 void visit(Visitor& v, ComplianceSettings& settings) {
   int most_frames = static_cast<int>(settings.most_frames);
-  v.optional("most_frames", most_frames, app::Range::between(2, 89), "Per case");
+  v.optional("most_frames", most_frames, Range::between(2, 89), "Per case");
   settings.most_frames = static_cast<std::size_t>(most_frames);
   v.optional("counts_all", settings.counts_all, "Frames without a buffer have a number, too");
   v.optional("unplug", settings.unplug, "Shell command that takes the camera away");
@@ -30,7 +30,7 @@ void execute(const std::string& command) { ASSERT_EQ(std::system(command.c_str()
 std::optional<CameraUnderTest> CameraUnderTest::instance_;
 
 Result<> CameraUnderTest::load(const std::filesystem::path& file) {
-  const auto text = app::read_text_file(file, "a TOML file");
+  const auto text = app::TextFiles().read(file, "a TOML file");
   if (!text) return tl::unexpected(text.error());
   app::Finding finding;
   finding.file = file.string();
@@ -50,12 +50,13 @@ std::unique_ptr<hal::Camera> CameraUnderTest::make(const app::CameraSettings& se
 }
 
 hal::StreamRequest CameraUnderTest::request(const app::CameraSettings& settings) {
-  return {settings.width, settings.height, settings.frame_rate};
+  return settings.stream;
 }
 
 bool CameraUnderTest::is_scripted() const {
-  const app::BackEnd back_end = settings_.cameras.front().back_end;
-  return back_end == app::BackEnd::Simulated || back_end == app::BackEnd::Replay;
+  const app::BackEndSettings& back_end = settings_.cameras.front().back_end;
+  return std::holds_alternative<app::simulation::SimulatedCameraSettings>(back_end) ||
+         std::holds_alternative<hal::ReplaySettings>(back_end);
 }
 
 std::unique_ptr<hal::Camera> CameraUnderTest::make_unpluggable() const {

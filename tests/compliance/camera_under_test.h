@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "app/config/configuration.h"
+#include "app/files/camera_settings.h"
 #include "hal/camera.h"
 
 namespace orbwatch::tests {
 
-/// What the suite is told: see README.md.
+/// The suite's settings: see README.md.
 struct ComplianceSettings {
   std::vector<app::CameraSettings> cameras;
   std::size_t most_frames = 89;
@@ -35,15 +35,14 @@ class CameraUnderTest {
   std::unique_ptr<hal::Camera> make_another() const { return make(settings_.cameras.back()); }
   hal::StreamRequest another_request() const { return request(settings_.cameras.back()); }
 
-  /// `count`, or as many as a case may take here.
+  /// `count`, or the most frames that a case may use with this camera.
   std::size_t limited(std::size_t count) const { return std::min(count, settings_.most_frames); }
 
   /// Whether the sequence counts frames for which there was no buffer.
   bool counts_all() const { return settings_.counts_all; }
 
   bool can_be_unplugged() const { return is_scripted() || !settings_.unplug.empty(); }
-  /// One that shows its first frames, and the next ones as well once it was unplugged and
-  /// replugged.
+  /// A camera that is unplugged and replugged after its first frames.
   std::unique_ptr<hal::Camera> make_unpluggable() const;
   void unplug() const;
   void replug() const;
@@ -53,7 +52,7 @@ class CameraUnderTest {
 
   static std::unique_ptr<hal::Camera> make(const app::CameraSettings& settings);
   static hal::StreamRequest request(const app::CameraSettings& settings);
-  /// Its faults are by exposure number and come by themselves.
+  /// Its faults are scripted by exposure number.
   bool is_scripted() const;
 
   static std::optional<CameraUnderTest> instance_;

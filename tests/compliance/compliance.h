@@ -9,12 +9,12 @@
 
 namespace orbwatch::tests {
 
-/// A configured camera to each case.
+/// Each case has a configured camera.
 class Compliance : public testing::Test {
  protected:
   void SetUp() override { ASSERT_NO_FATAL_FAILURE(configure(*camera, subject.request(), format)); }
 
-  /// Starts the camera, sees `count` frames and stops it.
+  /// Starts the camera, receives `count` frames and stops it.
   void stream(std::size_t count) {
     Witness witness(format);
     ASSERT_NO_FATAL_FAILURE(witness.start(*camera));

@@ -3,14 +3,14 @@
 #include "tests/compliance/compliance.h"
 #include "tests/compliance/kept_frame.h"
 
-/// Cameras that go away and come back, and others that do not notice.
+/// Cameras that are unplugged and replugged, beside others that stream.
 namespace orbwatch::tests {
 namespace {
 
 bool is_fault(hal::Fault fault) { return fault != hal::Fault::None; }
 bool is_well(hal::Fault fault) { return fault == hal::Fault::None; }
 
-/// Sees a camera go and come back.
+/// Checks a camera that is unplugged and replugged.
 void expect_return(hal::Camera& camera, Witness& witness, const CameraUnderTest& subject) {
   ASSERT_NO_FATAL_FAILURE(witness.start(camera));
   witness.wait_for_frames(3);
@@ -55,7 +55,7 @@ TEST_F(Compliance, StopsWhileItIsUnpluggedAndItsFramesStayValid) {
   subject.replug();
 }
 
-/// The camera, and another one beside it that must not notice anything.
+/// The camera, and another one that must stream undisturbed.
 class TwoCameras : public Compliance {
  protected:
   void SetUp() override {

@@ -4,7 +4,7 @@
 
 #include "tests/compliance/compliance.h"
 
-/// What comes: frames of the agreed format, in order, in any number. Witness checks each of them.
+/// Frames of the negotiated format, in order, in any number; Witness checks each.
 namespace orbwatch::tests {
 namespace {
 

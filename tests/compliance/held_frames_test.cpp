@@ -5,13 +5,13 @@
 #include "tests/compliance/compliance.h"
 #include "tests/compliance/kept_frame.h"
 
-/// Frames belong to those who hold them.
+/// Held frames stay valid.
 namespace orbwatch::tests {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// A consumer that keeps what it gets.
+/// A consumer that keeps its frames.
 class Hoard {
  public:
   void add(const hal::Frame& frame) {
@@ -26,7 +26,7 @@ class Hoard {
       EXPECT_TRUE(frame.is_unchanged()) << "frame " << frame.metadata().sequence;
     }
   }
-  /// Gives all back and keeps no more.
+  /// Releases all frames and keeps no more.
   void release() {
     std::vector<KeptFrame> released;
     const std::lock_guard lock(mutex_);
@@ -48,7 +48,7 @@ class HeldFrames : public Compliance {
     return std::max<hal::Clock::duration>(2s, std::chrono::duration_cast<hal::Clock::duration>(
                                                   std::chrono::duration<double>(periods)));
   }
-  /// Keeps frames until no more come.
+  /// Keeps frames until no more arrive.
   void run_dry(Witness& witness) const {
     constexpr std::size_t kMostBuffers = 64;
     std::size_t seen = 0;
@@ -90,7 +90,7 @@ TEST_F(HeldFrames, StayUnchangedAfterStopAndNextStreamsAndTheCamera) {
   hoard.expect_unchanged();
   ASSERT_NO_FATAL_FAILURE(configure(*camera, subject.request(), format));
   hoard.expect_unchanged();
-  // Some buffers may still be lent: whatever the camera has left, or new ones.
+  // Some buffers may still be lent: the camera uses the others, or new ones.
   Hoard few;
   {
     Witness witness(format, [&](const hal::Frame& frame) { few.add(frame); });

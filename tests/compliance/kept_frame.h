@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "hal/frame.h"
+#include "hal/frame/frame.h"
 
 namespace orbwatch::tests {
 
-/// A frame that is kept, and what its samples were when it came.
+/// A held frame and a copy of its samples at arrival.
 class KeptFrame {
  public:
   explicit KeptFrame(hal::Frame frame) : frame_(std::move(frame)), samples_(samples(*frame_)) {}

@@ -94,7 +94,7 @@ TEST_F(Compliance, RestartsAfterAStopInsideItsCallback) {
   });
   ASSERT_NO_FATAL_FAILURE(witness.start(*camera));
   stopped.get_future().wait();
-  ASSERT_NO_FATAL_FAILURE(stream(3));  // start() ends the thread that was left
+  ASSERT_NO_FATAL_FAILURE(stream(3));  // start() joins the stopped thread
 }
 
 TEST_F(Compliance, IsDestroyedWhileItRuns) {

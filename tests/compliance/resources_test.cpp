@@ -2,7 +2,7 @@
 
 #include "tests/compliance/compliance.h"
 
-/// What a camera takes, it gives back.
+/// A camera releases its resources.
 namespace orbwatch::tests {
 namespace {
 
@@ -22,7 +22,7 @@ TEST_F(Compliance, TwentyStreamsLeaveNoFileAndNoThread) {
     if (cycle % 5 == 4) {
       ASSERT_NO_FATAL_FAILURE(configure(*camera, subject.request(), format));
     }
-    // What libraries keep after they were first used counts as theirs.
+    // Libraries may keep resources after their first use.
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
   EXPECT_EQ(open_files(), files_before);

@@ -8,9 +8,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Only something broken takes longer, also in an emulated machine.
+/// Ample, also in an emulated machine.
 constexpr auto kGuard = 120s;
-/// A sensor may have begun its first exposure before it was asked to stream.
+/// A sensor may have begun its first exposure before the start of the stream.
 constexpr auto kBeforeStart = 1s;
 
 }  // namespace
@@ -58,9 +58,9 @@ void Witness::wait_for_frames(std::size_t count) {
       << " frames came, last fault: " << (faults_.empty() ? "none" : faults_.back().detail);
 }
 
-bool Witness::wait_for_more(std::size_t count, hal::Clock::duration patience) {
+bool Witness::wait_for_more(std::size_t count, hal::Clock::duration max_wait) {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, patience, [&] { return frames_.size() > count; });
+  return changed_.wait_for(lock, max_wait, [&] { return frames_.size() > count; });
 }
 
 void Witness::wait_for_fault(std::size_t seen, const std::function<bool(hal::Fault)>& holds) {

@@ -14,28 +14,27 @@
 
 namespace orbwatch::tests {
 
-/// Listens to a camera and holds every frame against the rules for frames. Must outlive the
-/// stream.
+/// Receives a camera's frames and checks each against the rules. Must outlive the stream.
 class Witness {
  public:
-  /// Called on the camera's thread with every frame, after it was noted.
+  /// Called on the camera's thread with every frame, after its check.
   using Then = std::function<void(const hal::Frame&)>;
 
   explicit Witness(hal::StreamFormat format, Then then = nullptr)
       : format_(format), then_(std::move(then)) {}
 
-  /// Starts the camera with this one listening.
+  /// Starts the camera with this receiver.
   void start(hal::Camera& camera);
-  /// Stops it; nothing may come from then on.
+  /// Stops it; nothing may arrive from then on.
   void stop(hal::Camera& camera);
-  /// The stream is over by other means; nothing may come from then on.
+  /// The stream was ended otherwise; nothing may arrive from then on.
   void close();
 
-  /// Until it saw `count` frames of this stream; fails the test after two minutes.
+  /// Until `count` frames of this stream; fails the test after two minutes.
   void wait_for_frames(std::size_t count);
-  /// Until more than `count` frames were seen or `patience` is over; false if it was.
-  bool wait_for_more(std::size_t count, hal::Clock::duration patience);
-  /// Until a report came, after the first `seen`, for which `holds`.
+  /// Until more than `count` frames; false after `max_wait`.
+  bool wait_for_more(std::size_t count, hal::Clock::duration max_wait);
+  /// Until a report after the first `seen` for which `holds`.
   void wait_for_fault(std::size_t seen, const std::function<bool(hal::Fault)>& holds);
 
   std::vector<hal::FrameMetadata> frames() const;
@@ -59,7 +58,7 @@ class Witness {
   std::vector<hal::FaultReport> faults_;
 };
 
-/// Configures a camera as `request` says; the format is what was asked for.
+/// Configures a camera with `request`, which the format must match.
 void configure(hal::Camera& camera, const hal::StreamRequest& request, hal::StreamFormat& format);
 
 }  // namespace orbwatch::tests

@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "app/modbus/mbap_framer.h"
-#include "app/modbus/plc_link.h"
-#include "app/modbus/register_map.h"
-#include "app/modbus/responder.h"
-#include "app/modbus/transport.h"
-#include "hal/file_descriptor.h"
+#include "app/ports/modbus/map/register_map.h"
+#include "app/ports/modbus/plc_handshake.h"
+#include "app/ports/modbus/server/mbap_framer.h"
+#include "app/ports/modbus/server/responder.h"
+#include "app/ports/modbus/server/transport.h"
+#include "hal/thread/file_descriptor.h"
 #include "tests/fuzz/byte_stream.h"
 #include "tests/fuzz/stop.h"
 
@@ -23,8 +23,8 @@
 namespace orbwatch::fuzz {
 namespace {
 
-using app::modbus::Answered;
 using app::modbus::MbapFramer;
+using app::modbus::Outcome;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kHeader = 7;
@@ -88,9 +88,10 @@ class Connection {
     auto responder = app::modbus::Responder::create(
         map_, [this](const app::modbus::Write& write) { write_registers(write); },
         [this] {
-          app::modbus::Snapshot snapshot;
-          snapshot.plc = plc_.state({});
-          return snapshot;
+          app::modbus::ProcessImage image;
+          image.written = plc_.registers();
+          image.plc = plc_.status({});
+          return image;
         });
     auto transport = app::modbus::TcpTransport::create({0, 1, 255});
     require(responder && transport, "nothing to answer with");
@@ -107,7 +108,7 @@ class Connection {
       require(!room.empty(), "no room although no frame is whole");
       const std::size_t count = std::min(room.size(), bytes.size());
       std::ranges::copy(bytes.first(count), room.begin());
-      framer_.take(count);
+      framer_.commit(count);
       bytes = bytes.subspan(count);
       while (const auto next = framer_.next()) {
         check_frame(*next);
@@ -135,13 +136,13 @@ class Connection {
 
   bool answer(std::span<const std::uint8_t> request) {
     const Bytes copy(request.begin(), request.end());  // sized so that reading on is noticed
-    const Answered answered = responder_->answer(*transport_, copy, may_write_);
-    require(answered != Answered::NotTaken, "an answer was not taken");
+    const Outcome answered = responder_->answer(*transport_, copy, may_write_);
+    require(answered != Outcome::NotSent, "an answer was not sent");
     std::array<std::uint8_t, 1024> buffer;
     const ssize_t count = ::recv(client_.get(), buffer.data(), buffer.size(), 0);
     const auto answer = std::span<const std::uint8_t>(buffer).first(
         static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    if (answered == Answered::NotModbus) {
+    if (answered == Outcome::NotModbus) {
       require(answer.empty() && copy[kHeader] >= 0x80, "a request was taken for an answer");
       return false;
     }
@@ -150,14 +151,14 @@ class Connection {
   }
 
   static void check_answer(std::span<const std::uint8_t> request,
-                           std::span<const std::uint8_t> answer, Answered answered) {
+                           std::span<const std::uint8_t> answer, Outcome answered) {
     require(answer.size() > kHeader && answer.size() <= MbapFramer::kLongestFrame, "answer's size");
     require(word(answer, 4) == answer.size() - 6, "answer's length, or more than one answer");
     require(std::ranges::equal(answer.first(4), request.first(4)) && answer[6] == request[6],
             "answer's transaction, protocol or unit");
     const auto pdu = answer.subspan(kHeader);
     const std::uint8_t function = request[kHeader];
-    if (answered == Answered::Refused) {
+    if (answered == Outcome::Refused) {
       require(pdu.size() == 2 && pdu[0] == (function | 0x80), "form of an exception");
       require((pdu[1] >= 1 && pdu[1] <= 3) || pdu[1] == 11, "number of an exception");
       return;
@@ -171,7 +172,7 @@ class Connection {
   hal::FileDescriptor server_;
   hal::FileDescriptor client_;
   const app::modbus::RegisterMap& map_ = shared_map();
-  app::modbus::PlcLink plc_{
+  app::modbus::PlcHandshake plc_{
       [](const app::Command&) { return app::CommandResult::Done; }, std::chrono::seconds(1), {}};
   std::unique_ptr<app::modbus::Responder> responder_;
   std::unique_ptr<app::modbus::TcpTransport> transport_;

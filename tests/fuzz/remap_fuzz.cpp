@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "proc/remap/pyramid.h"
+#include "proc/remap/compiler/tolerance.h"
 #include "proc/remap/remap.h"
-#include "proc/remap/tolerance.h"
 #include "tests/fuzz/fenced_picture.h"
 #include "tests/fuzz/remap_scene.h"
 #include "tests/fuzz/stop.h"
@@ -81,9 +80,8 @@ void check_pixel(const RemapScene& scene, int x, int y) {
   const remap::Tile tile = scene.grid.tile(tx, ty);
   stop("pixel " + std::to_string(x) + ' ' + std::to_string(y) + " is " +
        (remap::is_defined(mine) ? "at " + text(place(mine)) : "undefined") + ", not " +
-       (truth ? "at " + text(*truth) : "undefined") + "; tile of class " +
-       std::to_string(static_cast<int>(tile.kind)) + ", store " +
-       std::to_string(static_cast<int>(tile.store)) + "; " + text(scene));
+       (truth ? "at " + text(*truth) : "undefined") + "; tile of kind " +
+       std::to_string(static_cast<int>(tile.kind)) + "; " + text(scene));
 }
 
 void check_grid(const RemapScene& scene, std::uint32_t seed) {
@@ -177,7 +175,7 @@ void run(FuzzedDataProvider& bytes) {
                                  static_cast<ColourRange>(bytes.ConsumeBool())};
   source.forbid_padding();
   remap::Pyramid pyramid(from, grid.source_width(), grid.source_height(),
-                         bytes.ConsumeBool() ? grid.halves() : 0);
+                         bytes.ConsumeBool() ? grid.pyramid_levels() : 0);
   pyramid.set_source(source.picture);
   pyramid.fill();
   const auto interpolation = static_cast<Interpolation>(bytes.ConsumeIntegralInRange(0, 2));

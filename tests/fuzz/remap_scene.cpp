@@ -46,9 +46,11 @@ double limb_radius(FuzzedDataProvider& bytes, const SourceSize& source) {
 }
 
 Result<BallProjection> outlined_ball(FuzzedDataProvider& bytes, const SourceSize& source) {
-  const auto kind = static_cast<BallModel::Kind>(bytes.ConsumeIntegralInRange(0, 2));
+  const auto kind = optics::kBallModels[bytes.ConsumeIntegralInRange<std::size_t>(
+                                            0, optics::kBallModels.size() - 1)]
+                        .value;
   std::optional<double> alpha;
-  if (kind != BallModel::Kind::Classical) alpha = angle(bytes, 180.1, 360);
+  if (!optics::law(kind).is_orthographic) alpha = angle(bytes, 180.1, 360);
   return BallModel::make(kind, alpha, {}).and_then([&](const BallModel& model) {
     const double radius = limb_radius(bytes, source);
     const optics::Vec2 centre{source.width * share(bytes, -0.2, 1.2),

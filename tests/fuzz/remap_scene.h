@@ -6,7 +6,7 @@
 
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
-#include "proc/remap/coordinate_grid.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::fuzz {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <vector>
 
-#include "app/modbus/rtu_framer.h"
+#include "app/ports/modbus/server/rtu_framer.h"
 #include "tests/fuzz/byte_stream.h"
 #include "tests/fuzz/stop.h"
 

@@ -15,12 +15,5 @@ TEST(BackOff, DoublesUpToTenSecondsUntilItIsReset) {
   EXPECT_EQ(pause.next(), 2s);
 }
 
-TEST(StallTimeout, IsFivePeriodsAndASecondAtLeast) {
-  EXPECT_EQ(stall_timeout(60), 1s);
-  EXPECT_EQ(stall_timeout(5), 1s);
-  EXPECT_EQ(stall_timeout(0.5), 10s);
-  EXPECT_EQ(stall_timeout(0), 5s);
-}
-
 }  // namespace
 }  // namespace orbwatch::hal

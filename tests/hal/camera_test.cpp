@@ -5,7 +5,7 @@
 #include <future>
 #include <vector>
 
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -21,9 +21,9 @@ class CountingCamera : public Camera {
     if (request.width > 1) return fail("counting: has one pixel");
     return StreamFormat{PixelFormat::Grey, {}, 1, 1, 1000.0};
   }
-  void run(const std::stop_token& stop) override {
+  void run(const std::stop_token&) override {
     std::uint64_t sequence = 0;
-    while (wait_until(stop, Clock::now() + std::chrono::microseconds(100))) {
+    while (wait_until(Clock::now() + std::chrono::microseconds(100))) {
       if (auto buffer = pool_.acquire()) {
         buffer->metadata.sequence = sequence++;
         report(sequence % 4 == 0 ? Fault::ReadError : Fault::None);

@@ -2,53 +2,85 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <thread>
 #include <vector>
 
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 
 namespace orbwatch::hal {
 namespace {
 
-/// Each time that it is opened the device does the next thing: it fails, after some frames or none.
+using namespace std::chrono_literals;
+
+/// A device with one life per opening: it delivers frames, then fails or is silent.
 class BreakingCamera : public DeviceCamera {
  public:
   struct Life {
     std::size_t frames = 0;
-    Fault end = Fault::None;
+    Fault end = Fault::None;  ///< None: it is silent from then on
+    bool may_be_silent = false;
+    bool lost = false;
   };
 
   explicit BreakingCamera(std::deque<Life> lives)
       : DeviceCamera({"breaking", "", "test"}), lives_(std::move(lives)) {}
   ~BreakingCamera() override { stop(); }
 
+  int waits() const { return waits_; }
+  int interrupts() const { return interrupts_; }
+
  private:
   Result<StreamFormat> do_configure(const StreamRequest&) override { return StreamFormat{}; }
 
-  FaultReport stream_until_fault(const std::stop_token& stop) override {
-    if (lives_.empty()) {
-      wait_until(stop, TimePoint::max());
-      return {};
-    }
-    const Life life = lives_.front();
+  DeviceResult<double> open_stream() override {
+    captured_ = 0;
+    life_ = {.may_be_silent = true};
+    if (lives_.empty()) return 0;
+    life_ = lives_.front();
     lives_.pop_front();
-    counter_.restart();
-    for (std::uint32_t n = 0; n < life.frames; ++n) {
-      auto frame = pool_.acquire();
-      frame->metadata.sequence = counter_.number(n);
-      hand_on(std::move(frame));
-    }
-    return {life.end, "as told"};
+    if (life_.frames == 0) return tl::unexpected(FaultReport{life_.end, "as scripted"});
+    return kFrameRate;
   }
+
+  DeviceResult<std::size_t> capture(TimePoint deadline) override {
+    if (captured_ == life_.frames) {
+      if (life_.end != Fault::None) return tl::unexpected(FaultReport{life_.end, "as scripted"});
+      wait_until(deadline);
+      ++waits_;
+      return 0;
+    }
+    auto frame = pool_.acquire();
+    frame->metadata.sequence = sequence_of(static_cast<std::uint32_t>(captured_));
+    forward(std::move(frame));
+    ++captured_;
+    return 1;
+  }
+
+  bool may_be_silent() const override { return life_.may_be_silent; }
+  void interrupt() override { ++interrupts_; }
+
+  DeviceResult<> close_stream() override {
+    if (life_.lost) return tl::unexpected(FaultReport{Fault::Unplugged, "lost for good"});
+    return {};
+  }
+
+  static constexpr double kFrameRate = 100;
 
   FramePool pool_ = make_frame_pool(PixelFormat::Grey, 8, 8);
   std::deque<Life> lives_;
+  std::atomic<int> waits_ = 0;
+  std::atomic<int> interrupts_ = 0;
+  Life life_;
+  std::size_t captured_ = 0;
 };
 
-/// What a camera told.
-class Told {
+/// A camera's reports and frames.
+class Reports {
  public:
   void start(Camera& camera) {
     ASSERT_TRUE(camera.configure({}));
@@ -77,23 +109,57 @@ class Told {
   std::vector<std::uint64_t> sequences_;
 };
 
-TEST(DeviceCamera, ComesBackAndNumbersItsFramesOn) {
+TEST(DeviceCamera, ReconnectsAndContinuesItsSequence) {
   BreakingCamera camera({{0, Fault::Unplugged}, {2, Fault::ReadError}, {2, Fault::Stalled}});
-  Told told;
-  told.start(camera);
-  EXPECT_EQ(told.wait_for_faults(5), (std::vector{Fault::Unplugged, Fault::None, Fault::ReadError,
-                                                  Fault::None, Fault::Stalled}));
+  Reports reports;
+  reports.start(camera);
+  EXPECT_EQ(
+      reports.wait_for_faults(5),
+      (std::vector{Fault::Unplugged, Fault::None, Fault::ReadError, Fault::None, Fault::Stalled}));
   camera.stop();
-  const auto& sequences = told.sequences();
+  const auto& sequences = reports.sequences();
   ASSERT_EQ(sequences.size(), 4U);
   for (std::size_t i = 1; i < sequences.size(); ++i) EXPECT_GT(sequences[i], sequences[i - 1]);
 }
 
-TEST(DeviceCamera, TellsOfAFaultThatLastsOnce) {
+TEST(DeviceCamera, ReportsALastingFaultOnce) {
   BreakingCamera camera({{0, Fault::Unplugged}, {0, Fault::Unplugged}, {1, Fault::Stalled}});
-  Told told;
-  told.start(camera);
-  EXPECT_EQ(told.wait_for_faults(3), (std::vector{Fault::Unplugged, Fault::None, Fault::Stalled}));
+  Reports reports;
+  reports.start(camera);
+  EXPECT_EQ(reports.wait_for_faults(3),
+            (std::vector{Fault::Unplugged, Fault::None, Fault::Stalled}));
+}
+
+TEST(StallTimeout, IsFivePeriodsAndASecondAtLeast) {
+  EXPECT_EQ(stall_timeout(60), 1s);
+  EXPECT_EQ(stall_timeout(5), 1s);
+  EXPECT_EQ(stall_timeout(0.5), 10s);
+  EXPECT_EQ(stall_timeout(0), 5s);
+}
+
+TEST(DeviceCamera, ReportsASilentDeviceAsStalled) {
+  BreakingCamera camera({{.frames = 1}, {.frames = 1, .end = Fault::ReadError}});
+  Reports reports;
+  reports.start(camera);
+  EXPECT_EQ(reports.wait_for_faults(3),
+            (std::vector{Fault::Stalled, Fault::None, Fault::ReadError}));
+}
+
+TEST(DeviceCamera, AllowsSilenceOfADeviceThatWaits) {
+  BreakingCamera camera({{.frames = 1, .may_be_silent = true}});
+  Reports reports;
+  reports.start(camera);
+  while (camera.waits() < 2) std::this_thread::yield();
+  camera.stop();
+  EXPECT_EQ(reports.wait_for_faults(0), std::vector<Fault>());
+  EXPECT_EQ(camera.interrupts(), 1);
+}
+
+TEST(DeviceCamera, ReportsTheErrorOfClosingInsteadOfTheStreams) {
+  BreakingCamera camera({{.frames = 1, .end = Fault::ReadError, .lost = true}});
+  Reports reports;
+  reports.start(camera);
+  EXPECT_EQ(reports.wait_for_faults(1), std::vector{Fault::Unplugged});
 }
 
 }  // namespace

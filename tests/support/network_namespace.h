@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "hal/file_descriptor.h"
+#include "hal/thread/file_descriptor.h"
 #include "tests/support/reference_data.h"
 
 namespace orbwatch::tests {

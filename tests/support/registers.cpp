@@ -22,7 +22,7 @@ struct Row {
 
 /// The first row of that name: table,address,count,type,access,name,...
 Row find_row(const std::string& name) {
-  std::ifstream map(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/modbus/registers.csv");
+  std::ifstream map(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/ports/modbus/registers.csv");
   for (std::string line; std::getline(map, line);) {
     std::istringstream fields(line);
     std::array<std::string, 6> field;
@@ -62,7 +62,7 @@ std::int64_t read_register(int port, const std::string& name) {
   if (read(connection.get(), row.address, row.count, words.data()) != row.count) return kNothing;
   if (row.count == 1) return words[0];
   const std::uint32_t value = std::uint32_t{words[0]} << 16 | words[1];
-  return row.type == "i32" ? std::int64_t{static_cast<std::int32_t>(value)} : std::int64_t{value};
+  return row.type == "DINT" ? std::int64_t{static_cast<std::int32_t>(value)} : std::int64_t{value};
 }
 
 void write_command(int port, std::uint16_t code, const std::vector<std::int32_t>& arguments,

@@ -7,8 +7,8 @@
 namespace orbwatch::tests {
 
 /// One register of a Modbus server on loopback, found by its name in the committed manual
-/// app/modbus/registers.csv and read with libmodbus as a PLC would; INT64_MIN while nobody answers.
-/// Unscaled.
+/// app/ports/modbus/registers.csv and read with libmodbus as a PLC would; INT64_MIN while nobody
+/// answers. Unscaled.
 std::int64_t read_register(int port, const std::string& name);
 
 /// Writes arguments (value / scale), then a command and a new sequence.

@@ -15,8 +15,8 @@
 
 namespace orbwatch::tests {
 
-/// A program that runs beside the test; what it says on both streams goes to a file. Killed when
-/// the test forgets it.
+/// A program that runs beside the test, with both output streams in a file. Killed at this object's
+/// end.
 class Subprocess {
  public:
   Subprocess(std::vector<std::string> arguments, const std::filesystem::path& output)
@@ -45,6 +45,8 @@ class Subprocess {
   void send(int signal) const {
     if (pid_ > 0) kill(pid_, signal);
   }
+
+  pid_t pid() const { return pid_; }
 
   bool runs() {
     if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = 0;

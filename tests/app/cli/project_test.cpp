@@ -10,6 +10,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/proc/reference_optics.h"
 #include "tests/support/reference_data.h"
+#include "tests/support/share.h"
 
 /// `orbwatch project` as a user runs it: the program, files in, files out.
 namespace orbwatch::tests {
@@ -104,9 +105,11 @@ class ProjectModels : public Project {
         {{"exact", BallModel::Kind::Exact},
          {"paper", BallModel::Kind::Paper},
          {"classical", BallModel::Kind::Classical}}};
+    DrawnShare share(36);
     for (const auto& [name, kind] : models) {
       for (const double yaw : {0, 100, 180, -110}) {
         for (const double pitch : {0, -70, 50}) {
+          if (!share.next()) continue;
           const optics::ViewSpec spec{ViewKind::Perspective, {yaw, pitch, 12}, 85, {}, 160, 120};
           std::vector<std::string> arguments{
               photo.file.string(),

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/config/rig_file.h"
+#include "app/files/rig_file.h"
 #include "proc/optics/resolution.h"
 #include "proc/optics/view_projection.h"
 #include "tests/support/reference_data.h"
@@ -156,7 +156,10 @@ TEST_F(RenderedViews, ExactModelWithTheMachinesGeometry) {
   EXPECT_LE(scores.of("near C", "rmse_cold_k"), 2.95);
 }
 
-TEST_F(RenderedViews, ExactModelWithoutTheMachinesGeometry) {
+/// What the product is compared with. Only tests/acceptance/run runs these.
+using OtherModels = RenderedViews;
+
+TEST_F(OtherModels, ExactModelWithoutTheMachinesGeometry) {
   ORBWATCH_REQUIRE_FILE(score_script());
   const Scores scores = score(
       "exact", [](const RenderedScene& scene) { return scene.rig(RenderedScene::Known::Nothing); });
@@ -167,7 +170,7 @@ TEST_F(RenderedViews, ExactModelWithoutTheMachinesGeometry) {
 
 // What the paper does, with the same outline, alpha and rotation, must reach what the paper's term
 // is known to reach on these pictures: the comparison is fair.
-TEST_F(RenderedViews, PaperAndClassicalModel) {
+TEST_F(OtherModels, PaperAndClassicalModel) {
   ORBWATCH_REQUIRE_FILE(score_script());
   const auto uncalibrated = [](const RenderedScene& scene) { return scene.uncalibrated_rig(); };
   const Scores paper = score("paper", uncalibrated);

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <mutex>
 
-#include "app/modbus/modbus_sink.h"
 #include "app/pipeline/pipeline.h"
-#include "tests/app/pipeline/pointed_views.h"
+#include "app/ports/modbus/modbus_sink.h"
+#include "tests/app/pipeline/views/pointed_views.h"
 #include "tests/support/registers.h"
 
 /// From a PLC's command over Modbus to the picture that shows it.
@@ -52,7 +52,10 @@ TEST(CommandToEffect, APointedViewIsInTheNextFrame) {
   ModbusSettings settings;
   settings.address = "127.0.0.1";
   settings.port = 0;
-  ModbusSink modbus(settings, [&](const Command& command) { return pipeline.command(command); });
+  ModbusSink modbus(settings, [&](const Command& command) {
+    const auto& [view, yaw, pitch, h_fov] = command.arguments;
+    return pipeline.point_view(static_cast<std::size_t>(view), yaw, pitch, h_fov);
+  });
   NewestPointing newest;
   ASSERT_TRUE(modbus.start());
   ASSERT_TRUE(pipeline.start({&newest, &modbus}));

@@ -18,9 +18,9 @@ namespace {
 
 TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   Subprocess daemon = start(write_config(small_machine()));
-  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 5; })) << daemon.output();
-  const auto heartbeat = read("heartbeat");
-  EXPECT_TRUE(eventually(daemon, [&] { return read("heartbeat") != heartbeat; }));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 5; })) << daemon.output();
+  const auto heartbeat = read("system_heartbeat");
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") != heartbeat; }));
   EXPECT_EQ(read("system_state"), 1) << "running";
   // The pool's truth: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
   // from the ball at (120, 60, 430).
@@ -61,6 +61,27 @@ line_name = "WIRE"
          "\n";
 }
 
+/// The names of a program's threads, as `ps -L` shows them.
+std::vector<std::string> thread_names(const Subprocess& program) {
+  std::vector<std::string> names;
+  const auto tasks = std::filesystem::path("/proc") / std::to_string(program.pid()) / "task";
+  for (const auto& task : std::filesystem::directory_iterator(tasks)) {
+    std::ifstream comm(task.path() / "comm");
+    std::getline(comm, names.emplace_back());
+  }
+  return names;
+}
+
+TEST_F(Daemon, NamesItsThreads) {
+  Subprocess daemon = start(write_config(triggered_machine("line", "rate = 10")));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
+  const auto names = thread_names(daemon);
+  for (const char* name : {"cam colour", "cam thermal", "pipeline", "lines", "health", "modbus",
+                           "view compiler", "dds", "dds commands"}) {
+    EXPECT_EQ(std::ranges::count(names, name), 1) << name;
+  }
+}
+
 TEST_F(Daemon, TriggersFasterThanTheCameraAreFramesOrMissed) {
   Subprocess daemon = start(write_config(triggered_machine("line", "rate = 100")));
   ASSERT_TRUE(eventually(daemon, [&] {
@@ -90,14 +111,15 @@ TEST_F(Daemon, ExposesOncePerPulseThatIsCommanded) {
 
 TEST_F(Daemon, CarriesOutTheSelectViewCommandOnce) {
   Subprocess daemon = start(write_config(small_machine()));
-  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 0; })) << daemon.output();
-  EXPECT_EQ(read("selected_view"), 0);
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
+  EXPECT_EQ(read("system_selected_view"), 0);
   write_command(port, 1, {1}, 7);
-  EXPECT_TRUE(eventually(
-      daemon, [&] { return read("acknowledged_sequence") == 7 && read("selected_view") == 1; }));
+  EXPECT_TRUE(eventually(daemon, [&] {
+    return read("acknowledged_sequence") == 7 && read("system_selected_view") == 1;
+  }));
   write_command(port, 1, {9}, 8);
   EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == 8; }));
-  EXPECT_EQ(read("selected_view"), 1) << "there is no view 9";
+  EXPECT_EQ(read("system_selected_view"), 1) << "there is no view 9";
   daemon.send(SIGINT);
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
@@ -114,7 +136,7 @@ TEST_F(Daemon, CarriesOutCommandsFromTheCommandLineAndShowsTheirEffect) {
   };
   const auto selected_view = [&] {
     const auto state = orbwatch({"state", "--json"}).second;
-    const std::string key = "\"selected_view\": ";
+    const std::string key = "\"selected_view\":";
     const std::size_t at = state.find(key);
     return at == std::string::npos ? state : state.substr(at + key.size(), 1);
   };
@@ -211,7 +233,7 @@ hot_spot_threshold = 500
 )";
   Subprocess daemon = start(write_config(config, rig, recipe));
   ASSERT_TRUE(eventually(daemon, [&] {
-    return read("frame_set") > 24 && read("region_0_hot_spot_present") > 0;
+    return read("system_frame_set") > 24 && read("region_0_hot_spot_present") > 0;
   })) << daemon.output();
   Subprocess reader(
       {ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
@@ -223,7 +245,7 @@ hot_spot_threshold = 500
   std::int64_t last_set = 0;
   std::vector<double> yaw, pitch;
   ASSERT_TRUE(eventually(daemon, [&] {
-    const std::int64_t set = read("frame_set");
+    const std::int64_t set = read("system_frame_set");
     if (std::exchange(last_set, set) != set) {
       yaw.push_back(static_cast<double>(read("region_0_hot_spot_yaw")) / 100);
       pitch.push_back(static_cast<double>(read("region_0_hot_spot_pitch")) / 100);

@@ -46,7 +46,7 @@ TEST_F(SecureDaemon, IsSeenAndCommandedWithItsKeysOnly) {
       << said;
   Subprocess daemon = start(secured_config());
   EXPECT_EQ(ask({"state", "--timeout", "60"}, "office"), 0) << said << daemon.output();
-  EXPECT_THAT(said, HasSubstr("system state"));
+  EXPECT_THAT(said, HasSubstr("running: every camera delivers"));
   EXPECT_EQ(ask({"subscribe", "--topic", "orbwatch/room/image_raw", "--seconds", "3", "--save",
                  folder.path().string()},
                 "office"),
@@ -54,13 +54,13 @@ TEST_F(SecureDaemon, IsSeenAndCommandedWithItsKeysOnly) {
       << said;
   EXPECT_TRUE(std::filesystem::exists(folder / "room.png"));
   EXPECT_EQ(ask({"command", "--timeout", "60", "select_view", "1"}, "plc"), 0) << said;
-  EXPECT_TRUE(eventually(daemon, [&] { return read("selected_view") == 1; }));
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_selected_view") == 1; }));
 
   EXPECT_EQ(ask({"command", "select_view", "0"}, "office"), 1);
   EXPECT_THAT(said, HasSubstr("Not Allowed By Security"));
   EXPECT_EQ(ask({"command", "--timeout", "1", "select_view", "0"}), 1);
-  EXPECT_THAT(said, HasSubstr("nobody takes commands"));
-  EXPECT_EQ(read("selected_view"), 1) << "nobody else's command came through";
+  EXPECT_THAT(said, HasSubstr("nobody accepts commands"));
+  EXPECT_EQ(read("system_selected_view"), 1) << "nobody else's command came through";
 
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();

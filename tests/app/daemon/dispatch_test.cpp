@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "tests/app/pipeline/hand_camera.h"
-#include "tests/app/pipeline/measured_recipe.h"
-#include "tests/app/pipeline/thermal_view.h"
+#include "tests/app/pipeline/measurement/measured_recipe.h"
+#include "tests/app/pipeline/views/thermal_view.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -59,7 +59,7 @@ class Dispatch : public testing::Test {
     pulse.name = "pulse";
     pulse.use = LineUse::TriggerOut;
     pulse.back_end = LineKind::Simulated;
-    pulse.line_name = "OUT";
+    pulse.wire.address.name = "OUT";
     auto opened = Lines::open({pulse});
     ASSERT_TRUE(opened) << opened.error().message;
     lines = std::move(*opened);
@@ -67,15 +67,14 @@ class Dispatch : public testing::Test {
     for (const hal::TriggerMode mode : modes) {
       auto camera = std::make_unique<TriggeredCamera>("camera " + std::to_string(cameras.size()));
       plan.formats.push_back(camera->configure({}).value());
-      CameraSettings settings;
-      settings.trigger_mode = mode;
-      if (mode != hal::TriggerMode::Off) settings.trigger_source = kSoftwareSource;
-      plan.triggers.push_back(lines->trigger(settings, *camera));
+      hal::TriggerSettings settings;
+      settings.mode = mode;
+      plan.triggers.push_back(lines->trigger(settings, kSoftwareSource, *camera));
       cameras.push_back(camera.get());
       plan.cameras.push_back(std::move(camera));
     }
     plan.deadline = seconds(20);
-    plan.sync.window = plan.sync.patience = std::chrono::milliseconds(1);
+    plan.sync.window = plan.sync.max_wait = std::chrono::milliseconds(1);
     plan.recipes.push_back(compiled(recipe_plan(thermal_view(0, "measured"), 30000, 0.04)));
     plan.view_count = 1;
     pipeline.emplace(std::move(plan));

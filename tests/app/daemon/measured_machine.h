@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "app/pictures/colour_maps.h"
-#include "app/pipeline/view_renderer.h"
-#include "app/simulation/renderer.h"
-#include "app/simulation/sensor_noise.h"
-#include "hal/frame_pool.h"
+#include "app/simulation/tracing/renderer.h"
+#include "app/simulation/tracing/sensor_noise.h"
+#include "hal/frame/frame_pool.h"
 #include "proc/signals/region_meter.h"
 #include "tests/app/daemon/simulated_scene.h"
+#include "tests/app/pipeline/views/rendered_view.h"
 
 namespace orbwatch::app {
 
@@ -26,12 +26,11 @@ class MeasuredMachine {
         projection_(projection_of(pinhole, region_scene_of(settings))),
         renderer_(machine_, pinhole, {simulation::CameraKind::Thermal, kKelvinPerCount}),
         buffers_(hal::make_frame_pool(PixelFormat::Y16, pinhole.width, pinhole.height, 1)),
-        remapper_(plan(pinhole, view)),
-        view_(remapper_.make_view()),
+        view_(plan(pinhole, view)),
         workers_(0),
-        meter_(signals::RegionMeter::make(remapper_.plan().projection, region_scene_of(settings),
-                                          region)
-                   .value()) {}
+        meter_(
+            signals::RegionMeter::make(view_.plan().projection, region_scene_of(settings), region)
+                .value()) {}
 
   /// The signals of the machine's state `seconds` after its epoch. `spoil` may change the frame
   /// before it is used: ImageView<uint16_t>.
@@ -44,8 +43,8 @@ class MeasuredMachine {
                                    1, width});
     hal::FrameSet set;
     set.frames[0] = buffer;
-    remapper_.render(set, view_, workers_);
-    return meter_.measure(view_.radiometric, view_.validity, seconds);
+    const View& rendered = view_.render(set, workers_);
+    return meter_.measure(rendered.radiometric, rendered.validity, seconds);
   }
   signals::Signals measure(double seconds) {
     return measure(seconds, [](const ImageView<std::uint16_t>&) {});
@@ -70,8 +69,7 @@ class MeasuredMachine {
   optics::BallProjection projection_;
   simulation::Renderer renderer_;
   hal::FramePool buffers_;
-  ViewRenderer remapper_;
-  View view_;
+  RenderedView view_;
   WorkerPool workers_;
   signals::RegionMeter meter_;
 };

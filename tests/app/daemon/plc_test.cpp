@@ -14,10 +14,10 @@ class DaemonPlc : public Daemon {
  protected:
   void SetUp() override { ORBWATCH_REQUIRE_FILE(kPymodbus); }
 
-  /// What a program of tests/app/modbus says to this daemon.
+  /// What a program of tests/app/ports/modbus says to this daemon.
   std::string run(const std::string& program, const std::vector<std::string>& arguments = {}) {
-    std::vector<std::string> words{kPython, ORBWATCH_SOURCE_DIR "/tests/app/modbus/" + program,
-                                   std::to_string(port)};
+    std::vector<std::string> words{
+        kPython, ORBWATCH_SOURCE_DIR "/tests/app/ports/modbus/" + program, std::to_string(port)};
     words.insert(words.end(), arguments.begin(), arguments.end());
     Subprocess plc(words, folder / "plc.log");
     EXPECT_EQ(plc.wait(), 0) << plc.output();
@@ -27,25 +27,25 @@ class DaemonPlc : public Daemon {
 
 TEST_F(DaemonPlc, ReadsTheWholeMap) {
   Subprocess daemon = start(write_config(small_machine()));
-  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 5; })) << daemon.output();
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 5; })) << daemon.output();
   run("walk_registers.py");
-  EXPECT_EQ(read("map_version"), 2);
+  EXPECT_EQ(read("map_version"), 3);
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
 TEST_F(DaemonPlc, TriggersMeasuresAndTakesResults) {
   Subprocess daemon = start(write_config(small_machine()));
-  ASSERT_TRUE(eventually(daemon, [&] { return read("frame_set") > 5; })) << daemon.output();
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 5; })) << daemon.output();
   const std::string said = run("plc_program.py", {"40", "20240508", "--any"});
   int triggered = 0, parts = 0, lost = 0;
   std::sscanf(said.c_str(), "triggered %d parts %d lost %d", &triggered, &parts, &lost);
   EXPECT_EQ(triggered, 40);
   EXPECT_EQ(parts, 40);
   EXPECT_EQ(lost, 0);
-  EXPECT_EQ(read("result"), 40);
+  EXPECT_EQ(read("system_result"), 40);
   EXPECT_EQ(read("result_count"), 0);
-  EXPECT_EQ(read("recipe"), 1);
+  EXPECT_EQ(read("system_recipe"), 1);
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }

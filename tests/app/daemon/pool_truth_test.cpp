@@ -5,12 +5,13 @@
 #include <numbers>
 #include <random>
 
-#include "app/simulation/process.h"
+#include "app/simulation/scene/process.h"
 #include "proc/optics/angle.h"
 #include "proc/optics/resolution.h"
-#include "proc/signals/principal_axes.h"
+#include "proc/signals/hot_spot/principal_axes.h"
 #include "tests/app/daemon/measured_machine.h"
 #include "tests/support/error_distribution.h"
+#include "tests/support/share.h"
 
 /// What is measured of the melt pool beside what the simulated machine knows, over scenes drawn at
 /// random: pool, ball, camera, view and region.
@@ -277,7 +278,7 @@ TEST_P(PoolTruth, WithoutNoiseEveryFigureIsWithinItsTolerance) {
   const int pixels = GetParam();
   std::mt19937 random(static_cast<unsigned>(pixels));
   PoolErrors errors("radius_" + std::to_string(pixels) + "px_");
-  for (int n = 0; n < 16; ++n) {
+  for (int n = orbwatch::tests::share_of(16); n > 0; --n) {
     const Scene scene(random, pixels);
     MeasuredMachine machine = scene.machine();
     errors.add(scene, machine, [](const ImageView<std::uint16_t>&) {});
@@ -294,7 +295,7 @@ TEST(PoolWithNoise, OfAPercentOfTheRangeIsStillMeasured) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, kNoise);
   PoolErrors errors("noise_1_percent_radius_6px_");
-  for (int n = 0; n < 16; ++n) {
+  for (int n = orbwatch::tests::share_of(16); n > 0; --n) {
     const Scene scene(random, 6);
     MeasuredMachine machine = scene.machine();
     errors.add(scene, machine, [&](const ImageView<std::uint16_t>& picture) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/model/command.h"
 #include "tests/app/daemon/daemon_program.h"
 
 /// Recipes, results, snapshots and restarts as a PLC commands them.
@@ -69,8 +69,8 @@ class RecipeCommands : public Daemon {
     return static_cast<CommandResult>(read("command_result"));
   }
   bool measures(Subprocess& daemon, std::int64_t recipe) const {
-    return eventually(daemon,
-                      [&] { return read("recipe") == recipe && read("region_0_quality") != 0; });
+    return eventually(
+        daemon, [&] { return read("system_recipe") == recipe && read("region_0_quality") != 0; });
   }
   bool says(Subprocess& daemon, const std::string& text) const {
     return eventually(daemon, [&] { return daemon.output().find(text) != std::string::npos; });
@@ -99,7 +99,7 @@ TEST_F(RecipeCommands, ARecipeIsSelectedAndTheViewsOfTheOtherStay) {
   EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {3}), CommandResult::ArgumentOutOfRange);
   EXPECT_EQ(command(daemon, CommandCode::PointView, {1, 0, 0, 0}), CommandResult::NotPossible);
   EXPECT_EQ(command(daemon, CommandCode::PointView, {0, 1000, 0, 0}), CommandResult::Done);
-  EXPECT_EQ(read("recipe"), 2);
+  EXPECT_EQ(read("system_recipe"), 2);
   EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {1}), CommandResult::Done);
   EXPECT_TRUE(measures(daemon, 1)) << daemon.output();
   daemon.send(SIGTERM);
@@ -113,14 +113,13 @@ TEST_F(RecipeCommands, ACameraThatRefusesItsSettingsLeavesTheRecipe) {
   EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {2}), CommandResult::Done);
   ASSERT_TRUE(says(daemon, "recipe 2: camera thermal: control \"TriggerMode\" cannot be set"))
       << daemon.output();
-  EXPECT_TRUE(says(daemon, "; the recipe before goes on"));
+  EXPECT_TRUE(says(daemon, "; the previous recipe stays selected"));
   EXPECT_TRUE(measures(daemon, 1));
   EXPECT_TRUE(eventually(daemon, [&] {
     Subprocess state({ORBWATCH_PROGRAM, "state", "--json", "--domain", std::to_string(domain),
                       "--timeout", "60"},
                      folder.path() / "state.log");
-    return state.wait() == 0 &&
-           state.output().find("\"recipe_refused\": true") != std::string::npos;
+    return state.wait() == 0 && state.output().find("\"recipe_refused\":true") != std::string::npos;
   })) << "the controller hears of it";
 }
 
@@ -130,8 +129,9 @@ TEST_F(RecipeCommands, StoppedItKeepsTheRecipeAndMeasuresNothing) {
   EXPECT_EQ(command(daemon, CommandCode::Stop), CommandResult::Done);
   ASSERT_TRUE(eventually(daemon, [&] { return read("system_state") == 4; })) << daemon.output();
   EXPECT_TRUE(eventually(daemon, [&] { return read("region_0_quality") == 0; }));
-  const auto set = read("frame_set");
-  EXPECT_TRUE(eventually(daemon, [&] { return read("frame_set") > set; })) << "cameras go on";
+  const auto set = read("system_frame_set");
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > set; }))
+      << "cameras go on";
   EXPECT_EQ(command(daemon, CommandCode::Start), CommandResult::Done);
   EXPECT_TRUE(measures(daemon, 1));
 }
@@ -139,14 +139,14 @@ TEST_F(RecipeCommands, StoppedItKeepsTheRecipeAndMeasuresNothing) {
 TEST_F(RecipeCommands, ACommandedTriggerIsOneResult) {
   Subprocess daemon = start(two_recipes());
   ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
-  EXPECT_EQ(read("result"), 0);
+  EXPECT_EQ(read("system_result"), 0);
   for (std::int64_t n = 1; n <= 3; ++n) {
     ASSERT_EQ(command(daemon, CommandCode::Trigger), CommandResult::Done);
-    ASSERT_TRUE(eventually(daemon, [&] { return read("result") == n; })) << daemon.output();
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_result") == n; })) << daemon.output();
   }
-  const auto set = read("frame_set");
-  EXPECT_TRUE(eventually(daemon, [&] { return read("frame_set") > set + 3; }));
-  EXPECT_EQ(read("result"), 3);
+  const auto set = read("system_frame_set");
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > set + 3; }));
+  EXPECT_EQ(read("system_result"), 3);
   EXPECT_EQ(read("result_count"), 3);
   EXPECT_EQ(read("result_0_result"), 1) << "the oldest that nobody took";
   EXPECT_EQ(read("result_0_recipe"), 1);
@@ -162,9 +162,9 @@ TEST_F(RecipeCommands, ACameraThatOnlyCommandsTriggerExposesOncePerCommand) {
   EXPECT_EQ(read("camera_0_frames"), 0) << "nobody asked for one";
   for (std::int64_t n = 1; n <= 4; ++n) {
     ASSERT_EQ(command(daemon, CommandCode::Trigger), CommandResult::Done);
-    ASSERT_TRUE(eventually(daemon, [&] { return read("result") == n; })) << daemon.output();
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_result") == n; })) << daemon.output();
     EXPECT_EQ(read("camera_0_frames"), n);
-    EXPECT_EQ(read("trigger"), n);
+    EXPECT_EQ(read("system_trigger"), n);
   }
   EXPECT_EQ(read("camera_0_triggers"), 4);
   EXPECT_EQ(read("camera_0_missed"), 0);
@@ -205,7 +205,7 @@ TEST_F(RecipeCommands, SnapshotsNeedAFolder) {
 TEST_F(RecipeCommands, ARestartReadsTheFilesAgainUnlessTheyAreWrong) {
   Subprocess daemon = start(two_recipes());
   ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
-  const auto checksum = read("configuration_checksum");
+  const auto checksum = read("system_configuration_checksum");
 
   const std::string out_of_view = "directions = [[60, 40], [70, 40], [60, 50]]\n";
   std::string second = kSecondRecipe;
@@ -214,20 +214,20 @@ TEST_F(RecipeCommands, ARestartReadsTheFilesAgainUnlessTheyAreWrong) {
   ASSERT_TRUE(says(daemon, "does not restart: ")) << daemon.output();
   EXPECT_NE(daemon.output().find("second.toml: region all: "), std::string::npos)
       << "each file is right by itself: " << daemon.output();
-  const auto set = read("frame_set");
-  EXPECT_TRUE(eventually(daemon, [&] { return read("frame_set") > set; })) << "it goes on";
-  EXPECT_EQ(read("configuration_checksum"), checksum) << "with what it had";
+  const auto set = read("system_frame_set");
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > set; })) << "it goes on";
+  EXPECT_EQ(read("system_configuration_checksum"), checksum) << "with what it had";
 
   write_second("is no TOML");
   daemon.send(SIGHUP);
   ASSERT_TRUE(says(daemon, "second.toml:1: ")) << daemon.output();
-  EXPECT_EQ(read("configuration_checksum"), checksum);
+  EXPECT_EQ(read("system_configuration_checksum"), checksum);
 
   write_second(kSecondRecipe + "# looked at again\n");
   write_command(port, static_cast<std::uint16_t>(CommandCode::Restart), {}, 999);
   ASSERT_TRUE(says(daemon, "restarts with its files read again")) << daemon.output();
   ASSERT_TRUE(eventually(daemon, [&] {
-    const auto now = read("configuration_checksum");
+    const auto now = read("system_configuration_checksum");
     return now > 0 && now != checksum;
   })) << daemon.output();
   EXPECT_TRUE(measures(daemon, 1)) << "all begins anew";

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/modbus/modbus_sink.h"
-#include "app/simulation/process.h"
+#include "app/ports/modbus/modbus_sink.h"
+#include "app/simulation/scene/process.h"
 #include "proc/optics/angle.h"
 #include "tests/app/daemon/measured_machine.h"
 #include "tests/support/registers.h"

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "app/pictures/colour_maps.h"
-#include "app/pipeline/view_renderer.h"
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 #include "proc/optics/angle.h"
 #include "proc/signals/region_meter.h"
+#include "tests/app/pipeline/views/rendered_view.h"
 #include "tests/support/error_distribution.h"
 #include "tests/support/reference_data.h"
 #include "tests/support/rendered_scene.h"
@@ -29,10 +29,10 @@ class MeasuredSequence {
                    const signals::RegionSettings& region)
       : sequence_(sequence),
         format_(format),
-        remapper_(plan(sequence, format)),
-        view_(remapper_.make_view()),
-        meter_(signals::RegionMeter::make(remapper_.plan().projection, sequence.scene(), region)
-                   .value()) {}
+        view_(plan(sequence, format)),
+        meter_(
+            signals::RegionMeter::make(view_.plan().projection, sequence.scene(), region).value()) {
+  }
 
   signals::Signals measure(std::size_t number) {
     picture_ =
@@ -43,10 +43,10 @@ class MeasuredSequence {
     hal::FrameSet set;
     set.frames[0] = buffer;
     app::WorkerPool workers(0);
-    remapper_.render(set, view_, workers);
+    const app::View& view = view_.render(set, workers);
     const double seconds = static_cast<double>(number) / sequence_.frame_rate();
-    return view_.radiometric.empty() ? meter_.measure(view_.luminance, view_.validity, seconds)
-                                     : meter_.measure(view_.radiometric, view_.validity, seconds);
+    return view.radiometric.empty() ? meter_.measure(view.luminance, view.validity, seconds)
+                                    : meter_.measure(view.radiometric, view.validity, seconds);
   }
 
   /// The brightest of the pixels around a place in the camera's picture.
@@ -76,8 +76,7 @@ class MeasuredSequence {
 
   const RenderedSequence& sequence_;
   PixelFormat format_;
-  app::ViewRenderer remapper_;
-  app::View view_;
+  app::RenderedView view_;
   signals::RegionMeter meter_;
   cv::Mat picture_;
 };

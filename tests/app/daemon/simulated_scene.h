@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "app/simulation/machine.h"
-#include "app/simulation/pinhole.h"
+#include "app/simulation/tracing/pinhole.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/scene_proxy.h"
 #include "proc/signals/region.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <map>
 
-#include "app/simulation/process.h"
+#include "app/simulation/scene/process.h"
 #include "proc/optics/angle.h"
 #include "tests/app/daemon/measured_machine.h"
 

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <random>
 
-#include "app/config/configuration.h"
+#include "app/files/resolve.h"
 #include "app/simulation/camera_truth.h"
-#include "app/simulation/static_scene.h"
+#include "app/simulation/scene/static_scene.h"
 #include "proc/optics/angle.h"
 #include "proc/optics/rig.h"
 #include "tests/app/daemon/simulated_scene.h"
@@ -24,8 +24,9 @@ optics::BallProjection projection_of(const CameraTruth& truth) {
   const optics::Mat3 rotation{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
   const optics::Outline outline{
       {truth.outline.cx, truth.outline.cy}, truth.outline.radius, truth.outline.radius, 0};
-  return optics::BallProjection::make(optics::BallModel::exact(truth.alpha).value(), outline,
-                                      rotation)
+  return optics::BallProjection::make(
+             optics::BallModel::make(optics::BallModel::Kind::Exact, truth.alpha).value(), outline,
+             rotation)
       .value();
 }
 
@@ -40,26 +41,24 @@ void expect_equal(const optics::Box& a, const optics::Box& b) {
   expect_equal(a.high, b.high);
 }
 
-Configuration demo() {
-  return load_configuration(std::filesystem::path(ORBWATCH_SOURCE_DIR) /
-                            "platform/config/demo.toml")
-      .value();
+Resolved demo() {
+  return resolve(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config/demo.toml").value();
 }
 
 TEST(Truth, TheShippedDemoFileDescribesItsSimulatedCameras) {
-  const Configuration configuration = demo();
+  const Resolved site = demo();
   const simulation::MachineSettings machine;
-  ASSERT_EQ(configuration.cameras.size(), configuration.rig.cameras.size());
-  for (std::size_t i = 0; i < configuration.cameras.size(); ++i) {
-    const CameraSettings& camera = configuration.cameras[i];
+  ASSERT_EQ(site.site.cameras.size(), site.rig.cameras.size());
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    const CameraSettings& camera = site.site.cameras[i];
     SCOPED_TRACE(camera.name);
-    ASSERT_EQ(configuration.rig.cameras[i].name, camera.name);
-    const auto& part = camera.simulated.value();
-    const Pinhole pinhole = simulation::look_at(part.position, machine.ball.centre, part.h_fov,
-                                                camera.width, camera.height);
+    ASSERT_EQ(site.rig.cameras[i].name, camera.name);
+    const auto& simulated = std::get<simulation::SimulatedCameraSettings>(camera.back_end);
+    const Pinhole pinhole =
+        simulation::look_at(simulated.position, machine.ball.centre, simulated.horizontal_fov,
+                            camera.stream.width, camera.stream.height);
     const CameraTruth truth = simulation::truth_of(pinhole, machine.ball);
-    const auto ball =
-        optics::ball_projection(configuration.rig, configuration.rig.cameras[i]).value();
+    const auto ball = optics::ball_projection(site.rig, site.rig.cameras[i]).value();
     const auto outline = ball.outline().value();
     EXPECT_NEAR(outline.centre.u, truth.outline.cx, 1e-3);
     EXPECT_NEAR(outline.centre.v, truth.outline.cy, 1e-3);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/file_descriptor.h"
+#include "hal/thread/file_descriptor.h"
 #include "tests/app/health/made_up_tree.h"
 
 namespace orbwatch::app {

@@ -84,8 +84,8 @@ TEST(JpegEncoder, TakesOtherFormatsAndSizesOneAfterTheOther) {
 
 /// Makes one picture as a topic does; its size.
 std::size_t make(JpegEncoder& encoder, JpegQuality& quality, const Picture& source) {
-  auto jpeg = encoder.encode(source, quality.now());
-  while (jpeg && quality.note(jpeg->size())) jpeg = encoder.encode(source, quality.now());
+  auto jpeg = encoder.encode(source, quality.current());
+  while (jpeg && quality.adapt(jpeg->size())) jpeg = encoder.encode(source, quality.current());
   return jpeg ? jpeg->size() : 0;
 }
 
@@ -94,7 +94,7 @@ TEST(JpegQuality, KeepsPicturesBelowTheirTargetFromTheFirstOn) {
   JpegEncoder encoder;
   JpegQuality free({.quality = 95});
   const std::size_t large = make(encoder, free, picture(rgb, PixelFormat::Rgb));
-  EXPECT_EQ(free.now(), 95) << "no target, no change";
+  EXPECT_EQ(free.current(), 95) << "no target, no change";
   for (const std::size_t target : {large / 2, large / 4}) {
     JpegQuality quality({.quality = 95, .target_bytes = target});
     for (int i = 0; i < 200; ++i) {
@@ -114,10 +114,10 @@ TEST(JpegQuality, RecoversWhenTheSceneBecomesSimple) {
   JpegQuality quality(
       {.quality = 90, .target_bytes = make(encoder, free, picture(rich, PixelFormat::Rgb)) / 3});
   make(encoder, quality, picture(rich, PixelFormat::Rgb));
-  const int under_load = quality.now();
+  const int under_load = quality.current();
   EXPECT_LT(under_load, 90);
   for (int i = 0; i < 100; ++i) make(encoder, quality, picture(plain, PixelFormat::Rgb));
-  EXPECT_EQ(quality.now(), 90) << "never better than asked for";
+  EXPECT_EQ(quality.current(), 90) << "never better than asked for";
 }
 
 TEST(JpegQuality, AnImpossibleTargetEndsAtTheLeastQuality) {
@@ -125,7 +125,7 @@ TEST(JpegQuality, AnImpossibleTargetEndsAtTheLeastQuality) {
   JpegEncoder encoder;
   JpegQuality quality({.quality = 90, .target_bytes = 100});
   for (int i = 0; i < 5; ++i) EXPECT_GT(make(encoder, quality, picture(rgb, PixelFormat::Rgb)), 0u);
-  EXPECT_EQ(quality.now(), JpegQuality::kLeast);
+  EXPECT_EQ(quality.current(), JpegQuality::kLeast);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/pipeline/display_throttle.h"
+#include "app/pipeline/frame_budget.h"
 #include "app/pipeline/second_meter.h"
 
 namespace orbwatch::app {
@@ -28,27 +28,37 @@ TEST(SecondMeter, CountsMoreThanItCanRank) {
   EXPECT_NEAR(figures.p50_ms, 3, 1e-6);
 }
 
-TEST(DisplayThrottle, HalvesAfterAnOverrunDownToEveryEighth) {
-  DisplayThrottle throttle;
-  EXPECT_TRUE(throttle.is_due(1));
+constexpr milliseconds kDeadline{100}, kOverrun{101}, kCalm{49}, kJustInTime{51};
+
+TEST(FrameBudget, HalvesDisplayViewsAfterAnOverrunDownToEveryEighth) {
+  FrameBudget budget(kDeadline);
+  EXPECT_TRUE(budget.is_display_due(1));
   for (const std::uint64_t interval : {2, 4, 8, 8}) {
-    throttle.note(true, false, 10);
-    EXPECT_EQ(throttle.interval(), interval);
+    EXPECT_TRUE(budget.add(kOverrun));
+    EXPECT_EQ(budget.interval(), interval);
   }
-  EXPECT_FALSE(throttle.is_due(1));
-  EXPECT_TRUE(throttle.is_due(8));
+  EXPECT_FALSE(budget.is_display_due(1));
+  EXPECT_TRUE(budget.is_display_due(8));
+  EXPECT_EQ(budget.overruns(), 4U);
 }
 
-TEST(DisplayThrottle, ComesBackAfterACalmSecondOnly) {
-  DisplayThrottle throttle;
-  throttle.note(true, false, 10);
-  throttle.note(true, false, 10);
-  for (int i = 0; i < 9; ++i) throttle.note(false, true, 10);
-  EXPECT_EQ(throttle.interval(), 4U);
-  throttle.note(false, true, 10);
-  EXPECT_EQ(throttle.interval(), 2U);
-  for (int i = 0; i < 100; ++i) throttle.note(false, false, 10);
-  EXPECT_EQ(throttle.interval(), 2U) << "just in time is not calm";
+TEST(FrameBudget, ComesBackAfterACalmSecondOnly) {
+  FrameBudget budget(kDeadline);
+  budget.add(kOverrun);
+  budget.add(kOverrun);
+  for (int i = 0; i < 9; ++i) EXPECT_FALSE(budget.add(kCalm));
+  EXPECT_EQ(budget.interval(), 4U);
+  budget.add(kCalm);
+  EXPECT_EQ(budget.interval(), 2U);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(budget.add(kJustInTime));
+  EXPECT_EQ(budget.interval(), 2U) << "just in time is not calm";
+}
+
+TEST(FrameBudget, ReportsTheLargestLoadSinceTheLastReport) {
+  FrameBudget budget(kDeadline);
+  for (const milliseconds spent : {kCalm, kOverrun, kJustInTime}) budget.add(spent);
+  EXPECT_NEAR(budget.roll_load(), 1.01, 1e-9);
+  EXPECT_EQ(budget.roll_load(), 0);
 }
 
 }  // namespace

@@ -10,14 +10,14 @@
 #include <utility>
 
 #include "hal/camera.h"
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 
 namespace orbwatch::app {
 
 /// Width and height of a HandCamera's frames.
 inline constexpr int kHandCameraSize = 100;
 
-/// A camera that delivers exactly when the test says so.
+/// A camera that delivers a frame for each call of the test.
 class HandCamera : public hal::Camera {
  public:
   HandCamera(std::string name, PixelFormat format)

@@ -13,8 +13,8 @@
 
 #include "app/pipeline/pipeline.h"
 #include "tests/app/pipeline/hand_camera.h"
-#include "tests/app/pipeline/measured_recipe.h"
-#include "tests/app/pipeline/thermal_view.h"
+#include "tests/app/pipeline/measurement/measured_recipe.h"
+#include "tests/app/pipeline/views/thermal_view.h"
 
 namespace orbwatch::app {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 using hal::Clock;
 using std::chrono::seconds;
 
-/// A camera whose exposure time can be set, and whose pictures are as bright as it says.
+/// A camera whose exposure time can be set and is the brightness of its pictures.
 class SettableCamera : public HandCamera {
  public:
   SettableCamera() : HandCamera("thermal", PixelFormat::Y16) {}
@@ -66,7 +66,7 @@ class ExaminingSink : public Sink {
     status_ = status;
     changed_.notify_all();
   }
-  void note(const AlarmNotice& notice) override {
+  void accept_event(const AlarmNotice& notice) override {
     const std::lock_guard lock(mutex_);
     if (on_notice) on_notice(notice);
   }
@@ -88,7 +88,7 @@ class ExaminingSink : public Sink {
   Status status_;
 };
 
-constexpr std::size_t kSeen = 0;  ///< the view that is only looked at; those of recipes follow
+constexpr std::size_t kSeen = 0;  ///< the display view; those of recipes follow
 constexpr std::uint32_t kChecksum = 0xC0FFEE01;
 
 /// A recipe in a scale and with an exposure of its own.
@@ -102,7 +102,7 @@ RecipePlan plan(std::uint16_t number) {
 }
 RecipePlan plan_with_exposure(std::uint16_t number) {
   RecipePlan measured = plan(number);
-  measured.controls.push_back({0, "ExposureTime", exposure(number)});
+  measured.controls.push_back({{"camera", 0}, "ExposureTime", exposure(number)});
   return measured;
 }
 
@@ -128,32 +128,27 @@ class MeasuredPipeline : public testing::Test {
     camera->expose_as_set();
     return sink.wait_for([n = ++frames](const Status& status) { return status.frame_set == n; });
   }
-  CommandResult command(CommandCode code, double first = 0, double second = 0, double third = 0,
-                        double fourth = 0) {
-    return pipeline->command({code, {first, second, third, fourth}});
-  }
-
   ExaminingSink sink;  // outlives the pipeline
   SettableCamera* camera = nullptr;
   std::optional<Pipeline> pipeline;
   std::uint64_t frames = 0;
 };
 
-TEST_F(MeasuredPipeline, EveryStatusTellsRecipeAndConfiguration) {
-  std::atomic<std::uint64_t> wrong{0}, told{0};
+TEST_F(MeasuredPipeline, EveryStatusHasRecipeAndConfiguration) {
+  std::atomic<std::uint64_t> wrong{0}, statuses{0};
   sink.on_status = [&](const Status& status) {
-    ++told;
+    ++statuses;
     wrong += status.configuration_checksum != kChecksum ? 1U : 0U;
     wrong += status.recipe != 1 && status.recipe != 2 ? 1U : 0U;
   };
   start({plan(1), plan(2)});
   sink.wait_for([](const Status& status) { return status.heartbeat > 1; });
   next_frame();
-  ASSERT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::Done);
+  ASSERT_EQ(pipeline->select_recipe(2), CommandResult::Done);
   sink.wait_for([](const Status& status) { return status.recipe == 2; });
   EXPECT_EQ(next_frame().recipe, 2);
   EXPECT_EQ(wrong, 0U);
-  EXPECT_GT(told, 2U);
+  EXPECT_GT(statuses, 2U);
 }
 
 TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
@@ -181,8 +176,8 @@ TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
     });
     std::mt19937 random(5);
     for (int n = 0; n < 90; ++n) {
-      const double number = 1.0 + random() % 3;
-      ASSERT_EQ(command(CommandCode::SelectRecipe, number), CommandResult::Done);
+      const std::size_t number = 1 + random() % 3;
+      ASSERT_EQ(pipeline->select_recipe(number), CommandResult::Done);
       if (n % 3 != 0) continue;
       sink.wait_for([number](const Status& status) {
         return status.recipe == number && status.regions[0].quality != Quality::NotMeasured;
@@ -197,10 +192,10 @@ TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
 
 TEST_F(MeasuredPipeline, SettingsThatACameraRefusesAreReported) {
   RecipePlan impossible = plan_with_exposure(2);
-  impossible.controls.push_back({0, "Flux", 88});
+  impossible.controls.push_back({{"camera", 0}, "Flux", 88});
   start({plan_with_exposure(1), impossible});
   next_frame();
-  ASSERT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::Done);
+  ASSERT_EQ(pipeline->select_recipe(2), CommandResult::Done);
   const Status refused = sink.wait_for([](const Status& status) { return status.recipe_refused; });
   EXPECT_EQ(refused.recipe, 1);
   const Status after = next_frame();
@@ -212,7 +207,7 @@ TEST_F(MeasuredPipeline, SettingsThatACameraRefusesAreReported) {
 TEST_F(MeasuredPipeline, StoppedIsAStateAndCamerasAndViewsGoOn) {
   start({plan(1)});
   EXPECT_EQ(next_frame().state, SystemState::Running);
-  ASSERT_EQ(command(CommandCode::Stop), CommandResult::Done);
+  ASSERT_EQ(pipeline->stop_measuring(), CommandResult::Done);
   sink.wait_for([](const Status& status) { return status.state == SystemState::Stopped; });
   const Status stopped = next_frame();
   EXPECT_EQ(stopped.state, SystemState::Stopped);
@@ -221,7 +216,7 @@ TEST_F(MeasuredPipeline, StoppedIsAStateAndCamerasAndViewsGoOn) {
   EXPECT_EQ(stopped.views[kSeen].published, 2U);
   EXPECT_EQ(stopped.views[1].published, 2U);
   EXPECT_EQ(stopped.cameras[0].frames, 2U);
-  ASSERT_EQ(command(CommandCode::Start), CommandResult::Done);
+  ASSERT_EQ(pipeline->start_measuring(), CommandResult::Done);
   const Status running = next_frame();
   EXPECT_EQ(running.state, SystemState::Running);
   EXPECT_EQ(running.regions[0].quality, Quality::Apparent);
@@ -242,7 +237,7 @@ TEST_F(MeasuredPipeline, StartStopAndStateBelongTogetherInEveryStatus) {
   {
     const std::jthread commanding([this](const std::stop_token& stop) {
       for (int n = 0; !stop.stop_requested(); ++n) {
-        command(n % 2 == 0 ? CommandCode::Stop : CommandCode::Start);
+        n % 2 == 0 ? pipeline->stop_measuring() : pipeline->start_measuring();
         std::this_thread::sleep_for(std::chrono::microseconds(n % 7 * 100));  // an operator's pace
       }
     });
@@ -264,7 +259,7 @@ TEST_F(MeasuredPipeline, EveryTriggeredFrameIsAResultThatASinkSeesOnce) {
   start({plan(1)});
   std::uint64_t granted = 0;
   for (int n = 0; n < 60; ++n) {
-    if (n % 3 == 0) granted += command(CommandCode::Trigger) == CommandResult::Done ? 1U : 0U;
+    if (n % 3 == 0) granted += pipeline->trigger() == CommandResult::Done ? 1U : 0U;
     next_frame();
   }
   pipeline->stop();
@@ -289,12 +284,12 @@ TEST_F(MeasuredPipeline, NoticesComeOnceAndInOrderBeforeTheStatusThatShowsThem) 
   };
   start({watched});
   EXPECT_EQ(next_frame().alarms[0].alarm.state, signals::AlarmState::Unacknowledged);
-  EXPECT_EQ(command(CommandCode::AcknowledgeAlarm, 2), CommandResult::ArgumentOutOfRange);
-  ASSERT_EQ(command(CommandCode::AcknowledgeAlarm, 1), CommandResult::Done);
+  EXPECT_EQ(pipeline->acknowledge_alarm(2), CommandResult::ArgumentOutOfRange);
+  ASSERT_EQ(pipeline->acknowledge_alarm(1), CommandResult::Done);
   sink.wait_for([](const Status& status) {
     return status.alarms[0].alarm.state == signals::AlarmState::Acknowledged;
   });
-  ASSERT_EQ(command(CommandCode::Stop), CommandResult::Done);
+  ASSERT_EQ(pipeline->stop_measuring(), CommandResult::Done);
   sink.wait_for([](const Status& status) { return status.state == SystemState::Stopped; });
   pipeline->stop();
   EXPECT_EQ(early, 0U);
@@ -305,21 +300,21 @@ TEST_F(MeasuredPipeline, NoticesComeOnceAndInOrderBeforeTheStatusThatShowsThem) 
   for (std::size_t n = 0; n < notices.size(); ++n) EXPECT_EQ(notices[n].number, n + 1);
 }
 
-TEST_F(MeasuredPipeline, OnlyViewsToLookAtArePointedAndMixed) {
+TEST_F(MeasuredPipeline, OnlyDisplayViewsArePointedAndMixed) {
   start({plan(1), plan(2)});
-  EXPECT_EQ(command(CommandCode::PointView, kSeen, 20, -10, 80), CommandResult::Done);
-  EXPECT_EQ(command(CommandCode::PointView, kSeen, 20, -10, 0), CommandResult::Done);
-  EXPECT_EQ(command(CommandCode::PointView, kSeen, 0, 0, 180), CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(command(CommandCode::MixSources, kSeen, 0, 2.5), CommandResult::Done);
-  EXPECT_EQ(command(CommandCode::MixSources, kSeen, 1, 2.5), CommandResult::ArgumentOutOfRange);
-  for (const double measured : {1.0, 2.0}) {
-    EXPECT_EQ(command(CommandCode::PointView, measured, 20), CommandResult::NotPossible);
-    EXPECT_EQ(command(CommandCode::MixSources, measured, 0, 2), CommandResult::NotPossible);
-    EXPECT_EQ(command(CommandCode::SelectView, measured), CommandResult::Done);
+  EXPECT_EQ(pipeline->point_view(kSeen, 20, -10, 80), CommandResult::Done);
+  EXPECT_EQ(pipeline->point_view(kSeen, 20, -10, 0), CommandResult::Done);
+  EXPECT_EQ(pipeline->point_view(kSeen, 0, 0, 180), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->mix_sources(kSeen, 0, 2.5), CommandResult::Done);
+  EXPECT_EQ(pipeline->mix_sources(kSeen, 1, 2.5), CommandResult::ArgumentOutOfRange);
+  for (const std::size_t measured : {1, 2}) {
+    EXPECT_EQ(pipeline->point_view(measured, 20, 0, 0), CommandResult::NotPossible);
+    EXPECT_EQ(pipeline->mix_sources(measured, 0, 2), CommandResult::NotPossible);
+    EXPECT_EQ(pipeline->select_view(measured), CommandResult::Done);
   }
-  EXPECT_EQ(command(CommandCode::PointView, 3), CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(command(CommandCode::MixSources, 3, 0, 1), CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(command(CommandCode::SelectView, 3), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->point_view(3, 0, 0, 0), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->mix_sources(3, 0, 1), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->select_view(3), CommandResult::ArgumentOutOfRange);
 }
 
 TEST_F(MeasuredPipeline, WhatOperatorsPointNeverChangesAMeasurement) {
@@ -349,9 +344,9 @@ TEST_F(MeasuredPipeline, WhatOperatorsPointNeverChangesAMeasurement) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> angle(-80, 80), fov(20, 150), weight(0.1, 10);
   for (int n = 0; n < 150; ++n) {
-    ASSERT_EQ(command(CommandCode::PointView, kSeen, angle(random), angle(random), fov(random)),
+    ASSERT_EQ(pipeline->point_view(kSeen, angle(random), angle(random), fov(random)),
               CommandResult::Done);
-    ASSERT_EQ(command(CommandCode::MixSources, kSeen, 0, weight(random)), CommandResult::Done);
+    ASSERT_EQ(pipeline->mix_sources(kSeen, 0, weight(random)), CommandResult::Done);
     next_frame();
   }
   const auto end = Clock::now() + seconds(30);
@@ -369,11 +364,12 @@ TEST_F(MeasuredPipeline, WithoutARecipeNothingIsMeasured) {
   EXPECT_EQ(status.state, SystemState::Running);
   EXPECT_EQ(status.recipe, 0);
   EXPECT_EQ(status.region_count, 0U);
-  for (const CommandCode code : {CommandCode::Start, CommandCode::Stop, CommandCode::Trigger,
-                                 CommandCode::AcknowledgeAlarm, CommandCode::SetProcessActive}) {
-    EXPECT_EQ(command(code), CommandResult::NotPossible);
-  }
-  EXPECT_EQ(command(CommandCode::SelectRecipe, 1), CommandResult::NotPossible);
+  EXPECT_EQ(pipeline->start_measuring(), CommandResult::NotPossible);
+  EXPECT_EQ(pipeline->stop_measuring(), CommandResult::NotPossible);
+  EXPECT_EQ(pipeline->trigger(), CommandResult::NotPossible);
+  EXPECT_EQ(pipeline->acknowledge_alarm(0), CommandResult::NotPossible);
+  EXPECT_EQ(pipeline->set_process_active(false), CommandResult::NotPossible);
+  EXPECT_EQ(pipeline->select_recipe(1), CommandResult::NotPossible);
 }
 
 TEST_F(MeasuredPipeline, StopsWhileRecipesAreSelected) {
@@ -381,10 +377,10 @@ TEST_F(MeasuredPipeline, StopsWhileRecipesAreSelected) {
     frames = 0;
     start({plan_with_exposure(1), plan_with_exposure(2)});
     for (int n = 0; n < round; ++n) {
-      ASSERT_EQ(command(CommandCode::SelectRecipe, 1 + n % 2), CommandResult::Done);
+      ASSERT_EQ(pipeline->select_recipe(1 + n % 2), CommandResult::Done);
     }
     next_frame();
-    ASSERT_EQ(command(CommandCode::SelectRecipe, 2), CommandResult::Done);
+    ASSERT_EQ(pipeline->select_recipe(2), CommandResult::Done);
     pipeline->stop();
     pipeline.reset();
   }

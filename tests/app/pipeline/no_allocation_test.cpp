@@ -10,12 +10,12 @@
 
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/pipeline.h"
-#include "app/pipeline/view_renderer.h"
-#include "hal/frame_pool.h"
-#include "hal/frame_sync.h"
-#include "hal/mailbox.h"
+#include "hal/frame/frame_pool.h"
+#include "hal/sync/frame_sync.h"
+#include "hal/thread/mailbox.h"
 #include "tests/app/pipeline/hand_camera.h"
-#include "tests/app/pipeline/measured_recipe.h"
+#include "tests/app/pipeline/measurement/measured_recipe.h"
+#include "tests/app/pipeline/views/rendered_view.h"
 
 namespace {
 
@@ -48,10 +48,11 @@ constexpr int kSize = 120;
 ViewPlan plan() {
   const auto view =
       optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 100, {}, 200, 150}).value();
-  const auto ball =
-      optics::BallProjection::make(optics::BallModel::exact(345).value(), {{60, 60}, 55, 55, 0}, {})
-          .value();
-  ViewPlan plan{0, "view", view, {}, Combine::Mix, remap::Interpolation::Bilinear, 0};
+  const auto ball = optics::BallProjection::make(
+                        optics::BallModel::make(optics::BallModel::Kind::Exact, 345).value(),
+                        {{60, 60}, 55, 55, 0}, {})
+                        .value();
+  ViewPlan plan{0, "view", view, {}, Combine::Mix, remap::Interpolation::Area, 0};
   for (const std::size_t camera : {0, 1}) {
     const PixelFormat format = camera == 0 ? PixelFormat::Y16 : PixelFormat::Rgb;
     plan.sources.push_back(
@@ -69,6 +70,9 @@ TEST(FramePath, DoesNotAllocate) {
   limits.high_alarm = 0.5;  // of hot_spot_present: passed all the time
   measured.alarms.push_back(limits);
   const auto recipe = compiled(std::move(measured));
+  FramePyramids pyramids(source_formats(plan()));
+  MipLevelCounts levels{};
+  levels.fill(remap::kMaxLevel);
   WorkerPool workers(1);
   hal::Mailbox<ViewPtr> mailbox;
 
@@ -83,10 +87,11 @@ TEST(FramePath, DoesNotAllocate) {
     }
     const auto set = sync.next(hal::Clock::now() + std::chrono::seconds(5));
     ASSERT_TRUE(set);
-    auto view = recipe->render(0, *set, workers);
+    pyramids.build(*set, levels, workers);
+    recipe->render(*set, pyramids, workers);
     recipe->measure();
     recipe->watch(set->stamp, true, {});
-    mailbox.put(std::move(view));
+    mailbox.put(recipe->views()[0].take());
   }
   EXPECT_EQ(allocations, before);
 }
@@ -128,19 +133,19 @@ class CountingSink : public Sink {
 };
 
 TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
-  PipelinePlan looked_at;
+  PipelinePlan displayed;
   auto hand = std::make_unique<HandCamera>("camera", PixelFormat::Grey);
   HandCamera& camera = *hand;
-  looked_at.formats.push_back(camera.configure({}).value());
-  looked_at.cameras.push_back(std::move(hand));
-  looked_at.deadline = std::chrono::seconds(20);
-  looked_at.view_count = 1;
-  looked_at.views.push_back(plan());
-  looked_at.views[0].measured.reset();
-  looked_at.views[0].sources.resize(1, looked_at.views[0].sources[0]);
-  looked_at.views[0].sources[0].format = looked_at.formats[0];
+  displayed.formats.push_back(camera.configure({}).value());
+  displayed.cameras.push_back(std::move(hand));
+  displayed.deadline = std::chrono::seconds(20);
+  displayed.view_count = 1;
+  displayed.views.push_back(plan());
+  displayed.views[0].measured.reset();
+  displayed.views[0].sources.resize(1, displayed.views[0].sources[0]);
+  displayed.views[0].sources[0].format = displayed.formats[0];
   CountingSink sink;
-  Pipeline pipeline(std::move(looked_at));
+  Pipeline pipeline(std::move(displayed));
   ASSERT_TRUE(pipeline.start({&sink}));
 
   std::uint64_t frames = 0;
@@ -164,10 +169,10 @@ TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
 }
 
 TEST(PanTiltZoom, FreesARendererWhenItWasReplaced) {
-  ViewPlan looked_at = plan();
-  looked_at.measured.reset();
-  PanTiltZoom pan_tilt_zoom({&looked_at, 1});
-  PointedRenderer shown;
+  ViewPlan displayed = plan();
+  displayed.measured.reset();
+  PanTiltZoom pan_tilt_zoom({&displayed, 1});
+  std::unique_ptr<ViewRenderer> shown;
   const auto wait_until = [&](const auto& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
@@ -176,8 +181,8 @@ TEST(PanTiltZoom, FreesARendererWhenItWasReplaced) {
   const auto point = [&] {
     const auto number = pan_tilt_zoom.point(0, {{30, 0, 0}, 90, {}});
     return wait_until([&] {
-      pan_tilt_zoom.exchange({&shown, 1});
-      return shown.pointing == *number;
+      pan_tilt_zoom.exchange(0, shown);
+      return shown && shown->plan().pointing == *number;
     });
   };
   ASSERT_TRUE(point());

@@ -8,12 +8,12 @@
 #include "app/pictures/colour_maps.h"
 #include "proc/optics/rotation.h"
 #include "tests/app/pipeline/hand_camera.h"
-#include "tests/app/pipeline/measured_recipe.h"
+#include "tests/app/pipeline/measurement/measured_recipe.h"
 
 namespace orbwatch::app {
 namespace {
 
-/// Keeps what the pipeline hands over; the test waits for what it expects.
+/// Records views and status; the test waits for the status that it expects.
 class RecordingSink : public Sink {
  public:
   Result<> start() override { return {}; }
@@ -60,7 +60,7 @@ class PipelineTest : public testing::Test {
     add_camera("grey", PixelFormat::Grey);
     plan.workers = 1;
     plan.deadline = std::chrono::seconds(20);
-    plan.sync.window = plan.sync.patience = std::chrono::milliseconds(1);
+    plan.sync.window = plan.sync.max_wait = std::chrono::milliseconds(1);
     plan.views.push_back(view("seen", 0, {1}));
     plan.recipes.push_back(compiled(recipe_plan(view("measured", 1, {0, 1}), 30000, 0.04)));
     plan.view_count = 2;
@@ -79,8 +79,9 @@ class PipelineTest : public testing::Test {
     ViewPlan view{index,       name, projection, {}, Combine::Mix, remap::Interpolation::Bilinear,
                   std::nullopt};
     for (const std::size_t n : sources) {
-      const auto ball = optics::BallProjection::make(optics::BallModel::exact(350).value(),
-                                                     {{49.5, 49.5}, 48, 48, 0}, {})
+      const auto ball = optics::BallProjection::make(
+                            optics::BallModel::make(optics::BallModel::Kind::Exact, 350).value(),
+                            {{49.5, 49.5}, 48, 48, 0}, {})
                             .value();
       const double high = plan.formats[n].format == PixelFormat::Y16 ? 65535 : 255;
       view.sources.push_back({n, plan.formats[n], ball, 1, {colour_map_table("hot"), 0, high}});
@@ -190,7 +191,7 @@ TEST_F(PipelineTest, ATriggeredCameraGivesOneFrameForEachTriggerAndTheRestIsMiss
   constexpr std::uint64_t kTriggers = 12;
   std::uint64_t frames = 0;
   for (std::uint64_t i = 1; i <= kTriggers; ++i) {
-    trigger->take({hal::Edge::Rising, hal::Clock::now()});
+    trigger->on_edge({hal::Edge::Rising, hal::Clock::now()});
     if (i % 3 == 1) continue;  // the next edge comes before the camera exposes
     cameras[0]->expose(40000);
     cameras[0]->expose(40000);  // without a trigger: in no set
@@ -210,31 +211,30 @@ TEST_F(PipelineTest, ACameraFaultMissesItsTriggers) {
       hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
   plan.triggers = {trigger, nullptr};
   start();
-  trigger->take({hal::Edge::Rising, hal::Clock::now()});
+  trigger->on_edge({hal::Edge::Rising, hal::Clock::now()});
   cameras[0]->fail_with(hal::Fault::Unplugged);
   const Status status = sink.wait_for([](const Status& s) { return s.cameras[0].missed == 1; });
   EXPECT_EQ(status.cameras[0].triggers, 1U);
   EXPECT_EQ(status.cameras[0].frames, 0U);
 }
 
-TEST_F(PipelineTest, TellsWhichProcessInputsAreActive) {
+TEST_F(PipelineTest, ReportsWhichProcessInputsAreActive) {
   const auto door = std::make_shared<hal::ProcessInput>(true, hal::Clock::now());
   const auto laser = std::make_shared<hal::ProcessInput>(false, hal::Clock::now());
   plan.process_inputs = {door, laser};
   start();
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b01; });
-  laser->take({hal::Edge::Rising, hal::Clock::now()});
+  laser->on_edge({hal::Edge::Rising, hal::Clock::now()});
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b11; });
-  door->take({hal::Edge::Falling, hal::Clock::now()});
+  door->on_edge({hal::Edge::Falling, hal::Clock::now()});
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b10; });
 }
 
 TEST_F(PipelineTest, SelectsAViewOnCommand) {
   start();
-  EXPECT_EQ(pipeline->command({CommandCode::SelectView, {1}}), CommandResult::Done);
+  EXPECT_EQ(pipeline->select_view(1), CommandResult::Done);
   sink.wait_for([](const Status& s) { return s.selected_view == 1; });
-  EXPECT_EQ(pipeline->command({CommandCode::SelectView, {2}}), CommandResult::ArgumentOutOfRange);
-  EXPECT_EQ(pipeline->command({CommandCode::Pulse, {0}}), CommandResult::UnknownCommand);
+  EXPECT_EQ(pipeline->select_view(2), CommandResult::ArgumentOutOfRange);
 }
 
 TEST_F(PipelineTest, StopsTwiceAndWithoutAStart) {

@@ -10,8 +10,8 @@
 #include <random>
 #include <thread>
 
-#include "tests/app/pipeline/measured_recipe.h"
-#include "tests/app/pipeline/pointed_views.h"
+#include "tests/app/pipeline/measurement/measured_recipe.h"
+#include "tests/app/pipeline/views/pointed_views.h"
 
 namespace orbwatch::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "app/simulation/process.h"
+#include "app/simulation/scene/process.h"
 
 namespace orbwatch::app::simulation {
 

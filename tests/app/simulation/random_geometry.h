@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "app/simulation/ray.h"
+#include "app/simulation/tracing/ray.h"
 
 namespace orbwatch::app::simulation {
 

@@ -9,26 +9,26 @@ namespace {
 
 const TimePoint kLongAgo{};
 
-TEST(CaptureEvents, GivesNewsOnce) {
+TEST(CaptureEvents, GivesEventsOnce) {
   CaptureEvents events;
   events.complete(5);
   events.complete(2);
-  events.put_back(0);
-  events.put_back(31);
+  events.return_buffer(0);
+  events.return_buffer(31);
   events.remove_camera();
-  events.ring();
-  const auto news = events.wait(TimePoint::max());
-  ASSERT_EQ(news.completed_count, 2U);
-  EXPECT_EQ(news.completed[0], 5);
-  EXPECT_EQ(news.completed[1], 2);
-  EXPECT_EQ(news.returned, 0x80000001U);
-  EXPECT_TRUE(news.removed);
-  EXPECT_TRUE(news.rung);
+  events.wake();
+  const auto pending = events.wait(TimePoint::max());
+  ASSERT_EQ(pending.completed_count, 2U);
+  EXPECT_EQ(pending.completed[0], 5);
+  EXPECT_EQ(pending.completed[1], 2);
+  EXPECT_EQ(pending.returned, 0x80000001U);
+  EXPECT_TRUE(pending.removed);
+  EXPECT_TRUE(pending.woken);
   const auto nothing = events.wait(kLongAgo);
   EXPECT_EQ(nothing.completed_count, 0U);
   EXPECT_EQ(nothing.returned, 0U);
   EXPECT_FALSE(nothing.removed);
-  EXPECT_FALSE(nothing.rung);
+  EXPECT_FALSE(nothing.woken);
 }
 
 TEST(CaptureEvents, LosesNoneBetweenThreads) {
@@ -43,10 +43,10 @@ TEST(CaptureEvents, LosesNoneBetweenThreads) {
     }
   });
   for (std::size_t i = 0; i < kRounds; ++i) {
-    const auto news = events.wait(TimePoint::max());
-    ASSERT_EQ(news.completed_count, 1U);
-    ASSERT_EQ(news.completed[0], i % CaptureEvents::kMaxRequests);
-    back.put_back(news.completed[0]);
+    const auto pending = events.wait(TimePoint::max());
+    ASSERT_EQ(pending.completed_count, 1U);
+    ASSERT_EQ(pending.completed[0], i % CaptureEvents::kMaxRequests);
+    back.return_buffer(pending.completed[0]);
   }
   libcamera.join();
 }

@@ -29,7 +29,7 @@ constexpr const char* kCamera = "Sensor B";
 /// An emulated machine may be that slow; it says when a camera has stalled.
 constexpr StreamRequest kSmall{320, 240, 0.1};
 /// After it a test fails; nothing waits for so long otherwise.
-constexpr auto kPatience = 120s;
+constexpr auto kMaxWait = 120s;
 
 /// What a camera told, for a test that waits for it.
 class Witness {
@@ -52,7 +52,7 @@ class Witness {
   /// The oldest frame that was not taken yet; null when none came.
   Frame frame() {
     std::unique_lock lock(mutex_);
-    if (!told_.wait_for(lock, kPatience, [this] { return !frames_.empty(); })) return nullptr;
+    if (!told_.wait_for(lock, kMaxWait, [this] { return !frames_.empty(); })) return nullptr;
     Frame oldest = std::move(frames_.front());
     frames_.pop_front();
     return oldest;
@@ -60,7 +60,7 @@ class Witness {
 
   bool is_told(Fault fault) {
     std::unique_lock lock(mutex_);
-    return told_.wait_for(lock, kPatience, [this, fault] {
+    return told_.wait_for(lock, kMaxWait, [this, fault] {
       return std::any_of(faults_.begin(), faults_.end(),
                          [fault](const FaultReport& report) { return report.fault == fault; });
     });

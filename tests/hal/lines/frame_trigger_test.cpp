@@ -32,7 +32,7 @@ std::uint64_t sum(const TriggerCounts& counts) {
 TEST(FrameTrigger, StampsTheFrameThatFollowsTheEdge) {
   FrameTrigger trigger(line_settings(), never);
   EXPECT_FALSE(trigger.claim(at(1))) << "no edge yet";
-  trigger.take(rising(10));
+  trigger.on_edge(rising(10));
   EXPECT_FALSE(trigger.claim(at(9.9))) << "began before";
   const auto stamp = trigger.claim(at(10));
   ASSERT_TRUE(stamp);
@@ -46,8 +46,8 @@ TEST(FrameTrigger, StampsTheFrameThatFollowsTheEdge) {
 
 TEST(FrameTrigger, AFrameThatArrivesLateKeepsItsTrigger) {
   FrameTrigger trigger(line_settings(), never);
-  trigger.take(rising(10));
-  trigger.take(rising(50));
+  trigger.on_edge(rising(10));
+  trigger.on_edge(rising(50));
   EXPECT_EQ(trigger.claim(at(10.1))->id, 1U);
   EXPECT_EQ(trigger.claim(at(50.1))->id, 2U);
   EXPECT_EQ(trigger.counts().missed, 0U);
@@ -55,9 +55,9 @@ TEST(FrameTrigger, AFrameThatArrivesLateKeepsItsTrigger) {
 
 TEST(FrameTrigger, AnEdgeDuringTheExposureIsMissed) {
   FrameTrigger trigger(line_settings(), never);
-  trigger.take(rising(10));
-  trigger.take(rising(20));
-  trigger.take(rising(40));
+  trigger.on_edge(rising(10));
+  trigger.on_edge(rising(20));
+  trigger.on_edge(rising(40));
   EXPECT_EQ(trigger.claim(at(10.1))->id, 1U);
   EXPECT_EQ(trigger.claim(at(40.1))->id, 3U) << "the newest one before the exposure";
   EXPECT_EQ(trigger.counts().missed, 1U);
@@ -66,9 +66,9 @@ TEST(FrameTrigger, AnEdgeDuringTheExposureIsMissed) {
 TEST(FrameTrigger, ActivationChoosesTheEdges) {
   const auto triggers = [](TriggerActivation activation) {
     FrameTrigger trigger({.mode = TriggerMode::Line, .activation = activation}, never);
-    trigger.take({Edge::Rising, at(1)});
-    trigger.take({Edge::Falling, at(2)});
-    trigger.take({Edge::Rising, at(3)});
+    trigger.on_edge({Edge::Rising, at(1)});
+    trigger.on_edge({Edge::Falling, at(2)});
+    trigger.on_edge({Edge::Rising, at(3)});
     return trigger.counts().triggers;
   };
   EXPECT_EQ(triggers(TriggerActivation::RisingEdge), 2U);
@@ -80,7 +80,7 @@ TEST(FrameTrigger, DelaysTheExposure) {
   TriggerSettings settings = line_settings();
   settings.delay = milliseconds(5);
   FrameTrigger trigger(settings, never);
-  trigger.take(rising(10));
+  trigger.on_edge(rising(10));
   EXPECT_FALSE(trigger.claim(at(14.9)));
   const auto stamp = trigger.claim(at(15));
   ASSERT_TRUE(stamp);
@@ -91,7 +91,7 @@ TEST(FrameTrigger, AStormLeavesEachFrameATrigger) {
   FrameTrigger trigger(line_settings(), never);
   std::uint64_t frames = 0;
   for (int edge = 0; edge < 10000; ++edge) {
-    trigger.take(rising(edge));
+    trigger.on_edge(rising(edge));
     if (edge % 100 != 99) continue;
     ++frames;
     EXPECT_TRUE(trigger.claim(at(edge - 99.5 + (frames > 1 ? 0 : 1))));
@@ -104,8 +104,8 @@ TEST(FrameTrigger, AStormLeavesEachFrameATrigger) {
 
 TEST(FrameTrigger, ACameraFaultMissesWhatWaits) {
   FrameTrigger trigger(line_settings(), never);
-  trigger.take(rising(1));
-  trigger.take(rising(2));
+  trigger.on_edge(rising(1));
+  trigger.on_edge(rising(2));
   trigger.abandon();
   EXPECT_EQ(trigger.counts().missed, 2U);
   EXPECT_FALSE(trigger.claim(at(3)));
@@ -126,9 +126,9 @@ TEST(FrameTrigger, ACommandIsATriggerWhateverTheActivation) {
 
 TEST(FrameTrigger, CommandsAndEdgesAreNumberedTogether) {
   FrameTrigger trigger(line_settings(), never);
-  trigger.take(rising(10));
+  trigger.on_edge(rising(10));
   trigger.fire(at(20));
-  trigger.take(rising(30));
+  trigger.on_edge(rising(30));
   for (const std::uint64_t id : {1U, 2U, 3U}) {
     EXPECT_EQ(trigger.claim(at(10.0 * static_cast<double>(id) + 1))->id, id);
   }
@@ -173,7 +173,7 @@ TEST(SoftwareTrigger, AsksTheCameraWhenTheDelayIsOver) {
   settings.delay = milliseconds(5);
   FrameTrigger trigger(settings, [&asked]() -> Result<> { return ++asked, Result<>(); });
   EXPECT_EQ(trigger.due(), TimePoint::max());
-  trigger.take(rising(10));
+  trigger.on_edge(rising(10));
   EXPECT_EQ(trigger.due(), at(15));
   trigger.run(at(14.9));
   EXPECT_EQ(asked, 0);
@@ -188,13 +188,13 @@ TEST(SoftwareTrigger, IsMissedWhileTheCameraOwesAFrame) {
   int asked = 0;
   FrameTrigger trigger(software_settings(), [&asked]() -> Result<> { return ++asked, Result<>(); });
   for (const double when : {10.0, 11.0, 12.0}) {
-    trigger.take(rising(when));
+    trigger.on_edge(rising(when));
     trigger.run(at(when));
   }
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(trigger.counts().missed, 2U);
   EXPECT_EQ(trigger.claim(at(13))->id, 1U);
-  trigger.take(rising(14));
+  trigger.on_edge(rising(14));
   trigger.run(at(14));
   EXPECT_EQ(trigger.claim(at(14))->id, 4U);
 }
@@ -202,9 +202,9 @@ TEST(SoftwareTrigger, IsMissedWhileTheCameraOwesAFrame) {
 TEST(SoftwareTrigger, ACameraThatNeverAnswersIsAskedAgainAfterTheTimeout) {
   int asked = 0;
   FrameTrigger trigger(software_settings(), [&asked]() -> Result<> { return ++asked, Result<>(); });
-  trigger.take(rising(10));
+  trigger.on_edge(rising(10));
   trigger.run(at(10));
-  trigger.take(rising(1010.1));
+  trigger.on_edge(rising(1010.1));
   trigger.run(at(1010.1));
   EXPECT_EQ(asked, 2);
   EXPECT_EQ(trigger.counts().missed, 1U);
@@ -213,7 +213,7 @@ TEST(SoftwareTrigger, ACameraThatNeverAnswersIsAskedAgainAfterTheTimeout) {
 
 TEST(SoftwareTrigger, ARefusalIsMissed) {
   FrameTrigger trigger(software_settings(), [] { return Result<>(fail("has none")); });
-  trigger.take(rising(10));
+  trigger.on_edge(rising(10));
   trigger.run(at(10));
   EXPECT_EQ(trigger.counts().missed, 1U);
   EXPECT_EQ(trigger.counts().waiting, 0U);
@@ -247,7 +247,7 @@ TEST(FrameTrigger, CountsExactlyOnRandomEdges) {
     for (std::uint64_t id = 1; id <= kEdges; ++id) {
       now += 0.1 + pause(random);
       deliver_until(now);
-      trigger.take(rising(now));
+      trigger.on_edge(rising(now));
       if (now < busy_until) continue;
       under_way.push_back({now, id});
       busy_until = now + kExposure;
@@ -279,7 +279,7 @@ TEST(FrameTrigger, CountsExactlyWhileThreadsInterleave) {
       }
     });
     for (int i = 0; i < 20000; ++i) {
-      trigger.take({Edge::Rising, Clock::now()});
+      trigger.on_edge({Edge::Rising, Clock::now()});
       trigger.run(Clock::now());
       const TriggerCounts now = trigger.counts();
       ASSERT_EQ(now.triggers, sum(now));

@@ -43,7 +43,7 @@ std::unique_ptr<WatchedInput> watch(SimulatedLines& lines, const std::string& na
       WatchedInput::open(lines, {.address = {.name = name}}, [&faults](const auto& report) {
         faults.add(report.fault);
       }).value();
-  input->hear([&edges](const EdgeEvent& edge) { edges.add(edge); });
+  input->subscribe([&edges](const EdgeEvent& edge) { edges.add(edge); });
   return input;
 }
 
@@ -82,7 +82,7 @@ TEST(LineThread, APulseTrainGoesOverAWire) {
   PulseOutput::Outputs outputs;
   outputs.push_back(lines.open_output({.address = {.name = "WIRE"}}).value());
   PulseOutput pulses({.period = milliseconds(4), .width = milliseconds(1)}, std::move(outputs),
-                     [&thread] { thread.ring(); });
+                     [&thread] { thread.wake(); });
   thread.watch(*input);
   thread.add(pulses);
   ASSERT_TRUE(thread.start());
@@ -98,7 +98,7 @@ TEST(LineThread, ACommandWakesIt) {
   LineThread thread;
   PulseOutput::Outputs outputs;
   outputs.push_back(lines.open_output({.address = {.name = "OUT"}}).value());
-  PulseOutput pulse({.width = milliseconds(1)}, std::move(outputs), [&thread] { thread.ring(); });
+  PulseOutput pulse({.width = milliseconds(1)}, std::move(outputs), [&thread] { thread.wake(); });
   thread.add(pulse);
   ASSERT_TRUE(thread.start());
   EXPECT_TRUE(pulse.fire(Clock::now()));
@@ -112,7 +112,7 @@ TEST(LineThread, TheHeartbeatFallsLowWhenNobodyReports) {
   LineThread thread;
   WatchdogOutput ok({.timeout = milliseconds(20)},
                     lines.open_output({.address = {.name = "OK"}}).value(),
-                    [&thread] { thread.ring(); });
+                    [&thread] { thread.wake(); });
   thread.add(ok);
   ASSERT_TRUE(thread.start());
   ok.report(true, Clock::now());

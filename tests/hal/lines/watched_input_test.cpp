@@ -19,7 +19,7 @@ class WatchedInputTest : public testing::Test {
     auto input = WatchedInput::open(lines, settings, [this](const LineFaultReport& report) {
                    faults.push_back(report.fault);
                  }).value();
-    input->hear([this](const EdgeEvent& edge) { heard.push_back(edge); });
+    input->subscribe([this](const EdgeEvent& edge) { heard.push_back(edge); });
     return input;
   }
 

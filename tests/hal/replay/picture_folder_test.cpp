@@ -4,7 +4,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 #include "tests/hal/replay/picture_files.h"
 
 namespace orbwatch::hal {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/frame_pool.h"
+#include "hal/frame/frame_pool.h"
 #include "tests/hal/replay/picture_files.h"
 #include "tests/hal/replay/test_video.h"
 

@@ -9,23 +9,23 @@
 namespace orbwatch::hal {
 namespace {
 
-bool rings(const ReturnedBuffers& returned) {
+bool is_readable(const ReturnedBuffers& returned) {
   pollfd file{returned.descriptor(), POLLIN, 0};
   return ::poll(&file, 1, 0) == 1;
 }
 
-TEST(ReturnedBuffers, RingsUntilItIsAnswered) {
+TEST(ReturnedBuffers, IsReadableUntilItIsTaken) {
   ReturnedBuffers returned;
   ASSERT_TRUE(returned.is_open());
-  EXPECT_FALSE(rings(returned));
+  EXPECT_FALSE(is_readable(returned));
   returned.put(0);
   returned.put(31);
-  EXPECT_TRUE(rings(returned));
+  EXPECT_TRUE(is_readable(returned));
   EXPECT_EQ(returned.take(), 0x80000001U);
-  EXPECT_FALSE(rings(returned));
+  EXPECT_FALSE(is_readable(returned));
   EXPECT_EQ(returned.take(), 0U);
-  returned.ring();
-  EXPECT_TRUE(rings(returned));
+  returned.wake();
+  EXPECT_TRUE(is_readable(returned));
   EXPECT_EQ(returned.take(), 0U);
 }
 
@@ -34,7 +34,7 @@ TEST(ReturnedBuffers, LosesNoneBetweenThreads) {
   constexpr int kRounds = 2000;
   std::thread releasing([&] {
     for (int i = 0; i < kRounds; ++i) {
-      while (rings(returned)) std::this_thread::yield();
+      while (is_readable(returned)) std::this_thread::yield();
       returned.put(static_cast<std::size_t>(i % 2));
     }
   });
@@ -52,9 +52,9 @@ std::unique_ptr<DriverFrame> make_frame() {
   void* const memory =
       ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   EXPECT_NE(memory, MAP_FAILED);
-  std::vector<BufferMemory> stretches;
-  stretches.push_back({MappedMemory({static_cast<std::byte*>(memory), 4096}), std::nullopt});
-  return std::make_unique<DriverFrame>(std::move(stretches));
+  std::vector<BufferMemory> memory_planes;
+  memory_planes.push_back({MappedMemory({static_cast<std::byte*>(memory), 4096}), std::nullopt});
+  return std::make_unique<DriverFrame>(std::move(memory_planes));
 }
 
 TEST(DriverFrame, StaysMappedWhileAFrameIsHeldAfterTheStreamIsGone) {

@@ -60,7 +60,7 @@ TEST(BallModel, ExactSolvesReflectionAtEveryDistance) {
 TEST(BallModel, ExactEqualsTracedReflection) {
   for (const double distance : {1.3, 2.0, 3.0, 6.0, 10.0, 20.0, 100.0}) {
     const double alpha = alpha_of(distance);
-    const BallModel model = BallModel::exact(alpha).value();
+    const BallModel model = BallModel::make(BallModel::Kind::Exact, alpha).value();
     for (int i = 0; i < 500; ++i) {
       const double phi = model.limit() * i / 500;
       // One ten-thousandth of a pixel on a ball of 1500 px radius.
@@ -72,9 +72,11 @@ TEST(BallModel, ExactEqualsTracedReflection) {
 }
 
 TEST(BallModel, PhiIsTheInverseOfRho) {
-  const std::array models{BallModel::exact(alpha_of(1.05)).value(),
-                          BallModel::exact(alpha_of(12)).value(), BallModel::exact(360).value(),
-                          BallModel::paper(346).value(), BallModel::classical()};
+  const std::array models{BallModel::make(BallModel::Kind::Exact, alpha_of(1.05)).value(),
+                          BallModel::make(BallModel::Kind::Exact, alpha_of(12)).value(),
+                          BallModel::make(BallModel::Kind::Exact, 360).value(),
+                          BallModel::make(BallModel::Kind::Paper, 346).value(),
+                          BallModel::make(BallModel::Kind::Classical).value()};
   for (const BallModel& model : models) {
     for (int i = 0; i <= 1000; ++i) {
       const double place = i / 1000.0;
@@ -100,10 +102,11 @@ TEST(BallModel, ThetaIsWhereTheRayLeavesTheBall) {
 }
 
 TEST(BallModel, ExactTendsToClassicalFarAway) {
-  const BallModel far = BallModel::exact(alpha_of(1e7)).value();
-  const BallModel orthographic = BallModel::exact(360).value();
+  const BallModel far = BallModel::make(BallModel::Kind::Exact, alpha_of(1e7)).value();
+  const BallModel orthographic = BallModel::make(BallModel::Kind::Exact, 360).value();
   for (double phi = 0; phi < 3.1; phi += 0.01) {
-    const double classical = rho(BallModel::classical(), angle(phi)).value();
+    const double classical =
+        rho(BallModel::make(BallModel::Kind::Classical).value(), angle(phi)).value();
     EXPECT_NEAR(rho(far, angle(phi)).value(), classical, 1e-6);
     EXPECT_NEAR(rho(orthographic, angle(phi)).value(), classical, 1e-12);
   }
@@ -113,7 +116,8 @@ TEST(BallModel, ExactTendsToClassicalFarAway) {
 TEST(BallModel, IsPreciseTowardsTheAxis) {
   for (const double away : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const CosSin ahead{std::cos(away), std::sin(away)}, behind{-std::cos(away), std::sin(away)};
-    for (const BallModel& model : {BallModel::exact(360).value(), BallModel::classical()}) {
+    for (const BallModel& model : {BallModel::make(BallModel::Kind::Exact, 360).value(),
+                                   BallModel::make(BallModel::Kind::Classical).value()}) {
       EXPECT_NEAR(rho(model, ahead).value() / std::sin(away / 2), 1, 1e-12);
       EXPECT_NEAR(rho(model, behind).value(), std::cos(away / 2), 1e-12);
     }
@@ -122,10 +126,11 @@ TEST(BallModel, IsPreciseTowardsTheAxis) {
 
 TEST(BallModel, OnlyTheExactModelKnowsHowFarThingsAre) {
   const CosSin phi = angle(1.2);
-  for (const BallModel& model : {BallModel::paper(346).value(), BallModel::classical()}) {
+  for (const BallModel& model : {BallModel::make(BallModel::Kind::Paper, 346).value(),
+                                 BallModel::make(BallModel::Kind::Classical).value()}) {
     EXPECT_EQ(rho(model, phi, 0.3), rho(model, phi));
   }
-  const BallModel exact = BallModel::exact(346).value();
+  const BallModel exact = BallModel::make(BallModel::Kind::Exact, 346).value();
   EXPECT_GT(rho(exact, phi, 0.3).value(), rho(exact, phi).value() + 0.05);
 }
 
@@ -136,15 +141,15 @@ TEST(BallModel, PaperAndClassicalMissByThePublishedErrors) {
   };
   for (const Row& row : {Row{3, 18.1, 12.0}, {6, 9.4, 7.4}, {10, 5.70, 4.87}, {50, 1.15, 1.09}}) {
     const double alpha = alpha_of(row.distance);
-    const BallModel exact = BallModel::exact(alpha).value();
+    const BallModel exact = BallModel::make(BallModel::Kind::Exact, alpha).value();
     double classical = 0, paper = 0;
     for (int i = 0; i <= 2000; ++i) {
       const double rho = i / 2000.0;
       const auto error = [&](const BallModel& model) {
         return std::abs(radians_of(model.phi(rho).value()) - radians_of(exact.phi(rho).value()));
       };
-      classical = std::max(classical, error(BallModel::classical()));
-      paper = std::max(paper, error(BallModel::paper(alpha).value()));
+      classical = std::max(classical, error(BallModel::make(BallModel::Kind::Classical).value()));
+      paper = std::max(paper, error(BallModel::make(BallModel::Kind::Paper, alpha).value()));
     }
     // The classical model is at its worst on the limb, just outside of what the table counts.
     EXPECT_NEAR(degrees(paper), row.paper, 0.06) << "distance " << row.distance;
@@ -153,11 +158,11 @@ TEST(BallModel, PaperAndClassicalMissByThePublishedErrors) {
 }
 
 TEST(BallModel, BlindConeIsUndefined) {
-  const BallModel exact = BallModel::exact(300).value();
+  const BallModel exact = BallModel::make(BallModel::Kind::Exact, 300).value();
   EXPECT_TRUE(rho(exact, angle(radians(149.999))));
   EXPECT_FALSE(rho(exact, angle(radians(150.001))));
   EXPECT_FALSE(exact.phi(1.0001));
-  EXPECT_TRUE(rho(BallModel::classical(), angle(radians(180))));
+  EXPECT_TRUE(rho(BallModel::make(BallModel::Kind::Classical).value(), angle(radians(180))));
 }
 
 // What is near is hidden earlier: a point on the ball's surface as soon as its surface turns away.
@@ -207,10 +212,11 @@ TEST(BallModel, TakesAlphaOrDistanceUnlessClassical) {
 
 TEST(BallModel, RefusesWhatIsNoBall) {
   for (const double alpha : {180.0, 0.0, -20.0, 360.001, std::nan(""), 1e300}) {
-    EXPECT_FALSE(BallModel::exact(alpha)) << alpha;
-    EXPECT_FALSE(BallModel::paper(alpha)) << alpha;
+    EXPECT_FALSE(BallModel::make(BallModel::Kind::Exact, alpha)) << alpha;
+    EXPECT_FALSE(BallModel::make(BallModel::Kind::Paper, alpha)) << alpha;
   }
-  EXPECT_NE(BallModel::exact(170).error().message.find("(180, 360]"), std::string::npos);
+  EXPECT_NE(BallModel::make(BallModel::Kind::Exact, 170).error().message.find("(180, 360]"),
+            std::string::npos);
   for (const double distance : {1.0, 0.0, -3.0, std::nan("")}) {
     EXPECT_FALSE(BallModel::alpha_from_distance(distance)) << distance;
   }

@@ -31,7 +31,8 @@ using tests::scene_around_ball;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 BallModel model_at(double distance) {
-  return BallModel::exact(BallModel::alpha_from_distance(distance).value()).value();
+  return BallModel::make(BallModel::Kind::Exact, BallModel::alpha_from_distance(distance).value())
+      .value();
 }
 
 TEST(BallProjection, ShowsTheRoomUnmirrored) {
@@ -293,7 +294,7 @@ TEST(BallProjection, DirectionIsTheInverseOfPixel) {
 
 TEST(BallProjection, RefusesWhatIsNoEllipse) {
   const double nan = std::nan("");
-  const BallModel model = BallModel::classical();
+  const BallModel model = BallModel::make(BallModel::Kind::Classical).value();
   for (const Outline& bad :
        {Outline{{0, 0}, 0, 10, 0}, Outline{{0, 0}, 10, -1, 0}, Outline{{nan, 0}, 10, 10, 0},
         Outline{{0, 0}, nan, 10, 0}, Outline{{0, 0}, 10, 10, nan}}) {

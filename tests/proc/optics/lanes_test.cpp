@@ -15,9 +15,11 @@ namespace {
 
 std::vector<BallProjection> balls(std::mt19937& random) {
   std::vector<BallProjection> all;
-  for (const BallModel& model :
-       {BallModel::exact(348.5).value(), BallModel::exact(200).value(),
-        BallModel::exact(360).value(), BallModel::paper(346).value(), BallModel::classical()}) {
+  for (const BallModel& model : {BallModel::make(BallModel::Kind::Exact, 348.5).value(),
+                                 BallModel::make(BallModel::Kind::Exact, 200).value(),
+                                 BallModel::make(BallModel::Kind::Exact, 360).value(),
+                                 BallModel::make(BallModel::Kind::Paper, 346).value(),
+                                 BallModel::make(BallModel::Kind::Classical).value()}) {
     all.push_back(
         BallProjection::make(model, {{700, 500}, 480, 470, 30}, rotation({20, -10, 30})).value());
   }

@@ -22,7 +22,7 @@ Vec3 from_facing(double phi, double turn) {
 // rho = sin(phi/2): along the radius R/2 cos(phi/2) px per radian, across it
 // R sin(phi/2) / sin(phi) = R / (2 cos(phi/2)), which is more.
 TEST(Resolution, IsTheDerivativeOfTheClassicalModel) {
-  const auto ball = centred_ball(BallModel::classical(), 900);
+  const auto ball = centred_ball(BallModel::make(BallModel::Kind::Classical).value(), 900);
   for (const double phi : {1e-9, 0.3, 1.0, 2.0, 3.0}) {
     for (const double turn : {0.0, 1.0, -2.0}) {
       const double truth = 900 * std::cos(phi / 2) / 2 * radians(1);
@@ -34,7 +34,9 @@ TEST(Resolution, IsTheDerivativeOfTheClassicalModel) {
 // On the axis phi = 2i - psi with i = d psi, so that psi = phi / (2d - 1).
 TEST(Resolution, OnTheAxisTheExactModelGivesPixelsPerPsi) {
   for (const double distance : {1.5, 4.0, 12.0}) {
-    const auto model = BallModel::exact(BallModel::alpha_from_distance(distance).value()).value();
+    const auto model =
+        BallModel::make(BallModel::Kind::Exact, BallModel::alpha_from_distance(distance).value())
+            .value();
     const double limb = std::tan(std::asin(1 / distance));  // 900 px
     const double truth = 900 / limb / (2 * distance - 1) * radians(1);
     EXPECT_NEAR(resolution(centred_ball(model, 900), {0, 1, 0}) / truth, 1, 1e-6) << distance;
@@ -42,13 +44,14 @@ TEST(Resolution, OnTheAxisTheExactModelGivesPixelsPerPsi) {
 }
 
 TEST(Resolution, TakesTheWorseAxisOfAnEllipse) {
-  const auto ball =
-      BallProjection::make(BallModel::classical(), {{999.5, 999.5}, 900, 300, 40}, {}).value();
+  const auto ball = BallProjection::make(BallModel::make(BallModel::Kind::Classical).value(),
+                                         {{999.5, 999.5}, 900, 300, 40}, {})
+                        .value();
   EXPECT_NEAR(resolution(ball, {0, 1, 0}), 300 / 2.0 * radians(1), 1e-4);
 }
 
 TEST(Resolution, FallsTowardsTheLimbAndIsNoneBehind) {
-  const auto model = BallModel::exact(340).value();
+  const auto model = BallModel::make(BallModel::Kind::Exact, 340).value();
   const auto ball = centred_ball(model, 900);
   double last = resolution(ball, {0, 1, 0});
   for (double phi = 0.1; phi < radians(170); phi += 0.05) {
@@ -91,8 +94,9 @@ TEST(Resolution, IsThatOfAThingAtTheScenesDistance) {
 }
 
 TEST(Resolution, MapIsZeroWhereNothingIsSeen) {
-  const auto ball =
-      BallProjection::make(BallModel::exact(300).value(), {{0, 50}, 40, 40, 0}, {}).value();
+  const auto ball = BallProjection::make(BallModel::make(BallModel::Kind::Exact, 300).value(),
+                                         {{0, 50}, 40, 40, 0}, {})
+                        .value();
   const auto view = ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 72, 36}).value();
   const std::vector<float> map = resolution_map(view, ball, 100, 100);
   ASSERT_EQ(map.size(), 72U * 36);

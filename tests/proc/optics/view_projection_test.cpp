@@ -34,8 +34,8 @@ Vec3 around_axis(double theta, double turn) {
 }
 
 BallProjection tilted_ball() {
-  return BallProjection::make(BallModel::exact(345).value(), {{310, 250}, 120, 100, 30},
-                              rotation({40, -20, 10}))
+  return BallProjection::make(BallModel::make(BallModel::Kind::Exact, 345).value(),
+                              {{310, 250}, 120, 100, 30}, rotation({40, -20, 10}))
       .value();
 }
 

@@ -8,7 +8,7 @@
 
 #include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
-#include "proc/remap/colour_conversion.h"
+#include "proc/remap/colour/colour_conversion.h"
 #include "tests/proc/reference_optics.h"
 #include "tests/proc/remap/stored_picture.h"
 
@@ -98,8 +98,9 @@ Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
 
 TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
   const double alpha = 348.5;
-  const std::array models{BallModel::exact(alpha).value(), BallModel::paper(alpha).value(),
-                          BallModel::classical()};
+  const std::array models{BallModel::make(BallModel::Kind::Exact, alpha).value(),
+                          BallModel::make(BallModel::Kind::Paper, alpha).value(),
+                          BallModel::make(BallModel::Kind::Classical).value()};
   const tests::ReferenceBall base{
       BallModel::Kind::Exact, alpha, {{497.3, 502.8}, 480, 480, 0}, optics::rotation({15, -8, 3})};
   for (const BallModel& model : models) {
@@ -126,7 +127,7 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
 
 TEST(Remap, KeepsSixteenBits) {
   const tests::ReferenceBall reference{BallModel::Kind::Exact, 345, {{499, 499}, 480, 480, 0}, {}};
-  const BallModel model = BallModel::exact(345).value();
+  const BallModel model = BallModel::make(BallModel::Kind::Exact, 345).value();
   const ViewSpec spec{ViewKind::Perspective, {30, 10, 0}, 90, {}, 320, 240};
   for (const PixelFormat format : {PixelFormat::Y16, PixelFormat::Rgb16}) {
     // One grey level of 8 bit.
@@ -139,8 +140,9 @@ TEST(Remap, KeepsSixteenBits) {
 struct SmallScene {
   ViewProjection view =
       ViewProjection::make({ViewKind::Perspective, {20, 5, 3}, 100, {}, 70, 45}).value();
-  BallProjection ball =
-      BallProjection::make(BallModel::exact(340).value(), {{30, 33}, 40, 40, 0}, {}).value();
+  BallProjection ball = BallProjection::make(BallModel::make(BallModel::Kind::Exact, 340).value(),
+                                             {{30, 33}, 40, 40, 0}, {})
+                            .value();
   CoordinateGrid grid{view, ball, 64, 48};  // the picture cuts the ball
 };
 

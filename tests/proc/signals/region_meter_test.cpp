@@ -281,6 +281,55 @@ TEST(RegionMeter, StatisticsFollowTheMainSignals) {
   EXPECT_FALSE(is_valid(s.hot_spot_mean_intensity_trend));
 }
 
+/// The last of several frame sets in which an ellipse on the floor cools and a spark flies past.
+Signals measure_process(const RegionSettings& region, const RegionScene& scene) {
+  const Vec3 ball = floor_scene().ball.centre, centre{170, 260, -300};
+  PaintedView painted({ViewKind::Perspective, {30, -50, 20}, 60, {}, 320, 240});
+  RegionMeter meter = meter_of(painted, region, scene);
+  Signals signals;
+  for (int i = 0; i < 15; ++i) {
+    painted.clear();
+    painted.paint([&](const Vec3& d) {
+      if (d.z >= 0) return 0.0;
+      const Vec3 p = ball + d * ((centre.z - ball.z) / d.z) - centre;
+      const double a = p.x / 30, b = p.y / 18;
+      return (1.5 - 0.01 * i) * kThreshold * std::pow(2.0 / 3, a * a + b * b);
+    });
+    if (i < 7) painted.paint_hill(*painted.view.direction(30 + 10 * i, 40), 0.01, 10000);
+    signals = meter.measure(painted.plane(), painted.seen(), 0.02 * i);
+  }
+  return signals;
+}
+
+TEST(RegionMeter, ASignalHasAValueWhenItsRequirementsAreProvidedAndNeverWithoutOne) {
+  RegionSettings all = settings();
+  all.width_set_point = 20;
+  all.radiometry.kelvin_per_count = 0.04;
+  const Signals complete = measure_process(all, floor_scene());
+  for (const SignalInfo& signal : kSignals) {
+    EXPECT_FALSE(first_missing(signal, provided_by(all, true))) << signal.name;
+    EXPECT_TRUE(is_valid(complete.*signal.member)) << signal.name;
+  }
+  for (const Requirement& requirement : kRequirements) {
+    RegionSettings region = all;
+    if (requirement.flag == Requires::SpatterThreshold) region.spatter_threshold.reset();
+    if (requirement.flag == Requires::PlumeThreshold) region.plume_threshold.reset();
+    if (requirement.flag == Requires::WidthSetPoint) region.width_set_point.reset();
+    if (requirement.flag == Requires::RadiometricCamera) region.radiometry.kelvin_per_count = 0;
+    const bool has_scene = requirement.flag != Requires::Scene;
+    const Signals signals =
+        measure_process(region, has_scene ? floor_scene() : RegionScene{floor_scene().ball, {}});
+    for (const SignalInfo& signal : kSignals) {
+      const auto missing = first_missing(signal, provided_by(region, has_scene));
+      EXPECT_EQ(is_valid(signals.*signal.member), !missing)
+          << signal.name << " without " << requirement.text;
+      if (missing) {
+        EXPECT_EQ(missing->text, requirement.text) << signal.name;
+      }
+    }
+  }
+}
+
 TEST(RegionMeter, RefusesWhatCannotBeMeasured) {
   const PaintedView painted(kView);
   const auto refused = [&](auto change) {

@@ -40,7 +40,7 @@ Signals follow(SpatterTracker& tracker, const std::vector<Flight>& flights, doub
   for (int frame = 0; frame * kFrame <= seconds; ++frame) {
     for (const Flight& flight : flights) {
       const bool hidden = std::ranges::count(hidden_frames, frame) > 0;
-      if (flight.in_air(frame * kFrame) && !hidden) tracker.see(flight.at(frame * kFrame) * 1e-4);
+      if (flight.in_air(frame * kFrame) && !hidden) tracker.add(flight.at(frame * kFrame) * 1e-4);
     }
     tracker.update(frame * kFrame, kHotSpot);
     signals = {};
@@ -86,7 +86,7 @@ TEST(Spatter, SparksThatCrossStayTwo) {
   for (int frame = 0; frame < 12; ++frame) {
     for (const double sense : {-1.0, 1.0}) {
       const double yaw = optics::radians(sense * (kSpeed * frame * kFrame - 17));
-      tracker.see({std::sin(yaw), std::cos(yaw), 0});
+      tracker.add({std::sin(yaw), std::cos(yaw), 0});
     }
     tracker.update(frame * kFrame, {});
     tracker.write(signals);
@@ -98,8 +98,8 @@ TEST(Spatter, SparksThatCrossStayTwo) {
 
 TEST(Spatter, PartsOfASparkAreOne) {
   SpatterTracker tracker;
-  tracker.see(Vec3{0, 1, 0} * 2e-4);
-  tracker.see(optics::normalized({0.02, 1, 0}) * 1e-4);
+  tracker.add(Vec3{0, 1, 0} * 2e-4);
+  tracker.add(optics::normalized({0.02, 1, 0}) * 1e-4);
   tracker.update(0, {});
   Signals signals;
   tracker.write(signals);
@@ -111,7 +111,7 @@ TEST(Spatter, MoreThanCanBeFollowedAreCounted) {
   const int sparks = static_cast<int>(kMaxSparks) + 20;
   for (int i = 0; i < sparks; ++i) {
     const double yaw = optics::radians(6.0 * (i % 50)), pitch = optics::radians(6.0 * (i / 50) - 9);
-    tracker.see(
+    tracker.add(
         {std::cos(pitch) * std::sin(yaw), std::cos(pitch) * std::cos(yaw), std::sin(pitch)});
   }
   tracker.update(0, {});

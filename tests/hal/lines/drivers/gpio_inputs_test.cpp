@@ -22,7 +22,7 @@ class GpioInputs : public SimulatedChip {
         lines, settings, [this](const LineFaultReport& report) { faults.add(report.fault); });
     ASSERT_TRUE(opened) << opened.error().message;
     input = std::move(*opened);
-    input->hear([this](const EdgeEvent& edge) { edges.add(edge); });
+    input->subscribe([this](const EdgeEvent& edge) { edges.add(edge); });
     thread.watch(*input);
     ASSERT_TRUE(thread.start());
   }
@@ -68,8 +68,8 @@ TEST_F(GpioInputs, TriggersAreFramesAndMissed) {
   FrameTrigger trigger({.mode = TriggerMode::Line}, nullptr);
   InputSettings settings{.address = {.chip = "orbwatch", .offset = kInput}};
   input = WatchedInput::open(lines, settings, [](const LineFaultReport&) {}).value();
-  input->hear([&trigger, this](const EdgeEvent& edge) {
-    trigger.take(edge);
+  input->subscribe([&trigger, this](const EdgeEvent& edge) {
+    trigger.on_edge(edge);
     edges.add(edge);
   });
   thread.watch(*input);

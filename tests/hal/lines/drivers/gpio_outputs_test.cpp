@@ -84,7 +84,7 @@ TEST_F(GpioOutputs, APulseIsOneForEachCommand) {
   LineThread thread;
   PulseOutput::Outputs outputs;
   outputs.push_back(open(kOutput));
-  PulseOutput pulse({.width = milliseconds(300)}, std::move(outputs), [&thread] { thread.ring(); });
+  PulseOutput pulse({.width = milliseconds(300)}, std::move(outputs), [&thread] { thread.wake(); });
   thread.add(pulse);
   ASSERT_TRUE(thread.start());
   for (std::uint64_t i = 1; i <= 5; ++i) {
@@ -105,7 +105,7 @@ TEST_F(GpioOutputs, ATrainPulsesOnEveryLine) {
   outputs.push_back(open(kOutput));
   outputs.push_back(open(kUnnamed, true));
   PulseOutput pulses({.period = milliseconds(600), .width = milliseconds(300)}, std::move(outputs),
-                     [&thread] { thread.ring(); });
+                     [&thread] { thread.wake(); });
   thread.add(pulses);
   ASSERT_TRUE(thread.start());
   for (int i = 0; i < 3; ++i) {
@@ -120,7 +120,7 @@ TEST_F(GpioOutputs, ATrainPulsesOnEveryLine) {
 TEST_F(GpioOutputs, ProcessOkTogglesAndFallsWithoutReports) {
   LineThread thread;
   WatchdogOutput ok({.timeout = milliseconds(1500), .half_period = milliseconds(200)},
-                    open(kOutput), [&thread] { thread.ring(); });
+                    open(kOutput), [&thread] { thread.wake(); });
   thread.add(ok);
   ASSERT_TRUE(thread.start());
   ok.report(true, Clock::now());

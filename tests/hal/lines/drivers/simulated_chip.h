@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/lines/gpio_lines.h"
+#include "hal/lines/gpio/gpio_lines.h"
 
 namespace orbwatch::hal {
 

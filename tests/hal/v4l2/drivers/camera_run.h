@@ -45,14 +45,14 @@ class CameraRun {
   Frame next_frame() {
     std::unique_lock lock(mutex_);
     newest_ = nullptr;
-    changed_.wait_for(lock, kPatience, [this] { return newest_ != nullptr; });
+    changed_.wait_for(lock, kMaxWait, [this] { return newest_ != nullptr; });
     return newest_;
   }
 
   /// Waits until a state is reported that was not waited for before; false when it is not.
   bool reports(Fault fault) {
     std::unique_lock lock(mutex_);
-    const bool came = changed_.wait_for(lock, kPatience, [&] {
+    const bool came = changed_.wait_for(lock, kMaxWait, [&] {
       while (seen_ < reports_.size()) {
         if (reports_[seen_++].fault == fault) return true;
       }
@@ -71,7 +71,7 @@ class CameraRun {
   }
 
  private:
-  static constexpr std::chrono::seconds kPatience{90};
+  static constexpr std::chrono::seconds kMaxWait{90};
 
   void on_frame(const Frame& frame) {
     const std::lock_guard lock(mutex_);

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/file_descriptor.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::hal {
 

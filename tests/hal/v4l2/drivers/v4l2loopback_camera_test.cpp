@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "hal/v4l2/v4l2_list.h"
+#include "hal/v4l2/device/v4l2_list.h"
 #include "tests/hal/v4l2/drivers/ball_pictures.h"
 #include "tests/hal/v4l2/drivers/camera_run.h"
 #include "tests/hal/v4l2/drivers/feeder.h"

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "hal/v4l2/v4l2_controls.h"
-#include "hal/v4l2/v4l2_list.h"
+#include "hal/v4l2/device/v4l2_controls.h"
+#include "hal/v4l2/device/v4l2_list.h"
 
 /// The camera of the kernel's driver vivid. These tests run in the machine that tests/hil makes.
 namespace orbwatch::hal {

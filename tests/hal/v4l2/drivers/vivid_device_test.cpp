@@ -70,7 +70,7 @@ TEST(VividControls, AreSetByAnySpellingAndRefusedOutsideTheirRange) {
   ASSERT_TRUE(set_control(device, "GainAuto", 1));
   const auto automatic = set_control(device, "Gain", 100);
   ASSERT_FALSE(automatic);
-  EXPECT_THAT(automatic.error().message, HasSubstr("automatism"));
+  EXPECT_THAT(automatic.error().message, HasSubstr("automatic control"));
   ASSERT_TRUE(set_control(device, "GainAuto", 0));
   EXPECT_TRUE(set_control(device, "Gain", 100));
   const auto large = set_control(device, "Gain", 256);

@@ -129,9 +129,9 @@ TEST(VividFormats, ASizeThatIsNotOnOfferIsRefusedWithTheListOfThose) {
 
 TEST(VividFormats, BuffersAreExported) {
   V4l2Device device = open_vivid();
-  const auto agreed = agree_on_format(device, {"yuyv", true, kRequest});
-  ASSERT_TRUE(agreed) << agreed.error().detail;
-  auto stream = V4l2Stream::start(std::move(device), *agreed);
+  const auto negotiated = negotiate_format(device, {"yuyv", true, kRequest});
+  ASSERT_TRUE(negotiated) << negotiated.error().detail;
+  auto stream = V4l2Stream::start(std::move(device), *negotiated);
   ASSERT_TRUE(stream) << stream.error().detail;
   const TimePoint deadline = Clock::now() + std::chrono::seconds(60);
   DeviceResult<std::optional<V4l2Stream::Captured>> captured;
@@ -140,8 +140,8 @@ TEST(VividFormats, BuffersAreExported) {
     ASSERT_TRUE(captured) << captured.error().detail;
   } while (!*captured && Clock::now() < deadline);
   ASSERT_TRUE(*captured);
-  ASSERT_EQ((*captured)->frame->stretches.size(), 1U);
-  EXPECT_TRUE((*captured)->frame->stretches[0].dma_buffer);
+  ASSERT_EQ((*captured)->frame->memory_planes.size(), 1U);
+  EXPECT_TRUE((*captured)->frame->memory_planes[0].dma_buffer);
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+#include "app/cli/dds/command_client.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "app/ports/dds/participant/dds_log.h"
+#include "app/ports/dds/participant/participant.h"
+#include "app/ports/dds/topics/topic_names.h"
+#include "app/ports/dds/topics/topic_reader.h"
+#include "app/ports/dds/topics/topic_writer.h"
+#include "hal/clock.h"
+
+namespace orbwatch::app {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+/// `cancelled` is checked once in this period.
+constexpr milliseconds kPollPeriod{100};
+/// An answer is lost while orbwatchd has not discovered our reader yet.
+constexpr milliseconds kRepeatPeriod{500};
+
+/// Not 0; unique but for chance.
+std::uint64_t random_client() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32 | random() | 1;
+}
+
+/// One request, with the topics of requests and answers.
+class Exchange {
+ public:
+  Exchange(const std::string& prefix, const Command& command)
+      : command_(command),
+        info_(*find_command(command.code)),
+        requests_(orbwatch_msgs_msg_dds__Command__desc, command_topic(prefix)),
+        answers_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic(prefix)) {}
+
+  Result<> open(int domain, const std::optional<SecuritySettings>& security) {
+    auto participant = Participant::join(domain, security);
+    if (!participant) return tl::unexpected(participant.error());
+    participant_ = std::move(*participant);
+    const Entity& entity = participant_.entity();
+    return answers_.open(entity, command_qos())
+        .and_then([&] { return requests_.open(entity, command_qos()); })
+        .and_then([&] { return make_wait_set(entity, {answers_.get()}); })
+        .map([&](Entity wait_set) { wait_set_ = std::move(wait_set); });
+  }
+
+  bool has_reader() const { return requests_.has_reader(); }
+
+  void send() {
+    const auto count = static_cast<std::uint32_t>(info_.argument_count());
+    // The C API takes no const pointers, but a write changes nothing.
+    const CommandMessage message{id_.client,
+                                 id_.number,
+                                 const_cast<char*>(info_.name.data()),
+                                 {count, count, command_.arguments.data(), false}};
+    requests_.write(&message);
+  }
+
+  /// The answer, if it arrives within `timeout`.
+  Result<std::optional<CommandAnswer>> receive(std::chrono::nanoseconds timeout) {
+    std::optional<CommandAnswer> answer;
+    const auto look = [&](const void* sample, const dds_sample_info_t&) {
+      const auto& message = *static_cast<const CommandResultMessage*>(sample);
+      const RequestId answered{message.client, message.number};
+      if (answered == id_) answer = {static_cast<CommandResult>(message.result), message.text};
+    };
+    return wait_for_data(wait_set_, timeout)
+        .and_then([&](bool) { return take_samples(answers_.get(), look); })
+        .map([&](std::size_t) { return answer; });
+  }
+
+ private:
+  const RequestId id_{random_client(), 1};
+  Command command_;
+  const CommandInfo& info_;
+  Participant participant_;
+  TopicWriter requests_;
+  TopicReader answers_;
+  Entity wait_set_;
+};
+
+Result<CommandAnswer> checked(CommandAnswer answer) {
+  if (!operator_text(answer.result).empty()) return answer;
+  return fail("DDS: result " + std::to_string(static_cast<int>(answer.result)) +
+              " of the command is unknown");
+}
+
+}  // namespace
+
+Result<CommandAnswer> send_command(const CommandOptions& options, const Command& command,
+                                   const std::atomic<bool>& cancelled) {
+  limit_dds_log();
+  Exchange exchange(options.prefix, command);
+  if (const auto opened = exchange.open(options.domain, options.security); !opened) {
+    return tl::unexpected(opened.error());
+  }
+  const hal::TimePoint end = hal::Clock::now() + options.timeout;
+  std::optional<hal::TimePoint> sent;
+  for (auto now = hal::Clock::now(); now < end && !cancelled; now = hal::Clock::now()) {
+    if (exchange.has_reader() && (!sent || now - *sent >= kRepeatPeriod)) {
+      exchange.send();
+      sent = now;
+    }
+    auto answer = exchange.receive(std::min<hal::Clock::duration>(kPollPeriod, end - now));
+    if (!answer) return tl::unexpected(answer.error());
+    if (*answer) return checked(std::move(**answer));
+  }
+  if (cancelled) return fail("DDS: cancelled; the command may have been carried out or not");
+  return fail(sent ? "DDS: no answer in time; the command may have been carried out or not"
+                   : "DDS: nobody accepts commands on " + command_topic(options.prefix) +
+                         "; does orbwatchd run in this domain, with commands enabled?");
+}
+
+}  // namespace orbwatch::app

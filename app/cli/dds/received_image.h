@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "app/ports/dds/pictures/image_message.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// A received image is refused when its width or height is above this.
+inline constexpr std::uint32_t kMaxImageSide = 16384;
+
+/// A received image that is consistent. Its bytes belong to the message that it was made from.
+struct ReceivedImage {
+  ImageEncoding encoding = kRgb8;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::size_t step = 0;  ///< bytes from row to row
+  const std::uint8_t* data = nullptr;
+  bool swapped = false;  ///< 16-bit samples are in the other byte order than the host's
+};
+
+/// Checks a message from the network before any pixel is read. Errors: unknown encoding, a side
+/// of 0 or beyond kMaxImageSide, rows longer than the step, a step that is not a multiple of the
+/// sample's size, data of another size than step * height. Reentrant.
+Result<ReceivedImage> check_image(const ImageMessage& message);
+
+}  // namespace orbwatch::app

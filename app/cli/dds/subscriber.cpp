@@ -1,0 +1,158 @@
+#include "app/cli/dds/subscriber.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <set>
+
+#include "app/cli/dds/subscribed_topic.h"
+#include "app/ports/dds/participant/dds_log.h"
+#include "app/ports/dds/participant/participant.h"
+#include "app/ports/dds/topics/topic_names.h"
+#include "app/ports/dds/topics/topic_reader.h"
+#include "hal/clock.h"
+
+namespace orbwatch::app {
+
+namespace {
+
+constexpr std::chrono::milliseconds kCancelPeriod{100};
+constexpr std::chrono::seconds kLinePeriod{1};
+constexpr hal::Clock::duration kNoTime{0};
+/// Thirty years; more might overflow the clock.
+constexpr double kMaxSeconds = 1e9;
+
+using Subscriptions = std::vector<std::unique_ptr<Subscription>>;
+
+Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
+  std::vector<std::string> topics = options.topics;
+  if (topics.empty()) {
+    topics = {image_topic(options.prefix, kSelectedView), process_state_topic(options.prefix)};
+  }
+  Subscriptions subscriptions;
+  std::set<std::string> stems;
+  for (const auto& name : topics) {
+    const std::string topic = full_topic(name);
+    if (!stems.insert(file_stem(topic, options.prefix)).second) {
+      return fail("DDS: topic " + topic + " is named twice, or its file name is another's");
+    }
+    if (is_process_state_topic(topic)) {
+      subscriptions.push_back(std::make_unique<ProcessStateSubscription>(topic));
+    } else if (is_compressed_topic(topic)) {
+      subscriptions.push_back(
+          std::make_unique<CompressedImageSubscription>(topic, !options.save.empty()));
+    } else {
+      subscriptions.push_back(std::make_unique<ImageSubscription>(topic, !options.save.empty()));
+    }
+  }
+  return subscriptions;
+}
+
+/// Opens all of them; returns a wait set that wakes when any has data.
+Result<Entity> open(const Subscriptions& subscriptions, const Entity& participant) {
+  std::vector<dds_entity_t> readers;
+  for (const auto& subscription : subscriptions) {
+    if (const auto opened = subscription->open(participant); !opened) {
+      return tl::unexpected(opened.error());
+    }
+    readers.push_back(subscription->reader().get());
+  }
+  return make_wait_set(participant, readers);
+}
+
+/// Times of the next line and of the end.
+class Schedule {
+ public:
+  explicit Schedule(double seconds) : start_(hal::Clock::now()), line_(start_) {
+    if (seconds > 0 && seconds < kMaxSeconds) {
+      end_ = start_ + std::chrono::duration_cast<hal::Clock::duration>(
+                          std::chrono::duration<double>(seconds));
+    }
+  }
+
+  bool over(hal::TimePoint now) const { return now >= end_; }
+
+  hal::Clock::duration wait(hal::TimePoint now) const {
+    const hal::Clock::duration next =
+        std::min<hal::Clock::duration>(kCancelPeriod, line_ + kLinePeriod - now);
+    return std::min(next, end_ - now);
+  }
+
+  /// Seconds since the last line when one is due.
+  std::optional<double> line_due(hal::TimePoint now) {
+    if (now - line_ < kLinePeriod) return std::nullopt;
+    const std::chrono::duration<double> passed = now - line_;
+    line_ = now;
+    return passed.count();
+  }
+
+ private:
+  hal::TimePoint start_;
+  hal::TimePoint line_;
+  hal::TimePoint end_ = hal::TimePoint::max();
+};
+
+Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
+              const SubscribeOptions& options, const std::atomic<bool>& cancelled,
+              std::ostream& out) {
+  Schedule schedule(options.seconds);
+  for (bool last = false; !last;) {
+    const auto now = hal::Clock::now();
+    // Once more after the end, for samples that have arrived by then.
+    last = cancelled || schedule.over(now);
+    const auto waited = wait_for_data(wait_set, last ? kNoTime : schedule.wait(now));
+    if (!waited) return tl::unexpected(waited.error());
+    for (const auto& subscription : subscriptions) {
+      if (const auto taken = subscription->take(options.each ? &out : nullptr); !taken)
+        return taken;
+    }
+    if (options.each) out.flush();
+    const auto seconds = schedule.line_due(hal::Clock::now());
+    if (!seconds || !options.stats) continue;
+    for (const auto& subscription : subscriptions) out << subscription->line(*seconds) << '\n';
+    out.flush();
+  }
+  return {};
+}
+
+Result<> save(const Subscriptions& subscriptions, const SubscribeOptions& options) {
+  if (options.save.empty()) return {};
+  for (const auto& subscription : subscriptions) {
+    if (const auto saved = subscription->save(options.save, options.prefix); !saved) return saved;
+  }
+  return {};
+}
+
+Result<> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) return fail(folder.string() + ": cannot be made: " + error.message());
+  return {};
+}
+
+}  // namespace
+
+Result<SubscribeReport> subscribe(const SubscribeOptions& options,
+                                  const std::atomic<bool>& cancelled, std::ostream& out) {
+  limit_dds_log();
+  if (const auto made = make_folder(options.save); !made) return tl::unexpected(made.error());
+  const auto participant = Participant::join(options.domain, options.security);
+  if (!participant) return tl::unexpected(participant.error());
+  const auto subscriptions = make_subscriptions(options);
+  if (!subscriptions) return tl::unexpected(subscriptions.error());
+
+  const auto done = open(*subscriptions, participant->entity())
+                        .and_then([&](const Entity& wait_set) {
+                          return read(*subscriptions, wait_set, options, cancelled, out);
+                        })
+                        .and_then([&] { return save(*subscriptions, options); });
+  if (!done) return tl::unexpected(done.error());
+
+  SubscribeReport report;
+  for (const auto& subscription : *subscriptions) report.topics.push_back(subscription->report());
+  return report;
+}
+
+}  // namespace orbwatch::app

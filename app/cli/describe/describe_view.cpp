@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "app/cli/describe/describe.h"
+#include "app/cli/options/camera_options.h"
+#include "app/cli/options/view_options.h"
+#include "app/model/json.h"
+#include "app/pictures/picture_file.h"
+#include "app/pipeline/views/view_settings.h"
+#include "proc/image/validity.h"
+#include "proc/optics/angle.h"
+#include "proc/optics/resolution.h"
+#include "proc/remap/remap.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// Of the resolution map's picture.
+constexpr double kCountsPerPixelPerDegree = 100;
+
+enum class Format { Markdown, Json };
+
+struct DescribeViewOptions {
+  bool help = false;
+  CameraOptions cameras;
+  std::optional<Size> picture_size;
+  optics::ViewSpec view = kDefaultView;
+  Format format = Format::Markdown;
+  std::filesystem::path output;
+};
+
+std::vector<Option> declare(DescribeViewOptions& o) {
+  static constexpr std::array kFormats{Word{"markdown", Format::Markdown},
+                                       Word{"json", Format::Json}};
+  std::vector<Option> options = camera_options(o.cameras);
+  options.push_back({"size-of-picture", 0, "WxH", "without a rig: of the camera's picture",
+                     [&o](const std::string& value) {
+                       return parse_size("size-of-picture", value).map([&o](const Size& size) {
+                         o.picture_size = size;
+                       });
+                     }});
+  auto view = view_options(o.view);
+  std::move(view.begin(), view.end(), std::back_inserter(options));
+  options.push_back({"format", 0, joined(kFormats), "(default markdown)",
+                     word_option("format", kFormats, o.format)});
+  options.push_back({"output", 'o', "FILE.png",
+                     "write the best camera's resolution as 16-bit grey\npicture, in 1/100 pixel "
+                     "per degree; 0: not seen",
+                     text_option(o.output)});
+  options.push_back({"help", 'h', "", "this text", flag_option(o.help)});
+  return options;
+}
+
+/// What one camera gives to the view. Shares are of the view's pixels.
+struct CameraFigures {
+  std::string name;
+  double seen = 0;
+  double blind = 0;
+  double outside = 0;
+  /// Source pixels per degree where it sees; nothing if it sees nothing.
+  struct Resolution {
+    double least;
+    double median;
+    double most;
+  };
+  std::optional<Resolution> resolution;
+};
+
+std::optional<CameraFigures::Resolution> summary(std::vector<float> seen) {
+  if (seen.empty()) return std::nullopt;
+  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+  std::nth_element(seen.begin(), middle, seen.end());
+  const double median = *middle;
+  const auto [least, most] = std::minmax_element(seen.begin(), seen.end());
+  return CameraFigures::Resolution{*least, median, *most};
+}
+
+CameraFigures figures_of(const ChosenCamera& camera, const optics::ViewProjection& view,
+                         const Size& picture, const std::vector<float>& map) {
+  const remap::CoordinateGrid grid(view, camera.ball, picture.width, picture.height);
+  std::vector<std::uint8_t> validity(map.size());
+  grid.write_validity({validity.data(), view.width(), view.height(), 1, view.width()});
+  const auto share = [&](Validity value) {
+    const auto count =
+        std::count(validity.begin(), validity.end(), static_cast<std::uint8_t>(value));
+    return static_cast<double>(count) / static_cast<double>(validity.size());
+  };
+  std::vector<float> seen;
+  std::copy_if(map.begin(), map.end(), std::back_inserter(seen), [](float r) { return r > 0; });
+  return {camera.name, share(Validity::Seen), share(Validity::Blind), share(Validity::Outside),
+          summary(std::move(seen))};
+}
+
+/// Edge to edge through the middle, degrees; nothing where the projection ends before the edge.
+struct Fov {
+  std::optional<double> horizontal;
+  std::optional<double> vertical;
+};
+
+Fov fov_of(const optics::ViewProjection& view) {
+  const double u = (view.width() - 1) / 2.0, v = (view.height() - 1) / 2.0;
+  const auto middle = view.direction(u, v);
+  const auto span = [&](const std::optional<optics::Vec3>& a,
+                        const std::optional<optics::Vec3>& b) -> std::optional<double> {
+    if (!middle || !a || !b) return std::nullopt;
+    return optics::degrees(optics::angle_between(*a, *middle) + optics::angle_between(*middle, *b));
+  };
+  return {span(view.direction(-0.5, v), view.direction(view.width() - 0.5, v)),
+          span(view.direction(u, -0.5), view.direction(u, view.height() - 0.5))};
+}
+
+std::string number(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string number(const std::optional<double>& value, int digits, const char* none) {
+  return value ? number(*value, digits) : none;
+}
+
+std::string markdown(const optics::ViewProjection& view,
+                     const std::vector<CameraFigures>& cameras) {
+  const Fov fov = fov_of(view);
+  std::ostringstream out;
+  out << "View: " << word_for(kViewKinds, view.kind()) << ", " << view.width() << "x"
+      << view.height() << " px, h_fov " << number(fov.horizontal, 2, "-") << ", v_fov "
+      << number(fov.vertical, 2, "-") << " deg\n\n"
+      << "Source pixels per degree where the camera sees, and shares of the view's pixels:\n\n"
+      << "| camera | min | median | max | seen | blind | outside |\n"
+      << "|---|---|---|---|---|---|---|\n";
+  for (const CameraFigures& c : cameras) {
+    out << "| " << c.name << " | ";
+    if (const auto& r = c.resolution) {
+      out << number(r->least, 2) << " | " << number(r->median, 2) << " | " << number(r->most, 2);
+    } else {
+      out << "- | - | -";
+    }
+    for (const double share : {c.seen, c.blind, c.outside}) {
+      out << " | " << number(100 * share, 1) << " %";
+    }
+    out << " |\n";
+  }
+  return out.str();
+}
+
+std::string json(const optics::ViewProjection& view, const std::vector<CameraFigures>& cameras) {
+  using Json = nlohmann::ordered_json;
+  const Fov fov = fov_of(view);
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? to_json(*value) : Json();
+  };
+  Json all{{"view",
+            {{"kind", word_for(kViewKinds, view.kind())},
+             {"width", view.width()},
+             {"height", view.height()},
+             {"h_fov", optional(fov.horizontal)},
+             {"v_fov", optional(fov.vertical)}}},
+           {"cameras", Json::array()}};
+  for (const CameraFigures& c : cameras) {
+    Json resolution;
+    if (const auto& r = c.resolution) {
+      resolution = {{"min", r->least}, {"median", r->median}, {"max", r->most}};
+    }
+    all["cameras"].push_back({{"name", c.name},
+                              {"pixels_per_degree", resolution},
+                              {"seen", c.seen},
+                              {"blind", c.blind},
+                              {"outside", c.outside}});
+  }
+  return all.dump(2) + "\n";
+}
+
+Result<> write_map(const std::filesystem::path& path, const std::vector<float>& map,
+                   const optics::ViewProjection& view) {
+  std::vector<std::uint16_t> counts;
+  counts.reserve(map.size());
+  for (const float resolution : map) {
+    counts.push_back(static_cast<std::uint16_t>(
+        std::lround(std::min(kCountsPerPixelPerDegree * resolution, 65535.0))));
+  }
+  return write_picture(path, Picture::contiguous(PixelFormat::Y16, view.width(), view.height(),
+                                                 reinterpret_cast<const std::byte*>(counts.data()),
+                                                 row_bytes(PixelFormat::Y16, view.width())));
+}
+
+Result<std::string> describe(const DescribeViewOptions& o) {
+  const auto cameras = choose_cameras(o.cameras);
+  if (!cameras) return tl::unexpected(cameras.error());
+  const auto view = optics::ViewProjection::make(o.view, cameras->front().ball);
+  if (!view) return tl::unexpected(view.error());
+  if (!o.output.empty()) {
+    if (auto named = check_picture_name(o.output, PixelFormat::Y16, false); !named)
+      return tl::unexpected(named.error());
+  }
+  std::vector<CameraFigures> figures;
+  std::vector<float> best(static_cast<std::size_t>(view->width()) * view->height());
+  for (const ChosenCamera& camera : *cameras) {
+    if (!camera.picture.empty()) return fail("--camera takes no picture here; give its name alone");
+    const auto size = camera.size ? camera.size : o.picture_size;
+    if (!size) return fail("--size-of-picture is missing; see --help");
+    if (auto fits = check_picture_size(camera, *size); !fits) return tl::unexpected(fits.error());
+    const auto map = optics::resolution_map(*view, camera.ball, size->width, size->height);
+    figures.push_back(figures_of(camera, *view, *size, map));
+    std::transform(best.begin(), best.end(), map.begin(), best.begin(),
+                   [](float a, float b) { return std::max(a, b); });
+  }
+  if (!o.output.empty()) {
+    if (auto written = write_map(o.output, best, *view); !written)
+      return tl::unexpected(written.error());
+  }
+  return o.format == Format::Json ? json(*view, figures) : markdown(*view, figures);
+}
+
+}  // namespace
+
+Result<std::string> describe_view(const std::vector<std::string>& arguments) {
+  DescribeViewOptions o;
+  const std::vector<Option> options = declare(o);
+  const auto rest = parse_options(arguments, options);
+  if (!rest) return tl::unexpected(rest.error());
+  if (o.help) {
+    return "Usage: orbwatch describe view --rig RIG --camera NAME [--camera NAME ...] [options]\n"
+           "       orbwatch describe view --ball CX,CY,R --size-of-picture WxH\n"
+           "                (--alpha DEG | --distance RADII) [options]\n\n"
+           "Prints how many of a camera's pixels a degree of the view really has.\n\n" +
+           options_help(options);
+  }
+  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
+  return describe(o);
+}
+
+}  // namespace orbwatch::app

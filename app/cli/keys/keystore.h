@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/ports/dds/security/permissions.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The contents of a keystore.
+struct KeystoreRequest {
+  std::filesystem::path folder;
+  DomainRange domains;
+  int days = 3650;  ///< of validity, at most that of the authorities
+  TopicAccess appliance;
+  TopicAccess subscriber;
+  std::vector<std::string> bulk_topics;  ///< see governance_document()
+  /// None: one of the name "subscriber", in a new keystore.
+  std::vector<std::string> subscribers{};
+  bool replace = false;  ///< existing keys: of these subscribers, or of all when none is named
+};
+
+/// The enclave that every keystore has.
+inline constexpr const char* kApplianceEnclave = "appliance";
+
+/// The folder of a participant's files in a keystore, see EnclaveFiles. Beside the enclaves, in
+/// private/, are the keys of two authorities: one issues certificates, one signs governance and
+/// permissions. With a single authority every participant could sign its own permissions: Cyclone
+/// DDS up to 0.10.2, among others, accepts signatures of any certificate of the authority
+/// (CVE-2023-24011).
+std::filesystem::path enclave_folder(const std::filesystem::path& keystore,
+                                     const std::string& name);
+
+/// Makes a keystore, or adds subscribers to one. Returns the folders of the new enclaves. Each new
+/// folder appears complete or not at all; private keys are readable by the owner only. Errors: an
+/// invalid or existing name, a folder with other content or made for other topics or domains, I/O
+/// errors.
+Result<std::vector<std::filesystem::path>> make_keys(const KeystoreRequest& request,
+                                                     std::chrono::sys_seconds now);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,119 @@
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/cli/list/list.h"
+#include "app/cli/text_table.h"
+#include "app/model/json.h"
+
+namespace orbwatch::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Entry>
+Json list_of(const std::vector<Entry>& entries);
+
+Json json_of(double number) { return to_json(number); }
+Json json_of(const std::string& text) { return text; }
+
+Json json_of(const hal::CameraMode& mode) {
+  return {{"format", mode.format}, {"size", mode.size}, {"frame_rates", list_of(mode.frame_rates)}};
+}
+
+Json json_of(const hal::CameraControl& control) {
+  return {{"control", control.name},
+          {"minimum", json_of(control.minimum)},
+          {"maximum", json_of(control.maximum)},
+          {"step", json_of(control.step)},
+          {"default", json_of(control.default_value)},
+          {"state", control.state},
+          {"values", list_of(control.values)}};
+}
+
+Json json_of(const hal::CameraEntry& camera) {
+  return {{"camera", camera.id},
+          {"back_end", camera.back_end},
+          {"model", camera.model},
+          {"driver", camera.driver},
+          {"bus", camera.bus},
+          {"paths", list_of(camera.paths)},
+          {"problem", camera.problem},
+          {"modes", list_of(camera.modes)},
+          {"controls", list_of(camera.controls)}};
+}
+
+Json json_of(const hal::LineEntry& line) {
+  return {{"line", line.offset},
+          {"name", line.name},
+          {"direction", line.direction},
+          {"consumer", line.consumer}};
+}
+
+Json json_of(const hal::ChipEntry& chip) {
+  return {{"chip", chip.label},
+          {"path", chip.path},
+          {"problem", chip.problem},
+          {"lines", list_of(chip.lines)}};
+}
+
+template <class Entry>
+Json list_of(const std::vector<Entry>& entries) {
+  Json list = Json::array();
+  for (const Entry& entry : entries) list.push_back(json_of(entry));
+  return list;
+}
+
+Json json_of(const hal::Inventory& inventory) {
+  return {{"cameras", list_of(inventory.cameras)}, {"chips", list_of(inventory.chips)}};
+}
+
+/// Text or number, or a list of those.
+std::string cell(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.is_null() ? "" : value.dump();
+  std::string list;
+  for (const Json& item : value) list += (list.empty() ? "" : ", ") + cell(item);
+  return list;
+}
+
+bool is_table(const Json& value) {
+  return value.is_array() && !value.empty() && value[0].is_object();
+}
+
+Fields fields_of(const Json& entry) {
+  Fields fields;
+  for (const auto& [name, value] : entry.items()) {
+    if (!is_table(value)) fields.emplace_back(name, cell(value));
+  }
+  return fields;
+}
+
+/// A line for each of its fields, a table for each of its lists.
+std::string entry_text(const Json& entry) {
+  std::string text = field_lines(fields_of(entry));
+  for (const Json& value : entry) {
+    if (!is_table(value)) continue;
+    std::vector<Fields> records;
+    for (const Json& record : value) records.push_back(fields_of(record));
+    text += "\n" + record_lines(records);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string list_json(const hal::Inventory& inventory) {
+  return json_of(inventory).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string list_table(const hal::Inventory& inventory) {
+  std::string text;
+  const Json all = json_of(inventory);
+  for (const auto& [kind, entries] : all.items()) {
+    for (const Json& entry : entries) text += entry_text(entry) + "\n";
+    if (entries.empty()) text += "no " + kind + "\n";
+  }
+  return text;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/options/options.h"
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/rig.h"
+
+namespace orbwatch::app {
+
+/// The cameras of a command: some of a rig's, or one described by options.
+struct CameraOptions {
+  std::filesystem::path rig;
+  std::vector<std::string> cameras;  ///< as given: NAME or NAME=IMAGE
+  std::optional<optics::BallModel::Kind> model;
+  // Instead of a rig:
+  std::optional<optics::Outline> ball;
+  std::optional<double> alpha;
+  std::optional<double> distance;
+  std::optional<optics::YawPitchRoll> rotation;
+};
+
+/// The options; they write into `cameras`, which outlives them.
+std::vector<Option> camera_options(CameraOptions& cameras);
+
+/// One of the cameras.
+struct ChosenCamera {
+  std::string name;               ///< in the rig; empty without one
+  std::filesystem::path picture;  ///< given behind NAME=
+  optics::BallProjection ball;
+  std::optional<Size> size;                ///< of its pictures, if the rig states it
+  std::optional<optics::Outline> outline;  ///< given by --ball
+};
+
+/// The cameras in the order given, 1 to remap::kMaxSources. Errors: no camera, too many, a
+/// duplicate, an unknown one, --rig together with an option that it replaces, those of load_rig and
+/// optics::ball_projection.
+Result<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options);
+
+/// Refuses a picture that is not of the rig's size or does not contain the ball.
+Result<> check_picture_size(const ChosenCamera& camera, const Size& picture);
+
+/// The rig's camera of that name. The error lists the existing ones.
+Result<optics::RigCamera> find_camera(const optics::Rig& rig, const std::string& name);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "app/cli/options/options.h"
+#include "app/ports/dds/security/participant_security.h"
+
+namespace orbwatch::app {
+
+/// The domain and topics of the orbwatchd that a command communicates with.
+Option domain_option(int& domain);
+Option prefix_option(std::string& prefix);
+
+/// The keys for an orbwatchd with [dds.security].
+Option security_option(std::optional<SecuritySettings>& security);
+
+/// How long to wait for an answer.
+Option timeout_option(std::chrono::milliseconds& timeout);
+
+}  // namespace orbwatch::app

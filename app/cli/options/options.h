@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proc/image/result.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// One option of a command: declared once, for parsing and for --help.
+struct Option {
+  std::string name;      ///< without the dashes
+  char letter = '\0';    ///< short form, or none
+  std::string argument;  ///< its value, in capitals; empty for a flag
+  std::string text;
+  std::function<Result<>(const std::string& value)> set;
+};
+
+/// The place of options among the arguments.
+enum class OptionOrder {
+  Anywhere,
+  First  ///< before the first other argument, so that -40 may be a number there
+};
+
+/// Parses `arguments` (the command's name first) and calls the options' set(). Returns the
+/// arguments that are no option. Errors: unknown option, missing value, those of set().
+Result<std::vector<std::string>> parse_options(std::vector<std::string> arguments,
+                                               const std::vector<Option>& options,
+                                               OptionOrder order = OptionOrder::Anywhere);
+
+/// The options as lines of --help.
+std::string options_help(const std::vector<Option>& options);
+
+/// `text` as a finite number. The error names the option `name`.
+Result<double> parse_number(std::string_view name, std::string_view text);
+/// `text` as a whole number.
+Result<int> parse_whole(std::string_view name, std::string_view text);
+/// `text` as numbers with commas between.
+Result<std::vector<double>> parse_numbers(std::string_view name, std::string_view text);
+
+/// Of a picture, pixels.
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+
+/// `text` as WIDTHxHEIGHT.
+Result<Size> parse_size(std::string_view name, std::string_view text);
+
+/// set() for a flag.
+std::function<Result<>(const std::string&)> flag_option(bool& target);
+
+/// set() for an option whose text is stored unchanged: a name, a file.
+template <class Text>
+std::function<Result<>(const std::string&)> text_option(Text& target) {
+  return [&target](const std::string& value) -> Result<> {
+    target = value;
+    return {};
+  };
+}
+
+/// set() for an option that is one of some words.
+template <class Value, class T, std::size_t N>
+std::function<Result<>(const std::string&)> word_option(std::string name,
+                                                        const std::array<Word<T>, N>& words,
+                                                        Value& target) {
+  return [name = std::move(name), &words, &target](const std::string& value) -> Result<> {
+    if (const T* found = find_word(words, value)) {
+      target = *found;
+      return {};
+    }
+    return fail("--" + name + " is \"" + value + "\"; use one of: " + joined(words));
+  };
+}
+
+/// set() for an option that is a finite number.
+template <class Number>
+std::function<Result<>(const std::string&)> number_option(std::string name, Number& target) {
+  return [name = std::move(name), &target](const std::string& value) -> Result<> {
+    return parse_number(name, value).map([&target](double number) { target = number; });
+  };
+}
+
+}  // namespace orbwatch::app

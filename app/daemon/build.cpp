@@ -1,0 +1,191 @@
+#include "app/daemon/build.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "app/pictures/colour_maps.h"
+#include "app/ports/dds/security/participant_security.h"
+#include "proc/optics/rotation.h"
+
+namespace orbwatch::app {
+namespace {
+
+double full_scale(const hal::StreamFormat& format) { return (1 << info(format.format).bits) - 1; }
+
+/// A file's number (degC for a radiometric camera, else percent of full scale) in counts of a
+/// camera.
+double counts(double value, const CameraSettings& camera, const hal::StreamFormat& format) {
+  const double kelvin_per_count = camera.radiometry.kelvin_per_count;
+  if (kelvin_per_count > 0) return (value + 273.15) / kelvin_per_count;
+  return value / 100 * full_scale(format);
+}
+
+/// Plans views and recipes of a site for cameras of these formats.
+class Builder {
+ public:
+  Builder(const Resolved& site, const std::vector<hal::StreamFormat>& formats,
+          optics::SceneProxy proxy)
+      : site_(site), formats_(formats), scene_{site.rig.ball, std::move(proxy)} {}
+
+  /// Error: the rig makes the view impossible.
+  Result<ViewPlan> plan_view(const ViewSettings& view) const {
+    std::vector<ViewSource> sources;
+    for (const SourceSettings& source : view.sources) {
+      const std::size_t camera = source.camera.index;
+      auto ball = optics::ball_projection(site_.rig, site_.rig_camera(camera));
+      if (!ball) return tl::unexpected(ball.error());
+      sources.push_back(
+          {camera, formats_[camera], std::move(*ball), source.weight, colour_map(source)});
+    }
+    auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
+    if (!projection) return fail("view " + view.name + ": " + projection.error().message);
+    return ViewPlan{view.index,         view.name,    std::move(*projection),
+                    std::move(sources), view.combine, view.interpolation,
+                    std::nullopt};
+  }
+
+  Result<std::unique_ptr<CompiledRecipe>> compile(const Recipe& recipe,
+                                                  std::uint16_t number) const {
+    RecipePlan plan;
+    plan.number = number;
+    for (const MeasuredViewSettings& view : recipe.views) {
+      auto planned = plan_view(view);
+      if (!planned) return tl::unexpected(planned.error());
+      planned->measured = view.measured.index;
+      plan.views.push_back(std::move(*planned));
+    }
+    for (const RegionOfInterest& region : recipe.regions) {
+      const auto& measured = recipe.views[region.view.index];
+      const std::size_t camera = measured.sources[measured.measured.index].camera.index;
+      if (auto planned = plan_region(region, camera, plan); !planned) {
+        return fail("region " + region.name + ": " + planned.error().message);
+      }
+    }
+    plan.controls.assign(recipe.controls.begin(), recipe.controls.end());
+    plan.settle_frames = recipe.settle_frames;
+    plan.process_active = recipe.process_active;
+    plan.process_input = recipe.process_input.index;
+    return CompiledRecipe::make(std::move(plan), scene_);
+  }
+
+ private:
+  remap::ColourMap colour_map(const SourceSettings& source) const {
+    const auto& camera = site_.site.cameras[source.camera.index];
+    const auto& format = formats_[source.camera.index];
+    const auto range = source.range.value_or(std::array<double, 2>{0, 100});
+    return {colour_map_table(source.colour_map), counts(range[0], camera, format),
+            counts(range[1], camera, format)};
+  }
+
+  /// From the ball's centre to the corners.
+  std::vector<optics::Vec3> outline(const RegionOfInterest& region) const {
+    std::vector<optics::Vec3> corners;
+    for (const auto& [yaw, pitch] : region.directions) {
+      corners.push_back(optics::rotation({yaw, pitch, 0}) * optics::Vec3{0, 1, 0});
+    }
+    for (const auto& [x, y, z] : region.points) {
+      corners.push_back(optics::Vec3{x, y, z} - scene_.ball.centre);
+    }
+    return corners;
+  }
+
+  Result<signals::RegionSettings> region_settings(const RegionOfInterest& region,
+                                                  std::size_t camera) const {
+    const CameraSettings& measured = site_.site.cameras[camera];
+    const hal::StreamFormat& format = formats_[camera];
+    signals::RegionSettings settings;
+    settings.outline = outline(region);
+    settings.width_set_point = region.width;
+    settings.full_scale = full_scale(format);
+    settings.radiometry = measured.radiometry;
+    settings.radiometry.emissivity = region.emissivity;
+    if (region.surroundings_temperature) {
+      settings.radiometry.surroundings = *region.surroundings_temperature;
+    }
+    const auto scale = signals::Radiometry::make(settings.radiometry);
+    if (!scale) return tl::unexpected(scale.error());
+    const auto threshold = [&](double value) {
+      return scale->is_radiometric() ? scale->counts(value) : counts(value, measured, format);
+    };
+    settings.hot_spot_threshold = threshold(region.hot_spot_threshold);
+    if (region.plume_threshold) settings.plume_threshold = threshold(*region.plume_threshold);
+    if (region.spatter_threshold) settings.spatter_threshold = threshold(*region.spatter_threshold);
+    return settings;
+  }
+
+  Result<> plan_region(const RegionOfInterest& region, std::size_t camera, RecipePlan& plan) const {
+    auto settings = region_settings(region, camera);
+    if (!settings) return tl::unexpected(settings.error());
+    const auto provided = signals::provided_by(*settings, !scene_.proxy.is_far());
+    for (const signals::AlarmLimits& alarm : region.alarms) {
+      const signals::SignalInfo& signal = signals::kSignals[alarm.signal];
+      if (const auto missing = signals::first_missing(signal, provided)) {
+        return fail("an alarm watches " + std::string(signal.name) +
+                    ", which has no value without " + std::string(missing->text));
+      }
+      plan.alarms.push_back(alarm);
+    }
+    plan.regions.push_back({region.name, region.view.index, std::move(*settings)});
+    return {};
+  }
+
+  const Resolved& site_;
+  const std::vector<hal::StreamFormat>& formats_;
+  const signals::RegionScene scene_;
+};
+
+/// What cameras will deliver as far as the files state it; limits in percent fit any depth.
+std::vector<hal::StreamFormat> expected_formats(const Resolved& site) {
+  std::vector<hal::StreamFormat> formats;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    const CameraSettings& camera = site.site.cameras[i];
+    hal::StreamFormat format;
+    format.format = camera.radiometry.kelvin_per_count > 0 ? PixelFormat::Y16 : PixelFormat::Grey;
+    format.width = site.rig_camera(i).width;
+    format.height = site.rig_camera(i).height;
+    format.frame_rate = camera.stream.frame_rate;
+    formats.push_back(format);
+  }
+  return formats;
+}
+
+}  // namespace
+
+Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> formats) {
+  auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
+  if (!proxy) return tl::unexpected(proxy.error());
+  const Builder builder(site, formats, std::move(*proxy));
+  PipelinePlan plan;
+  static_cast<PipelineSettings&>(plan) = site.site.pipeline;
+  for (const ViewSettings& settings : site.site.views) {
+    auto view = builder.plan_view(settings);
+    if (!view) return tl::unexpected(view.error());
+    plan.views.push_back(std::move(*view));
+  }
+  for (std::size_t i = 0; i < site.recipes.size(); ++i) {
+    const RecipeFile& file = site.site.recipes[i];
+    auto recipe = builder.compile(site.recipes[i], file.number);
+    if (!recipe) return fail(file.file.path.string() + ": " + recipe.error().message);
+    plan.recipes.push_back(std::move(*recipe));
+  }
+  plan.view_count = site.names.views.size();
+  plan.configuration_checksum = site.checksum;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    plan.sync.policies[i] = site.site.cameras[i].sync;
+  }
+  plan.formats = std::move(formats);
+  return plan;
+}
+
+Result<> check_site(const Resolved& site) {
+  const auto& dds = std::get<DdsSettings>(site.site.sinks);
+  return build(site, expected_formats(site)).and_then([&](const PipelinePlan&) {
+    return dds.enabled && dds.security ? check_security(*dds.security, dds.domain) : Result<>();
+  });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/files/resolve.h"
+#include "app/model/command.h"
+#include "app/model/sink.h"
+
+namespace orbwatch::app {
+
+/// Makes every enabled sink of SinkSettings. Commands from outside go to `handler`.
+std::vector<std::unique_ptr<Sink>> make_sinks(const Resolved& site, CommandHandler handler);
+
+}  // namespace orbwatch::app

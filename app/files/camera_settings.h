@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/pipeline/views/view_settings.h"
+#include "app/ports/lines/line_settings.h"
+#include "app/simulation/simulated_camera_settings.h"
+#include "hal/camera.h"
+#include "hal/fault_script.h"
+#include "hal/libcamera/libcamera_settings.h"
+#include "hal/lines/frame_trigger.h"
+#include "hal/replay/replay_settings.h"
+#include "hal/sync/frame_matcher.h"
+#include "hal/v4l2/v4l2_settings.h"
+#include "proc/settings/settings.h"
+#include "proc/signals/radiometry.h"
+
+namespace orbwatch::app {
+
+/// The list of camera back-ends: one line each. A settings struct has its word in the file as kName
+/// and its keys in visit(); make_camera() beside it makes the camera. Only the settings are needed
+/// to read a file.
+using BackEndSettings = std::variant<simulation::SimulatedCameraSettings,  //
+                                     hal::ReplaySettings,                  //
+                                     hal::V4l2Settings,                    //
+                                     hal::LibcameraSettings>;
+
+/// A control of a camera and its value, applied when the camera is opened.
+struct ControlSettings {
+  std::string name;
+  double value = 0;
+};
+
+/// A camera of the site.
+struct CameraSettings {
+  std::string name;  ///< also in the rig
+  BackEndSettings back_end;
+  hal::StreamRequest stream;
+  signals::RadiometrySettings radiometry;
+  hal::SyncPolicy sync = hal::SyncPolicy::Hold;
+  hal::TriggerSettings trigger{.mode = hal::TriggerMode::Off};
+  std::string trigger_source;  ///< name of a line, or kSoftwareSource
+  PixelFormat encoding = PixelFormat::Rgb;
+  std::vector<ControlSettings> controls;
+  std::vector<hal::ScriptedFault> faults;
+};
+
+inline constexpr std::array kSyncPolicies{Word{"hold", hal::SyncPolicy::Hold},
+                                          Word{"nearest", hal::SyncPolicy::Nearest}};
+inline constexpr std::array kTriggerModes{Word{"off", hal::TriggerMode::Off},
+                                          Word{"software", hal::TriggerMode::Software},
+                                          Word{"line", hal::TriggerMode::Line}};
+inline constexpr std::array kTriggerActivations{
+    Word{"rising_edge", hal::TriggerActivation::RisingEdge},
+    Word{"falling_edge", hal::TriggerActivation::FallingEdge},
+    Word{"any_edge", hal::TriggerActivation::AnyEdge}};
+
+template <class Visitor>
+void visit(Visitor& v, ControlSettings& control) {
+  v.required("name", control.name,
+             "GenICam's, for v4l2 and libcamera: ExposureTime (us), Gain, and ExposureAuto and "
+             "BalanceWhiteAuto (0 off, 1 on), for v4l2 GainAuto and TriggerMode, too; or the "
+             "camera's own, as `orbwatch list` shows it");
+  v.required("value", control.value, kAnyNumber,
+             "In the camera's units; for a menu, the entry's number");
+}
+
+template <class Visitor>
+void visit_trigger(Visitor& v, CameraSettings& camera) {
+  v.optional("trigger_mode", camera.trigger.mode, kTriggerModes,
+             "off: every frame counts; software: each edge asks the camera for a frame, of a "
+             "camera with the controls TriggerMode and TriggerSoftware or a simulated one; line: "
+             "the frame that begins after an edge counts, of a camera that receives the edge or "
+             "runs freely");
+  v.optional("trigger_source", camera.trigger_source,
+             "Name of the line, whose use is trigger_in; or software: only the command trigger "
+             "does");
+  v.optional("trigger_activation", camera.trigger.activation, kTriggerActivations,
+             "Which of its edges are triggers");
+  v.optional("trigger_delay_us", camera.trigger.delay, Microseconds{Range::between(0, 1e7)},
+             "From the edge to the exposure, us");
+  const bool triggered = camera.trigger.mode != hal::TriggerMode::Off;
+  v.require(triggered != camera.trigger_source.empty(), "trigger_mode",
+            "a triggered camera needs trigger_source, and only that");
+}
+
+template <class Visitor>
+void visit(Visitor& v, CameraSettings& camera) {
+  v.required("name", camera.name, "Its name in the rig; views and messages use it too");
+  v.one_of("back_end", camera.back_end, "Where its frames come from");
+  v.optional("width", camera.stream.width, kSide,
+             "Picture width, px, as in the rig; else the camera's own");
+  v.optional("height", camera.stream.height, kSide,
+             "Picture height, px, as in the rig; else the camera's own");
+  v.optional("frame_rate", camera.stream.frame_rate, Range::between(0.01, hal::kMaxFrameRate),
+             "Frames per second; else the camera's own");
+  v.optional("kelvin_per_count", camera.radiometry.kelvin_per_count, Range::above(0, 10),
+             "Radiometric scale of a 16-bit thermal camera; else it is none");
+  v.table("radiometry", camera.radiometry,
+          "Of a radiometric camera: makes true temperatures of apparent ones");
+  v.optional("sync", camera.sync, kSyncPolicies,
+             "In a set without a frame of it within the window: hold its last one, which is not "
+             "measured again, or nearest, which leaves it out");
+  visit_trigger(v, camera);
+  v.optional("encoding", camera.encoding, kEncodings,
+             "Of its own pictures over DDS; 16-bit ones go out as mono16");
+  v.tables("control", camera.controls, 0, 64,
+           "Settings of the camera, applied in this order, for v4l2 and libcamera");
+  v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
+  v.require(!std::holds_alternative<simulation::SimulatedCameraSettings>(camera.back_end) ||
+                (camera.stream.width && camera.stream.height),
+            "back_end", "simulated needs width and height");
+}
+
+}  // namespace orbwatch::app

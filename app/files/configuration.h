@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/files/camera_settings.h"
+#include "app/files/finding.h"
+#include "app/pipeline/measurement/recipe.h"
+#include "app/pipeline/pipeline_settings.h"
+#include "app/pipeline/views/view_settings.h"
+#include "app/ports/console/console_sink.h"
+#include "app/ports/dds/dds_settings.h"
+#include "app/ports/lines/line_settings.h"
+#include "app/ports/modbus/modbus_settings.h"
+#include "app/ports/snapshot/snapshot_sink.h"
+#include "app/simulation/machine.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// The list of sinks: one line each. A settings struct has the name and the meaning of its table as
+/// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
+/// if it is not enabled.
+using SinkSettings = std::tuple<ConsoleSettings,  //
+                                ModbusSettings,   //
+                                DdsSettings>;
+
+/// A recipe's file and the number that selects it.
+struct RecipeFile {
+  std::uint16_t number = 0;
+  NamedFile file;
+};
+
+/// The file of `orbwatchd --config`, as it stands: names, not indices. See resolve().
+struct Configuration {
+  NamedFile rig;
+  PipelineSettings pipeline;
+  simulation::MachineSettings simulation;
+  std::vector<Located<CameraSettings>> cameras;
+  std::vector<Located<LineSettings>> lines;
+  std::vector<Located<ViewSettings>> views;
+  std::vector<Located<RecipeFile>> recipes;  ///< the first one is measured from the start
+  std::optional<SnapshotSettings> snapshot;
+  SinkSettings sinks;
+};
+
+template <class Visitor>
+void visit(Visitor& v, RecipeFile& recipe) {
+  v.required("number", recipe.number, Range::between(1, 65535), "For the command select_recipe");
+  v.required("file", recipe.file, "What is measured; see [RECIPE.md](RECIPE.md)");
+}
+
+template <class Visitor>
+void visit(Visitor& v, Configuration& configuration) {
+  v.required("rig", configuration.rig,
+             "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
+  v.table("pipeline", configuration.pipeline, "Frame budget and threads");
+  v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
+  v.tables("camera", configuration.cameras, 1, kMaxCameras,
+           "Cameras; the first without a fault sets the pace");
+  v.tables("line", configuration.lines, 0, 32, "Digital inputs and outputs");
+  v.tables("view", configuration.views, 0, kMaxViews,
+           "Display views: virtual cameras in the ball's centre, which can be pointed");
+  v.tables("recipe", configuration.recipes, 0, kMaxRecipes,
+           "What is measured; the first one from the start");
+  v.table("snapshot", configuration.snapshot, "Pictures on command");
+  std::apply(
+      [&v]<class... Sinks>(Sinks&... sinks) {
+        (v.table(Sinks::kName.data(), sinks, Sinks::kText.data()), ...);
+      },
+      configuration.sinks);
+}
+
+/// The manual of all keys in Markdown.
+std::string configuration_manual();
+
+}  // namespace orbwatch::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/files/configuration.h"
+#include "app/model/status_report.h"
+#include "app/pipeline/measurement/recipe.h"
+#include "proc/image/result.h"
+#include "proc/optics/rig.h"
+
+namespace orbwatch::app {
+
+/// All files of a site, read together and checked against each other: every reference has its
+/// index.
+struct Resolved {
+  Configuration site;
+  optics::Rig rig;
+  std::vector<std::size_t> rig_cameras;  ///< by camera: its place in the rig
+  std::vector<Recipe> recipes;           ///< by place in site.recipes
+  /// Views: those of the configuration, then those of the recipes, where one name is one view.
+  StatusNames names;
+  std::uint32_t checksum = 0;  ///< CRC-32 of the files of configuration, rig, lenses and recipes
+
+  const optics::RigCamera& rig_camera(std::size_t camera) const {
+    return rig.cameras[rig_cameras[camera]];
+  }
+};
+
+/// Reads a configuration file and all files that it names. Relative paths count from the folder of
+/// the file that states them. The error says file, line, key, what is wrong and what is allowed.
+Result<Resolved> resolve(const std::filesystem::path& file);
+
+/// The same for text that stands in for a file named `name`, with paths relative to `folder`.
+Result<Resolved> resolve_text(const std::string& text, const std::string& name,
+                              const std::filesystem::path& folder);
+
+/// Sets every index and the names after a change of the settings. `name`: of the configuration
+/// file, for the error, which is as of resolve().
+Result<> resolve_references(Resolved& resolved, const std::string& name);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,202 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/files/camera_calibration.h"
+#include "proc/image/picture.h"
+#include "proc/optics/rig.h"
+#include "proc/optics/rotation.h"
+#include "proc/settings/settings.h"
+
+/// A rig file as it stands, and its keys; rig_file.h makes an optics::Rig of it.
+namespace orbwatch::app {
+
+struct ObstacleSettings : optics::Box {
+  std::string name;
+};
+
+struct SceneSettings : optics::Scene {
+  std::vector<Located<ObstacleSettings>> named_obstacles;
+};
+
+struct IntrinsicsSettings {
+  std::optional<std::filesystem::path> file;
+  double fx = 0;
+  double fy = 0;
+  std::optional<double> cx;
+  std::optional<double> cy;
+  std::string distortion = "none";
+  std::vector<double> coefficients;
+};
+
+/// The ball in a camera's picture and how that camera stands to the reference.
+struct OutlineSettings {
+  std::array<double, 2> centre{};
+  std::optional<double> radius;
+  std::optional<std::array<double, 2>> radii;
+  double angle = 0;
+  std::optional<double> alpha;
+  std::optional<double> distance;
+  std::optional<std::array<double, 3>> rotation;
+  std::optional<optics::Mat3> rotation_matrix;
+};
+
+struct RigCameraSettings : optics::RigCamera {
+  std::optional<Located<IntrinsicsSettings>> lens;
+  std::optional<OutlineSettings> limb;
+};
+
+struct RigSettings {
+  optics::Ball ball;
+  Located<SceneSettings> scene;
+  std::vector<Located<RigCameraSettings>> cameras;
+};
+
+/// The limb that the settings give in one form or the other.
+inline optics::Outline outline(const OutlineSettings& settings) {
+  const double radius = settings.radius.value_or(0);
+  const auto radii = settings.radii.value_or(std::array{radius, radius});
+  return {{settings.centre[0], settings.centre[1]}, radii[0], radii[1], settings.angle};
+}
+
+/// The registration that the settings give in one form or the other; none is the identity.
+inline optics::Mat3 registration(const OutlineSettings& settings) {
+  if (settings.rotation_matrix) return *settings.rotation_matrix;
+  const auto [yaw, pitch, roll] = settings.rotation.value_or(std::array<double, 3>{});
+  return optics::rotation({yaw, pitch, roll});
+}
+
+inline constexpr std::array kRooms{
+    Word{"none", optics::Scene::Room::None}, Word{"sphere", optics::Scene::Room::Sphere},
+    Word{"plane", optics::Scene::Room::Plane}, Word{"box", optics::Scene::Room::Box}};
+
+inline constexpr std::size_t kMaxRigCameras = 16;
+inline constexpr std::size_t kMaxObstacles = 16;
+
+template <class Visitor>
+void visit(Visitor& v, optics::Ball& ball) {
+  v.required("centre", ball.centre, kAnyNumber, "mm, machine frame");
+  v.required("radius", ball.radius, Range::above(0), "mm");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ObstacleSettings& obstacle) {
+  v.required("name", obstacle.name, "For messages");
+  v.required("low", obstacle.low, kAnyNumber, "Its corner with the lowest x, y, z, mm");
+  v.required("high", obstacle.high, kAnyNumber, "Its corner with the highest x, y, z, mm");
+}
+
+template <class Visitor>
+void visit(Visitor& v, SceneSettings& scene) {
+  using Room = optics::Scene::Room;
+  v.optional("room", scene.room, kRooms,
+             "What encloses the ball; none: all but the obstacles is far away");
+  const bool sphere = scene.room == Room::Sphere, plane = scene.room == Room::Plane,
+             box = scene.room == Room::Box;
+  v.required_if(sphere, "room sphere", "centre", scene.centre, kAnyNumber, "mm");
+  v.required_if(sphere, "room sphere", "radius", scene.radius, Range::above(0), "mm");
+  v.required_if(plane, "room plane", "point", scene.point, kAnyNumber, "Any point of it, mm");
+  v.required_if(plane, "room plane", "normal", scene.normal, kAnyNumber,
+                "Across it, any length, either side");
+  v.required_if(box, "room box", "low", scene.walls.low, kAnyNumber,
+                "Its corner with the lowest x, y, z, mm");
+  v.required_if(box, "room box", "high", scene.walls.high, kAnyNumber,
+                "Its corner with the highest x, y, z, mm");
+  v.tables("obstacle", scene.named_obstacles, 0, kMaxObstacles,
+           "Boxes within the room that hide what is behind them: table, spindle");
+}
+
+template <class Visitor>
+void visit(Visitor& v, IntrinsicsSettings& lens) {
+  v.optional("file", lens.file,
+             "Calibration that OpenCV or ROS' camera_calibration wrote, YAML; instead of the keys "
+             "below");
+  const bool here = !lens.file;
+  const char* const when = "intrinsics without file";
+  v.required_if(here, when, "fx", lens.fx, Range::above(0), "Focal length, px");
+  v.required_if(here, when, "fy", lens.fy, Range::above(0), "Focal length, px");
+  v.required_if(here, when, "cx", lens.cx, kAnyNumber,
+                "Principal point, px, pixel centres at integers");
+  v.required_if(here, when, "cy", lens.cy, kAnyNumber,
+                "Principal point, px, pixel centres at integers");
+  v.optional_if(here, when, "distortion", lens.distortion, kDistortionModels,
+                "In ROS' names; equidistant is OpenCV's fisheye");
+  v.optional_if(here, when, "coefficients", lens.coefficients, kAnyNumber,
+                "In OpenCV's order: plumb_bob k1 k2 p1 p2 [k3], rational_polynomial k1 k2 p1 p2 k3 "
+                "k4 k5 k6, equidistant k1 k2 k3 k4");
+}
+
+template <class Visitor>
+void visit(Visitor& v, OutlineSettings& outline) {
+  v.required("centre", outline.centre, kAnyNumber, "Ball's centre in the picture, px: [u, v]");
+  v.optional("radius", outline.radius, Range::above(0), "Radius of its limb, px; for a circle");
+  v.optional("radii", outline.radii, Range::above(0), "Semi-axes of its limb, px; for an ellipse");
+  v.optional("angle", outline.angle, kAnyNumber, "Of the first semi-axis, deg, from u towards v");
+  v.optional("alpha", outline.alpha, Range::above(180, 360),
+             "Reflected field of view, deg: 360 minus the ball's apparent diameter");
+  v.optional("distance", outline.distance, Range::above(1),
+             "Camera to ball's centre, ball radii; instead of alpha");
+  v.optional("rotation", outline.rotation, kAnyNumber,
+             "Registration to the reference, deg: [yaw, pitch, roll]");
+  v.optional("rotation_matrix", outline.rotation_matrix, kAnyNumber,
+             "The same as 3x3 matrix by rows: v_reference = R v_camera");
+  v.require(outline.radius.has_value() != outline.radii.has_value(), "radius",
+            "give either radius or radii");
+  v.require(!outline.rotation || !outline.rotation_matrix, "rotation_matrix",
+            "give either rotation or rotation_matrix");
+  const auto rotation = optics::checked_rotation(registration(outline));
+  v.require(rotation.has_value(), "rotation_matrix", rotation ? "" : rotation.error().message);
+}
+
+template <class Visitor>
+void visit(Visitor& v, optics::Pose& pose) {
+  v.required("position", pose.position, kAnyNumber, "Of the camera, mm, machine frame");
+  v.required("rotation", pose.rotation, kAnyNumber,
+             "3x3 matrix by rows: the camera's right, down and forward in the machine frame");
+  const auto rotation = optics::checked_rotation(pose.rotation);
+  v.require(rotation.has_value(), "rotation", rotation ? "" : rotation.error().message);
+}
+
+template <class Visitor>
+void visit(Visitor& v, optics::Window& window) {
+  v.required("normal", window.normal, kAnyNumber,
+             "Across the glass, machine frame, any length, either side");
+  v.required("thickness", window.thickness, Range::between(0, 1000), "mm");
+  v.optional("index", window.index, Range::between(1, 5), "Of refraction");
+  const auto good = optics::check_window(window);
+  v.require(good.has_value(), "normal", good ? "" : good.error().message);
+}
+
+template <class Visitor>
+void visit(Visitor& v, RigCameraSettings& camera) {
+  v.required("name", camera.name, "For commands and messages");
+  v.required("width", camera.width, Range::between(1, kMaxSide), "Of its pictures, px");
+  v.required("height", camera.height, Range::between(1, kMaxSide), "Of its pictures, px");
+  v.optional("model", camera.model, optics::kBallModels, "Projection");
+  v.table("intrinsics", camera.lens, "Its lens, when it is calibrated");
+  v.table("pose", camera.pose, "Where it stands; needs intrinsics");
+  v.table(
+      "outline", camera.limb,
+      "Instead of a pose: the ball as the camera sees it. With intrinsics, the ball's direction "
+      "and distance follow from the limb, and rotation turns the camera's own axes (X = -right, "
+      "Y = -forward, Z = -down) into the machine frame. Without, one of alpha and distance is "
+      "needed (the classical model takes none), and the camera is taken to look straight at "
+      "the ball");
+  v.table("window", camera.window, "A flat glass between camera and ball; needs intrinsics");
+}
+
+template <class Visitor>
+void visit(Visitor& v, RigSettings& rig) {
+  v.table("ball", rig.ball,
+          "The mirror ball. Without: in the origin with radius 1, so that lengths count in ball "
+          "radii");
+  v.table("scene", rig.scene,
+          "What the ball shows, as far as it is known. Without: everything is far away");
+  v.tables("camera", rig.cameras, 1, kMaxRigCameras, "Cameras that look at the ball");
+}
+
+}  // namespace orbwatch::app

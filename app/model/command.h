@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace orbwatch::app {
+
+inline constexpr std::size_t kMaxArguments = 4;
+
+/// One argument of a command. Interfaces with integers only send value / scale.
+struct ArgumentInfo {
+  std::string_view name{};  ///< empty: no argument
+  std::string_view unit{};
+  double scale = 1;  ///< 1: an integer
+  double minimum = 0;
+  double maximum = 0;
+  std::string_view description{};
+};
+
+inline constexpr double kAnyIndex = std::numeric_limits<std::uint16_t>::max();
+inline constexpr ArgumentInfo kNoArgument{};
+inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
+                                            0,      kAnyIndex, "index of the view, from 0"};
+
+/// The list of commands: one line here, and one handler in app/daemon/dispatch.cpp, which does not
+/// compile without it. Every interface offers the commands from this list.
+/// X(code, number, name, description, arguments...): the numbers go to PLC and controller, so
+/// append and never renumber. Limits of an argument that depend on the configuration are the
+/// handler's.
+#define ORBWATCH_COMMANDS(X)                                                                     \
+  X(SelectView, 1, "select_view", "Shows this view on the topic of the selected view",           \
+    kViewArgument)                                                                               \
+  X(Pulse, 2, "pulse", "One pulse on this line",                                                 \
+    ArgumentInfo{"line", "", 1, 0, kAnyIndex, "index of the trigger_out line, from 0"})          \
+  X(Start, 3, "start", "Starts measuring again", kNoArgument)                                    \
+  X(Stop, 4, "stop", "Stops measuring; views are still published", kNoArgument)                  \
+  X(SelectRecipe, 5, "select_recipe", "Measures by this recipe from the next frame set on",      \
+    ArgumentInfo{"recipe", "", 1, 1, kAnyIndex, "number of the recipe"})                         \
+  X(PointView, 6, "point_view", "Points a display view in another direction", kViewArgument,     \
+    ArgumentInfo{"yaw", "deg", 0.01, -180, 180, "from +Y towards +X"},                           \
+    ArgumentInfo{"pitch", "deg", 0.01, -90, 90, "up positive"},                                  \
+    ArgumentInfo{"h_fov", "deg", 0.01, 0, 360, "horizontal field of view; 0 keeps it"})          \
+  X(MixSources, 7, "mix_sources", "Changes a camera's weight in a display view", kViewArgument,  \
+    ArgumentInfo{"source", "", 1, 0, kAnyIndex, "index among the view's sources, from 0"},       \
+    ArgumentInfo{"weight", "", 0.001, 0.001, 1000, "its share where several cameras see"})       \
+  X(Trigger, 8, "trigger",                                                                       \
+    "Measures the next frame set as a result, like an edge of the trigger line", kNoArgument)    \
+  X(AcknowledgeAlarm, 9, "acknowledge_alarm", "Acknowledges one alarm or all",                   \
+    ArgumentInfo{"alarm", "", 1, 0, kAnyIndex, "number of the alarm, from 1; 0: all"})           \
+  X(Snapshot, 10, "snapshot", "Writes the next picture of a view into the snapshot folder",      \
+    kViewArgument)                                                                               \
+  X(SetProcessActive, 11, "set_process_active",                                                  \
+    "Sets whether the process is active, for a recipe with process_active = \"command\"",        \
+    ArgumentInfo{"active", "", 1, 0, 1, "1: active"})                                            \
+  X(Restart, 12, "restart", "Shuts orbwatchd down and starts it again with its files read anew", \
+    kNoArgument)
+
+enum class CommandCode : std::uint16_t {
+#define ORBWATCH_CODE(code, number, ...) code = number,
+  ORBWATCH_COMMANDS(ORBWATCH_CODE)
+#undef ORBWATCH_CODE
+};
+
+/// The facts about one command, for every interface that offers it.
+struct CommandInfo {
+  CommandCode code;
+  std::string_view name;
+  std::string_view description;
+  std::array<ArgumentInfo, kMaxArguments> arguments{};
+
+  constexpr std::size_t argument_count() const {
+    std::size_t count = 0;
+    while (count < kMaxArguments && !arguments[count].name.empty()) ++count;
+    return count;
+  }
+};
+
+inline constexpr std::array kCommands{
+#define ORBWATCH_INFO(code, number, name, description, ...) \
+  CommandInfo{CommandCode::code, name, description, {__VA_ARGS__}},
+    ORBWATCH_COMMANDS(ORBWATCH_INFO)
+#undef ORBWATCH_INFO
+};
+
+/// A command with its arguments, each in the argument's unit.
+struct Command {
+  CommandCode code = CommandCode::SelectView;
+  std::array<double, kMaxArguments> arguments{};
+
+  /// An argument of scale 1, after check().
+  std::size_t integer(std::size_t argument) const {
+    return static_cast<std::size_t>(arguments[argument]);
+  }
+};
+
+/// The answer to a command; the numbers go to the PLC.
+enum class CommandResult : std::uint16_t {
+  Done = 0,
+  UnknownCommand = 1,
+  ArgumentOutOfRange = 2,
+  Busy = 3,         ///< not now; may be sent again
+  NotPossible = 4,  ///< never with this configuration
+};
+
+/// The operator's text; empty for a number that is no result.
+constexpr std::string_view operator_text(CommandResult result) {
+  switch (result) {
+    case CommandResult::Done:
+      return "done";
+    case CommandResult::UnknownCommand:
+      return "unknown command";
+    case CommandResult::ArgumentOutOfRange:
+      return "argument out of range";
+    case CommandResult::Busy:
+      return "busy: try again";
+    case CommandResult::NotPossible:
+      return "not possible with this configuration";
+  }
+  return {};
+}
+
+/// The facts about a code or a name, or nullptr when there is no such command. Reentrant.
+const CommandInfo* find_command(CommandCode code);
+const CommandInfo* find_command(std::string_view name);
+
+/// Checks what does not depend on the configuration: the command is known, its arguments are in
+/// range, and those of scale 1 are integers. Done: it may be executed. Reentrant.
+CommandResult check(const Command& command);
+
+/// The allowed values: "-180 to 180 deg", "a whole number, 0 to 1". Reentrant.
+std::string range_text(const ArgumentInfo& argument);
+
+/// Why check() refuses a command, in one line: "yaw is 200; it must be -180 to 180 deg". Empty if
+/// it does not. Reentrant.
+std::string refusal_text(const Command& command);
+
+/// Executes a command after check(); called by sinks on their own threads. Thread-safe, does not
+/// wait.
+using CommandHandler = std::function<CommandResult(const Command&)>;
+
+}  // namespace orbwatch::app

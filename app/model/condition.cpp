@@ -1,0 +1,99 @@
+#include "app/model/condition.h"
+
+#include <algorithm>
+
+namespace orbwatch::app {
+namespace {
+
+Severity severity_of(signals::AlarmLevel level) {
+  return static_cast<Severity>(signals::severity(level));
+}
+
+Severity severity_of(SystemState state) {
+  switch (state) {
+    case SystemState::Starting:
+      return Severity::Unknown;
+    case SystemState::Running:
+    case SystemState::Stopped:
+      return Severity::None;
+    case SystemState::Degraded:
+      return Severity::Warning;
+    case SystemState::Fault:
+      return Severity::Alarm;
+  }
+  return Severity::Unknown;
+}
+
+}  // namespace
+
+Condition condition_of(const SystemStatus& system) {
+  Condition condition{severity_of(system.state), std::string(operator_text(system.state))};
+  if (system.recipe_refused) {
+    if (condition.severity == Severity::None) condition.severity = Severity::Warning;
+    condition.text += "; a camera refused the recipe's settings";
+  }
+  return condition;
+}
+
+Condition condition_of(const CameraStatus& camera) {
+  if (camera.fault == hal::Fault::None && camera.last_frame == hal::TimePoint{}) {
+    return {Severity::Unknown, "no frame yet"};
+  }
+  return {camera.fault == hal::Fault::None ? Severity::None : Severity::Alarm,
+          std::string(operator_text(camera.fault))};
+}
+
+Condition condition_of(const ViewStatus& view) {
+  if (view.published == 0) return {Severity::Unknown, "no picture yet"};
+  return {Severity::None, "published"};
+}
+
+Condition condition_of(const RegionStatus& region) {
+  const bool measured = region.quality != Quality::NotMeasured;
+  return {measured ? Severity::None : Severity::Unknown,
+          std::string(operator_text(region.quality))};
+}
+
+Condition condition_of(const AlarmStatus& alarm) {
+  Severity severity = standing_severity(alarm);
+  if (severity == Severity::None && signals::awaits_acknowledgement(alarm.alarm.state)) {
+    severity = Severity::Warning;
+  }
+  return {severity, std::string(operator_text(alarm.alarm.state))};
+}
+
+Condition condition_of(const Health& health) {
+  const bool known = std::ranges::any_of(
+      kHealthFigures, [&](const auto& info) { return signals::is_valid(health.*info.member); });
+  if (!known) return {Severity::Unknown, "not known yet"};
+  std::string text;
+  if (is_throttled(health)) text = "too hot or under-voltage: the processors are throttled";
+  if (health.clock_synchronised == 0) {
+    text += std::string(text.empty() ? "" : "; ") + "the clock follows no time server";
+  }
+  if (text.empty()) return {Severity::None, "no complaint"};
+  return {Severity::Warning, text};
+}
+
+Severity standing_severity(const AlarmStatus& alarm) {
+  if (!signals::is_active(alarm.alarm.state)) return Severity::None;
+  return std::max(severity_of(alarm.alarm.level), severity_of(alarm.alarm.announced));
+}
+
+Severity worst_severity(const Status& status, std::optional<std::size_t> region) {
+  Severity worst = Severity::None;
+  for (std::size_t i = 0; i < status.alarm_count; ++i) {
+    const AlarmStatus& alarm = status.alarms[i];
+    if (!region || alarm.region == *region) worst = std::max(worst, standing_severity(alarm));
+  }
+  return worst;
+}
+
+bool is_throttled(const Health& health) {
+  // The four higher bits remember since power-on.
+  constexpr unsigned kNow = 0x0f;
+  return signals::is_valid(health.throttling) &&
+         (static_cast<unsigned>(health.throttling) & kNow) != 0;
+}
+
+}  // namespace orbwatch::app

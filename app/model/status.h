@@ -1,0 +1,269 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "app/model/field.h"
+#include "app/model/health.h"
+#include "hal/clock.h"
+#include "hal/fault.h"
+#include "hal/sync/frame_set.h"
+#include "proc/signals/alarm_board.h"
+#include "proc/signals/signals.h"
+
+/// What the appliance says of itself, each figure declared once: its line makes the member, and
+/// every interface and manual is made by walking the lines (app/model/readings.h, or fields_of()).
+namespace orbwatch::app {
+
+using hal::kMaxCameras;
+inline constexpr std::size_t kMaxViews = 16;
+
+/// The daemon as a whole. The numbers go to PLC and controller: append, never renumber.
+enum class SystemState : std::uint8_t {
+  Starting = 0,
+  Running = 1,
+  Degraded = 2,
+  Fault = 3,
+  Stopped = 4,
+};
+
+/// The one place of the operator's text for each state. Empty for a number that is none.
+constexpr std::string_view operator_text(SystemState state) {
+  switch (state) {
+    case SystemState::Starting:
+      return "starting: no frame set yet";
+    case SystemState::Running:
+      return "running: every camera delivers";
+    case SystemState::Degraded:
+      return "degraded: some camera has a fault; what the others see is measured";
+    case SystemState::Fault:
+      return "fault: no camera delivers, or the pipeline is silent";
+    case SystemState::Stopped:
+      return "stopped: measuring is switched off; views are published";
+  }
+  return {};
+}
+
+/// Its first word, for logs.
+constexpr std::string_view name_of(SystemState state) {
+  const std::string_view text = operator_text(state);
+  return text.substr(0, text.find(':'));
+}
+
+/// How far a region's signals can be trusted. The numbers go to the PLC: append, never renumber.
+enum class Quality : std::uint8_t {
+  NotMeasured = 0,  ///< no such region, measuring is stopped, or its camera does not deliver
+  Good = 1,
+  Apparent = 2,  ///< good, but temperatures are apparent: see Radiometry::is_apparent()
+};
+
+/// The one place of the operator's text for each quality. Empty for a number that is none.
+constexpr std::string_view operator_text(Quality quality) {
+  switch (quality) {
+    case Quality::NotMeasured:
+      return "not measured";
+    case Quality::Good:
+      return "good";
+    case Quality::Apparent:
+      return "good, temperatures are apparent";
+  }
+  return {};
+}
+
+/// A signal's place in signals::kSignals, as a code whose text is the signal's name.
+enum class SignalNumber : std::uint16_t {};
+
+constexpr std::string_view operator_text(SignalNumber number) {
+  const auto index = static_cast<std::size_t>(number);
+  return index < signals::kSignals.size() ? signals::kSignals[index].name : std::string_view{};
+}
+
+#define ORBWATCH_SYSTEM_FIGURES(FIELD, AGE)                                                      \
+  FIELD(SystemState, state, kCode, "State of the appliance")                                     \
+  FIELD(std::uint64_t, heartbeat, kCount,                                                        \
+        "Advances with the pipeline, at least ten times a second")                               \
+  FIELD(std::uint64_t, frame_set, kCount,                                                        \
+        "Number of the newest frame set, which the signals belong to; 0: none yet")              \
+  AGE(stamp, "Since the exposure start of that frame set")                                       \
+  FIELD(std::uint64_t, trigger, kCount, "Number of the trigger that began it; 0: none did")      \
+  FIELD(std::uint64_t, result, kCount,                                                           \
+        "Number of the newest result, the measurement of a triggered frame set; 0: none yet")    \
+  FIELD(std::uint16_t, recipe, kCode, "Number of the recipe that everything was measured with")  \
+  FIELD(std::uint32_t, configuration_checksum, kCount,                                           \
+        "CRC-32 of the files of configuration, rig and recipes")                                 \
+  FIELD(bool, recipe_refused, kFlag,                                                             \
+        "A camera refused the settings of the recipe selected last; the one before is measured") \
+  FIELD(bool, process_active, kFlag,                                                             \
+        "The process runs; while it does not, alarms that depend on it are suppressed")          \
+  FIELD(std::uint32_t, process_inputs, kCount,                                                   \
+        "Bit n: process input n of the configuration is active")                                 \
+  FIELD(std::uint16_t, selected_view, kCode, "Index of the selected view, from 0")               \
+  FIELD(std::uint64_t, overruns, kCount, "Frame sets that took longer than their deadline")      \
+  FIELD(std::uint64_t, unmatched, kCount,                                                        \
+        "Frame sets in which a camera had no frame within the window")                           \
+  FIELD(double, skew_ms, kLatency,                                                               \
+        "Largest between the exposure starts of a frame set, of the last full second")           \
+  FIELD(double, load, kShare,                                                                    \
+        "Share of its deadline that the slowest frame set of the last second took")
+
+inline constexpr Quantity kShare{"", 0.001, 0, 1000};
+
+/// The appliance as a whole.
+struct SystemStatus {
+  ORBWATCH_SYSTEM_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
+};
+
+#define ORBWATCH_CAMERA_FIGURES(FIELD, AGE)                                                      \
+  FIELD(hal::Fault, fault, kCode, "Fault of the camera")                                         \
+  FIELD(double, frames_per_second, kRate, "Over the last full second")                           \
+  FIELD(double, latency_p50_ms, kLatency,                                                        \
+        "Exposure start to arrival, median of the last full second")                             \
+  FIELD(double, latency_p99_ms, kLatency, "Exposure start to arrival, 99 of 100 are faster")     \
+  AGE(last_frame, "Since the arrival of its newest good frame")                                  \
+  FIELD(std::uint64_t, frames, kCount, "Frames delivered since start")                           \
+  FIELD(std::uint64_t, lost, kCount, "Frames missing in the camera's sequence")                  \
+  FIELD(std::uint64_t, dropped, kCount,                                                          \
+        "Frames not used: a newer one was there, the queue was full, or the camera had a fault") \
+  FIELD(std::uint64_t, unmatched, kCount,                                                        \
+        "Frames delivered while the pacing camera had none of that moment")                      \
+  FIELD(std::uint64_t, triggers, kCount, "Edges of its trigger line since start")                \
+  FIELD(std::uint64_t, missed, kCount,                                                           \
+        "Triggers without a frame: faster than the camera, or its fault")
+
+/// One camera.
+struct CameraStatus {
+  ORBWATCH_CAMERA_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
+};
+
+#define ORBWATCH_VIEW_FIGURES(FIELD)                                                \
+  FIELD(std::uint64_t, published, kCount, "Views published since start")            \
+  FIELD(std::uint64_t, skipped, kCount,                                             \
+        "Frame sets without this view: display slowed down, or no buffer")          \
+  FIELD(std::uint64_t, superseded, kCount,                                          \
+        "Requests to point it that a newer one replaced before the next frame set") \
+  FIELD(double, frames_per_second, kRate, "Over the last full second")              \
+  FIELD(double, latency_p50_ms, kLatency,                                           \
+        "Exposure start to hand-over to the sinks, median of the last full second") \
+  FIELD(double, latency_p99_ms, kLatency, "Exposure start to hand-over, 99 of 100 are faster")
+
+/// One view.
+struct ViewStatus {
+  ORBWATCH_VIEW_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
+/// What one region of the recipe measured in the newest frame set. Its fields are its quality and
+/// every signal of signals::kSignals.
+struct RegionStatus {
+  Quality quality = Quality::NotMeasured;
+  signals::Signals signals;
+};
+
+#define ORBWATCH_ALARM_FIGURES(FIELD, AGE)                                           \
+  FIELD(std::uint16_t, region, kCode, "Index of the region that it watches, from 0") \
+  FIELD(SignalNumber, signal, kCode, "Signal that it watches")                       \
+  FIELD(double, value, kSignalValue, "Value of that signal, in its unit")            \
+  AGE(since, "Since its state changed; not valid while it has never had another")
+
+inline constexpr Quantity kSignalValue{"", 1, -2147483647, 2147483647};
+
+/// One alarm of the recipe. Its fields begin with those of `alarm`.
+struct AlarmStatus {
+  signals::Alarm alarm;
+  ORBWATCH_ALARM_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
+};
+
+/// What happened to an alarm.
+struct AlarmNotice {
+  std::uint64_t number = 0;  ///< counts notices from 1
+  signals::AlarmEvent event;
+  std::size_t region = 0;
+  SignalNumber signal{};
+  std::uint16_t recipe = 0;
+  std::uint64_t frame_set = 0;  ///< the newest one then
+  hal::TimePoint stamp{};       ///< of that frame set, or of the moment without one
+};
+
+/// One consistent copy of everything the outside may know at one moment. Fixed size, no heap: it is
+/// copied to every sink.
+struct Status : SystemStatus {
+  std::size_t camera_count = 0;
+  std::size_t view_count = 0;
+  std::size_t region_count = 0;
+  std::size_t alarm_count = 0;
+  std::array<CameraStatus, kMaxCameras> cameras;
+  std::array<ViewStatus, kMaxViews> views;
+  std::array<AlarmStatus, signals::kMaxAlarms> alarms;
+  std::array<RegionStatus, signals::kMaxRegions> regions;
+  Health health;
+};
+
+/// Calls `visit(field)` for every field of a part, in the order in which interfaces number them. A
+/// field is a Field<Get>: its facts, and std::invoke(field.get, part) for its value.
+template <class Visit>
+constexpr void for_each_field(std::type_identity<SystemStatus>, Visit&& visit) {
+  using Part = SystemStatus;
+  ORBWATCH_SYSTEM_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
+}
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<Health>, Visit&& visit) {
+  for (const HealthInfo& info : kHealthFigures) {
+    visit(make_field(info.name, {info.unit, info.scale, info.minimum, info.maximum},
+                     info.description, info.member));
+  }
+}
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<CameraStatus>, Visit&& visit) {
+  using Part = CameraStatus;
+  ORBWATCH_CAMERA_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
+}
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<ViewStatus>, Visit&& visit) {
+  using Part = ViewStatus;
+  ORBWATCH_VIEW_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+/// Reads one signal of a region.
+struct SignalOf {
+  double signals::Signals::*member;
+  double operator()(const RegionStatus& region) const { return region.signals.*member; }
+};
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<RegionStatus>, Visit&& visit) {
+  visit(make_field("quality", kCode, "How far the signals can be trusted", &RegionStatus::quality));
+  for (const signals::SignalInfo& info : signals::kSignals) {
+    visit(make_field(info.name, {info.unit, info.scale, info.minimum, info.maximum},
+                     info.description, SignalOf{info.member}));
+  }
+}
+
+/// The unit and resolution of its value are those of the signal: see quantity_of(AlarmStatus).
+template <class Visit>
+constexpr void for_each_field(std::type_identity<AlarmStatus>, Visit&& visit) {
+  visit(make_field("state", kCode, "By ISA-18.2",
+                   [](const AlarmStatus& a) { return a.alarm.state; }));
+  visit(make_field("level", kCode, "Of its signal now",
+                   [](const AlarmStatus& a) { return a.alarm.level; }));
+  visit(make_field("announced", kCode, "Worst level that is not acknowledged yet, or is latched",
+                   [](const AlarmStatus& a) { return a.alarm.announced; }));
+  visit(make_field("measurement_lost", kFlag, "Its signal is not measured",
+                   [](const AlarmStatus& a) { return a.alarm.measurement_lost; }));
+  using Part = AlarmStatus;
+  ORBWATCH_ALARM_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
+}
+
+/// Unit and resolution of the value of an alarm's signal.
+constexpr Quantity quantity_of(const AlarmStatus& alarm) {
+  const auto index = static_cast<std::size_t>(alarm.signal);
+  if (index >= signals::kSignals.size()) return {};
+  const signals::SignalInfo& info = signals::kSignals[index];
+  return {info.unit, info.scale, info.minimum, info.maximum};
+}
+
+}  // namespace orbwatch::app

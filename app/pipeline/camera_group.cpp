@@ -1,0 +1,130 @@
+#include "app/pipeline/camera_group.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "app/log.h"
+
+namespace orbwatch::app {
+namespace {
+
+bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
+  return picture.format == format.format && picture.width == format.width &&
+         picture.height == format.height;
+}
+
+/// Passes the frames that belong to a trigger and numbers them.
+hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) {
+  return [trigger](hal::FrameMetadata& metadata) {
+    const auto stamp = trigger->claim(metadata.exposure_start);
+    if (stamp) metadata.trigger = stamp->id;
+    return stamp.has_value();
+  };
+}
+
+}  // namespace
+
+CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const Triggers& triggers,
+                         const hal::SyncSettings& sync)
+    : sync_(cameras.size(), sync), members_(cameras.size()) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    member.camera = std::move(cameras[i]);
+    member.format = formats[i];
+    if (i < triggers.size()) member.trigger = triggers[i];
+    if (member.trigger) member.camera->set_gate(stamp_with(member.trigger));
+  }
+}
+
+Result<> CameraGroup::start() {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    auto started = members_[i].camera->start(
+        [this, i](hal::Frame frame) { on_frame(i, std::move(frame)); },
+        [this, i](const hal::FaultReport& report) { on_fault(i, report); });
+    if (!started) return started;
+  }
+  return {};
+}
+
+void CameraGroup::stop() {
+  for (Member& member : members_) member.camera->stop();
+}
+
+std::size_t CameraGroup::faulty() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      members_, [](const Member& member) { return member.fault != hal::Fault::None; }));
+}
+
+std::size_t CameraGroup::pacing_camera() const {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].fault == hal::Fault::None) return i;
+  }
+  return 0;
+}
+
+Result<> CameraGroup::apply(const RecipePlan& recipe) {
+  Result<> result;
+  for (const CameraControl& control : recipe.controls) {
+    hal::Camera& camera = *members_[control.camera.index].camera;
+    const auto done = camera.set(control.name, control.value);
+    if (done || !result) continue;
+    result = fail("recipe " + std::to_string(recipe.number) + ": camera " + camera.info().id +
+                  ": " + done.error().message);
+  }
+  return result;
+}
+
+void CameraGroup::on_frame(std::size_t index, hal::Frame frame) {
+  Member& member = members_[index];
+  if (!is_as_configured(frame->picture, member.format)) {
+    on_fault(index, {hal::Fault::WrongFormat, {}});
+    return;
+  }
+  if (member.fault != hal::Fault::None) on_fault(index, {});
+  const auto now = hal::Clock::now();
+  {
+    const std::lock_guard lock(member.metering);
+    member.meter.add(now - frame->metadata.exposure_start);
+  }
+  member.last_frame = now;
+  sync_.put(index, std::move(frame));
+}
+
+void CameraGroup::on_fault(std::size_t index, const hal::FaultReport& report) {
+  Member& member = members_[index];
+  if (member.fault.exchange(report.fault) == report.fault) return;
+  const bool is_cleared = report.fault == hal::Fault::None;
+  if (!is_cleared) {
+    sync_.clear(index);
+    if (member.trigger) member.trigger->abandon();
+  }
+  log_line(is_cleared ? LogLevel::Info : LogLevel::Warning,
+           member.camera->info().id + ": " + std::string(operator_text(report.fault)) +
+               (report.detail.empty() ? "" : " (" + report.detail + ")"));
+}
+
+void CameraGroup::report(Status& status, std::optional<hal::Clock::duration> elapsed) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    CameraStatus& camera = status.cameras[i];
+    const hal::FrameCounts counts = sync_.counts(i);
+    camera.fault = member.fault;
+    camera.frames = counts.frames;
+    camera.lost = counts.lost;
+    camera.dropped = counts.dropped();
+    camera.unmatched = counts.unmatched;
+    camera.last_frame = member.last_frame;
+    if (member.trigger) {
+      const hal::TriggerCounts triggers = member.trigger->counts();
+      camera.triggers = triggers.triggers;
+      camera.missed = triggers.missed;
+    }
+    if (elapsed) {
+      const std::lock_guard lock(member.metering);
+      member.meter.roll(*elapsed, camera);
+    }
+  }
+}
+
+}  // namespace orbwatch::app

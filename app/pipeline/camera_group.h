@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "app/model/status.h"
+#include "app/pipeline/measurement/recipe_plan.h"
+#include "app/pipeline/second_meter.h"
+#include "hal/camera.h"
+#include "hal/lines/frame_trigger.h"
+#include "hal/sync/frame_sync.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The cameras of a pipeline: joins their frames into frame sets, turns their faults into values
+/// and keeps their figures.
+/// Thread rule: start and stop on the main thread, next and report on the pipeline's, the rest on
+/// any.
+class CameraGroup {
+ public:
+  using Cameras = std::vector<std::unique_ptr<hal::Camera>>;
+  using Formats = std::vector<hal::StreamFormat>;
+  using Triggers = std::vector<std::shared_ptr<hal::FrameTrigger>>;
+
+  /// 1..kMaxCameras cameras, configured to `formats`. A camera with a trigger delivers only the
+  /// frames that belong to one.
+  CameraGroup(Cameras cameras, const Formats& formats, const Triggers& triggers,
+              const hal::SyncSettings& sync);
+
+  Result<> start();
+  /// No frame set comes after close(), no frame after stop().
+  void stop();
+  void close() { sync_.close(); }
+
+  /// Waits for the next set; nullopt at `until` or after close().
+  std::optional<hal::FrameSet> next(hal::TimePoint until) { return sync_.next(until); }
+
+  std::size_t size() const { return members_.size(); }
+  /// How many cameras have a fault.
+  std::size_t faulty() const;
+  /// The first camera without a fault: its frames begin the sets.
+  std::size_t pacing_camera() const;
+
+  /// Sets the controls of a recipe; may wait for the cameras. A refused one does not keep the
+  /// others from being set, since the way back must set as many as possible; returns the first
+  /// error.
+  Result<> apply(const RecipePlan& recipe);
+
+  /// Fills in `status.cameras`; rates and latencies only with `elapsed`, the time since they were
+  /// reported last.
+  void report(Status& status, std::optional<hal::Clock::duration> elapsed);
+
+ private:
+  struct Member {
+    std::unique_ptr<hal::Camera> camera;
+    hal::StreamFormat format;
+    std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: it runs freely
+    std::atomic<hal::Fault> fault{hal::Fault::None};
+    std::atomic<hal::TimePoint> last_frame{};  ///< arrival
+    std::mutex metering;                       ///< of the camera's thread and the pipeline's
+    SecondMeter meter;
+  };
+
+  void on_frame(std::size_t index, hal::Frame frame);
+  void on_fault(std::size_t index, const hal::FaultReport& report);
+
+  hal::FrameSync sync_;
+  std::vector<Member> members_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,123 @@
+#include "app/pipeline/measurement/compiled_recipe.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orbwatch::app {
+namespace {
+
+Quality quality_of(const signals::Radiometry& radiometry) {
+  const bool apparent = radiometry.is_radiometric() && radiometry.is_apparent();
+  return apparent ? Quality::Apparent : Quality::Good;
+}
+
+/// Whether the direction is outside the blind cone and inside the picture.
+bool sees(const ViewSource& source, const optics::Vec3& direction) {
+  const auto pixel = source.ball.pixel(direction);
+  return pixel && pixel->u >= 0 && pixel->u <= source.format.width - 1 && pixel->v >= 0 &&
+         pixel->v <= source.format.height - 1;
+}
+
+/// Whether the set has the frame, and not that of another trigger: it would show another part.
+bool is_of_trigger(const hal::FrameSet& set, const hal::Frame& frame) {
+  if (!frame) return false;
+  const auto& trigger = frame->metadata.trigger;
+  return !set.trigger || !trigger || *trigger == *set.trigger;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CompiledRecipe>> CompiledRecipe::make(RecipePlan plan,
+                                                             const signals::RegionScene& scene) {
+  std::unique_ptr<CompiledRecipe> recipe(new CompiledRecipe(std::move(plan)));
+  for (const ViewPlan& view : recipe->plan_.views) recipe->views_.emplace_back(view);
+  recipe->frames_.resize(recipe->views_.size());
+  for (const RegionPlan& region : recipe->plan_.regions) {
+    const ViewPlan& view = recipe->plan_.views[region.view];
+    const ViewSource& measured = view.sources[*view.measured];
+    auto meter =
+        signals::RegionMeter::make(view.projection, scene, region.settings,
+                                   [&measured](const auto& to) { return sees(measured, to); });
+    if (!meter) return fail("region " + region.name + ": " + meter.error().message);
+    const Quality quality = quality_of(meter->radiometry());
+    recipe->meters_.push_back({std::move(*meter), region.view, quality});
+  }
+  auto board = signals::AlarmBoard::make(recipe->plan_.alarms, recipe->plan_.regions.size());
+  if (!board) return tl::unexpected(board.error());
+  recipe->fresh_board_ = *board;
+  recipe->begin();
+  return recipe;
+}
+
+void CompiledRecipe::begin() {
+  for (Region& region : meters_) region.meter.reset();
+  skip();
+  board_ = fresh_board_;
+  for (std::size_t i = 0; i < board_.size(); ++i) {
+    const signals::AlarmLimits& limits = board_.limits(i);
+    alarms_[i] = {{},
+                  static_cast<std::uint16_t>(limits.region),
+                  static_cast<SignalNumber>(limits.signal),
+                  signals::kNotValid,
+                  {}};
+  }
+}
+
+void CompiledRecipe::render(const hal::FrameSet& set, const FramePyramids& pyramids,
+                            WorkerPool& workers) {
+  for (std::size_t n = 0; n < views_.size(); ++n) {
+    const View* view = views_[n].render(set, pyramids, workers);
+    const ViewPlan& plan = plan_.views[n];
+    const std::size_t camera = plan.sources[*plan.measured].camera;
+    const bool is_measurable = is_of_trigger(set, set.frames[camera]);
+    frames_[n].view = is_measurable ? view : nullptr;
+    if (is_measurable) frames_[n].exposed = set.frames[camera]->metadata.exposure_start;
+    frames_[n].held = set.held[camera];
+  }
+}
+
+void CompiledRecipe::measure(hal::TimePoint set_since) {
+  for (std::size_t i = 0; i < meters_.size(); ++i) {
+    auto& [meter, n, quality] = meters_[i];
+    const auto& [view, exposed, held] = frames_[n];
+    const bool is_measurable = view && exposed >= set_since;
+    if (is_measurable && held && regions_[i].quality != Quality::NotMeasured) continue;
+    stale_[i] = false;
+    regions_[i] = {};
+    if (!is_measurable) continue;
+    const double seconds = std::chrono::duration<double>(exposed.time_since_epoch()).count();
+    regions_[i].quality = quality;
+    regions_[i].signals = view->radiometric.empty()
+                              ? meter.measure(view->luminance, view->validity, seconds)
+                              : meter.measure(view->radiometric, view->validity, seconds);
+  }
+}
+
+void CompiledRecipe::skip() { regions_.fill({}); }
+
+bool CompiledRecipe::has_hot_spot() const {
+  return std::ranges::any_of(regions(), [](const RegionStatus& region) {
+    return region.signals.hot_spot_present > 0;  // false for NaN, too
+  });
+}
+
+std::span<const signals::AlarmEvent> CompiledRecipe::watch(hal::TimePoint now, bool process_active,
+                                                           const signals::AlarmSet& acknowledged) {
+  for (std::size_t i = 0; i < meters_.size(); ++i) signals_[i] = regions_[i].signals;
+  const auto events = board_.step({now.time_since_epoch(),
+                                   {signals_.data(), meters_.size()},
+                                   process_active,
+                                   acknowledged,
+                                   stale_});
+  stale_.set();
+  for (std::size_t i = 0; i < board_.size(); ++i) {
+    AlarmStatus& alarm = alarms_[i];
+    if (alarm.alarm.state != board_.alarm(i).state) alarm.since = now;
+    alarm.alarm = board_.alarm(i);
+    alarm.value =
+        signals_[alarm.region].*signals::kSignals[static_cast<std::size_t>(alarm.signal)].member;
+  }
+  return events;
+}
+
+}  // namespace orbwatch::app

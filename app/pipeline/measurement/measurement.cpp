@@ -1,0 +1,160 @@
+#include "app/pipeline/measurement/measurement.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orbwatch::app {
+
+Measurement::Measurement(std::vector<std::unique_ptr<CompiledRecipe>> recipes, ProcessInputs inputs,
+                         RecipeSwitch::Apply apply)
+    : recipes_(std::move(recipes)),
+      inputs_(std::move(inputs)),
+      switch_(0, std::move(apply)),
+      recipe_(recipes_.front().get()),
+      alarm_count_(recipe_->plan().alarms.size()) {}
+
+CommandResult Measurement::resume() {
+  pause_requested_ = false;
+  return CommandResult::Done;
+}
+
+CommandResult Measurement::pause() {
+  pause_requested_ = true;
+  return CommandResult::Done;
+}
+
+CommandResult Measurement::set_process_active(bool active) {
+  commanded_active_ = active;
+  return CommandResult::Done;
+}
+
+CommandResult Measurement::select_recipe(std::size_t number) {
+  for (std::size_t i = 0; i < recipes_.size(); ++i) {
+    if (recipes_[i]->plan().number != number) continue;
+    switch_.request(i);
+    return CommandResult::Done;
+  }
+  return CommandResult::ArgumentOutOfRange;
+}
+
+CommandResult Measurement::trigger() {
+  hal::Clock::rep none = 0;
+  const bool is_first = trigger_.compare_exchange_strong(
+      none, std::max<hal::Clock::rep>(1, hal::Clock::now().time_since_epoch().count()));
+  return is_first ? CommandResult::Done : CommandResult::Busy;
+}
+
+CommandResult Measurement::acknowledge_alarm(std::size_t number) {
+  if (number > alarm_count_) return CommandResult::ArgumentOutOfRange;
+  acknowledged_ |= number == 0 ? ~0U : 1U << (number - 1);
+  return CommandResult::Done;
+}
+
+void Measurement::apply_commands(hal::TimePoint stamp) {
+  paused_ = pause_requested_;
+  selection_ = switch_.selection_at(stamp);
+  if (!selection_) return;
+  CompiledRecipe& selected = *recipes_[selection_->recipe];
+  const bool is_another = &selected != recipe_;
+  if (is_another) change_to(selected);
+  // Also when a refusal set the cameras back to the same recipe.
+  if (std::exchange(changes_, selection_->changes) != selection_->changes || is_another) {
+    to_settle_ = selected.plan().settle_frames;
+  }
+}
+
+void Measurement::change_to(CompiledRecipe& recipe) {
+  previous_ = std::exchange(recipe_, &recipe);
+  recipe.begin();
+  alarm_count_ = recipe.plan().alarms.size();
+}
+
+void Measurement::process(const hal::FrameSet& set, const FramePyramids& pyramids,
+                          WorkerPool& workers) {
+  frame_set_ = set.id;
+  stamp_ = set.stamp;
+  recipe_->render(set, pyramids, workers);
+  const bool is_settling = selection_ && to_settle_ > 0;
+  to_settle_ -= is_settling ? 1 : 0;
+  if (selection_ && !is_settling && !paused_) {
+    recipe_->measure(selection_->set_since);
+  } else {
+    recipe_->skip();
+  }
+  if (is_result(set)) ++results_;
+}
+
+void Measurement::idle(bool blind) {
+  if (blind || paused_) recipe_->skip();
+}
+
+/// Every triggered set is a result, even when nothing could be measured: whoever triggered waits
+/// for it. A commanded trigger applies to a set without one of its own.
+bool Measurement::is_result(const hal::FrameSet& set) {
+  if (set.trigger) return true;
+  const hal::Clock::rep since = trigger_;
+  const bool is_commanded = since != 0 && set.stamp.time_since_epoch().count() >= since;
+  if (is_commanded) trigger_ = 0;
+  return is_commanded;
+}
+
+bool Measurement::process_active() const {
+  if (paused_) return false;
+  switch (recipe_->plan().process_active) {
+    case ActiveSource::Always:
+      return true;
+    case ActiveSource::Input:
+      return inputs_[recipe_->plan().process_input]->state().active;
+    case ActiveSource::Command:
+      return commanded_active_;
+    case ActiveSource::Detected:
+      return recipe_->has_hot_spot();
+  }
+  return false;
+}
+
+void Measurement::watch(hal::TimePoint now, const Notify& notify) {
+  if (frame_set_ == 0) stamp_ = now;
+  suppress_previous(now, notify);
+  active_ = process_active();
+  const signals::AlarmSet acknowledged(acknowledged_.exchange(0));
+  for (const signals::AlarmEvent& event : recipe_->watch(now, active_, acknowledged)) {
+    notify_of(*recipe_, event, notify);
+  }
+}
+
+/// A recipe that was left is watched no longer: without a last notice its alarms would stay raised
+/// in every log of notices.
+void Measurement::suppress_previous(hal::TimePoint now, const Notify& notify) {
+  const CompiledRecipe* previous = std::exchange(previous_, nullptr);
+  if (!previous) return;
+  for (std::size_t i = 0; i < previous->alarms().size(); ++i) {
+    const auto& [alarm, region, signal, value, since] = previous->alarms()[i];
+    if (!is_active(alarm.state) && !awaits_acknowledgement(alarm.state)) continue;
+    notify_of(*previous,
+              {i, signals::AlarmEventKind::Suppressed, signals::AlarmState::SuppressedByDesign,
+               alarm.announced, value, now.time_since_epoch()},
+              notify);
+  }
+}
+
+void Measurement::notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
+                            const Notify& notify) {
+  const AlarmStatus& alarm = recipe.alarms()[event.alarm];
+  notify({++notices_, event, alarm.region, alarm.signal, recipe.plan().number, frame_set_, stamp_});
+}
+
+void Measurement::report(Status& status) const {
+  status.result = results_;
+  status.recipe = recipe_->plan().number;
+  status.recipe_refused = switch_.has_failed();
+  status.process_active = active_;
+  status.region_count = recipe_->regions().size();
+  status.regions.fill({});
+  std::ranges::copy(recipe_->regions(), status.regions.begin());
+  status.alarm_count = recipe_->alarms().size();
+  status.alarms.fill({});
+  std::ranges::copy(recipe_->alarms(), status.alarms.begin());
+}
+
+}  // namespace orbwatch::app

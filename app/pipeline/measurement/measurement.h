@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/model/command.h"
+#include "app/model/status.h"
+#include "app/pipeline/measurement/compiled_recipe.h"
+#include "app/pipeline/measurement/recipe_switch.h"
+#include "hal/lines/process_input.h"
+#include "hal/sync/frame_set.h"
+
+namespace orbwatch::app {
+
+/// Decides what is measured: by which recipe, which frame sets are results, whether the process
+/// runs, which alarms stand.
+/// Thread rule: commands on any thread, stop on the main, all else on the pipeline's.
+class Measurement {
+ public:
+  using ProcessInputs = std::vector<std::shared_ptr<const hal::ProcessInput>>;
+  using Notify = std::function<void(const AlarmNotice&)>;
+
+  /// Starts with the first of `recipes`, at least one. `apply` is null when no recipe sets a
+  /// camera.
+  Measurement(std::vector<std::unique_ptr<CompiledRecipe>> recipes, ProcessInputs inputs,
+              RecipeSwitch::Apply apply);
+
+  // Commands; each returns at once and takes effect with the next apply_commands().
+
+  /// Measures again after pause().
+  CommandResult resume();
+  /// Views go on, nothing is measured.
+  CommandResult pause();
+  /// By its number, for frame sets exposed from now on. ArgumentOutOfRange: no such recipe.
+  CommandResult select_recipe(std::size_t number);
+  /// Makes a result of the next frame set that has no trigger of its own. Busy: one is pending.
+  CommandResult trigger();
+  /// By its number, from 1; 0: all. ArgumentOutOfRange: the recipe has no such alarm.
+  CommandResult acknowledge_alarm(std::size_t number);
+  /// For recipes whose process_active is ActiveSource::Command.
+  CommandResult set_process_active(bool active);
+
+  /// Pause, resume and the recipe take effect here, between two sets, and nowhere else, so that one
+  /// status never mixes two of them. `stamp`: exposure of the next set; without one, now.
+  void apply_commands(hal::TimePoint stamp);
+
+  /// The views of the current recipe.
+  std::span<ViewChannel> views() { return recipe_->views(); }
+
+  /// Renders and measures a set.
+  void process(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
+  /// Replaces process() while no set comes. `blind`: no camera delivers.
+  void idle(bool blind);
+
+  /// Steps the alarms; called after each process() or idle(), and at least ten times a second.
+  void watch(hal::TimePoint now, const Notify& notify);
+
+  /// Fills in the members of `status` that are known here.
+  void report(Status& status) const;
+
+  /// As of the last apply_commands().
+  bool is_paused() const { return paused_; }
+
+  void stop() { switch_.stop(); }
+
+ private:
+  void change_to(CompiledRecipe& recipe);
+  bool is_result(const hal::FrameSet& set);
+  void suppress_previous(hal::TimePoint now, const Notify& notify);
+  void notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
+                 const Notify& notify);
+  bool process_active() const;
+
+  const std::vector<std::unique_ptr<CompiledRecipe>> recipes_;
+  const ProcessInputs inputs_;
+  RecipeSwitch switch_;
+  CompiledRecipe* recipe_;
+  const CompiledRecipe* previous_ = nullptr;  ///< left since the last watch()
+  /// Of the newest set; nullopt: it belongs to no recipe.
+  std::optional<RecipeSwitch::Selection> selection_;
+  std::uint64_t changes_ = 0;  ///< of the cameras, up to the one that was settled for
+  int to_settle_ = 0;          ///< sets that are not measured yet
+  bool paused_ = false;
+  std::uint64_t frame_set_ = 0;
+  hal::TimePoint stamp_{};
+  std::uint64_t results_ = 0;
+  std::uint64_t notices_ = 0;
+  bool active_ = false;
+  std::atomic<bool> pause_requested_{false};
+  std::atomic<bool> commanded_active_{false};
+  std::atomic<std::size_t> alarm_count_;        ///< of the recipe
+  std::atomic<std::uint32_t> acknowledged_{0};  ///< bit n: alarm n, since the last watch()
+  /// When the pending trigger was commanded, of hal::Clock; 0: none is pending.
+  std::atomic<hal::Clock::rep> trigger_{0};
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "hal/clock.h"
+#include "hal/thread/thread.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// Selects recipes while frames run: sets the cameras on a thread of its own, off the frame path,
+/// and assigns each frame set to a recipe by its exposure. What is exposed after a request never
+/// belongs to an earlier recipe. Queue: one request; the newest wins.
+/// Thread rule: request and has_failed on any thread, selection_at on the pipeline's, stop on the
+/// main.
+class RecipeSwitch {
+ public:
+  /// Sets the cameras' controls for a recipe; may wait for them.
+  using Apply = std::function<Result<>(std::size_t recipe)>;
+
+  /// The recipe of a frame set.
+  struct Selection {
+    std::size_t recipe = 0;
+    /// The cameras have its settings in exposures that begin here or later; min() until they are
+    /// set for the first time.
+    hal::TimePoint set_since = hal::TimePoint::min();
+    std::uint64_t changes = 0;  ///< how often cameras were set since the start
+
+    bool operator==(const Selection&) const = default;
+  };
+
+  /// `first` is selected from the start; its settings are applied already. Starts the thread.
+  /// Without `apply` no recipe sets a camera, and each one is selected as soon as it is requested.
+  RecipeSwitch(std::size_t first, Apply apply);
+  ~RecipeSwitch();
+  RecipeSwitch(const RecipeSwitch&) = delete;
+  RecipeSwitch& operator=(const RecipeSwitch&) = delete;
+
+  /// Requests a recipe; does not wait for the cameras.
+  void request(std::size_t recipe);
+
+  /// The recipe of a set exposed at `stamp`. nullopt: it was exposed after a request whose settings
+  /// the cameras do not have yet, or before a selection that was returned already.
+  std::optional<Selection> selection_at(hal::TimePoint stamp);
+
+  /// The cameras refused the newest request's settings and were set back to the previous recipe's.
+  bool has_failed() const;
+
+  /// Ends the thread, after the request under way; repeating it does nothing.
+  void stop();
+
+ private:
+  struct Pending {
+    Selection selection;
+    hal::TimePoint from;
+  };
+
+  void run();
+  void change(std::size_t wanted);
+
+  const Apply apply_;
+  std::size_t set_to_;        ///< what the cameras are set to; the thread's
+  mutable std::mutex mutex_;  ///< never held while cameras are set
+  std::optional<std::size_t> requested_;
+  Selection current_;  ///< returned last
+  hal::TimePoint current_from_ = hal::TimePoint::min();
+  std::optional<hal::TimePoint> changing_;  ///< what is exposed from here on is not `current_`'s
+  std::optional<Pending> pending_;          ///< follows it, once that is known
+  std::uint64_t changes_ = 0;
+  bool failed_ = false;
+  hal::Thread thread_;
+};
+
+}  // namespace orbwatch::app

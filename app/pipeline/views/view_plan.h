@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/camera.h"
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/view_projection.h"
+#include "proc/remap/remap.h"
+
+namespace orbwatch::app {
+
+/// How the sources of a view are merged where several see a pixel.
+enum class Combine {
+  Mix,       ///< blended by weight wherever they see well
+  Sharpest,  ///< blended by weight and resolution: the sharper camera dominates
+  Switch,    ///< the first source that sees it and delivers
+};
+
+/// One camera as a view uses it.
+struct ViewSource {
+  std::size_t camera = 0;  ///< index into FrameSet::frames
+  hal::StreamFormat format;
+  optics::BallProjection ball;
+  double weight = 1;            ///< above 0; in a mixed view, beside its resolution
+  remap::ColourMap colour_map;  ///< for one-channel formats
+};
+
+/// A view, ready to be compiled into a ViewRenderer.
+struct ViewPlan {
+  std::size_t index = 0;
+  std::string name;
+  optics::ViewProjection projection;
+  std::vector<ViewSource> sources;  ///< 1..remap::kMaxSources
+  Combine combine = Combine::Mix;
+  remap::Interpolation interpolation = remap::Interpolation::Area;
+  /// Which of `sources` is measured, raw; nullopt for a display view.
+  std::optional<std::size_t> measured;
+  std::uint64_t pointing = 0;  ///< see View::pointing
+};
+
+}  // namespace orbwatch::app

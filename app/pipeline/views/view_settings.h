@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/pictures/colour_maps.h"
+#include "app/pipeline/views/view_plan.h"
+#include "proc/image/picture.h"
+#include "proc/optics/view_projection.h"
+#include "proc/remap/remap.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// One camera of a view.
+struct SourceSettings {
+  Reference camera;
+  double weight = 1;
+  std::string colour_map = "grey";
+  std::optional<std::array<double, 2>> range;  ///< first and last colour; nullopt: 0 to 100
+};
+
+/// A view as files state it: degrees, and names of cameras.
+struct ViewSettings {
+  std::string name;
+  std::size_t index = 0;  ///< among all views, once all files are loaded
+  optics::ViewKind kind = optics::ViewKind::Perspective;
+  double yaw = 0;
+  double pitch = 0;
+  double roll = 0;
+  std::optional<double> h_fov;
+  std::optional<double> v_fov;
+  int width = 0;
+  int height = 0;
+  Combine combine = Combine::Mix;
+  remap::Interpolation interpolation = remap::Interpolation::Area;
+  PixelFormat encoding = PixelFormat::Rgb;
+  std::vector<Located<SourceSettings>> sources;
+
+  optics::ViewSpec spec() const { return {kind, {yaw, pitch, roll}, h_fov, v_fov, width, height}; }
+};
+
+/// A view that a recipe measures in; it cannot be pointed.
+struct MeasuredViewSettings : ViewSettings {
+  Reference measured;  ///< one of its sources, by the camera's name
+};
+
+inline constexpr std::array kViewKinds{Word{"perspective", optics::ViewKind::Perspective},
+                                       Word{"equirectangular", optics::ViewKind::Equirectangular},
+                                       Word{"cylindrical", optics::ViewKind::Cylindrical},
+                                       Word{"stereographic", optics::ViewKind::Stereographic},
+                                       Word{"fisheye", optics::ViewKind::Fisheye},
+                                       Word{"ball", optics::ViewKind::Ball}};
+inline constexpr std::array kCombines{Word{"mix", Combine::Mix},
+                                      Word{"sharpest", Combine::Sharpest},
+                                      Word{"switch", Combine::Switch}};
+/// By their names in ROS 2.
+inline constexpr std::array kEncodings{Word{"rgb8", PixelFormat::Rgb},
+                                       Word{"bgr8", PixelFormat::Bgr},
+                                       Word{"mono8", PixelFormat::Grey}};
+inline constexpr Range kSide = Range::between(1, kMaxSide);
+
+template <class Visitor>
+void visit(Visitor& v, SourceSettings& source) {
+  v.required("camera", source.camera, "Name of the camera");
+  v.optional("weight", source.weight, Range::above(0, 1000),
+             "Its share where other cameras see too; sharpest multiplies it by (pixels per "
+             "degree)^4");
+  v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
+  v.optional("range", source.range, kAnyNumber,
+             "First and last colour: degC for a radiometric camera, else percent of full scale");
+  v.require(!source.range || (*source.range)[0] < (*source.range)[1], "range",
+            "the first number must be below the second");
+}
+
+template <class Visitor>
+void visit(Visitor& v, ViewSettings& view) {
+  v.required("name", view.name, "Part of its DDS topic: letters, digits and _");
+  v.optional("kind", view.kind, kViewKinds,
+             "Projection; ball is the first camera's own picture of it, which takes no angle");
+  v.optional("yaw", view.yaw, kAnyNumber, "deg, from +Y towards +X");
+  v.optional("pitch", view.pitch, kAnyNumber, "deg, up positive");
+  v.optional("roll", view.roll, kAnyNumber, "deg, the right side dips");
+  v.optional("h_fov", view.h_fov, Range::above(0, 360),
+             "deg, edge to edge; else 90 perspective (below 180), 180 stereographic and fisheye, "
+             "360 the others");
+  v.optional("v_fov", view.v_fov, Range::above(0, 360),
+             "deg; else 180 equirectangular, from square pixels the others");
+  v.required("width", view.width, kSide, "px");
+  v.required("height", view.height, kSide, "px");
+  v.optional("combine", view.combine, kCombines,
+             "mix: cameras by weight; sharpest: by resolution; switch: the first listed that sees "
+             "and delivers. A camera fills what others do not see, and fades out where it sees "
+             "badly unless it is switched");
+  v.optional("interpolation", view.interpolation, remap::kInterpolations,
+             "Between source pixels; area averages where the view is smaller than the picture");
+  v.optional("encoding", view.encoding, kEncodings, "Of its raw pictures over DDS");
+  v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
+}
+
+template <class Visitor>
+void visit(Visitor& v, MeasuredViewSettings& view) {
+  visit(v, static_cast<ViewSettings&>(view));
+  v.required("measured", view.measured, "Which of its cameras is measured");
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "app/model/command.h"
+#include "app/ports/dds/generated/command.h"
+
+namespace orbwatch::app {
+
+using CommandMessage = orbwatch_msgs_msg_dds__Command_;
+using CommandResultMessage = orbwatch_msgs_msg_dds__CommandResult_;
+
+/// Identifies a request.
+struct RequestId {
+  std::uint64_t client = 0;
+  std::uint64_t number = 0;
+
+  bool operator==(const RequestId&) const = default;
+};
+
+/// A request as received, cut to the longest that any command could need.
+struct CommandRequest {
+  RequestId id;
+  std::string name;
+  std::array<double, kMaxArguments> arguments{};
+  std::size_t argument_count = 0;  ///< as sent
+};
+
+/// The answer to a request.
+struct CommandAnswer {
+  CommandResult result = CommandResult::Done;
+  std::string text;  ///< one line
+
+  bool operator==(const CommandAnswer&) const = default;
+};
+
+/// Copies a message from the network, no more of it than any command could need.
+CommandRequest request_of(const CommandMessage& message);
+
+/// Carries a request out by `handler` on this thread, or refuses it: a number of the id is 0, the
+/// command is unknown, its arguments are not allowed. The answer does not quote the sender.
+CommandAnswer carry_out(const CommandRequest& request, const CommandHandler& handler);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/ports/dds/commands/command_request.h"
+
+namespace orbwatch::app {
+
+/// The newest answer to each client, so that no request is carried out twice: networks repeat
+/// samples, and clients repeat requests whose answers they missed. Of bounded size. Thread-bound.
+class RequestLedger {
+ public:
+  /// At most `clients` are kept; the one that has been silent longest is evicted first.
+  explicit RequestLedger(std::size_t clients) : capacity_(clients) {}
+
+  enum class Verdict {
+    New,    ///< newer than all of its client before
+    Again,  ///< its client's newest, already answered
+    Late    ///< older than its client's newest
+  };
+  Verdict judge(const RequestId& id) const;
+
+  /// The answer to a request that is judged Again.
+  const CommandAnswer& answer(const RequestId& id) const;
+
+  /// Keeps the answer to a request that is judged New.
+  void record(const RequestId& id, CommandAnswer answer);
+
+ private:
+  struct Entry {
+    RequestId newest;
+    CommandAnswer answer;
+  };
+  std::vector<Entry>::const_iterator find(std::uint64_t client) const;
+
+  std::size_t capacity_;
+  std::vector<Entry> entries_;  ///< by the time of the last new request, oldest first
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/model/sink.h"
+#include "app/pictures/jpeg_quality.h"
+#include "app/ports/dds/ros/ros_node.h"
+#include "app/ports/dds/security/participant_security.h"
+#include "proc/image/pixel_format.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// Where and how to publish.
+struct DdsSettings {
+  static constexpr std::string_view kName = "dds", kText = "Towards the machine controller";
+
+  bool enabled = true;
+  int domain = 0;                   ///< DDS domain, ROS_DOMAIN_ID of ROS 2; 0 to 230
+  std::string prefix = "orbwatch";  ///< topics are rt/<prefix>/...
+  bool commands = true;             ///< accept commands
+  std::optional<SecuritySettings>
+      security{};  ///< none: every participant of the domain is admitted
+  JpegSettings jpeg{};
+  /// Cyclone DDS' settings of the network, its interfaces and peers; empty: what CYCLONEDDS_URI
+  /// says.
+  std::filesystem::path profile{};
+  RosGeneration ros = RosGeneration::Iron;
+  /// By name; what is not in them is published as a default one.
+  std::map<std::string, PublishedView> views{};
+  std::map<std::string, PixelFormat> cameras{};  ///< encoding: Rgb, Bgr or Grey
+};
+
+inline constexpr std::array kRosGenerations{Word{"humble", RosGeneration::Humble},
+                                            Word{"iron", RosGeneration::Iron}};
+
+template <class Visitor>
+void visit(Visitor& v, SecuritySettings& security) {
+  v.required("folder", security.folder,
+             "Certificate, key and permissions, as made by `orbwatch dds-keys`");
+}
+
+template <class Visitor>
+void visit(Visitor& v, DdsSettings& dds) {
+  v.optional("enabled", dds.enabled, "Publish views and process state over DDS");
+  v.optional("domain", dds.domain, Range::between(0, 230), "ROS_DOMAIN_ID of ROS 2");
+  v.optional("prefix", dds.prefix, "Topics are rt/<prefix>/...");
+  v.optional("profile", dds.profile,
+             "Settings of the network for Cyclone DDS, as in platform/dds; else those that "
+             "CYCLONEDDS_URI names");
+  v.optional("ros", dds.ros, kRosGenerations,
+             "How the node orbwatch is announced in ROS 2's graph: iron for Iron and later");
+  v.optional("commands", dds.commands, "Accept commands over DDS, too");
+  v.table("security", dds.security,
+          "Authentication, access control and encryption: only holders of keys read and command");
+  v.table("jpeg", dds.jpeg, "Of the compressed topics");
+}
+
+std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,266 @@
+#include "app/ports/dds/dds_sink.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "app/log.h"
+#include "app/ports/dds/participant/dds_log.h"
+#include "app/ports/dds/topics/topic_names.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// Between two checks of the host's addresses.
+constexpr auto kCheckPeriod = std::chrono::seconds(1);
+
+PixelFormat encoding(const DdsSettings& settings, const std::string& camera) {
+  const auto found = settings.cameras.find(camera);
+  return found == settings.cameras.end() ? PixelFormat::Rgb : found->second;
+}
+
+}  // namespace
+
+DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera)
+    : name(camera),
+      ball(ball_topic(settings.prefix, camera), encoding(settings, camera), settings.jpeg) {}
+
+DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
+                 Addresses addresses)
+    : settings_(std::move(settings)),
+      names_(std::move(names)),
+      addresses_(std::move(addresses)),
+      selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg),
+      status_topics_(settings_.prefix, names_),
+      takes_commands_(settings_.commands && handler),
+      commands_(settings_.prefix, std::move(handler)) {
+  for (const auto& name : names_.views) {
+    views_.push_back(std::make_unique<ViewTopics>(settings_, name));
+  }
+  for (const auto& name : names_.cameras) {
+    cameras_.push_back(std::make_unique<CameraTopics>(settings_, name));
+  }
+}
+
+DdsSink::~DdsSink() { stop(); }
+
+Result<> DdsSink::start() {
+  if (!settings_.enabled || thread_.is_running()) return {};
+  limit_dds_log();
+  if (const auto checked = check(); !checked) return checked;
+  next_check_ = {};
+  next_try_ = {};
+  tried_addresses_.clear();
+  back_off_.reset();
+  running_ = true;
+  keep_joined();
+  thread_.start("dds", [this] { run(); });
+  return {};
+}
+
+void DdsSink::stop() {
+  running_ = false;
+  thread_.stop();
+  leave();
+  status_.discard();
+  while (notices_.try_take()) {
+  }
+}
+
+Result<> DdsSink::check() const {
+  if (const auto checked = check_domain(settings_.domain); !checked) return checked;
+  if (const auto checked = check_profile(settings_.profile); !checked) return checked;
+  if (settings_.security) {
+    const auto secured = security_qos(*settings_.security, settings_.domain);
+    if (!secured) return tl::unexpected(secured.error());
+  }
+  if (const auto checked = check_topic_path(settings_.prefix, "prefix"); !checked) return checked;
+  for (auto name = names_.views.begin(); name != names_.views.end(); ++name) {
+    if (const auto checked = check_topic_part(*name, "view name"); !checked) return checked;
+    if (*name == kSelectedView || std::find(names_.views.begin(), name, *name) != name) {
+      return fail("DDS: view name \"" + *name + "\" is taken, each needs one of its own");
+    }
+  }
+  for (const auto& name : names_.cameras) {
+    if (const auto checked = check_topic_part(name, "camera name"); !checked) return checked;
+  }
+  return {};
+}
+
+Result<> DdsSink::join() {
+  auto participant = Participant::join(settings_.domain, settings_.security, kParticipantUserData,
+                                       settings_.profile);
+  if (!participant) return tl::unexpected(participant.error());
+  participant_ = std::move(*participant);
+  const Entity& entity = participant_.entity();
+  for (const auto& view : views_) {
+    if (const auto opened = view->open(entity); !opened) return opened;
+  }
+  for (const auto& camera : cameras_) {
+    if (const auto opened = camera->ball.open(entity); !opened) return opened;
+  }
+  return selected_.open(entity)
+      .and_then([&] { return status_topics_.open(entity); })
+      .and_then([&] { return takes_commands_ ? commands_.open(entity) : Result<>(); })
+      .and_then([&] { return discovery_.open(entity, settings_.ros); })
+      .and_then([&] { return announce_node(); })
+      .and_then([&] { return watch_types(); });
+}
+
+std::vector<const TopicWriter*> DdsSink::writers() const {
+  std::vector<const TopicWriter*> all;
+  const auto add = [&all](const std::vector<const TopicWriter*>& writers) {
+    all.insert(all.end(), writers.begin(), writers.end());
+  };
+  for (const auto& view : views_) add(view->writers());
+  for (const auto& camera : cameras_) add(camera->ball.writers());
+  add(selected_.writers());
+  add(status_topics_.writers());
+  if (takes_commands_) add({&commands_.results()});
+  return all;
+}
+
+Result<> DdsSink::announce_node() {
+  std::vector<dds_entity_t> handles, readers;
+  for (const TopicWriter* writer : writers()) handles.push_back(writer->get());
+  if (takes_commands_) readers.push_back(commands_.requests().get());
+  return discovery_.announce(handles, readers);
+}
+
+Result<> DdsSink::watch_types() {
+  std::map<std::string, std::string> types;
+  for (const TopicWriter* writer : writers()) types[writer->name()] = writer->type_name();
+  if (takes_commands_) types[commands_.requests().name()] = commands_.requests().type_name();
+  return type_watch_.open(participant_.entity(), std::move(types));
+}
+
+void DdsSink::leave() {
+  joined_ = false;
+  type_watch_.close();
+  discovery_.close();
+  commands_.close();
+  for (const auto& view : views_) view->close();
+  for (const auto& camera : cameras_) camera->ball.close();
+  selected_.close();
+  status_topics_.close();
+  participant_.leave();
+}
+
+/// Cyclone DDS binds to the addresses that the host has when it joins; it ignores later ones.
+void DdsSink::keep_joined() {
+  const auto now = hal::Clock::now();
+  if (now < next_check_) return;
+  next_check_ = now + kCheckPeriod;
+  mistyped_ = type_watch_.update();
+  const auto addresses = addresses_();
+  const bool changed = addresses && *addresses != tried_addresses_;
+  if (joined_ ? !changed : !changed && now < next_try_) return;
+  if (joined_) {
+    log_line(LogLevel::Warning, "DDS: the host's addresses changed, joins the domain again");
+    leave();
+  }
+  if (changed) {
+    back_off_.reset();
+    tried_addresses_ = *addresses;
+  }
+  if (const auto joined = join(); !joined) {
+    leave();
+    next_try_ = now + back_off_.next();
+    const std::string& refusal = joined.error().message;
+    if (refusal != refusal_) log_line(LogLevel::Warning, refusal + "; tries again");
+    refusal_ = refusal;
+    return;
+  }
+  if (!std::exchange(refusal_, {}).empty()) log_line(LogLevel::Info, "DDS: joined the domain");
+  joined_ = true;
+  ++joins_;
+}
+
+const TimeMessage& DdsSink::utc(hal::TimePoint stamp) {
+  if (stamp != stamp_) {
+    stamp_ = stamp;
+    utc_ = to_message(hal::to_utc(stamp));
+  }
+  return utc_;
+}
+
+void DdsSink::accept_frames(const hal::FrameSet& set) {
+  if (!running_) return;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const hal::Frame& frame = set.frames[i];
+    if (!frame || set.held[i]) continue;
+    CameraTopics& camera = *cameras_[i];
+    camera.ball.accept({frame, frame->picture, utc(set.stamp), &camera.name});
+  }
+}
+
+void DdsSink::accept(const ViewPtr& view) {
+  if (!running_) return;
+  if (view->index >= views_.size()) {
+    ++unknown_views_;
+    return;
+  }
+  ViewTopics& topics = *views_[view->index];
+  const StampedPicture picture{view, picture_of(PixelFormat::Rgb, view->colour), utc(view->stamp),
+                               &topics.name()};
+  topics.accept(view, picture);
+  if (view->index == selected_view_) selected_.accept(picture);
+}
+
+void DdsSink::accept(const Status& status) {
+  if (!running_) return;
+  selected_view_ = status.selected_view;
+  status_.put({status, status.frame_set == 0 ? TimeMessage{} : utc(status.stamp)});
+  thread_.wake();
+}
+
+void DdsSink::accept_event(const AlarmNotice& notice) {
+  if (!running_) return;
+  notices_.put({notice, utc(notice.stamp)});
+  thread_.wake();
+}
+
+void DdsSink::run() {
+  while (thread_.wait()) {
+    keep_joined();
+    if (!joined_) continue;
+    while (const auto notice = notices_.try_take()) status_topics_.publish(*notice);
+    for (const auto& view : views_) view->publish_info();
+    if (const auto status = status_.try_take()) {
+      status_topics_.publish(*status, commands_.counts(), [this] { return statistics(); });
+    }
+  }
+}
+
+DdsStatistics DdsSink::statistics() const {
+  DdsStatistics statistics;
+  for (const auto& view : views_) view->report(statistics.topics);
+  for (const auto& camera : cameras_) camera->ball.report(statistics.topics);
+  selected_.report(statistics.topics);
+  for (const TopicWriter* topic : status_topics_.writers()) {
+    statistics.topics.push_back(topic->statistics());
+  }
+  statistics.topics.push_back(commands_.results().statistics());
+  statistics.joins = joins_;
+  statistics.dropped_states = status_.drops();
+  statistics.dropped_events = notices_.drops();
+  statistics.commands = commands_.counts();
+  statistics.unknown_views = unknown_views_;
+  statistics.mistyped = mistyped_;
+  statistics.malformed = malformed_samples();
+  return statistics;
+}
+
+std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context) {
+  if (!settings.enabled) return nullptr;
+  const StatusNames& names = context.names;
+  for (std::size_t i = 0; i < names.views.size(); ++i) {
+    settings.views[names.views[i]] = context.views[i];
+  }
+  for (std::size_t i = 0; i < names.cameras.size(); ++i) {
+    settings.cameras[names.cameras[i]] = context.camera_encodings[i];
+  }
+  return std::make_unique<DdsSink>(std::move(settings), names, context.handler);
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,82 @@
+#include "app/ports/dds/participant/entity.h"
+
+#include <mutex>
+
+namespace orbwatch::app {
+
+namespace {
+
+Result<Entity> checked(std::string_view what, dds_entity_t handle) {
+  if (handle < 0) return tl::unexpected(dds_error(what, handle));
+  return Entity(handle);
+}
+
+Qos newest_reliably(std::int32_t depth = 1) {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE,
+                       std::chrono::nanoseconds(kMaxBlockingTime).count());
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  return qos;
+}
+
+}  // namespace
+
+Error dds_error(std::string_view what, dds_return_t code) {
+  return {"DDS " + std::string(what) + ": " + dds_strretcode(code)};
+}
+
+void Entity::reset() {
+  // Fails only when the parent was deleted before, and this entity with it.
+  if (handle_ > 0) dds_delete(handle_);
+  handle_ = 0;
+}
+
+Qos frame_qos() {
+  Qos qos = newest_reliably();
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+Qos state_qos() {
+  Qos qos = newest_reliably();
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  return qos;
+}
+
+Qos event_qos() {
+  Qos qos = newest_reliably(kEventDepth);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  // The history for late joiners has a depth of its own, 1 by default.
+  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kEventDepth,
+                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  return qos;
+}
+
+Qos command_qos() {
+  Qos qos = newest_reliably(kCommandDepth);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+void show_order_of_calls() {
+  static std::mutex mutex;
+  const std::lock_guard passes_the_order_on(mutex);
+}
+
+Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
+                          const std::string& name) {
+  return checked("topic " + name,
+                 dds_create_topic(participant.get(), &type, name.c_str(), nullptr, nullptr));
+}
+
+Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener) {
+  return checked("writer", dds_create_writer(participant.get(), topic.get(), qos.get(), listener));
+}
+
+Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener) {
+  return checked("reader", dds_create_reader(participant.get(), topic.get(), qos.get(), listener));
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The error of a DDS call that returned `code`: "DDS <what>: <reason>".
+Error dds_error(std::string_view what, dds_return_t code);
+
+/// Owns one handle of the DDS C API. Thread-safe as far as the handle's own calls are.
+class Entity {
+ public:
+  Entity() = default;
+  explicit Entity(dds_entity_t handle) : handle_(handle) {}
+  Entity(Entity&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
+  Entity& operator=(Entity&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Entity() { reset(); }
+
+  /// Deletes the entity with everything that was created from it.
+  void reset();
+  dds_entity_t get() const { return handle_; }
+  explicit operator bool() const { return handle_ > 0; }
+
+ private:
+  dds_entity_t handle_ = 0;
+};
+
+struct QosDeleter {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+
+struct ListenerDeleter {
+  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
+};
+using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
+
+/// For pictures: reliable, the newest only, nothing for late joiners; a write waits for slow
+/// readers at most `kMaxBlockingTime`.
+Qos frame_qos();
+/// For the process state: as for pictures, but a late joiner gets the newest state.
+Qos state_qos();
+/// For events: reliable; a late joiner gets the last kEventDepth.
+Qos event_qos();
+inline constexpr std::int32_t kEventDepth = 64;
+/// For commands and their results: reliable, nothing for late joiners.
+Qos command_qos();
+inline constexpr std::int32_t kCommandDepth = 16;
+inline constexpr std::chrono::milliseconds kMaxBlockingTime{100};
+
+/// Shows a race detector that Cyclone DDS calls a listener after it was made and before it ends:
+/// Cyclone orders that by atomics of its own, which are invisible to the detector. Called before a
+/// listener is passed on, at begin and end of each call, and after the entity is gone.
+/// Thread-safe.
+void show_order_of_calls();
+
+Result<Entity> make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
+                          const std::string& name);
+/// `listener`, if there is one, is copied; it may be called before this returns.
+Result<Entity> make_writer(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener = nullptr);
+Result<Entity> make_reader(const Entity& participant, const Entity& topic, const Qos& qos,
+                           const dds_listener_t* listener = nullptr);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,128 @@
+#include "app/ports/dds/participant/participant.h"
+
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace orbwatch::app {
+
+namespace {
+
+/// The highest domain whose ports lie below 65536 (DDSI-RTPS 2.5, 9.6.2.3: 7400 + 250 per domain),
+/// with room for participants.
+constexpr int kMaxDomain = 230;
+
+/// SocketReceiveBufferSize: a picture arrives faster than it is read, and fragments beyond the
+/// socket's buffer are lost; the system grants net.core.rmem_max at most. MultipleReceiveThreads:
+/// to stop a thread with a socket of its own Cyclone DDS sends a packet to its own address, and
+/// hangs when that is gone. MaxSampleSize: without it one foreign sample could fill the memory.
+const std::string kDefaults =
+    "<CycloneDDS><Domain><Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
+    "<MaxSampleSize>" +
+    std::to_string(kMaxSampleBytes) +
+    "B</MaxSampleSize><SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>"
+    "</Internal></Domain></CycloneDDS>";
+
+struct OwnDomain {
+  Entity entity;
+  int users = 0;
+};
+/// Also held while domains are created and deleted: Cyclone DDS refuses to create an existing one.
+std::mutex domains_mutex;
+std::map<int, OwnDomain> domains;  // by number
+
+/// One user of a domain of ours; the last one ends it.
+class DomainUse {
+ public:
+  /// The caller holds the mutex.
+  explicit DomainUse(int number) : number_(number) { ++domains[number].users; }
+  ~DomainUse() {
+    const std::lock_guard lock(domains_mutex);
+    if (--domains[number_].users == 0) domains.erase(number_);
+  }
+  DomainUse(const DomainUse&) = delete;
+  DomainUse& operator=(const DomainUse&) = delete;
+
+ private:
+  const int number_;
+};
+
+std::string configuration(const std::filesystem::path& profile) {
+  // Later elements override earlier ones.
+  if (!profile.empty()) return kDefaults + ",file://" + profile.string();
+  const char* uri = std::getenv("CYCLONEDDS_URI");
+  return uri == nullptr ? kDefaults : kDefaults + "," + uri;
+}
+
+Error cannot_join(int domain, dds_return_t code) {
+  return {dds_error("domain " + std::to_string(domain), code).message +
+          "; is a network interface up, and the profile or CYCLONEDDS_URI, if set, valid?"};
+}
+
+/// A refusal by Cyclone's plugins, which log the reason.
+Error refused_by_plugins(int domain, const SecuritySettings& security) {
+  return {
+      dds_error("domain " + std::to_string(domain), DDS_RETCODE_NOT_ALLOWED_BY_SECURITY).message +
+      "; do the documents in " + security.folder.string() + " follow DDS Security 1.1?"};
+}
+
+/// Creates the domain unless it exists; empty when other code of the process created it.
+Result<std::shared_ptr<const void>> use_domain(int number, const std::filesystem::path& profile) {
+  const std::lock_guard lock(domains_mutex);
+  if (!domains.contains(number)) {
+    const auto handle =
+        dds_create_domain(static_cast<dds_domainid_t>(number), configuration(profile).c_str());
+    if (handle == DDS_RETCODE_PRECONDITION_NOT_MET) return nullptr;
+    if (handle < 0) return tl::unexpected(cannot_join(number, handle));
+    domains[number].entity = Entity(handle);
+  }
+  return std::make_shared<const DomainUse>(number);
+}
+
+}  // namespace
+
+Result<> check_domain(int domain) {
+  if (domain >= 0 && domain <= kMaxDomain) return {};
+  return fail("DDS domain " + std::to_string(domain) + ": out of range, 0 to " +
+              std::to_string(kMaxDomain));
+}
+
+Result<> check_profile(const std::filesystem::path& profile) {
+  if (profile.string().find(',') != std::string::npos) {
+    return fail("DDS profile " + profile.string() +
+                ": has a comma in its path, which Cyclone DDS takes for the end; rename it");
+  }
+  std::error_code ignored;  // an inaccessible file is none
+  if (profile.empty() || std::filesystem::is_regular_file(profile, ignored)) return {};
+  return fail("DDS profile " + profile.string() + ": no such file");
+}
+
+Result<Participant> Participant::join(int domain, const std::optional<SecuritySettings>& security,
+                                      std::string_view user_data,
+                                      const std::filesystem::path& profile) {
+  if (const auto checked = check_domain(domain); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = check_profile(profile); !checked) return tl::unexpected(checked.error());
+  auto qos = security ? security_qos(*security, domain) : Qos(dds_create_qos());
+  if (!qos) return tl::unexpected(qos.error());
+  if (!user_data.empty()) dds_qset_userdata(qos->get(), user_data.data(), user_data.size());
+  auto used = use_domain(domain, profile);
+  if (!used) return tl::unexpected(used.error());
+  Participant participant;
+  participant.domain_ = std::move(*used);
+  const auto handle =
+      dds_create_participant(static_cast<dds_domainid_t>(domain), qos->get(), nullptr);
+  if (handle == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {
+    return tl::unexpected(refused_by_plugins(domain, *security));
+  }
+  if (handle < 0) return tl::unexpected(cannot_join(domain, handle));
+  participant.entity_ = Entity(handle);
+  return participant;
+}
+
+void Participant::leave() {
+  entity_.reset();
+  domain_.reset();
+}
+
+}  // namespace orbwatch::app

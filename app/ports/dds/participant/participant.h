@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "app/ports/dds/participant/entity.h"
+#include "app/ports/dds/security/participant_security.h"
+
+namespace orbwatch::app {
+
+/// The largest sample sent or received, serialised: a picture of 8192x5000 in rgb8. Larger ones are
+/// dropped; a profile may override it.
+inline constexpr std::size_t kMaxSampleBytes = std::size_t{128} << 20;
+
+/// A DDS domain is 0 to 230.
+Result<> check_domain(int domain);
+/// A profile is an existing file whose path can be passed to Cyclone DDS, or empty: none.
+Result<> check_profile(const std::filesystem::path& profile);
+
+/// One participant of a DDS domain. Participants of the same domain share its sockets, threads and
+/// configuration in this process. The last to leave closes them, so that joining again starts
+/// afresh, with other network interfaces for example. Thread-bound; join and leave of different
+/// participants may run at the same time.
+class Participant {
+ public:
+  Participant() = default;
+  Participant(Participant&&) noexcept = default;
+  Participant& operator=(Participant&& other) noexcept {
+    std::swap(domain_, other.domain_);
+    std::swap(entity_, other.entity_);
+    return *this;
+  }
+
+  /// Joins a domain with the settings of the file `profile`, or of CYCLONEDDS_URI without one; by
+  /// default with receive buffers that hold pictures. The first participant of the process in a
+  /// domain determines the settings of all. With `security` it communicates with authenticated
+  /// participants only; a process may have no second one of those in a domain: it would get the
+  /// rights of the first, and Cyclone DDS 0.10 leaks memory with both. `user_data` is announced to
+  /// others. Errors: as check_domain() and security_qos(), no usable network interface, invalid
+  /// CYCLONEDDS_URI or profile, no such file.
+  static Result<Participant> join(int domain,
+                                  const std::optional<SecuritySettings>& security = std::nullopt,
+                                  std::string_view user_data = {},
+                                  const std::filesystem::path& profile = {});
+  void leave();
+
+  const Entity& entity() const { return entity_; }
+
+ private:
+  std::shared_ptr<const void> domain_;  ///< empty when other code created the domain
+  Entity entity_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "hal/clock.h"
+
+namespace orbwatch::app {
+
+/// Admits a number of events per period and counts the rest. Thread-bound.
+class RateLimit {
+ public:
+  RateLimit(int limit, hal::Clock::duration period) : limit_(limit), period_(period) {}
+
+  /// When one more is admitted at `now`, the number withheld since the one admitted before; else
+  /// nullopt.
+  std::optional<std::uint64_t> admit(hal::TimePoint now) {
+    if (!start_ || now - *start_ >= period_) {
+      start_ = now;
+      used_ = 0;
+    }
+    if (used_ >= limit_) {
+      ++withheld_;
+      return std::nullopt;
+    }
+    ++used_;
+    return std::exchange(withheld_, 0);
+  }
+
+ private:
+  int limit_;
+  hal::Clock::duration period_;
+  int used_ = 0;
+  std::uint64_t withheld_ = 0;
+  std::optional<hal::TimePoint> start_;  ///< of the current period
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "app/ports/dds/generated/time.h"
+
+namespace orbwatch::app {
+
+/// UTC since 1970-01-01, as ROS 2 sends it.
+using TimeMessage = builtin_interfaces_msg_dds__Time_;
+
+/// The message of a moment between 1901 and 2038.
+inline TimeMessage to_message(std::chrono::system_clock::time_point utc) {
+  const auto second = std::chrono::floor<std::chrono::seconds>(utc);
+  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(utc - second);
+  return {static_cast<std::int32_t>(second.time_since_epoch().count()),
+          static_cast<std::uint32_t>(rest.count())};
+}
+
+/// Time since 1970-01-01; any message has one.
+inline std::chrono::nanoseconds since_epoch(const TimeMessage& message) {
+  return std::chrono::seconds(message.sec) + std::chrono::nanoseconds(message.nanosec);
+}
+
+/// The moment of any message.
+inline std::chrono::system_clock::time_point to_utc(const TimeMessage& message) {
+  return std::chrono::system_clock::time_point(since_epoch(message));
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/pictures/jpeg_encoder.h"
+#include "app/pictures/jpeg_quality.h"
+#include "app/ports/dds/participant/time_message.h"
+#include "app/ports/dds/pictures/image_message.h"
+#include "app/ports/dds/topics/topic_writer.h"
+#include "proc/image/picture.h"
+
+namespace orbwatch::app {
+
+/// A picture on its way from the pipeline to topics.
+struct StampedPicture {
+  std::shared_ptr<const void> owner;  ///< of the pixels: a view or a camera's frame
+  Picture picture;
+  TimeMessage stamp{};                    ///< UTC of the exposure's start
+  const std::string* frame_id = nullptr;  ///< outlives the topics
+};
+
+/// Turns pictures into samples of a topic. Thread-bound; reuses its memory.
+class PictureWriter {
+ public:
+  virtual ~PictureWriter() = default;
+  virtual const dds_topic_descriptor_t& type() const = 0;
+  virtual std::string_view thread_name() const = 0;
+  /// Writes one sample, or counts a failure. A converted picture is released before the write,
+  /// which may block: cameras have few buffers.
+  virtual void write(StampedPicture picture, TopicWriter& topic) = 0;
+};
+
+/// sensor_msgs/Image in one encoding; luminance of more than 8 bit is sent as mono16 whatever the
+/// encoding. Pixels of that encoding without padding are passed to DDS in place.
+class RawPictureWriter final : public PictureWriter {
+ public:
+  /// `encoding` is Rgb, Bgr or Grey.
+  explicit RawPictureWriter(PixelFormat encoding) : encoding_(encoding) {}
+
+  const dds_topic_descriptor_t& type() const override;
+  std::string_view thread_name() const override { return "dds raw"; }
+  void write(StampedPicture picture, TopicWriter& topic) override;
+
+ private:
+  PixelFormat encoding_;
+  std::vector<std::byte> converted_;
+};
+
+/// sensor_msgs/CompressedImage as JPEG.
+class JpegPictureWriter final : public PictureWriter {
+ public:
+  explicit JpegPictureWriter(const JpegSettings& settings) : quality_(settings) {}
+
+  const dds_topic_descriptor_t& type() const override;
+  std::string_view thread_name() const override { return "dds jpeg"; }
+  void write(StampedPicture picture, TopicWriter& topic) override;
+
+ private:
+  JpegQuality quality_;
+  JpegEncoder encoder_;
+};
+
+}  // namespace orbwatch::app

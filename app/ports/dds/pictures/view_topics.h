@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/model/view.h"
+#include "app/ports/dds/dds_settings.h"
+#include "app/ports/dds/pictures/picture_topic.h"
+#include "hal/thread/mailbox.h"
+
+namespace orbwatch::app {
+
+/// The topics of one view: its picture for people, its measured plane, and the calibration of a
+/// perspective view.
+/// Thread rule: accept by one thread; publish_info, open and close by one owner; report by any.
+class ViewTopics {
+ public:
+  ViewTopics(const DdsSettings& settings, const std::string& view);
+
+  Result<> open(const Entity& participant);
+  void close();
+
+  /// Queues what has readers; returns at once. `picture` is the view's picture for people.
+  void accept(const ViewPtr& view, const StampedPicture& picture);
+  /// Writes the calibration of the newest view, if it has a reader.
+  void publish_info();
+
+  const std::string& name() const { return name_; }
+  std::vector<const TopicWriter*> writers() const;
+  void report(std::vector<TopicStatistics>& topics) const;
+
+ private:
+  struct StampedSpec {
+    optics::ViewSpec spec;
+    TimeMessage stamp;
+  };
+
+  std::string name_;
+  PictureTopics picture_;
+  std::optional<PictureTopic> measured_;
+  std::optional<TopicWriter> info_;
+  hal::Mailbox<StampedSpec> spec_;
+};
+
+}  // namespace orbwatch::app

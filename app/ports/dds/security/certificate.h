@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "app/ports/dds/security/openssl_handle.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// UTC.
+struct Validity {
+  std::chrono::sys_seconds from{};
+  std::chrono::sys_seconds until{};
+};
+
+/// A key with its certificate.
+struct Credential {
+  Key key;
+  Certificate certificate;
+};
+
+/// The use of the key of a certificate.
+enum class CertificateUse {
+  IssueIdentities,  ///< signs certificates, itself included
+  SignDocuments,    ///< signs governance and permissions, and its own certificate
+  Authenticate      ///< authenticates a participant; its signature on anything else is void
+};
+
+/// A new P-256 key with a certificate of subject CN=`name`, signed by `issuer`, or by itself when
+/// there is none. Error: OpenSSL refuses, out of entropy for example. Reentrant, as all of these.
+Result<Credential> make_credential(const std::string& name, CertificateUse use,
+                                   const Validity& validity, const Credential* issuer = nullptr);
+
+/// PEM, the key as PKCS #8 without a password.
+Result<std::string> to_pem(const Certificate& certificate);
+Result<std::string> to_pem(const Key& key);
+/// The first one of a PEM text. Error: there is none.
+Result<Certificate> certificate_from_pem(std::string_view pem);
+/// Error: there is none, or it has a password.
+Result<Key> key_from_pem(std::string_view pem);
+
+/// RFC 2253, "CN=subscriber", as in permissions.
+std::string subject_of(const Certificate& certificate);
+/// Error: a date that no calendar has.
+Result<Validity> validity_of(const Certificate& certificate);
+/// Whether `certificate` was issued by `authority`; dates are not checked.
+bool is_issued_by(const Certificate& certificate, const Certificate& authority);
+bool is_key_of(const Key& key, const Certificate& certificate);
+
+}  // namespace orbwatch::app

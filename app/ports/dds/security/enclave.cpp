@@ -1,0 +1,134 @@
+#include "app/ports/dds/security/enclave.h"
+
+#include <sys/stat.h>
+
+#include <ctime>
+
+#include "app/ports/dds/security/key_file.h"
+#include "app/ports/dds/security/signed_document.h"
+
+namespace orbwatch::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The reason of `result` with its file before it.
+template <class Value>
+Result<Value> of_file(const fs::path& file, Result<Value> result) {
+  if (result) return result;
+  return fail(file.string() + ": " + result.error().message);
+}
+
+std::string day(std::chrono::sys_seconds time) {
+  const std::time_t seconds = time.time_since_epoch().count();
+  std::tm calendar{};
+  gmtime_r(&seconds, &calendar);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &calendar)};
+}
+
+Result<> check_dates(const fs::path& file, const Validity& validity, std::chrono::sys_seconds now) {
+  if (now >= validity.until) {
+    return fail(file.string() + ": expired on " + day(validity.until) + "; it must be made anew");
+  }
+  if (now < validity.from) {
+    return fail(file.string() + ": is valid from " + day(validity.from) +
+                " on; is this computer's clock right? It says " + day(now));
+  }
+  return {};
+}
+
+Result<Certificate> read_valid_certificate(const fs::path& file, std::chrono::sys_seconds now) {
+  auto certificate = read_certificate(file);
+  if (!certificate) return certificate;
+  const auto checked =
+      of_file(file, validity_of(*certificate)).and_then([&](const Validity& validity) {
+        return check_dates(file, validity, now);
+      });
+  if (!checked) return tl::unexpected(checked.error());
+  return certificate;
+}
+
+Result<> check_governance(const EnclaveFiles& files, const Certificate& signer, int domain) {
+  return read_document(files.governance, signer)
+      .and_then([&](const std::string& text) {
+        return of_file(files.governance, governed_domains(text));
+      })
+      .and_then([&](const std::vector<DomainRange>& domains) -> Result<> {
+        if (contains(domains, domain)) return {};
+        return fail(files.governance.string() + ": is not for domain " + std::to_string(domain));
+      });
+}
+
+Result<> check_permissions(const EnclaveFiles& files, const Certificate& signer,
+                           const std::string& subject, int domain, std::chrono::sys_seconds now) {
+  const std::string name = files.permissions.string();
+  const auto grants = read_document(files.permissions, signer).and_then([&](const auto& text) {
+    return of_file(files.permissions, read_permissions(text));
+  });
+  if (!grants) return tl::unexpected(grants.error());
+  const Grant* grant = find_grant(*grants, subject);
+  if (!grant) {
+    return fail(name + ": permits nothing to " + subject + ", whose certificate is " +
+                files.certificate.string());
+  }
+  if (!contains(grant->domains, domain)) {
+    return fail(name + ": is not for domain " + std::to_string(domain));
+  }
+  return check_dates(files.permissions, grant->validity, now);
+}
+
+}  // namespace
+
+EnclaveFiles::EnclaveFiles(const fs::path& folder)
+    : identity_ca(folder / "identity_ca.cert.pem"),
+      permissions_ca(folder / "permissions_ca.cert.pem"),
+      certificate(folder / "cert.pem"),
+      key(folder / "key.pem"),
+      governance(folder / "governance.p7s"),
+      permissions(folder / "permissions.p7s") {}
+
+Result<std::string> read_document(const fs::path& file, const Certificate& signer) {
+  return read_key_file(file).and_then([&](const std::string& document) {
+    return of_file(file, verified_document(document, signer)).map_error([&](const Error& error) {
+      return Error{error.message + "; it must be as " + subject_of(signer) + " signed it"};
+    });
+  });
+}
+
+Result<Certificate> read_certificate(const fs::path& file) {
+  return read_key_file(file).and_then(
+      [&](const std::string& pem) { return of_file(file, certificate_from_pem(pem)); });
+}
+
+Result<Key> read_key(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+      (status.st_mode & S_IROTH) != 0) {
+    return fail(file.string() + ": may be read by everybody, so it is no secret; chmod it to 0600");
+  }
+  return read_key_file(file).and_then(
+      [&](const std::string& pem) { return of_file(file, key_from_pem(pem)); });
+}
+
+Result<> check_enclave(const EnclaveFiles& files, int domain, std::chrono::sys_seconds now) {
+  const auto identity_ca = read_valid_certificate(files.identity_ca, now);
+  if (!identity_ca) return tl::unexpected(identity_ca.error());
+  const auto permissions_ca = read_valid_certificate(files.permissions_ca, now);
+  if (!permissions_ca) return tl::unexpected(permissions_ca.error());
+  const auto certificate = read_valid_certificate(files.certificate, now);
+  if (!certificate) return tl::unexpected(certificate.error());
+  const auto key = read_key(files.key);
+  if (!key) return tl::unexpected(key.error());
+  if (!is_issued_by(*certificate, *identity_ca)) {
+    return fail(files.certificate.string() + ": was not issued by " + files.identity_ca.string());
+  }
+  if (!is_key_of(*key, *certificate)) {
+    return fail(files.key.string() + ": is not the key of " + files.certificate.string());
+  }
+  return check_governance(files, *permissions_ca, domain).and_then([&] {
+    return check_permissions(files, *permissions_ca, subject_of(*certificate), domain, now);
+  });
+}
+
+}  // namespace orbwatch::app

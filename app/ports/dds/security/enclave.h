@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "app/ports/dds/security/certificate.h"
+#include "app/ports/dds/security/permissions.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The files of one participant, named as in an enclave of ROS 2, where the folder works, too. The
+/// XML beside the signed documents is for people only.
+struct EnclaveFiles {
+  explicit EnclaveFiles(const std::filesystem::path& folder);
+
+  std::filesystem::path identity_ca;     ///< issues certificates
+  std::filesystem::path permissions_ca;  ///< signs governance and permissions
+  std::filesystem::path certificate;
+  std::filesystem::path key;
+  std::filesystem::path governance;   ///< the same for all participants of a domain
+  std::filesystem::path permissions;  ///< what this participant may do
+};
+
+/// The text of a signed document in a file. Errors name file and reason.
+Result<std::string> read_document(const std::filesystem::path& file, const Certificate& signer);
+Result<Certificate> read_certificate(const std::filesystem::path& file);
+/// Refuses a world-readable key.
+Result<Key> read_key(const std::filesystem::path& file);
+
+/// Checks whether a participant with these files can join the domain and be authenticated. Cyclone
+/// DDS checks less and does not name the file. Errors: a file that is missing, damaged, expired at
+/// `now`, not valid yet, or inconsistent with the others or the domain. Reentrant.
+Result<> check_enclave(const EnclaveFiles& files, int domain, std::chrono::sys_seconds now);
+
+}  // namespace orbwatch::app

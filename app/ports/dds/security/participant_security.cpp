@@ -1,0 +1,105 @@
+#include "app/ports/dds/security/participant_security.h"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <system_error>
+
+#include "app/ports/dds/security/enclave.h"
+
+namespace orbwatch::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One of the plugins, named as by Cyclone DDS (docs/manual/security).
+struct Plugin {
+  const char* property;  ///< prefix of its properties
+  const char* file;
+  const char* init;
+  const char* finalize;
+};
+
+constexpr std::array kPlugins{
+    Plugin{"dds.sec.auth.", "libdds_security_auth.so", "init_authentication",
+           "finalize_authentication"},
+    Plugin{"dds.sec.access.", "libdds_security_ac.so", "init_access_control",
+           "finalize_access_control"},
+    Plugin{"dds.sec.crypto.", "libdds_security_crypto.so", "init_crypto", "finalize_crypto"}};
+
+/// The folder that Cyclone DDS itself was loaded from.
+fs::path library_folder() {
+  Dl_info info{};
+  // The address of the library's own symbol: in the program it may be another.
+  const void* const known = ::dlsym(RTLD_DEFAULT, "dds_create_participant");
+  if (!known || ::dladdr(known, &info) == 0) return {};
+  std::error_code error;
+  return fs::canonical(info.dli_fname, error).parent_path();
+}
+
+bool has_plugins(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / kPlugins[0].file, error);
+}
+
+/// Debian installs them in a folder named like libddsc's package, others beside libddsc.
+Result<fs::path> plugin_folder() {
+  const fs::path libraries = library_folder();
+  if (has_plugins(libraries)) return libraries;
+  std::error_code error;
+  for (fs::directory_iterator entry(libraries, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& folder = entry->path();
+    if (folder.filename().string().starts_with("libddsc") && has_plugins(folder)) return folder;
+  }
+  return fail("DDS security: there is no " + (libraries / kPlugins[0].file).string() +
+              ", nor in a folder libddsc... beside it; was Cyclone DDS built with security?");
+}
+
+void set(const Qos& qos, const std::string& name, const std::string& value) {
+  dds_qset_prop(qos.get(), name.c_str(), value.c_str());
+}
+
+void set_file(const Qos& qos, const std::string& name, const fs::path& file) {
+  set(qos, "dds.sec." + name, "file:" + file.string());
+}
+
+Result<> set_plugins(const Qos& qos) {
+  return plugin_folder().map([&](const fs::path& folder) {
+    for (const Plugin& plugin : kPlugins) {
+      const std::string property = std::string(plugin.property) + "library.";
+      set(qos, property + "path", (folder / plugin.file).string());
+      set(qos, property + "init", plugin.init);
+      set(qos, property + "finalize", plugin.finalize);
+    }
+  });
+}
+
+}  // namespace
+
+Result<> check_security(const SecuritySettings& settings, int domain) {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return check_enclave(EnclaveFiles(settings.folder), domain, now)
+      .map_error([](const Error& error) { return Error{"DDS security: " + error.message}; });
+}
+
+Result<Qos> security_qos(const SecuritySettings& settings, int domain) {
+  if (const auto checked = check_security(settings, domain); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  Qos qos(dds_create_qos());
+  if (const auto plugins = set_plugins(qos); !plugins) return tl::unexpected(plugins.error());
+  std::error_code error;
+  const EnclaveFiles files(fs::absolute(settings.folder, error));
+  set_file(qos, "auth.identity_ca", files.identity_ca);
+  set_file(qos, "auth.identity_certificate", files.certificate);
+  set_file(qos, "auth.private_key", files.key);
+  set_file(qos, "access.permissions_ca", files.permissions_ca);
+  set_file(qos, "access.governance", files.governance);
+  set_file(qos, "access.permissions", files.permissions);
+  return qos;
+}
+
+}  // namespace orbwatch::app

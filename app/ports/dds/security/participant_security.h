@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/ports/dds/participant/entity.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The credentials of a participant.
+struct SecuritySettings {
+  std::filesystem::path folder;  ///< holds the files of EnclaveFiles
+};
+
+/// Checks the files at this moment, as check_enclave().
+Result<> check_security(const SecuritySettings& settings, int domain);
+
+/// QoS that makes a participant of the domain a secure one, by Cyclone DDS' own plugins. Reads the
+/// files once to check them; the plugins read them again. Errors: as check_security; the plugins
+/// are not installed. Reentrant.
+Result<Qos> security_qos(const SecuritySettings& settings, int domain);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/ports/dds/security/certificate.h"
+#include "app/ports/dds/security/governance.h"
+
+namespace orbwatch::app {
+
+/// DDS names of topics; '*' stands for any text, '/' included.
+struct TopicAccess {
+  std::vector<std::string> publish;
+  std::vector<std::string> subscribe;
+};
+
+/// The rights of one participant.
+struct Grant {
+  std::string subject;  ///< of its certificate
+  Validity validity;
+  std::vector<DomainRange> domains;
+  TopicAccess topics;
+};
+
+/// A grant as XML of DDS Security 1.1, 9.4.1.3; all else is denied. Subject and topics hold no
+/// special characters of XML.
+std::string permissions_document(const Grant& grant);
+
+/// The grants of a permissions document; of their rules those that allow something. Errors: no such
+/// XML, a date that is none.
+Result<std::vector<Grant>> read_permissions(const std::string& document);
+
+/// The grant for the holder of a certificate with this subject, or nullptr. As in Cyclone DDS the
+/// order of a subject's parts is free.
+const Grant* find_grant(const std::vector<Grant>& grants, const std::string& subject);
+
+}  // namespace orbwatch::app

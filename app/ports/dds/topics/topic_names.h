@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// DDS topic names as ROS 2 derives them from its own: "rt/" before the ROS name. The topics:
+///   rt/<prefix>/<view>/image_raw              the picture for people
+///   rt/<prefix>/<view>/radiometric/image_raw  the measured plane, mono16 counts or mono8
+///   rt/<prefix>/<view>/camera_info            the calibration of a perspective view
+///   rt/<prefix>/selected/image_raw            the view that Status::selected_view names
+///   rt/<prefix>/<camera>/ball/image_raw       a camera's own picture
+///   .../image_raw/compressed                  each but the measured ones as JPEG
+///   rt/<prefix>/process_state                 the process state
+///   rt/<prefix>/event                         events
+///   rt/<prefix>/command                       requests to orbwatch
+///   rt/<prefix>/command_result                answers to them
+std::string image_topic(std::string_view prefix, std::string_view view);
+std::string radiometric_topic(std::string_view prefix, std::string_view view);
+std::string camera_info_topic(std::string_view prefix, std::string_view view);
+std::string ball_topic(std::string_view prefix, std::string_view camera);
+/// The JPEG topic beside an image topic.
+std::string compressed_topic(std::string_view raw);
+std::string process_state_topic(std::string_view prefix);
+std::string event_topic(std::string_view prefix);
+std::string command_topic(std::string_view prefix);
+std::string command_result_topic(std::string_view prefix);
+
+/// Stands for a view's name in the topics of the selected view.
+inline constexpr std::string_view kSelectedView = "selected";
+
+/// Checks one part of a topic against the rules of ROS 2: letters, digits and underscores, no digit
+/// first. `what` names it in the error.
+Result<> check_topic_part(std::string_view part, std::string_view what);
+/// The same for parts with '/' between them.
+Result<> check_topic_path(std::string_view path, std::string_view what);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "app/ports/dds/participant/entity.h"
+
+namespace orbwatch::app {
+
+/// The samples of one topic since the program started, each counted once.
+struct TopicStatistics {
+  std::string topic;
+  std::uint64_t written = 0;
+  std::uint64_t unread = 0;    ///< without a reader
+  std::uint64_t replaced = 0;  ///< by a newer one before the write
+  std::uint64_t limited = 0;   ///< more than the topic's rate
+  std::uint64_t blocked = 0;   ///< abandoned after kMaxBlockingTime: a reader does not keep up
+  std::uint64_t failed = 0;    ///< refused by DDS, or the writer could not be made
+  std::string last_error{};    ///< of the newest failure; empty when there was none
+};
+
+/// One topic and its writer, with statistics.
+/// Thread rule: one owner; has_reader(), the count_ functions and statistics() are thread-safe.
+class TopicWriter {
+ public:
+  TopicWriter(const dds_topic_descriptor_t& type, std::string name)
+      : type_(type), name_(std::move(name)) {}
+  ~TopicWriter() { close(); }
+  TopicWriter(const TopicWriter&) = delete;  // Cyclone DDS keeps its address
+  TopicWriter& operator=(const TopicWriter&) = delete;
+
+  /// Creates topic and writer, which announces its type's hash; does nothing when they exist. An
+  /// error counts as a failed sample.
+  Result<> open(const Entity& participant, const Qos& qos);
+  void close();
+
+  /// Whether the topic has a reader now. Thread-safe, never waits.
+  bool has_reader() const { return readers_ > 0; }
+  void count_unread() { ++unread_; }
+
+  /// Writes and counts one sample of the topic's type. Waits kMaxBlockingTime at most. Keeps and
+  /// releases nothing of the sample.
+  void write(const void* sample);
+
+  void count_failure(std::string message);
+
+  TopicStatistics statistics() const;
+  dds_entity_t get() const { return writer_.get(); }
+  const std::string& name() const { return name_; }
+  const char* type_name() const { return type_.m_typename; }
+
+ private:
+  /// On a thread of Cyclone DDS.
+  static void count_readers(dds_entity_t writer, dds_publication_matched_status_t status,
+                            void* topic);
+
+  const dds_topic_descriptor_t& type_;
+  const std::string name_;
+  Entity topic_;
+  Entity writer_;
+  std::atomic<std::uint32_t> readers_{0};
+  std::atomic<std::uint64_t> written_{0};
+  std::atomic<std::uint64_t> unread_{0};
+  std::atomic<std::uint64_t> blocked_{0};
+  std::atomic<std::uint64_t> failed_{0};
+  mutable std::mutex mutex_;
+  std::string last_error_;
+};
+
+}  // namespace orbwatch::app

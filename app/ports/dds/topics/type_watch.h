@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "app/ports/dds/participant/entity.h"
+
+namespace orbwatch::app {
+
+/// Detects foreign writers and readers that use a topic of ours with another type: DDS never
+/// matches them, without an error. Thread-bound.
+class TypeWatch {
+ public:
+  /// `types` by topic. Error: DDS refuses.
+  Result<> open(const Entity& participant, std::map<std::string, std::string> types);
+  void close();
+
+  /// Logs the first of each topic; returns how many were detected since construction. After open()
+  /// all that are there are detected again.
+  std::uint64_t update();
+
+ private:
+  void update(const Entity& reader, const char* kind);
+
+  std::map<std::string, std::string> types_;
+  std::map<std::string, std::uint64_t> found_;  ///< by topic
+  std::uint64_t count_ = 0;
+  Entity writers_;
+  Entity readers_;
+};
+
+}  // namespace orbwatch::app

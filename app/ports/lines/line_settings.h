@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "hal/lines/line_back_end.h"
+#include "hal/lines/pulse_output.h"
+#include "hal/lines/watchdog_output.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+enum class LineUse { TriggerIn, ProcessInput, TriggerOut, Strobe, ProcessOk, Alarm };
+
+constexpr bool is_input(LineUse use) {
+  return use == LineUse::TriggerIn || use == LineUse::ProcessInput;
+}
+constexpr bool is_pulsed(LineUse use) {
+  return use == LineUse::TriggerOut || use == LineUse::Strobe;
+}
+constexpr bool is_watchdog(LineUse use) {
+  return use == LineUse::ProcessOk || use == LineUse::Alarm;
+}
+
+enum class LineKind { Gpio, Simulated };
+
+/// The trigger_source of a camera that only commands trigger; no line has this name.
+inline constexpr const char* kSoftwareSource = "software";
+
+/// A digital input or output and its use.
+struct LineSettings {
+  std::string name;
+  LineUse use = LineUse::TriggerIn;
+  LineKind back_end = LineKind::Gpio;
+  hal::InputSettings wire;         ///< of outputs, too, but for the debounce time
+  std::string source;              ///< of pulses: a trigger_in line; empty: none
+  double rate = 0;                 ///< of pulses, per second; 0: by source or command
+  hal::PulseSettings pulse;        ///< its period follows from the rate
+  double toggle_rate = 0;          ///< per second; 0: held
+  hal::WatchdogSettings watchdog;  ///< its half-period follows from the toggle rate
+};
+
+inline constexpr std::array kLineUses{
+    Word{"trigger_in", LineUse::TriggerIn},   Word{"process_input", LineUse::ProcessInput},
+    Word{"trigger_out", LineUse::TriggerOut}, Word{"strobe", LineUse::Strobe},
+    Word{"process_ok", LineUse::ProcessOk},   Word{"alarm", LineUse::Alarm}};
+inline constexpr std::array kLineKinds{Word{"gpio", LineKind::Gpio},
+                                       Word{"simulated", LineKind::Simulated}};
+inline constexpr std::array kLineBiases{
+    Word{"as_is", hal::LineBias::AsIs}, Word{"disabled", hal::LineBias::Disabled},
+    Word{"pull_up", hal::LineBias::PullUp}, Word{"pull_down", hal::LineBias::PullDown}};
+
+/// The keys of trigger_out and strobe.
+template <class Visitor>
+void visit_pulses(Visitor& v, LineSettings& line) {
+  const bool pulsed = is_pulsed(line.use);
+  const char* const pulses = "trigger_out and strobe";
+  v.optional_if(pulsed, pulses, "source", line.source,
+                "A trigger_in line whose active edges fire the pulse, for trigger_out and strobe");
+  v.optional_if(line.use == LineUse::TriggerOut, "trigger_out", "rate", line.rate,
+                Range::between(0, 1000),
+                "Pulses per second, for trigger_out; 0: by source or the command pulse");
+  v.optional_if(pulsed, pulses, "width_us", line.pulse.width, Microseconds{Range::between(10, 1e7)},
+                "Length of the pulse, us, for trigger_out and strobe");
+  v.optional_if(pulsed, pulses, "delay_us", line.pulse.delay, Microseconds{Range::between(0, 1e7)},
+                "From the edge to the pulse, us, for trigger_out and strobe");
+  v.require(line.use != LineUse::Strobe || !line.source.empty(), "source", "a strobe needs it");
+  v.require(line.source.empty() || line.rate <= 0, "rate", "goes without source only");
+  v.require(line.rate * std::chrono::duration<double>(line.pulse.width).count() < 1, "width_us",
+            "a pulse must be shorter than the period of the rate");
+}
+
+template <class Visitor>
+void visit(Visitor& v, LineSettings& line) {
+  hal::LineAddress& address = line.wire.address;
+  v.required("name", line.name, "For cameras and other lines");
+  v.required("use", line.use, kLineUses,
+             "trigger_in: its edges trigger cameras and pulses; process_input: a state of the "
+             "machine; trigger_out, strobe: pulses; process_ok: active while the pipeline works; "
+             "alarm: active while there is none. The last two fall when the pipeline stops");
+  v.optional("back_end", line.back_end, kLineKinds,
+             "The kernel's lines; or simulated, where an input and an output of one line_name are "
+             "a wire");
+  v.optional("line_name", address.name, "The board's name of the line: see gpioinfo");
+  v.optional("chip", address.chip, "Instead of line_name: the label of its chip, see gpiodetect");
+  v.optional("offset", address.offset, Range::between(0, 65535), "Its number on that chip");
+  v.optional("active_low", line.wire.active_low, "Active when the wire is low");
+  v.optional("bias", line.wire.bias, kLineBiases,
+             "The chip's resistor: what holds the wire when nobody drives it");
+  v.optional_if(is_input(line.use), "inputs", "debounce_us", line.wire.debounce,
+                Microseconds{Range::between(0, 1e7)},
+                "Shorter changes do not count, us; for inputs");
+  visit_pulses(v, line);
+  const char* const watchdogs = "process_ok and alarm";
+  v.optional_if(is_watchdog(line.use), watchdogs, "timeout_ms", line.watchdog.timeout,
+                Milliseconds{Range::between(200, 60000)},
+                "Falls after so long without a status of the pipeline, for process_ok and alarm");
+  v.optional_if(is_watchdog(line.use), watchdogs, "toggle_rate", line.toggle_rate,
+                Range::between(0, 1000),
+                "Toggles so often per second instead of being held, for process_ok and alarm");
+  v.require(address.name.empty() != address.chip.empty(), "line_name",
+            "a line has either line_name, or chip and offset");
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,156 @@
+#include "app/ports/lines/lines.h"
+
+#include <algorithm>
+#include <set>
+
+#include "app/log.h"
+#include "app/model/condition.h"
+#include "hal/lines/gpio/gpio_lines.h"
+#include "hal/lines/simulated_lines.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// 0: no period.
+hal::Clock::duration period_of(double rate) {
+  if (rate <= 0) return hal::Clock::duration(0);
+  return std::chrono::duration_cast<hal::Clock::duration>(std::chrono::duration<double>(1 / rate));
+}
+
+/// A simulated chip with each configured line name once.
+std::unique_ptr<hal::LineBackEnd> make_simulated(const std::vector<LineSettings>& settings) {
+  std::set<std::string> names;
+  for (const LineSettings& line : settings) {
+    if (line.back_end == LineKind::Simulated && !line.wire.address.name.empty()) {
+      names.insert(line.wire.address.name);
+    }
+  }
+  return std::make_unique<hal::SimulatedLines>(
+      std::vector<std::string>(names.begin(), names.end()));
+}
+
+void log_fault(const std::string& name, const hal::LineFaultReport& report) {
+  log_line(report.fault == hal::LineFault::None ? LogLevel::Info : LogLevel::Warning,
+           name + ": " + std::string(operator_text(report.fault)) +
+               (report.detail.empty() ? "" : " (" + report.detail + ")"));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Lines>> Lines::open(const std::vector<LineSettings>& settings) {
+  std::unique_ptr<Lines> lines(new Lines());
+  lines->gpio_ = std::make_unique<hal::GpioLines>();
+  lines->simulated_ = make_simulated(settings);
+  // Inputs first: outputs may have one as their source.
+  if (auto opened = lines->open_inputs(settings); !opened) return tl::unexpected(opened.error());
+  for (const LineSettings& line : settings) {
+    if (is_input(line.use)) continue;
+    if (auto opened = lines->open_output(line); !opened) return tl::unexpected(opened.error());
+  }
+  return lines;
+}
+
+Lines::~Lines() { thread_.stop(); }
+
+hal::LineBackEnd& Lines::back_end(LineKind kind) {
+  return kind == LineKind::Gpio ? *gpio_ : *simulated_;
+}
+
+/// `name` exists: the configuration was checked.
+hal::WatchedInput& Lines::input(const std::string& name) {
+  return *std::ranges::find(inputs_, name, &Input::name)->line;
+}
+
+Result<> Lines::open_inputs(const std::vector<LineSettings>& settings) {
+  for (const LineSettings& line : settings) {
+    if (!is_input(line.use)) continue;
+    auto opened = hal::WatchedInput::open(
+        back_end(line.back_end), line.wire,
+        [name = line.name](const hal::LineFaultReport& report) { log_fault(name, report); });
+    if (!opened) return tl::unexpected(opened.error());
+    thread_.watch(**opened);
+    if (line.use == LineUse::ProcessInput) {
+      const auto state =
+          std::make_shared<hal::ProcessInput>((*opened)->initial_level(), hal::Clock::now());
+      (*opened)->subscribe([state](const hal::EdgeEvent& edge) { state->on_edge(edge); });
+      process_inputs_.push_back(state);
+    }
+    inputs_.push_back({line.name, std::move(*opened)});
+  }
+  return {};
+}
+
+Result<> Lines::open_output(const LineSettings& settings) {
+  const hal::InputSettings& wire = settings.wire;
+  auto output = back_end(settings.back_end).open_output({wire.address, wire.active_low, wire.bias});
+  if (!output) return tl::unexpected(output.error());
+  if (is_pulsed(settings.use)) {
+    open_pulses(settings, std::move(*output));
+  } else {
+    open_watchdog(settings, std::move(*output));
+  }
+  return {};
+}
+
+void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output) {
+  hal::PulseOutput::Outputs outputs;
+  outputs.push_back(std::move(output));
+  hal::PulseSettings pulse = settings.pulse;
+  pulse.period = period_of(settings.rate);
+  auto& pulses = pulses_.emplace_back(
+      std::make_unique<hal::PulseOutput>(pulse, std::move(outputs), [this] { thread_.wake(); }));
+  thread_.add(*pulses);
+  if (settings.use == LineUse::TriggerOut) trigger_outputs_.push_back(pulses.get());
+  if (settings.source.empty()) return;
+  input(settings.source).subscribe([pulse = pulses.get()](const hal::EdgeEvent& edge) {
+    if (edge.edge == hal::Edge::Rising) pulse->fire(edge.stamp);
+  });
+}
+
+void Lines::open_watchdog(const LineSettings& settings,
+                          std::unique_ptr<hal::DigitalOutput> output) {
+  hal::WatchdogSettings watchdog = settings.watchdog;
+  watchdog.half_period = period_of(2 * settings.toggle_rate);
+  auto& outputs = settings.use == LineUse::Alarm ? alarms_ : process_ok_;
+  outputs.push_back(std::make_unique<hal::WatchdogOutput>(watchdog, std::move(output),
+                                                          [this] { thread_.wake(); }));
+  thread_.add(*outputs.back());
+}
+
+std::shared_ptr<hal::FrameTrigger> Lines::trigger(const hal::TriggerSettings& settings,
+                                                  const std::string& source, hal::Camera& camera) {
+  if (settings.mode == hal::TriggerMode::Off) return triggers_.emplace_back();
+  auto trigger =
+      std::make_shared<hal::FrameTrigger>(settings, [&camera] { return camera.trigger(); });
+  if (source != kSoftwareSource) {
+    input(source).subscribe([trigger](const hal::EdgeEvent& edge) { trigger->on_edge(edge); });
+  }
+  thread_.add(*trigger);
+  triggers_.push_back(trigger);
+  return trigger;
+}
+
+void Lines::trigger() {
+  const auto now = hal::Clock::now();  // one for all: they may belong to one frame set
+  for (const auto& trigger : triggers_) {
+    if (trigger) trigger->fire(now);
+  }
+  thread_.wake();
+}
+
+CommandResult Lines::pulse(std::size_t output) {
+  if (output >= trigger_outputs_.size()) return CommandResult::ArgumentOutOfRange;
+  return trigger_outputs_[output]->fire(hal::Clock::now()) ? CommandResult::Done
+                                                           : CommandResult::Busy;
+}
+
+void Lines::accept(const Status& status) {
+  const auto now = hal::Clock::now();
+  const bool works = status.state != SystemState::Starting && status.state != SystemState::Fault;
+  const bool sound =
+      works && status.state != SystemState::Degraded && worst_severity(status) != Severity::Alarm;
+  for (const auto& line : process_ok_) line->report(works, now);
+  for (const auto& line : alarms_) line->report(sound, now);
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <cassert>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "app/ports/modbus/map/encoding.h"
+#include "app/ports/modbus/map/register_map.h"
+
+namespace orbwatch::app::modbus {
+
+inline constexpr Quantity kWord{"", 1, 0, 65535};
+inline constexpr Quantity kDoubleWord{"", 1, 0, 4294967295};
+
+/// Registers that all fields of a part occupy: 32-bit values stand at even places.
+template <class Part>
+constexpr int registers_of() {
+  int next = 0;
+  for_each_field(std::type_identity<Part>{}, [&next](const auto& field) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<decltype(field.get), const Part&>>;
+    next = type_of<Value>() == Type::Uint ? next + 1 : next + next % 2 + 2;
+  });
+  return next;
+}
+
+/// The quantity of a field in a part; that of an alarm's value is its signal's.
+template <class Part>
+Quantity quantity_in(const Part& /*part*/, const FieldInfo& field) {
+  return field;
+}
+inline Quantity quantity_in(const AlarmStatus& alarm, const FieldInfo& field) {
+  return field.name == "value" ? quantity_of(alarm) : Quantity(field);
+}
+
+/// Makes the rows of one part, in the order of their addresses; `find` gives the part in a process
+/// image. 32-bit values stand at even addresses.
+template <class Part>
+class Block {
+ public:
+  using Find = std::function<const Part&(const ProcessImage&)>;
+
+  Block(Table table, Section section, std::string prefix, Find find)
+      : table_(table),
+        section_(section),
+        next_(section.begin),
+        prefix_(std::move(prefix)),
+        find_(std::move(find)) {}
+
+  /// `read` gives the register's content: std::uint32_t(const Part&, const ProcessImage&).
+  template <class Read>
+  Block& row(Type type, std::string_view name, const Quantity& quantity,
+             std::string_view description, Read read) {
+    const bool is_double = type == Type::Udint || type == Type::Dint;
+    if (is_double) next_ += next_ % 2;
+    const std::uint32_t mask = is_double ? 0xffffffff : 0xffff;
+    rows_.push_back({.table = table_,
+                     .address = next_,
+                     .count = is_double ? 2 : 1,
+                     .type = type,
+                     .name = prefix_ + std::string(name),
+                     .quantity = quantity,
+                     .description = std::string(description),
+                     .read = [find = find_, read = std::move(read),
+                              mask](const ProcessImage& image) -> std::uint32_t {
+                       return static_cast<std::uint32_t>(read(find(image), image)) & mask;
+                     }});
+    next_ += rows_.back().count;
+    assert(next_ <= section_.end);
+    return *this;
+  }
+
+  /// A described field: type and range follow from the type of its value.
+  template <class Get>
+  Block& field(const Field<Get>& field) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<Get, const Part&>>;
+    Quantity quantity = field;
+    std::string description(field.description);
+    if constexpr (Enumeration<Value>) {
+      quantity = code_range<Value>();
+      // Long lists are tables of the handbook.
+      if (quantity.maximum < 16) description += ": " + listed_codes<Value>();
+    } else if constexpr (std::is_same_v<Value, hal::TimePoint>) {
+      description += "; 2147483647: longer ago, or never";
+    }
+    return row(type_of<Value>(), field.name, quantity, description,
+               [field](const Part& part, const ProcessImage& image) {
+                 return encoded(std::invoke(field.get, part), quantity_in(part, field), image.now);
+               });
+  }
+
+  /// All fields of the part.
+  Block& fields() {
+    for_each_field(std::type_identity<Part>{}, [this](const auto& one) { this->field(one); });
+    return *this;
+  }
+
+  Block& bit(std::string_view name, std::string_view description,
+             std::function<bool(const ProcessImage&)> is_set) {
+    return row(Type::Bool, name, kFlag, description,
+               [is_set = std::move(is_set)](const Part&, const ProcessImage& image) {
+                 return is_set(image) ? 1U : 0U;
+               });
+  }
+
+  /// Makes the newest row writable.
+  Block& written(std::function<void(PlcRegisters&, std::uint32_t)> write) {
+    rows_.back().access = Access::ReadWrite;
+    rows_.back().write = std::move(write);
+    return *this;
+  }
+
+  /// Continues at this address.
+  Block& at(int address) {
+    assert(address >= next_);
+    next_ = address;
+    return *this;
+  }
+
+  /// Lets the first row, a code, read kNone while the entry `is_absent`.
+  Block& absent(std::string_view thing, std::function<bool(const ProcessImage&)> is_absent) {
+    Row& row = rows_.front();
+    row.quantity.maximum = kNone;
+    row.description += "; 65535 no such " + std::string(thing) + " is configured";
+    row.read = [is_absent = std::move(is_absent),
+                read = std::move(row.read)](const ProcessImage& image) -> std::uint32_t {
+      return is_absent(image) ? kNone : read(image);
+    };
+    return *this;
+  }
+
+  std::vector<Row>& rows() { return rows_; }
+
+ private:
+  Table table_;
+  Section section_;
+  int next_;
+  std::string prefix_;
+  Find find_;
+  std::vector<Row> rows_;
+};
+
+/// For rows that combine parts.
+inline const ProcessImage& whole_image(const ProcessImage& image) { return image; }
+
+/// The rows of entries 0 to count - 1.
+template <class RowsOf>
+std::vector<Row> joined(std::size_t count, RowsOf rows_of) {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (Row& row : rows_of(i)) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,30 @@
+#include "app/ports/modbus/map/encoding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orbwatch::app::modbus {
+
+std::uint32_t encoded(double value, const Quantity& quantity) {
+  if (!std::isfinite(value)) return kNotValidCode;
+  const double code =
+      std::round(std::clamp(value, quantity.minimum, quantity.maximum) / quantity.scale);
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(code));
+}
+
+std::uint32_t age_code(hal::TimePoint moment, hal::TimePoint now) {
+  using std::chrono::milliseconds;
+  if (moment == hal::TimePoint{}) return kMaxAge;
+  const auto age = std::chrono::duration_cast<milliseconds>(now - moment).count();
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(age, 0, kMaxAge));
+}
+
+std::string listed(const std::vector<CodeText>& codes) {
+  std::string text;
+  for (const CodeText& code : codes) {
+    text += (text.empty() ? "" : "; ") + std::to_string(code.number) + " " + std::string(code.text);
+  }
+  return text;
+}
+
+}  // namespace orbwatch::app::modbus

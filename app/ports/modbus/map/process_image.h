@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <type_traits>
+
+#include "app/model/command.h"
+#include "app/model/status.h"
+
+/// What one request is answered from: the model's status, and the parts that this interface adds to
+/// it, described by lines of the same form (app/model/field.h).
+namespace orbwatch::app::modbus {
+
+/// Results that wait for the PLC, at most.
+inline constexpr std::size_t kResultQueueDepth = 8;
+
+inline constexpr Quantity kWaitingResults{"", 1, 0, kResultQueueDepth};
+inline constexpr Quantity kUptime{"s", 1, 0, 4294967295};
+
+#define ORBWATCH_MODBUS_RESULT_FIGURES(FIELD)                                                    \
+  FIELD(std::uint16_t, count, kWaitingResults, "Results that wait for their acknowledgement")    \
+  FIELD(bool, overrun, kFlag,                                                                    \
+        "A result was refused because the queue was full; until all that wait are acknowledged") \
+  FIELD(std::uint64_t, overruns, kCount, "Results refused because the queue was full")
+
+/// The queue of results.
+struct ResultQueueStatus {
+  ORBWATCH_MODBUS_RESULT_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
+#define ORBWATCH_MODBUS_PLC_FIGURES(FIELD, AGE)                                        \
+  FIELD(bool, alive, kFlag, "plc_heartbeat is supervised and changed in time")         \
+  FIELD(bool, silent, kFlag, "plc_heartbeat is supervised and did not change in time") \
+  AGE(heartbeat, "Since plc_heartbeat changed")
+
+/// The PLC, as far as its heartbeat shows.
+struct PlcStatus {
+  ORBWATCH_MODBUS_PLC_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
+};
+
+#define ORBWATCH_MODBUS_COUNTERS(FIELD)                                                     \
+  FIELD(std::uint64_t, answered, kCount, "Requests answered, with or without an exception") \
+  FIELD(std::uint64_t, refused, kCount,                                                     \
+        "Requests answered with an exception, or not at all because they were not Modbus")  \
+  FIELD(std::uint64_t, dropped, kCount,                                                     \
+        "Connections closed by the server: too many, too slow, or not Modbus")              \
+  FIELD(std::uint64_t, connections, kCount, "Open connections")                             \
+  FIELD(std::uint64_t, serial_errors, kCount,                                               \
+        "On the serial line: frames with a wrong checksum or cut off, and noise")           \
+  FIELD(std::uint64_t, serial_other_units, kCount, "On the serial line: frames of other units")
+
+#define ORBWATCH_MODBUS_SERVER_FIGURES(FIELD)                                                \
+  FIELD(std::uint64_t, uptime, kUptime, "Since the server started: smaller after a restart") \
+  ORBWATCH_MODBUS_COUNTERS(FIELD)
+
+/// What the server did since its start.
+struct ServerStatus {
+  ORBWATCH_MODBUS_SERVER_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
+/// The counters of a ServerStatus; written by the serving threads, read by any.
+struct ServerCounters {
+#define ORBWATCH_COUNTER(type, name, ...) std::atomic<type> name{0};
+  ORBWATCH_MODBUS_COUNTERS(ORBWATCH_COUNTER)
+#undef ORBWATCH_COUNTER
+
+  ServerStatus read() const {
+    ServerStatus status;
+#define ORBWATCH_READ(type, name, ...) status.name = name;
+    ORBWATCH_MODBUS_COUNTERS(ORBWATCH_READ)
+#undef ORBWATCH_READ
+    return status;
+  }
+};
+
+/// The command handshake: the PLC writes arguments and command, then another sequence; the command
+/// is executed once, and its sequence returned as acknowledged. Counters, not toggle bits: two
+/// toggles between two reads cancel each other.
+struct CommandRegisters {
+  std::array<std::int32_t, kMaxArguments> arguments{};  ///< value / the argument's scale
+  std::uint16_t command = 0;
+  std::uint16_t sequence = 0;
+  std::uint16_t acknowledged = 0;
+  CommandResult result = CommandResult::Done;  ///< of the command acknowledged last
+  std::uint16_t last_command = 0;              ///< the command acknowledged last; 0: none yet
+};
+
+/// The holding registers that PLCs write.
+struct PlcRegisters {
+  CommandRegisters command;
+  std::uint16_t heartbeat = 0;
+  /// Number of the result acknowledged by the present request; 0: none.
+  std::uint32_t result_acknowledged = 0;
+};
+
+/// A status with its UTC stamp.
+struct StampedStatus {
+  Status status;
+  std::chrono::microseconds utc{0};  ///< exposure start of its frame set since 1970; 0: none yet
+};
+
+/// Made once per request, so that all values in one answer belong together.
+struct ProcessImage {
+  StampedStatus live;
+  StampedStatus result;                 ///< the oldest that waits; its number is 0 when none does
+  std::uint32_t last_acknowledged = 0;  ///< number of a result; 0: none yet
+  ResultQueueStatus results;
+  PlcRegisters written;
+  PlcStatus plc;
+  ServerStatus server;
+  bool stale = false;    ///< the pipeline is silent for longer than the time-out
+  hal::TimePoint now{};  ///< of the request
+};
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<ResultQueueStatus>, Visit&& visit) {
+  using Part = ResultQueueStatus;
+  ORBWATCH_MODBUS_RESULT_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<PlcStatus>, Visit&& visit) {
+  using Part = PlcStatus;
+  ORBWATCH_MODBUS_PLC_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
+}
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<ServerStatus>, Visit&& visit) {
+  using Part = ServerStatus;
+  ORBWATCH_MODBUS_SERVER_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+}  // namespace orbwatch::app::modbus

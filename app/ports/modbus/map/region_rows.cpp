@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <iterator>
+
+#include "app/model/condition.h"
+#include "app/ports/modbus/map/block.h"
+#include "app/ports/modbus/map/rows.h"
+
+/// A region begins with a block that one request reads: by what it was measured, a bit per signal
+/// that has a value, the signals. Signals without room continue in further blocks, which repeat the
+/// number of the measurement.
+namespace orbwatch::app::modbus {
+namespace {
+
+constexpr int kValidWords = 4;
+constexpr int kHeader = 16;
+constexpr int kMoreHeader = 4;
+constexpr int kMoreStride = 128;
+
+/// Signals of the first block and of each further one.
+constexpr std::size_t kFirstSignals = (kMaxReadRegisters - kHeader - kValidWords) / 2;
+constexpr std::size_t kMoreSignals = (kMaxReadRegisters - kMoreHeader - kValidWords) / 2;
+constexpr std::size_t kMoreBlocks = kMoreOfRegions.stride / kMoreStride;
+
+static_assert(16 * kValidWords >= kFirstSignals && 16 * kValidWords >= kMoreSignals);
+static_assert(signals::kSignals.size() <= kFirstSignals + kMoreBlocks * kMoreSignals);
+static_assert(kRegions.has_room_for(signals::kMaxRegions) &&
+              kResults.has_room_for(signals::kMaxRegions));
+static_assert(kMoreOfRegions.has_room_for(signals::kMaxRegions) &&
+              kMoreOfResults.has_room_for(signals::kMaxRegions));
+
+/// What is measured now, and the oldest result: the same structure at two places.
+struct Window {
+  std::string_view prefix;
+  Series first;
+  Series more;
+  StampedStatus ProcessImage::*source;
+};
+constexpr std::array kWindows{Window{"region_", kRegions, kMoreOfRegions, &ProcessImage::live},
+                              Window{"result_", kResults, kMoreOfResults, &ProcessImage::result}};
+
+using SignalField = Field<SignalOf>;
+
+std::vector<SignalField> make_signals() {
+  std::vector<SignalField> fields;
+  for_each_field(std::type_identity<RegionStatus>{}, [&fields](const auto& field) {
+    if constexpr (std::is_same_v<decltype(field), const SignalField&>) fields.push_back(field);
+  });
+  return fields;
+}
+
+/// All signals, in the order of their numbers.
+const std::vector<SignalField>& all_signals() {
+  static const std::vector<SignalField> fields = make_signals();
+  return fields;
+}
+
+/// Bit n: signal first + n has a value.
+std::uint32_t valid_word(const RegionStatus& region, std::size_t first, std::size_t end) {
+  std::uint32_t word = 0;
+  for (std::size_t i = first; i < std::min(end, first + 16); ++i) {
+    const SignalField& signal = all_signals()[i];
+    if (encoded(signal.get(region), signal) != kNotValidCode) word |= 1U << (i - first);
+  }
+  return word;
+}
+
+/// Builds one block of one region.
+class RegionBlock {
+ public:
+  RegionBlock(const Window& window, std::size_t region, Section section)
+      : region_(region),
+        stamped_(Table::Input, section, prefix(window, region),
+                 [source = window.source](const ProcessImage& image) -> const StampedStatus& {
+                   return image.*source;
+                 }) {}
+
+  /// What tells a PLC which measurement this is.
+  RegionBlock& number(const std::string& tag = {}) {
+    system(&Status::result, "Number of the result; live, of the newest one; 0: none", tag);
+    return system(&Status::frame_set, "Number of the measured frame set", tag);
+  }
+
+  /// What it was measured by.
+  RegionBlock& conditions() {
+    using S = const StampedStatus&;
+    using I = const ProcessImage&;
+    stamped_
+        .row(Type::Udint, "utc_seconds", {"s", 1, 0, 4294967295},
+             "UTC of its exposure start, seconds since 1970; 0: none yet",
+             [](S s, I) { return s.utc.count() / 1000000; })
+        .row(Type::Udint, "utc_microseconds", {"us", 1, 0, 999999}, "Microseconds in that second",
+             [](S s, I) { return s.utc.count() % 1000000; });
+    system(&Status::trigger, "Number of the trigger that began it; 0: none did");
+    system(&Status::configuration_checksum, "CRC-32 of all files of the configuration then");
+    system(&Status::recipe, "Number of the recipe that measured it");
+    stamped_.row(Type::Uint, "quality", code_range<Quality>(), listed_codes<Quality>(),
+                 [r = region_](S s, I) { return static_cast<int>(s.status.regions[r].quality); });
+    system(&Status::process_active, "The process ran");
+    stamped_.row(Type::Uint, "alarm_severity", code_range<Severity>(),
+                 "Of the worst alarm of this region that stood: " + listed_codes<Severity>(),
+                 [r = region_](S s, I) { return static_cast<int>(worst_severity(s.status, r)); });
+    return *this;
+  }
+
+  /// Signals [first, end), and a bit for each.
+  RegionBlock& signal_rows(std::size_t first, std::size_t end) {
+    using S = const StampedStatus&;
+    for (std::size_t word = first; word < first + 16 * kValidWords; word += 16) {
+      const std::string number = std::to_string(word);
+      stamped_.row(Type::Uint, "valid_" + number, kWord,
+                   "Bit n: signal " + number + " + n has a value",
+                   [r = region_, word, end](S s, const ProcessImage&) {
+                     return valid_word(s.status.regions[r], word, end);
+                   });
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      const SignalField& signal = all_signals()[i];
+      stamped_.row(Type::Dint, signal.name, signal, std::string(signal.description),
+                   [r = region_, &signal](S s, const ProcessImage&) {
+                     return encoded(signal.get(s.status.regions[r]), signal);
+                   });
+    }
+    return *this;
+  }
+
+  std::vector<Row> rows() { return std::move(stamped_.rows()); }
+
+ private:
+  static std::string prefix(const Window& window, std::size_t region) {
+    return std::string(window.prefix) + std::to_string(region) + "_";
+  }
+
+  /// The row of a member of the status; its name and type are those of the member's field.
+  template <class Value>
+  RegionBlock& system(Value SystemStatus::*member, std::string description,
+                      const std::string& tag = {}) {
+    for_each_field(std::type_identity<SystemStatus>{}, [&](const auto& field) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field.get)>,
+                                   Value SystemStatus::*>) {
+        if (field.get != member) return;
+        stamped_.row(
+            type_of<Value>(), tag + std::string(field.name), field, description,
+            [member](const StampedStatus& s, const ProcessImage&) { return s.status.*member; });
+      }
+    });
+    return *this;
+  }
+
+  std::size_t region_;
+  Block<StampedStatus> stamped_;
+};
+
+std::vector<Row> rows_of_region(const Window& window, std::size_t region) {
+  const std::size_t count = all_signals().size();
+  std::vector<Row> rows = RegionBlock(window, region, window.first.entry(region))
+                              .number()
+                              .conditions()
+                              .signal_rows(0, std::min(count, kFirstSignals))
+                              .rows();
+  for (std::size_t block = 1, first = kFirstSignals; first < count; ++block) {
+    const std::size_t end = std::min(count, first + kMoreSignals);
+    const int begin = window.more.entry(region).begin + static_cast<int>(block - 1) * kMoreStride;
+    RegionBlock more(window, region, {begin, begin + kMoreStride});
+    more.number("more_" + std::to_string(block) + "_").signal_rows(first, end);
+    std::ranges::move(more.rows(), std::back_inserter(rows));
+    first = end;
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Row> region_rows() {
+  std::vector<Row> rows;
+  for (const Window& window : kWindows) {
+    std::ranges::move(joined(signals::kMaxRegions,
+                             [&window](std::size_t r) { return rows_of_region(window, r); }),
+                      std::back_inserter(rows));
+  }
+  return rows;
+}
+
+}  // namespace orbwatch::app::modbus

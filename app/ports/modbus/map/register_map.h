@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ports/modbus/map/layout.h"
+#include "app/ports/modbus/map/process_image.h"
+
+namespace orbwatch::app::modbus {
+
+enum class Table : std::uint8_t { Coil, Discrete, Input, Holding };
+
+/// The types of IEC 61131-3.
+enum class Type : std::uint8_t { Bool, Uint, Udint, Dint };
+
+enum class Access : std::uint8_t { Read, ReadWrite };
+
+/// Their words in the CSV.
+std::string_view name_of(Table table);
+std::string_view name_of(Type type);
+std::string_view name_of(Access access);
+
+/// One row of the map: a value, or places that are reserved for later and read 0.
+struct Row {
+  Table table = Table::Input;
+  int address = 0;  ///< zero-based, as in the request
+  int count = 1;    ///< registers or bits; 2 for 32-bit values, high word first
+  Type type = Type::Uint;
+  Access access = Access::Read;
+  std::string name{};
+  Quantity quantity{};  ///< value in the unit = register * scale; writes outside are refused
+  std::string description{};
+
+  /// The register's content; 16-bit values in the low half. Empty: reserved.
+  std::function<std::uint32_t(const ProcessImage& image)> read{};
+  /// Empty: read-only.
+  std::function<void(PlcRegisters& registers, std::uint32_t value)> write{};
+};
+
+/// The one declaration of what PLCs read and write. Immutable; reentrant.
+class RegisterMap {
+ public:
+  RegisterMap();
+  RegisterMap(const RegisterMap&) = delete;
+  RegisterMap& operator=(const RegisterMap&) = delete;
+
+  /// By table, then by address.
+  std::span<const Row> rows() const { return rows_; }
+
+  /// The row that holds this register or bit, or nullptr when nothing is mapped there.
+  const Row* find(Table table, int address) const;
+
+  /// One more than the highest mapped address of the table.
+  int size(Table table) const;
+
+ private:
+  std::vector<Row> rows_;
+  std::array<std::vector<const Row*>, 4> by_address_;
+};
+
+}  // namespace orbwatch::app::modbus

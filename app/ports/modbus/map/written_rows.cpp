@@ -1,0 +1,73 @@
+#include "app/ports/modbus/map/block.h"
+#include "app/ports/modbus/map/rows.h"
+
+namespace orbwatch::app::modbus {
+namespace {
+
+/// 0 and the commands of the model.
+std::vector<CodeText> command_codes() {
+  std::vector<CodeText> codes{{0, "none"}};
+  for (const CommandInfo& command : kCommands) {
+    codes.push_back({static_cast<std::uint16_t>(command.code), command.name});
+  }
+  return codes;
+}
+
+/// Writes a 16-bit member of the command registers.
+template <std::uint16_t CommandRegisters::*member>
+void write_command(PlcRegisters& plc, std::uint32_t value) {
+  plc.command.*member = static_cast<std::uint16_t>(value);
+}
+
+}  // namespace
+
+/// Writable registers stand side by side, so that a PLC may write them in one cyclic request, the
+/// sequence last: a PLC that writes register by register in ascending order starts the command with
+/// the last one.
+std::vector<Row> written_rows() {
+  using P = const PlcRegisters&;
+  using I = const ProcessImage&;
+  const std::vector<CodeText> commands = command_codes();
+  const Quantity any_command{"", 1, 0, static_cast<double>(commands.back().number)};
+  Block<PlcRegisters> block(
+      Table::Holding, kWritten, "", [](I image) -> auto& { return image.written; });
+  for (std::size_t i = 0; i < kMaxArguments; ++i) {
+    const std::string n = std::to_string(i);
+    block
+        .row(Type::Dint, "argument_" + n, {"", 1, -2147483648.0, 2147483647},
+             "Argument " + n + " of the command: its value / its scale, see the commands",
+             [i](P plc, I) { return plc.command.arguments[i]; })
+        .written([i](PlcRegisters& plc, std::uint32_t value) {
+          plc.command.arguments[i] = static_cast<std::int32_t>(value);
+        });
+  }
+  block
+      .row(Type::Udint, "result_acknowledged", kDoubleWord,
+           "Written with the number of the result in the window: removes it, and the next one "
+           "appears; another number does nothing. Reads the number acknowledged last; 0: none yet",
+           [](P, I image) { return image.last_acknowledged; })
+      .written([](PlcRegisters& plc, std::uint32_t value) { plc.result_acknowledged = value; })
+      .row(Type::Uint, "plc_heartbeat", kWord, "To be changed periodically: the PLC is alive",
+           [](P plc, I) { return plc.heartbeat; })
+      .written([](PlcRegisters& plc, std::uint32_t value) {
+        plc.heartbeat = static_cast<std::uint16_t>(value);
+      })
+      .row(Type::Uint, "command", any_command, listed(commands),
+           [](P plc, I) { return plc.command.command; })
+      .written(write_command<&CommandRegisters::command>)
+      .row(Type::Uint, "command_sequence", kWord,
+           "Another value than acknowledged_sequence executes the command, once",
+           [](P plc, I) { return plc.command.sequence; })
+      .written(write_command<&CommandRegisters::sequence>)
+      .row(Type::Uint, "acknowledged_sequence", kWord,
+           "command_sequence of the last command that was answered",
+           [](P plc, I) { return plc.command.acknowledged; })
+      .row(Type::Uint, "command_result", code_range<CommandResult>(),
+           "Result of that command: " + listed_codes<CommandResult>(),
+           [](P plc, I) { return static_cast<int>(plc.command.result); })
+      .row(Type::Uint, "last_command", any_command, "Code of that command; 0: none yet",
+           [](P plc, I) { return plc.command.last_command; });
+  return std::move(block.rows());
+}
+
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/model/sink.h"
+#include "app/ports/modbus/server/access_list.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+enum class Parity : std::uint8_t { None, Even, Odd };
+
+/// What the kernel has a speed for and libmodbus knows, in bits per second.
+inline constexpr std::array kBaudRates{1200,  2400,   4800,   9600,   19200, 38400,
+                                       57600, 115200, 230400, 460800, 921600};
+
+/// The [modbus.serial] part of the site file: Modbus RTU. The defaults are the standard's.
+struct ModbusSerialSettings {
+  /// The line's device; of an adapter on USB best the link in /dev/serial/by-id.
+  std::string device;
+  int baud_rate = 19200;  ///< one of kBaudRates
+  Parity parity = Parity::Even;
+  int stop_bits = 1;
+  int unit_id = 1;  ///< 1 to 247
+  bool may_write = true;
+};
+
+/// The [modbus] part of the site file.
+struct ModbusSettings {
+  static constexpr std::string_view kName = "modbus", kText = "Towards the PLC";
+
+  bool enabled = true;
+  /// The numeric IPv4 or IPv6 address to listen on. All interfaces by default: the PLC is always
+  /// another machine, so listening on loopback would serve nobody. Modbus knows no passwords: on a
+  /// device with more than one network name the machine network's address here.
+  std::string address = "0.0.0.0";
+  /// Not the registered port 502, which needs CAP_NET_BIND_SERVICE. 0: any free port.
+  int port = 1502;
+  /// One more client closes the connection that was idle for longest.
+  int max_connections = 16;
+  /// Numeric addresses or prefixes (10.0.0.0/24, fd00::/8) of the clients that may read; empty: all
+  /// of them.
+  std::vector<std::string> readers;
+  /// Of those that may write, and read; empty: all that may read.
+  std::vector<std::string> writers;
+  /// The units that are answered. Over TCP the unit only matters behind a gateway: 255 is
+  /// recommended, 0 accepted (Modbus Messaging on TCP/IP Implementation Guide), and 1 is what most
+  /// clients send unless told otherwise. Requests for others were meant for another device.
+  std::vector<int> unit_ids{0, 1, 255};
+  /// A serial line beside TCP.
+  std::optional<ModbusSerialSettings> serial;
+
+  /// Longest time without a change of the PLC's heartbeat; 0: it is not watched.
+  double plc_timeout_ms = 0;
+
+  /// From the first byte of a request to its last.
+  std::chrono::milliseconds frame_timeout{1000};
+  /// Without a request.
+  std::chrono::milliseconds idle_timeout{60000};
+  /// Without word from the pipeline, which promises ten a second; then nothing it said is served
+  /// as valid any more.
+  std::chrono::milliseconds status_timeout{2000};
+};
+
+inline constexpr std::array kParities{Word{"none", Parity::None}, Word{"even", Parity::Even},
+                                      Word{"odd", Parity::Odd}};
+
+template <class Visitor>
+void visit(Visitor& v, ModbusSerialSettings& serial) {
+  v.required("device", serial.device, "The line, best as in /dev/serial/by-id");
+  v.optional("baud_rate", serial.baud_rate, Range::between(1200, 921600), "Bits per second");
+  v.require(std::ranges::count(kBaudRates, serial.baud_rate) == 1, "baud_rate",
+            "is not a rate of serial lines, as 9600, 19200, 38400, 57600 or 115200");
+  v.optional("parity", serial.parity, kParities, "none usually goes with 2 stop bits");
+  v.optional("stop_bits", serial.stop_bits, Range::between(1, 2), "At the end of a character");
+  v.optional("unit_id", serial.unit_id, Range::between(1, 247),
+             "The unit that is served, besides broadcasts to unit 0");
+  v.optional("may_write", serial.may_write, "Masters on this line may write");
+}
+
+/// Every text must be an address or a prefix.
+template <class Visitor>
+void require_networks(Visitor& v, const char* key, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    const auto network = modbus::parse_network(text);
+    v.require(network.has_value(), key, network ? "" : network.error().message);
+  }
+}
+
+template <class Visitor>
+void visit(Visitor& v, ModbusSettings& modbus) {
+  v.optional("enabled", modbus.enabled, "Serve Modbus");
+  v.optional("address", modbus.address, "Numeric address to listen on");
+  v.optional("port", modbus.port, Range::between(0, 65535), "0: any free port");
+  v.optional("max_connections", modbus.max_connections, Range::between(1, 1000),
+             "One more client closes the connection that was idle for longest");
+  v.optional("readers", modbus.readers,
+             "Numeric addresses or prefixes (10.0.0.0/24) of clients that may read; []: all");
+  require_networks(v, "readers", modbus.readers);
+  v.optional("writers", modbus.writers,
+             "Of clients that may write, and read; []: all that may read");
+  require_networks(v, "writers", modbus.writers);
+  v.optional("unit_ids", modbus.unit_ids, Range::between(0, 255),
+             "Units that are answered; requests for others get exception 11");
+  v.require(!modbus.unit_ids.empty(), "unit_ids", "names no unit, so no request would be answered");
+  v.table("serial", modbus.serial, "Modbus RTU on a serial line, beside TCP");
+  v.optional("plc_timeout_ms", modbus.plc_timeout_ms, Range::between(0, 60000),
+             "Longest time without a change of the PLC's heartbeat; 0: it is not watched");
+}
+
+std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context);
+
+}  // namespace orbwatch::app

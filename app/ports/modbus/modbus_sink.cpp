@@ -1,0 +1,137 @@
+#include "app/ports/modbus/modbus_sink.h"
+
+#include <chrono>
+#include <utility>
+
+#include "app/log.h"
+
+namespace orbwatch::app {
+
+using std::chrono::microseconds;
+
+ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler)
+    : settings_(std::move(settings)), handler_(std::move(handler)) {}
+
+ModbusSink::~ModbusSink() { stop(); }
+
+Result<> ModbusSink::start() {
+  if (!settings_.enabled || tcp_) return {};
+  start_ = hal::Clock::now();
+  const std::chrono::duration<double, std::milli> plc_timeout(settings_.plc_timeout_ms);
+  plc_ = std::make_unique<modbus::PlcHandshake>(
+      handler_, std::chrono::duration_cast<hal::Clock::duration>(plc_timeout), start_);
+  auto responder = modbus::Responder::create(
+      map_, [this](const modbus::Write& registers) { write(registers); },
+      [this] { return process_image(); });
+  if (!responder) return tl::unexpected(responder.error());
+  responder_ = std::move(*responder);
+  if (auto opened = open_serial_line(); !opened) return opened;
+  if (auto opened = open_tcp(); !opened) return opened;
+  {
+    const std::lock_guard lock(mutex_);
+    received_at_ = hal::Clock::now();  // the status time-out starts here
+  }
+  tcp_thread_.start("modbus", [this] { tcp_->run(); });
+  if (serial_line_) serial_thread_.start("modbus rtu", [this] { serial_line_->run(); });
+  return {};
+}
+
+Result<> ModbusSink::open_tcp() {
+  auto transport = modbus::TcpTransport::create(settings_.unit_ids);
+  if (!transport) return tl::unexpected(transport.error());
+  tcp_transport_ = std::move(*transport);
+  auto server = modbus::TcpServer::open(
+      settings_,
+      [this](int socket, std::span<const std::uint8_t> frame, bool may_write) {
+        tcp_transport_->use(socket);
+        return responder_->answer(*tcp_transport_, frame, may_write);
+      },
+      [this] { return plc_->supervise(hal::Clock::now()); }, counters_);
+  if (!server) return tl::unexpected(server.error());
+  tcp_ = std::move(*server);
+  return {};
+}
+
+Result<> ModbusSink::open_serial_line() {
+  if (!settings_.serial) return {};
+  auto server = modbus::RtuServer::open(
+      *settings_.serial,
+      [this](modbus::Transport& transport, std::span<const std::uint8_t> frame) {
+        return responder_->answer(transport, frame, settings_.serial->may_write);
+      },
+      [this](const Result<>& line) {
+        log_line(line ? LogLevel::Info : LogLevel::Warning,
+                 line ? "modbus: the serial line " + settings_.serial->device + " is back"
+                      : line.error().message);
+      },
+      counters_);
+  if (!server) return tl::unexpected(server.error());
+  serial_line_ = std::move(*server);
+  return {};
+}
+
+void ModbusSink::stop() {
+  if (!tcp_) return;
+  tcp_->stop();
+  if (serial_line_) serial_line_->stop();
+  tcp_thread_.stop();
+  serial_thread_.stop();
+  tcp_.reset();
+  serial_line_.reset();
+  tcp_transport_.reset();
+  responder_.reset();
+  counters_.connections = 0;
+}
+
+void ModbusSink::accept(const Status& status) {
+  const auto now = hal::Clock::now();
+  const auto utc = hal::to_utc(status.stamp).time_since_epoch();
+  const std::lock_guard lock(mutex_);
+  // Once per frame set: each conversion of the clocks differs by a microsecond or so.
+  if (status.frame_set != newest_.status.frame_set || status.stamp != newest_.status.stamp) {
+    newest_.utc =
+        status.frame_set == 0 ? microseconds(0) : std::chrono::duration_cast<microseconds>(utc);
+  }
+  const bool is_result = status.result != 0 && status.result != newest_.status.result;
+  newest_.status = status;
+  received_at_ = now;
+  if (is_result) results_.push(newest_);
+}
+
+int ModbusSink::port() const { return tcp_ ? tcp_->port() : 0; }
+
+void ModbusSink::write(const modbus::Write& write) {
+  const std::uint32_t acknowledged = plc_->write(write, map_, hal::Clock::now());
+  const std::lock_guard lock(mutex_);
+  if (acknowledged != 0) results_.acknowledge(acknowledged);
+}
+
+modbus::ProcessImage ModbusSink::process_image() const {
+  modbus::ProcessImage image;
+  image.now = hal::Clock::now();
+  image.server = counters_.read();
+  image.server.uptime = static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(image.now - start_).count());
+  image.written = plc_->registers();
+  image.plc = plc_->status(image.now);
+  {
+    const std::lock_guard lock(mutex_);
+    image.live = newest_;
+    image.result = results_.oldest();
+    image.results = results_.status();
+    image.last_acknowledged = results_.last_acknowledged();
+    image.stale = image.now - received_at_ > settings_.status_timeout;
+  }
+  if (image.stale) {
+    image.live.status.state = SystemState::Fault;
+    image.live.status.regions = {};
+  }
+  return image;
+}
+
+std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context) {
+  if (!settings.enabled) return nullptr;
+  return std::make_unique<ModbusSink>(settings, context.handler);
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "app/model/command.h"
+#include "app/model/sink.h"
+#include "app/ports/modbus/map/process_image.h"
+#include "app/ports/modbus/map/register_map.h"
+#include "app/ports/modbus/modbus_settings.h"
+#include "app/ports/modbus/plc_handshake.h"
+#include "app/ports/modbus/result_queue.h"
+#include "app/ports/modbus/server/responder.h"
+#include "app/ports/modbus/server/rtu_server.h"
+#include "app/ports/modbus/server/tcp_server.h"
+#include "hal/thread/thread.h"
+
+namespace orbwatch::app {
+
+/// The Modbus server for PLCs: serves the newest status by the register map, keeps results until
+/// they are acknowledged, and executes commands. One thread for all clients on TCP, and one for the
+/// serial line if configured. The newest status wins; of results the first ResultQueue::kDepth
+/// wait.
+/// Thread rule: as Sink; statistics() is thread-safe, port() is for the thread of start().
+class ModbusSink final : public Sink {
+ public:
+  /// `handler` is called on the sink's threads.
+  ModbusSink(ModbusSettings settings, CommandHandler handler);
+  ~ModbusSink() override;
+
+  /// Errors: address or port cannot be used, or a setting is wrong; a serial line that is not
+  /// connected is waited for. Does nothing when disabled or already started.
+  Result<> start() override;
+  void stop() override;
+
+  void accept(const ViewPtr&) override {}  // registers show no pictures
+  void accept(const Status& status) override;
+
+  /// The listening port, also when any was asked for; 0 while stopped.
+  int port() const;
+
+  modbus::ServerStatus statistics() const { return counters_.read(); }
+
+ private:
+  Result<> open_tcp();
+  Result<> open_serial_line();
+  modbus::ProcessImage process_image() const;
+  void write(const modbus::Write& write);
+
+  const ModbusSettings settings_;
+  const CommandHandler handler_;
+  const modbus::RegisterMap map_;
+  modbus::ServerCounters counters_;
+  mutable std::mutex mutex_;  ///< of these three, held only while they are copied
+  modbus::StampedStatus newest_;
+  hal::TimePoint received_at_;
+  modbus::ResultQueue results_;
+  hal::TimePoint start_;
+  std::unique_ptr<modbus::PlcHandshake> plc_;
+  std::unique_ptr<modbus::Responder> responder_;
+  std::unique_ptr<modbus::TcpTransport> tcp_transport_;
+  std::unique_ptr<modbus::TcpServer> tcp_;
+  std::unique_ptr<modbus::RtuServer> serial_line_;
+  hal::Thread tcp_thread_;
+  hal::Thread serial_thread_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,96 @@
+#include "app/ports/modbus/server/access_list.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace orbwatch::app::modbus {
+namespace {
+
+constexpr int kAddressBits = 128;
+constexpr int kMappedBits = 96;  // before an IPv4 address in an IPv6 one
+
+/// `bits` leading ones of the byte at `place` of an address.
+std::uint8_t mask_of(int prefix_length, std::size_t place) {
+  const int bits = std::clamp(prefix_length - 8 * static_cast<int>(place), 0, 8);
+  return static_cast<std::uint8_t>(0xff00 >> bits);
+}
+
+/// A whole number and nothing else.
+std::optional<int> number_in(std::string_view text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+Result<std::vector<Network>> parse_networks(const std::vector<std::string>& texts) {
+  std::vector<Network> networks;
+  for (const std::string& text : texts) {
+    const auto network = parse_network(text);
+    if (!network) return tl::unexpected(network.error());
+    networks.push_back(*network);
+  }
+  return networks;
+}
+
+bool any_contains(const std::vector<Network>& networks, const HostAddress& host) {
+  return std::ranges::any_of(networks,
+                             [&](const Network& network) { return network.contains(host); });
+}
+
+}  // namespace
+
+bool Network::contains(const HostAddress& host) const {
+  for (std::size_t i = 0; i < host.size(); ++i) {
+    if ((host[i] ^ address[i]) & mask_of(prefix_length, i)) return false;
+  }
+  return true;
+}
+
+Result<Network> parse_network(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto address = parse_address(text.substr(0, slash), 0);
+  if (!address) {
+    return fail("'" + text + "' is not a numeric address or prefix, as 10.0.0.7 or 10.0.0.0/24");
+  }
+  Network network{.address = host_of(*address)};
+  if (slash == text.npos) return network;
+
+  const int before = address->storage.ss_family == AF_INET ? kMappedBits : 0;
+  const auto length = number_in(std::string_view(text).substr(slash + 1));
+  if (!length || *length < 0 || *length > kAddressBits - before) {
+    return fail("'" + text + "' has no prefix length of 0 to " +
+                std::to_string(kAddressBits - before) + " after the slash");
+  }
+  network.prefix_length = before + *length;
+  for (std::size_t i = 0; i < network.address.size(); ++i) {
+    if (network.address[i] & ~mask_of(network.prefix_length, i)) {
+      return fail("'" + text + "' has bits set after its first " + std::to_string(*length) +
+                  "; leave the length out for one host, or set them to 0");
+    }
+  }
+  return network;
+}
+
+Result<AccessList> AccessList::create(const std::vector<std::string>& readers,
+                                      const std::vector<std::string>& writers) {
+  auto may_read = parse_networks(readers);
+  if (!may_read) return fail("modbus: readers: " + may_read.error().message);
+  auto may_write = parse_networks(writers);
+  if (!may_write) return fail("modbus: writers: " + may_write.error().message);
+  AccessList list;
+  list.readers_ = std::move(*may_read);
+  list.writers_ = std::move(*may_write);
+  return list;
+}
+
+Permission AccessList::of(const HostAddress& host) const {
+  const bool is_reader = readers_.empty() || any_contains(readers_, host);
+  if (writers_.empty()) return is_reader ? Permission::Write : Permission::None;
+  if (any_contains(writers_, host)) return Permission::Write;
+  return is_reader ? Permission::Read : Permission::None;
+}
+
+}  // namespace orbwatch::app::modbus

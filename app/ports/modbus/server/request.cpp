@@ -1,0 +1,198 @@
+#include "app/ports/modbus/server/request.h"
+
+namespace orbwatch::app::modbus {
+namespace {
+
+using Pdu = std::span<const std::uint8_t>;
+using Parsed = tl::expected<Request, Exception>;
+
+// The largest quantities, so that request and answer fit into 253 bytes (V1.1b3, 6).
+constexpr int kMaxReadBits = 2000;
+constexpr int kMaxWriteBits = 1968;
+constexpr int kMaxWriteRegisters = 123;
+constexpr int kMaxReadWriteRegisters = 121;
+
+constexpr auto kBadValue = tl::unexpected(Exception::IllegalDataValue);
+
+std::uint16_t word(Pdu bytes, std::size_t offset) {
+  return static_cast<std::uint16_t>(bytes[offset] << 8 | bytes[offset + 1]);
+}
+
+std::vector<std::uint16_t> words(Pdu bytes) {
+  std::vector<std::uint16_t> values;
+  for (std::size_t i = 0; i < bytes.size(); i += 2) values.push_back(word(bytes, i));
+  return values;
+}
+
+bool in_range(int count, int maximum) { return count >= 1 && count <= maximum; }
+
+Parsed read_request(Pdu pdu, Table table, int maximum) {
+  if (pdu.size() != 5 || !in_range(word(pdu, 3), maximum)) return kBadValue;
+  return Request{.read = Range{table, word(pdu, 1), word(pdu, 3)}};
+}
+
+Parsed write_single_coil(Pdu pdu) {
+  if (pdu.size() != 5) return kBadValue;
+  const int value = word(pdu, 3);
+  if (value != 0 && value != 0xff00) return kBadValue;
+  return Request{.write = Write{{Table::Coil, word(pdu, 1), 1}, {value != 0}}};
+}
+
+Parsed write_single_register(Pdu pdu) {
+  if (pdu.size() != 5) return kBadValue;
+  return Request{.write = Write{{Table::Holding, word(pdu, 1), 1}, {word(pdu, 3)}}};
+}
+
+Parsed write_multiple_coils(Pdu pdu) {
+  if (pdu.size() < 6) return kBadValue;
+  const int count = word(pdu, 3);
+  const auto bytes = static_cast<std::size_t>((count + 7) / 8);
+  if (!in_range(count, kMaxWriteBits) || pdu[5] != bytes || pdu.size() != 6 + bytes) {
+    return kBadValue;
+  }
+  Write write{{Table::Coil, word(pdu, 1), count}, {}};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    write.values.push_back(pdu[6 + i / 8] >> i % 8 & 1);
+  }
+  return Request{.write = std::move(write)};
+}
+
+Parsed write_multiple_registers(Pdu pdu) {
+  if (pdu.size() < 6) return kBadValue;
+  const int count = word(pdu, 3);
+  const auto bytes = static_cast<std::size_t>(count) * 2;
+  if (!in_range(count, kMaxWriteRegisters) || pdu[5] != bytes || pdu.size() != 6 + bytes) {
+    return kBadValue;
+  }
+  return Request{.write = Write{{Table::Holding, word(pdu, 1), count}, words(pdu.subspan(6))}};
+}
+
+Parsed mask_write_register(Pdu pdu) {
+  if (pdu.size() != 7) return kBadValue;
+  return Request{.mask = MaskWrite{word(pdu, 1), word(pdu, 3), word(pdu, 5)}};
+}
+
+Parsed read_write_registers(Pdu pdu) {
+  if (pdu.size() < 10) return kBadValue;
+  const int reads = word(pdu, 3);
+  const int writes = word(pdu, 7);
+  const auto bytes = static_cast<std::size_t>(writes) * 2;
+  if (!in_range(reads, kMaxReadRegisters) || !in_range(writes, kMaxReadWriteRegisters) ||
+      pdu[9] != bytes || pdu.size() != 10 + bytes) {
+    return kBadValue;
+  }
+  return Request{.read = Range{Table::Holding, word(pdu, 1), reads},
+                 .write = Write{{Table::Holding, word(pdu, 5), writes}, words(pdu.subspan(10))}};
+}
+
+/// The value for the row whose first register is value `first` of the write.
+std::uint32_t written(const Write& write, std::size_t first, const Row& row) {
+  if (row.count == 1) return write.values[first];
+  return std::uint32_t{write.values[first]} << 16 | write.values[first + 1];
+}
+
+double in_unit(std::uint32_t code, const Row& row) {
+  if (row.type == Type::Dint) return row.quantity.scale * static_cast<std::int32_t>(code);
+  return row.quantity.scale * code;
+}
+
+}  // namespace
+
+Parsed parse(Pdu pdu) {
+  switch (pdu[0]) {
+    case 0x01:
+      return read_request(pdu, Table::Coil, kMaxReadBits);
+    case 0x02:
+      return read_request(pdu, Table::Discrete, kMaxReadBits);
+    case 0x03:
+      return read_request(pdu, Table::Holding, kMaxReadRegisters);
+    case 0x04:
+      return read_request(pdu, Table::Input, kMaxReadRegisters);
+    case 0x05:
+      return write_single_coil(pdu);
+    case 0x06:
+      return write_single_register(pdu);
+    case 0x0f:
+      return write_multiple_coils(pdu);
+    case 0x10:
+      return write_multiple_registers(pdu);
+    case 0x16:
+      return mask_write_register(pdu);
+    case 0x17:
+      return read_write_registers(pdu);
+    default:
+      return tl::unexpected(Exception::IllegalFunction);
+  }
+}
+
+std::optional<std::size_t> request_length(Pdu pdu) {
+  // The last of the fixed fields is the number of bytes that follow.
+  const auto counted = [&](std::size_t fixed) {
+    return pdu.size() < fixed ? fixed : fixed + pdu[fixed - 1];
+  };
+  switch (pdu[0]) {
+    case 0x01:
+    case 0x02:
+    case 0x03:
+    case 0x04:
+    case 0x05:
+    case 0x06:
+      return 5;
+    case 0x0f:
+    case 0x10:
+      return counted(6);
+    case 0x16:
+      return 7;
+    case 0x17:
+      return counted(10);
+    case 0x2b:  // Read Device Identification
+      return 4;
+    default:
+      return std::nullopt;
+  }
+}
+
+Write resolved(const MaskWrite& mask, const RegisterMap& map, const ProcessImage& image) {
+  const Row* row = map.find(Table::Holding, mask.address);
+  const auto old = static_cast<std::uint16_t>(row && row->read ? row->read(image) : 0);
+  const int value = (old & mask.and_mask) | (mask.or_mask & ~mask.and_mask);
+  return {{Table::Holding, mask.address, 1}, {static_cast<std::uint16_t>(value)}};
+}
+
+std::optional<Exception> check(const Range& read, const RegisterMap& map) {
+  for (int address = read.address; address < read.address + read.count;) {
+    const Row* row = map.find(read.table, address);
+    if (!row) return Exception::IllegalDataAddress;
+    address = row->address + row->count;
+  }
+  return std::nullopt;
+}
+
+std::optional<Exception> check(const Write& write, const RegisterMap& map) {
+  const auto& [table, address, count] = write.range;
+  for (int i = 0; i < count;) {
+    const Row* row = map.find(table, address + i);
+    const bool whole = row && row->address == address + i && i + row->count <= count;
+    if (!whole || !row->write) return Exception::IllegalDataAddress;
+    i += row->count;
+  }
+  // The standard's state diagrams check all addresses before any value.
+  for (int i = 0; i < count;) {
+    const Row* row = map.find(table, address + i);
+    const double value = in_unit(written(write, static_cast<std::size_t>(i), *row), *row);
+    if (value < row->quantity.minimum || value > row->quantity.maximum)
+      return Exception::IllegalDataValue;
+    i += row->count;
+  }
+  return std::nullopt;
+}
+
+void apply(const Write& write, const RegisterMap& map, PlcRegisters& registers) {
+  for (int i = 0; i < write.range.count;) {
+    const Row* row = map.find(write.range.table, write.range.address + i);
+    row->write(registers, written(write, static_cast<std::size_t>(i), *row));
+    i += row->count;
+  }
+}
+
+}  // namespace orbwatch::app::modbus

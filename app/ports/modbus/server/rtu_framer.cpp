@@ -1,0 +1,111 @@
+#include "app/ports/modbus/server/rtu_framer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/ports/modbus/server/request.h"
+
+namespace orbwatch::app::modbus {
+namespace {
+
+constexpr std::size_t kUnit = 1;
+constexpr std::size_t kChecksum = 2;
+constexpr std::size_t kShortest = kUnit + 1 + kChecksum;
+
+/// The longest gap inside a frame. Adapters pause for up to 16 ms; masters repeat a request after
+/// 100 ms or more.
+constexpr std::chrono::milliseconds kMaxGap{50};
+
+/// The checksum (V1.02, 6.2.2) over one more byte.
+std::uint16_t checked(std::uint16_t checksum, std::uint8_t byte) {
+  checksum ^= byte;
+  for (int bit = 0; bit < 8; ++bit) {
+    checksum = static_cast<std::uint16_t>(checksum & 1 ? checksum >> 1 ^ 0xa001 : checksum >> 1);
+  }
+  return checksum;
+}
+
+/// The length of the shortest beginning that ends with its own checksum, over which the checksum is
+/// 0. 0: there is none.
+std::size_t checked_length(std::span<const std::uint8_t> bytes) {
+  std::uint16_t checksum = 0xffff;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    checksum = checked(checksum, bytes[i]);
+    if (checksum == 0 && i + 1 >= kShortest) return i + 1;
+  }
+  return 0;
+}
+
+bool is_checked(std::span<const std::uint8_t> frame) {
+  std::uint16_t checksum = 0xffff;
+  for (const std::uint8_t byte : frame) checksum = checked(checksum, byte);
+  return checksum == 0;
+}
+
+}  // namespace
+
+void RtuFramer::push(std::span<const std::uint8_t> bytes, hal::Clock::duration silence) {
+  if (silence >= pause_) {
+    is_lost_ = false;
+    const bool may_go_on = size_ > 0 && is_for_us(buffer_[0]) && silence < kMaxGap;
+    if (size_ > 0 && !may_go_on) {
+      ++errors_;
+      size_ = 0;
+    }
+    after_pause_ = size_;
+  }
+  if (is_lost_) return;
+  std::ranges::copy(bytes, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
+  size_ += bytes.size();
+}
+
+std::optional<std::span<const std::uint8_t>> RtuFramer::next() {
+  drop(std::exchange(returned_, 0));
+  while (size_ > 0) {
+    const auto length = frame_length(bytes());
+    // The bytes before the pause may be noise.
+    const bool is_noise =
+        !length || (*length == 0 && frame_length(bytes().subspan(after_pause_)).value_or(0) > 0);
+    if (is_noise) {
+      resynchronise();
+    } else if (*length == 0) {
+      return std::nullopt;
+    } else if (is_for_us(buffer_[0])) {
+      returned_ = *length;
+      return bytes().first(returned_);
+    } else {
+      ++other_units_;
+      drop(*length);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The length of the frame that begins these bytes; 0: incomplete. nullopt: there is none.
+std::optional<std::size_t> RtuFramer::frame_length(std::span<const std::uint8_t> bytes) const {
+  const bool has_function = bytes.size() > kUnit;
+  if (const auto pdu = has_function && is_for_us(bytes[0]) ? request_length(bytes.subspan(kUnit))
+                                                           : std::nullopt) {
+    const std::size_t length = kUnit + *pdu + kChecksum;
+    if (length > kLongestFrame) return std::nullopt;
+    if (bytes.size() < length) return 0;
+    return is_checked(bytes.first(length)) ? std::optional(length) : std::nullopt;
+  }
+  const std::size_t length = checked_length(bytes.first(std::min(bytes.size(), kLongestFrame)));
+  return length == 0 && bytes.size() >= kLongestFrame ? std::nullopt : std::optional(length);
+}
+
+/// Continues after the last pause, or else after the next one.
+void RtuFramer::resynchronise() {
+  ++errors_;
+  is_lost_ = after_pause_ == 0;
+  drop(is_lost_ ? size_ : after_pause_);
+}
+
+void RtuFramer::drop(std::size_t count) {
+  std::ranges::copy(bytes().subspan(count), buffer_.begin());
+  size_ -= count;
+  after_pause_ -= std::min(after_pause_, count);
+}
+
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "hal/clock.h"
+
+namespace orbwatch::app::modbus {
+
+/// Splits the bytes of a serial line into the Modbus RTU frames for one unit (Modbus over Serial
+/// Line V1.02, 2.5.1). Frames of other units and frames with a wrong checksum are skipped, as the
+/// standard says.
+///
+/// By the standard a frame ends with a pause of 3.5 characters. USB adapters deliver one frame in
+/// pieces with longer pauses, or two frames in one piece. So a frame ends where its function code
+/// says, or else where its checksum matches; a pause only marks where the next frame may begin
+/// after an error. Knows no device and no clock. Thread-bound.
+class RtuFramer {
+ public:
+  /// Unit, protocol data unit of 253 bytes at most, checksum.
+  static constexpr std::size_t kLongestFrame = 256;
+  static constexpr int kBroadcast = 0;
+
+  /// A silence of `pause` or longer is a pause.
+  RtuFramer(int unit_id, hal::Clock::duration pause) : unit_id_(unit_id), pause_(pause) {}
+
+  /// Appends `bytes`, at most kLongestFrame, that arrived `silence` after those before. Only when
+  /// next() returned nullopt.
+  void push(std::span<const std::uint8_t> bytes, hal::Clock::duration silence);
+
+  /// The next whole frame for the unit or for all, with its right checksum; nullopt until one is
+  /// there. Invalidates the frame returned before.
+  std::optional<std::span<const std::uint8_t>> next();
+
+  /// Bytes that were no frame were dropped so many times.
+  std::uint64_t errors() const { return errors_; }
+
+  /// Whole frames to and from other units.
+  std::uint64_t other_units() const { return other_units_; }
+
+ private:
+  std::span<const std::uint8_t> bytes() const { return std::span(buffer_).first(size_); }
+  bool is_for_us(std::uint8_t unit) const { return unit == unit_id_ || unit == kBroadcast; }
+  std::optional<std::size_t> frame_length(std::span<const std::uint8_t> bytes) const;
+  void resynchronise();
+  void drop(std::size_t count);
+
+  const int unit_id_;
+  const hal::Clock::duration pause_;
+  std::array<std::uint8_t, 2 * kLongestFrame> buffer_{};
+  std::size_t size_ = 0;
+  std::size_t returned_ = 0;     ///< length of the frame at the front that next() returned
+  std::size_t after_pause_ = 0;  ///< place of the last pause in the buffer; 0: none
+  bool is_lost_ = false;         ///< bytes are dropped until the next pause
+  std::uint64_t errors_ = 0;
+  std::uint64_t other_units_ = 0;
+};
+
+/// The pause that ends a frame: 3.5 characters of 11 bits, above 19200 bit/s 1.75 ms.
+constexpr hal::Clock::duration rtu_pause(int baud_rate) {
+  using std::chrono::microseconds;
+  return baud_rate > 19200 ? microseconds(1750) : microseconds(38'500'000 / baud_rate);
+}
+
+}  // namespace orbwatch::app::modbus

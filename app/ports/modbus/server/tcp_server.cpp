@@ -1,0 +1,258 @@
+#include "app/ports/modbus/server/tcp_server.h"
+
+#include <netinet/tcp.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "app/ports/modbus/server/socket_address.h"
+
+namespace orbwatch::app::modbus {
+namespace {
+
+// The user data of epoll events. Connections have identifiers of their own: the kernel reuses
+// socket numbers, and a later event of the same round may still belong to the closed one.
+constexpr std::uint64_t kStop = 0;
+constexpr std::uint64_t kListener = 1;
+constexpr std::uint64_t kFirstConnection = 2;
+
+/// Limits unread answers of one client; the kernel doubles it for its bookkeeping.
+constexpr int kSendBuffer = 16384;
+
+/// After the process ran out of file descriptors.
+constexpr std::chrono::seconds kAcceptPause{1};
+
+std::string text_of(int error) { return std::system_category().message(error); }
+
+std::string advice(int error) {
+  switch (error) {
+    case EADDRINUSE:
+      return "stop the program that uses it or set another port";
+    case EACCES:
+      return "ports below 1024 need CAP_NET_BIND_SERVICE, 1502 does not";
+    case EADDRNOTAVAIL:
+      return "set an address of this machine, or 0.0.0.0 for all of them";
+    default:
+      return "check address and port";
+  }
+}
+
+Result<> check(const ModbusSettings& settings) {
+  if (settings.port < 0 || settings.port > 65535) {
+    return fail("modbus: port " + std::to_string(settings.port) + " is not in 0 to 65535");
+  }
+  if (settings.max_connections < 1) {
+    return fail("modbus: max_connections " + std::to_string(settings.max_connections) +
+                " leaves no client; set 1 or more");
+  }
+  return {};
+}
+
+int watch_file(int epoll, int operation, int file, std::uint64_t id, std::uint32_t events) {
+  epoll_event event{};
+  event.events = events;
+  event.data.u64 = id;
+  return ::epoll_ctl(epoll, operation, file, &event);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TcpServer>> TcpServer::open(const ModbusSettings& settings, Answer answer,
+                                                   Timer timer, ServerCounters& counters) {
+  if (auto checked = check(settings); !checked) return tl::unexpected(checked.error());
+  std::unique_ptr<TcpServer> server(
+      new TcpServer(settings, std::move(answer), std::move(timer), counters));
+  auto access = AccessList::create(settings.readers, settings.writers);
+  if (!access) return tl::unexpected(access.error());
+  server->access_ = std::move(*access);
+  if (auto listening = server->listen(); !listening) return tl::unexpected(listening.error());
+  if (auto watching = server->watch(); !watching) return tl::unexpected(watching.error());
+  return server;
+}
+
+Result<> TcpServer::listen() {
+  auto address = parse_address(settings_.address, settings_.port);
+  if (!address) {
+    return fail("modbus: address '" + settings_.address +
+                "' is not a numeric IP address; set one of this machine, or 0.0.0.0 for all");
+  }
+  const auto refused = [this] {
+    const int error = errno;
+    return fail("modbus: cannot listen on " + settings_.address + " port " +
+                std::to_string(settings_.port) + ": " + text_of(error) + "; " + advice(error));
+  };
+  listener_ = hal::FileDescriptor(
+      ::socket(address->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!listener_.is_open()) return refused();
+  // A restart must not wait for the connections of the run before to time out.
+  const int on = 1;
+  if (::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) != 0 ||
+      ::bind(listener_.get(), address->get(), address->length) != 0 ||
+      ::listen(listener_.get(), SOMAXCONN) != 0 ||
+      ::getsockname(listener_.get(), address->get(), &address->length) != 0) {
+    return refused();
+  }
+  port_ = port_of(*address);
+  return {};
+}
+
+Result<> TcpServer::watch() {
+  epoll_ = hal::FileDescriptor(::epoll_create1(EPOLL_CLOEXEC));
+  if (!epoll_.is_open() || !stop_.is_open() ||
+      watch_file(epoll_.get(), EPOLL_CTL_ADD, stop_.get(), kStop, EPOLLIN) != 0 ||
+      watch_file(epoll_.get(), EPOLL_CTL_ADD, listener_.get(), kListener, EPOLLIN) != 0) {
+    return fail("modbus: cannot watch the sockets: " + text_of(errno));
+  }
+  next_id_ = kFirstConnection;
+  connections_.reserve(static_cast<std::size_t>(settings_.max_connections));
+  return {};
+}
+
+void TcpServer::run() {
+  std::array<epoll_event, 32> events;
+  for (;;) {
+    const int count = ::epoll_wait(epoll_.get(), events.data(), static_cast<int>(events.size()),
+                                   hal::poll_timeout(next_deadline(timer_())));
+    for (int i = 0; i < count; ++i) {
+      const std::uint64_t id = events[static_cast<std::size_t>(i)].data.u64;
+      if (id == kStop) return;
+      if (id == kListener) {
+        accept_client();
+      } else {
+        serve(id);
+      }
+    }
+    drop_overdue();
+    if (!accepting_ && hal::Clock::now() >= accept_again_) {
+      accepting_ =
+          watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, EPOLLIN) == 0;
+    }
+  }
+}
+
+/// One client per round: a flood of connections does not delay those that are served.
+void TcpServer::accept_client() {
+  SocketAddress peer;
+  hal::FileDescriptor socket(
+      ::accept4(listener_.get(), peer.get(), &peer.length, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!socket.is_open()) {
+    // Other errors concern this client only, which disconnected.
+    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
+      pause_accepting();
+    }
+    return;
+  }
+  const HostAddress host = host_of(peer);
+  const Permission permission = access_.of(host);
+  if (permission == Permission::None || !has_room_for(permission)) {
+    ++counters_.dropped;
+    return;
+  }
+  const int on = 1;
+  const std::uint64_t id = next_id_++;
+  if (::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on)) != 0 ||
+      ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof(kSendBuffer)) != 0 ||
+      watch_file(epoll_.get(), EPOLL_CTL_ADD, socket.get(), id, EPOLLIN) != 0) {
+    ++counters_.dropped;
+    return;
+  }
+  connections_.push_back({.id = id,
+                          .socket = std::move(socket),
+                          .host = host,
+                          .may_write = permission == Permission::Write,
+                          .last_request = hal::Clock::now()});
+  counters_.connections = connections_.size();
+}
+
+/// The client in the backlog would wake epoll again and again until a descriptor is free.
+void TcpServer::pause_accepting() {
+  accepting_ = watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, 0) != 0;
+  accept_again_ = hal::Clock::now() + kAcceptPause;
+}
+
+/// A full server closes the oldest unused connection (Modbus Messaging on TCP/IP Implementation
+/// Guide): readers before writers, then connections without a request, then those of the host with
+/// most connections. So neither readers nor many connections can displace a PLC. A reader never
+/// displaces a writer.
+bool TcpServer::has_room_for(Permission permission) {
+  if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return true;
+  const auto of_host = [this](const Connection& connection) {
+    return std::ranges::count(connections_, connection.host, &Connection::host);
+  };
+  const auto least = std::ranges::min_element(connections_, {}, [&](const Connection& connection) {
+    return std::tuple(connection.may_write, connection.has_asked, -of_host(connection),
+                      connection.last_request);
+  });
+  if (least->may_write && permission != Permission::Write) return false;
+  ++counters_.dropped;
+  drop(least);
+  return true;
+}
+
+void TcpServer::serve(std::uint64_t id) {
+  const auto connection = std::ranges::find(connections_, id, &Connection::id);
+  if (connection == connections_.end()) return;  // dropped in this round
+  const auto room = connection->framer.room();
+  const ssize_t received = ::recv(connection->socket.get(), room.data(), room.size(), 0);
+  if (received < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (received <= 0) return drop(connection);  // the client disconnected
+  if (connection->framer.is_empty()) connection->frame_begin = hal::Clock::now();
+  connection->framer.commit(static_cast<std::size_t>(received));
+  if (answer_frames(*connection)) return;
+  ++counters_.dropped;
+  drop(connection);
+}
+
+/// Answers the received whole frames; false when the connection must be closed.
+bool TcpServer::answer_frames(Connection& connection) {
+  bool any = false;
+  while (const auto frame = connection.framer.next()) {
+    const Outcome outcome = answer_(connection.socket.get(), *frame, connection.may_write);
+    if (outcome == Outcome::NotModbus || outcome == Outcome::Refused) ++counters_.refused;
+    if (outcome == Outcome::NotModbus || outcome == Outcome::NotSent) return false;
+    ++counters_.answered;
+    any = true;
+  }
+  if (connection.framer.is_broken()) {
+    ++counters_.refused;
+    return false;
+  }
+  if (any) {
+    connection.has_asked = true;
+    connection.last_request = connection.frame_begin = hal::Clock::now();
+  }
+  return true;
+}
+
+void TcpServer::drop(Connections::iterator connection) {
+  connections_.erase(connection);  // closes the socket, which removes it from epoll
+  counters_.connections = connections_.size();
+}
+
+hal::TimePoint TcpServer::deadline(const Connection& connection) const {
+  const auto idle = connection.last_request + settings_.idle_timeout;
+  if (connection.framer.is_empty()) return idle;
+  return std::min(idle, connection.frame_begin + settings_.frame_timeout);
+}
+
+void TcpServer::drop_overdue() {
+  const auto now = hal::Clock::now();
+  const auto overdue = [&](const Connection& connection) { return deadline(connection) <= now; };
+  counters_.dropped += std::erase_if(connections_, overdue);
+  counters_.connections = connections_.size();
+}
+
+/// `next`, or the deadline of a connection before it.
+hal::TimePoint TcpServer::next_deadline(hal::TimePoint next) const {
+  for (const Connection& connection : connections_) next = std::min(next, deadline(connection));
+  return accepting_ ? next : std::min(next, accept_again_);
+}
+
+}  // namespace orbwatch::app::modbus

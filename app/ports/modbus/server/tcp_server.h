@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/ports/modbus/map/process_image.h"
+#include "app/ports/modbus/modbus_settings.h"
+#include "app/ports/modbus/server/access_list.h"
+#include "app/ports/modbus/server/mbap_framer.h"
+#include "app/ports/modbus/server/responder.h"
+#include "hal/clock.h"
+#include "hal/thread/event_fd.h"
+#include "hal/thread/file_descriptor.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::modbus {
+
+/// Modbus TCP: accepts permitted clients, forwards their requests frame by frame, and closes
+/// connections that are too slow, idle, do not receive answers, or do not speak Modbus. Sockets are
+/// non-blocking: no client delays another.
+/// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
+class TcpServer {
+ public:
+  /// Answers one whole frame on a non-blocking socket.
+  using Answer =
+      std::function<Outcome(int socket, std::span<const std::uint8_t> frame, bool may_write)>;
+
+  /// Called on the serving thread, again at the returned time or earlier.
+  using Timer = std::function<hal::TimePoint()>;
+
+  /// Listens: clients can connect before run(). Errors: address or port cannot be used. `counters`
+  /// outlives the server.
+  static Result<std::unique_ptr<TcpServer>> open(const ModbusSettings& settings, Answer answer,
+                                                 Timer timer, ServerCounters& counters);
+
+  /// The listening port.
+  int port() const { return port_; }
+
+  /// Serves until stop().
+  void run();
+
+  void stop() { stop_.signal(); }
+
+ private:
+  struct Connection {
+    std::uint64_t id = 0;
+    hal::FileDescriptor socket{};
+    HostAddress host{};
+    bool may_write = false;
+    bool has_asked = false;         ///< sent a whole request
+    hal::TimePoint last_request{};  ///< or when it was opened
+    hal::TimePoint frame_begin{};   ///< arrival of the first byte of an incomplete frame
+    MbapFramer framer{};
+  };
+  using Connections = std::vector<Connection>;
+
+  TcpServer(const ModbusSettings& settings, Answer answer, Timer timer, ServerCounters& counters)
+      : settings_(settings),
+        answer_(std::move(answer)),
+        timer_(std::move(timer)),
+        counters_(counters) {}
+
+  Result<> listen();
+  Result<> watch();
+  void accept_client();
+  void pause_accepting();
+  bool has_room_for(Permission permission);
+  void serve(std::uint64_t id);
+  bool answer_frames(Connection& connection);
+  void drop(Connections::iterator connection);
+  void drop_overdue();
+  hal::TimePoint deadline(const Connection& connection) const;
+  hal::TimePoint next_deadline(hal::TimePoint next) const;
+
+  const ModbusSettings settings_;
+  const Answer answer_;
+  const Timer timer_;
+  ServerCounters& counters_;
+  AccessList access_;
+  hal::FileDescriptor listener_;
+  hal::FileDescriptor epoll_;
+  hal::EventFd stop_;
+  int port_ = 0;
+  bool accepting_ = true;
+  hal::TimePoint accept_again_;  ///< while accepting is paused
+  std::uint64_t next_id_ = 0;
+  Connections connections_;
+};
+
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/ports/modbus/server/request.h"
+#include "proc/image/result.h"
+
+// libmodbus' own names for what its header declares.
+struct _modbus;
+struct _modbus_mapping_t;
+
+namespace orbwatch::app::modbus {
+
+/// Sends answers with libmodbus, which frames them for one kind of line. Never reads, never waits.
+/// `request` is always the whole frame that is answered. Thread-bound.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+
+  /// The protocol data unit (function code and data) of a whole frame.
+  std::span<const std::uint8_t> pdu_of(std::span<const std::uint8_t> frame) const {
+    return frame.subspan(header_, frame.size() - header_ - checksum_);
+  }
+
+  /// The request addresses one of our units.
+  virtual bool is_ours(std::span<const std::uint8_t> request) const = 0;
+
+  /// Answers from `mapping`, which must hold all registers of the request. These three return false
+  /// when the answer could not be sent at once.
+  bool reply(std::span<const std::uint8_t> request, _modbus_mapping_t& mapping);
+  virtual bool refuse(std::span<const std::uint8_t> request, Exception exception);
+  /// Answers with a protocol data unit of a function that libmodbus does not know.
+  virtual bool send(std::span<const std::uint8_t> request, std::span<const std::uint8_t> pdu) = 0;
+
+ protected:
+  struct Free {
+    void operator()(_modbus* context) const;
+  };
+  using Context = std::unique_ptr<_modbus, Free>;
+
+  /// `checksum`: bytes behind the protocol data unit.
+  Transport(Context context, std::size_t checksum);
+
+  /// Prepares a context for answering. Errors: `context` is nullptr.
+  static Result<Context> prepared(_modbus* context);
+
+  Context context_;
+
+ private:
+  std::size_t header_;
+  std::size_t checksum_;
+};
+
+/// Modbus TCP: one transport for all connections.
+class TcpTransport final : public Transport {
+ public:
+  /// Requests for other units get exception 11, as from a gateway without such a device.
+  static Result<std::unique_ptr<TcpTransport>> create(std::vector<int> unit_ids);
+
+  /// The socket of the next answers, non-blocking.
+  void use(int socket);
+
+  bool is_ours(std::span<const std::uint8_t> request) const override;
+  bool send(std::span<const std::uint8_t> request, std::span<const std::uint8_t> pdu) override;
+
+ private:
+  TcpTransport(Context context, std::vector<int> unit_ids)
+      : Transport(std::move(context), 0), unit_ids_(std::move(unit_ids)) {}
+
+  std::vector<int> unit_ids_;
+};
+
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,150 @@
+#include "app/ports/snapshot/snapshot_sink.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <map>
+#include <optional>
+#include <regex>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "app/log.h"
+#include "app/pictures/picture_file.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// 20260131T235959.123Z: sorts by time.
+std::string stamp_text(hal::TimePoint moment) {
+  using std::chrono::milliseconds;
+  const auto utc = std::chrono::floor<milliseconds>(hal::to_utc(moment)).time_since_epoch();
+  const std::time_t seconds = std::chrono::floor<std::chrono::seconds>(utc).count();
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y%m%dT%H%M%S", &parts);
+  const std::string fraction = std::to_string(1000 + utc.count() % 1000).substr(1);
+  return std::string(text.data()) + "." + fraction + "Z";
+}
+
+/// VIEW_TIME_FRAMESET
+std::string name_of(const View& view) {
+  return std::string(view.name) + "_" + stamp_text(view.stamp) + "_" +
+         std::to_string(view.frame_set);
+}
+
+/// A snapshot in the folder: its time, and the common part of its files' names.
+struct Snapshot {
+  std::string stamp;
+  std::string name;
+  bool operator<(const Snapshot& other) const {
+    return std::tie(stamp, name) < std::tie(other.stamp, other.name);
+  }
+};
+
+/// The snapshot of a file written here; nullopt for other files.
+std::optional<Snapshot> snapshot_of(const std::filesystem::path& file) {
+  static const std::regex kName(R"((\w+_(\d{8}T\d{6}\.\d{3}Z)_\d+)(_measured)?\.png)");
+  std::smatch match;
+  const std::string name = file.filename().string();
+  if (!std::regex_match(name, match, kName)) return std::nullopt;
+  return Snapshot{match[2].str(), match[1].str()};
+}
+
+}  // namespace
+
+SnapshotSink::~SnapshotSink() { stop(); }
+
+CommandResult SnapshotSink::request(std::size_t view) {
+  if (view >= kMaxViews) return CommandResult::ArgumentOutOfRange;
+  if (busy_[view].exchange(true)) return CommandResult::Busy;
+  wanted_[view] = true;
+  return CommandResult::Done;
+}
+
+Result<> SnapshotSink::start() {
+  std::error_code error;
+  std::filesystem::create_directories(settings_.folder, error);
+  if (!error && ::access(settings_.folder.c_str(), W_OK) != 0)
+    error.assign(errno, std::generic_category());
+  if (error) {
+    return fail("snapshot.folder: " + settings_.folder.string() + ": " + error.message() +
+                "; it must be a folder that can be written to");
+  }
+  thread_.start("snapshot", [this] { run(); });
+  return {};
+}
+
+void SnapshotSink::accept(const ViewPtr& view) {
+  if (!wanted_[view->index].exchange(false)) return;
+  {
+    const std::lock_guard lock(mutex_);
+    accepted_[view->index] = view;
+  }
+  thread_.wake();
+}
+
+void SnapshotSink::run() {
+  while (thread_.wait()) write_all();
+  write_all();  // accepted before the stop
+}
+
+void SnapshotSink::write_all() {
+  while (const ViewPtr view = next()) {
+    const std::string name = name_of(*view);
+    const auto done = write(*view, name).and_then([&] { return remove_oldest(name); });
+    if (!done) log_line(LogLevel::Error, "snapshot: " + done.error().message);
+    busy_[view->index] = false;
+    if (done) ++written_;
+  }
+}
+
+/// The next view to write; null without one.
+ViewPtr SnapshotSink::next() {
+  const std::lock_guard lock(mutex_);
+  const auto view = std::ranges::find_if(accepted_, [](const ViewPtr& v) { return v != nullptr; });
+  return view == accepted_.end() ? nullptr : std::exchange(*view, nullptr);
+}
+
+Result<> SnapshotSink::write(const View& view, const std::string& name) {
+  const auto path = settings_.folder / (name + ".png");
+  if (auto done = write_picture(path, picture_of(PixelFormat::Rgb, view.colour)); !done) {
+    return done;
+  }
+  const auto measured = settings_.folder / (name + "_measured.png");
+  if (!view.radiometric.empty()) {
+    return write_picture(measured, picture_of(PixelFormat::Y16, view.radiometric));
+  }
+  if (!view.luminance.empty()) {
+    return write_picture(measured, picture_of(PixelFormat::Grey, view.luminance));
+  }
+  return {};
+}
+
+/// `newest` stays, also when the clock was set back and its name is not the last.
+Result<> SnapshotSink::remove_oldest(const std::string& newest) {
+  std::map<Snapshot, std::vector<std::filesystem::path>> others;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(settings_.folder, error), end; !error && it != end;
+       it.increment(error)) {
+    const auto snapshot = snapshot_of(it->path());
+    if (snapshot && snapshot->name != newest) others[*snapshot].push_back(it->path());
+  }
+  const auto keep = static_cast<std::size_t>(settings_.keep) - 1;
+  for (auto oldest = others.begin(); !error && others.size() > keep; others.erase(oldest++)) {
+    for (const auto& file : oldest->second) {
+      if (!error) std::filesystem::remove(file, error);
+    }
+  }
+  if (error) return fail(settings_.folder.string() + ": " + error.message());
+  return {};
+}
+
+}  // namespace orbwatch::app

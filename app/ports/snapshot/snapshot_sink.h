@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "app/model/command.h"
+#include "app/model/sink.h"
+#include "hal/thread/thread.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+struct SnapshotSettings {
+  std::filesystem::path folder;
+  int keep = 100;  ///< snapshots on the disk
+};
+
+template <class Visitor>
+void visit(Visitor& v, SnapshotSettings& snapshot) {
+  v.required("folder", snapshot.folder, "Where the command snapshot writes PNG pictures");
+  v.optional("keep", snapshot.keep, Range::between(1, 100000),
+             "Snapshots that are kept; one more removes the oldest");
+}
+
+/// Writes a view's next picture as PNG on request, on a thread of its own:
+/// VIEW_YYYYMMDDTHHMMSS.mmmZ_FRAMESET.png by the UTC of its exposure. A raw measured plane is
+/// written as VIEW_..._measured.png. Keeps the newest ones; other files in the folder are not
+/// touched. At most one picture of each view waits to be written.
+/// Thread rule: as Sink's; request on any thread.
+class SnapshotSink final : public Sink {
+ public:
+  explicit SnapshotSink(SnapshotSettings settings) : settings_(std::move(settings)) {}
+  ~SnapshotSink() override;
+
+  /// Requests the next picture of a view. Busy while one of that view is requested or written;
+  /// ArgumentOutOfRange: no such view.
+  CommandResult request(std::size_t view);
+
+  /// Creates the folder. Error: it cannot be created or is not writable.
+  Result<> start() override;
+  /// Writes the accepted views first; a snapshot without one is never written.
+  void stop() override { thread_.stop(); }
+  void accept(const ViewPtr& view) override;
+  void accept(const Status&) override {}
+
+  /// Snapshots since start that are on disk.
+  std::uint64_t written() const { return written_; }
+
+ private:
+  void run();
+  ViewPtr next();
+  void write_all();
+  Result<> write(const View& view, const std::string& name);
+  Result<> remove_oldest(const std::string& newest);
+
+  const SnapshotSettings settings_;
+  std::array<std::atomic<bool>, kMaxViews> busy_{};    ///< by view: requested or written
+  std::array<std::atomic<bool>, kMaxViews> wanted_{};  ///< by view: request for its next picture
+  std::mutex mutex_;
+  std::array<ViewPtr, kMaxViews> accepted_;  ///< by view: to be written; under mutex_
+  std::atomic<std::uint64_t> written_{0};
+  hal::Thread thread_;
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace orbwatch::app::simulation {
+
+/// Whether the point (right, up) is on a letter of `text`, painted in capitals of `height` and
+/// centred in the origin. Lengths in one unit. Reentrant.
+bool on_ink(std::string_view text, double height, double right, double up);
+
+}  // namespace orbwatch::app::simulation

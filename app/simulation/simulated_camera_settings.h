@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/simulation/tracing/ray.h"
+#include "hal/camera.h"
+#include "hal/fault_script.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app::simulation {
+
+class Machine;
+
+enum class CameraKind : std::uint8_t {
+  Colour,   ///< Rgb: each pixel the mean light of four points in it
+  Thermal,  ///< Y16, radiometric: each pixel the temperature at its centre
+};
+
+/// One camera on the machine. It points at the ball's centre, upright (picture's up nearest to +Z).
+struct SimulatedCameraSettings {
+  static constexpr std::string_view kName = "simulated";
+
+  std::string name{};  ///< becomes CameraInfo::id; also part of the noise's seed
+  CameraKind kind = CameraKind::Colour;
+  Vec3 position{160, -430, 480};  ///< mm, machine frame; outside the enclosure walls are windows
+  double horizontal_fov = 13;     ///< degrees from picture edge to picture edge
+  int width = 1000;               ///< pixels, unless configure() asks for another size
+  int height = 1000;
+  double frame_rate = 15;          ///< per second, unless configure() asks for another rate
+  double noise_sigma = 1;          ///< counts, Gaussian; 0: none
+  double kelvin_per_count = 0.04;  ///< thermal only: sample = T in K / kelvin_per_count
+  std::vector<hal::ScriptedFault> faults{};
+};
+
+inline constexpr std::array kCameraKinds{Word{"colour", CameraKind::Colour},
+                                         Word{"thermal", CameraKind::Thermal}};
+
+/// All but what the context of a camera states.
+template <class Visitor>
+void visit(Visitor& v, SimulatedCameraSettings& settings) {
+  v.required("kind", settings.kind, kCameraKinds, "8-bit RGB, or 16-bit radiometric");
+  v.required("position", settings.position, kAnyNumber,
+             "In the machine frame, mm; it looks at the ball");
+  v.required("h_fov", settings.horizontal_fov, Range::inside(0, 180),
+             "Horizontal field of view, deg");
+  v.optional("noise", settings.noise_sigma, Range::between(0, 1000), "Standard deviation, counts");
+}
+
+/// What a simulated camera is made with besides: the machine that all of them look into.
+struct SimulationContext : hal::CameraContext {
+  std::shared_ptr<const Machine> machine;
+};
+
+std::unique_ptr<hal::Camera> make_camera(SimulatedCameraSettings settings,
+                                         const SimulationContext& context);
+
+}  // namespace orbwatch::app::simulation

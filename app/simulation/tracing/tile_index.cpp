@@ -1,0 +1,57 @@
+#include "app/simulation/tracing/tile_index.h"
+
+#include <algorithm>
+
+#include "app/simulation/tracing/parallel_for.h"
+
+namespace orbwatch::app::simulation {
+namespace {
+
+constexpr int kBlock = 32;  // pixels
+constexpr int kTile = 8;    // pixels
+
+/// The squares of `size` that cover `whole`; those at its right and lower edge may be smaller.
+std::vector<Area> squares(const Area& whole, int size) {
+  std::vector<Area> result;
+  for (int top = whole.top; top < whole.bottom; top += size) {
+    for (int left = whole.left; left < whole.right; left += size) {
+      result.push_back(
+          {left, top, std::min(left + size, whole.right), std::min(top + size, whole.bottom)});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+TileIndex::TileIndex(const Pinhole& camera, const Sphere& ball,
+                     std::span<const optics::Vec2> points) {
+  for (const Area& area : squares({0, 0, camera.width, camera.height}, kBlock)) {
+    const std::size_t first = tiles_.size();
+    for (const Area& tile : squares(area, kTile)) tiles_.push_back({tile, {}});
+    blocks_.push_back({area, first, tiles_.size(), {}});
+  }
+  const auto bundle = [&](const Area& area) {
+    std::vector<Ray> direct;
+    std::vector<Ray> mirrored;
+    for (int v = area.top; v < area.bottom; ++v) {
+      for (int u = area.left; u < area.right; ++u) {
+        for (const optics::Vec2& point : points) {
+          const Sight sight = sight_along(camera.ray_through(u + point.u, v + point.v), ball);
+          direct.push_back(sight.direct);
+          if (sight.on_ball()) mirrored.push_back(sight.mirrored);
+        }
+      }
+    }
+    return SightBundle{RayBundle(direct), RayBundle(mirrored)};
+  };
+  parallel_for(static_cast<int>(blocks_.size()), [&](int i) {
+    Block& block = blocks_[static_cast<std::size_t>(i)];
+    block.sights = bundle(block.area);
+    for (std::size_t t = block.first_tile; t < block.end_tile; ++t) {
+      tiles_[t].sights = bundle(tiles_[t].area);
+    }
+  });
+}
+
+}  // namespace orbwatch::app::simulation

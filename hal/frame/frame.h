@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "hal/clock.h"
+#include "proc/image/picture.h"
+
+namespace orbwatch::hal {
+
+/// What a camera's time stamps mark.
+enum class StampSource : std::uint8_t {
+  ExposureStart,
+  FrameEnd,  ///< arrival of the last pixel: later by the unknown exposure and readout
+  Arrival,   ///< dequeued by the camera's thread: the camera gave no stamp
+};
+
+/// What a camera states about one frame.
+struct FrameMetadata {
+  std::uint64_t sequence = 0;  ///< counts exposures since start; a gap is a lost frame
+  TimePoint exposure_start;    ///< as exactly as stamp_source allows
+  StampSource stamp_source = StampSource::ExposureStart;
+  std::chrono::microseconds exposure_time{0};  ///< 0: unknown
+  double gain = 1.0;                           ///< linear, analogue times digital
+  /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
+  /// that it started. None: the camera runs freely.
+  std::optional<std::uint64_t> trigger = std::nullopt;
+  double lux = 0;  ///< illuminance of the scene as the camera estimates it; 0: unknown
+};
+
+/// One picture in a camera's buffer: filled by the camera's thread, then immutable. The memory
+/// belongs to the camera's pool and returns to it with the last Frame.
+struct FrameBuffer {
+  Picture picture;
+  FrameMetadata metadata;
+  std::byte* memory =
+      nullptr;  ///< start of the buffer behind the picture; null where only a device writes
+  std::size_t capacity = 0;              ///< its size in bytes
+  std::unique_ptr<std::byte[]> storage;  ///< owns the memory, unless that is a driver's
+};
+
+/// A frame on its way through the product: shared, read-only. Releasing the last one returns the
+/// buffer to its camera; safe on any thread, also after the camera's stop or end.
+using Frame = std::shared_ptr<const FrameBuffer>;
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,216 @@
+#include "hal/libcamera/controls/libcamera_controls.h"
+
+#include <libcamera/control_ids.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace orbwatch::hal {
+namespace {
+
+/// A GenICam name (SFNC 2.7) for a control of libcamera.
+struct Alias {
+  std::string_view name;
+  std::string_view control;
+};
+
+constexpr std::array kAliases{
+    Alias{"Gain", "AnalogueGain"},
+    Alias{"ExposureAuto", "AeEnable"},
+    Alias{"BalanceWhiteAuto", "AwbEnable"},
+};
+
+constexpr std::array<std::string_view, 2> kColourGains{"ColourGains[0]", "ColourGains[1]"};
+
+bool is_colour_gain(std::string_view name) {
+  return std::find(kColourGains.begin(), kColourGains.end(), name) != kColourGains.end();
+}
+
+std::string_view control_name(std::string_view name) {
+  if (is_colour_gain(name)) return name.substr(0, name.find('['));
+  const auto* const alias = std::find_if(kAliases.begin(), kAliases.end(),
+                                         [name](const Alias& a) { return a.name == name; });
+  return alias != kAliases.end() ? alias->control : name;
+}
+
+std::string names_of(const libcamera::ControlInfoMap& offered) {
+  std::vector<std::string> names;
+  for (const auto& [id, info] : offered) names.push_back(id->name());
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+/// Nothing for none, arrays and what is not a number.
+std::optional<double> as_number(const libcamera::ControlValue& value) {
+  if (value.isArray()) return std::nullopt;
+  switch (value.type()) {
+    case libcamera::ControlTypeBool:
+      return value.get<bool>() ? 1.0 : 0.0;
+    case libcamera::ControlTypeByte:
+      return value.get<std::uint8_t>();
+    case libcamera::ControlTypeInteger32:
+      return value.get<std::int32_t>();
+    case libcamera::ControlTypeInteger64:
+      return static_cast<double>(value.get<std::int64_t>());
+    case libcamera::ControlTypeFloat:
+      return static_cast<double>(value.get<float>());
+    default:
+      return std::nullopt;
+  }
+}
+
+struct Limits {
+  double least;
+  double most;
+};
+
+/// What a type holds; nothing for what is not a number. A double has the integers up to 2^53.
+std::optional<Limits> limits_of(libcamera::ControlType type) {
+  switch (type) {
+    case libcamera::ControlTypeBool:
+      return Limits{0, 1};
+    case libcamera::ControlTypeByte:
+      return Limits{0, std::numeric_limits<std::uint8_t>::max()};
+    case libcamera::ControlTypeInteger32:
+      return Limits{std::numeric_limits<std::int32_t>::min(),
+                    std::numeric_limits<std::int32_t>::max()};
+    case libcamera::ControlTypeInteger64:
+      return Limits{-0x1p53, 0x1p53};
+    case libcamera::ControlTypeFloat:
+      return Limits{-static_cast<double>(std::numeric_limits<float>::max()),
+                    static_cast<double>(std::numeric_limits<float>::max())};
+    default:
+      return std::nullopt;
+  }
+}
+
+libcamera::ControlValue make_value(libcamera::ControlType type, double number) {
+  switch (type) {
+    case libcamera::ControlTypeBool:
+      return number != 0;
+    case libcamera::ControlTypeByte:
+      return static_cast<std::uint8_t>(number);
+    case libcamera::ControlTypeInteger32:
+      return static_cast<std::int32_t>(number);
+    case libcamera::ControlTypeInteger64:
+      return static_cast<std::int64_t>(number);
+    default:
+      return static_cast<float>(number);
+  }
+}
+
+/// A control's limits; nullopt for non-numeric ones.
+std::optional<Limits> limits_of(libcamera::ControlType type, const libcamera::ControlInfo& info) {
+  auto limits = limits_of(type);
+  if (!limits) return std::nullopt;
+  limits->least = std::max(limits->least, as_number(info.min()).value_or(limits->least));
+  limits->most = std::min(limits->most, as_number(info.max()).value_or(limits->most));
+  return limits;
+}
+
+/// `value`, rounded for integer controls.
+Result<double> check(std::string_view name, libcamera::ControlType type,
+                     const libcamera::ControlInfo& info, double value) {
+  const auto limits = limits_of(type, info);
+  if (!limits) return fail("control " + std::string(name) + " does not take a number");
+  const double number = type == libcamera::ControlTypeFloat ? value : std::round(value);
+  if (number >= limits->least && number <= limits->most) return number;
+  std::ostringstream message;
+  message << "control " << name << " cannot be " << value << "; it takes " << limits->least
+          << " to " << limits->most;
+  return fail(message.str());
+}
+
+void put_colour_gain(std::size_t element, double gain, libcamera::ControlList& list) {
+  namespace controls = libcamera::controls;
+  std::array<float, 2> gains{1, 1};
+  if (const auto known = list.get(controls::ColourGains)) {
+    std::copy(known->begin(), known->end(), gains.begin());
+  }
+  gains[element] = static_cast<float>(gain);
+  list.set(controls::ColourGains, libcamera::Span<const float, 2>(gains));
+}
+
+/// The controls with more than one number.
+bool is_array(const libcamera::ControlId& id) {
+  namespace controls = libcamera::controls;
+  const std::array<const libcamera::ControlId*, 3> arrays{
+      &controls::ColourGains, &controls::FrameDurationLimits, &controls::ColourCorrectionMatrix};
+  return std::find(arrays.begin(), arrays.end(), &id) != arrays.end();
+}
+
+CameraControl describe(std::string_view name, const libcamera::ControlInfo& info,
+                       libcamera::ControlType type, const Limits& limits) {
+  CameraControl control{.name = std::string(name),
+                        .minimum = limits.least,
+                        .maximum = limits.most,
+                        .step = type == libcamera::ControlTypeFloat ? 0.0 : 1.0,
+                        .default_value = as_number(info.def()).value_or(0),
+                        .state = {},
+                        .values = {}};
+  for (const libcamera::ControlValue& value : info.values()) {
+    control.values.push_back(value.toString());
+  }
+  return control;
+}
+
+}  // namespace
+
+const libcamera::ControlId* find_control(const libcamera::ControlInfoMap& offered,
+                                         std::string_view name) {
+  const std::string_view wanted = control_name(name);
+  const auto found = std::find_if(offered.begin(), offered.end(), [wanted](const auto& control) {
+    return control.first->name() == wanted;
+  });
+  return found == offered.end() ? nullptr : found->first;
+}
+
+Result<> put_control(const libcamera::ControlInfoMap& offered, std::string_view name, double value,
+                     libcamera::ControlList& list) {
+  const libcamera::ControlId* const id = find_control(offered, name);
+  if (id == nullptr) {
+    return fail("no control \"" + std::string(name) + "\"; there are: " + names_of(offered));
+  }
+  if (is_array(*id) && !is_colour_gain(name)) {
+    const bool gains = id == &libcamera::controls::ColourGains;
+    return fail("control " + id->name() + " takes more than one number; " +
+                (gains ? "set ColourGains[0] for red and ColourGains[1] for blue"
+                       : "it cannot be set by name"));
+  }
+  const auto number = check(name, id->type(), offered.at(id), value);
+  if (!number) return tl::unexpected(number.error());
+  if (is_colour_gain(name)) {
+    put_colour_gain(name == kColourGains[0] ? 0 : 1, *number, list);
+  } else {
+    list.set(id->id(), make_value(id->type(), *number));
+  }
+  return {};
+}
+
+std::vector<CameraControl> list_controls(const libcamera::ControlInfoMap& offered) {
+  std::vector<CameraControl> controls;
+  for (const auto& [id, info] : offered) {
+    const auto limits = limits_of(id->type(), info);
+    if (!limits) continue;
+    if (id == &libcamera::controls::ColourGains) {
+      for (const auto gain : kColourGains) {
+        controls.push_back(describe(gain, info, id->type(), *limits));
+      }
+    } else if (!is_array(*id)) {
+      controls.push_back(describe(id->name(), info, id->type(), *limits));
+    }
+  }
+  std::ranges::sort(controls, {}, &CameraControl::name);
+  return controls;
+}
+
+}  // namespace orbwatch::hal

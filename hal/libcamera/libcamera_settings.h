@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "hal/camera.h"
+#include "proc/image/picture.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::hal {
+
+/// How a sensor is read out. All zero leaves the choice to libcamera.
+struct SensorMode {
+  int width = 0;
+  int height = 0;
+  int bit_depth = 0;
+
+  bool is_set() const { return width != 0 || height != 0 || bit_depth != 0; }
+};
+
+/// Which camera of libcamera, and how. Needs no header of libcamera.
+struct LibcameraSettings {
+  static constexpr std::string_view kName = "libcamera";
+
+  /// libcamera's id (`cam --list`), or a part of id or sensor model that only one camera has.
+  std::string camera;
+  std::string pixel_format = "auto";  ///< "auto" or a name of kLibcameraFormats
+  SensorMode sensor_mode = {};        ///< if set, required
+};
+
+template <class Visitor>
+void visit(Visitor& v, LibcameraSettings& settings) {
+  SensorMode& mode = settings.sensor_mode;
+  const Range side = Range::between(1, kMaxSide);
+  v.required("camera", settings.camera,
+             "Its id in libcamera, or a part of id or sensor model that only one camera has");
+  v.optional("pixel_format", settings.pixel_format,
+             "auto, or libcamera's name: NV12, YUV420, R10, ...");
+  v.optional("sensor_width", mode.width, side,
+             "Of the sensor mode that is required, px; else libcamera chooses the mode");
+  v.optional("sensor_height", mode.height, side, "Of the sensor mode, px");
+  v.optional("sensor_bit_depth", mode.bit_depth, Range::between(1, 32),
+             "Of the sensor mode, bits per sample");
+  v.require((mode.width == 0) == (mode.height == 0) && (mode.width == 0) == (mode.bit_depth == 0),
+            "sensor_width", "a sensor mode needs sensor_width, sensor_height and sensor_bit_depth");
+}
+
+std::unique_ptr<Camera> make_camera(const LibcameraSettings& settings,
+                                    const CameraContext& context);
+
+}  // namespace orbwatch::hal

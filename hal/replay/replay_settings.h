@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/camera.h"
+#include "hal/fault_script.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::hal {
+
+/// What a replay camera plays, and how.
+struct ReplaySettings {
+  static constexpr std::string_view kName = "replay";
+
+  std::string name;              ///< becomes CameraInfo::id
+  std::filesystem::path source;  ///< a folder of JPEG or PNG pictures, or a video file
+  double frame_rate = 0;         ///< per second; 0: the video's own, 30 for a folder
+  bool loop = true;              ///< false: after the last picture the camera is unplugged
+  std::vector<ScriptedFault> faults = {};
+};
+
+/// All but what the context of a camera states.
+template <class Visitor>
+void visit(Visitor& v, ReplaySettings& settings) {
+  v.required("source", settings.source, "Folder of numbered JPEG or PNG pictures, or a video");
+  v.optional("loop", settings.loop, "Begin again at the end");
+}
+
+std::unique_ptr<Camera> make_camera(ReplaySettings settings, const CameraContext& context);
+
+}  // namespace orbwatch::hal

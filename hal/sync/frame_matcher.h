@@ -1,0 +1,133 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "hal/sync/frame_set.h"
+
+namespace orbwatch::hal {
+
+/// What a set contains of a camera that has no frame of the set's moment.
+enum class SyncPolicy : std::uint8_t {
+  Hold,     ///< its newest older frame, from set to set, however old
+  Nearest,  ///< nothing; each frame is in one set at most
+};
+
+/// How frames are joined.
+struct SyncSettings {
+  /// Largest difference of exposure starts within one moment. Below half a period of the fastest
+  /// camera no frame has two partners to choose from.
+  Clock::duration window = std::chrono::milliseconds(10);
+  /// Longest time that a frame of the pacing camera waits for its partners after it arrived.
+  Clock::duration max_wait = std::chrono::milliseconds(10);
+  std::array<SyncPolicy, kMaxCameras> policies{};  ///< by camera
+};
+
+/// One camera's frames by their fate. A frame in none of the sums still waits.
+struct FrameCounts {
+  std::uint64_t frames = 0;      ///< delivered
+  std::uint64_t lost = 0;        ///< never delivered: gaps in the camera's sequence
+  std::uint64_t used = 0;        ///< in a set; once, also when held
+  std::uint64_t superseded = 0;  ///< of the pacing camera: a newer one was ready before it was used
+  std::uint64_t overflowed = 0;  ///< triggered: the queue was full of newer ones
+  std::uint64_t unmatched = 0;   ///< no set of its moment: the pacing camera had no frame then
+  std::uint64_t cleared = 0;     ///< waiting when its camera had a fault
+
+  /// Frames that never reached the pipeline although they should have.
+  std::uint64_t dropped() const { return superseded + overflowed + cleared; }
+};
+
+/// Frames that left the queues. The caller clears it without holding a lock: the last release of a
+/// frame calls into its camera.
+class ReleasedFrames {
+ public:
+  void add(Frame frame) {
+    if (frame) frames_[count_++] = std::move(frame);
+  }
+  bool is_empty() const { return count_ == 0; }
+  void clear() {
+    while (count_ > 0) frames_[--count_].reset();
+  }
+
+ private:
+  static constexpr std::size_t kMost = kMaxCameras * 9;  ///< full queues and held frames
+  std::array<Frame, kMost> frames_;
+  std::size_t count_ = 0;
+};
+
+/// Decides which frames form a set; uses neither clock nor threads. Thread-bound.
+///
+/// The first camera without a fault sets the pace: each set is a frame of it and, of every other
+/// camera, the unused frame of the same moment. That is the one with the same trigger number when
+/// both have one, else the nearest whose exposure began within the window. A frame of the pacing
+/// camera waits until no nearer partner can come, judged by the partner's own interval, or until
+/// for SyncSettings::max_wait.
+/// Queues: of a free-running camera the last 3 frames, so that the nearest is among them (1 when it
+/// is alone); of the pacing camera the newest ready frame wins; of a triggered camera a FIFO of 8,
+/// each of which becomes a set. Frames that leave unused are counted by reason.
+class FrameMatcher {
+ public:
+  /// `cameras`: 1..kMaxCameras. Window and max_wait must not be below 0.
+  FrameMatcher(std::size_t cameras, const SyncSettings& settings);
+
+  /// A frame of `camera`, which arrived at `now`.
+  void put(std::size_t camera, Frame frame, TimePoint now, ReleasedFrames& released);
+
+  /// The camera has a fault: discards its frames. Until it delivers again, it does not pace and no
+  /// set waits for it.
+  void clear(std::size_t camera, ReleasedFrames& released);
+
+  /// The set that is ready at `now`, or nullopt.
+  std::optional<FrameSet> take(TimePoint now, ReleasedFrames& released);
+
+  /// When take() may return a set without another put(); TimePoint::max(): never.
+  TimePoint wake() const;
+
+  const FrameCounts& counts(std::size_t camera) const { return inboxes_[camera].counts; }
+
+ private:
+  static constexpr std::size_t kFreeRunningDepth = 3;
+  static constexpr std::size_t kTriggeredDepth = 8;
+  using Reason = std::uint64_t FrameCounts::*;
+
+  struct Waiting {
+    Frame frame;
+    TimePoint arrived;
+  };
+  struct Inbox {
+    std::array<Waiting, kTriggeredDepth> queue;  ///< in the order of arrival
+    std::size_t size = 0;
+    Frame held;                         ///< last used
+    bool delivers = true;               ///< no fault since its last frame
+    std::optional<FrameMetadata> last;  ///< of the newest frame
+    Clock::duration interval{0};        ///< between exposures; 0: unknown
+    FrameCounts counts;
+
+    Frame pop(std::size_t index);
+  };
+
+  static void observe(Inbox& inbox, const FrameMetadata& metadata);
+  static void discard(Inbox& inbox, std::size_t index, Reason reason, ReleasedFrames& released);
+  std::size_t depth(const Frame& frame) const;
+  std::size_t pacing() const;
+  void discard_late(Inbox& pacer, ReleasedFrames& released);
+  std::optional<std::size_t> choose(std::size_t pacer, TimePoint now) const;
+  bool is_ready(std::size_t pacer, std::size_t index, TimePoint now) const;
+  bool is_settled(const Inbox& partner, const FrameMetadata& paced) const;
+  bool is_of_moment(const FrameMetadata& frame, const FrameMetadata& paced) const;
+  std::optional<std::size_t> nearest(const Inbox& partner, const FrameMetadata& paced) const;
+  bool join(std::size_t partner, const FrameMetadata& paced, FrameSet& set,
+            ReleasedFrames& released);
+  FrameSet assemble(std::size_t pacer, ReleasedFrames& released);
+
+  const std::size_t cameras_;
+  const SyncSettings settings_;
+  std::array<Inbox, kMaxCameras> inboxes_;
+  std::uint64_t sets_ = 0;
+  std::optional<std::uint64_t> last_trigger_;  ///< of the newest triggered set
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "hal/frame/frame.h"
+
+namespace orbwatch::hal {
+
+/// Maximum number of cameras of a pipeline.
+inline constexpr std::size_t kMaxCameras = 4;
+
+/// Frames of several cameras that belong to one moment.
+struct FrameSet {
+  std::uint64_t id = 0;                  ///< counts sets from 1
+  TimePoint stamp;                       ///< exposure start of the pacing camera's frame
+  std::optional<std::uint64_t> trigger;  ///< of that frame, see FrameMetadata
+  /// By camera; null while the camera has a fault, has delivered nothing yet, or has no frame of
+  /// this moment under SyncPolicy::Nearest.
+  std::array<Frame, kMaxCameras> frames;
+  std::array<bool, kMaxCameras> held{};  ///< by camera: the frame was in an earlier set, too
+  bool matched = true;  ///< every camera without a fault has a frame of this moment in it
+  Clock::duration skew{
+      0};  ///< between the first and the last exposure start of this moment's frames
+
+  /// How long before `stamp` the exposure of a camera's frame began; below 0 when it was later. The
+  /// camera must have a frame in the set.
+  Clock::duration age(std::size_t camera) const {
+    return stamp - frames[camera]->metadata.exposure_start;
+  }
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "hal/sync/frame_matcher.h"
+
+namespace orbwatch::hal {
+
+/// Hands frames from the cameras' threads to the pipeline's: a FrameMatcher on the steady clock.
+/// Cameras never wait here. Thread rule: put and clear on any thread, next on one, close and counts
+/// on any.
+class FrameSync {
+ public:
+  FrameSync(std::size_t cameras, const SyncSettings& settings) : matcher_(cameras, settings) {}
+
+  /// A frame of `camera`, on the camera's thread.
+  void put(std::size_t camera, Frame frame);
+
+  /// The camera has a fault: see FrameMatcher::clear().
+  void clear(std::size_t camera);
+
+  /// The next set; nullopt at `until`, or at once after close().
+  std::optional<FrameSet> next(TimePoint until);
+
+  /// Ends next() for good.
+  void close();
+
+  FrameCounts counts(std::size_t camera) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  FrameMatcher matcher_;
+  bool closed_ = false;
+};
+
+}  // namespace orbwatch::hal

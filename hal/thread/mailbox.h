@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "hal/thread/doorbell.h"
+
+namespace orbwatch::hal {
+
+/// A queue of depth one between two threads: the newest value wins, replaced ones are counted. A
+/// triple buffer: sender and receiver own one place each and swap it for the one between them, so
+/// neither waits for the other.
+/// Thread rule: put by one thread, take and try_take by one other; the rest by any.
+template <class T>
+class Mailbox {
+ public:
+  /// Returns false when the value replaced one that was not taken.
+  bool put(T value) {
+    places_[sender_] = std::move(value);
+    const int between = between_.exchange(sender_ | kFull, std::memory_order_acq_rel);
+    sender_ = between & kPlace;
+    places_[sender_].reset();
+    bell_.ring();
+    const bool replaced = between & kFull;
+    drops_ += replaced ? 1 : 0;
+    return !replaced;
+  }
+
+  /// Waits for a value; nullopt while the mailbox is closed, which keeps its value.
+  std::optional<T> take() {
+    while (!closed_) {
+      if (auto value = try_take()) return value;
+      bell_.wait();
+    }
+    return std::nullopt;
+  }
+
+  /// Takes the value, if any, without waiting.
+  std::optional<T> try_take() {
+    if (!(between_.load(std::memory_order_relaxed) & kFull)) return std::nullopt;
+    receiver_ = between_.exchange(receiver_, std::memory_order_acq_rel) & kPlace;
+    return std::exchange(places_[receiver_], std::nullopt);
+  }
+
+  /// Drops the value, which counts as replaced. By the receiver.
+  void discard() { drops_ += try_take() ? 1 : 0; }
+
+  /// Ends take() until open().
+  void close() {
+    closed_ = true;
+    bell_.ring();
+  }
+
+  /// Lets take() wait again.
+  void open() { closed_ = false; }
+
+  std::uint64_t drops() const { return drops_; }
+
+ private:
+  static constexpr int kPlace = 3;
+  static constexpr int kFull = 4;  ///< the value was not taken yet
+
+  std::array<std::optional<T>, 3> places_;
+  int sender_ = 0;    // its place, the sender's
+  int receiver_ = 1;  // its place, the receiver's
+  std::atomic<int> between_{2};
+  Doorbell bell_;
+  std::atomic<std::uint64_t> drops_{0};
+  std::atomic<bool> closed_{false};
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string_view>
+#include <thread>
+
+#include "hal/clock.h"
+
+namespace orbwatch::hal {
+
+/// A named thread that waits for work, works and stops. Its owner keeps the work under a lock of
+/// its own and wakes the thread for it:
+///
+///     thread_.start("snapshot", [this] {
+///       while (thread_.wait()) write_pictures();
+///     });
+///
+/// A body with more to wait for passes stop_token() to a condition_variable_any, or to a
+/// stop_callback that signals an EventFd.
+/// Thread rule: wake on any thread, also before start; wait and wait_until on the thread itself;
+/// stop, stop_requested and stop_token on the owner's and the thread itself; the rest on the
+/// owner's.
+class Thread {
+ public:
+  /// The kernel's limit; the rest of a name is cut.
+  static constexpr std::size_t kMaxName = 15;
+
+  Thread() = default;
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+  /// Stops. An owner with members that the body uses and that are destroyed earlier stops it
+  /// before.
+  ~Thread() { stop(); }
+
+  /// Runs `body`, which must not throw; a run before is stopped first. `name` is what `ps -L` and
+  /// debuggers show.
+  void start(std::string_view name, std::function<void()> body);
+
+  /// Requests the stop and waits for the end of the body; on the thread itself it only requests.
+  /// Repeating it does nothing.
+  void stop();
+
+  /// From start() until stop() has waited for the end.
+  bool is_running() const { return thread_.joinable(); }
+
+  /// Of the newest start; so is the token.
+  bool stop_requested() const { return stop_.stop_requested(); }
+  std::stop_token stop_token() const { return stop_.get_token(); }
+
+  /// Ends a wait. Without one the next wait ends at once; several wakes count as one. Waits for no
+  /// work.
+  void wake();
+
+  /// Waits for a wake(). False: the stop was requested, perhaps with work left.
+  bool wait();
+
+  /// As wait(), or until `moment`.
+  bool wait_until(TimePoint moment);
+
+ private:
+  void join();
+
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  bool woken_ = false;
+  std::stop_source stop_{std::nostopstate};
+  // Not a jthread: its stop_source cannot be used on the new thread before the constructor's
+  // return.
+  std::thread thread_;
+  std::atomic<std::thread::id> runner_;  ///< set by the thread itself
+};
+
+}  // namespace orbwatch::hal

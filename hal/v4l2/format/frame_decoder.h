@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hal/frame/frame_pool.h"
+#include "hal/jpeg/jpeg_decoder.h"
+#include "hal/v4l2/format/v4l2_format.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::hal {
+
+/// Decodes a driver's compressed, packed or mosaic samples into frames of its own pool.
+/// Thread-bound.
+class FrameDecoder {
+ public:
+  /// For a format that is not zero-copy. Switches OpenCV's threads off: see prepare_demosaic().
+  explicit FrameDecoder(const NegotiatedFormat& format);
+
+  /// After a reconnection with the same stream format, whose layout may differ.
+  void follow(const NegotiatedFormat& format) { format_ = format; }
+
+  /// The frame in `samples`, which has at least the layout's size; nullptr when all buffers are in
+  /// use. Errors: a damaged JPEG picture, or one of another size.
+  Result<std::shared_ptr<FrameBuffer>> decode(std::span<const std::byte> samples);
+
+ private:
+  Result<> decode_into(const MutablePicture& target, std::span<const std::byte> samples);
+  Result<> decode_jpeg(const MutablePicture& target, std::span<const std::byte> samples);
+  Result<> decode_mosaic(const MutablePicture& target, const std::byte* rows);
+  void unpack(const MutablePicture& target, const std::byte* rows);
+
+  NegotiatedFormat format_;
+  FramePool pool_;
+  JpegDecoder jpeg_;
+  std::vector<std::uint8_t> mosaic_;  ///< in 8 bit
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,69 @@
+#include "hal/v4l2/format/unpack.h"
+
+#include <bit>
+#include <cstring>
+
+namespace orbwatch::hal {
+namespace {
+
+constexpr unsigned byte(std::byte value) { return std::to_integer<unsigned>(value); }
+
+// Layouts: V4L2's documentation of Y10P, Y12P and their Bayer variants, which are MIPI CSI-2's.
+
+void unpack_mipi_10(const std::byte* row, int width, std::uint16_t* samples) {
+  for (int x = 0; x < width; x += 4, row += 5) {
+    const unsigned low = byte(row[4]);
+    for (int i = 0; i < 4; ++i) {
+      samples[x + i] = static_cast<std::uint16_t>(byte(row[i]) << 2 | (low >> 2 * i & 3U));
+    }
+  }
+}
+
+void unpack_mipi_12(const std::byte* row, int width, std::uint16_t* samples) {
+  for (int x = 0; x < width; x += 2, row += 3) {
+    const unsigned low = byte(row[2]);
+    samples[x] = static_cast<std::uint16_t>(byte(row[0]) << 4 | (low & 15U));
+    samples[x + 1] = static_cast<std::uint16_t>(byte(row[1]) << 4 | low >> 4);
+  }
+}
+
+void unpack_big_endian(const std::byte* row, int width, std::uint16_t* samples) {
+  for (int x = 0; x < width; ++x) {
+    samples[x] = static_cast<std::uint16_t>(byte(row[2 * x]) << 8 | byte(row[2 * x + 1]));
+  }
+}
+
+/// Copies the first `picked` of each group of `bytes`: the upper 8 bits of each sample.
+void pick_upper(const std::byte* row, int width, int picked, int bytes, std::uint8_t* samples) {
+  for (int x = 0; x < width; x += picked, row += bytes) {
+    std::memcpy(samples + x, row, static_cast<std::size_t>(picked));
+  }
+}
+
+void shift_to_8_bit(const std::byte* row, int width, int bits, std::uint8_t* samples) {
+  for (int x = 0; x < width; ++x) {
+    std::uint16_t sample;  // V4L2's are little-endian
+    std::memcpy(&sample, row + std::ptrdiff_t{2} * x, sizeof(sample));
+    samples[x] = static_cast<std::uint8_t>(sample >> (bits - 8));
+  }
+}
+static_assert(std::endian::native == std::endian::little);
+
+}  // namespace
+
+void unpack_row(Packing packing, const std::byte* row, int width, std::uint16_t* samples) {
+  if (packing == Packing::Mipi10) return unpack_mipi_10(row, width, samples);
+  if (packing == Packing::Mipi12) return unpack_mipi_12(row, width, samples);
+  unpack_big_endian(row, width, samples);
+}
+
+void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int width,
+                         std::uint8_t* samples) {
+  if (packing == Packing::Mipi10) return pick_upper(row, width, 4, 5, samples);
+  if (packing == Packing::Mipi12) return pick_upper(row, width, 2, 3, samples);
+  if (packing == Packing::BigEndian) return pick_upper(row, width, 1, 2, samples);
+  if (bits == 8) return pick_upper(row, width, 1, 1, samples);
+  shift_to_8_bit(row, width, bits, samples);
+}
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hal/camera.h"
+#include "hal/v4l2/device/v4l2_device.h"
+#include "hal/v4l2/format/driver_format.h"
+#include "hal/v4l2/format/pixel_coding.h"
+
+namespace orbwatch::hal {
+
+/// The pictures that are requested of a device.
+struct FormatRequest {
+  std::string_view pixel_format = "auto";  ///< one of kPixelCodingNames
+  bool colour = true;                      ///< see frame_format()
+  StreamRequest stream;
+};
+
+/// What a device will deliver, and what its frames become.
+struct NegotiatedFormat {
+  PixelCoding coding;
+  DriverLayout layout;
+  StreamFormat stream;
+
+  /// True when frames are forwarded in the driver's memory.
+  bool is_zero_copy() const {
+    return coding.packing == Packing::None && stream.format == coding.format;
+  }
+};
+
+/// Sets format, size and rate. "auto" selects the first of kPixelCodings with the requested size
+/// and rate, else the first with the size. The size is honoured, or refused with a list of the
+/// offers; the rate is the driver's nearest.
+DeviceResult<NegotiatedFormat> negotiate_format(V4l2Device& device, const FormatRequest& wanted);
+
+/// A four-character code as text: "YUYV", "Y16-BE" for big-endian formats.
+std::string fourcc_text(std::uint32_t fourcc);
+
+/// "640x480", or "2x2..4096x2160" for a range.
+std::string size_text(const FrameSizeOffer& size);
+
+}  // namespace orbwatch::hal

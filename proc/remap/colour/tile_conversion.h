@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "proc/image/picture.h"
+#include "proc/remap/grid/coordinate.h"
+#include "proc/remap/sampling/plane_sampling.h"
+
+namespace orbwatch::remap {
+
+/// A tile as its samplings left it, each in rows of kTile pixels of its plane.
+struct SampledTile {
+  static constexpr int kMostBytes = 6;  ///< of a pixel: Three16
+  alignas(64) std::array<std::array<std::uint8_t, kTile * kTile * kMostBytes>, 3> planes;
+
+  static constexpr std::ptrdiff_t stride(const PlaneSampling& sampling) {
+    return std::ptrdiff_t{kTile} * info(sampling.layout).out_bytes();
+  }
+};
+
+/// Where a tile lies in a view, cut at the view's border.
+struct TileArea {
+  int x, y, columns, rows;
+};
+
+/// The sample of an undefined pixel.
+constexpr std::uint8_t black(const PlaneSampling& sampling, PixelFormat format,
+                             ColourSpace colour_space) {
+  const bool raised = info(format).colour == ColourModel::Yuv &&
+                      colour_space.range == ColourRange::Limited && sampling.black == 0;
+  return raised ? 16 : sampling.black;
+}
+
+/// Writes a tile that was sampled from `format` into its area of `out`, in the format of `out` (see
+/// can_remap). Reentrant.
+void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
+                const MutablePicture& out, const TileArea& area);
+
+/// Makes an area black.
+void clear_area(const MutablePicture& out, const TileArea& area);
+
+/// Makes the undefined pixels of an area of an Rgb or Bgr picture black.
+void clear_undefined(const CoordinateTile& coordinates, const MutablePicture& out,
+                     const TileArea& area);
+
+}  // namespace orbwatch::remap

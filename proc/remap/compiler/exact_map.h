@@ -1,0 +1,94 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/lanes.h"
+#include "proc/optics/view_projection.h"
+#include "proc/remap/grid/coordinate.h"
+
+namespace orbwatch::remap {
+
+/// kLanes coordinates by component.
+struct CoordinateLanes {
+  std::array<std::int32_t, optics::kLanes> u;
+  std::array<std::int32_t, optics::kLanes> v;
+
+  Coordinate at(std::size_t k) const { return {u[k], v[k]}; }
+};
+
+/// The map that a grid approximates, from optics. Reentrant; refers to the view and the ball.
+class ExactMap {
+ public:
+  ExactMap(const optics::ViewProjection& view, const optics::BallProjection& ball)
+      : view_(view), ball_(ball) {}
+
+  /// Beyond the end of the view's projection: no surface of the scene.
+  static constexpr int kNoSurface = -2;
+
+  struct MapPoint {
+    int surface = kNoSurface;  ///< as SceneProxy counts them
+    Coordinate coordinate{kBlind, 0};
+  };
+  /// At pixel (x, y), also outside of the view.
+  MapPoint evaluate(int x, int y) const;
+
+  /// The same for kLanes pixels.
+  struct MapLanes {
+    std::array<int, optics::kLanes> surfaces;
+    CoordinateLanes coordinates;
+  };
+  void evaluate(const optics::Vec2Lanes& pixels, MapLanes& out) const;
+
+  /// Only the surface.
+  int surface(int x, int y) const;
+
+  /// At (x, y) as if that surface were seen there. Smooth on each surface.
+  Coordinate on_surface(int surface, int x, int y) const;
+  /// The same for many, each on the surface that `lanes` says.
+  void on_surfaces(const optics::Vec2Lanes& pixels, MapLanes& lanes) const;
+
+ private:
+  Coordinate coordinate(const optics::Vec3& direction, double closeness) const;
+  void coordinates(const optics::Vec3Lanes& directions, const optics::Lanes& closeness,
+                   CoordinateLanes& out) const;
+
+  const optics::ViewProjection& view_;
+  const optics::BallProjection& ball_;
+};
+
+/// Pixels of a view that stand in rows and columns.
+struct Lattice {
+  int x, y;  ///< the first one
+  int step;
+  int columns, rows;
+};
+
+/// Goes through a lattice row by row: `evaluate(pixels, first)` once for up to kLanes pixels, the
+/// first of which has that number, then `visit(i, j, k)` for each: column, row, lane.
+template <class Evaluate, class Visit>
+void in_lanes(const Lattice& lattice, const Evaluate& evaluate, const Visit& visit) {
+  optics::Vec2Lanes pixels{};
+  const auto count =
+      static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
+  int i = 0, j = 0, asked_i = 0, asked_j = 0;
+  const auto next = [&](int& column, int& row) {
+    if (++column < lattice.columns) return;
+    column = 0;
+    ++row;
+  };
+  for (std::size_t first = 0; first < count; first += optics::kLanes) {
+    const std::size_t lanes = std::min(optics::kLanes, count - first);
+    for (std::size_t k = 0; k < lanes; ++k, next(asked_i, asked_j)) {
+      pixels.u[k] = lattice.x + asked_i * lattice.step;
+      pixels.v[k] = lattice.y + asked_j * lattice.step;
+    }
+    evaluate(pixels, first);
+    for (std::size_t k = 0; k < lanes; ++k, next(i, j)) visit(i, j, k);
+  }
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+
+#include "proc/remap/grid/patch.h"
+
+namespace orbwatch::remap {
+
+/// Kernels go through a tile in blocks of 4x4 pixels.
+inline constexpr int kBlock = 4;
+/// A block's pixels are interpolated from a window of so many source pixels each way.
+inline constexpr int kWindow = 8;
+
+/// A value for both axes.
+template <class T>
+struct AxisPair {
+  T u, v;
+};
+
+/// Where the blocks' windows lie, source pixels in Q32: exactly, by differences from block to
+/// block. Whole pixels are the window's origin. The fraction is the block's place in its window.
+struct WindowWalk {
+  Uv64 value;           ///< of block (0, 0)
+  Uv64 step_x, step_y;  ///< from there to block (1, 0), (0, 1)
+  Uv64 xx, yy, xy;      ///< growth of step_x along x, of step_y along y, of each of them along the
+                        ///< other axis
+};
+
+/// All pixels of a block, from the block's place on, in 16 bit lanes modulo 2^16. Along either axis
+/// pixel (i, j), 0..3 each, of block (bx, by) lies at
+///   place + start + bx along_x + by along_y
+/// with, in Q13,
+///   along_x = (i twice_xx + j xy + 4) >> 3,   along_y = (i xy + j twice_yy + 4) >> 3,
+///   start = i slope_x + j slope_y + ((i along_x + j along_y + 4) >> 3) + offset.
+/// Lanes of v have two fraction bits less: their along_x, along_y and start are these, rounded; so
+/// a row's number is in the bits where a table of rows of kWindow is indexed by it. And they count
+/// from kRowCentre above the window, for v - 1/2 is what a lower row is weighed with (see
+/// interpolation.h). Rounding moves a pixel by less than 1/300 px from the quadratic.
+struct alignas(8) LaneShape {
+  AxisPair<std::int16_t> slope_x, slope_y;    ///< of block (0, 0)'s corner; Q13
+  AxisPair<std::int16_t> twice_xx, twice_yy;  ///< curvature, Q18
+  AxisPair<std::int16_t> xy;                  ///< Q18
+  AxisPair<std::uint16_t> offset;             ///< Q13; makes all lanes positive
+};
+
+inline constexpr int kRowFractionBits = kFractionBits - 2;
+inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
+
+/// A map for kernels, over as many blocks as a tile, or its half in a subsampled plane, has.
+struct BlockMap {
+  WindowWalk windows;
+  LaneShape lanes;
+  int blocks_x;  ///< 2 or 4
+  int blocks_y;
+
+  /// Becomes the map of a patch's first pixels, 8 or 16 columns and a multiple of 4 rows. False,
+  /// and then undefined, when the patch is too steep or bent: a block would not fit into its
+  /// window. `rounding`: see there.
+  [[nodiscard]] bool fit(const Patch& patch, int columns, int rows, const Uv64& rounding);
+
+  /// Added to every coordinate, Q24, for rounding of truncated places: half of their last bit, and
+  /// `u` and `v`, Q13, half of the last bit of a kernel's weights.
+  static constexpr Uv64 rounding(int u, int v) {
+    const auto half_of_last = [](int bits) {
+      return 1 << (kFractionBits + PatchRow::kScaleBits - bits - 1);
+    };
+    return Uv64{(std::int64_t{u} << PatchRow::kScaleBits) + half_of_last(kFractionBits),
+                (std::int64_t{v} << PatchRow::kScaleBits) + half_of_last(kRowFractionBits)};
+  }
+};
+
+}  // namespace orbwatch::remap

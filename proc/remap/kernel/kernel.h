@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "proc/image/result.h"
+#include "proc/remap/kernel/block_map.h"
+#include "proc/remap/kernel/layout.h"
+#include "proc/remap/kernel/point_map.h"
+
+namespace orbwatch::remap {
+
+/// A target of 4x4 pixel blocks to be sampled from one plane.
+struct TileJob {
+  const BlockMap& map;
+  const SourcePlane& source;
+  const TargetPlane& target;
+};
+
+/// Pixels to be sampled from one plane, each at a place of its own. Beyond the plane's border its
+/// outermost pixels are repeated.
+struct PointJob {
+  const Places& places;  ///< of the target's pixels
+  const SourcePlane& source;
+  const TargetPlane& target;
+};
+
+/// One implementation of the remap for one instruction set. Every kernel gives the same bytes as
+/// the scalar one, their specification.
+struct Kernel {
+  using Tile = void (*)(const TileJob&);
+  using Locate = void (*)(const PointMap&, int columns, int rows, Places&);
+  using Points = void (*)(const PointJob&);
+
+  std::string_view name;
+  /// By Layout. Fills all blocks of the job. Reads 8x8 source pixels from each block's origin, so
+  /// these must lie in the picture. Reentrant.
+  std::array<Tile, kKernelLayouts> tiles;
+  /// Where the pixels of a rectangle lie; `columns` is a power of two. Reentrant.
+  Locate locate;
+  /// By Layout. Fills the job's target: for any map, at borders too. The source is at least 2x2
+  /// pixels large, but for the scalar kernel. Reentrant.
+  std::array<Points, kLayouts> points;
+
+  void sample_tile(Layout layout, const TileJob& job) const {
+    tiles[static_cast<std::size_t>(layout)](job);
+  }
+  void sample_points(Layout layout, const PointJob& job) const {
+    points[static_cast<std::size_t>(layout)](job);
+  }
+};
+
+/// The kernels that this machine can run, slowest first.
+std::span<const Kernel* const> kernels();
+
+/// The first of kernels().
+const Kernel& scalar_kernel();
+
+/// The kernel of that name. Error: unknown, or not for this machine.
+Result<const Kernel*> find_kernel(std::string_view name);
+
+/// The kernel named by the environment variable ORBWATCH_ISA; the fastest one if it is not set.
+/// Error: as find_kernel(). For the start of a program.
+Result<const Kernel*> requested_kernel();
+
+/// The same, chosen at the first call; the fastest one where the request cannot be met.
+const Kernel& default_kernel();
+
+}  // namespace orbwatch::remap

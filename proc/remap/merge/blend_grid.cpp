@@ -1,0 +1,124 @@
+#include "proc/remap/merge/blend_grid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "proc/optics/resolution.h"
+#include "proc/remap/sampling/tile_remap.h"
+
+namespace orbwatch::remap {
+namespace {
+
+/// Width of the fading border as a share of the source picture's shorter side.
+constexpr double kFeather = 1.0 / 16;
+
+double fourth_power(double x) { return (x * x) * (x * x); }
+
+/// 0 at t <= 0, 1 at t >= 1, without a kink in between.
+double smooth_step(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// 1 within the source picture, falling to 0 at its border.
+double feather(const optics::Vec2& pixel, const BlendSource& source) {
+  const double width = source.source_width, height = source.source_height;
+  const double u = pixel.u + 0.5, v = pixel.v + 0.5;
+  const double inside = std::min({u, width - u, v, height - v});
+  return smooth_step(inside / (kFeather * std::min(width, height)));
+}
+
+/// What a source offers in a direction, before the sources are weighed against each other.
+double merit(const BlendSource& source, const optics::Vec3& direction) {
+  const auto pixel = source.ball.pixel(direction);
+  if (!pixel) return 0;
+  double resolution = optics::resolution(source.ball, direction);
+  if (source.enough) resolution = std::min(1.0, resolution / *source.enough);
+  return source.weight * fourth_power(resolution) * feather(*pixel, source);
+}
+
+}  // namespace
+
+BlendGrid::BlendGrid(const optics::ViewProjection& view, std::span<const BlendSource> sources)
+    : nodes_x_((view.width() + kTile - 1) / kTile + 1) {
+  assert(sources.size() <= kMaxSources);
+  const int nodes_y = (view.height() + kTile - 1) / kTile + 1;
+  shares_.resize(sources.size());
+  const std::size_t nodes = static_cast<std::size_t>(nodes_x_) * nodes_y;
+  if (sources.size() == 1) {
+    shares_.front().assign(nodes, UINT8_MAX);
+    return;
+  }
+  for (auto& shares : shares_) shares.reserve(nodes);
+  for (int j = 0; j < nodes_y; ++j) {
+    for (int i = 0; i < nodes_x_; ++i) {
+      // The last corners lie beyond the view, where a projection may have ended.
+      const auto direction = view.direction(std::min(i * kTile, view.width() - 1),
+                                            std::min(j * kTile, view.height() - 1));
+      std::array<double, kMaxSources> merits{};
+      double total = 0;
+      for (std::size_t n = 0; direction && n < sources.size(); ++n) {
+        total += merits[n] = merit(sources[n], *direction);
+      }
+      for (std::size_t n = 0; n < sources.size(); ++n) {
+        const double share = total > 0 ? merits[n] / total : 0;
+        shares_[n].push_back(static_cast<std::uint8_t>(std::lround(share * UINT8_MAX)));
+      }
+    }
+  }
+}
+
+std::array<std::uint8_t, 4> BlendGrid::corners(std::size_t n, int tx, int ty) const {
+  const auto above = static_cast<std::size_t>(ty) * nodes_x_ + tx, below = above + nodes_x_;
+  const auto& shares = shares_[n];
+  return {shares[above], shares[above + 1], shares[below], shares[below + 1]};
+}
+
+bool BlendGrid::counts(std::size_t n, int tx, int ty) const {
+  const auto [a, b, c, d] = corners(n, tx, ty);
+  return (a | b | c | d) != 0;
+}
+
+void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid, int tx, int ty,
+                        TileWeights& out) const {
+  const Tile tile = grid.tile(tx, ty);
+  if (is_empty(tile.kind)) return out.fill(0);
+  const auto [a, b, c, d] = corners(n, tx, ty);
+  for (int y = 0; y < kTile; ++y) {
+    const int left = a * (kTile - y) + c * y, right = b * (kTile - y) + d * y;
+    std::uint8_t* row = &out[y * kTile];
+    for (int x = 0; x < kTile; ++x) {
+      constexpr int kArea = kTile * kTile;
+      const int mean = (left * (kTile - x) + right * x + kArea / 2) / kArea;
+      row[x] = static_cast<std::uint8_t>(std::max(1, mean));
+    }
+  }
+  if (is_defined_throughout(tile.kind)) return;
+  const CoordinateTile coordinates = grid.pixels(tx, ty);
+  for (int y = 0; y < kTile; ++y) {
+    for (int x = 0; x < kTile; ++x) {
+      if (!is_defined(coordinates[y][x])) out[y * kTile + x] = 0;
+    }
+  }
+}
+
+void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid,
+                        const ImageView<std::uint8_t>& out) const {
+  TileWeights tile;
+  for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+    for (int tx = 0; tx < grid.tiles_x(); ++tx) {
+      weights(n, grid, tx, ty, tile);
+      const TileArea area = area_of(grid, tx, ty);
+      for (int y = 0; y < area.rows; ++y) {
+        std::copy_n(&tile[y * kTile], area.columns, out.at(area.x, area.y + y));
+      }
+    }
+  }
+}
+
+std::size_t BlendGrid::bytes() const {
+  return shares_.empty() ? 0 : shares_.size() * shares_.front().size();
+}
+
+}  // namespace orbwatch::remap

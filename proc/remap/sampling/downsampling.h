@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "proc/remap/kernel/layout.h"
+
+namespace orbwatch::remap {
+
+/// Writes `width` pixels, each the mean of 2x2 from two rows of a plane, rounded to nearest: the
+/// samples that the layout reads, at their places in a pixel. Reentrant.
+using BoxFilter = void (*)(const std::uint8_t* upper, const std::uint8_t* lower, std::uint8_t* out,
+                           int width);
+BoxFilter box_filter(Layout layout);
+
+/// Copies rows 0, 2, 4 .. of `fine`, which are `row_bytes` long, a multiple of 8, into the rows of
+/// `out`. Reentrant.
+void keep_even_rows(const TargetPlane& fine, int row_bytes, const TargetPlane& out);
+
+/// Copies columns 0, 2, 4 .. of `fine`, a part of a tile with kTile columns of `pixel_bytes` (1 to
+/// 4) each, into the first kTile / 2 columns of `out`; as many rows as `out` has. Reentrant.
+void keep_even_columns(const TargetPlane& fine, int pixel_bytes, const TargetPlane& out);
+
+}  // namespace orbwatch::remap

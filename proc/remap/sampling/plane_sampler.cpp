@@ -1,0 +1,144 @@
+#include "proc/remap/sampling/plane_sampler.h"
+
+#include <algorithm>
+
+#include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/sampling/downsampling.h"
+#include "proc/remap/sampling/oversampling.h"
+#include "proc/remap/sampling/point_sampling.h"
+
+namespace orbwatch::remap {
+namespace {
+
+constexpr std::size_t number(Layout layout) { return static_cast<std::size_t>(layout); }
+
+SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& sampling) {
+  const auto& plane = picture.planes[sampling.plane];
+  return {reinterpret_cast<const std::uint8_t*>(plane.data) + sampling.offset, plane.stride,
+          picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
+}
+
+/// Room for samples at half steps, most of which are only passed through.
+struct FineSamples {
+  alignas(64) std::array<std::uint8_t, kTile * kTile * 4> bytes;
+
+  TargetPlane plane(int pixel_bytes, int columns, int rows) {
+    return {bytes.data(), std::ptrdiff_t{kTile} * pixel_bytes, columns, rows};
+  }
+};
+
+/// Where a quarter of an oversampled tile lies, from its pixel (left, top) on.
+TargetPlane quarter_of(OversampledTile& tile, Layout layout, const TargetPlane& whole, int left,
+                       int top) {
+  const std::ptrdiff_t stride = OversampledTile::stride(layout);
+  return {tile.samples.data() + top * stride + left * info(layout).out_bytes(), stride,
+          std::min(kTile, 2 * whole.columns - left), std::min(kTile, 2 * whole.rows - top)};
+}
+
+/// Fills a target with means of four: `sample(left, top, plane)` samples each quarter of the
+/// oversampled tile, that from its pixel (left, top) on, into its plane.
+template <class Sample>
+void oversample(Layout layout, const TargetPlane& target, const Sample& sample) {
+  OversampledTile tile;
+  for (int top = 0; top < 2 * target.rows; top += kTile) {
+    for (int left = 0; left < 2 * target.columns; left += kTile) {
+      sample(left, top, quarter_of(tile, layout, target, left, top));
+    }
+  }
+  average(tile, layout, target);
+}
+
+}  // namespace
+
+PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Picture> pictures,
+                           const Kernel& kernel)
+    : sampling_(sampling),
+      kernel_(&kernel),
+      rounding_(BlockMap::rounding(added_u(sampling.layout), added_v(sampling.layout))),
+      columns_(kTile >> shift(sampling.x)),
+      rows_(kTile >> shift(sampling.y)),
+      pixel_bytes_(info(sampling.layout).out_bytes()),
+      tile_bytes_(columns_ * pixel_bytes_) {
+  if (number(sampling.layout) < kKernelLayouts) {
+    block_kernel_ = kernel.tiles[number(sampling.layout)];
+  }
+  for (std::size_t level = 0; level < std::min(pictures.size(), sources_.size()); ++level) {
+    sources_[level] = plane_of_source(pictures[level], sampling);
+  }
+}
+
+void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, std::uint8_t black,
+                          const TargetPlane& target) const {
+  CoordinateTile shared;
+  const bool full = sampling_.x == Siting::Full;
+  if (!full) on_plane(coordinates, sampling_, shared);
+  const CoordinateTile& places = full ? coordinates : shared;
+  const auto sample = [&](const CoordinateTile& from, const SourcePlane& source,
+                          const TargetPlane& to) {
+    sample_points(*kernel_, sampling_.layout, from, black, source, to);
+  };
+  if (!reading.averaged) return sample(places, sources_[0], target);
+  CoordinateTile quarter;
+  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& plane) {
+    at_half_steps(places, target.columns, target.rows, left, top, quarter);
+    sample(quarter, sources_[reading.mip_level], plane);
+  });
+}
+
+void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane& target) const {
+  const auto sample = [&](const Patch& map, const SourcePlane& source, const TargetPlane& to) {
+    if (!reading.in_windows || !has_blocks() || to.columns < 2 * kBlock) {
+      sample_points(*kernel_, sampling_.layout, map, source, to);
+    } else if (!sample_blocks(map, source, to)) {
+      sample_steep(map, source, to);
+    }
+  };
+  const Patch map = on_plane(patch, sampling_);
+  if (!reading.averaged) return sample(map, sources_[0], target);
+  const Patch fine = at_half_steps(map);
+  oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& quarter) {
+    sample(moved(fine, left, top), sources_[reading.mip_level], quarter);
+  });
+}
+
+/// Blocks that do not fit their windows may do so at half the step, along one axis or both.
+void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
+                                const TargetPlane& target) const {
+  if (!sample_half_rows(patch, source, target) && !sample_half_columns(patch, source, target)) {
+    sample_points(*kernel_, sampling_.layout, patch, source, target);
+  }
+}
+
+bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& source,
+                                    const TargetPlane& target) const {
+  const Patch fine = at_half_rows(patch);
+  FineSamples samples;
+  for (int top = 0; top < 2 * target.rows; top += kTile) {
+    const TargetPlane part = samples.plane(pixel_bytes_, target.columns, kTile);
+    if (!sample_blocks(top == 0 ? fine : moved(fine, 0, top), source, part)) return false;
+    keep_even_rows(
+        part, target.columns * pixel_bytes_,
+        {target.data + top / 2 * target.stride, target.stride, target.columns, kTile / 2});
+  }
+  return true;
+}
+
+/// A subsampled plane may be steep along x only. What is steep along both axes takes both.
+bool PlaneSampler::sample_half_columns(const Patch& patch, const SourcePlane& source,
+                                       const TargetPlane& target) const {
+  const Patch fine = at_half_columns(patch);
+  FineSamples samples;
+  for (int left = 0; left < 2 * target.columns; left += kTile) {
+    const Patch from_left = left == 0 ? fine : moved(fine, left, 0);
+    const TargetPlane part = samples.plane(pixel_bytes_, kTile, target.rows);
+    if (!sample_blocks(from_left, source, part) && !sample_half_rows(from_left, source, part)) {
+      return false;
+    }
+    keep_even_columns(
+        part, pixel_bytes_,
+        {target.data + left / 2 * pixel_bytes_, target.stride, kTile / 2, target.rows});
+  }
+  return true;
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "proc/image/picture.h"
+#include "proc/remap/grid/coordinate.h"
+#include "proc/remap/grid/tile.h"
+#include "proc/remap/kernel/block_map.h"
+#include "proc/remap/kernel/kernel.h"
+#include "proc/remap/kernel/layout.h"
+#include "proc/remap/sampling/plane_map.h"
+#include "proc/remap/sampling/plane_sampling.h"
+
+namespace orbwatch::remap {
+
+/// How a tile's source is read.
+struct Reading {
+  bool averaged = false;  ///< pixels are means of four samples: the view is smaller than the source
+  int mip_level = 0;      ///< of the source that is sampled
+  bool in_windows = false;  ///< kernels may read windows around every pixel, see Tile::interior
+};
+
+/// Samples tiles of one PlaneSampling. Refers to the pictures; holds what all tiles have in common.
+/// Reentrant.
+class PlaneSampler {
+ public:
+  PlaneSampler() = default;
+  /// `pictures`: the source by mip level.
+  PlaneSampler(const PlaneSampling& sampling, std::span<const Picture> pictures,
+               const Kernel& kernel);
+
+  const PlaneSampling& sampling() const { return sampling_; }
+  int columns() const { return columns_; }          ///< of a tile, in pixels of the plane
+  int rows() const { return rows_; }                ///< of a tile
+  int pixel_bytes() const { return pixel_bytes_; }  ///< of the output
+  int tile_bytes() const { return tile_bytes_; }    ///< of a row of a tile
+  bool has_blocks() const { return block_kernel_ != nullptr; }
+
+  /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip level that is read.
+  void sample(const Patch& patch, Reading reading, const TargetPlane& target) const;
+
+  /// The same for most tiles: not averaged, in windows, of a layout that has_blocks(), at least 8
+  /// pixels wide. Inlined alone: the rarer paths would cost these tiles registers.
+  [[gnu::always_inline]] void sample_blocks(const Patch& patch, const TargetPlane& target) const {
+    const auto sample = [&](const Patch& map) __attribute__((always_inline)) {
+      if (!sample_blocks(map, sources_[0], target)) sample_steep(map, sources_[0], target);
+    };
+    sampling_.x == Siting::Full ? sample(patch) : sample(on_plane(patch, sampling_));
+  }
+
+  /// Fills a target pixel by pixel, from coordinates in the mip level that is read.
+  /// Undefined pixels become `black`.
+  void sample(const CoordinateTile& coordinates, Reading reading, std::uint8_t black,
+              const TargetPlane& target) const;
+
+ private:
+  [[gnu::always_inline]] bool sample_blocks(const Patch& patch, const SourcePlane& source,
+                                            const TargetPlane& target) const {
+    BlockMap map;
+    if (!map.fit(patch, target.columns, target.rows, rounding_)) return false;
+    block_kernel_({map, source, target});
+    return true;
+  }
+  void sample_steep(const Patch& patch, const SourcePlane& source, const TargetPlane& target) const;
+  bool sample_half_rows(const Patch& patch, const SourcePlane& source,
+                        const TargetPlane& target) const;
+  bool sample_half_columns(const Patch& patch, const SourcePlane& source,
+                           const TargetPlane& target) const;
+
+  PlaneSampling sampling_{};
+  const Kernel* kernel_ = nullptr;
+  Kernel::Tile block_kernel_ = nullptr;  ///< its one for the layout, if there is one
+  Uv64 rounding_{};                      ///< see BlockMap
+  int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;
+  std::array<SourcePlane, kMaxLevel> sources_;  ///< by mip level
+};
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,177 @@
+#include "proc/remap/sampling/tile_remap.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "proc/remap/sampling/plane_map.h"
+
+namespace orbwatch::remap {
+namespace {
+
+/// A view of that format has its planes as they are sampled.
+bool lies_as_sampled(PixelFormat sampled, PixelFormat view) {
+  return sampled == view && view != PixelFormat::Yuyv && view != PixelFormat::Uyvy;
+}
+
+int simple_levels(Interpolation interpolation) {
+  if (interpolation == Interpolation::Nearest) return 0;
+  return interpolation == Interpolation::Bilinear ? kMaxLevel + 1 : 1;
+}
+
+bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
+
+void round_to_pixels(CoordinateTile& coordinates) {
+  constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
+  for (CoordinateRow& row : coordinates) {
+    for (Coordinate& c : row) {
+      if (is_defined(c)) c = {(c.u + kHalf) & ~(2 * kHalf - 1), (c.v + kHalf) & ~(2 * kHalf - 1)};
+    }
+  }
+}
+
+}  // namespace
+
+TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
+                     Interpolation interpolation, const Kernel& kernel)
+    : grid_(grid),
+      last_level_(static_cast<int>(std::min<std::size_t>(source.size(), kMaxLevel)) - 1),
+      format_(source.front().format),
+      colour_space_(source.front().colour_space),
+      interpolation_(interpolation),
+      simple_levels_(simple_levels(interpolation)),
+      plane_count_(samplings(format_).count) {
+  assert(source.front().width == grid.source_width());
+  assert(source.front().height == grid.source_height());
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    planes_[n] = PlaneSampler(samplings(format_).items[n], source, kernel);
+    if (!planes_[n].has_blocks()) simple_levels_ = 0;
+  }
+}
+
+void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+  const bool in_place = lies_as_sampled(format_, out.format) && is_whole(area);
+  const Targets targets = in_place ? targets_in(out, area.x, area.y) : Targets();
+  if (!in_place || !write_simple(tx, ty, targets)) {
+    write_other(tx, ty, out, area, in_place ? &targets : nullptr);
+  }
+}
+
+void TileRemap::write_row(int ty, const MutablePicture& out) const {
+  const bool as_sampled = lies_as_sampled(format_, out.format);
+  Targets targets = as_sampled ? targets_in(out, 0, ty * kTile) : Targets();
+  for (int tx = 0; tx < grid_.tiles_x(); ++tx) {
+    const TileArea area = area_of(grid_, tx, ty);
+    const bool in_place = as_sampled && is_whole(area);
+    if (!in_place || !write_simple(tx, ty, targets)) {
+      write_other(tx, ty, out, area, in_place ? &targets : nullptr);
+    }
+    for (std::size_t n = 0; as_sampled && n < plane_count_; ++n) {
+      targets[n].data += planes_[n].tile_bytes();
+    }
+  }
+}
+
+/// Writes the most common kind of tile in place; false for another tile.
+[[gnu::always_inline]] inline bool TileRemap::write_simple(int tx, int ty,
+                                                           const Targets& targets) const {
+  const Tile tile = grid_.tile(tx, ty);
+  if (!is_patch(tile.kind) || !tile.interior || tile.level >= simple_levels_) return false;
+  const Patch patch(grid_.nodes(tile, tx, ty));
+  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample_blocks(patch, targets[n]);
+  return true;
+}
+
+/// `in_place`: where the tile's samples go, if they lie in the view as they are sampled.
+[[gnu::noinline]] void TileRemap::write_other(int tx, int ty, const MutablePicture& out,
+                                              const TileArea& area, const Targets* in_place) const {
+  const Tile tile = grid_.tile(tx, ty);
+  if (is_empty(tile.kind)) return clear_area(out, area);
+  SampledTile sampled;
+  const Targets targets = in_place != nullptr ? *in_place : targets_in(sampled);
+  const auto convert = [&] {
+    if (in_place == nullptr) write_tile(sampled, format_, colour_space_, out, area);
+  };
+  const Reading reading = this->reading(tile);
+  const bool smooth = interpolation_ != Interpolation::Nearest;
+  if (smooth && is_patch(tile.kind)) {
+    sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets);
+    return convert();
+  }
+  // A map that bends is steep: unless averaged, hardly a cell fits windows.
+  const Reading in_cells{reading.averaged, reading.mip_level,
+                         reading.in_windows && reading.averaged};
+  const auto sample_cells = [&](const auto& cells) { sample(cells, in_cells, targets); };
+  if (smooth && grid_.visit_cells(tile, sample_cells)) return convert();
+  CoordinateTile coordinates = grid_.pixels(tx, ty);
+  if (!smooth) round_to_pixels(coordinates);
+  sample(coordinates, reading, targets);
+  convert();
+  if (format_ != out.format) clear_undefined(coordinates, out, area);
+}
+
+/// The last factor of two is averaged from samples, which keeps more detail than a mip level.
+Reading TileRemap::reading(const Tile& tile) const {
+  if (tile.level == 0 || !uses_mip_levels(interpolation_)) {
+    return {false, 0, tile.interior};
+  }
+  return {true, std::min(tile.level - 1, last_level_), tile.interior};
+}
+
+/// From the pixel (x, y) of the view on.
+TileRemap::Targets TileRemap::targets_in(const MutablePicture& out, int x, int y) const {
+  Targets targets;
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    const PlaneSampler& plane = planes_[n];
+    const auto& to = out.planes[plane.sampling().plane];
+    targets[n] = {reinterpret_cast<std::uint8_t*>(to.data) +
+                      (y >> shift(plane.sampling().y)) * to.stride +
+                      std::ptrdiff_t{x >> shift(plane.sampling().x)} * plane.pixel_bytes(),
+                  to.stride, plane.columns(), plane.rows()};
+  }
+  return targets;
+}
+
+TileRemap::Targets TileRemap::targets_in(SampledTile& tile) const {
+  Targets targets;
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    targets[n] = {tile.planes[n].data(), SampledTile::stride(planes_[n].sampling()),
+                  planes_[n].columns(), planes_[n].rows()};
+  }
+  return targets;
+}
+
+void TileRemap::sample(const Patch& patch, Reading reading, const Targets& targets) const {
+  const Patch map = reading.mip_level > 0 ? on_level(patch, reading.mip_level) : patch;
+  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].sample(map, reading, targets[n]);
+}
+
+/// The same for a patch in each cell.
+template <int Cell>
+void TileRemap::sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const {
+  for (int j = 0; j < cells.kCells; ++j) {
+    for (int i = 0; i < cells.kCells; ++i) {
+      Targets parts = targets;
+      for (std::size_t n = 0; n < plane_count_; ++n) {
+        TargetPlane& part = parts[n];
+        part.columns /= cells.kCells;
+        part.rows /= cells.kCells;
+        part.data += j * part.rows * part.stride +
+                     std::ptrdiff_t{i} * part.columns * planes_[n].pixel_bytes();
+      }
+      sample(cells.patch(i, j), reading, parts);
+    }
+  }
+}
+
+void TileRemap::sample(const CoordinateTile& coordinates, Reading reading,
+                       const Targets& targets) const {
+  CoordinateTile scaled;
+  if (reading.mip_level > 0) on_level(scaled = coordinates, reading.mip_level);
+  const CoordinateTile& places = reading.mip_level > 0 ? scaled : coordinates;
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    const std::uint8_t background = black(planes_[n].sampling(), format_, colour_space_);
+    planes_[n].sample(places, reading, background, targets[n]);
+  }
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "proc/image/picture.h"
+#include "proc/remap/colour/tile_conversion.h"
+#include "proc/remap/grid/coordinate_grid.h"
+#include "proc/remap/kernel/kernel.h"
+#include "proc/remap/sampling/plane_sampler.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::remap {
+
+/// How a pixel of a view is made from those of the source.
+enum class Interpolation {
+  Area,      ///< bilinear; the mean of several places where the view is smaller than the source
+  Bilinear,  ///< from the four around one place
+  Nearest,   ///< the closest one
+};
+
+/// The interpolations by their names in files and options.
+inline constexpr std::array kInterpolations{Word{"area", Interpolation::Area},
+                                            Word{"bilinear", Interpolation::Bilinear},
+                                            Word{"nearest", Interpolation::Nearest}};
+
+/// Whether remap() reads the mip levels of a source.
+constexpr bool uses_mip_levels(Interpolation interpolation) {
+  return interpolation == Interpolation::Area;
+}
+
+/// Fills tiles of a view from one source. Refers to its arguments; reentrant.
+class TileRemap {
+ public:
+  /// Preconditions as of remap().
+  TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
+            Interpolation interpolation, const Kernel& kernel);
+
+  /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`.
+  void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+  /// Writes a row of tiles of the view `out`.
+  void write_row(int ty, const MutablePicture& out) const;
+
+ private:
+  /// Where a tile's samples go, by sampling.
+  using Targets = std::array<TargetPlane, 3>;
+
+  Targets targets_in(const MutablePicture& out, int x, int y) const;
+  Targets targets_in(SampledTile& tile) const;
+  bool write_simple(int tx, int ty, const Targets& targets) const;
+  void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
+                   const Targets* in_place) const;
+  Reading reading(const Tile& tile) const;
+  void sample(const Patch& patch, Reading reading, const Targets& targets) const;
+  template <int Cell>
+  void sample(const FineTile<Cell>& cells, Reading reading, const Targets& targets) const;
+  void sample(const CoordinateTile& coordinates, Reading reading, const Targets& targets) const;
+
+  const CoordinateGrid& grid_;
+  int last_level_;  ///< highest mip level of the source
+  PixelFormat format_;
+  ColourSpace colour_space_;
+  Interpolation interpolation_;
+  int simple_levels_;  ///< tiles below this level may be sampled in blocks, without means
+  std::array<PlaneSampler, 3> planes_;
+  std::size_t plane_count_;
+};
+
+/// Where a tile lies in its view.
+inline TileArea area_of(const CoordinateGrid& grid, int tx, int ty) {
+  return {tx * kTile, ty * kTile, std::min(kTile, grid.width() - tx * kTile),
+          std::min(kTile, grid.height() - ty * kTile)};
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "proc/image/image_view.h"
+#include "proc/signals/hot_spot/blob_pixels.h"
+#include "proc/signals/radiometry.h"
+
+namespace orbwatch::signals {
+
+/// How fast cools what has just left the hot spot: the mean, by solid angle, of the fall of
+/// temperature between two frame sets over what was above the threshold in the first one and no
+/// longer is in the second, to a fraction of a pixel. Where the threshold is the melting point,
+/// that is gradient times speed of solidification along the pool's tail (Kurz, Fisher: Fundamentals
+/// of solidification). No model of the profile. A pixel stands for one place of the machine, so the
+/// rate is that of the material there. All memory is taken when it is made. Thread-bound.
+class CoolingMeter {
+ public:
+  CoolingMeter(const RegionMask& mask, double threshold);
+
+  /// K/s, and remembers the hot spot in `pixels`, which may be empty, for the next time. `now` in
+  /// s. Not a number when nothing has left it, or the time before is longer ago than a quarter
+  /// second.
+  template <class T>
+  double update(double now, const ImageView<const T>& values,
+                const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
+                const RegionGeometry& geometry, const Radiometry& radiometry);
+
+  void reset() { before_.clear(); }
+
+ private:
+  template <class T>
+  double fall(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity,
+              const RegionGeometry& geometry, const Radiometry& radiometry) const;
+  template <class T>
+  void remember(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity,
+                const BlobPixels& pixels);
+
+  double threshold_;
+  // The frame set before: its hot spot, and the planes there.
+  double time_ = 0;
+  BlobPixels before_;
+  int stride_;
+  int height_;
+  std::vector<std::uint16_t> values_;
+  std::vector<std::uint8_t> validity_;
+};
+
+}  // namespace orbwatch::signals

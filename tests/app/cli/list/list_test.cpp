@@ -1,0 +1,123 @@
+#include "app/cli/list/list.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "tests/app/cli/equal_json.h"
+
+namespace orbwatch::app {
+namespace {
+
+using tests::expect_equal_json;
+
+hal::Inventory two_cameras_and_a_chip() {
+  hal::CameraEntry plain{.id = "/dev/v4l/by-id/usb-cam",
+                         .back_end = "v4l2",
+                         .model = "Cam 1",
+                         .driver = "uvcvideo",
+                         .bus = "usb-0000:00:14.0-1",
+                         .paths = {"/dev/v4l/by-id/usb-cam", "/dev/video0"},
+                         .problem = "",
+                         .modes = {{"yuyv", "640x480", {30, 7.5}}, {"mjpeg", "1920x1080", {}}},
+                         .controls = {}};
+  plain.controls = {{"gain", -5, 100, 1, 0, "", {}},
+                    {"auto_exposure", 0, 3, 1, 3, "read only", {"1 = manual", "3 = aperture"}}};
+  hal::CameraEntry broken;
+  broken.id = "/dev/video2";
+  broken.back_end = "v4l2";
+  broken.problem = "cannot be opened";
+  return {{plain, broken},
+          {{"gpio-sim",
+            "/dev/gpiochip1",
+            "",
+            {{2, "TRIGGER_IN", "input", "orbwatchd"}, {3, "", "output", ""}}}}};
+}
+
+TEST(ListJson, HasEveryFieldOfEveryEntry) {
+  expect_equal_json(list_json(two_cameras_and_a_chip()), R"({
+    "cameras": [
+      {"camera": "/dev/v4l/by-id/usb-cam", "back_end": "v4l2", "model": "Cam 1",
+       "driver": "uvcvideo", "bus": "usb-0000:00:14.0-1",
+       "paths": ["/dev/v4l/by-id/usb-cam", "/dev/video0"], "problem": "",
+       "modes": [{"format": "yuyv", "size": "640x480", "frame_rates": [30, 7.5]},
+                 {"format": "mjpeg", "size": "1920x1080", "frame_rates": []}],
+       "controls": [{"control": "gain", "minimum": -5, "maximum": 100, "step": 1, "default": 0,
+                     "state": "", "values": []},
+                    {"control": "auto_exposure", "minimum": 0, "maximum": 3, "step": 1,
+                     "default": 3, "state": "read only",
+                     "values": ["1 = manual", "3 = aperture"]}]},
+      {"camera": "/dev/video2", "back_end": "v4l2", "model": "", "driver": "", "bus": "",
+       "paths": [], "problem": "cannot be opened", "modes": [], "controls": []}],
+    "chips": [
+      {"chip": "gpio-sim", "path": "/dev/gpiochip1", "problem": "",
+       "lines": [{"line": 2, "name": "TRIGGER_IN", "direction": "input", "consumer": "orbwatchd"},
+                 {"line": 3, "name": "", "direction": "output", "consumer": ""}]}]})");
+}
+
+TEST(ListJson, IsValidWhateverDevicesSayOfThemselves) {
+  hal::Inventory inventory;
+  hal::CameraEntry camera;
+  camera.id =
+      "quote \" backslash \\ newline \n escape \x1b nul " + std::string(1, '\0') + " delete \x7f";
+  camera.model = "gr\xc3\xbc\xc3\x9f \xe2\x82\xac \xf0\x9f\x93\xb7";  // two, three and four bytes
+  // Cut off, overlong, a surrogate, beyond Unicode, no beginning.
+  camera.driver = "\xc3|\xc0\xaf|\xed\xa0\x80|\xf5\x80\x80\x80|\x80|\xe2\x82";
+  camera.modes = {{"", "", {std::nan(""), std::numeric_limits<double>::infinity(), 0.1}}};
+  camera.controls = {{"wide", -0x1p63, 0.25, 0, 0, "", {}}};
+  inventory.cameras.push_back(camera);
+  expect_equal_json(list_json(inventory), R"({"chips": [], "cameras": [
+    {"camera": "quote \" backslash \\ newline \n escape \u001b nul \u0000 delete \u007f",
+     "model": "gr\u00fc\u00df \u20ac \ud83d\udcf7",
+     "driver": "\ufffd|\ufffd\ufffd|\ufffd\ufffd\ufffd|\ufffd\ufffd\ufffd\ufffd|\ufffd|\ufffd",
+     "back_end": "", "bus": "", "paths": [], "problem": "",
+     "modes": [{"format": "", "size": "", "frame_rates": [null, null, 0.1]}],
+     "controls": [{"control": "wide", "minimum": -9223372036854775808,
+                   "maximum": 0.25, "step": 0, "default": 0, "state": "",
+                   "values": []}]}]})");
+}
+
+TEST(ListJson, OfNothing) { expect_equal_json(list_json({}), R"({"cameras": [], "chips": []})"); }
+
+TEST(ListTable, AlignsColumnsAndLeavesOutWhatIsEmpty) {
+  EXPECT_EQ(list_table(two_cameras_and_a_chip()),
+            R"(camera    /dev/v4l/by-id/usb-cam
+back end  v4l2
+model     Cam 1
+driver    uvcvideo
+bus       usb-0000:00:14.0-1
+paths     /dev/v4l/by-id/usb-cam, /dev/video0
+
+  format  size       frame rates
+  yuyv    640x480    30, 7.5
+  mjpeg   1920x1080
+
+  control        minimum  maximum  step  default  state      values
+  gain           -5       100      1     0
+  auto_exposure  0        3        1     3        read only  1 = manual, 3 = aperture
+
+camera    /dev/video2
+back end  v4l2
+problem   cannot be opened
+
+chip  gpio-sim
+path  /dev/gpiochip1
+
+  line  name        direction  consumer
+  2     TRIGGER_IN  input      orbwatchd
+  3                 output
+
+)");
+}
+
+TEST(ListTable, OfNothingAndOfTextsThatATerminalWouldObey) {
+  EXPECT_EQ(list_table({}), "no cameras\nno chips\n");
+  hal::Inventory inventory;
+  inventory.cameras.emplace_back().id = "\x1b[2Jcam\n";
+  EXPECT_EQ(list_table(inventory), "camera  ?[2Jcam?\n\nno chips\n");
+}
+
+}  // namespace
+}  // namespace orbwatch::app

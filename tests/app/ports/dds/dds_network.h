@@ -1,0 +1,61 @@
+#pragma once
+
+#include <dds/dds.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "app/ports/dds/participant/entity.h"
+#include "tests/support/loopback_dds.h"
+
+namespace orbwatch::app::tests {
+
+/// A DDS network of the test's own on the loopback interface: two domains of this process that are
+/// one domain on the wire. Sink and reader get one each, so all that they exchange crosses UDP as
+/// it would between two machines, and a tag keeps out every other test.
+/// The sink's side takes no sample above 1 MB.
+class DdsNetwork {
+ public:
+  static constexpr int kSinkDomain = 1;
+  static constexpr int kReaderDomain = 2;
+
+  DdsNetwork()
+      : sink_domain_(dds_create_domain(
+            kSinkDomain,
+            configuration("<Internal><MaxSampleSize>1MB</MaxSampleSize></Internal>").c_str())),
+        reader_domain_(dds_create_domain(kReaderDomain, configuration().c_str())) {}
+
+  bool valid() const { return sink_domain_ && reader_domain_; }
+
+  /// Lets the readers' side hear and say nothing until told otherwise, like a hung computer.
+  void hang_readers(bool hung) const {
+    ASSERT_EQ(dds_domain_set_deafmute(reader_domain_.get(), hung, hung, DDS_INFINITY),
+              DDS_RETCODE_OK);
+  }
+
+  /// Of a domain on this network; `more` stands in <Domain>.
+  static std::string configuration(const std::string& more = "") {
+    // Ports of the domains up to 100 lie below those that the system gives to clients.
+    const std::string domain = std::to_string(1 + getpid() % 100);
+    return orbwatch::tests::loopback_dds(more,
+                                         "<ExternalDomainId>" + domain + "</ExternalDomainId>");
+  }
+
+ private:
+  Entity sink_domain_;
+  Entity reader_domain_;
+};
+
+/// Repeats `step` until it returns true; false when that took so long that it never will.
+inline bool eventually(const std::function<bool()>& step) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!step()) {
+    if (std::chrono::steady_clock::now() > give_up) return false;
+  }
+  return true;
+}
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "app/ports/dds/dds_sink.h"
+#include "tests/app/ports/dds/dds_network.h"
+#include "tests/app/ports/dds/test_status.h"
+#include "tests/app/ports/dds/test_views.h"
+#include "tests/support/network_namespace.h"
+
+namespace orbwatch::app::tests {
+
+/// The domain of every test here: each has a network of its own.
+inline constexpr int kDomain = 3;
+
+/// A receive buffer that holds pictures, as far as the system grants it.
+inline constexpr const char* kReceiveBuffer = "8388608";
+
+/// The networks of orbwatch and of those who read, and how the shipped settings for it are called:
+/// one network, where only the loopback interface is, or two with a cable between them.
+class ShippedNetwork {
+ public:
+  enum class Kind { SameHost, Lan };
+
+  explicit ShippedNetwork(Kind kind)
+      : profile_(kind == Kind::SameHost ? "same-host.xml" : "lan.xml") {
+    if (kind == Kind::SameHost) return;
+    readers_.emplace();
+    cable_.emplace(writers_, *readers_);
+  }
+
+  const orbwatch::tests::NetworkNamespace& writers() const { return writers_; }
+  const orbwatch::tests::NetworkNamespace& readers() const {
+    return readers_ ? *readers_ : writers_;
+  }
+  const orbwatch::tests::Cable& cable() const { return cable_.value(); }
+
+  /// As it is shipped, for CYCLONEDDS_URI.
+  std::string profile() const { return "file://" ORBWATCH_SOURCE_DIR "/platform/dds/" + profile_; }
+
+  /// Until the sink has joined the domain.
+  void start(DdsSink& sink) const {
+    setenv("CYCLONEDDS_URI", profile().c_str(), 1);
+    writers_.run([&sink] {
+      const auto started = sink.start();
+      EXPECT_TRUE(started) << started.error().message;
+    });
+    EXPECT_TRUE(eventually([&sink] { return sink.statistics().joins == 1; }));
+  }
+
+ private:
+  const std::string profile_;
+  orbwatch::tests::NetworkNamespace writers_;
+  std::optional<orbwatch::tests::NetworkNamespace> readers_;
+  std::optional<orbwatch::tests::Cable> cable_;
+};
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,32 @@
+#include "app/ports/dds/participant/entity.h"
+
+#include <gtest/gtest.h>
+
+namespace orbwatch::app {
+namespace {
+
+TEST(EntityTest, IsDeletedWithItsOwnerAndMoves) {
+  Entity first(dds_create_waitset(DDS_CYCLONEDDS_HANDLE));
+  const dds_entity_t handle = first.get();
+  ASSERT_GT(handle, 0);
+  {
+    const Entity second = std::move(first);
+    EXPECT_FALSE(first);  // that is the test
+    EXPECT_EQ(second.get(), handle);
+    EXPECT_EQ(dds_waitset_set_trigger(handle, true), DDS_RETCODE_OK);
+  }
+  EXPECT_LT(dds_waitset_set_trigger(handle, true), 0) << "the wait set must be gone";
+}
+
+TEST(EntityTest, FailedHandlesAreNone) {
+  const Entity failed(DDS_RETCODE_OUT_OF_RESOURCES);
+  EXPECT_FALSE(failed);
+}
+
+TEST(EntityTest, ErrorsSayWhatAndWhy) {
+  EXPECT_EQ(dds_error("writer", DDS_RETCODE_OUT_OF_RESOURCES).message,
+            "DDS writer: Out Of Resources");
+}
+
+}  // namespace
+}  // namespace orbwatch::app

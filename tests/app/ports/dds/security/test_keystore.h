@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "app/cli/keys/keystore.h"
+#include "app/cli/keys/topic_access.h"
+
+namespace orbwatch::app::tests {
+
+inline std::chrono::sys_seconds this_second() {
+  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+/// Keys as `orbwatch dds-keys` makes them, for the domains of DdsNetwork and some more.
+inline KeystoreRequest keystore_request(const std::filesystem::path& folder) {
+  return {.folder = folder,
+          .domains = {1, 9},
+          .appliance = appliance_access("orbwatch"),
+          .subscriber = controller_access("orbwatch"),
+          .bulk_topics = bulk_topics("orbwatch")};
+}
+
+/// Makes them; returns the folder.
+inline std::filesystem::path make_keystore(const KeystoreRequest& request,
+                                           std::chrono::sys_seconds now = this_second()) {
+  const auto made = make_keys(request, now);
+  EXPECT_TRUE(made) << made.error().message;
+  return request.folder;
+}
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "app/model/view.h"
+
+namespace orbwatch::app::tests {
+
+/// A view with pixels that differ from each other and from frame set to frame set, 8 bit and 16
+/// bit; `padding` samples stand after each row.
+inline std::shared_ptr<View> make_view(std::size_t index, std::string_view name,
+                                       std::uint64_t frame_set, int width, int height,
+                                       bool radiometric = false, int padding = 0) {
+  auto view = std::make_shared<View>();
+  view->index = index;
+  view->name = name;
+  view->frame_set = frame_set;
+  view->stamp = hal::Clock::now();
+  const int stride = width * 3 + padding;
+  view->bytes.assign(static_cast<std::size_t>(stride) * height, 0xEE);
+  view->colour = {view->bytes.data(), width, height, 3, stride};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width * 3; ++x) {
+      view->colour.row(y)[x] = static_cast<std::uint8_t>(x * 7 + y * 13 + frame_set * 29 + index);
+    }
+  }
+  if (!radiometric) return view;
+  const int word_stride = width + padding;
+  view->words.assign(static_cast<std::size_t>(word_stride) * height, 0xEEEE);
+  view->radiometric = {view->words.data(), width, height, 1, word_stride};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      view->radiometric.row(y)[x] =
+          static_cast<std::uint16_t>(x * 257 + y * 4099 + frame_set * 3 + 0x1234);
+    }
+  }
+  return view;
+}
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <dds/dds.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/ports/dds/participant/participant.h"
+#include "tests/app/ports/dds/dds_network.h"
+
+namespace orbwatch::app::tests {
+
+/// A plain reader of one topic, on the readers' side of the network unless told otherwise.
+template <class Message>
+class TopicReader {
+ public:
+  using Look = std::function<void(const Message&)>;
+
+  TopicReader(const dds_topic_descriptor_t& type, const std::string& topic, const Qos& qos,
+              int domain = DdsNetwork::kReaderDomain,
+              const std::optional<SecuritySettings>& security = std::nullopt)
+      : participant_(Participant::join(domain, security).value()),
+        topic_(make_topic(participant_.entity(), type, topic).value()),
+        reader_(make_reader(participant_.entity(), topic_, qos).value()),
+        condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE)),
+        waitset_(dds_create_waitset(participant_.entity().get())) {
+    EXPECT_EQ(dds_waitset_attach(waitset_.get(), condition_.get(), 0), DDS_RETCODE_OK);
+  }
+
+  dds_entity_t get() const { return reader_.get(); }
+
+  /// Waits a moment for data; whether there is some.
+  bool wait() const { return dds_waitset_wait(waitset_.get(), nullptr, 0, DDS_MSECS(20)) > 0; }
+
+  /// Waits a moment; shows the next sample to `look` if one came.
+  bool take(const Look& look) const {
+    if (!wait()) return false;
+    void* sample = nullptr;
+    dds_sample_info_t info{};
+    const dds_return_t count = dds_take(reader_.get(), &sample, &info, 1, 1);
+    EXPECT_GE(count, 0) << dds_strretcode(count);
+    const bool valid = count > 0 && info.valid_data;
+    if (valid) look(*static_cast<const Message*>(sample));
+    if (count > 0) {
+      EXPECT_EQ(dds_return_loan(reader_.get(), &sample, count), DDS_RETCODE_OK);
+    }
+    return valid;
+  }
+
+  /// Takes what is there until a moment passes without anything.
+  void drain() const {
+    while (take([](const Message&) {})) {
+    }
+  }
+
+ private:
+  Participant participant_;
+  Entity topic_;
+  Entity reader_;
+  Entity condition_;
+  Entity waitset_;
+};
+
+}  // namespace orbwatch::app::tests

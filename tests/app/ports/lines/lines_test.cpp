@@ -1,0 +1,100 @@
+#include "app/ports/lines/lines.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace orbwatch::app {
+namespace {
+
+using signals::AlarmLevel;
+using signals::AlarmState;
+
+LineSettings line(const std::string& name, LineUse use, const std::string& wire) {
+  LineSettings settings;
+  settings.name = name;
+  settings.use = use;
+  settings.back_end = LineKind::Simulated;
+  settings.wire.address.name = wire;
+  settings.watchdog.timeout = std::chrono::minutes(1);  // the test reports seldom
+  return settings;
+}
+
+/// Both outputs that say how the pipeline is, wired to inputs.
+class StatusLines : public testing::Test {
+ protected:
+  StatusLines() {
+    auto opened =
+        Lines::open({line("hears_ok", LineUse::ProcessInput, "OK"),
+                     line("hears_alarm", LineUse::ProcessInput, "ALARM"),
+                     line("ok", LineUse::ProcessOk, "OK"), line("alarm", LineUse::Alarm, "ALARM")});
+    EXPECT_TRUE(opened) << opened.error().message;
+    lines = std::move(*opened);
+    EXPECT_TRUE(lines->start());
+  }
+  ~StatusLines() override { lines->stop(); }
+
+  static Status status(SystemState state) {
+    Status status;
+    status.state = state;
+    return status;
+  }
+  static Status status(AlarmState state, AlarmLevel level) {
+    Status alarmed = status(SystemState::Running);
+    alarmed.alarm_count = 2;  // the first one is normal
+    alarmed.alarms[1].alarm = {state, level, level, false};
+    return alarmed;
+  }
+  /// Reports a status until both lines are as they should be.
+  bool becomes(const Status& status, bool ok, bool no_alarm) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto is = [&](std::size_t input, bool active) {
+      return lines->process_inputs()[input]->state().active == active;
+    };
+    lines->accept(status);
+    while (!(is(0, ok) && is(1, no_alarm)) && std::chrono::steady_clock::now() < end) {
+      std::this_thread::yield();
+    }
+    return is(0, ok) && is(1, no_alarm);
+  }
+
+  std::unique_ptr<Lines> lines;
+};
+
+TEST_F(StatusLines, FollowTheState) {
+  EXPECT_TRUE(becomes(status(SystemState::Starting), false, false));
+  EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
+  EXPECT_TRUE(becomes(status(SystemState::Degraded), true, false)) << "some camera has a fault";
+  EXPECT_TRUE(becomes(status(SystemState::Stopped), true, true)) << "was told to, and works";
+  EXPECT_TRUE(becomes(status(SystemState::Fault), false, false));
+  EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
+}
+
+TEST_F(StatusLines, TheAlarmLineFallsWithAlarmsThatStandNotWithWarnings) {
+  const auto falls = [&](AlarmState state, AlarmLevel level) {
+    EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
+    return becomes(status(state, level), true, false);
+  };
+  EXPECT_TRUE(falls(AlarmState::Unacknowledged, AlarmLevel::HighAlarm));
+  EXPECT_TRUE(falls(AlarmState::Acknowledged, AlarmLevel::LowAlarm)) << "it still stands";
+  EXPECT_TRUE(falls(AlarmState::LatchedUnacknowledged, AlarmLevel::HighAlarm));
+  EXPECT_TRUE(falls(AlarmState::LatchedAcknowledged, AlarmLevel::HighAlarm));
+  const auto stays = [&](AlarmState state, AlarmLevel level) {
+    EXPECT_TRUE(becomes(status(SystemState::Fault), false, false));
+    return becomes(status(state, level), true, true);
+  };
+  EXPECT_TRUE(stays(AlarmState::ReturnedUnacknowledged, AlarmLevel::HighAlarm));
+  EXPECT_TRUE(stays(AlarmState::SuppressedByDesign, AlarmLevel::HighAlarm));
+  EXPECT_TRUE(stays(AlarmState::Unacknowledged, AlarmLevel::HighWarning));
+  EXPECT_TRUE(stays(AlarmState::Unacknowledged, AlarmLevel::NoMeasurement));
+}
+
+TEST_F(StatusLines, AlarmsBeyondTheirCountAreNone) {
+  Status left = status(AlarmState::Unacknowledged, AlarmLevel::HighAlarm);
+  left.alarm_count = 1;
+  EXPECT_TRUE(becomes(left, true, true));
+}
+
+}  // namespace
+}  // namespace orbwatch::app

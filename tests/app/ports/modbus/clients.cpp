@@ -1,0 +1,291 @@
+#include "tests/app/ports/modbus/clients.h"
+
+#include <arpa/inet.h>
+#include <modbus.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+namespace orbwatch::app::tests {
+namespace {
+
+constexpr std::chrono::seconds kGuard{60};
+
+sockaddr_in loopback_address(const std::string& host, int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  if (::inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1) {
+    throw std::invalid_argument(host);
+  }
+  return address;
+}
+
+void require(bool done) {
+  if (!done) throw std::system_error(errno, std::generic_category());
+}
+
+}  // namespace
+
+ModbusSettings loopback() {
+  ModbusSettings settings;
+  settings.address = "127.0.0.1";
+  settings.port = 0;
+  settings.frame_timeout = settings.idle_timeout = settings.status_timeout = std::chrono::hours(1);
+  return settings;
+}
+
+CommandResult accept_all(const Command&) { return CommandResult::Done; }
+
+Status example_status() {
+  Status status;
+  status.state = SystemState::Degraded;
+  status.heartbeat = 0x1'0102;
+  status.frame_set = 0x1'8001'0203;
+  status.stamp = hal::Clock::now();
+  status.overruns = 0x0011'0304;
+  status.trigger = 0x0012'0015;
+  status.result = 0x0013'0016;
+  status.recipe = 7;
+  status.configuration_checksum = 0x89ab'cdef;
+  status.process_active = true;
+  status.unmatched = 0x0022'0405;
+  status.load = 0.4567;
+  status.selected_view = 2;
+  status.camera_count = 2;
+  status.view_count = 3;
+  status.cameras[0] = {.frames_per_second = 29.974,
+                       .frames = 0x0033'0506,
+                       .lost = 0x0044'0607,
+                       .dropped = 0x0055'0708};
+  status.cameras[1] = {.fault = hal::Fault::Stalled,
+                       .frames_per_second = 12.5,
+                       .frames = 0x0066'0809,
+                       .lost = 0x0077'090a,
+                       .dropped = 0x0088'0a0b};
+  status.views[2] = {.published = 0x0099'0b0c,
+                     .skipped = 0x00aa'0c0d,
+                     .frames_per_second = 24.996,
+                     .latency_p50_ms = 41.26,
+                     .latency_p99_ms = 87.64};
+  status.region_count = 1;
+  status.regions[0].quality = Quality::Good;
+  status.regions[0].signals.hot_spot_yaw = -123.456;
+  status.regions[0].signals.hot_spot_pitch = 12.344;
+  status.regions[0].signals.hot_spot_solid_angle = 0.7;
+  status.regions[0].signals.hot_spot_peak_temperature = -20.04;
+  return status;
+}
+
+namespace {
+
+int place_in(std::initializer_list<modbus::Table> tables, std::string_view name) {
+  static const modbus::RegisterMap map;
+  for (const modbus::Row& row : map.rows()) {
+    const bool is_there = std::ranges::find(tables, row.table) != tables.end();
+    if (is_there && row.name == name && row.address < modbus::kMirrorOffset) return row.address;
+  }
+  throw std::out_of_range(std::string(name));
+}
+
+}  // namespace
+
+int address_of(std::string_view name) {
+  return place_in({modbus::Table::Holding, modbus::Table::Input}, name);
+}
+
+int bit_of(std::string_view name) { return place_in({modbus::Table::Discrete}, name); }
+
+Plc::Plc(int port, int unit) : context_(modbus_new_tcp("127.0.0.1", port)) { connect(unit); }
+
+Plc::Plc(const std::string& line, int unit)
+    : context_(modbus_new_rtu(line.c_str(), 19200, 'N', 8, 1)) {
+  connect(unit);
+}
+
+void Plc::connect(int unit) {
+  require(context_ && modbus_set_slave(context_.get(), unit) == 0 &&
+          modbus_set_response_timeout(context_.get(), 60, 0) == 0 &&
+          modbus_connect(context_.get()) == 0);
+}
+
+void Plc::Close::operator()(_modbus* context) const {
+  modbus_close(context);
+  modbus_free(context);
+}
+
+int Plc::outcome(int result) const {
+  if (result >= 0) return 0;
+  const bool exception = errno > MODBUS_ENOBASE && errno < MODBUS_ENOBASE + MODBUS_EXCEPTION_MAX;
+  return exception ? errno - MODBUS_ENOBASE : -1;
+}
+
+int Plc::read_bits(int address, int count) {
+  bits.resize(static_cast<std::size_t>(count));
+  return outcome(modbus_read_bits(context_.get(), address, count, bits.data()));
+}
+
+int Plc::read_discrete(int address, int count) {
+  bits.resize(static_cast<std::size_t>(count));
+  return outcome(modbus_read_input_bits(context_.get(), address, count, bits.data()));
+}
+
+int Plc::read_holding(int address, int count) {
+  words.resize(static_cast<std::size_t>(count));
+  return outcome(modbus_read_registers(context_.get(), address, count, words.data()));
+}
+
+int Plc::read_input(int address, int count) {
+  words.resize(static_cast<std::size_t>(count));
+  return outcome(modbus_read_input_registers(context_.get(), address, count, words.data()));
+}
+
+int Plc::write(int address, std::uint16_t value) {
+  return outcome(modbus_write_register(context_.get(), address, value));
+}
+
+int Plc::write(int address, const Words& values) {
+  return outcome(modbus_write_registers(context_.get(), address, static_cast<int>(values.size()),
+                                        values.data()));
+}
+
+int Plc::mask_write(int address, std::uint16_t and_mask, std::uint16_t or_mask) {
+  return outcome(modbus_mask_write_register(context_.get(), address, and_mask, or_mask));
+}
+
+int Plc::write_and_read(int write_address, const Words& values, int read_address, int count) {
+  words.resize(static_cast<std::size_t>(count));
+  return outcome(modbus_write_and_read_registers(context_.get(), write_address,
+                                                 static_cast<int>(values.size()), values.data(),
+                                                 read_address, count, words.data()));
+}
+
+int Plc::write_coil(int address) { return outcome(modbus_write_bit(context_.get(), address, 1)); }
+
+int Plc::write_coils(int address, int count) {
+  const std::vector<std::uint8_t> values(static_cast<std::size_t>(count), 1);
+  return outcome(modbus_write_bits(context_.get(), address, count, values.data()));
+}
+
+std::uint32_t Plc::u32(std::size_t place) const {
+  return std::uint32_t{words.at(place)} << 16 | words.at(place + 1);
+}
+
+RawClient::RawClient(Unconnected) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  const timeval guard{kGuard.count(), 0};
+  const int on = 1;
+  require(::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &guard, sizeof(guard)) == 0 &&
+          ::setsockopt(socket_.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on)) == 0);
+}
+
+RawClient::RawClient(int port, const std::string& from, int receive_buffer)
+    : RawClient(Unconnected{}) {
+  if (receive_buffer > 0) {
+    require(::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer,
+                         sizeof(receive_buffer)) == 0);
+  }
+  const auto own = loopback_address(from, 0);
+  require(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof(own)) == 0);
+  connect(port);
+}
+
+void RawClient::connect(int port) {
+  const auto server = loopback_address("127.0.0.1", port);
+  require(::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&server), sizeof(server)) ==
+          0);
+}
+
+bool RawClient::send(const Bytes& bytes) {
+  const auto sent = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  return sent == static_cast<ssize_t>(bytes.size());
+}
+
+long RawClient::send_some(const Bytes& bytes) {
+  const auto sent = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  return sent < 0 && errno == EAGAIN ? 0 : sent;
+}
+
+long RawClient::discard() {
+  std::array<std::uint8_t, 4096> bytes;
+  for (long count = 0;;) {
+    const auto got = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (got <= 0) return got < 0 && errno == EAGAIN ? count : -1;
+    count += got;
+  }
+}
+
+void RawClient::wait_writable() {
+  pollfd file{socket_.get(), POLLOUT, 0};
+  ::poll(&file, 1, static_cast<int>(std::chrono::milliseconds(kGuard).count()));
+}
+
+Bytes RawClient::receive(std::size_t count) {
+  Bytes bytes(count);
+  const auto got = ::recv(socket_.get(), bytes.data(), count, MSG_WAITALL);
+  bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return bytes;
+}
+
+Bytes RawClient::receive_pdu() {
+  const Bytes header = receive(7);
+  if (header.size() < 7) return {};
+  return receive(static_cast<std::size_t>(header[4] << 8 | header[5]) - 1);
+}
+
+bool RawClient::is_closed_by_server() {
+  std::uint8_t byte = 0;
+  const auto got = ::recv(socket_.get(), &byte, 1, 0);
+  return got == 0 || (got < 0 && errno == ECONNRESET);
+}
+
+void RawClient::finish_sending() { ::shutdown(socket_.get(), SHUT_WR); }
+
+Bytes frame(const Bytes& pdu, std::uint8_t unit, std::uint16_t transaction) {
+  const std::size_t length = pdu.size() + 1;
+  Bytes bytes(6 + length);
+  bytes[0] = static_cast<std::uint8_t>(transaction >> 8);
+  bytes[1] = static_cast<std::uint8_t>(transaction);
+  bytes[4] = static_cast<std::uint8_t>(length >> 8);
+  bytes[5] = static_cast<std::uint8_t>(length);
+  bytes[6] = unit;
+  std::ranges::copy(pdu, bytes.begin() + 7);
+  return bytes;
+}
+
+Bytes rtu_frame(int unit, const Bytes& pdu) {
+  Bytes bytes(1 + pdu.size());
+  bytes[0] = static_cast<std::uint8_t>(unit);
+  std::ranges::copy(pdu, bytes.begin() + 1);
+  // As in Modbus over Serial Line V1.02, 6.2.2.
+  unsigned checksum = 0xffff;
+  for (const unsigned byte : bytes) {
+    checksum ^= byte;
+    for (int bit = 0; bit < 8; ++bit) {
+      const bool carry = (checksum & 1) != 0;
+      checksum >>= 1;
+      if (carry) checksum ^= 0xa001;
+    }
+  }
+  bytes.push_back(static_cast<std::uint8_t>(checksum));
+  bytes.push_back(static_cast<std::uint8_t>(checksum >> 8));
+  return bytes;
+}
+
+bool eventually(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + kGuard;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+}  // namespace orbwatch::app::tests

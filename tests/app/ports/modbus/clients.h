@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ports/modbus/modbus_sink.h"
+#include "hal/thread/file_descriptor.h"
+
+struct _modbus;  // libmodbus' own name
+
+namespace orbwatch::app::tests {
+
+using Bytes = std::vector<std::uint8_t>;
+using Words = std::vector<std::uint16_t>;
+
+/// A loopback server on a free port. Time-outs are as good as off, so that a slow machine cannot
+/// fail a test that is not about them.
+ModbusSettings loopback();
+
+/// A command handler that answers Done to every command.
+CommandResult accept_all(const Command& command);
+
+/// A status whose figures differ from each other and from 0.
+Status example_status();
+
+/// Where the register, or the discrete input, with this name stands; not its mirror. Throws
+/// std::out_of_range when there is none.
+int address_of(std::string_view name);
+int bit_of(std::string_view name);
+
+/// Where it stands in an answer that begins with another register.
+inline std::size_t place_of(std::string_view name, std::string_view first) {
+  return static_cast<std::size_t>(address_of(name) - address_of(first));
+}
+
+/// A PLC, by libmodbus. Every answer is an exception code, 0 when there is none, -1 when the
+/// connection failed.
+class Plc {
+ public:
+  explicit Plc(int port, int unit = 1);
+  /// On a serial line of 19200 bit/s without parity.
+  Plc(const std::string& line, int unit);
+
+  int read_bits(int address, int count);
+  int read_discrete(int address, int count);
+  int read_holding(int address, int count);
+  int read_input(int address, int count);
+  int write(int address, std::uint16_t value);
+  int write(int address, const Words& values);
+  int mask_write(int address, std::uint16_t and_mask, std::uint16_t or_mask);
+  int write_and_read(int write_address, const Words& values, int read_address, int count);
+  int write_coil(int address);
+  int write_coils(int address, int count);
+
+  /// Of the last read.
+  std::vector<std::uint8_t> bits;
+  Words words;
+  /// 32 bit, high word first, from words[place] on.
+  std::uint32_t u32(std::size_t place) const;
+  std::int32_t i32(std::size_t place) const { return static_cast<std::int32_t>(u32(place)); }
+
+ private:
+  struct Close {
+    void operator()(_modbus* context) const;
+  };
+  void connect(int unit);
+  int outcome(int result) const;
+  std::unique_ptr<_modbus, Close> context_;
+};
+
+struct Unconnected {};
+
+/// Any other client: sends bytes over TCP, right or wrong.
+class RawClient {
+ public:
+  /// `from`: the client's own loopback address. `receive_buffer`: in bytes; 0 leaves it.
+  explicit RawClient(int port, const std::string& from = "127.0.0.1", int receive_buffer = 0);
+  explicit RawClient(Unconnected);
+
+  void connect(int port);
+
+  bool send(const Bytes& bytes);
+  /// Sends as much as is possible without waiting; -1 when the connection is broken.
+  long send_some(const Bytes& bytes);
+  /// Discards the received bytes and returns their number; -1 when the connection ended.
+  long discard();
+  /// Waits until all of this can be sent, or the connection is broken.
+  void wait_writable();
+  /// Exactly so many bytes, or fewer when the connection ended.
+  Bytes receive(std::size_t count);
+  /// One whole answer without its MBAP header and unit; empty when the connection ended.
+  Bytes receive_pdu();
+  /// Waits for the server to end the connection; false when it sends something instead.
+  bool is_closed_by_server();
+  void finish_sending();
+
+ private:
+  hal::FileDescriptor socket_;
+};
+
+/// A frame with its MBAP header.
+Bytes frame(const Bytes& pdu, std::uint8_t unit = 1, std::uint16_t transaction = 0x1234);
+
+/// A frame of a serial line, with its checksum.
+Bytes rtu_frame(int unit, const Bytes& pdu);
+
+/// Yields until the condition holds; false after a minute.
+bool eventually(const std::function<bool()>& condition);
+
+}  // namespace orbwatch::app::tests

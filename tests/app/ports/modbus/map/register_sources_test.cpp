@@ -1,0 +1,453 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/ports/modbus/map/bits.h"
+#include "app/ports/modbus/map/register_map.h"
+
+/// Every register follows what it reports, and nothing else.
+namespace orbwatch::app::modbus {
+namespace {
+
+using std::chrono::milliseconds;
+using Names = std::set<std::string>;
+
+const RegisterMap& registers() {
+  static const RegisterMap map;
+  return map;
+}
+
+/// All registers without mirrors, and their names; a "?" marks bits, which words may share names
+/// with.
+struct Registers {
+  std::vector<std::string> names;
+  std::vector<const Row*> rows;
+
+  Registers() {
+    std::set<std::string> known;
+    for (const Row& row : registers().rows()) {
+      if (row.address >= kMirrorOffset || !row.read) continue;
+      rows.push_back(&row);
+      names.push_back(row.name + (row.table == Table::Discrete ? "?" : ""));
+      EXPECT_TRUE(known.insert(names.back()).second) << names.back();
+    }
+  }
+
+  std::vector<std::uint32_t> contents(const ProcessImage& image) const {
+    std::vector<std::uint32_t> codes;
+    codes.reserve(rows.size());
+    for (const Row* row : rows) codes.push_back(row->read(image));
+    return codes;
+  }
+};
+
+void measure_something(StampedStatus& stamped, double share) {
+  stamped.utc = std::chrono::microseconds(1'700'000'000'000'100);
+  Status& status = stamped.status;
+  status.result = 3;
+  status.frame_set = 30;
+  status.trigger = 4;
+  status.recipe = 2;
+  status.configuration_checksum = 77;
+  status.process_active = true;
+  status.region_count = signals::kMaxRegions;
+  for (RegionStatus& region : status.regions) {
+    region.quality = Quality::Good;
+    for (const auto& signal : signals::kSignals) {
+      region.signals.*signal.member = signal.minimum + share * (signal.maximum - signal.minimum);
+    }
+    region.signals.hot_spot_present = 1;
+  }
+}
+
+/// Everything is there and works.
+ProcessImage full_image() {
+  ProcessImage image;
+  image.now = hal::TimePoint{} + std::chrono::hours(100);
+  image.server.uptime = 9 * 3600;
+  measure_something(image.live, 0.5);
+  measure_something(image.result, 0.25);
+  image.results.count = 2;
+  image.plc.heartbeat = image.now - milliseconds(20);
+  Status& status = image.live.status;
+  status.state = SystemState::Running;
+  status.stamp = image.now - milliseconds(50);
+  status.camera_count = kMaxCameras;
+  status.view_count = kMaxViews;
+  status.alarm_count = signals::kMaxAlarms;
+  for (CameraStatus& camera : status.cameras) camera.last_frame = image.now - milliseconds(40);
+  for (AlarmStatus& alarm : status.alarms) {
+    alarm.value = 0;
+    alarm.since = image.now - milliseconds(5000);
+  }
+  for (const HealthInfo& figure : kHealthFigures) {
+    status.health.*figure.member = (figure.minimum + figure.maximum) / 2;
+  }
+  status.health.throttling = 0;
+  status.health.clock_synchronised = 1;
+  return image;
+}
+
+std::string numbered(const std::string& thing, std::size_t number, const std::string& what) {
+  return thing + "_" + std::to_string(number) + "_" + what;
+}
+
+/// `name` of every region, in the live block or the window of results.
+Names of_regions(const std::string& block, const Names& names) {
+  Names all;
+  for (std::size_t i = 0; i < signals::kMaxRegions; ++i) {
+    for (const std::string& name : names) all.insert(numbered(block, i, name));
+  }
+  return all;
+}
+
+Names operator+(Names a, const Names& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
+class RegisterSources : public testing::Test {
+ protected:
+  /// This change of the image changes these registers and no others.
+  void expect(const std::function<void(ProcessImage&)>& change, const Names& names) {
+    ProcessImage after = before_;
+    change(after);
+    const auto codes = own_.contents(after);
+    Names changed;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      if (codes[i] != codes_before_[i]) changed.insert(own_.names[i]);
+    }
+    EXPECT_EQ(changed, names);
+    covered_ = covered_ + names;
+  }
+
+  /// What is measured in all regions of `stamped`, whose rows are called block_n_...
+  void expect_measured(const std::string& block, StampedStatus& (*stamped)(ProcessImage&),
+                       const Names& also_live);
+  void expect_regions(const std::string& block, StampedStatus& (*stamped)(ProcessImage&));
+  void expect_system();
+  void expect_status();
+  void expect_cameras_and_views();
+  void expect_alarms();
+  void expect_health();
+  void expect_server_and_plc();
+
+  const Registers own_;
+  const ProcessImage before_ = full_image();
+  const std::vector<std::uint32_t> codes_before_ = own_.contents(before_);
+  Names covered_;
+};
+
+void RegisterSources::expect_measured(const std::string& block,
+                                      StampedStatus& (*stamped)(ProcessImage&),
+                                      const Names& also_live) {
+  const auto of = [&](const std::string& name) {
+    return of_regions(block, {name}) +
+           (also_live.contains(name) ? Names{"system_" + name} : Names{});
+  };
+  expect([&](ProcessImage& s) { ++stamped(s).status.result; }, of("result"));
+  expect([&](ProcessImage& s) { ++stamped(s).status.frame_set; }, of("frame_set"));
+  expect([&](ProcessImage& s) { ++stamped(s).status.trigger; }, of("trigger"));
+  expect([&](ProcessImage& s) { ++stamped(s).status.recipe; }, of("recipe"));
+  expect([&](ProcessImage& s) { ++stamped(s).status.configuration_checksum; },
+         of("configuration_checksum"));
+  const bool live = !also_live.empty();
+  expect([&](ProcessImage& s) { stamped(s).utc += std::chrono::microseconds(3'000'001); },
+         of_regions(block, {"utc_seconds", "utc_microseconds"}) +
+             (live ? Names{"utc_seconds", "utc_microseconds"} : Names{}));
+  expect([&](ProcessImage& s) { stamped(s).status.process_active = false; },
+         of_regions(block, {"process_active"}) +
+             (live ? Names{"process_active?", "system_process_active", "status_bits"} : Names{}));
+}
+
+void RegisterSources::expect_regions(const std::string& block,
+                                     StampedStatus& (*stamped)(ProcessImage&)) {
+  const bool live = block == "region";
+  for (std::size_t i = 0; i < signals::kMaxRegions; ++i) {
+    const auto name = [&](std::string_view what) { return numbered(block, i, std::string(what)); };
+    const auto region = [&](ProcessImage& s) -> RegionStatus& {
+      return stamped(s).status.regions[i];
+    };
+    expect([&](ProcessImage& s) { region(s).quality = Quality::Apparent; }, {name("quality")});
+    expect(
+        [&](ProcessImage& s) { region(s).quality = Quality::NotMeasured; },
+        Names{name("quality")} + (live ? Names{name("measured?"), "measurement_bits"} : Names{}));
+    for (std::size_t n = 0; n < signals::kSignals.size(); ++n) {
+      const signals::SignalInfo& signal = signals::kSignals[n];
+      const Names hot_spot = live && signal.member == &signals::Signals::hot_spot_present
+                                 ? Names{name("hot_spot?"), "measurement_bits"}
+                                 : Names{};
+      expect([&](ProcessImage& s) { region(s).signals.*signal.member = signal.minimum; },
+             Names{name(signal.name)} + hot_spot);
+      expect([&](ProcessImage& s) { region(s).signals.*signal.member = signals::kNotValid; },
+             Names{name(signal.name), name("valid_" + std::to_string(n / 16 * 16))} + hot_spot);
+    }
+    // An alarm that stands in this region.
+    AlarmStatus alarm{.alarm = {signals::AlarmState::Acknowledged, signals::AlarmLevel::LowWarning,
+                                signals::AlarmLevel::LowWarning, false},
+                      .region = static_cast<std::uint16_t>(i)};
+    if (live) continue;  // with the alarms
+    expect(
+        [&](ProcessImage& s) {
+          stamped(s).status.alarms[9] = alarm;
+          stamped(s).status.alarm_count = 10;
+        },
+        {name("alarm_severity")});
+  }
+}
+
+void RegisterSources::expect_system() {
+  const auto to_state = [this](SystemState state, const Names& names) {
+    expect([state](ProcessImage& s) { s.live.status.state = state; },
+           Names{"system_state", "status_bits", "running?"} + names);
+  };
+  to_state(SystemState::Starting, {});
+  to_state(SystemState::Degraded, {"degraded?"});
+  to_state(SystemState::Fault, {"fault?", "fault_bits"});
+  to_state(SystemState::Stopped, {"stopped?"});
+  Names deliver;
+  for (std::size_t i = 0; i < kMaxCameras; ++i) deliver.insert(numbered("camera", i, "delivers?"));
+  expect([](ProcessImage& s) { s.stale = true; },
+         deliver + Names{"stale?", "status_bits", "fault_bits", "measurement_bits"});
+  Names ages{"system_stamp_age", "plc_heartbeat_age"};
+  for (std::size_t i = 0; i < kMaxCameras; ++i)
+    ages.insert(numbered("camera", i, "last_frame_age"));
+  for (std::size_t i = 1; i <= signals::kMaxAlarms; ++i)
+    ages.insert(numbered("alarm", i, "since_age"));
+  expect([](ProcessImage& s) { s.now += std::chrono::seconds(2); }, ages);
+  expect([](ProcessImage& s) { s.server.uptime += 2; }, {"modbus_uptime"});
+}
+
+void RegisterSources::expect_status() {
+  using S = ProcessImage&;
+  expect([](S s) { ++s.live.status.heartbeat; }, {"system_heartbeat"});
+  expect([](S s) { s.live.status.stamp -= milliseconds(7); }, {"system_stamp_age"});
+  expect([](S s) { ++s.live.status.overruns; }, {"system_overruns"});
+  expect([](S s) { ++s.live.status.unmatched; }, {"system_unmatched"});
+  expect([](S s) { s.live.status.skew_ms = 1.2; }, {"system_skew_ms"});
+  expect([](S s) { s.live.status.load = 0.5; }, {"system_load"});
+  expect([](S s) { s.live.status.load = 1.5; }, {"system_load", "fault_bits"});
+  expect([](S s) { ++s.live.status.selected_view; }, {"system_selected_view"});
+  for (std::size_t i = 0; i < 32; ++i) {
+    expect([i](S s) { s.live.status.process_inputs = 1U << i; },
+           {"system_process_inputs", "process_input_" + std::to_string(i) + "?"});
+  }
+  expect([](S s) { --s.live.status.view_count; }, {"view_count"});
+  expect([](S s) { --s.live.status.region_count; }, {"region_count"});
+  const std::string last = numbered("camera", kMaxCameras - 1, "");
+  expect([](S s) { --s.live.status.camera_count; },
+         {"camera_count", last + "fault", last + "delivers?", "measurement_bits"});
+  expect([](S s) { --s.live.status.alarm_count; },
+         {"alarm_count", numbered("alarm", signals::kMaxAlarms, "state")});
+}
+
+void RegisterSources::expect_cameras_and_views() {
+  for (std::size_t i = 0; i < kMaxCameras; ++i) {
+    const auto expect_of = [&](const std::string& what, auto change, const Names& also = {}) {
+      expect([&](ProcessImage& s) { change(s.live.status.cameras[i]); },
+             Names{numbered("camera", i, what)} + also);
+    };
+    using C = CameraStatus&;
+    expect_of("fault", [](C c) { c.fault = hal::Fault::Stalled; },
+              {numbered("camera", i, "delivers?"), "measurement_bits", "fault_bits"});
+    expect_of("frames_per_second", [](C c) { c.frames_per_second = 20; });
+    expect_of("latency_p50_ms", [](C c) { c.latency_p50_ms = 1; });
+    expect_of("latency_p99_ms", [](C c) { c.latency_p99_ms = 1; });
+    expect_of("last_frame_age", [](C c) { c.last_frame -= milliseconds(9); });
+    expect_of("last_frame_age", [](C c) { c.last_frame = {}; });
+    expect_of("frames", [](C c) { ++c.frames; });
+    expect_of("lost", [](C c) { ++c.lost; });
+    expect_of("dropped", [](C c) { ++c.dropped; });
+    expect_of("unmatched", [](C c) { ++c.unmatched; });
+    expect_of("triggers", [](C c) { ++c.triggers; });
+    expect_of("missed", [](C c) { ++c.missed; });
+  }
+  for (std::size_t i = 0; i < kMaxViews; ++i) {
+    const auto expect_of = [&](const std::string& what, auto change) {
+      expect([&](ProcessImage& s) { change(s.live.status.views[i]); }, {numbered("view", i, what)});
+    };
+    using V = ViewStatus&;
+    expect_of("published", [](V v) { ++v.published; });
+    expect_of("skipped", [](V v) { ++v.skipped; });
+    expect_of("superseded", [](V v) { ++v.superseded; });
+    expect_of("frames_per_second", [](V v) { v.frames_per_second = 20; });
+    expect_of("latency_p50_ms", [](V v) { v.latency_p50_ms = 1; });
+    expect_of("latency_p99_ms", [](V v) { v.latency_p99_ms = 1; });
+  }
+}
+
+void RegisterSources::expect_alarms() {
+  using signals::AlarmLevel;
+  using signals::AlarmState;
+  for (std::size_t i = 0; i < signals::kMaxAlarms; ++i) {
+    const auto name = [i](const std::string& what) { return numbered("alarm", i + 1, what); };
+    const std::size_t region = i % signals::kMaxRegions;
+    const Names stands{name("state"), name("region"), name("active?"), "alarms_active"};
+    const auto expect_in = [&](AlarmState state, AlarmLevel level, AlarmLevel announced,
+                               const Names& names) {
+      expect(
+          [&](ProcessImage& s) {
+            s.live.status.alarms[i].alarm = {state, level, announced, false};
+            s.live.status.alarms[i].region = static_cast<std::uint16_t>(region);
+          },
+          [&] {
+            Names all = names;
+            if (region == 0) all.erase(name("region"));
+            if (announced != AlarmLevel::None) all.insert(name("announced"));
+            return all;
+          }());
+    };
+    const std::string severity = numbered("region", region, "alarm_severity");
+    const Names severe{"alarm_severity", severity, "status_bits"};
+    const Names asks{name("unacknowledged?"), "alarms_unacknowledged", "unacknowledged?"};
+    expect_in(AlarmState::Unacknowledged, AlarmLevel::HighAlarm, AlarmLevel::HighAlarm,
+              stands + severe + asks + Names{name("level"), "alarm?", "alarms_severe"});
+    expect_in(AlarmState::Acknowledged, AlarmLevel::LowWarning, AlarmLevel::LowWarning,
+              stands + severe + Names{name("level"), "warning?"});
+    // Latched at what it was, although its signal has returned.
+    expect_in(AlarmState::LatchedUnacknowledged, AlarmLevel::None, AlarmLevel::LowAlarm,
+              stands + severe + asks + Names{"alarm?", "alarms_severe"});
+    expect_in(AlarmState::ReturnedUnacknowledged, AlarmLevel::None, AlarmLevel::LowAlarm,
+              asks + Names{name("state"), name("region"), "status_bits"});
+    expect_in(AlarmState::SuppressedByDesign, AlarmLevel::None, AlarmLevel::None,
+              {name("state"), name("region")});
+    const auto expect_of = [&](const std::string& what, auto change) {
+      expect([&](ProcessImage& s) { change(s.live.status.alarms[i]); }, {what});
+    };
+    expect_of(name("region"), [](AlarmStatus& a) { ++a.region; });
+    expect_of(name("signal"), [](AlarmStatus& a) {
+      a.signal = static_cast<SignalNumber>(1 + static_cast<int>(a.signal));
+    });
+    expect_of(name("value"), [](AlarmStatus& a) { a.value = 1; });
+    expect_of(name("value"), [](AlarmStatus& a) { a.value = signals::kNotValid; });
+    expect_of(name("since_age"), [](AlarmStatus& a) { a.since -= milliseconds(3); });
+    expect([&](ProcessImage& s) { s.live.status.alarms[i].alarm.measurement_lost = true; },
+           {"alarms_not_measured", name("measurement_lost")});
+  }
+}
+
+void RegisterSources::expect_health() {
+  for (const HealthInfo& figure : kHealthFigures) {
+    Names names{"health_" + std::string(figure.name)};
+    if (figure.member == &Health::throttling) names.insert("fault_bits");
+    if (figure.member == &Health::clock_synchronised) {
+      names = names + Names{"clock_synchronised?", "status_bits", "fault_bits"};
+    }
+    const double other =
+        before_.live.status.health.*figure.member == figure.minimum ? 1 : figure.minimum;
+    expect([&](ProcessImage& s) { s.live.status.health.*figure.member = other; }, names);
+  }
+  expect([](ProcessImage& s) { s.live.status.health.throttling = 0x10; }, {"health_throttling"});
+  expect([](ProcessImage& s) { s.live.status.health.clock_synchronised = signals::kNotValid; },
+         {"health_clock_synchronised", "clock_synchronised?", "status_bits"});
+}
+
+void RegisterSources::expect_server_and_plc() {
+  using S = ProcessImage&;
+  expect([](S s) { s.live.status.recipe_refused = true; },
+         {"recipe_refused?", "system_recipe_refused", "status_bits"});
+  expect([](S s) { ++s.results.count; }, {"result_count"});
+  expect([](S s) { s.results.count = 0; }, {"result_count", "result_available?", "status_bits"});
+  expect([](S s) { ++s.results.overruns; }, {"result_overruns"});
+  expect([](S s) { s.results.overrun = true; },
+         {"result_overrun?", "result_overrun", "status_bits", "fault_bits"});
+  expect([](S s) { ++s.last_acknowledged; }, {"result_acknowledged"});
+  expect([](S s) { ++s.server.answered; }, {"modbus_answered"});
+  expect([](S s) { ++s.server.refused; }, {"modbus_refused"});
+  expect([](S s) { ++s.server.dropped; }, {"modbus_dropped"});
+  expect([](S s) { ++s.server.connections; }, {"modbus_connections"});
+  expect([](S s) { ++s.server.serial_errors; }, {"modbus_serial_errors"});
+  expect([](S s) { ++s.server.serial_other_units; }, {"modbus_serial_other_units"});
+  expect([](S s) { s.plc.heartbeat -= milliseconds(1); }, {"plc_heartbeat_age"});
+  expect([](S s) { s.plc.alive = true; }, {"plc_alive?", "plc_alive", "status_bits"});
+  expect([](S s) { s.plc.silent = true; }, {"plc_silent", "fault_bits"});
+  expect([](S s) { ++s.written.heartbeat; }, {"plc_heartbeat"});
+  for (std::size_t i = 0; i < kMaxArguments; ++i) {
+    expect([i](S s) { --s.written.command.arguments[i]; }, {"argument_" + std::to_string(i)});
+  }
+  expect([](S s) { ++s.written.command.command; }, {"command"});
+  expect([](S s) { ++s.written.command.sequence; }, {"command_sequence"});
+  expect([](S s) { ++s.written.command.acknowledged; }, {"acknowledged_sequence"});
+  expect([](S s) { s.written.command.result = CommandResult::Busy; }, {"command_result"});
+  expect([](S s) { ++s.written.command.last_command; }, {"last_command"});
+}
+
+TEST_F(RegisterSources, EveryRegisterFollowsItsSourceAndNoOther) {
+  StampedStatus& (*const live)(ProcessImage&) = [](ProcessImage& s) -> StampedStatus& {
+    return s.live;
+  };
+  StampedStatus& (*const oldest)(ProcessImage&) = [](ProcessImage& s) -> StampedStatus& {
+    return s.result;
+  };
+  expect_measured("region", live,
+                  {"result", "frame_set", "trigger", "recipe", "configuration_checksum"});
+  expect_measured("result", oldest, {});
+  expect_regions("region", live);
+  expect_regions("result", oldest);
+  expect_system();
+  expect_status();
+  expect_cameras_and_views();
+  expect_alarms();
+  expect_health();
+  expect_server_and_plc();
+  // Only the version of the map is constant.
+  Names constant;
+  for (const std::string& name : own_.names) {
+    if (!covered_.contains(name)) constant.insert(name);
+  }
+  EXPECT_EQ(constant, Names{"map_version"});
+}
+
+TEST_F(RegisterSources, MirrorsReadTheSame) {
+  int mirrors = 0;
+  for (const Row& row : registers().rows()) {
+    if (row.address < kMirrorOffset || !row.read) continue;
+    const Table table = row.table == Table::Coil ? Table::Discrete : Table::Input;
+    const Row* original = registers().find(table, row.address - kMirrorOffset);
+    ASSERT_NE(original, nullptr);
+    EXPECT_EQ(row.read(before_), original->read(before_)) << row.name;
+    ++mirrors;
+  }
+  EXPECT_GT(mirrors, 1000);
+}
+
+TEST_F(RegisterSources, BitsOfWordsAreTheDiscreteInputsThereSaid) {
+  struct Word {
+    int discrete_input;
+    std::string name;
+    int bits;
+  };
+  ProcessImage image = before_;
+  image.live.status.process_inputs = 0xa5a5'1234;
+  for (std::size_t i = 0; i < signals::kMaxAlarms; i += 3) {
+    image.live.status.alarms[i].alarm.state = signals::AlarmState::Unacknowledged;
+  }
+  for (std::size_t i = 0; i < signals::kMaxAlarms; i += 5) {
+    image.live.status.alarms[i].alarm.state = signals::AlarmState::ReturnedUnacknowledged;
+  }
+  const auto codes = own_.contents(image);
+  const auto word_named = [&](const std::string& name) {
+    const auto found = std::ranges::find(own_.names, name);
+    return codes.at(static_cast<std::size_t>(found - own_.names.begin()));
+  };
+  for (const Word& word : {Word{kStatusBits.begin, "status_bits", 32},
+                           Word{kMeasurementBits.begin, "measurement_bits", 32},
+                           Word{kProcessInputBits.begin, "system_process_inputs", 32},
+                           Word{kActiveBits.begin, "alarms_active", 32},
+                           Word{kUnacknowledgedBits.begin, "alarms_unacknowledged", 32}}) {
+    for (int bit = 0; bit < word.bits; ++bit) {
+      const Row* row = registers().find(Table::Discrete, word.discrete_input + bit);
+      ASSERT_NE(row, nullptr);
+      const std::uint32_t value = row->read ? row->read(image) : 0;
+      EXPECT_EQ(value, word_named(word.name) >> bit & 1) << word.name << bit;
+    }
+    EXPECT_NE(word_named(word.name), 0U);
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::app::modbus

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "hal/thread/file_descriptor.h"
+#include "tests/app/ports/modbus/clients.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::tests {
+
+/// Two serial ports and the cable between them, by pseudo-terminals. Each end has a path that stays
+/// the same when the cable is plugged in anew, as /dev/serial/by-id has. They have no parity.
+class SerialCable {
+ public:
+  SerialCable();
+  ~SerialCable();
+  SerialCable(const SerialCable&) = delete;
+  SerialCable& operator=(const SerialCable&) = delete;
+
+  std::string device() const { return folder_ / "device"; }
+  std::string master() const { return folder_ / "master"; }
+
+  /// Removes both ends: an open one hangs up, none can be opened.
+  void unplug();
+  void plug_in();
+
+ private:
+  void carry();
+  void stop_carrying();
+
+  orbwatch::tests::TemporaryFolder folder_;
+  std::array<hal::FileDescriptor, 2> ports_;  ///< the terminals' other sides
+  std::array<hal::FileDescriptor, 2> ends_;   ///< keeps the terminals alive without users
+  hal::FileDescriptor stop_;
+  std::thread carrier_;
+};
+
+/// Bytes over a serial line, right or wrong.
+class RawMaster {
+ public:
+  explicit RawMaster(const std::string& path);
+
+  /// Waits while the line is full.
+  void send(const Bytes& bytes);
+  /// Exactly so many bytes, or fewer when one keeps it waiting longer than that.
+  Bytes receive(std::size_t count, std::chrono::milliseconds longest = std::chrono::minutes(1));
+
+ private:
+  hal::FileDescriptor port_;
+};
+
+}  // namespace orbwatch::app::tests

@@ -1,0 +1,279 @@
+#include "proc/remap/merge/merged_remap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "proc/image/validity.h"
+#include "proc/optics/rotation.h"
+#include "proc/remap/remap.h"
+#include "tests/proc/remap/stored_picture.h"
+
+namespace orbwatch::remap {
+namespace {
+
+using optics::BallModel;
+using optics::BallProjection;
+using optics::ViewKind;
+using optics::ViewProjection;
+using tests::StoredPicture;
+
+constexpr int kSide = 300, kWidth = 500, kHeight = 250;
+
+ColourMap::Table grey_table() {
+  ColourMap::Table table{};
+  for (std::size_t i = 0; i < table.size(); ++i) table[i].fill(static_cast<std::uint8_t>(i));
+  return table;
+}
+
+/// Cameras around a ball, and everything that a merged view of them needs.
+class MergedRemap : public testing::Test {
+ protected:
+  struct Camera {
+    Camera(const ViewProjection& view, double yaw, PixelFormat format, std::uint32_t seed)
+        : ball(BallProjection::make(BallModel::make(BallModel::Kind::Exact, 345).value(),
+                                    {{149.5, 149.5}, 140, 140, 0}, optics::rotation({yaw, 0, 0}))
+                   .value()),
+          grid(view, ball, kSide, kSide),
+          source(format, kSide, kSide) {
+      source.fill_with_noise(seed);
+    }
+    BallProjection ball;
+    CoordinateGrid grid;
+    StoredPicture source;
+    bool delivers = true;
+  };
+
+  void add(double yaw, PixelFormat format = PixelFormat::Rgb) {
+    cameras.push_back(std::make_unique<Camera>(view, yaw, format,
+                                               static_cast<std::uint32_t>(cameras.size() + 1)));
+  }
+
+  void compile() {
+    std::vector<BlendSource> sources;
+    for (const auto& c : cameras) sources.push_back({c->ball, kSide, kSide, 1, std::nullopt});
+    blend.emplace(view, sources);
+  }
+
+  void render(MergeRule rule = MergeRule::Mean, std::optional<TileRows> rows = std::nullopt) {
+    std::vector<MergedSource> sources;
+    for (const auto& c : cameras) {
+      MergedSource source{&c->grid, {}, &colours, {}, nullptr};
+      if (c->delivers) source.pictures = c->source.as_source();
+      if (c == cameras.front()) source.measured = measured;
+      sources.push_back(source);
+    }
+    const MergePlan plan{&*blend, rule, Interpolation::Bilinear, view_of(unseen, 1)};
+    merged_remap(sources, plan, picture_of(PixelFormat::Rgb, view_of(rgb, 3)), view_of(validity, 1),
+                 rows.value_or(TileRows{0, cameras.front()->grid.tiles_y()}));
+  }
+
+  /// Source `n` alone, by remap().
+  std::vector<std::uint8_t> alone(std::size_t n) {
+    std::vector<std::uint8_t> out(rgb.size());
+    const CoordinateGrid& grid = cameras[n]->grid;
+    const Picture& source = cameras[n]->source.source;
+    if (source.format != PixelFormat::Y16) {
+      remap(grid, cameras[n]->source.as_source(), Interpolation::Bilinear,
+            picture_of(PixelFormat::Rgb, view_of(out, 3)), {0, grid.tiles_y()});
+      return out;
+    }
+    std::vector<std::uint16_t> counts(out.size() / 3);
+    const ImageView<std::uint16_t> values{counts.data(), kWidth, kHeight, 1, kWidth};
+    remap(grid, cameras[n]->source.as_source(), Interpolation::Bilinear,
+          picture_of(PixelFormat::Y16, values), {0, grid.tiles_y()});
+    colours.apply(values, view_of(out, 3), {0, grid.tiles_y()});
+    return out;
+  }
+  std::vector<std::uint8_t> weights(std::size_t n) {
+    std::vector<std::uint8_t> out(validity.size());
+    blend->weights(n, cameras[n]->grid, view_of(out, 1));
+    return out;
+  }
+  static ImageView<std::uint8_t> view_of(std::vector<std::uint8_t>& samples, int channels) {
+    return {samples.data(), kWidth, kHeight, channels, kWidth * channels};
+  }
+
+  /// Every pixel beside the mean by weight of the sources alone; a share below half a percent may
+  /// be missing.
+  void expect_mean() {
+    std::vector<std::vector<std::uint8_t>> pictures, shares;
+    for (std::size_t n = 0; n < cameras.size(); ++n) {
+      pictures.push_back(alone(n));
+      shares.push_back(weights(n));
+      if (!cameras[n]->delivers) std::fill(shares[n].begin(), shares[n].end(), 0);
+    }
+    for (std::size_t i = 0; i < validity.size(); ++i) {
+      double total = 0;
+      for (const auto& share : shares) total += share[i];
+      ASSERT_EQ(validity[i], total > 0 ? static_cast<int>(Validity::Seen) : unseen[i]) << i;
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+        double sum = 0;
+        for (std::size_t n = 0; n < shares.size(); ++n)
+          sum += double{1} * shares[n][i] * pictures[n][k];
+        ASSERT_NEAR(rgb[k], total > 0 ? sum / total : 0, 2.6) << i;
+      }
+    }
+  }
+
+  ViewProjection view =
+      ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, kWidth, kHeight}).value();
+  ColourMap colours{grey_table(), 0, 65535};
+  std::vector<std::unique_ptr<Camera>> cameras;
+  std::optional<BlendGrid> blend;
+  MutablePicture measured;
+  std::vector<std::uint8_t> rgb = std::vector<std::uint8_t>(3 * kWidth * kHeight, 77);
+  std::vector<std::uint8_t> validity = std::vector<std::uint8_t>(kWidth * kHeight, 3);
+  std::vector<std::uint8_t> unseen =
+      std::vector<std::uint8_t>(kWidth * kHeight, static_cast<std::uint8_t>(Validity::Blind));
+};
+
+TEST_F(MergedRemap, OneSourceIsRemappedAsItIs) {
+  add(20);
+  compile();
+  render();
+  EXPECT_EQ(rgb, alone(0));
+  expect_mean();
+}
+
+TEST_F(MergedRemap, SeveralAreTheMeanByWeight) {
+  add(0);
+  add(120, PixelFormat::Nv12);
+  add(-120, PixelFormat::Y16);
+  compile();
+  render();
+  expect_mean();
+}
+
+TEST_F(MergedRemap, TheOthersStandInForOneThatDoesNotDeliver) {
+  add(0);
+  add(170);
+  compile();
+  for (const std::size_t missing : {0U, 1U}) {
+    for (std::size_t n = 0; n < 2; ++n) cameras[n]->delivers = n != missing;
+    render();
+    expect_mean();
+    EXPECT_EQ(rgb, alone(1 - missing));
+  }
+  for (const auto& camera : cameras) camera->delivers = false;
+  render();
+  expect_mean();
+  EXPECT_EQ(*std::max_element(rgb.begin(), rgb.end()), 0);
+}
+
+TEST_F(MergedRemap, TheFirstThatSeesHasAPixelAlone) {
+  add(0);
+  add(180);
+  compile();
+  render(MergeRule::First);
+  const auto first = alone(0), second = alone(1);
+  const auto sees = weights(0);
+  int from_second = 0;
+  for (std::size_t i = 0; i < validity.size(); ++i) {
+    const auto& truth = sees[i] > 0 ? first : second;
+    from_second += sees[i] == 0;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) ASSERT_EQ(rgb[k], truth[k]) << i;
+  }
+  EXPECT_GT(from_second, 100);
+}
+
+TEST_F(MergedRemap, WhatIsMeasuredIsTheSourceAloneWhetherItCountsOrNot) {
+  add(0, PixelFormat::Y16);
+  add(10);
+  add(180);
+  compile();
+  StoredPicture counts(PixelFormat::Y16, kWidth, kHeight), truth(PixelFormat::Y16, kWidth, kHeight);
+  measured = counts.picture;
+  remap(cameras[0]->grid, cameras[0]->source.as_source(), Interpolation::Bilinear, truth.picture,
+        {0, cameras[0]->grid.tiles_y()});
+  render();
+  EXPECT_EQ(counts.bytes, truth.bytes);
+  expect_mean();
+
+  cameras[0]->delivers = false;
+  render();
+  for (const std::byte byte : counts.bytes) ASSERT_EQ(byte, std::byte{0});
+}
+
+TEST_F(MergedRemap, TheLuminanceOfColourIsMeasured) {
+  add(0);
+  add(150);
+  compile();
+  StoredPicture luminance(PixelFormat::Grey, kWidth, kHeight);
+  measured = luminance.picture;
+  render();
+  const auto truth = alone(0);
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    ASSERT_EQ(luminance.sample(0, i / kWidth, i % kWidth),
+              luma(&truth[3 * static_cast<std::size_t>(i)]));
+  }
+}
+
+/// Two sources of one format in a view of that format, the second one matched.
+template <class T>
+void expect_mean_of(const StoredPicture& out, const StoredPicture& first,
+                    const StoredPicture& second, const std::vector<std::uint8_t>& first_weights,
+                    const std::vector<std::uint8_t>& second_weights) {
+  const auto merged = out.picture.samples<T>(), a = first.picture.samples<T>(),
+             b = second.picture.samples<T>();
+  // As of 8 bit: a share below half a percent may be missing.
+  const double tolerance = 2.6 / 255 * std::numeric_limits<T>::max();
+  for (std::size_t i = 0; i < first_weights.size(); ++i) {
+    const int x = static_cast<int>(i) % kWidth, y = static_cast<int>(i) / kWidth;
+    const double u = first_weights[i], v = second_weights[i];
+    for (int k = 0; k < merged.channels; ++k) {
+      const double sum = u * a.at(x, y)[k] + v * b.at(x, y)[k];
+      ASSERT_NEAR(merged.at(x, y)[k], u + v > 0 ? sum / (u + v) : 0, tolerance) << x << ", " << y;
+    }
+  }
+}
+
+TEST_F(MergedRemap, AViewMayHaveTheFormatOfItsSourcesWhichAreMatched) {
+  for (const PixelFormat format : {PixelFormat::Grey, PixelFormat::Y16, PixelFormat::Rgb16}) {
+    cameras.clear();
+    add(0, format);
+    add(120, format);
+    compile();
+    PhotometricMatch darker;
+    darker.channels.fill({0.4, 0.01});
+    const PhotometricTable table(darker, format);
+    const TileRows rows{0, cameras[0]->grid.tiles_y()};
+    const bool is_wide = info(format).bytes_per_sample() == 2;
+    std::vector<std::unique_ptr<StoredPicture>> own;
+    std::vector<MergedSource> sources;
+    for (const auto& c : cameras) {
+      own.push_back(std::make_unique<StoredPicture>(format, kWidth, kHeight));
+      remap(c->grid, c->source.as_source(), Interpolation::Bilinear, own.back()->picture, rows);
+      sources.push_back({&c->grid, c->source.as_source(), nullptr, {}, nullptr});
+    }
+    sources[1].match = &table;
+    is_wide ? table.apply(own[1]->picture.samples<std::uint16_t>())
+            : table.apply(own[1]->picture.samples<std::uint8_t>());
+    StoredPicture out(format, kWidth, kHeight);
+    merged_remap(sources, {&*blend, MergeRule::Mean, Interpolation::Bilinear, view_of(unseen, 1)},
+                 out.picture, view_of(validity, 1), rows);
+    is_wide ? expect_mean_of<std::uint16_t>(out, *own[0], *own[1], weights(0), weights(1))
+            : expect_mean_of<std::uint8_t>(out, *own[0], *own[1], weights(0), weights(1));
+  }
+}
+
+TEST_F(MergedRemap, RowsMayBeFilledInAnyOrder) {
+  add(0);
+  add(90, PixelFormat::Yuyv);
+  compile();
+  render();
+  const auto picture = rgb, valid = validity;
+  std::fill(rgb.begin(), rgb.end(), 1);
+  for (int row = cameras.front()->grid.tiles_y() - 1; row >= 0; --row) {
+    render(MergeRule::Mean, TileRows{row, row + 1});
+  }
+  EXPECT_EQ(rgb, picture);
+  EXPECT_EQ(validity, valid);
+}
+
+}  // namespace
+}  // namespace orbwatch::remap
