@@ -31,8 +31,11 @@ class BreakingCamera : public DeviceCamera {
       : DeviceCamera({"breaking", "", "test"}), lives_(std::move(lives)) {}
   ~BreakingCamera() override { stop(); }
 
-  int waits() const { return waits_; }
-  int interrupts() const { return interrupts_; }
+  int waits() const { return waits_; }  ///< begun
+  int interrupts() const {
+    const std::lock_guard lock(mutex_);
+    return interrupts_;
+  }
 
  private:
   Result<StreamFormat> do_configure(const StreamRequest&) override { return StreamFormat{}; }
@@ -50,8 +53,9 @@ class BreakingCamera : public DeviceCamera {
   DeviceResult<std::size_t> capture(TimePoint deadline) override {
     if (captured_ == life_.frames) {
       if (life_.end != Fault::None) return tl::unexpected(FaultReport{life_.end, "as scripted"});
-      wait_until(deadline);
       ++waits_;
+      std::unique_lock lock(mutex_);
+      interrupted_.wait_until(lock, deadline, [this] { return interrupts_ > 0; });
       return 0;
     }
     auto frame = pool_.acquire();
@@ -62,7 +66,12 @@ class BreakingCamera : public DeviceCamera {
   }
 
   bool may_be_silent() const override { return life_.may_be_silent; }
-  void interrupt() override { ++interrupts_; }
+  /// The only way out of a wait, as for a device that is polled.
+  void interrupt() override {
+    const std::lock_guard lock(mutex_);
+    ++interrupts_;
+    interrupted_.notify_all();
+  }
 
   DeviceResult<> close_stream() override {
     if (life_.lost) return tl::unexpected(FaultReport{Fault::Unplugged, "lost for good"});
@@ -74,7 +83,9 @@ class BreakingCamera : public DeviceCamera {
   FramePool pool_ = make_frame_pool(PixelFormat::Grey, 8, 8);
   std::deque<Life> lives_;
   std::atomic<int> waits_ = 0;
-  std::atomic<int> interrupts_ = 0;
+  mutable std::mutex mutex_;
+  std::condition_variable interrupted_;
+  int interrupts_ = 0;
   Life life_;
   std::size_t captured_ = 0;
 };
