@@ -25,6 +25,12 @@ hal::Clock::duration deadline(const PipelinePlan& plan) {
   return std::chrono::duration_cast<hal::Clock::duration>(std::chrono::duration<double>(1 / rate));
 }
 
+MipLevelCounts levels_of(std::span<const ViewChannel> views) {
+  MipLevelCounts levels{};
+  for (const ViewChannel& view : views) view.require_levels(levels);
+  return levels;
+}
+
 }  // namespace
 
 Pipeline::Pipeline(PipelinePlan plan)
@@ -102,15 +108,10 @@ void Pipeline::process(const hal::FrameSet& set) {
   const bool is_display_due = budget_.is_display_due(set.id);
 
   // A camera's picture is halved once for all views that sample its mip levels.
-  MipLevelCounts levels{};
-  for (const ViewChannel& view : measured) view.require_levels(levels);
-  if (is_display_due) {
-    for (const ViewChannel& view : displays_) view.require_levels(levels);
-  }
-  pyramids_.build(set, levels, workers_);
-
+  pyramids_.build(set, levels_of(measured), workers_);
   if (measurement_) measurement_->process(set, pyramids_, workers_);
   for (ViewChannel& view : measured) publish(view);
+  if (is_display_due) pyramids_.extend(levels_of(displays_), workers_);
   for (ViewChannel& view : displays_) {
     if (is_display_due) view.render(set, pyramids_, workers_);
     publish(view);

@@ -12,19 +12,28 @@ FramePyramids::FramePyramids(std::span<const hal::StreamFormat> formats) {
 
 void FramePyramids::build(const hal::FrameSet& set, const MipLevelCounts& counts,
                           WorkerPool& workers) {
-  constexpr int kRowPairs = 16;  // of one band
   for (std::size_t camera = 0; camera < pyramids_.size(); ++camera) {
     has_picture_[camera] = set.frames[camera] != nullptr;
+    if (has_picture_[camera]) pyramids_[camera].set_source(set.frames[camera]->picture);
+  }
+  filled_ = {};
+  extend(counts, workers);
+}
+
+void FramePyramids::extend(const MipLevelCounts& counts, WorkerPool& workers) {
+  constexpr int kRowPairs = 16;  // of one band
+  for (std::size_t camera = 0; camera < pyramids_.size(); ++camera) {
     if (!has_picture_[camera]) continue;
     remap::Pyramid& pyramid = pyramids_[camera];
-    pyramid.set_source(set.frames[camera]->picture);
-    for (int level = 1; level <= std::min(counts[camera], pyramid.levels()); ++level) {
+    const int wanted = std::min(counts[camera], pyramid.levels());
+    for (int level = filled_[camera] + 1; level <= wanted; ++level) {
       const int pairs = pyramid.row_pairs(level);
       auto work = [&](int band) {
         pyramid.fill(level, band * kRowPairs, std::min(pairs, (band + 1) * kRowPairs));
       };
       workers.run((pairs + kRowPairs - 1) / kRowPairs, work);
     }
+    filled_[camera] = std::max(filled_[camera], wanted);
   }
 }
 

@@ -18,8 +18,8 @@ using MipLevelCounts = std::array<int, hal::kMaxCameras>;
 
 /// The pictures of one frame set with their mip levels, built once and read by every view. The
 /// memory for all levels is allocated up front.
-/// Thread rule: build on the pipeline's thread, which shares the work with the pool; pictures is
-/// reentrant until the next build.
+/// Thread rule: build and extend on the pipeline's thread, which shares the work with the pool;
+/// pictures is reentrant until the next of them.
 class FramePyramids {
  public:
   /// `formats` by camera.
@@ -29,6 +29,9 @@ class FramePyramids {
   /// first `counts` mip levels of each.
   void build(const hal::FrameSet& set, const MipLevelCounts& counts, WorkerPool& workers);
 
+  /// Fills those of the first `counts` mip levels that the set does not have yet.
+  void extend(const MipLevelCounts& counts, WorkerPool& workers);
+
   /// A camera's picture and its first `levels` mip levels, or fewer where a picture is too small
   /// for more. Empty: the set has no frame of the camera.
   std::span<const Picture> pictures(std::size_t camera, int levels) const;
@@ -36,6 +39,7 @@ class FramePyramids {
  private:
   std::vector<remap::Pyramid> pyramids_;              ///< by camera
   std::array<bool, hal::kMaxCameras> has_picture_{};  ///< by camera
+  MipLevelCounts filled_{};
 };
 
 }  // namespace orbwatch::app

@@ -67,5 +67,21 @@ TEST(FramePyramids, FillOnlyTheLevelsThatAreCounted) {
   EXPECT_EQ(first_byte(pyramids.pictures(0, 3)[2]), 10) << "nobody samples it: left as it was";
 }
 
+TEST(FramePyramids, AreExtendedByTheLevelsThatAreMissing) {
+  FramePyramids pyramids(kFormats);
+  WorkerPool workers(0);
+  hal::FrameSet set;
+  set.frames[0] = plain(kFormats[0], 10);
+  pyramids.build(set, {3, 0}, workers);
+  set.frames[0] = plain(kFormats[0], 30);
+  pyramids.build(set, {1, 0}, workers);
+  std::memset(set.frames[0]->memory, 50, set.frames[0]->capacity);
+  pyramids.extend({2, 0}, workers);
+  pyramids.extend({1, 0}, workers);
+  EXPECT_EQ(first_byte(pyramids.pictures(0, 3)[1]), 30) << "built once";
+  EXPECT_EQ(first_byte(pyramids.pictures(0, 3)[2]), 30);
+  EXPECT_EQ(first_byte(pyramids.pictures(0, 3)[3]), 10);
+}
+
 }  // namespace
 }  // namespace orbwatch::app
