@@ -22,13 +22,13 @@ constexpr double kMebibyte = 1024.0 * 1024.0;
 /// The larger valid value.
 double larger(double a, double b) { return signals::is_valid(a) ? std::max(a, b) : b; }
 
-bool is_within(const HealthInfo& figure, double value) {
+bool is_within(const HealthField& figure, double value) {
   return value >= figure.minimum && value <= figure.maximum;
 }
 
-constexpr const HealthInfo& info_of(double Health::*member) {
+constexpr const HealthField& info_of(double Health::*member) {
   return *std::find_if(kHealthFigures.begin(), kHealthFigures.end(),
-                       [member](const HealthInfo& figure) { return figure.member == member; });
+                       [member](const HealthField& figure) { return figure.get == member; });
 }
 
 /// Zones without a sensor report arbitrary values, so each one is checked.
@@ -99,8 +99,8 @@ Health BoardHealth::read() {
   note_clock(::adjtimex(&clock), clock, health);
   health.resident_memory = memory_line(sources_.proc / "self/status", "VmRSS:");
   health.open_descriptors = open_descriptors(sources_.proc);
-  for (const HealthInfo& figure : kHealthFigures) {
-    double& value = health.*figure.member;
+  for (const HealthField& figure : kHealthFigures) {
+    double& value = health.*figure.get;
     if (!is_within(figure, value)) value = kNotValid;
   }
   return health;

@@ -4,20 +4,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/model/health.h"
+
 namespace orbwatch::app {
-
-/// Causes of throttling, the low bits of Health::throttling. The bits are those of the Raspberry
-/// Pi's firmware (vcgencmd get_throttled). The PLC reads the numbers: append, never renumber.
-enum class Throttling : std::uint8_t {
-  UnderVoltage = 1,
-  FrequencyCapped = 2,
-  Throttled = 4,
-  SoftTemperatureLimit = 8,
-};
-
-/// Shifted up by so many places, a bit states that the cause occurred since power-on, as far as the
-/// board or this program detected it.
-inline constexpr int kSincePowerOn = 4;
 
 /// Reads every source of throttling: the Raspberry Pi's firmware and supply monitor, cooling
 /// devices that slow processors down (most arm boards), the counters of x86 processors.

@@ -64,7 +64,7 @@ Condition condition_of(const AlarmStatus& alarm) {
 
 Condition condition_of(const Health& health) {
   const bool known = std::ranges::any_of(
-      kHealthFigures, [&](const auto& info) { return signals::is_valid(health.*info.member); });
+      kHealthFigures, [&](const auto& info) { return signals::is_valid(health.*info.get); });
   if (!known) return {Severity::Unknown, "not known yet"};
   std::string text;
   if (is_throttled(health)) text = "too hot or under-voltage: the processors are throttled";
@@ -90,8 +90,7 @@ Severity worst_severity(const Status& status, std::optional<std::size_t> region)
 }
 
 bool is_throttled(const Health& health) {
-  // The four higher bits remember since power-on.
-  constexpr unsigned kNow = 0x0f;
+  constexpr unsigned kNow = (1U << kSincePowerOn) - 1;
   return signals::is_valid(health.throttling) &&
          (static_cast<unsigned>(health.throttling) & kNow) != 0;
 }

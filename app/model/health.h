@@ -1,8 +1,9 @@
 #pragma once
 
 #include <array>
-#include <string_view>
+#include <cstdint>
 
+#include "app/model/field.h"
 #include "proc/signals/signals.h"
 
 namespace orbwatch::app {
@@ -25,6 +26,19 @@ namespace orbwatch::app {
   X(resident_memory, "MiB", 0.1, 0, 1e8, "Memory that orbwatch itself holds")                     \
   X(open_descriptors, "", 1, 0, 1e9, "Files, devices and connections that orbwatch has open")
 
+/// Causes of throttling, the low bits of Health::throttling. The bits are those of the Raspberry
+/// Pi's firmware (vcgencmd get_throttled). The PLC reads the numbers: append, never renumber.
+enum class Throttling : std::uint8_t {
+  UnderVoltage = 1,
+  FrequencyCapped = 2,
+  Throttled = 4,
+  SoftTemperatureLimit = 8,
+};
+
+/// Shifted up by so many places, a bit states that the cause occurred since power-on, as far as the
+/// board or this program detected it.
+inline constexpr int kSincePowerOn = 4;
+
 /// Health of the appliance; signals::kNotValid where this board cannot measure a figure.
 struct Health {
 #define ORBWATCH_MEMBER(name, unit, scale, minimum, maximum, description) \
@@ -33,22 +47,13 @@ struct Health {
 #undef ORBWATCH_MEMBER
 };
 
-/// The facts about one figure, for translators and manuals.
-struct HealthInfo {
-  std::string_view name;
-  std::string_view unit;
-  double scale;
-  double minimum;
-  double maximum;
-  std::string_view description;
-  double Health::*member;
-};
-
+/// The figures' descriptions, for interfaces and manuals.
 inline constexpr std::array kHealthFigures{
-#define ORBWATCH_INFO(name, unit, scale, minimum, maximum, description) \
-  HealthInfo{#name, unit, scale, minimum, maximum, description, &Health::name},
-    ORBWATCH_HEALTH(ORBWATCH_INFO)
-#undef ORBWATCH_INFO
+#define ORBWATCH_FIGURE(name, unit, scale, minimum, maximum, description) \
+  make_field(#name, {unit, scale, minimum, maximum}, description, &Health::name),
+    ORBWATCH_HEALTH(ORBWATCH_FIGURE)
+#undef ORBWATCH_FIGURE
 };
+using HealthField = decltype(kHealthFigures)::value_type;
 
 }  // namespace orbwatch::app

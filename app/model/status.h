@@ -210,10 +210,7 @@ constexpr void for_each_field(std::type_identity<SystemStatus>, Visit&& visit) {
 
 template <class Visit>
 constexpr void for_each_field(std::type_identity<Health>, Visit&& visit) {
-  for (const HealthInfo& info : kHealthFigures) {
-    visit(make_field(info.name, {info.unit, info.scale, info.minimum, info.maximum},
-                     info.description, info.member));
-  }
+  for (const HealthField& figure : kHealthFigures) visit(figure);
 }
 
 template <class Visit>

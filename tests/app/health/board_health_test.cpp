@@ -102,9 +102,9 @@ TEST_F(BoardHealthTest, KnowsNothingWithoutItsSources) {
   const Health health = BoardHealth({tree / "no", tree / "no", tree / "no"}).read();
   const std::set<std::string_view> of_the_kernel{"clock_synchronised", "clock_estimated_error",
                                                  "clock_maximum_error"};
-  for (const HealthInfo& figure : kHealthFigures) {
+  for (const HealthField& figure : kHealthFigures) {
     if (of_the_kernel.contains(figure.name)) continue;
-    EXPECT_FALSE(is_valid(health.*figure.member)) << figure.name;
+    EXPECT_FALSE(is_valid(health.*figure.get)) << figure.name;
   }
 }
 
@@ -126,8 +126,8 @@ TEST_F(BoardHealthTest, BelievesNothingThatCannotBe) {
     if (round % 50 == 49) text.assign(100000, static_cast<char>(random()));
     for (const auto& file : files) tree.write(file.string(), text);
     const Health read = health.read();
-    for (const HealthInfo& figure : kHealthFigures) {
-      const double value = read.*figure.member;
+    for (const HealthField& figure : kHealthFigures) {
+      const double value = read.*figure.get;
       if (!is_valid(value)) continue;
       seen_valid.insert(figure.name);
       ASSERT_GE(value, figure.minimum) << figure.name << " of " << text;
@@ -236,7 +236,7 @@ TEST(ClockHealth, IsReadFromTheKernel) {
 
 TEST(HealthList, HasDistinctNamesAndRangesThatFitARegister) {
   std::set<std::string_view> names;
-  for (const HealthInfo& figure : kHealthFigures) {
+  for (const HealthField& figure : kHealthFigures) {
     EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
     EXPECT_LT(figure.minimum, figure.maximum) << figure.name;
     EXPECT_LT(figure.maximum / figure.scale, 2147483647.0) << figure.name;

@@ -18,11 +18,6 @@ class Numbers {
   std::uint64_t whole() { return next_++; }
   double real() { return static_cast<double>(next_++) + 0.125; }
 
-  template <class Struct, class Infos>
-  void fill(Struct& values, const Infos& infos) {
-    for (const auto& info : infos) values.*info.member = real();
-  }
-
  private:
   std::uint64_t next_ = 1'000'000'000'000;
 };
@@ -82,11 +77,11 @@ inline Status make_status() {
   status.region_count = 2;
   for (auto& region : status.regions) {
     region.quality = Quality::Apparent;
-    numbers.fill(region.signals, signals::kSignals);
+    for (const auto& signal : signals::kSignals) region.signals.*signal.member = numbers.real();
   }
   status.alarm_count = 3;
   for (std::size_t i = 0; i < status.alarm_count; ++i) status.alarms[i] = make_alarm(i, numbers);
-  numbers.fill(status.health, kHealthFigures);
+  for (const auto& figure : kHealthFigures) status.health.*figure.get = numbers.real();
   return status;
 }
 

@@ -37,8 +37,8 @@ TEST_F(ProcessStateComposerTest, EverySignalAndHealthFigureIsAFigure) {
   }
   const auto health = of_kind(message, "health");
   ASSERT_EQ(health.size(), 1u);
-  for (const HealthInfo& info : kHealthFigures) {
-    EXPECT_EQ(value(health[0], info.name), status_.health.*info.member) << info.name;
+  for (const HealthField& info : kHealthFigures) {
+    EXPECT_EQ(value(health[0], info.name), status_.health.*info.get) << info.name;
   }
 }
 

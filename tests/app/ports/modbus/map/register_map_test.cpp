@@ -100,7 +100,7 @@ TEST(RegisterMap, HasARowForEverySignalCameraAndView) {
   for (std::size_t view = 0; view < kMaxViews; ++view) {
     EXPECT_TRUE(names.contains("view_" + std::to_string(view) + "_latency_p99_ms"));
   }
-  for (const HealthInfo& figure : kHealthFigures) {
+  for (const HealthField& figure : kHealthFigures) {
     EXPECT_TRUE(names.contains("health_" + std::string(figure.name))) << figure.name;
   }
   for (std::size_t alarm = 1; alarm <= signals::kMaxAlarms; ++alarm) {

@@ -84,8 +84,8 @@ ProcessImage full_image() {
     alarm.value = 0;
     alarm.since = image.now - milliseconds(5000);
   }
-  for (const HealthInfo& figure : kHealthFigures) {
-    status.health.*figure.member = (figure.minimum + figure.maximum) / 2;
+  for (const HealthField& figure : kHealthFigures) {
+    status.health.*figure.get = (figure.minimum + figure.maximum) / 2;
   }
   status.health.throttling = 0;
   status.health.clock_synchronised = 1;
@@ -331,15 +331,15 @@ void RegisterSources::expect_alarms() {
 }
 
 void RegisterSources::expect_health() {
-  for (const HealthInfo& figure : kHealthFigures) {
+  for (const HealthField& figure : kHealthFigures) {
     Names names{"health_" + std::string(figure.name)};
-    if (figure.member == &Health::throttling) names.insert("fault_bits");
-    if (figure.member == &Health::clock_synchronised) {
+    if (figure.get == &Health::throttling) names.insert("fault_bits");
+    if (figure.get == &Health::clock_synchronised) {
       names = names + Names{"clock_synchronised?", "status_bits", "fault_bits"};
     }
     const double other =
-        before_.live.status.health.*figure.member == figure.minimum ? 1 : figure.minimum;
-    expect([&](ProcessImage& s) { s.live.status.health.*figure.member = other; }, names);
+        before_.live.status.health.*figure.get == figure.minimum ? 1 : figure.minimum;
+    expect([&](ProcessImage& s) { s.live.status.health.*figure.get = other; }, names);
   }
   expect([](ProcessImage& s) { s.live.status.health.throttling = 0x10; }, {"health_throttling"});
   expect([](ProcessImage& s) { s.live.status.health.clock_synchronised = signals::kNotValid; },
