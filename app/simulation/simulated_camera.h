@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/simulation/camera_truth.h"
 #include "app/simulation/machine.h"
 #include "app/simulation/simulated_camera_settings.h"
 #include "app/simulation/tracing/renderer.h"
@@ -31,9 +30,8 @@ class SimulatedCamera : public hal::Camera {
   SimulatedCamera(std::shared_ptr<const Machine> machine, SimulatedCameraSettings settings);
   ~SimulatedCamera() override;
 
-  /// The camera's pose, and what alignment should find. After configure() only.
+  /// The camera's pose. After configure() only.
   const Pinhole& pinhole() const { return pinhole_; }
-  CameraTruth truth() const { return truth_of(pinhole_, machine_->settings().ball); }
 
   /// Errors: not in TriggerMode, the exposure before is not rendered yet.
   Result<> trigger() override;

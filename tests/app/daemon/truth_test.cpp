@@ -4,11 +4,11 @@
 #include <random>
 
 #include "app/files/resolve.h"
-#include "app/simulation/camera_truth.h"
 #include "app/simulation/scene/static_scene.h"
 #include "proc/optics/angle.h"
 #include "proc/optics/rig.h"
 #include "tests/app/daemon/simulated_scene.h"
+#include "tests/app/simulation/camera_truth.h"
 
 /// What the product computes beside what the simulated machine knows: its pictures come from plain
 /// vector reflection and never saw a ball model.
@@ -20,13 +20,11 @@ using simulation::CameraTruth;
 using simulation::Pinhole;
 
 optics::BallProjection projection_of(const CameraTruth& truth) {
-  const auto& m = truth.rotation;
-  const optics::Mat3 rotation{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
   const optics::Outline outline{
       {truth.outline.cx, truth.outline.cy}, truth.outline.radius, truth.outline.radius, 0};
   return optics::BallProjection::make(
              optics::BallModel::make(optics::BallModel::Kind::Exact, truth.alpha).value(), outline,
-             rotation)
+             truth.rotation)
       .value();
 }
 

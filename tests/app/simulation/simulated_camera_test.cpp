@@ -105,7 +105,7 @@ TEST(SimulatedCamera, SaysWhatItIsAndWhatItDelivers) {
   EXPECT_EQ(wanted->width, 80);
   EXPECT_EQ(wanted->height, 60);
   EXPECT_EQ(wanted->frame_rate, 25);
-  EXPECT_EQ(camera.truth().outline.cx, 39.5);
+  EXPECT_EQ(camera.pinhole().cx(), 39.5);
 }
 
 TEST(SimulatedCamera, ExposesOnlyWhenItIsTriggeredInTriggerMode) {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "app/simulation/camera_truth.h"
+#include "tests/app/simulation/camera_truth.h"
 #include "tests/app/simulation/marching_tracer.h"
 
 namespace orbwatch::app::simulation {
