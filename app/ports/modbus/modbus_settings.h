@@ -58,7 +58,7 @@ struct ModbusSettings {
   /// A serial line beside TCP.
   std::optional<ModbusSerialSettings> serial;
 
-  /// Longest time without a change of the PLC's heartbeat; 0: it is not watched.
+  /// Longest time without a change of the PLC's heartbeat; 0: it is not supervised.
   double plc_timeout_ms = 0;
 
   /// From the first byte of a request to its last.
@@ -113,7 +113,7 @@ void visit(Visitor& v, ModbusSettings& modbus) {
   v.require(!modbus.unit_ids.empty(), "unit_ids", "names no unit, so no request would be answered");
   v.table("serial", modbus.serial, "Modbus RTU on a serial line, beside TCP");
   v.optional("plc_timeout_ms", modbus.plc_timeout_ms, Range::between(0, 60000),
-             "Longest time without a change of the PLC's heartbeat; 0: it is not watched");
+             "Longest time without a change of the PLC's heartbeat; 0: it is not supervised");
 }
 
 std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context);
