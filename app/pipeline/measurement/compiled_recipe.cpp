@@ -95,10 +95,11 @@ void CompiledRecipe::measure(hal::TimePoint set_since) {
 
 void CompiledRecipe::skip() { regions_.fill({}); }
 
-bool CompiledRecipe::has_hot_spot() const {
-  return std::ranges::any_of(regions(), [](const RegionStatus& region) {
-    return region.signals.hot_spot_present > 0;  // false for NaN, too
-  });
+std::optional<bool> CompiledRecipe::has_hot_spot() const {
+  const auto shows = [](const RegionStatus& region) { return region.signals.hot_spot_present > 0; };
+  if (std::ranges::any_of(regions(), shows)) return true;
+  if (std::ranges::count(regions(), Quality::NotMeasured, &RegionStatus::quality) > 0) return {};
+  return false;
 }
 
 std::span<const signals::AlarmEvent> CompiledRecipe::watch(hal::TimePoint now, bool process_active,

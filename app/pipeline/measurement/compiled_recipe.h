@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,8 +46,8 @@ class CompiledRecipe {
   void skip();
 
   std::span<const RegionStatus> regions() const { return {regions_.data(), plan_.regions.size()}; }
-  /// Some region has a hot spot.
-  bool has_hot_spot() const;
+  /// Whether some region has a hot spot. Nullopt: none is seen, but a region is not measured.
+  std::optional<bool> has_hot_spot() const;
 
   /// Steps the alarms with the newest measurement. The events stay valid until the next call.
   std::span<const signals::AlarmEvent> watch(hal::TimePoint now, bool process_active,

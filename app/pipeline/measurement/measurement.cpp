@@ -98,7 +98,7 @@ bool Measurement::is_result(const hal::FrameSet& set) {
   return is_commanded;
 }
 
-bool Measurement::process_active() const {
+std::optional<bool> Measurement::process_active() const {
   if (paused_) return false;
   switch (recipe_->plan().process_active) {
     case ActiveSource::Always:
@@ -116,9 +116,12 @@ bool Measurement::process_active() const {
 void Measurement::watch(hal::TimePoint now, const Notify& notify) {
   if (frame_set_ == 0) stamp_ = now;
   suppress_previous(now, notify);
-  active_ = process_active();
+  const std::optional<bool> active = process_active();
+  active_ = active.value_or(active_);
+  // Where it is not known, alarms act: a lost measurement must raise its alarm, not calm it.
+  const bool is_watched = active.value_or(true);
   const signals::AlarmSet acknowledged(acknowledged_.exchange(0));
-  for (const signals::AlarmEvent& event : recipe_->watch(now, active_, acknowledged)) {
+  for (const signals::AlarmEvent& event : recipe_->watch(now, is_watched, acknowledged)) {
     notify_of(*recipe_, event, notify);
   }
 }

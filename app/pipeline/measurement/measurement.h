@@ -74,7 +74,8 @@ class Measurement {
   void suppress_previous(hal::TimePoint now, const Notify& notify);
   void notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
                  const Notify& notify);
-  bool process_active() const;
+  /// Nullopt: what would tell is not measured.
+  std::optional<bool> process_active() const;
 
   const std::vector<std::unique_ptr<CompiledRecipe>> recipes_;
   const ProcessInputs inputs_;
@@ -90,7 +91,7 @@ class Measurement {
   hal::TimePoint stamp_{};
   std::uint64_t results_ = 0;
   std::uint64_t notices_ = 0;
-  bool active_ = false;
+  bool active_ = false;  ///< as far as it was known last
   std::atomic<bool> pause_requested_{false};
   std::atomic<bool> commanded_active_{false};
   std::atomic<std::size_t> alarm_count_;        ///< of the recipe

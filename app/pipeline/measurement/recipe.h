@@ -89,7 +89,8 @@ void visit(Visitor& v, Recipe& recipe) {
   v.required("name", recipe.name, "For people");
   v.optional("process_active", recipe.process_active, kActiveSources,
              "When the process is active; outside it no process alarm is raised. input: by a "
-             "line; command: by the PLC or the controller; detected: while there is a hot spot");
+             "line; command: by the PLC or the controller; detected: while there is a hot spot, "
+             "and alarms act also while that is not measured");
   v.optional_if(recipe.process_active == ActiveSource::Input, "process_active = \"input\"",
                 "process_input", recipe.process_input, "Name of the line, for input");
   v.require((recipe.process_active == ActiveSource::Input) != recipe.process_input.name.empty(),

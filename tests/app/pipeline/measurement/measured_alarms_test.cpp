@@ -92,6 +92,22 @@ TEST_F(MeasuredAlarms, WhatStoodInARecipeThatIsLeftIsSuppressed) {
   EXPECT_EQ(notices[4].recipe, 1);
 }
 
+TEST_F(MeasuredAlarms, ALostCameraRaisesTheLossOfADetectedProcess) {
+  RecipePlan watched = plan(1);
+  watched.process_active = ActiveSource::Detected;
+  watched.alarms = {hotter_than(celsius(1) + 10)};
+  watched.alarms[0].loss_delay = std::chrono::nanoseconds(0);
+  measure_by({watched});
+  for (const std::uint16_t bright : {kBright, std::uint16_t{20000}}) {
+    const bool is_active = bright == kBright;
+    ASSERT_EQ(expose({}, Clock::now(), bright).process_active, is_active);
+    const Status lost = idle(true);
+    EXPECT_TRUE(lost.alarms[0].alarm.measurement_lost);
+    EXPECT_EQ(lost.alarms[0].alarm.state, signals::AlarmState::Unacknowledged);
+    EXPECT_EQ(lost.process_active, is_active) << "as it was known last";
+  }
+}
+
 TEST_F(MeasuredAlarms, ANoticeBeforeTheFirstSetHasATimeStamp) {
   RecipePlan watched = plan(1);
   watched.alarms = {hotter_than(1000)};
