@@ -17,6 +17,9 @@ class FrameBudget {
   /// `deadline` is above 0.
   explicit FrameBudget(hal::Clock::duration deadline) : deadline_(deadline) {}
 
+  /// For the sets to come.
+  void set_deadline(hal::Clock::duration deadline) { deadline_ = deadline; }
+
   /// Whether display views are due in frame set `id`.
   bool is_display_due(std::uint64_t id) const { return id % interval_ == 0; }
   std::uint64_t interval() const { return interval_; }
@@ -54,7 +57,7 @@ class FrameBudget {
     return std::chrono::duration<double>(time).count();
   }
 
-  const hal::Clock::duration deadline_;
+  hal::Clock::duration deadline_;
   std::uint64_t interval_ = 1;
   double calm_seconds_ = 0;
   double largest_load_ = 0;

@@ -18,12 +18,8 @@ std::size_t worker_count(int asked) {
   return std::max(1U, std::thread::hardware_concurrency()) - 1;
 }
 
-hal::Clock::duration deadline(const PipelinePlan& plan) {
-  if (plan.deadline.count() > 0) return plan.deadline;
-  const double rate = plan.formats.front().frame_rate;
-  if (!(rate > 0)) return std::chrono::seconds(1);
-  return std::chrono::duration_cast<hal::Clock::duration>(std::chrono::duration<double>(1 / rate));
-}
+/// Of the frame sets as long as the pacing camera's rate is not known.
+constexpr std::chrono::seconds kUnknownPeriod{1};
 
 MipLevelCounts levels_of(std::span<const ViewChannel> views) {
   MipLevelCounts levels{};
@@ -40,12 +36,13 @@ Pipeline::Pipeline(PipelinePlan plan)
       pyramids_(plan_.formats),
       displays_(plan_.views.begin(), plan_.views.end()),
       pan_tilt_zoom_(plan_.views),
-      budget_(deadline(plan_)),
+      budget_(plan_.deadline.count() > 0 ? plan_.deadline : kUnknownPeriod),
       view_meters_(plan_.view_count) {
   status_.camera_count = cameras_.size();
   status_.view_count = plan_.view_count;
   status_.configuration_checksum = plan_.configuration_checksum;
   if (!plan_.recipes.empty()) make_measurement();
+  follow_pace();
 }
 
 void Pipeline::make_measurement() {
@@ -183,8 +180,20 @@ void Pipeline::roll_rates(hal::Clock::duration elapsed) {
     view_meters_[i].roll(elapsed, status_.views[i]);
   }
   status_.load = budget_.roll_load();
+  follow_pace();
   const auto skew = std::exchange(largest_skew_, hal::Clock::duration::zero());
   status_.skew_ms = std::chrono::duration<double, std::milli>(skew).count();
+}
+
+/// A camera that states no rate has the one at which its frames arrive, processed or not.
+void Pipeline::follow_pace() {
+  if (plan_.deadline.count() > 0) return;
+  const std::size_t camera = cameras_.pacing_camera();
+  const double stated = plan_.formats[camera].frame_rate;
+  const double rate = stated > 0 ? stated : status_.cameras[camera].frames_per_second;
+  if (!(rate > 0)) return;
+  const std::chrono::duration<double> period(1 / rate);
+  budget_.set_deadline(std::chrono::duration_cast<hal::Clock::duration>(period));
 }
 
 std::uint32_t Pipeline::process_inputs() const {

@@ -96,6 +96,7 @@ class Pipeline {
   void count(const hal::FrameSet& set, hal::Clock::duration spent);
   void publish_status();
   void roll_rates(hal::Clock::duration elapsed);
+  void follow_pace();
   std::uint32_t process_inputs() const;
   SystemState state() const;
 

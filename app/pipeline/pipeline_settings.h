@@ -15,7 +15,7 @@ struct PipelineSettings {
 template <class Visitor>
 void visit(Visitor& v, PipelineSettings& pipeline) {
   v.optional("deadline_ms", pipeline.deadline, Milliseconds{Range::between(0, 60000)},
-             "For one frame set; 0: the first camera's frame period");
+             "For one frame set; 0: the frame period of the camera that sets the pace");
   v.optional("sync_window_ms", pipeline.sync.window, Milliseconds{Range::between(0, 10000)},
              "Largest difference of exposure starts in a set");
   v.optional("sync_max_wait_ms", pipeline.sync.max_wait, Milliseconds{Range::between(0, 10000)},

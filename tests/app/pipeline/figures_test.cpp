@@ -54,6 +54,15 @@ TEST(FrameBudget, ComesBackAfterACalmSecondOnly) {
   EXPECT_EQ(budget.interval(), 2U) << "just in time is not calm";
 }
 
+TEST(FrameBudget, JudgesByTheDeadlineOfThePresent) {
+  FrameBudget budget(kDeadline);
+  budget.set_deadline(kCalm);
+  EXPECT_TRUE(budget.add(kJustInTime));
+  budget.set_deadline(kDeadline);
+  EXPECT_FALSE(budget.add(kJustInTime));
+  EXPECT_EQ(budget.overruns(), 1U);
+}
+
 TEST(FrameBudget, ReportsTheLargestLoadSinceTheLastReport) {
   FrameBudget budget(kDeadline);
   for (const milliseconds spent : {kCalm, kOverrun, kJustInTime}) budget.add(spent);

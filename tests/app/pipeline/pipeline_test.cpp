@@ -183,6 +183,20 @@ TEST_F(PipelineTest, OverrunsAreCountedAndSlowDisplayViewsOnly) {
   EXPECT_EQ(status.views[0].published + status.views[0].skipped, 16U);
 }
 
+TEST_F(PipelineTest, ACameraWithoutAStatedRateHasThatOfItsFrames) {
+  plan.deadline = {};
+  for (hal::StreamFormat& format : plan.formats) format.frame_rate = 0;
+  start();
+  // One set follows the other, so that processing takes most of the period.
+  const auto end = hal::Clock::now() + std::chrono::seconds(60);
+  Status status;
+  for (std::uint64_t n = 1; status.load < 0.2 && hal::Clock::now() < end; ++n) {
+    expose_both(40000);
+    status = sink.wait_for([n](const Status& s) { return s.frame_set == n; });
+  }
+  EXPECT_GE(status.load, 0.2) << "of a second it would be a hundredth";
+}
+
 TEST_F(PipelineTest, ATriggeredCameraGivesOneFrameForEachTriggerAndTheRestIsMissed) {
   const auto trigger = std::make_shared<hal::FrameTrigger>(
       hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
