@@ -138,16 +138,17 @@ struct CameraStatus {
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
 };
 
-#define ORBWATCH_VIEW_FIGURES(FIELD)                                                \
-  FIELD(std::uint64_t, published, kCount, "Views published since start")            \
-  FIELD(std::uint64_t, skipped, kCount,                                             \
-        "Frame sets without this view: display slowed down, or no buffer")          \
-  FIELD(std::uint64_t, superseded, kCount,                                          \
-        "Requests to point it that a newer one replaced before the next frame set") \
-  FIELD(double, frames_per_second, kRate, "Over the last full second")              \
-  FIELD(double, latency_p50_ms, kLatency,                                           \
-        "Exposure start to hand-over to the sinks, median of the last full second") \
-  FIELD(double, latency_p99_ms, kLatency, "Exposure start to hand-over, 99 of 100 are faster")
+#define ORBWATCH_VIEW_FIGURES(FIELD)                                                           \
+  FIELD(std::uint64_t, published, kCount, "Views published since start")                       \
+  FIELD(std::uint64_t, skipped, kCount,                                                        \
+        "Frame sets without this view: display slowed down, or no buffer")                     \
+  FIELD(std::uint64_t, superseded, kCount,                                                     \
+        "Requests to point it that a newer one replaced before the next frame set")            \
+  FIELD(double, frames_per_second, kRate, "Over the last full second")                         \
+  FIELD(double, latency_p50_ms, kLatency,                                                      \
+        "Exposure start to hand-over to the sinks, median of the last full second")            \
+  FIELD(double, latency_p99_ms, kLatency, "Exposure start to hand-over, 99 of 100 are faster") \
+  FIELD(bool, live, kFlag, "Its recipe, if any, is selected and one of its cameras has no fault")
 
 /// One view.
 struct ViewStatus {

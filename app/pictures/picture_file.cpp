@@ -1,6 +1,7 @@
 #include "app/pictures/picture_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,12 @@ bool write_all(int file, std::span<const std::uint8_t> bytes) {
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
   return true;
+}
+
+/// Of a file that write_file() has not renamed yet: NAME.PROCESS-SERIAL.part
+bool is_temporary(const std::filesystem::path& path) {
+  static const std::regex kName(R"(.+\.\d+-\d+\.part)");
+  return std::regex_match(path.filename().string(), kName);
 }
 
 tl::unexpected<Error> cannot_write(const std::filesystem::path& path) {
@@ -73,6 +81,9 @@ Result<> write_file(const std::filesystem::path& path, std::span<const std::uint
       path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
   const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (file < 0) return cannot_write(path);
+  // The lock, which ends with the process, says that the file is no leftover. Where a file system
+  // has no locks, leftovers are not removed either.
+  static_cast<void>(::flock(file, LOCK_EX));
   const bool written = write_all(file, bytes) && ::fsync(file) == 0;
   const int reason = errno;
   const bool closed = ::close(file) == 0;
@@ -81,6 +92,20 @@ Result<> write_file(const std::filesystem::path& path, std::span<const std::uint
   auto error = cannot_write(path);
   ::unlink(temporary.c_str());
   return error;
+}
+
+Result<> remove_unfinished(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (!is_temporary(it->path())) continue;
+    const int file = ::open(it->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) continue;  // renamed meanwhile, or not ours
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(it->path(), error);
+    ::close(file);
+  }
+  if (error) return fail(folder.string() + ": " + error.message());
+  return {};
 }
 
 Result<> check_picture_name(const std::filesystem::path& path, PixelFormat format,

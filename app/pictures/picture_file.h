@@ -13,6 +13,10 @@ namespace orbwatch::app {
 /// a part nor a temporary file. Errors: folder missing or not writable, disk full.
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
+/// Removes the temporary files of write_file() that a power cut or a killed process left in a
+/// folder; one that is being written stays. Error: the folder cannot be read or written.
+Result<> remove_unfinished(const std::filesystem::path& folder);
+
 /// Checks by the name alone whether a picture of `format` can be written to `path`. Errors: not
 /// .png, .jpg or .jpeg; 16 bit or transparency as JPEG.
 Result<> check_picture_name(const std::filesystem::path& path, PixelFormat format,

@@ -171,6 +171,7 @@ void Pipeline::publish_status() {
   std::optional<hal::Clock::duration> elapsed;
   if (is_second_over) elapsed = now - std::exchange(last_roll_, now);
   cameras_.report(status_, elapsed);
+  report_live_views();
   if (elapsed) roll_rates(*elapsed);
   for (Sink* sink : sinks_) sink->accept(status_);
 }
@@ -183,6 +184,18 @@ void Pipeline::roll_rates(hal::Clock::duration elapsed) {
   follow_pace();
   const auto skew = std::exchange(largest_skew_, hal::Clock::duration::zero());
   status_.skew_ms = std::chrono::duration<double, std::milli>(skew).count();
+}
+
+void Pipeline::report_live_views() {
+  for (std::size_t i = 0; i < plan_.view_count; ++i) status_.views[i].live = false;
+  const auto report = [this](const ViewChannel& view) {
+    status_.views[view.plan().index].live =
+        std::ranges::any_of(view.plan().sources, [this](const ViewSource& source) {
+          return status_.cameras[source.camera].fault == hal::Fault::None;
+        });
+  };
+  std::ranges::for_each(displays_, report);
+  if (measurement_) std::ranges::for_each(measurement_->views(), report);
 }
 
 /// A camera that states no rate has the one at which its frames arrive, processed or not.

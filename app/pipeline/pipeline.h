@@ -97,6 +97,7 @@ class Pipeline {
   void publish_status();
   void roll_rates(hal::Clock::duration elapsed);
   void follow_pace();
+  void report_live_views();
   std::uint32_t process_inputs() const;
   SystemState state() const;
 

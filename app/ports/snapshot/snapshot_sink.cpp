@@ -64,6 +64,7 @@ SnapshotSink::~SnapshotSink() { stop(); }
 
 CommandResult SnapshotSink::request(std::size_t view) {
   if (view >= kMaxViews) return CommandResult::ArgumentOutOfRange;
+  if (!live_[view]) return CommandResult::NotPossible;
   if (busy_[view].exchange(true)) return CommandResult::Busy;
   wanted_[view] = true;
   return CommandResult::Done;
@@ -78,8 +79,24 @@ Result<> SnapshotSink::start() {
     return fail("snapshot.folder: " + settings_.folder.string() + ": " + error.message() +
                 "; it must be a folder that can be written to");
   }
+  if (auto removed = remove_unfinished(settings_.folder); !removed) {
+    return fail("snapshot.folder: " + removed.error().message);
+  }
   thread_.start("snapshot", [this] { run(); });
   return {};
+}
+
+void SnapshotSink::accept(const Status& status) {
+  for (std::size_t i = 0; i < status.view_count; ++i) {
+    live_[i] = status.views[i].live;
+    if (live_[i] || !wanted_[i].exchange(false)) continue;
+    {
+      const std::lock_guard lock(mutex_);
+      dropped_.set(i);
+    }
+    busy_[i] = false;
+    thread_.wake();
+  }
 }
 
 void SnapshotSink::accept(const ViewPtr& view) {
@@ -96,7 +113,21 @@ void SnapshotSink::run() {
   write_all();  // accepted before the stop
 }
 
+void SnapshotSink::log_dropped() {
+  std::bitset<kMaxViews> dropped;
+  {
+    const std::lock_guard lock(mutex_);
+    dropped = std::exchange(dropped_, {});
+  }
+  for (std::size_t i = 0; i < kMaxViews; ++i) {
+    if (!dropped[i]) continue;
+    log_line(LogLevel::Warning, "snapshot: request dropped: view " + std::to_string(i) +
+                                    " has no recipe or no camera any more");
+  }
+}
+
 void SnapshotSink::write_all() {
+  log_dropped();
   while (const ViewPtr view = next()) {
     const std::string name = name_of(*view);
     const auto done = write(*view, name).and_then([&] { return remove_oldest(name); });

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -39,15 +40,17 @@ class SnapshotSink final : public Sink {
   ~SnapshotSink() override;
 
   /// Requests the next picture of a view. Busy while one of that view is requested or written;
-  /// ArgumentOutOfRange: no such view.
+  /// NotPossible: the view is not live; ArgumentOutOfRange: no such view.
   CommandResult request(std::size_t view);
 
-  /// Creates the folder. Error: it cannot be created or is not writable.
+  /// Creates the folder, and removes what an earlier run left half written. Error: it cannot be
+  /// created or is not writable.
   Result<> start() override;
   /// Writes the accepted views first; a snapshot without one is never written.
   void stop() override { thread_.stop(); }
   void accept(const ViewPtr& view) override;
-  void accept(const Status&) override {}
+  /// Drops the requests of views that are not live any more.
+  void accept(const Status& status) override;
 
   /// Snapshots since start that are on disk.
   std::uint64_t written() const { return written_; }
@@ -56,14 +59,17 @@ class SnapshotSink final : public Sink {
   void run();
   ViewPtr next();
   void write_all();
+  void log_dropped();
   Result<> write(const View& view, const std::string& name);
   Result<> remove_oldest(const std::string& newest);
 
   const SnapshotSettings settings_;
+  std::array<std::atomic<bool>, kMaxViews> live_{};    ///< by view
   std::array<std::atomic<bool>, kMaxViews> busy_{};    ///< by view: requested or written
   std::array<std::atomic<bool>, kMaxViews> wanted_{};  ///< by view: request for its next picture
   std::mutex mutex_;
   std::array<ViewPtr, kMaxViews> accepted_;  ///< by view: to be written; under mutex_
+  std::bitset<kMaxViews> dropped_;           ///< by view: to be logged; under mutex_
   std::atomic<std::uint64_t> written_{0};
   hal::Thread thread_;
 };

@@ -170,6 +170,8 @@ TEST_F(Dispatch, SnapshotsNeedAFolderAndAView) {
   EXPECT_EQ(command(CommandCode::Snapshot), CommandResult::NotPossible);
   snapshots.emplace(SnapshotSettings{folder.path(), 1});
   EXPECT_EQ(command(CommandCode::Snapshot, 1), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(CommandCode::Snapshot, 0), CommandResult::NotPossible) << "not live yet";
+  snapshots->accept(next_set());
   EXPECT_EQ(command(CommandCode::Snapshot, 0), CommandResult::Done);
   EXPECT_EQ(command(CommandCode::Snapshot, 0), CommandResult::Busy);
 }

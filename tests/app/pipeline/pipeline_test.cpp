@@ -135,8 +135,10 @@ TEST_F(PipelineTest, AMissingCameraIsAStateAndTheOtherGoesOn) {
   EXPECT_EQ(status.cameras[0].fault, hal::Fault::Unplugged);
   EXPECT_FALSE(signals::is_valid(status.regions[0].signals.hot_spot_solid_angle))
       << "the measured camera is away";
+  EXPECT_TRUE(status.views[0].live) << "of the camera that delivers";
   cameras[1]->fail_with(hal::Fault::Stalled);
-  sink.wait_for([](const Status& s) { return s.state == SystemState::Fault; });
+  status = sink.wait_for([](const Status& s) { return s.state == SystemState::Fault; });
+  EXPECT_FALSE(status.views[0].live);
   expose_both(40000);
   status = sink.wait_for([](const Status& s) {
     return s.state == SystemState::Running && signals::is_valid(s.regions[0].signals.hot_spot_yaw);

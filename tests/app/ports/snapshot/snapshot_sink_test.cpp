@@ -61,6 +61,13 @@ class SnapshotSinkTest : public testing::Test {
     sink.emplace(SnapshotSettings{folder.path() / "pictures", keep});
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;
+    set_live(true);
+  }
+  void set_live(bool live) {
+    Status status;
+    status.view_count = kMaxViews;
+    for (ViewStatus& view : status.views) view.live = live;
+    sink->accept(status);
   }
   CommandResult ask(std::size_t index) { return sink->request(index); }
   /// Asks for a view, hands it over and waits until it is on the disk.
@@ -169,6 +176,27 @@ TEST_F(SnapshotSinkTest, IsBusyWithAViewUntilItIsWritten) {
   EXPECT_EQ(ask(0), CommandResult::Done);
 }
 
+TEST_F(SnapshotSinkTest, RefusesAViewOfWhichNoPictureCanCome) {
+  start();
+  ASSERT_EQ(ask(0), CommandResult::Done);
+  set_live(false);
+  EXPECT_EQ(ask(0), CommandResult::NotPossible) << "not busy for ever";
+  sink->accept(view(0, 1));
+  set_live(true);
+  ASSERT_EQ(ask(0), CommandResult::Done);
+  sink->accept(view(0, 2));
+  wait_for(1);
+  EXPECT_EQ(files().size(), 1U) << "what was asked for before is dropped";
+  EXPECT_FALSE(picture("_2.png").empty());
+}
+
+TEST_F(SnapshotSinkTest, AnEarlierRunsHalfWrittenPicturesAreRemoved) {
+  fs::create_directory(folder.path() / "pictures");
+  std::ofstream(folder.path() / "pictures/room_20200101T000000.000Z_1.png.1-0.part") << "half";
+  start();
+  EXPECT_TRUE(files().empty());
+}
+
 TEST_F(SnapshotSinkTest, RefusesViewsThatCannotBe) {
   start();
   EXPECT_EQ(ask(kMaxViews), CommandResult::ArgumentOutOfRange);
@@ -179,11 +207,8 @@ TEST_F(SnapshotSinkTest, RefusesViewsThatCannotBe) {
 TEST_F(SnapshotSinkTest, KeepsTheNewestAndLeavesOthersFilesAlone) {
   start(3);
   const fs::path pictures = folder.path() / "pictures";
-  const std::vector<std::string> foreign{"notes.txt",
-                                         "room.png",
-                                         "room_20200101T000000.000Z_1.jpg",
+  const std::vector<std::string> foreign{"notes.txt", "room.png", "room_20200101T000000.000Z_1.jpg",
                                          "room_20200101T000000Z_1.png",
-                                         "room_20200101T000000.000Z_1.png.1-0.part",
                                          "room_20200101T000000.000Z_1_measured.png.bak"};
   for (const std::string& name : foreign) std::ofstream(pictures / name) << "mine";
   fs::create_directory(pictures / "folder");

@@ -277,6 +277,7 @@ void RegisterSources::expect_cameras_and_views() {
     expect_of("frames_per_second", [](V v) { v.frames_per_second = 20; });
     expect_of("latency_p50_ms", [](V v) { v.latency_p50_ms = 1; });
     expect_of("latency_p99_ms", [](V v) { v.latency_p99_ms = 1; });
+    expect_of("live", [](V v) { v.live = true; });
   }
 }
 
