@@ -7,7 +7,6 @@
 
 #include "hal/clock.h"
 #include "proc/image/image_view.h"
-#include "proc/image/validity.h"
 #include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {

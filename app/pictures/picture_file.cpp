@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "proc/image/validity.h"
+#include "proc/image/image_view.h"
 
 namespace orbwatch::app {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 namespace orbwatch {
@@ -24,6 +25,13 @@ struct ImageView {
       requires(!std::is_const_v<T>) {
     return {data, width, height, channels, stride};
   }
+};
+
+/// Why a pixel of a view is or is not known.
+enum class Validity : std::uint8_t {
+  Outside = 0,  ///< the direction's place on the ball lies outside every camera's picture
+  Blind = 1,    ///< no camera sees the direction on the ball, or the one that does has a fault
+  Seen = 255,
 };
 
 }  // namespace orbwatch

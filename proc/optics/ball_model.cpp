@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 
@@ -58,15 +58,6 @@ Result<BallModel> BallModel::make(Kind kind, std::optional<double> alpha,
   }
   return checked_alpha(*alpha).map(
       [kind](double a) { return BallModel(kind, inverse_distance(a)); });
-}
-
-Result<double> BallModel::alpha_from_distance(double distance) {
-  return checked_distance(distance).map(
-      [](double d) { return 360 - 2 * degrees(std::asin(1 / d)); });
-}
-
-Result<double> BallModel::distance_from_alpha(double alpha) {
-  return checked_alpha(alpha).map([](double a) { return 1 / inverse_distance(a); });
 }
 
 double BallModel::limit() const { return std::numbers::pi - std::asin(limb_.q); }

@@ -39,12 +39,6 @@ class BallModel {
   /// model.
   static BallModel at_distance(Kind kind, double distance);
 
-  /// alpha in degrees for a camera `distance` ball radii away from the ball's centre, > 1.
-  static Result<double> alpha_from_distance(double distance);
-
-  /// The inverse; infinite for 360 degrees.
-  static Result<double> distance_from_alpha(double alpha);
-
   /// rho / sin(phi) of what lies in direction phi; nullopt when the ball does not show it. The
   /// square of the sine is given too, since near the axis the cosine does not determine it.
   /// `closeness`, in [0, 1]: ball radius / distance of that point from the ball's centre; 0 is far

@@ -4,7 +4,6 @@
 #include <limits>
 #include <string>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
 
 namespace orbwatch::optics {
@@ -178,13 +177,6 @@ void BallProjection::pixels(const Vec3Lanes& directions, const Lanes& closeness,
   for (std::size_t k = 0; k < kLanes; ++k) {
     out.u[k] = places.stretch.along[k] > 0 ? out.u[k] : kNothing;
   }
-}
-
-std::optional<Vec2> BallProjection::pixel_of_point(const Vec3& point) const {
-  const Vec3 offset = point - ball_.centre;
-  const double distance = norm(offset);
-  if (!(distance >= ball_.radius)) return std::nullopt;
-  return pixel(offset * (1 / distance), ball_.radius / distance);
 }
 
 BallProjection::Viewpoint BallProjection::seen_from(const Vec3& position) const {

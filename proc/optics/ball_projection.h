@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "proc/image/result.h"
-#include "proc/optics/ball.h"
 #include "proc/optics/ball_model.h"
 #include "proc/optics/lanes.h"
 #include "proc/optics/lens.h"
@@ -59,10 +58,6 @@ class BallProjection {
 
   /// The same for many; not a number for nullopt.
   void pixels(const Vec3Lanes& directions, const Lanes& closeness, Vec2Lanes& out) const;
-
-  /// The pixel that shows a point, machine frame, mm. nullopt in the blind cone and within the
-  /// ball.
-  std::optional<Vec2> pixel_of_point(const Vec3& point) const;
 
   /// The reflected ray of `pixel`: it starts on the ball, machine frame, mm. nullopt outside the
   /// limb.

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "proc/image/picture.h"
-#include "proc/optics/angle.h"
 
 namespace orbwatch::optics {
 namespace {

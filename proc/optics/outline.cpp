@@ -8,8 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "proc/optics/angle.h"
-
 namespace orbwatch::optics {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 namespace {

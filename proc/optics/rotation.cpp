@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proc/optics/angle.h"
-
 namespace orbwatch::optics {
 
 Mat3 rotation(const YawPitchRoll& angles) {
@@ -15,16 +13,6 @@ Mat3 rotation(const YawPitchRoll& angles) {
   const Mat3 pitch{{1, 0, 0}, {0, cp, -sp}, {0, sp, cp}};
   const Mat3 roll{{cr, 0, sr}, {0, 1, 0}, {-sr, 0, cr}};
   return yaw * pitch * roll;
-}
-
-YawPitchRoll yaw_pitch_roll(const Mat3& rotation) {
-  const Vec3 right = rotation.column0(), forward = rotation.column1(), up = rotation.column2();
-  const double pitch = std::asin(std::clamp(forward.z, -1.0, 1.0));
-  if (std::hypot(forward.x, forward.y) < 1e-12) {
-    return {degrees(std::atan2(-right.y, right.x)), degrees(pitch), 0};
-  }
-  return {degrees(std::atan2(forward.x, forward.y)), degrees(pitch),
-          degrees(std::atan2(-right.z, up.z))};
 }
 
 Result<Mat3> checked_rotation(const Mat3& matrix) {

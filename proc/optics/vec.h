@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace orbwatch::optics {
+
+constexpr double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
+constexpr double degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
 
 /// A point or direction in space. Frames and units are the user's to state. Reentrant.
 struct Vec3 {

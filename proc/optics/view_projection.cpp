@@ -1,12 +1,11 @@
 #include "proc/optics/view_projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
-
-#include "proc/optics/angle.h"
 
 namespace orbwatch::optics {
 namespace {
@@ -31,22 +30,18 @@ struct FieldOfView {
   Limit v;
 };
 
-constexpr FieldOfView field_of_view(ViewKind kind) {
-  switch (kind) {
-    case ViewKind::Perspective:
-      return {90, {180, false}, {180, false}};
-    case ViewKind::Equirectangular:
-      return {360, {360, true}, {180, true}};
-    case ViewKind::Cylindrical:
-      return {360, {360, true}, {180, false}};
-    case ViewKind::Stereographic:
-      return {180, {360, false}, {360, false}};
-    case ViewKind::Fisheye:
-      return {180, {360, true}, {360, true}};
-    case ViewKind::Ball:
-      break;
-  }
-  return {};
+/// In the order of ViewKind.
+constexpr std::array<FieldOfView, 6> kFieldsOfView{{
+    {90, {180, false}, {180, false}},   // Perspective
+    {360, {360, true}, {180, true}},    // Equirectangular
+    {360, {360, true}, {180, false}},   // Cylindrical
+    {180, {360, false}, {360, false}},  // Stereographic
+    {180, {360, true}, {360, true}},    // Fisheye
+    {},                                 // Ball
+}};
+
+constexpr const FieldOfView& field_of_view(ViewKind kind) {
+  return kFieldsOfView[static_cast<std::size_t>(kind)];
 }
 
 Result<> check_angle(const char* name, std::optional<double> value, Limit limit) {

@@ -77,36 +77,19 @@ AlarmLevel level_of(const AlarmMemory& memory) {
 }
 
 int side(AlarmLevel level) {
-  switch (level) {
-    case AlarmLevel::LowAlarm:
-    case AlarmLevel::LowWarning:
-      return -1;
-    case AlarmLevel::HighWarning:
-    case AlarmLevel::HighAlarm:
-      return 1;
-    case AlarmLevel::None:
-    case AlarmLevel::NoMeasurement:
-      return 0;
-  }
-  return 0;
+  if (level == AlarmLevel::LowAlarm || level == AlarmLevel::LowWarning) return -1;
+  return level == AlarmLevel::HighWarning || level == AlarmLevel::HighAlarm ? 1 : 0;
 }
 
 /// The state when the condition of an alarm that was in `state` has gone.
 AlarmState returned(AlarmState state, bool latching) {
-  switch (state) {
-    case AlarmState::Unacknowledged:
-      return latching ? AlarmState::LatchedUnacknowledged : AlarmState::ReturnedUnacknowledged;
-    case AlarmState::Acknowledged:
-      return latching ? AlarmState::LatchedAcknowledged : AlarmState::Normal;
-    case AlarmState::SuppressedByDesign:
-      return AlarmState::Normal;
-    case AlarmState::Normal:
-    case AlarmState::ReturnedUnacknowledged:
-    case AlarmState::LatchedUnacknowledged:
-    case AlarmState::LatchedAcknowledged:
-      return state;
+  if (state == AlarmState::Unacknowledged) {
+    return latching ? AlarmState::LatchedUnacknowledged : AlarmState::ReturnedUnacknowledged;
   }
-  return state;
+  if (state == AlarmState::Acknowledged && latching) return AlarmState::LatchedAcknowledged;
+  return state == AlarmState::Acknowledged || state == AlarmState::SuppressedByDesign
+             ? AlarmState::Normal
+             : state;
 }
 
 Alarm judged(const Alarm& before, AlarmLevel level, bool measurement_lost, bool latching) {

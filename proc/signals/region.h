@@ -1,11 +1,16 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "proc/optics/ball.h"
+#include "proc/image/result.h"
 #include "proc/optics/scene_proxy.h"
 #include "proc/optics/vec.h"
+#include "proc/optics/view_projection.h"
 #include "proc/signals/radiometry.h"
 #include "proc/signals/signals.h"
 
@@ -40,5 +45,78 @@ inline Requires provided_by(const RegionSettings& settings, bool has_scene) {
          (settings.radiometry.kelvin_per_count > 0 ? RadiometricCamera : Nothing) |
          (has_scene ? Scene : Nothing);
 }
+
+/// Pixels [begin, end) of row y.
+struct Span {
+  int y = 0;
+  int begin = 0;
+  int end = 0;
+};
+
+/// The pixels of a view that lie in a region, compiled once: whole rows are walked in the frame
+/// path, never the polygon. Immutable; reentrant.
+class RegionMask {
+ public:
+  /// Whether the measured camera sees a direction.
+  using Sees = std::function<bool(const optics::Vec3&)>;
+
+  /// `outline`: as in RegionSettings. A pixel belongs to the region when its centre does and the
+  /// camera sees it; without `sees` it sees everything. Error: an outline that is no polygon, or
+  /// without such a pixel.
+  static Result<RegionMask> make(const optics::ViewProjection& view,
+                                 std::span<const optics::Vec3> outline, const Sees& sees = nullptr);
+
+  /// By row, then from left to right; pixels of the view.
+  std::span<const Span> spans() const { return spans_; }
+
+  /// Pixels of the region, and the most separate runs of them that there can be: every second one.
+  std::size_t pixels() const { return pixels_; }
+  std::size_t most_runs() const { return most_runs_; }
+
+  // The bounding box of the spans: columns [left, right), rows [top, bottom).
+  int left() const { return left_; }
+  int right() const { return right_; }
+  int top() const { return top_; }
+  int bottom() const { return bottom_; }
+
+ private:
+  std::vector<Span> spans_;
+  int left_ = 0;
+  int right_ = 0;
+  int top_ = 0;
+  int bottom_ = 0;
+  std::size_t pixels_ = 0;
+  std::size_t most_runs_ = 0;
+};
+
+/// The direction of a pixel's centre and its footprint. Single precision keeps 1e-7, far below a
+/// pixel.
+struct PixelGeometry {
+  std::array<float, 3> direction{};  ///< unit vector from the ball's centre, machine frame
+  float solid_angle = 0;             ///< steradian
+  std::array<float, 3> position{};   ///< mm from the ball's centre; not a number if far
+  float area = 0;                    ///< mm2 of the surface there; not a number if far
+};
+
+/// The geometry of the pixels in a region's bounding box, compiled once. Immutable; reentrant.
+class RegionGeometry {
+ public:
+  RegionGeometry(const optics::ViewProjection& view, const RegionScene& scene,
+                 const RegionMask& mask);
+
+  /// Of a pixel of the view, in the bounding box.
+  const PixelGeometry& at(int x, int y) const { return row(y)[x - left_]; }
+
+  /// From the bounding box' first pixel of row y.
+  const PixelGeometry* row(int y) const {
+    return pixels_.data() + static_cast<std::size_t>(y - top_) * static_cast<std::size_t>(width_);
+  }
+
+ private:
+  int left_;
+  int top_;
+  int width_;
+  std::vector<PixelGeometry> pixels_;
+};
 
 }  // namespace orbwatch::signals

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::signals {
 namespace {

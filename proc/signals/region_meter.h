@@ -16,8 +16,6 @@
 #include "proc/signals/hot_spot/level_set.h"
 #include "proc/signals/radiometry.h"
 #include "proc/signals/region.h"
-#include "proc/signals/region_geometry.h"
-#include "proc/signals/region_mask.h"
 #include "proc/signals/signals.h"
 #include "proc/signals/spatter.h"
 #include "proc/signals/statistics.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proc/optics/angle.h"
-
 namespace orbwatch::signals {
 namespace {
 

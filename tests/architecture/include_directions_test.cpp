@@ -149,8 +149,7 @@ TEST(IncludeDirections, TheSimulationSeesNoBallModel) {
   // Its truth must stay independent of what it is the truth for.
   for (const Include& include : all_includes()) {
     if (is_below(include.file, "app/simulation") && is_below(include.header, "proc/optics")) {
-      EXPECT_TRUE(include.header == "proc/optics/vec.h" || include.header == "proc/optics/angle.h")
-          << include.file << " includes " << include.header;
+      EXPECT_EQ(include.header, "proc/optics/vec.h") << include.file;
     }
   }
 }

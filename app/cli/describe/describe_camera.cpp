@@ -9,8 +9,8 @@
 #include "app/cli/options/camera_options.h"
 #include "app/files/camera_calibration.h"
 #include "app/files/rig_file.h"
-#include "proc/optics/angle.h"
 #include "proc/optics/ball_model.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::app {
 namespace {

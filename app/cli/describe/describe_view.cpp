@@ -12,9 +12,9 @@
 #include "app/model/json.h"
 #include "app/pictures/picture_file.h"
 #include "app/pipeline/views/view_settings.h"
-#include "proc/image/validity.h"
-#include "proc/optics/angle.h"
+#include "proc/image/image_view.h"
 #include "proc/optics/resolution.h"
+#include "proc/optics/vec.h"
 #include "proc/remap/remap.h"
 
 namespace orbwatch::app {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "proc/image/validity.h"
+#include "proc/image/image_view.h"
 #include "proc/optics/resolution.h"
 #include "proc/remap/remap.h"
 

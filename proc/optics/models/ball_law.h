@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -58,5 +59,18 @@ struct BallLaw {
   CosSin (*phi)(const Limb&, double rho);
   CosSin (*theta)(const Limb&, double rho);  ///< null without parallax
 };
+
+/// Half of an angle in [0, pi]. Both numbers keep their relative precision, the cosine towards pi
+/// too.
+struct HalfAngle {
+  double cos;
+  double sin2;
+};
+
+/// `sin2`: square of the angle's sine, which its cosine does not determine near 0 and pi.
+inline HalfAngle half(double cosine, double sin2) {
+  const double cos2 = cosine >= 0 ? (1 + cosine) / 2 : sin2 / (2 * (1 - cosine));
+  return {std::sqrt(cos2), (1 - cosine) / 2};
+}
 
 }  // namespace orbwatch::optics

@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include "proc/optics/models/alhazen.h"
 #include "proc/optics/models/ball_law.h"
 
 namespace orbwatch::optics::laws {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "proc/remap/compiler/mip_level.h"
-#include "proc/remap/compiler/source_extent.h"
+#include "proc/remap/compiler/tolerance.h"
 
 namespace orbwatch::remap {
 namespace {

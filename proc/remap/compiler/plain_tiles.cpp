@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "proc/remap/compiler/mip_level.h"
-#include "proc/remap/compiler/source_extent.h"
 #include "proc/remap/compiler/tolerance.h"
 #include "proc/remap/grid/patch.h"
 

@@ -7,7 +7,6 @@
 
 #include "proc/remap/compiler/grid_compiler.h"
 #include "proc/remap/compiler/mip_level.h"
-#include "proc/remap/compiler/source_extent.h"
 #include "proc/remap/compiler/tolerance.h"
 
 namespace orbwatch::remap {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "proc/image/image_view.h"
-#include "proc/image/validity.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
 #include "proc/remap/grid/coordinate.h"

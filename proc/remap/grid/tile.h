@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -65,7 +66,10 @@ class TileTable {
     if (has_store(tile.kind)) set_index(number, tile.index);
   }
 
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    return records_.size() * sizeof(Record) + words_.size() * sizeof(Word) +
+           indices_.size() * sizeof(indices_.front());
+  }
 
  private:
   struct Record {
@@ -81,8 +85,19 @@ class TileTable {
     std::uint32_t before = 0;
   };
 
-  std::uint32_t index(std::size_t number) const;
-  void set_index(std::size_t number, std::uint32_t index);
+  std::uint32_t index(std::size_t number) const {
+    const Word& word = words_[number / 64];
+    const std::uint64_t earlier = word.own & ((std::uint64_t{1} << (number % 64)) - 1);
+    return indices_[word.before + static_cast<std::uint32_t>(std::popcount(earlier))];
+  }
+
+  void set_index(std::size_t number, std::uint32_t index) {
+    // Words between the last tile and this one have none of their own.
+    const auto before = static_cast<std::uint32_t>(indices_.size());
+    while (words_.size() <= number / 64) words_.push_back({0, before});
+    words_.back().own |= std::uint64_t{1} << (number % 64);
+    indices_.push_back(index);
+  }
 
   std::vector<Record> records_;
   std::vector<Word> words_;             ///< none when no tile has a store of its own

@@ -7,9 +7,8 @@
 #include <string_view>
 
 #include "proc/image/result.h"
-#include "proc/remap/kernel/block_map.h"
+#include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
-#include "proc/remap/kernel/point_map.h"
 
 namespace orbwatch::remap {
 

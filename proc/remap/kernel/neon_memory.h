@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "proc/remap/kernel/block_map.h"
+#include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
 
 // How the NEON kernel loads windows and stores blocks: in assembly for g++, which spills registers

@@ -4,8 +4,6 @@
 #include <array>
 #include <cassert>
 
-#include "proc/image/validity.h"
-
 namespace orbwatch::remap {
 namespace {
 
@@ -98,25 +96,15 @@ void merge_by(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
 }  // namespace
 
 template <class T>
-void merge(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
+void merge(MergeRule rule, std::span<const MergeSource<T>> sources, const ImageView<T>& out,
            const ImageView<std::uint8_t>& validity, TileRows rows) {
-  merge_by<Mean>(sources, out, validity, rows);
+  rule == MergeRule::First ? merge_by<First>(sources, out, validity, rows)
+                           : merge_by<Mean>(sources, out, validity, rows);
 }
 
-template <class T>
-void merge_first(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
-                 const ImageView<std::uint8_t>& validity, TileRows rows) {
-  merge_by<First>(sources, out, validity, rows);
-}
-
-template void merge(std::span<const MergeSource<std::uint8_t>>, const ImageView<std::uint8_t>&,
-                    const ImageView<std::uint8_t>&, TileRows);
-template void merge(std::span<const MergeSource<std::uint16_t>>, const ImageView<std::uint16_t>&,
-                    const ImageView<std::uint8_t>&, TileRows);
-template void merge_first(std::span<const MergeSource<std::uint8_t>>,
-                          const ImageView<std::uint8_t>&, const ImageView<std::uint8_t>&, TileRows);
-template void merge_first(std::span<const MergeSource<std::uint16_t>>,
-                          const ImageView<std::uint16_t>&, const ImageView<std::uint8_t>&,
-                          TileRows);
+template void merge(MergeRule, std::span<const MergeSource<std::uint8_t>>,
+                    const ImageView<std::uint8_t>&, const ImageView<std::uint8_t>&, TileRows);
+template void merge(MergeRule, std::span<const MergeSource<std::uint16_t>>,
+                    const ImageView<std::uint16_t>&, const ImageView<std::uint8_t>&, TileRows);
 
 }  // namespace orbwatch::remap

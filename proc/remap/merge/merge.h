@@ -11,6 +11,12 @@ namespace orbwatch::remap {
 /// Sources that one view can merge.
 inline constexpr std::size_t kMaxSources = 4;
 
+/// How sources are merged where several see a pixel.
+enum class MergeRule : std::uint8_t {
+  Mean,   ///< by weight
+  First,  ///< only the first one that sees it
+};
+
 /// One source of a merged picture: its picture of the view, and the weights of its pixels (see
 /// BlendGrid). Weight 0: it does not see the pixel, whose samples are not used.
 template <class T>
@@ -19,20 +25,15 @@ struct MergeSource {
   ImageView<const std::uint8_t> weights;
 };
 
-/// Blends the tile rows `rows` of up to kMaxSources pictures into `out`: the mean by weight,
-/// rounded to nearest, exactly. A source that sees a pixel alone passes unchanged, whatever its
-/// weight: a camera fills the other's blind cone. Pixels that none sees become 0. `validity`
-/// becomes Seen where some source sees; elsewhere it is left as it was.
+/// Merges the tile rows `rows` of up to kMaxSources pictures into `out`: by MergeRule::Mean rounded
+/// to nearest, exactly. A source that sees a pixel alone passes unchanged, whatever its weight: a
+/// camera fills the other's blind cone. Pixels that none sees become 0. `validity` becomes Seen
+/// where some source sees; elsewhere it is left as it was.
 ///
 /// Pictures, weights, `out` and `validity` have one size; pictures and `out` 1 or 3 channels. `out`
 /// may be one of the pictures. T is uint8_t or uint16_t. Reentrant.
 template <class T>
-void merge(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
+void merge(MergeRule rule, std::span<const MergeSource<T>> sources, const ImageView<T>& out,
            const ImageView<std::uint8_t>& validity, TileRows rows);
-
-/// The same, but by the first of `sources` that sees a pixel, alone.
-template <class T>
-void merge_first(std::span<const MergeSource<T>> sources, const ImageView<T>& out,
-                 const ImageView<std::uint8_t>& validity, TileRows rows);
 
 }  // namespace orbwatch::remap

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <optional>
 
-#include "proc/image/validity.h"
 #include "proc/remap/colour/colour_conversion.h"
 #include "proc/remap/sampling/tile_remap.h"
 
@@ -164,10 +163,7 @@ class Merger {
       merged[k] = {pictures[k].view(), {weights[k].data(), kTile, kTile, 1, kTile}};
     }
     const std::span<const MergeSource<T>> list(merged.data(), seeing.size());
-    const auto out = part(out_.samples<T>(), area);
-    const auto validity = part(validity_, area);
-    plan_.rule == MergeRule::First ? merge_first(list, out, validity, {0, 1})
-                                   : merge(list, out, validity, {0, 1});
+    merge(plan_.rule, list, part(out_.samples<T>(), area), part(validity_, area), {0, 1});
   }
 
   /// The measured plane of a source that does not count in a tile.

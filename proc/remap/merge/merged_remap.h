@@ -14,12 +14,6 @@
 
 namespace orbwatch::remap {
 
-/// How sources are merged where several see a pixel.
-enum class MergeRule : std::uint8_t {
-  Mean,   ///< by weight
-  First,  ///< only the first one that sees it
-};
-
 /// One source of a merged view at one moment.
 struct MergedSource {
   const CoordinateGrid* grid = nullptr;

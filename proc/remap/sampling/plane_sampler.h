@@ -6,14 +6,24 @@
 
 #include "proc/image/picture.h"
 #include "proc/remap/grid/coordinate.h"
+#include "proc/remap/grid/patch.h"
 #include "proc/remap/grid/tile.h"
-#include "proc/remap/kernel/block_map.h"
 #include "proc/remap/kernel/kernel.h"
+#include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
 #include "proc/remap/sampling/plane_map.h"
 #include "proc/remap/sampling/plane_sampling.h"
 
 namespace orbwatch::remap {
+
+/// Samples a target pixel by pixel at whole X, Y of a patch, at the source's borders too, where its
+/// outermost pixels are repeated. Reentrant.
+void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
+                   const SourcePlane& source, const TargetPlane& target);
+
+/// The same at coordinates, for any map. Undefined pixels become `black`.
+void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
+                   std::uint8_t black, const SourcePlane& source, const TargetPlane& target);
 
 /// How a tile's source is read.
 struct Reading {

@@ -5,8 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "proc/image/validity.h"
-
 namespace orbwatch::signals {
 namespace {
 

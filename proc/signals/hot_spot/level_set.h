@@ -7,8 +7,7 @@
 
 #include "proc/image/image_view.h"
 #include "proc/optics/vec.h"
-#include "proc/signals/region_geometry.h"
-#include "proc/signals/region_mask.h"
+#include "proc/signals/region.h"
 
 namespace orbwatch::signals {
 

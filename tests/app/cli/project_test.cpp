@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
+#include "proc/optics/vec.h"
 #include "proc/optics/view_projection.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/proc/reference_optics.h"
@@ -204,7 +205,7 @@ TEST_F(Project, BlindDirectionsAreBlackOrTransparent) {
 }
 
 TEST_F(Project, DistanceAndAlphaAreTwoWordsForOneThing) {
-  const double alpha = BallModel::alpha_from_distance(12).value();
+  const double alpha = 360 - 2 * optics::degrees(std::asin(1.0 / 12));
   std::ostringstream exact;
   exact << std::setprecision(17) << alpha;
   std::vector<std::string> view{kOwnPhoto.string(), "--ball", "400,400,384", "--size",

@@ -6,11 +6,12 @@
 #include <random>
 
 #include "app/simulation/scene/process.h"
-#include "proc/optics/angle.h"
 #include "proc/optics/resolution.h"
+#include "proc/optics/vec.h"
 #include "proc/signals/hot_spot/principal_axes.h"
 #include "tests/app/daemon/measured_machine.h"
 #include "tests/support/error_distribution.h"
+#include "tests/support/pixel_of_point.h"
 #include "tests/support/share.h"
 
 /// What is measured of the melt pool beside what the simulated machine knows, over scenes drawn at
@@ -106,7 +107,8 @@ class Scene {
     const Vec3 to_pool = optics::normalized(pool.centre - settings.ball.centre);
     pinhole = draw_camera(pool, to_pool);
     const auto centre =
-        projection_of(pinhole, region_scene_of(settings)).pixel_of_point(pool.centre).value();
+        tests::pixel_of_point(projection_of(pinhole, region_scene_of(settings)), pool.centre)
+            .value();
     pinhole = simulation::look_at(
         pinhole.position, pinhole.position + pinhole.ray_through(centre.u, centre.v).direction, 10,
         256, 256);

@@ -5,7 +5,7 @@
 
 #include "app/ports/modbus/modbus_sink.h"
 #include "app/simulation/scene/process.h"
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 #include "tests/app/daemon/measured_machine.h"
 #include "tests/support/registers.h"
 

@@ -8,10 +8,11 @@
 
 #include "app/pictures/colour_maps.h"
 #include "hal/frame/frame_pool.h"
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 #include "proc/signals/region_meter.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 #include "tests/support/error_distribution.h"
+#include "tests/support/pixel_of_point.h"
 #include "tests/support/reference_data.h"
 #include "tests/support/rendered_scene.h"
 #include "tests/support/rendered_sequence.h"
@@ -112,7 +113,7 @@ Errors measure_all(MeasuredSequence& measured, const RenderedSequence& sequence,
       errors.sparks.insert(spark.id);
       beside = beside || angle_to_pool(spark.position - ball) < kBeside;
     }
-    if (measured.counts_at(sequence.camera().pixel_of_point(frame.melt).value()) < threshold) {
+    if (measured.counts_at(pixel_of_point(sequence.camera(), frame.melt).value()) < threshold) {
       ++errors.hidden;
       continue;
     }

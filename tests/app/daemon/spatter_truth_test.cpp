@@ -5,7 +5,7 @@
 #include <map>
 
 #include "app/simulation/scene/process.h"
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 #include "tests/app/daemon/measured_machine.h"
 
 /// Sparks as they are measured beside those that the simulated machine lets fly.

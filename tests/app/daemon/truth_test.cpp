@@ -5,8 +5,8 @@
 
 #include "app/files/resolve.h"
 #include "app/simulation/scene/static_scene.h"
-#include "proc/optics/angle.h"
 #include "proc/optics/rig.h"
+#include "proc/optics/vec.h"
 #include "tests/app/daemon/simulated_scene.h"
 #include "tests/app/simulation/camera_truth.h"
 

@@ -3,8 +3,8 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/lens.h"
+#include "proc/optics/vec.h"
 
 /// proc/optics/lens against the library whose models it promises.
 namespace orbwatch::optics {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 #include "tests/proc/reference_optics.h"
 
 namespace orbwatch::optics {
@@ -18,7 +18,7 @@ using Kind = BallModel::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double alpha_of(double distance) { return BallModel::alpha_from_distance(distance).value(); }
+double alpha_of(double distance) { return 360 - 2 * degrees(std::asin(1 / distance)); }
 
 CosSin angle(long double phi) {
   return {static_cast<double>(std::cos(phi)), static_cast<double>(std::sin(phi))};
@@ -190,12 +190,12 @@ TEST(BallModel, NotANumberIsNotShown) {
 
 TEST(BallModel, AlphaAndDistanceAreOneFact) {
   for (const double d : {1.0001, 1.3, 12.0, 1e3, 1e6}) {
-    EXPECT_NEAR(BallModel::distance_from_alpha(alpha_of(d)).value() / d, 1, 1e-8);
+    EXPECT_NEAR(BallModel::make(Kind::Exact, alpha_of(d))->distance() / d, 1, 1e-8);
   }
   EXPECT_NEAR(alpha_of(10), 348.52, 0.005);
-  EXPECT_EQ(BallModel::distance_from_alpha(360).value(), kInfinity);
+  EXPECT_EQ(BallModel::make(Kind::Exact, 360)->distance(), kInfinity);
   EXPECT_EQ(alpha_of(kInfinity), 360);
-  EXPECT_FALSE(BallModel::distance_from_alpha(180));
+  EXPECT_FALSE(BallModel::make(Kind::Exact, 180));
 }
 
 TEST(BallModel, TakesAlphaOrDistanceUnlessClassical) {
@@ -218,7 +218,7 @@ TEST(BallModel, RefusesWhatIsNoBall) {
   EXPECT_NE(BallModel::make(BallModel::Kind::Exact, 170).error().message.find("(180, 360]"),
             std::string::npos);
   for (const double distance : {1.0, 0.0, -3.0, std::nan("")}) {
-    EXPECT_FALSE(BallModel::alpha_from_distance(distance)) << distance;
+    EXPECT_FALSE(BallModel::make(BallModel::Kind::Exact, {}, distance)) << distance;
   }
 }
 

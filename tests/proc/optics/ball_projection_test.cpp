@@ -8,10 +8,11 @@
 #include <limits>
 #include <random>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
+#include "proc/optics/vec.h"
 #include "tests/proc/optics/random_camera.h"
 #include "tests/proc/reference_optics.h"
+#include "tests/support/pixel_of_point.h"
 
 namespace orbwatch::optics {
 namespace {
@@ -31,8 +32,7 @@ using tests::scene_around_ball;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 BallModel model_at(double distance) {
-  return BallModel::make(BallModel::Kind::Exact, BallModel::alpha_from_distance(distance).value())
-      .value();
+  return BallModel::at_distance(BallModel::Kind::Exact, distance);
 }
 
 TEST(BallProjection, ShowsTheRoomUnmirrored) {
@@ -49,7 +49,7 @@ TEST(BallProjection, ShowsTheRoomUnmirrored) {
 TEST(BallProjection, EqualsTheReferenceWithEllipseAndRegistration) {
   std::mt19937 random(2);
   const tests::ReferenceBall reference{Kind::Exact,
-                                       BallModel::alpha_from_distance(8).value(),
+                                       360 - 2 * degrees(std::asin(1.0 / 8)),
                                        {{700, 500}, 420, 400, 25},
                                        rotation({60, -20, 5})};
   const auto ball =
@@ -99,12 +99,12 @@ TEST(BallProjection, APointIsSeenWhereItsDistanceSays) {
     const Vec3 v = random_direction(random);
     const double away = distance(random);
     const auto truth = tests::fermat_ray(position_in_radii(camera), {RealVec3(v), away});
-    const auto pixel = ball.pixel_of_point(kBall.centre + v * (away * kBall.radius));
+    const auto pixel = tests::pixel_of_point(ball, kBall.centre + v * (away * kBall.radius));
     ASSERT_EQ(pixel.has_value(), truth.has_value());
     if (pixel) {
       EXPECT_LT(deviation(camera_ray(camera, *pixel), *truth), 1e-10);
     }
-    EXPECT_FALSE(ball.pixel_of_point(kBall.centre + v * (0.9 * kBall.radius)));
+    EXPECT_FALSE(tests::pixel_of_point(ball, kBall.centre + v * (0.9 * kBall.radius)));
   }
 }
 
@@ -326,10 +326,10 @@ TEST(BallProjection, AWindowIsSnellsLawTwice) {
     const Vec3 origin = (ray.origin - kBall.centre) * (1 / kBall.radius);
     EXPECT_LT(norm(origin - rounded(truth.origin)), 1e-8);
     // And the way back: a point on that ray is seen by that pixel.
-    const auto again = ball.pixel_of_point(ray.origin + ray.direction * 70);
+    const auto again = tests::pixel_of_point(ball, ray.origin + ray.direction * 70);
     ASSERT_TRUE(again);
     EXPECT_LT(std::hypot(again->u - pixel->u, again->v - pixel->v), 1e-7);
-    if (const auto other = bare.pixel_of_point(ray.origin + ray.direction * 70)) {
+    if (const auto other = tests::pixel_of_point(bare, ray.origin + ray.direction * 70)) {
       shifted = std::max(shifted, std::hypot(other->u - pixel->u, other->v - pixel->v));
     }
   }
@@ -391,7 +391,7 @@ TEST(BallProjection, NothingIsShownOfNoDirection) {
   const auto ball =
       BallProjection::make(Kind::Exact, random_camera(random, 5, 0), kBall, proxy).value();
   EXPECT_FALSE(ball.pixel({nan, 0, 0}));
-  EXPECT_FALSE(ball.pixel_of_point({nan, 0, 0}));
+  EXPECT_FALSE(tests::pixel_of_point(ball, {nan, 0, 0}));
   EXPECT_FALSE(ball.ray({nan, 0}));
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "proc/image/picture.h"
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 namespace {

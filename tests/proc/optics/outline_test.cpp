@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/scene_proxy.h"
+#include "proc/optics/vec.h"
 #include "tests/proc/reference_optics.h"
 
 /// One ball in one machine, and calibrated cameras anywhere around it.

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 #include "tests/proc/optics/random_camera.h"
 
 namespace orbwatch::optics {
@@ -34,9 +34,7 @@ TEST(Resolution, IsTheDerivativeOfTheClassicalModel) {
 // On the axis phi = 2i - psi with i = d psi, so that psi = phi / (2d - 1).
 TEST(Resolution, OnTheAxisTheExactModelGivesPixelsPerPsi) {
   for (const double distance : {1.5, 4.0, 12.0}) {
-    const auto model =
-        BallModel::make(BallModel::Kind::Exact, BallModel::alpha_from_distance(distance).value())
-            .value();
+    const auto model = BallModel::at_distance(BallModel::Kind::Exact, distance);
     const double limb = std::tan(std::asin(1 / distance));  // 900 px
     const double truth = 900 / limb / (2 * distance - 1) * radians(1);
     EXPECT_NEAR(resolution(centred_ball(model, 900), {0, 1, 0}) / truth, 1, 1e-6) << distance;

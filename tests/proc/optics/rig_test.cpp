@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::optics {
 namespace {
@@ -13,6 +13,17 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
   EXPECT_NEAR(a.x, b.x, tolerance);
   EXPECT_NEAR(a.y, b.y, tolerance);
   EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+/// The angles of a rotation, pitch in [-90, 90]; at pitch +-90 roll is taken as 0.
+YawPitchRoll yaw_pitch_roll(const Mat3& rotation) {
+  const Vec3 right = rotation.column0(), forward = rotation.column1(), up = rotation.column2();
+  const double pitch = std::asin(std::clamp(forward.z, -1.0, 1.0));
+  if (std::hypot(forward.x, forward.y) < 1e-12) {
+    return {degrees(std::atan2(-right.y, right.x)), degrees(pitch), 0};
+  }
+  return {degrees(std::atan2(forward.x, forward.y)), degrees(pitch),
+          degrees(std::atan2(-right.z, up.z))};
 }
 
 TEST(Rotation, FollowsTheConventions) {

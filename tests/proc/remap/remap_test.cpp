@@ -6,8 +6,8 @@
 #include <random>
 #include <thread>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
+#include "proc/optics/vec.h"
 #include "proc/remap/colour/colour_conversion.h"
 #include "tests/proc/reference_optics.h"
 #include "tests/proc/remap/stored_picture.h"

@@ -1,4 +1,3 @@
-#include "proc/signals/alarm_state.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "proc/image/validity.h"
-#include "proc/optics/angle.h"
+#include "proc/image/image_view.h"
+#include "proc/optics/vec.h"
 #include "proc/optics/view_projection.h"
 #include "proc/signals/region_meter.h"
 

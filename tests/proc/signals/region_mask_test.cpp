@@ -1,4 +1,4 @@
-#include "proc/signals/region_mask.h"
+#include "proc/signals/region.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::signals {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 
 namespace orbwatch::signals {
 namespace {

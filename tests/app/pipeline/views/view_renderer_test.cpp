@@ -4,7 +4,7 @@
 
 #include "app/pictures/colour_maps.h"
 #include "hal/frame/frame_pool.h"
-#include "proc/image/validity.h"
+#include "proc/image/image_view.h"
 #include "proc/optics/rotation.h"
 #include "tests/app/pipeline/views/rendered_view.h"
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <random>
 
-#include "proc/optics/angle.h"
 #include "proc/optics/rotation.h"
+#include "proc/optics/vec.h"
 #include "proc/remap/compiler/mip_level.h"
-#include "proc/remap/compiler/source_extent.h"
+#include "proc/remap/compiler/tolerance.h"
 #include "tests/proc/optics/random_camera.h"
 #include "tests/support/share.h"
 

@@ -1,4 +1,4 @@
-#include "proc/remap/kernel/point_map.h"
+#include "proc/remap/kernel/kernel_map.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "proc/remap/kernel/block_map.h"
+#include "proc/remap/kernel/kernel_map.h"
 
 /// Patches of any rotation, shear and curvature.
 namespace orbwatch::tests {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "proc/image/validity.h"
+#include "proc/image/image_view.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -40,12 +40,10 @@ struct Scene {
     }
     return list;
   }
-  void merge(TileRows rows = {0, 2}) {
-    remap::merge<T>(sources(), view(out, channels), view(validity, 1), rows);
+  void merge(TileRows rows = {0, 2}, MergeRule rule = MergeRule::Mean) {
+    remap::merge<T>(rule, sources(), view(out, channels), view(validity, 1), rows);
   }
-  void merge_first() {
-    remap::merge_first<T>(sources(), view(out, channels), view(validity, 1), {0, 2});
-  }
+  void merge_first() { merge({0, 2}, MergeRule::First); }
   std::uint64_t total(std::size_t i) const {
     std::uint64_t sum = 0;
     for (const auto& plane : weights) sum += plane[i];
@@ -116,8 +114,8 @@ TYPED_TEST(Merge, ASourceAlonePassesUnchangedWhateverItsWeight) {
 TYPED_TEST(Merge, MayWriteIntoOneOfItsPictures) {
   Scene<TypeParam> apart(2, 3, 7), same(2, 3, 7);
   apart.merge();
-  merge<TypeParam>(same.sources(), same.view(same.pictures[1], 3), same.view(same.validity, 1),
-                   {0, 2});
+  merge<TypeParam>(MergeRule::Mean, same.sources(), same.view(same.pictures[1], 3),
+                   same.view(same.validity, 1), {0, 2});
   EXPECT_EQ(same.pictures[1], apart.out);
 }
 

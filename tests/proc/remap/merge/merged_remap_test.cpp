@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "proc/image/validity.h"
+#include "proc/image/image_view.h"
 #include "proc/optics/rotation.h"
 #include "proc/remap/remap.h"
 #include "tests/proc/remap/stored_picture.h"

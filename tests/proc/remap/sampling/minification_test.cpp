@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proc/optics/angle.h"
+#include "proc/optics/vec.h"
 #include "proc/remap/remap.h"
 #include "proc/remap/sampling/pyramid.h"
 #include "tests/proc/remap/stored_picture.h"

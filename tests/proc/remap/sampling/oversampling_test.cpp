@@ -1,4 +1,4 @@
-#include "proc/remap/sampling/oversampling.h"
+#include "proc/remap/sampling/downsampling.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "proc/remap/sampling/point_sampling.h"
+#include "proc/remap/sampling/plane_sampler.h"
 
 #include <gtest/gtest.h>
 

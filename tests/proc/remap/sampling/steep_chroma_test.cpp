@@ -6,7 +6,7 @@
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
 #include "proc/remap/kernel/bilinear.h"
-#include "proc/remap/kernel/block_map.h"
+#include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/remap.h"
 #include "proc/remap/sampling/plane_map.h"
 #include "tests/proc/remap/stored_picture.h"

@@ -1,4 +1,4 @@
-#include "proc/signals/hot_spot/cell.h"
+#include "proc/signals/hot_spot/blob_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "proc/signals/region_mask.h"
+#include "proc/signals/region.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -73,6 +73,53 @@ class SphericalPolygon {
   std::vector<Vec2> corners_;
 };
 
+using optics::Vec3;
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+std::array<float, 3> single(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Where the view's pixel (u, v) shows the smooth surface `surface`, mm from the ball's centre.
+std::optional<Vec3> on_surface(const optics::ViewProjection& view, const RegionScene& scene,
+                               int surface, double u, double v) {
+  const auto direction = view.direction(u, v);
+  if (!direction) return std::nullopt;
+  const double closeness = scene.proxy.closeness(surface, *direction);
+  if (!(closeness > 0)) return std::nullopt;
+  return *direction * (scene.ball.radius / closeness);
+}
+
+/// mm2 that the pixel covers: the parallelogram between the middles of its sides. On its own
+/// surface, also where the next pixel shows another.
+float surface_area(const optics::ViewProjection& view, const RegionScene& scene, int surface,
+                   double u, double v) {
+  const auto place = [&](double du, double dv) {
+    return on_surface(view, scene, surface, u + du, v + dv);
+  };
+  const auto left = place(-0.5, 0), right = place(0.5, 0);
+  const auto above = place(0, -0.5), below = place(0, 0.5);
+  if (!left || !right || !above || !below) return kUnknown;
+  return static_cast<float>(optics::norm(optics::cross(*right - *left, *below - *above)));
+}
+
+PixelGeometry geometry_of(const optics::ViewProjection& view, const RegionScene& scene, int x,
+                          int y) {
+  PixelGeometry pixel;
+  pixel.position.fill(kUnknown);
+  pixel.area = kUnknown;
+  const auto direction = view.direction(x, y);
+  if (!direction) return pixel;
+  pixel.direction = single(*direction);
+  pixel.solid_angle = static_cast<float>(view.solid_angle(x, y));
+  const auto hit = scene.proxy.hit(*direction);
+  if (!(hit.closeness > 0)) return pixel;
+  pixel.position = single(*direction * (scene.ball.radius / hit.closeness));
+  pixel.area = surface_area(view, scene, hit.surface, x, y);
+  return pixel;
+}
+
 }  // namespace
 
 Result<RegionMask> RegionMask::make(const optics::ViewProjection& view,
@@ -113,6 +160,18 @@ Result<RegionMask> RegionMask::make(const optics::ViewProjection& view,
     mask.most_runs_ += (length + 1) / 2;
   }
   return mask;
+}
+
+RegionGeometry::RegionGeometry(const optics::ViewProjection& view, const RegionScene& scene,
+                               const RegionMask& mask)
+    : left_(mask.left()), top_(mask.top()), width_(mask.right() - mask.left()) {
+  pixels_.reserve(static_cast<std::size_t>(width_) *
+                  static_cast<std::size_t>(mask.bottom() - mask.top()));
+  for (int y = mask.top(); y < mask.bottom(); ++y) {
+    for (int x = mask.left(); x < mask.right(); ++x) {
+      pixels_.push_back(geometry_of(view, scene, x, y));
+    }
+  }
 }
 
 }  // namespace orbwatch::signals
