@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hal/fault.h"
-#include "hal/fault_script.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"

@@ -9,7 +9,7 @@
 #include "app/ports/lines/line_settings.h"
 #include "app/simulation/simulated_camera_settings.h"
 #include "hal/camera.h"
-#include "hal/fault_script.h"
+#include "hal/fault.h"
 #include "hal/libcamera/libcamera_settings.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/replay/replay_settings.h"

@@ -13,7 +13,7 @@
 #include "app/simulation/tracing/renderer.h"
 #include "app/simulation/tracing/sensor_noise.h"
 #include "hal/camera.h"
-#include "hal/fault_script.h"
+#include "hal/fault.h"
 #include "hal/frame/frame_pool.h"
 
 namespace orbwatch::app::simulation {

@@ -9,7 +9,7 @@
 
 #include "app/simulation/tracing/ray.h"
 #include "hal/camera.h"
-#include "hal/fault_script.h"
+#include "hal/fault.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app::simulation {

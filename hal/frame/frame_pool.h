@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "hal/frame/buffer_pool.h"
 #include "hal/frame/frame.h"
@@ -16,7 +18,19 @@ using FramePool = BufferPool<FrameBuffer>;
 inline constexpr std::size_t kFramesPerCamera = 6;
 
 /// A pool of `count` buffers of `width` x `height` in `format`, rows without padding.
-FramePool make_frame_pool(PixelFormat format, int width, int height,
-                          std::size_t count = kFramesPerCamera);
+inline FramePool make_frame_pool(PixelFormat format, int width, int height,
+                                 std::size_t count = kFramesPerCamera) {
+  std::vector<std::unique_ptr<FrameBuffer>> buffers;
+  for (std::size_t i = 0; i < count; ++i) {
+    auto buffer = std::make_unique<FrameBuffer>();
+    const int stride = row_bytes(format, width);
+    buffer->capacity = picture_bytes(format, static_cast<std::size_t>(stride), height);
+    buffer->storage = std::make_unique<std::byte[]>(buffer->capacity);
+    buffer->memory = buffer->storage.get();
+    buffer->picture = Picture::contiguous(format, width, height, buffer->memory, stride);
+    buffers.push_back(std::move(buffer));
+  }
+  return FramePool(std::move(buffers));
+}
 
 }  // namespace orbwatch::hal

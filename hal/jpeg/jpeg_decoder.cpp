@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "hal/jpeg/interleave_chroma.h"
-
 namespace orbwatch::hal {
 namespace {
 
@@ -16,6 +14,63 @@ constexpr int kStrict = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
 
 const unsigned char* bytes(std::span<const std::byte> jpeg) {
   return reinterpret_cast<const unsigned char*>(jpeg.data());
+}
+
+constexpr std::uint8_t kNeutral = 128;
+
+/// One row of pairs out of rows of one plane, where a pair has columns x rows samples.
+template <int columns>
+void write_row(const std::uint8_t* upper, const std::uint8_t* lower, int count,
+               std::uint8_t* pairs) {
+  for (int x = 0; x < count; ++x) {
+    unsigned sum = 0;
+    for (int i = 0; i < columns; ++i)
+      sum += unsigned{upper[columns * x + i]} + lower[columns * x + i];
+    pairs[2 * x] = static_cast<std::uint8_t>((sum + columns) / (2 * columns));
+  }
+}
+
+/// The same where two pairs share a sample.
+void write_shared_row(const std::uint8_t* upper, const std::uint8_t* lower, int count,
+                      std::uint8_t* pairs) {
+  for (int x = 0; x < count; ++x) {
+    pairs[2 * x] = static_cast<std::uint8_t>((unsigned{upper[x / 2]} + lower[x / 2] + 1) / 2);
+  }
+}
+
+/// Every other sample of the pairs, from their first on.
+void write_plane(const ImageView<const std::uint8_t>& plane, const ImageView<std::uint8_t>& pairs) {
+  const int rows = plane.height / pairs.height;
+  for (int y = 0; y < pairs.height; ++y) {
+    // Of planes with as many rows, the mean is of a row and itself.
+    const std::uint8_t* const upper = plane.row(rows * y);
+    const std::uint8_t* const lower = plane.row(rows * y + rows - 1);
+    if (plane.width == pairs.width) {
+      write_row<1>(upper, lower, pairs.width, pairs.row(y));
+    } else if (plane.width > pairs.width) {
+      write_row<2>(upper, lower, pairs.width, pairs.row(y));
+    } else {
+      write_shared_row(upper, lower, pairs.width, pairs.row(y));
+    }
+  }
+}
+
+/// Interleaves planes of U and V as Nv12: `pairs` has 2 channels and one pixel for 2x2 of the
+/// picture. In each direction the planes have as many pixels as `pairs`, twice as many (averaged),
+/// or half as many columns (repeated); empty planes become neutral chroma.
+void interleave_chroma(const ImageView<const std::uint8_t>& u,
+                       const ImageView<const std::uint8_t>& v,
+                       const ImageView<std::uint8_t>& pairs) {
+  if (u.width == 0 || v.width == 0) {
+    for (int y = 0; y < pairs.height; ++y) {
+      std::fill_n(pairs.row(y), 2 * pairs.width, kNeutral);
+    }
+    return;
+  }
+  ImageView<std::uint8_t> second = pairs;
+  ++second.data;
+  write_plane(u, pairs);
+  write_plane(v, second);
 }
 
 }  // namespace
@@ -59,9 +114,7 @@ Result<JpegDecoder::Header> JpegDecoder::read_header_of(int width, int height,
 }
 
 Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
-  const auto header = read_header(jpeg);
-  if (!header) return tl::unexpected(header.error());
-  return header->size;
+  return read_header(jpeg).map([](const Header& header) { return header.size; });
 }
 
 Result<> JpegDecoder::check(std::span<const std::byte> jpeg) {
@@ -77,9 +130,9 @@ Result<> JpegDecoder::check(std::span<const std::byte> jpeg) {
 
 Result<> JpegDecoder::decode_grey(std::span<const std::byte> jpeg,
                                   const ImageView<std::uint8_t>& target) {
-  const auto header = read_header_of(target.width, target.height, jpeg);
-  if (!header) return tl::unexpected(header.error());
-  return decompress_grey(jpeg, target);
+  return read_header_of(target.width, target.height, jpeg).and_then([&](const Header&) {
+    return decompress_grey(jpeg, target);
+  });
 }
 
 Result<> JpegDecoder::decompress_grey(std::span<const std::byte> jpeg,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hal/libcamera/request_metadata.h"
+#include "hal/libcamera/libcamera_frame.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -122,7 +122,7 @@ DeviceResult<> LibcameraCamera::close_stream() {
   // Leaked on purpose: libcamera crashes when they are destroyed.
   static_cast<void>(stream_.release());
   static_cast<void>(new SharedManager(manager_));
-  return tl::unexpected(FaultReport{Fault::Unplugged, lost_text()});
+  return fail(Fault::Unplugged, lost_text());
 }
 
 std::string LibcameraCamera::lost_text() const {
@@ -133,14 +133,13 @@ std::string LibcameraCamera::lost_text() const {
 DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
   const std::lock_guard lock(camera_mutex_);
   auto camera = open();
-  if (!camera) return tl::unexpected(FaultReport{Fault::Unplugged, camera.error().message});
+  if (!camera) return fail(Fault::Unplugged, camera.error().message);
   auto acquired = AcquiredCamera::acquire(std::move(*camera));
   if (!acquired) return tl::unexpected(acquired.error());
   const StreamRequest request{format_.width, format_.height, format_.frame_rate};
   const auto negotiated =
       negotiate_configuration(**acquired, pixel_format_, settings_.sensor_mode, request);
-  if (!negotiated)
-    return tl::unexpected(FaultReport{Fault::WrongFormat, negotiated.error().message});
+  if (!negotiated) return fail(Fault::WrongFormat, negotiated.error().message);
   return LibcameraStream::start(std::move(*acquired), *negotiated, controls_);
 }
 

@@ -7,8 +7,8 @@
 
 #include "hal/device_camera.h"
 #include "hal/libcamera/camera_manager.h"
-#include "hal/libcamera/controls/control_settings.h"
-#include "hal/libcamera/format/sensor_mode.h"
+#include "hal/libcamera/controls/libcamera_controls.h"
+#include "hal/libcamera/format/camera_configuration.h"
 #include "hal/libcamera/libcamera_stream.h"
 
 namespace orbwatch::hal {

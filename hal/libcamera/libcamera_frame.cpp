@@ -1,10 +1,12 @@
 #include "hal/libcamera/libcamera_frame.h"
 
 #include <libcamera/base/unique_fd.h>
+#include <libcamera/control_ids.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 #include <span>
 #include <string>
 #include <system_error>
@@ -30,6 +32,11 @@ Result<MappedDmaBuffer> map_file(const libcamera::SharedFD& file, std::size_t le
   return MappedDmaBuffer{DmaBuffer(FileDescriptor(file.dup().release())),
                          MappedMemory({static_cast<std::byte*>(memory), length})};
 }
+
+using std::chrono::nanoseconds;
+
+/// Six buffers hold no older frame: the stamp is of another clock.
+constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace
 
@@ -57,18 +64,39 @@ Result<std::unique_ptr<LibcameraFrame>> LibcameraFrame::map(const libcamera::Fra
   return frame;
 }
 
-Result<> LibcameraFrame::begin_read() const {
+Result<> LibcameraFrame::synchronise(Result<> (DmaBuffer::*moment)() const) const {
   for (const MappedDmaBuffer& buffer : dma_buffers) {
-    if (auto begun = buffer.file.begin_read(); !begun) return begun;
+    if (auto done = (buffer.file.*moment)(); !done) return done;
   }
   return {};
 }
 
-Result<> LibcameraFrame::end_read() const {
-  for (const MappedDmaBuffer& buffer : dma_buffers) {
-    if (auto ended = buffer.file.end_read(); !ended) return ended;
-  }
-  return {};
+ClockReading ClockReading::now() {
+  timespec boot{};
+  ::clock_gettime(CLOCK_BOOTTIME, &boot);
+  return {Clock::now(), std::chrono::seconds(boot.tv_sec) + nanoseconds(boot.tv_nsec)};
+}
+
+std::optional<TimePoint> to_steady(nanoseconds stamp, const ClockReading& arrival) {
+  const nanoseconds now = arrival.steady.time_since_epoch();
+  if (stamp > now) stamp -= arrival.boot - now;
+  if (stamp > now || stamp < now - kOldest) return std::nullopt;
+  return TimePoint(stamp);
+}
+
+FrameMetadata metadata_of(const libcamera::ControlList& request, std::uint64_t buffer_stamp,
+                          const ClockReading& arrival) {
+  namespace controls = libcamera::controls;
+  const nanoseconds of_buffer(static_cast<std::int64_t>(buffer_stamp));
+  const nanoseconds stamp(request.get(controls::SensorTimestamp).value_or(of_buffer.count()));
+  FrameMetadata metadata;
+  metadata.exposure_start = to_steady(stamp, arrival).value_or(arrival.steady);
+  metadata.exposure_time =
+      std::chrono::microseconds(request.get(controls::ExposureTime).value_or(0));
+  metadata.gain = static_cast<double>(request.get(controls::AnalogueGain).value_or(1.0F)) *
+                  static_cast<double>(request.get(controls::DigitalGain).value_or(1.0F));
+  metadata.lux = static_cast<double>(request.get(controls::Lux).value_or(0.0F));
+  return metadata;
 }
 
 }  // namespace orbwatch::hal

@@ -3,14 +3,50 @@
 #include <libcamera/control_ids.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include "hal/libcamera/device_nodes.h"
-
 namespace orbwatch::hal {
+
+template <class Change>
+void CaptureEvents::post(const Change& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(pending_);
+  }
+  changed_.notify_one();
+}
+
+void CaptureEvents::complete(std::size_t request) {
+  post([request](Pending& pending) {
+    assert(pending.completed_count < kMaxRequests);
+    pending.completed[pending.completed_count++] = static_cast<std::uint8_t>(request);
+  });
+}
+
+void CaptureEvents::return_buffer(std::size_t buffer) {
+  post([buffer](Pending& pending) { pending.returned |= 1U << buffer; });
+}
+
+void CaptureEvents::remove_camera() {
+  post([](Pending& pending) { pending.removed = true; });
+}
+
+void CaptureEvents::wake() {
+  post([](Pending& pending) { pending.woken = true; });
+}
+
+CaptureEvents::Pending CaptureEvents::wait(TimePoint deadline) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_until(lock, deadline, [this] {
+    return pending_.completed_count != 0 || pending_.returned != 0 || pending_.removed ||
+           pending_.woken;
+  });
+  return std::exchange(pending_, {});
+}
 
 LibcameraStream::LibcameraStream(AcquiredCamera camera, ControlSettings& controls)
     : camera_(std::move(camera)),
@@ -22,8 +58,7 @@ DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraStream::start(
     AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls) {
   std::unique_ptr<LibcameraStream> stream(new LibcameraStream(std::move(camera), controls));
   const auto named = [&stream](const Error& error) {
-    return tl::unexpected(
-        FaultReport{Fault::ReadError, stream->camera_->id() + ": " + error.message});
+    return fail(Fault::ReadError, stream->camera_->id() + ": " + error.message);
   };
   if (auto made = stream->make_buffers(negotiated); !made) return named(made.error());
   if (auto made = stream->make_requests(negotiated.picture().stream()); !made) {
@@ -109,8 +144,7 @@ DeviceResult<> LibcameraStream::queue_returned(std::uint32_t returned) {
   for (std::size_t number = 0; number < requests_.size(); ++number) {
     if ((returned >> number & 1U) == 0) continue;
     if (auto ended = frames_[number]->end_read(); !ended) {
-      return tl::unexpected(
-          FaultReport{Fault::ReadError, camera_->id() + ": " + ended.error().message});
+      return fail(Fault::ReadError, camera_->id() + ": " + ended.error().message);
     }
     requests_[number]->reuse(libcamera::Request::ReuseBuffers);
     if (auto queued = queue(number); !queued) return queued;
@@ -122,13 +156,11 @@ DeviceResult<LibcameraStream::Captured> LibcameraStream::take(std::size_t number
   const libcamera::Request& request = *requests_[number];
   --queued_;
   if (request.status() != libcamera::Request::RequestComplete) {
-    return tl::unexpected(
-        FaultReport{Fault::ReadError, camera_->id() + ": libcamera cancelled a request"});
+    return fail(Fault::ReadError, camera_->id() + ": libcamera cancelled a request");
   }
   auto frame = pool_->acquire(number);
   if (auto begun = frame->begin_read(); !begun) {
-    return tl::unexpected(
-        FaultReport{Fault::ReadError, camera_->id() + ": " + begun.error().message});
+    return fail(Fault::ReadError, camera_->id() + ": " + begun.error().message);
   }
   return Captured{std::move(frame), requests_[number]->metadata(),
                   request.findBuffer(stream_)->metadata()};
@@ -138,7 +170,7 @@ DeviceResult<std::size_t> LibcameraStream::wait(TimePoint deadline, const OnCapt
   const CaptureEvents::Pending pending = events_->wait(deadline);
   if (pending.removed) {
     removed_ = true;
-    return tl::unexpected(FaultReport{Fault::Unplugged, camera_->id() + ": was removed"});
+    return fail(Fault::Unplugged, camera_->id() + ": was removed");
   }
   if (auto queued = queue_returned(pending.returned); !queued)
     return tl::unexpected(queued.error());
@@ -151,9 +183,9 @@ DeviceResult<std::size_t> LibcameraStream::wait(TimePoint deadline, const OnCapt
 }
 
 tl::unexpected<FaultReport> LibcameraStream::failed(const std::string& action, int error) const {
-  return tl::unexpected(FaultReport{
+  return fail(
       error == -ENODEV ? Fault::Unplugged : Fault::ReadError,
-      camera_->id() + ": does not " + action + ": " + std::generic_category().message(-error)});
+      camera_->id() + ": does not " + action + ": " + std::generic_category().message(-error));
 }
 
 }  // namespace orbwatch::hal

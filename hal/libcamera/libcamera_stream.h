@@ -3,19 +3,59 @@
 #include <libcamera/camera.h>
 #include <libcamera/framebuffer_allocator.h>
 
+#include <array>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "hal/clock.h"
 #include "hal/frame/buffer_pool.h"
 #include "hal/libcamera/camera_manager.h"
-#include "hal/libcamera/capture_events.h"
-#include "hal/libcamera/controls/control_settings.h"
+#include "hal/libcamera/controls/libcamera_controls.h"
 #include "hal/libcamera/format/camera_configuration.h"
 #include "hal/libcamera/libcamera_frame.h"
 
 namespace orbwatch::hal {
+
+/// Events for the camera's thread from libcamera's thread and from those that release frames.
+/// Outlives the stream for as long as frames are held. Holds one entry per request, so it cannot
+/// overflow. Thread-safe with one waiter; senders never wait for it.
+class CaptureEvents {
+ public:
+  static constexpr std::size_t kMaxRequests = 32;
+
+  /// Events since the last wait().
+  struct Pending {
+    std::array<std::uint8_t, kMaxRequests> completed{};  ///< request numbers, oldest first
+    std::size_t completed_count = 0;
+    std::uint32_t returned = 0;  ///< one bit per buffer whose last frame was released
+    bool removed = false;        ///< the camera was unplugged
+    bool woken = false;
+  };
+
+  /// A request was completed; each is queued at most once.
+  void complete(std::size_t request);
+  void return_buffer(std::size_t buffer);
+  void remove_camera();
+  /// Ends a wait.
+  void wake();
+
+  /// Waits for events until `deadline` and takes them.
+  Pending wait(TimePoint deadline);
+
+ private:
+  template <class Change>
+  void post(const Change& change);
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Pending pending_;
+};
 
 /// A streaming camera: one request per buffer, queued again when the last frame of its buffer is
 /// released. Its end stops and releases the camera; held frames stay valid.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 
 namespace orbwatch::hal {
 

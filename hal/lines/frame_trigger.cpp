@@ -9,15 +9,9 @@ FrameTrigger::FrameTrigger(const TriggerSettings& settings, Expose expose)
     : settings_(settings), expose_(std::move(expose)) {}
 
 bool FrameTrigger::is_trigger(Edge edge) const {
-  switch (settings_.activation) {
-    case TriggerActivation::RisingEdge:
-      return edge == Edge::Rising;
-    case TriggerActivation::FallingEdge:
-      return edge == Edge::Falling;
-    case TriggerActivation::AnyEdge:
-      return true;
-  }
-  return false;
+  const auto wanted = settings_.activation;
+  if (wanted == TriggerActivation::AnyEdge) return true;
+  return (wanted == TriggerActivation::RisingEdge) == (edge == Edge::Rising);
 }
 
 void FrameTrigger::on_edge(const EdgeEvent& edge) {

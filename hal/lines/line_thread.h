@@ -5,7 +5,6 @@
 
 #include "hal/lines/line_task.h"
 #include "hal/lines/watched_input.h"
-#include "hal/thread/event_fd.h"
 #include "hal/thread/file_descriptor.h"
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"

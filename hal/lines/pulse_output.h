@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 #include "hal/lines/line_task.h"
 
 namespace orbwatch::hal {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "hal/lines/find_line.h"
-#include "hal/thread/event_fd.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::hal {
 
@@ -197,10 +197,6 @@ SimulatedLines::Wire& SimulatedLines::wire(const std::string& line) const {
 
 void SimulatedLines::drive(const std::string& line, bool level, TimePoint stamp) {
   wire(line).drive(level, stamp);
-}
-
-void SimulatedLines::play(const std::vector<ScriptedEdge>& script) {
-  for (const ScriptedEdge& edge : script) drive(edge.line, edge.level, edge.stamp);
 }
 
 bool SimulatedLines::level(const std::string& line) const {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 
 namespace orbwatch::hal {
 
@@ -16,13 +16,6 @@ struct ScriptedLineFault {
   LineFault fault = LineFault::None;
   std::uint64_t from = 0;
   std::uint64_t until = 0;
-};
-
-/// A scripted edge of a wire.
-struct ScriptedEdge {
-  std::string line;
-  bool level = false;
-  TimePoint stamp;
 };
 
 /// Lines of a simulated chip, labelled "simulated", that behave as the kernel's without debounce. A
@@ -46,7 +39,6 @@ class SimulatedLines : public LineBackEnd {
 
   /// Drives a wire from outside; an edge if the level differs. The line must exist.
   void drive(const std::string& line, bool level, TimePoint stamp = Clock::now());
-  void play(const std::vector<ScriptedEdge>& script);
 
   /// The wire's level.
   bool level(const std::string& line) const;

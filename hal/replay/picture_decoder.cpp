@@ -45,23 +45,16 @@ Result<std::uint32_t> check_file(std::span<const std::byte> file) {
 Result<DecodedPicture> to_picture(const cv::Mat& image) {
   DecodedPicture decoded;
   Picture& picture = decoded.picture;
-  switch (image.type()) {
-    case CV_8UC1:
-      picture.format = PixelFormat::Grey;
-      break;
-    case CV_16UC1:
-      picture.format = PixelFormat::Y16;
-      break;
-    case CV_8UC3:
-      picture.format = PixelFormat::Rgb;
-      break;
-    case CV_16UC3:
-      picture.format = PixelFormat::Rgb16;
-      break;
-    default:
-      return fail("has pixels of type " + cv::typeToString(image.type()) +
-                  "; 1 or 3 channels of 8 or 16 bit are read");
+  constexpr std::array kFormats{
+      std::pair{CV_8UC1, PixelFormat::Grey}, std::pair{CV_16UC1, PixelFormat::Y16},
+      std::pair{CV_8UC3, PixelFormat::Rgb}, std::pair{CV_16UC3, PixelFormat::Rgb16}};
+  const auto* const known =
+      std::ranges::find(kFormats, image.type(), &std::pair<int, PixelFormat>::first);
+  if (known == kFormats.end()) {
+    return fail("has pixels of type " + cv::typeToString(image.type()) +
+                "; 1 or 3 channels of 8 or 16 bit are read");
   }
+  picture.format = known->second;
   picture.colour_space.range = ColourRange::Full;
   picture.width = image.cols;
   picture.height = image.rows;

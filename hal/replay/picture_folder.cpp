@@ -90,28 +90,29 @@ PictureFolder::PictureFolder(std::vector<std::filesystem::path> files, bool loop
   while (kept_.size() < files_.size()) kept_.push_back(load(kept_.size()));
 }
 
-Shown<DecodedPicture> PictureFolder::load(std::size_t index) const {
+DeviceResult<DecodedPicture> PictureFolder::load(std::size_t index) const {
   auto decoded = read_picture(files_[index]);
   if (!decoded) {
-    return tl::unexpected(FaultReport{Fault::CorruptFrame, decoded.error().message});
+    return fail(Fault::CorruptFrame, decoded.error().message);
   }
   const Picture& picture = decoded->picture;
   if (picture.format != format_.format || picture.width != format_.width ||
       picture.height != format_.height) {
-    return tl::unexpected(FaultReport{
-        Fault::WrongFormat,
-        files_[index].string() + ": " + describe(picture.format, picture.width, picture.height) +
-            "; the first picture is " + describe(format_.format, format_.width, format_.height)});
+    return fail(Fault::WrongFormat, files_[index].string() + ": " +
+                                        describe(picture.format, picture.width, picture.height) +
+                                        "; the first picture is " +
+                                        describe(format_.format, format_.width, format_.height));
   }
   return std::move(*decoded);
 }
 
-Shown<> PictureFolder::show(std::uint64_t number, FrameBuffer& target, const std::stop_token&) {
+DeviceResult<> PictureFolder::show(std::uint64_t number, FrameBuffer& target,
+                                   const std::stop_token&) {
   if (!loop_ && number >= files_.size()) {
-    return tl::unexpected(FaultReport{Fault::Unplugged, "end of recording"});
+    return fail(Fault::Unplugged, "end of recording");
   }
   const auto index = static_cast<std::size_t>(number % files_.size());
-  const auto copy = [&](const Shown<DecodedPicture>& shown) -> Shown<> {
+  const auto copy = [&](const DeviceResult<DecodedPicture>& shown) -> DeviceResult<> {
     if (!shown) return tl::unexpected(shown.error());
     std::memcpy(target.memory, shown->storage.get(), picture_bytes(format_));
     return {};

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "hal/replay/picture_decoder.h"
 #include "hal/replay/recording.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::hal {
 
@@ -24,17 +27,18 @@ class PictureFolder : public Recording {
   static Result<std::unique_ptr<Recording>> open(const std::filesystem::path& folder, bool loop);
 
   const StreamFormat& format() const override { return format_; }
-  Shown<> show(std::uint64_t number, FrameBuffer& target, const std::stop_token& stop) override;
+  DeviceResult<> show(std::uint64_t number, FrameBuffer& target,
+                      const std::stop_token& stop) override;
 
  private:
   PictureFolder(std::vector<std::filesystem::path> files, bool loop, DecodedPicture first);
 
-  Shown<DecodedPicture> load(std::size_t index) const;
+  DeviceResult<DecodedPicture> load(std::size_t index) const;
 
   std::vector<std::filesystem::path> files_;
   bool loop_;
   StreamFormat format_;
-  std::vector<Shown<DecodedPicture>> kept_;  ///< one per file, or empty when too large
+  std::vector<DeviceResult<DecodedPicture>> kept_;  ///< one per file, or empty when too large
 };
 
 }  // namespace orbwatch::hal

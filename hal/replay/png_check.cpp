@@ -1,5 +1,7 @@
 #include "hal/replay/png_check.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -10,24 +12,10 @@ namespace {
 constexpr std::array kSignature{std::byte{0x89}, std::byte{'P'},  std::byte{'N'},  std::byte{'G'},
                                 std::byte{'\r'}, std::byte{'\n'}, std::byte{0x1a}, std::byte{'\n'}};
 
-/// ISO/IEC 15948, annex D: the CRC of each byte by itself.
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-    std::uint32_t crc = byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? 0xedb88320U ^ (crc >> 1) : crc >> 1;
-    table[byte] = crc;
-  }
-  return table;
-}
-constexpr auto kCrcTable = make_crc_table();
-
+/// As in ISO/IEC 15948, annex D.
 std::uint32_t crc(std::span<const std::byte> data) {
-  std::uint32_t sum = 0xffffffffU;
-  for (const std::byte byte : data) {
-    sum = kCrcTable[(sum ^ std::to_integer<std::uint32_t>(byte)) & 0xffU] ^ (sum >> 8);
-  }
-  return ~sum;
+  const auto* const bytes = reinterpret_cast<const Bytef*>(data.data());
+  return static_cast<std::uint32_t>(::crc32(0, bytes, static_cast<uInt>(data.size())));
 }
 
 std::uint32_t big_endian(std::span<const std::byte> data, std::size_t offset) {

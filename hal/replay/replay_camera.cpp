@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <utility>
+
+#include "hal/replay/picture_folder.h"
+#include "hal/replay/video_file.h"
 
 namespace orbwatch::hal {
 namespace {
@@ -22,6 +26,16 @@ std::uint64_t exposure_at(Clock::duration elapsed, double frame_rate) {
 
 std::string to_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// Opens a folder of pictures or a video file.
+Result<std::unique_ptr<Recording>> open_recording(const std::filesystem::path& source, bool loop) {
+  std::error_code error;
+  const auto status = std::filesystem::status(source, error);
+  if (error) return fail(source.string() + ": " + error.message());
+  if (std::filesystem::is_directory(status)) return PictureFolder::open(source, loop);
+  if (std::filesystem::is_regular_file(status)) return VideoFile::open(source, loop);
+  return fail(source.string() + ": is neither a folder of pictures nor a video file");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hal/camera.h"
-#include "hal/fault_script.h"
+#include "hal/fault.h"
 #include "hal/frame/frame_pool.h"
 #include "hal/replay/recording.h"
 #include "hal/replay/replay_settings.h"
@@ -24,8 +24,8 @@ class ReplayCamera : public Camera {
   ~ReplayCamera() override;
 
  protected:
-  /// Opens the recording. A requested rate precedes the settings'. Errors: see open_recording;
-  /// another size than requested; a rate above kMaxFrameRate.
+  /// Opens the recording. A requested rate precedes the settings'. Errors: no folder of pictures or
+  /// video, empty, cannot be decoded; another size than requested; a rate above kMaxFrameRate.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
   void run(const std::stop_token& stop) override;
 

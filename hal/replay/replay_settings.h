@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hal/camera.h"
-#include "hal/fault_script.h"
+#include "hal/fault.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::hal {

@@ -56,14 +56,15 @@ bool VideoFile::decode_next() {
   return true;
 }
 
-Shown<> VideoFile::show(std::uint64_t number, FrameBuffer& target, const std::stop_token& stop) {
+DeviceResult<> VideoFile::show(std::uint64_t number, FrameBuffer& target,
+                               const std::stop_token& stop) {
   const auto failed = [this](Fault fault, const std::string& what) {
-    return tl::unexpected(FaultReport{fault, file_.string() + ": " + what});
+    return fail(fault, file_.string() + ": " + what);
   };
   try {
     while (count_ != 0) {
       if (count_ && number >= *count_) {
-        if (!loop_) return tl::unexpected(FaultReport{Fault::Unplugged, "end of recording"});
+        if (!loop_) return fail(Fault::Unplugged, "end of recording");
         number %= *count_;
       }
       if (number < position_ && !rewind())
@@ -77,13 +78,13 @@ Shown<> VideoFile::show(std::uint64_t number, FrameBuffer& target, const std::st
   }
 }
 
-Shown<> VideoFile::copy_to(FrameBuffer& target) const {
+DeviceResult<> VideoFile::copy_to(FrameBuffer& target) const {
   const cv::Mat& picture = decoder_->picture;
   if (picture.type() != CV_8UC3 || picture.cols != format_.width ||
       picture.rows != format_.height) {
-    return tl::unexpected(FaultReport{
-        Fault::WrongFormat, file_.string() + ": picture " + std::to_string(position_ - 1) + " is " +
-                                std::to_string(picture.cols) + "x" + std::to_string(picture.rows)});
+    return fail(Fault::WrongFormat, file_.string() + ": picture " + std::to_string(position_ - 1) +
+                                        " is " + std::to_string(picture.cols) + "x" +
+                                        std::to_string(picture.rows));
   }
   cv::Mat pixels(format_.height, format_.width, CV_8UC3, target.memory,
                  static_cast<std::size_t>(target.picture.planes[0].stride));

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "hal/replay/recording.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::hal {
 
@@ -16,7 +18,8 @@ class VideoFile : public Recording {
   ~VideoFile() override;
 
   const StreamFormat& format() const override { return format_; }
-  Shown<> show(std::uint64_t number, FrameBuffer& target, const std::stop_token& stop) override;
+  DeviceResult<> show(std::uint64_t number, FrameBuffer& target,
+                      const std::stop_token& stop) override;
 
  private:
   struct Decoder;  // keeps OpenCV out of this header
@@ -29,7 +32,7 @@ class VideoFile : public Recording {
   bool skip_to(std::uint64_t number, const std::stop_token& stop);
   /// Decodes the next picture; false at the end.
   bool decode_next();
-  Shown<> copy_to(FrameBuffer& target) const;
+  DeviceResult<> copy_to(FrameBuffer& target) const;
 
   std::filesystem::path file_;
   bool loop_;

@@ -20,11 +20,7 @@ void Thread::start(std::string_view name, std::function<void()> body) {
 
 void Thread::stop() {
   stop_.request_stop();
-  if (std::this_thread::get_id() != runner_.load()) join();
-}
-
-void Thread::join() {
-  if (!thread_.joinable()) return;
+  if (std::this_thread::get_id() == runner_.load() || !thread_.joinable()) return;
   thread_.join();
   runner_ = std::thread::id();  // the system may reuse it for another thread
 }

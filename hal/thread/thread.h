@@ -62,8 +62,6 @@ class Thread {
   bool wait_until(TimePoint moment);
 
  private:
-  void join();
-
   std::mutex mutex_;
   std::condition_variable_any changed_;
   bool woken_ = false;

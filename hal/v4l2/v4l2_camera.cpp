@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "hal/v4l2/buffer_stamps.h"
 #include "hal/v4l2/device/v4l2_controls.h"
 #include "hal/v4l2/device/v4l2_list.h"
 
@@ -62,7 +61,7 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
   }
   for (const auto& [control, value] : controls) {
     if (auto done = set_control(device, control, value); !done) {
-      return tl::unexpected(FaultReport{Fault::ReadError, done.error().message});
+      return fail(Fault::ReadError, done.error().message);
     }
   }
   triggered_ = waits_for_trigger(device);
@@ -80,8 +79,7 @@ Result<> V4l2Camera::set(std::string_view control, double value) {
   if (is_button(*device, control)) return {};
   triggered_ = waits_for_trigger(*device);
   const std::lock_guard lock(controls_mutex_);
-  const auto known = std::find_if(controls_.begin(), controls_.end(),
-                                  [control](const Control& c) { return c.first == control; });
+  const auto known = std::ranges::find(controls_, control, &Control::first);
   if (known != controls_.end()) {
     known->second = value;
   } else {

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "hal/frame/frame_pool.h"
 
 namespace orbwatch::hal {
 namespace {
+
+/// A driver with six buffers holds no older frame: the stamp is of another clock.
+constexpr std::chrono::seconds kOldest{60};
 
 /// The picture in a driver's memory.
 Picture describe(const DriverFrame& frame, const NegotiatedFormat& format,
@@ -28,6 +29,18 @@ Picture describe(const DriverFrame& frame, const NegotiatedFormat& format,
 }
 
 }  // namespace
+
+FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival) {
+  const FrameStamp none{arrival, StampSource::Arrival};
+  if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
+    return none;
+  }
+  const TimePoint stamp{std::chrono::seconds(buffer.timestamp.tv_sec) +
+                        std::chrono::microseconds(buffer.timestamp.tv_usec)};
+  if (stamp > arrival || stamp < arrival - kOldest) return none;
+  const bool start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  return {stamp, start ? StampSource::ExposureStart : StampSource::FrameEnd};
+}
 
 DriverFrame::DriverFrame(std::vector<BufferMemory> driver_memory)
     : memory_planes(std::move(driver_memory)) {
@@ -71,7 +84,7 @@ std::uint32_t ReturnedBuffers::take() {
 }
 
 tl::unexpected<FaultReport> V4l2Stream::failed(const std::string& message) const {
-  return tl::unexpected(FaultReport{Fault::ReadError, device_.path() + ": " + message});
+  return fail(Fault::ReadError, device_.path() + ": " + message);
 }
 
 DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(V4l2Device device,
@@ -118,9 +131,8 @@ DeviceResult<> V4l2Stream::check_size(const DriverFrame& frame) const {
     const std::size_t size = frame.memory_planes[i].mapping.bytes().size();
     const std::size_t needed = format_.layout.needed[i];
     if (size >= needed) continue;
-    return tl::unexpected(FaultReport{Fault::WrongFormat,
-                                      device_.path() + ": has buffers of " + std::to_string(size) +
-                                          " bytes; a picture takes " + std::to_string(needed)});
+    return fail(Fault::WrongFormat, device_.path() + ": has buffers of " + std::to_string(size) +
+                                        " bytes; a picture takes " + std::to_string(needed));
   }
   return {};
 }

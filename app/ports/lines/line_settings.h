@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 #include "hal/lines/pulse_output.h"
 #include "hal/lines/watchdog_output.h"
 #include "proc/settings/settings.h"

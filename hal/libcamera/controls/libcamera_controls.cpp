@@ -10,34 +10,29 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <vector>
+
+#include "proc/settings/settings.h"
 
 namespace orbwatch::hal {
 namespace {
 
-/// A GenICam name (SFNC 2.7) for a control of libcamera.
-struct Alias {
-  std::string_view name;
-  std::string_view control;
-};
-
+/// GenICam names (SFNC 2.7) for controls of libcamera.
 constexpr std::array kAliases{
-    Alias{"Gain", "AnalogueGain"},
-    Alias{"ExposureAuto", "AeEnable"},
-    Alias{"BalanceWhiteAuto", "AwbEnable"},
+    Word<std::string_view>{"Gain", "AnalogueGain"},
+    Word<std::string_view>{"ExposureAuto", "AeEnable"},
+    Word<std::string_view>{"BalanceWhiteAuto", "AwbEnable"},
 };
 
 constexpr std::array<std::string_view, 2> kColourGains{"ColourGains[0]", "ColourGains[1]"};
 
 bool is_colour_gain(std::string_view name) {
-  return std::find(kColourGains.begin(), kColourGains.end(), name) != kColourGains.end();
+  return std::ranges::find(kColourGains, name) != kColourGains.end();
 }
 
 std::string_view control_name(std::string_view name) {
   if (is_colour_gain(name)) return name.substr(0, name.find('['));
-  const auto* const alias = std::find_if(kAliases.begin(), kAliases.end(),
-                                         [name](const Alias& a) { return a.name == name; });
-  return alias != kAliases.end() ? alias->control : name;
+  const std::string_view* const control = find_word(kAliases, name);
+  return control != nullptr ? *control : name;
 }
 
 std::string names_of(const libcamera::ControlInfoMap& offered) {
@@ -49,23 +44,32 @@ std::string names_of(const libcamera::ControlInfoMap& offered) {
   return text.empty() ? "none" : text;
 }
 
-/// Nothing for none, arrays and what is not a number.
-std::optional<double> as_number(const libcamera::ControlValue& value) {
-  if (value.isArray()) return std::nullopt;
-  switch (value.type()) {
+/// `visit(T())`, where T has the numbers of that type; nothing for what is not a number.
+template <class Visit>
+auto with_number(libcamera::ControlType type, const Visit& visit)
+    -> std::optional<decltype(visit(false))> {
+  switch (type) {
     case libcamera::ControlTypeBool:
-      return value.get<bool>() ? 1.0 : 0.0;
+      return visit(false);
     case libcamera::ControlTypeByte:
-      return value.get<std::uint8_t>();
+      return visit(std::uint8_t{});
     case libcamera::ControlTypeInteger32:
-      return value.get<std::int32_t>();
+      return visit(std::int32_t{});
     case libcamera::ControlTypeInteger64:
-      return static_cast<double>(value.get<std::int64_t>());
+      return visit(std::int64_t{});
     case libcamera::ControlTypeFloat:
-      return static_cast<double>(value.get<float>());
+      return visit(0.0F);
     default:
       return std::nullopt;
   }
+}
+
+/// Nothing for none, arrays and what is not a number.
+std::optional<double> as_number(const libcamera::ControlValue& value) {
+  if (value.isArray()) return std::nullopt;
+  return with_number(value.type(), [&value](auto number) {
+    return static_cast<double>(value.get<decltype(number)>());
+  });
 }
 
 struct Limits {
@@ -75,37 +79,11 @@ struct Limits {
 
 /// What a type holds; nothing for what is not a number. A double has the integers up to 2^53.
 std::optional<Limits> limits_of(libcamera::ControlType type) {
-  switch (type) {
-    case libcamera::ControlTypeBool:
-      return Limits{0, 1};
-    case libcamera::ControlTypeByte:
-      return Limits{0, std::numeric_limits<std::uint8_t>::max()};
-    case libcamera::ControlTypeInteger32:
-      return Limits{std::numeric_limits<std::int32_t>::min(),
-                    std::numeric_limits<std::int32_t>::max()};
-    case libcamera::ControlTypeInteger64:
-      return Limits{-0x1p53, 0x1p53};
-    case libcamera::ControlTypeFloat:
-      return Limits{-static_cast<double>(std::numeric_limits<float>::max()),
-                    static_cast<double>(std::numeric_limits<float>::max())};
-    default:
-      return std::nullopt;
-  }
-}
-
-libcamera::ControlValue make_value(libcamera::ControlType type, double number) {
-  switch (type) {
-    case libcamera::ControlTypeBool:
-      return number != 0;
-    case libcamera::ControlTypeByte:
-      return static_cast<std::uint8_t>(number);
-    case libcamera::ControlTypeInteger32:
-      return static_cast<std::int32_t>(number);
-    case libcamera::ControlTypeInteger64:
-      return static_cast<std::int64_t>(number);
-    default:
-      return static_cast<float>(number);
-  }
+  return with_number(type, []<class Number>(Number) {
+    using Holds = std::numeric_limits<Number>;
+    if (Holds::digits == 63) return Limits{-0x1p53, 0x1p53};
+    return Limits{static_cast<double>(Holds::lowest()), static_cast<double>(Holds::max())};
+  });
 }
 
 /// A control's limits; nullopt for non-numeric ones.
@@ -191,7 +169,9 @@ Result<> put_control(const libcamera::ControlInfoMap& offered, std::string_view 
   if (is_colour_gain(name)) {
     put_colour_gain(name == kColourGains[0] ? 0 : 1, *number, list);
   } else {
-    list.set(id->id(), make_value(id->type(), *number));
+    list.set(id->id(), *with_number(id->type(), [&number]<class Number>(Number) {
+               return libcamera::ControlValue(static_cast<Number>(*number));
+             }));
   }
   return {};
 }
@@ -211,6 +191,34 @@ std::vector<CameraControl> list_controls(const libcamera::ControlInfoMap& offere
   }
   std::ranges::sort(controls, {}, &CameraControl::name);
   return controls;
+}
+
+ControlSettings::ControlSettings()
+    : all_(libcamera::controls::controls), changes_(libcamera::controls::controls) {}
+
+Result<> ControlSettings::set(const libcamera::ControlInfoMap& offered, std::string_view name,
+                              double value) {
+  const std::lock_guard lock(mutex_);
+  if (auto put = put_control(offered, name, value, all_); !put) return put;
+  const unsigned id = find_control(offered, name)->id();
+  changes_.set(id, all_.get(id));
+  changed_ = true;
+  return {};
+}
+
+libcamera::ControlList ControlSettings::all() {
+  const std::lock_guard lock(mutex_);
+  changes_.clear();
+  changed_ = false;
+  return all_;
+}
+
+void ControlSettings::add_changes(libcamera::ControlList& request) {
+  if (!changed_) return;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, value] : changes_) request.set(id, value);
+  changes_.clear();
+  changed_ = false;
 }
 
 }  // namespace orbwatch::hal

@@ -20,9 +20,7 @@ tl::unexpected<Error> too_short(std::size_t n, std::size_t has, std::size_t need
 }  // namespace
 
 const LibcameraFormat* find_format(libcamera::PixelFormat code) {
-  const auto* const found =
-      std::find_if(kLibcameraFormats.begin(), kLibcameraFormats.end(),
-                   [code](const LibcameraFormat& format) { return format.code == code; });
+  const auto* const found = std::ranges::find(kLibcameraFormats, code, &LibcameraFormat::code);
   return found == kLibcameraFormats.end() ? nullptr : found;
 }
 

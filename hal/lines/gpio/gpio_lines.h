@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 
 namespace orbwatch::hal {
 

@@ -5,7 +5,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 
 /// The calls that differ between libgpiod 1.6 (gpiod1_calls.cpp) and 2.x (gpiod2_calls.cpp); the
 /// build selects one by the library's version. Errors are errno's.

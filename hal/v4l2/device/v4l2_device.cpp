@@ -1,59 +1,103 @@
 #include "hal/v4l2/device/v4l2_device.h"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <system_error>
 #include <utility>
-
-#include "hal/v4l2/device/device_call.h"
 
 namespace orbwatch::hal {
 namespace {
 
-std::string hint(int error) {
-  switch (error) {
-    case EBUSY:
-      return "; another program uses the camera";
-    case EACCES:
-    case EPERM:
-      return "; the user must be in the group of the device (video)";
-    default:
-      return "";
+/// More entries than any camera lists; bounds the enumeration with a broken driver.
+constexpr std::uint32_t kMaxEntries = 256;
+
+/// One ioctl, repeated when a signal interrupts it: 0, or the error number.
+template <class T>
+int call(const FileDescriptor& file, unsigned long request, T& argument) {
+  for (;;) {
+    if (::ioctl(file.get(), request, &argument) == 0) return 0;
+    if (errno != EINTR) return errno;
   }
 }
 
-DriverFormat from_single_planar(const v4l2_pix_format& pix) {
-  DriverFormat format{pix.width,
-                      pix.height,
-                      pix.pixelformat,
-                      pix.field,
-                      pix.colorspace,
-                      pix.ycbcr_enc,
-                      pix.quantization,
-                      1,
-                      {}};
-  format.memory[0] = {pix.bytesperline, pix.sizeimage};
-  return format;
+/// Unused members of V4L2's structures must be zero.
+template <class T>
+T cleared() {
+  T value;
+  std::memset(&value, 0, sizeof(value));
+  return value;
 }
 
-DriverFormat from_multi_planar(const v4l2_pix_format_mplane& pix) {
-  DriverFormat format{pix.width,     pix.height,       pix.pixelformat, pix.field, pix.colorspace,
-                      pix.ycbcr_enc, pix.quantization, pix.num_planes,  {}};
+/// The text of a structure's field, which need not be zero-terminated.
+template <class Byte, std::size_t N>
+std::string text_of(const Byte (&field)[N]) {
+  const auto* text = reinterpret_cast<const char*>(field);
+  return {text, ::strnlen(text, N)};
+}
+
+/// The fault that a failed call means.
+Fault fault_of(int error) {
+  return error == ENOENT || error == ENODEV || error == ENXIO ? Fault::Unplugged : Fault::ReadError;
+}
+
+std::string hint(int error) {
+  if (error == EBUSY) return "; another program uses the camera";
+  if (error != EACCES && error != EPERM) return "";
+  return "; the user must be in the group of the device (video)";
+}
+
+/// What both of V4L2's structures state alike.
+template <class Pix>
+DriverFormat picture_format(const Pix& pix, std::size_t memory_count) {
+  return {pix.width,     pix.height,       pix.pixelformat, pix.field, pix.colorspace,
+          pix.ycbcr_enc, pix.quantization, memory_count,    {}};
+}
+
+DriverFormat driver_format(const v4l2_format& described) {
+  if (described.type != V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE) {
+    const v4l2_pix_format& pix = described.fmt.pix;
+    DriverFormat format = picture_format(pix, 1);
+    format.memory[0] = {pix.bytesperline, pix.sizeimage};
+    return format;
+  }
+  const v4l2_pix_format_mplane& pix = described.fmt.pix_mp;
+  DriverFormat format = picture_format(pix, pix.num_planes);
   for (std::size_t i = 0; i < std::min<std::size_t>(pix.num_planes, kMaxPlanes); ++i) {
     format.memory[i] = {pix.plane_fmt[i].bytesperline, pix.plane_fmt[i].sizeimage};
   }
   return format;
 }
 
+double rate_of(const v4l2_fract& period) {
+  return period.numerator == 0 ? 0 : static_cast<double>(period.denominator) / period.numerator;
+}
+
+v4l2_ext_controls only(v4l2_ext_control& one) {
+  auto controls = cleared<v4l2_ext_controls>();
+  controls.which = V4L2_CTRL_WHICH_CUR_VAL;
+  controls.count = 1;
+  controls.controls = &one;
+  return controls;
+}
+
 }  // namespace
 
 tl::unexpected<FaultReport> V4l2Device::failed(const std::string& action, int error) const {
-  return tl::unexpected(FaultReport{
-      fault_of(error),
-      path_ + ": " + action + ": " + std::generic_category().message(error) + hint(error)});
+  return fail(fault_of(error),
+              path_ + ": " + action + ": " + std::generic_category().message(error) + hint(error));
+}
+
+template <class T>
+DeviceResult<> V4l2Device::request(unsigned long code, T& argument,
+                                   const std::string& action) const {
+  if (const int error = call(file_, code, argument); error != 0) return failed(action, error);
+  return {};
 }
 
 DeviceResult<V4l2Device> V4l2Device::open(const std::string& path) {
@@ -68,7 +112,7 @@ DeviceResult<V4l2Device> V4l2Device::open(const std::string& path) {
 
 DeviceResult<> V4l2Device::check_capabilities() {
   const auto refuse = [this](const char* why) {
-    return tl::unexpected(FaultReport{Fault::WrongFormat, path_ + ": " + why});
+    return fail(Fault::WrongFormat, path_ + ": " + why);
   };
   auto capability = cleared<v4l2_capability>();
   if (const int error = call(file_, VIDIOC_QUERYCAP, capability); error != 0) {
@@ -95,8 +139,7 @@ DeviceResult<DriverFormat> V4l2Device::format() const {
   if (const int error = call(file_, VIDIOC_G_FMT, format); error != 0) {
     return failed("cannot read the format", error);
   }
-  return is_multi_planar() ? from_multi_planar(format.fmt.pix_mp)
-                           : from_single_planar(format.fmt.pix);
+  return driver_format(format);
 }
 
 DeviceResult<DriverFormat> V4l2Device::set_format(const DriverFormat& wanted) {
@@ -116,8 +159,7 @@ DeviceResult<DriverFormat> V4l2Device::set_format(const DriverFormat& wanted) {
   if (const int error = call(file_, VIDIOC_S_FMT, format); error != 0) {
     return failed("cannot set the format", error);
   }
-  return is_multi_planar() ? from_multi_planar(format.fmt.pix_mp)
-                           : from_single_planar(format.fmt.pix);
+  return driver_format(format);
 }
 
 DeviceResult<double> V4l2Device::set_frame_rate(double frame_rate) {
@@ -134,8 +176,193 @@ DeviceResult<double> V4l2Device::set_frame_rate(double frame_rate) {
     error = call(file_, VIDIOC_S_PARM, parameters);
   }
   if (error != 0) return failed("cannot set the frame rate", error);
-  const v4l2_fract period = capture.timeperframe;
-  return period.numerator == 0 ? 0.0 : static_cast<double>(period.denominator) / period.numerator;
+  return rate_of(capture.timeperframe);
+}
+
+struct V4l2Device::BufferQuery {
+  BufferQuery(std::uint32_t type, std::uint32_t index)
+      : buffer(cleared<v4l2_buffer>()), planes(cleared<decltype(planes)>()) {
+    buffer.index = index;
+    buffer.type = type;
+    buffer.memory = V4L2_MEMORY_MMAP;
+    if (type != V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE) return;
+    buffer.m.planes = planes.data();
+    buffer.length = static_cast<std::uint32_t>(planes.size());
+  }
+  BufferQuery(const BufferQuery&) = delete;
+  BufferQuery& operator=(const BufferQuery&) = delete;
+
+  v4l2_buffer buffer;
+  std::array<v4l2_plane, VIDEO_MAX_PLANES> planes;
+};
+
+DeviceResult<std::uint32_t> V4l2Device::request_buffers(std::uint32_t count) {
+  auto request = cleared<v4l2_requestbuffers>();
+  request.count = count;
+  request.type = type_;
+  request.memory = V4L2_MEMORY_MMAP;
+  if (const int error = call(file_, VIDIOC_REQBUFS, request); error != 0) {
+    return failed("cannot get buffers", error);
+  }
+  return request.count;
+}
+
+DeviceResult<std::vector<BufferMemory>> V4l2Device::map_buffer(std::uint32_t index) {
+  BufferQuery query(type_, index);
+  if (const int error = call(file_, VIDIOC_QUERYBUF, query.buffer); error != 0) {
+    return failed("cannot find buffer " + std::to_string(index), error);
+  }
+  if (!is_multi_planar()) {
+    query.planes[0].length = query.buffer.length;
+    query.planes[0].m.mem_offset = query.buffer.m.offset;
+    query.buffer.length = 1;
+  }
+  std::vector<BufferMemory> memory;
+  for (std::uint32_t i = 0; i < std::min<std::uint32_t>(query.buffer.length, kMaxPlanes); ++i) {
+    const v4l2_plane& plane = query.planes[i];
+    auto mapped = map_memory(index, i, plane.length, plane.m.mem_offset);
+    if (!mapped) return tl::unexpected(mapped.error());
+    memory.push_back(std::move(*mapped));
+  }
+  return memory;
+}
+
+DeviceResult<BufferMemory> V4l2Device::map_memory(std::uint32_t index, std::uint32_t number,
+                                                  std::size_t length, std::uint32_t offset) {
+  std::optional<DmaBuffer> exported = export_memory(index, number);
+  const int file = exported ? exported->descriptor() : file_.get();
+  void* const memory = ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, file,
+                              exported ? 0 : static_cast<off_t>(offset));
+  if (memory == MAP_FAILED) return failed("cannot map buffer " + std::to_string(index), errno);
+  return BufferMemory{MappedMemory({static_cast<std::byte*>(memory), length}), std::move(exported)};
+}
+
+/// Nullopt when the driver does not export: then its own mapping is used.
+std::optional<DmaBuffer> V4l2Device::export_memory(std::uint32_t index, std::uint32_t number) {
+  auto request = cleared<v4l2_exportbuffer>();
+  request.type = type_;
+  request.index = index;
+  request.plane = number;
+  request.flags = O_CLOEXEC | O_RDWR;
+  if (call(file_, VIDIOC_EXPBUF, request) != 0) return std::nullopt;
+  return DmaBuffer(FileDescriptor(request.fd));
+}
+
+DeviceResult<> V4l2Device::queue(std::uint32_t index) {
+  BufferQuery query(type_, index);
+  return request(VIDIOC_QBUF, query.buffer, "cannot queue a buffer");
+}
+
+DeviceResult<std::optional<FilledBuffer>> V4l2Device::dequeue() {
+  BufferQuery query(type_, 0);
+  const int error = call(file_, VIDIOC_DQBUF, query.buffer);
+  if (error == EAGAIN) return std::nullopt;
+  if (error != 0) return failed("cannot read a frame", error);
+  const v4l2_buffer& buffer = query.buffer;
+  FilledBuffer filled{buffer.index, buffer.flags, buffer.sequence, buffer.timestamp, {}};
+  if (!is_multi_planar()) {
+    filled.samples[0] = {0, buffer.bytesused};
+    return filled;
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(buffer.length, kMaxPlanes); ++i) {
+    const v4l2_plane& plane = query.planes[i];
+    // bytesused includes the offset; a larger offset leaves no samples.
+    filled.samples[i] = {plane.data_offset,
+                         plane.bytesused - std::min(plane.bytesused, plane.data_offset)};
+  }
+  return filled;
+}
+
+DeviceResult<> V4l2Device::stream_on() {
+  return request(VIDIOC_STREAMON, type_, "cannot start the stream");
+}
+
+DeviceResult<> V4l2Device::stream_off() {
+  return request(VIDIOC_STREAMOFF, type_, "cannot stop the stream");
+}
+
+std::vector<std::uint32_t> V4l2Device::formats() const {
+  std::vector<std::uint32_t> found;
+  auto entry = cleared<v4l2_fmtdesc>();
+  entry.type = type_;
+  for (; entry.index < kMaxEntries && call(file_, VIDIOC_ENUM_FMT, entry) == 0; ++entry.index) {
+    found.push_back(entry.pixelformat);
+  }
+  return found;
+}
+
+std::vector<FrameSizeOffer> V4l2Device::sizes(std::uint32_t fourcc) const {
+  std::vector<FrameSizeOffer> found;
+  auto entry = cleared<v4l2_frmsizeenum>();
+  entry.pixel_format = fourcc;
+  for (; entry.index < kMaxEntries && call(file_, VIDIOC_ENUM_FRAMESIZES, entry) == 0;
+       ++entry.index) {
+    if (entry.type != V4L2_FRMSIZE_TYPE_DISCRETE) {
+      const auto& range = entry.stepwise;
+      return {{range.min_width, range.max_width, range.min_height, range.max_height}};
+    }
+    const auto& size = entry.discrete;
+    found.push_back({size.width, size.width, size.height, size.height});
+  }
+  return found;
+}
+
+std::vector<double> V4l2Device::frame_rates(std::uint32_t fourcc, std::uint32_t width,
+                                            std::uint32_t height) const {
+  std::vector<double> found;
+  auto entry = cleared<v4l2_frmivalenum>();
+  entry.pixel_format = fourcc;
+  entry.width = width;
+  entry.height = height;
+  for (; entry.index < kMaxEntries && call(file_, VIDIOC_ENUM_FRAMEINTERVALS, entry) == 0;
+       ++entry.index) {
+    if (entry.type != V4L2_FRMIVAL_TYPE_DISCRETE) {
+      return {rate_of(entry.stepwise.max), rate_of(entry.stepwise.min)};
+    }
+    found.push_back(rate_of(entry.discrete));
+  }
+  return found;
+}
+
+std::optional<v4l2_query_ext_ctrl> V4l2Device::next_control(std::uint32_t after) const {
+  auto query = cleared<v4l2_query_ext_ctrl>();
+  query.id = after | V4L2_CTRL_FLAG_NEXT_CTRL;
+  if (call(file_, VIDIOC_QUERY_EXT_CTRL, query) != 0 || query.id <= after) return std::nullopt;
+  return query;
+}
+
+std::optional<std::string> V4l2Device::menu_entry(const v4l2_query_ext_ctrl& setting,
+                                                  std::int64_t index) const {
+  auto entry = cleared<v4l2_querymenu>();
+  entry.id = setting.id;
+  entry.index = static_cast<std::uint32_t>(index);
+  if (call(file_, VIDIOC_QUERYMENU, entry) != 0) return std::nullopt;
+  if (setting.type == V4L2_CTRL_TYPE_INTEGER_MENU) return std::to_string(entry.value);
+  return text_of(entry.name);
+}
+
+DeviceResult<std::int64_t> V4l2Device::control(const v4l2_query_ext_ctrl& setting) const {
+  auto one = cleared<v4l2_ext_control>();
+  one.id = setting.id;
+  auto controls = only(one);
+  if (const int error = call(file_, VIDIOC_G_EXT_CTRLS, controls); error != 0) {
+    return failed("cannot read control \"" + text_of(setting.name) + "\"", error);
+  }
+  return setting.type == V4L2_CTRL_TYPE_INTEGER64 ? std::int64_t{one.value64}
+                                                  : std::int64_t{one.value};
+}
+
+DeviceResult<> V4l2Device::set_control(const v4l2_query_ext_ctrl& setting, std::int64_t value) {
+  auto one = cleared<v4l2_ext_control>();
+  one.id = setting.id;
+  if (setting.type == V4L2_CTRL_TYPE_INTEGER64) {
+    one.value64 = value;
+  } else {
+    one.value = static_cast<std::int32_t>(value);
+  }
+  auto controls = only(one);
+  return request(VIDIOC_S_EXT_CTRLS, controls,
+                 "cannot set control \"" + text_of(setting.name) + "\"");
 }
 
 }  // namespace orbwatch::hal

@@ -103,6 +103,9 @@ class V4l2Device {
   DeviceResult<BufferMemory> map_memory(std::uint32_t index, std::uint32_t number,
                                         std::size_t length, std::uint32_t offset);
   std::optional<DmaBuffer> export_memory(std::uint32_t index, std::uint32_t number);
+  /// A call whose failure is a fault; `action` is for its message.
+  template <class T>
+  DeviceResult<> request(unsigned long code, T& argument, const std::string& action) const;
   tl::unexpected<FaultReport> failed(const std::string& action, int error) const;
 
   std::string path_;

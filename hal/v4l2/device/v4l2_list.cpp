@@ -42,8 +42,7 @@ std::vector<fs::path> nodes(const fs::path& folder) {
   for (const fs::path& path : entries(folder)) {
     if (node_number(path) >= 0) found.push_back(path);
   }
-  std::sort(found.begin(), found.end(),
-            [](const fs::path& a, const fs::path& b) { return node_number(a) < node_number(b); });
+  std::ranges::sort(found, {}, node_number);
   return found;
 }
 
@@ -152,9 +151,9 @@ DeviceResult<std::string> find_v4l2_device(const std::string& name, const fs::pa
     const auto device = V4l2Device::open(node.string());
     if (device && device->bus() == name) return node.string();
   }
-  return tl::unexpected(FaultReport{
-      Fault::Unplugged, "no V4L2 camera \"" + name + "\": no path, no link in " +
-                            (folder / "v4l").string() + " and no place on a bus of a camera"});
+  return fail(Fault::Unplugged, "no V4L2 camera \"" + name + "\": no path, no link in " +
+                                    (folder / "v4l").string() +
+                                    " and no place on a bus of a camera");
 }
 
 }  // namespace orbwatch::hal

@@ -1,9 +1,72 @@
 #include "hal/v4l2/format/frame_decoder.h"
 
+#include <bit>
+#include <cstring>
+
 #include "hal/v4l2/format/demosaic.h"
-#include "hal/v4l2/format/unpack.h"
 
 namespace orbwatch::hal {
+namespace {
+
+constexpr unsigned byte(std::byte value) { return std::to_integer<unsigned>(value); }
+
+// Layouts: V4L2's documentation of Y10P, Y12P and their Bayer variants, which are MIPI CSI-2's.
+
+void unpack_mipi_10(const std::byte* row, int width, std::uint16_t* samples) {
+  for (int x = 0; x < width; x += 4, row += 5) {
+    const unsigned low = byte(row[4]);
+    for (int i = 0; i < 4; ++i) {
+      samples[x + i] = static_cast<std::uint16_t>(byte(row[i]) << 2 | (low >> 2 * i & 3U));
+    }
+  }
+}
+
+void unpack_mipi_12(const std::byte* row, int width, std::uint16_t* samples) {
+  for (int x = 0; x < width; x += 2, row += 3) {
+    const unsigned low = byte(row[2]);
+    samples[x] = static_cast<std::uint16_t>(byte(row[0]) << 4 | (low & 15U));
+    samples[x + 1] = static_cast<std::uint16_t>(byte(row[1]) << 4 | low >> 4);
+  }
+}
+
+void unpack_big_endian(const std::byte* row, int width, std::uint16_t* samples) {
+  for (int x = 0; x < width; ++x) {
+    samples[x] = static_cast<std::uint16_t>(byte(row[2 * x]) << 8 | byte(row[2 * x + 1]));
+  }
+}
+
+/// Copies the first `picked` of each group of `bytes`: the upper 8 bits of each sample.
+void pick_upper(const std::byte* row, int width, int picked, int bytes, std::uint8_t* samples) {
+  for (int x = 0; x < width; x += picked, row += bytes) {
+    std::memcpy(samples + x, row, static_cast<std::size_t>(picked));
+  }
+}
+
+void shift_to_8_bit(const std::byte* row, int width, int bits, std::uint8_t* samples) {
+  for (int x = 0; x < width; ++x) {
+    std::uint16_t sample;  // V4L2's are little-endian
+    std::memcpy(&sample, row + std::ptrdiff_t{2} * x, sizeof(sample));
+    samples[x] = static_cast<std::uint8_t>(sample >> (bits - 8));
+  }
+}
+static_assert(std::endian::native == std::endian::little);
+
+}  // namespace
+
+void unpack_row(Packing packing, const std::byte* row, int width, std::uint16_t* samples) {
+  if (packing == Packing::Mipi10) return unpack_mipi_10(row, width, samples);
+  if (packing == Packing::Mipi12) return unpack_mipi_12(row, width, samples);
+  unpack_big_endian(row, width, samples);
+}
+
+void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int width,
+                         std::uint8_t* samples) {
+  if (packing == Packing::Mipi10) return pick_upper(row, width, 4, 5, samples);
+  if (packing == Packing::Mipi12) return pick_upper(row, width, 2, 3, samples);
+  if (packing == Packing::BigEndian) return pick_upper(row, width, 1, 2, samples);
+  if (bits == 8) return pick_upper(row, width, 1, 1, samples);
+  shift_to_8_bit(row, width, bits, samples);
+}
 
 FrameDecoder::FrameDecoder(const NegotiatedFormat& format)
     : format_(format),
@@ -29,7 +92,11 @@ Result<> FrameDecoder::decode_into(const MutablePicture& target,
                                    std::span<const std::byte> samples) {
   if (format_.coding.packing == Packing::Jpeg) return decode_jpeg(target, samples);
   if (target.format == PixelFormat::Bgr) return decode_mosaic(target, samples.data());
-  unpack(target, samples.data());
+  const auto unpacked = target.samples<std::uint16_t>();
+  const std::byte* row = samples.data();
+  for (int y = 0; y < target.height; ++y, row += format_.layout.planes[0].stride) {
+    unpack_row(format_.coding.packing, row, target.width, unpacked.row(y));
+  }
   return {};
 }
 
@@ -48,13 +115,6 @@ Result<> FrameDecoder::decode_mosaic(const MutablePicture& target, const std::by
                         mosaic.row(y));
   }
   return demosaic(coding.mosaic, mosaic, target.samples<std::uint8_t>());
-}
-
-void FrameDecoder::unpack(const MutablePicture& target, const std::byte* rows) {
-  const auto view = target.samples<std::uint16_t>();
-  for (int y = 0; y < target.height; ++y, rows += format_.layout.planes[0].stride) {
-    unpack_row(format_.coding.packing, rows, target.width, view.row(y));
-  }
 }
 
 }  // namespace orbwatch::hal

@@ -8,10 +8,20 @@
 
 #include "hal/frame/frame_pool.h"
 #include "hal/jpeg/jpeg_decoder.h"
+#include "hal/v4l2/format/pixel_coding.h"
 #include "hal/v4l2/format/v4l2_format.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
+
+/// Unpacks a row of `width` samples into the low bits of 16. The packing is one of luminance:
+/// Mipi10, Mipi12 or BigEndian. Reentrant.
+void unpack_row(Packing packing, const std::byte* row, int width, std::uint16_t* samples);
+
+/// The upper 8 bits of each sample of a row of luminance with `bits` per sample (8, 10, 12 or 16),
+/// in any packing but Jpeg. Reentrant.
+void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int width,
+                         std::uint8_t* samples);
 
 /// Decodes a driver's compressed, packed or mosaic samples into frames of its own pool.
 /// Thread-bound.
@@ -31,7 +41,6 @@ class FrameDecoder {
   Result<> decode_into(const MutablePicture& target, std::span<const std::byte> samples);
   Result<> decode_jpeg(const MutablePicture& target, std::span<const std::byte> samples);
   Result<> decode_mosaic(const MutablePicture& target, const std::byte* rows);
-  void unpack(const MutablePicture& target, const std::byte* rows);
 
   NegotiatedFormat format_;
   FramePool pool_;

@@ -16,9 +16,7 @@ int column_group(const PixelCoding& coding, const PixelFormatInfo& frame) {
 }  // namespace
 
 const PixelCoding* find_coding(std::uint32_t fourcc) {
-  const auto* const found =
-      std::find_if(kPixelCodings.begin(), kPixelCodings.end(),
-                   [fourcc](const PixelCoding& coding) { return coding.fourcc == fourcc; });
+  const auto* const found = std::ranges::find(kPixelCodings, fourcc, &PixelCoding::fourcc);
   return found == kPixelCodings.end() ? nullptr : found;
 }
 

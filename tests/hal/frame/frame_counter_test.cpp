@@ -1,4 +1,4 @@
-#include "hal/frame/frame_counter.h"
+#include "hal/device_camera.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hal/libcamera/capture_events.h"
+#include "hal/libcamera/libcamera_stream.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hal/libcamera/request_metadata.h"
+#include "hal/libcamera/libcamera_frame.h"
 
 #include <gtest/gtest.h>
 #include <libcamera/control_ids.h>

@@ -1,4 +1,4 @@
-#include "hal/lines/edge_filter.h"
+#include "hal/lines/watched_input.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "hal/lines/line_back_end.h"
+#include "hal/lines/line.h"
 
 namespace orbwatch::hal {
 

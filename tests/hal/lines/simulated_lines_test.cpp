@@ -31,12 +31,9 @@ TEST(SimulatedLines, EdgesComeInOrderAndTheFileSaysSo) {
   SimulatedLines lines({"IN"});
   const auto input = lines.open_input({.address = {.name = "IN"}}).value();
   EXPECT_FALSE(is_readable(input->descriptor()));
-  const std::vector<ScriptedEdge> script{{"IN", true, at(1)},
-                                         {"IN", true, at(2)},
-                                         {"IN", false, at(3)},
-                                         {"IN", true, at(4)},
-                                         {"IN", false, at(5)}};
-  lines.play(script);
+  const std::vector<std::pair<bool, TimePoint>> script{
+      {true, at(1)}, {true, at(2)}, {false, at(3)}, {true, at(4)}, {false, at(5)}};
+  for (const auto& [level, stamp] : script) lines.drive("IN", level, stamp);
   EXPECT_TRUE(is_readable(input->descriptor()));
   EXPECT_EQ(take_all(*input), (std::vector<EdgeEvent>{{Edge::Rising, at(1)},
                                                       {Edge::Falling, at(3)},

@@ -1,4 +1,4 @@
-#include "hal/thread/doorbell.h"
+#include "hal/thread/mailbox.h"
 
 #include <gtest/gtest.h>
 

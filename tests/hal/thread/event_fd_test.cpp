@@ -1,4 +1,4 @@
-#include "hal/thread/event_fd.h"
+#include "hal/thread/file_descriptor.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>

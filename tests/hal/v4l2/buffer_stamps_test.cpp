@@ -1,4 +1,4 @@
-#include "hal/v4l2/buffer_stamps.h"
+#include "hal/v4l2/v4l2_stream.h"
 
 #include <gtest/gtest.h>
 

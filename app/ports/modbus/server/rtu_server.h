@@ -11,7 +11,7 @@
 #include "app/ports/modbus/server/rtu_framer.h"
 #include "app/ports/modbus/server/rtu_transport.h"
 #include "hal/clock.h"
-#include "hal/thread/event_fd.h"
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::modbus {
 

@@ -13,7 +13,6 @@
 #include "app/ports/modbus/server/mbap_framer.h"
 #include "app/ports/modbus/server/responder.h"
 #include "hal/clock.h"
-#include "hal/thread/event_fd.h"
 #include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 

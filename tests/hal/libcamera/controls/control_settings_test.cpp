@@ -1,4 +1,4 @@
-#include "hal/libcamera/controls/control_settings.h"
+#include "hal/libcamera/controls/libcamera_controls.h"
 
 #include <gtest/gtest.h>
 

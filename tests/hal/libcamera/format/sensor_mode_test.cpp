@@ -1,4 +1,4 @@
-#include "hal/libcamera/format/sensor_mode.h"
+#include "hal/libcamera/format/camera_configuration.h"
 
 #include <gtest/gtest.h>
 #include <libcamera/formats.h>

@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "hal/v4l2/format/unpack.h"
-
 namespace orbwatch::hal {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "hal/v4l2/format/unpack.h"
+#include "hal/v4l2/format/frame_decoder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,12 @@
-#include "hal/libcamera/format/sensor_mode.h"
+#include <libcamera/property_ids.h>
+#include <sys/sysmacros.h>
 
-/// libcamera from 0.2 on: CameraConfiguration::sensorConfig. Pipelines without support ignore it
-/// silently, so an impossible mode is requested first: a pipeline with support refuses it.
+#include <filesystem>
+#include <string>
+
+#include "hal/libcamera/camera_manager.h"
+#include "hal/libcamera/format/camera_configuration.h"
+
 namespace orbwatch::hal {
 namespace {
 
@@ -21,6 +26,22 @@ bool takes_modes(libcamera::CameraConfiguration& configuration) {
 
 }  // namespace
 
+/// libcamera from 0.2 on lists the nodes: properties::SystemDevices.
+bool has_lost_its_nodes(const libcamera::Camera& camera) {
+  const auto nodes = camera.properties().get(libcamera::properties::SystemDevices);
+  if (!nodes) return false;
+  for (const std::int64_t node : *nodes) {
+    const auto number = static_cast<dev_t>(node);
+    const std::string name =
+        std::to_string(gnu_dev_major(number)) + ":" + std::to_string(gnu_dev_minor(number));
+    std::error_code error;
+    if (!std::filesystem::exists("/sys/dev/char/" + name, error)) return true;
+  }
+  return false;
+}
+
+/// libcamera from 0.2 on: CameraConfiguration::sensorConfig. Pipelines without support ignore it
+/// silently, so an impossible mode is requested first: a pipeline with support refuses it.
 Result<std::unique_ptr<libcamera::CameraConfiguration>> begin_configuration(
     libcamera::Camera& camera, const SensorMode& mode) {
   auto configuration = camera.generateConfiguration({libcamera::StreamRole::VideoRecording});

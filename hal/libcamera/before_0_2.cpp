@@ -1,7 +1,6 @@
-#include "hal/libcamera/format/sensor_mode.h"
+#include "hal/libcamera/camera_manager.h"
+#include "hal/libcamera/format/camera_configuration.h"
 
-/// libcamera before 0.2: a second, raw stream has the size and depth of the sensor's mode. Its
-/// frames are not requested; pipelines fill buffers of their own.
 namespace orbwatch::hal {
 namespace {
 
@@ -9,6 +8,11 @@ constexpr unsigned kRawStream = 1;
 
 }  // namespace
 
+/// libcamera before 0.2 does not list a camera's nodes.
+bool has_lost_its_nodes(const libcamera::Camera&) { return false; }
+
+/// libcamera before 0.2: a second, raw stream has the size and depth of the sensor's mode. Its
+/// frames are not requested; pipelines fill buffers of their own.
 Result<std::unique_ptr<libcamera::CameraConfiguration>> begin_configuration(
     libcamera::Camera& camera, const SensorMode& mode) {
   using libcamera::StreamRole;
