@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
+
+#include "hal/lines/line.h"
 
 namespace orbwatch::hal {
 
@@ -38,24 +39,9 @@ struct CameraEntry {
   std::vector<CameraControl> controls;
 };
 
-/// A digital line of a GPIO chip.
-struct LineEntry {
-  std::uint32_t offset = 0;
-  std::string name;       ///< the board's; may be empty
-  std::string direction;  ///< "input" or "output"
-  std::string consumer;   ///< the program that uses it, according to the kernel; empty: none
-};
-
-struct ChipEntry {
-  std::string label;    ///< of the driver, stable
-  std::string path;     ///< device node, may differ after the next boot
-  std::string problem;  ///< why the rest is unknown; else empty
-  std::vector<LineEntry> lines;
-};
-
 struct Inventory {
   std::vector<CameraEntry> cameras;
-  std::vector<ChipEntry> chips;
+  std::vector<ChipInfo> chips;
 };
 
 }  // namespace orbwatch::hal

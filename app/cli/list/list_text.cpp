@@ -42,17 +42,18 @@ Json json_of(const hal::CameraEntry& camera) {
           {"controls", list_of(camera.controls)}};
 }
 
-Json json_of(const hal::LineEntry& line) {
+Json json_of(const hal::LineInfo& line) {
+  const bool anonymous = line.is_used && line.consumer.empty();
   return {{"line", line.offset},
           {"name", line.name},
-          {"direction", line.direction},
-          {"consumer", line.consumer}};
+          {"direction", line.is_output ? "output" : "input"},
+          {"consumer", anonymous ? "in use" : line.consumer}};
 }
 
-Json json_of(const hal::ChipEntry& chip) {
+Json json_of(const hal::ChipInfo& chip) {
   return {{"chip", chip.label},
           {"path", chip.path},
-          {"problem", chip.problem},
+          {"problem", chip.error},
           {"lines", list_of(chip.lines)}};
 }
 

@@ -30,10 +30,9 @@ hal::Inventory two_cameras_and_a_chip() {
   broken.back_end = "v4l2";
   broken.problem = "cannot be opened";
   return {{plain, broken},
-          {{"gpio-sim",
-            "/dev/gpiochip1",
-            "",
-            {{2, "TRIGGER_IN", "input", "orbwatchd"}, {3, "", "output", ""}}}}};
+          {{.path = "/dev/gpiochip1",
+            .label = "gpio-sim",
+            .lines = {{2, "TRIGGER_IN", false, true, "orbwatchd"}, {3, "", true, false, ""}}}}};
 }
 
 TEST(ListJson, HasEveryFieldOfEveryEntry) {
