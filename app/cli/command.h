@@ -1,21 +1,40 @@
 #pragma once
 
+#include <atomic>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
 
-/// A subcommand of `orbwatch`. `arguments` begin with its name.
-using CommandFunction = Result<> (*)(const std::vector<std::string>& arguments);
+/// A command of `orbwatch`, or a subject of `orbwatch describe`.
+struct Subcommand {
+  std::string_view name;
+  std::string_view text;  ///< what it does, for --help
+  /// `arguments` begin with its name. Returns the text for standard output.
+  Result<std::string> (*run)(const std::vector<std::string>& arguments);
+};
 
-Result<> project_command(const std::vector<std::string>& arguments);
-Result<> describe_command(const std::vector<std::string>& arguments);
-Result<> subscribe_command(const std::vector<std::string>& arguments);
-Result<> state_command(const std::vector<std::string>& arguments);
-Result<> command_command(const std::vector<std::string>& arguments);
-Result<> dds_keys_command(const std::vector<std::string>& arguments);
-Result<> list_command(const std::vector<std::string>& arguments);
+/// A line of --help for each.
+std::string subcommands_help(std::span<const Subcommand> subcommands);
+
+Result<std::string> project_command(const std::vector<std::string>& arguments);
+Result<std::string> describe_command(const std::vector<std::string>& arguments);
+Result<std::string> subscribe_command(const std::vector<std::string>& arguments);
+Result<std::string> state_command(const std::vector<std::string>& arguments);
+Result<std::string> command_command(const std::vector<std::string>& arguments);
+Result<std::string> dds_keys_command(const std::vector<std::string>& arguments);
+Result<std::string> list_command(const std::vector<std::string>& arguments);
+
+// Subjects of describe_command; they write no file but that of -o.
+Result<std::string> describe_view(const std::vector<std::string>& arguments);
+Result<std::string> describe_camera(const std::vector<std::string>& arguments);
+
+/// Becomes true at SIGINT (Ctrl-C) or SIGTERM, which do not terminate the process from the first
+/// call on.
+const std::atomic<bool>& cancelled_by_signal();
 
 }  // namespace orbwatch::app

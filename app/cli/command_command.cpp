@@ -1,6 +1,3 @@
-#include <iostream>
-
-#include "app/cli/cancelled.h"
 #include "app/cli/command.h"
 #include "app/cli/command_words.h"
 #include "app/cli/dds/command_client.h"
@@ -9,31 +6,26 @@
 
 namespace orbwatch::app {
 
-Result<> command_command(const std::vector<std::string>& arguments) {
+Result<std::string> command_command(const std::vector<std::string>& arguments) {
   CommandOptions o;
-  bool help = false;
-  const std::vector<Option> options{domain_option(o.domain),
-                                    prefix_option(o.prefix),
-                                    security_option(o.security),
-                                    timeout_option(o.timeout),
-                                    {"help", 'h', "", "this text", flag_option(help)}};
-  // Options first: angles may be negative.
-  const auto words = parse_options(arguments, options, OptionOrder::First);
-  if (!words) return tl::unexpected(words.error());
-  if (help) {
-    std::cout << "Usage: orbwatch command [options] NAME [ARGUMENT...]\n\n"
-                 "Sends a command to a running orbwatchd over DDS and waits until it is carried "
-                 "out.\nOptions stand before NAME.\n\n"
-              << options_help(options) << "\nCommands:\n"
-              << commands_help();
-    return {};
-  }
-  const auto command = parse_command(*words);
-  if (!command) return tl::unexpected(command.error());
-  const auto answer = send_command(o, *command, cancelled_by_signal());
-  if (!answer) return tl::unexpected(answer.error());
-  if (answer->result != CommandResult::Done) return fail(words->front() + ": " + answer->text);
-  return {};
+  return run_command(
+      arguments,
+      {.usage = "Usage: orbwatch command [options] NAME [ARGUMENT...]\n\n"
+                "Sends a command to a running orbwatchd over DDS and waits until it is carried "
+                "out.\nOptions stand before NAME.\n\n",
+       .options = {domain_option(o.domain), prefix_option(o.prefix), security_option(o.security),
+                   timeout_option(o.timeout)},
+       .takes_words = true,
+       .order = OptionOrder::First,  // angles may be negative
+       .notes = "\nCommands:\n" + commands_help()},
+      [&](const std::vector<std::string>& words) -> Result<std::string> {
+        const auto command = parse_command(words);
+        if (!command) return tl::unexpected(command.error());
+        const auto answer = send_command(o, *command, cancelled_by_signal());
+        if (!answer) return tl::unexpected(answer.error());
+        if (answer->result != CommandResult::Done) return fail(words.front() + ": " + answer->text);
+        return {};
+      });
 }
 
 }  // namespace orbwatch::app

@@ -1,6 +1,5 @@
 #include "app/cli/command_words.h"
 
-#include <algorithm>
 #include <charconv>
 
 namespace orbwatch::app {

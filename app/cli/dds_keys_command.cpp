@@ -1,5 +1,4 @@
 #include <chrono>
-#include <iostream>
 
 #include "app/cli/command.h"
 #include "app/cli/keys/keystore.h"
@@ -19,7 +18,6 @@ struct KeysOptions {
   int domain = 0;
   std::string prefix = "orbwatch";
   bool read_only = false;
-  bool help = false;
 };
 
 std::vector<Option> declare(KeysOptions& o) {
@@ -28,10 +26,7 @@ std::vector<Option> declare(KeysOptions& o) {
        "who may read views and state, and send commands;\nmay be repeated, and added later "
        "(default: "
        "one named\nsubscriber in a new FOLDER)",
-       [&o](const std::string& v) -> Result<> {
-         o.request.subscribers.push_back(v);
-         return {};
-       }},
+       list_option(o.request.subscribers)},
       {"read-only", 0, "", "these subscribers may not send commands", flag_option(o.read_only)},
       domain_option(o.domain),
       prefix_option(o.prefix),
@@ -47,37 +42,25 @@ std::vector<Option> declare(KeysOptions& o) {
        }},
       {"replace", 0, "", "replace existing keys: of the subscribers named, or all\nof FOLDER",
        flag_option(o.request.replace)},
-      {"help", 'h', "", "this text", flag_option(o.help)},
   };
 }
 
-std::string help(const std::vector<Option>& options) {
-  return "Usage: orbwatch dds-keys FOLDER [options]\n\n"
-         "Makes keys, certificates and signed permissions for a DDS domain that nobody else can\n"
-         "read or command. FOLDER/enclaves/appliance is for orbwatchd ([dds.security] of its\n"
-         "configuration), FOLDER/enclaves/NAME for a subscriber (--security of orbwatch "
-         "subscribe,\n"
-         "state and command). Whoever has FOLDER/private can let anybody in: keep it "
-         "elsewhere.\n\n" +
-         options_help(options);
-}
+constexpr const char* kUsage =
+    "Usage: orbwatch dds-keys FOLDER [options]\n\n"
+    "Makes keys, certificates and signed permissions for a DDS domain that nobody else can\n"
+    "read or command. FOLDER/enclaves/appliance is for orbwatchd ([dds.security] of its\n"
+    "configuration), FOLDER/enclaves/NAME for a subscriber (--security of orbwatch subscribe,\n"
+    "state and command). Whoever has FOLDER/private can let anybody in: keep it elsewhere.\n\n";
 
-}  // namespace
-
-Result<> dds_keys_command(const std::vector<std::string>& arguments) {
-  KeysOptions o;
-  const std::vector<Option> options = declare(o);
-  const auto rest = parse_options(arguments, options);
-  if (!rest) return tl::unexpected(rest.error());
-  if (o.help) {
-    std::cout << help(options);
-    return {};
-  }
-  if (rest->size() != 1 || rest->front().empty()) {
+/// Returns the new folders, one a line.
+Result<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& words) {
+  if (words.size() != 1 || words.front().empty()) {
     return fail("say which FOLDER to make keys in, and one only; see --help");
   }
-  if (const auto checked = check_topic_path(o.prefix, "prefix"); !checked) return checked;
-  o.request.folder = rest->front();
+  if (const auto checked = check_topic_path(o.prefix, "prefix"); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  o.request.folder = words.front();
   o.request.domains = {o.domain, o.domain};
   o.request.appliance = appliance_access(o.prefix);
   o.request.subscriber = o.read_only ? reader_access(o.prefix) : controller_access(o.prefix);
@@ -85,8 +68,17 @@ Result<> dds_keys_command(const std::vector<std::string>& arguments) {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   const auto made = make_keys(o.request, now);
   if (!made) return tl::unexpected(made.error());
-  for (const auto& folder : *made) std::cout << folder.string() << '\n';
-  return {};
+  std::string folders;
+  for (const auto& folder : *made) folders += folder.string() + "\n";
+  return folders;
+}
+
+}  // namespace
+
+Result<std::string> dds_keys_command(const std::vector<std::string>& arguments) {
+  KeysOptions o;
+  return run_command(arguments, {.usage = kUsage, .options = declare(o), .takes_words = true},
+                     [&](const auto& words) { return make_keys(o, words); });
 }
 
 }  // namespace orbwatch::app

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -34,7 +33,6 @@ constexpr const char* kUsage =
     "\n";
 
 struct ProjectOptions {
-  bool help = false;
   std::filesystem::path output;
   std::filesystem::path camera_info;
   CameraOptions cameras;
@@ -66,7 +64,6 @@ std::vector<Option> declare(ProjectOptions& o) {
        word_option("match", kMatches, o.match)},
       {"camera-info", 0, "FILE", "write a perspective view's calibration: ROS camera_info YAML",
        text_option(o.camera_info)},
-      {"help", 'h', "", "this text", flag_option(o.help)},
   });
   return options;
 }
@@ -180,6 +177,7 @@ Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection
 }
 
 Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone) {
+  if (o.output.empty()) return fail("-o OUT is missing; see --help");
   auto cameras = choose_cameras(o.cameras);
   if (!cameras) return tl::unexpected(cameras.error());
   if (auto assigned = assign_pictures(alone, *cameras); !assigned) return assigned;
@@ -199,17 +197,11 @@ Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone)
 
 }  // namespace
 
-Result<> project_command(const std::vector<std::string>& arguments) {
+Result<std::string> project_command(const std::vector<std::string>& arguments) {
   ProjectOptions o;
-  const std::vector<Option> options = declare(o);
-  const auto alone = parse_options(arguments, options);
-  if (!alone) return tl::unexpected(alone.error());
-  if (o.help) {
-    std::cout << kUsage << options_help(options);
-    return {};
-  }
-  if (o.output.empty()) return fail("-o OUT is missing; see --help");
-  return project(o, *alone);
+  return run_command(
+      arguments, {.usage = kUsage, .options = declare(o), .takes_words = true},
+      [&](const auto& alone) { return project(o, alone).map([] { return std::string(); }); });
 }
 
 }  // namespace orbwatch::app

@@ -2,9 +2,8 @@
 #include <chrono>
 #include <iostream>
 
-#include "app/cli/cancelled.h"
 #include "app/cli/command.h"
-#include "app/cli/dds/state_reader.h"
+#include "app/cli/dds/received_state.h"
 #include "app/cli/options/dds_options.h"
 #include "app/cli/options/options.h"
 #include "app/cli/state_text.h"
@@ -26,7 +25,6 @@ struct StateOptions {
   milliseconds timeout{5000};
   bool json = false;
   bool follow = false;
-  bool help = false;
 };
 
 std::vector<Option> declare(StateOptions& o) {
@@ -35,8 +33,7 @@ std::vector<Option> declare(StateOptions& o) {
           domain_option(o.domain),
           prefix_option(o.prefix),
           security_option(o.security),
-          timeout_option(o.timeout),
-          {"help", 'h', "", "this text", flag_option(o.help)}};
+          timeout_option(o.timeout)};
 }
 
 void print(const ReceivedState& state, bool json) {
@@ -73,22 +70,19 @@ Result<> print_states(StateReader& reader, const StateOptions& o,
 
 }  // namespace
 
-Result<> state_command(const std::vector<std::string>& arguments) {
+Result<std::string> state_command(const std::vector<std::string>& arguments) {
   StateOptions o;
-  const std::vector<Option> options = declare(o);
-  const auto rest = parse_options(arguments, options);
-  if (!rest) return tl::unexpected(rest.error());
-  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
-  if (o.help) {
-    std::cout << "Usage: orbwatch state [options]\n\n"
-                 "Prints the newest process state of a running orbwatchd, received over DDS.\n\n"
-              << options_help(options);
-    return {};
-  }
-  StateReader reader(o.prefix);
-  return reader.open(o.domain, o.security).and_then([&] {
-    return print_states(reader, o, cancelled_by_signal());
-  });
+  return run_command(
+      arguments,
+      {.usage = "Usage: orbwatch state [options]\n\n"
+                "Prints the newest process state of a running orbwatchd, received over DDS.\n\n",
+       .options = declare(o)},
+      [&](const auto&) {
+        StateReader reader(o.prefix);
+        return reader.open(o.domain, o.security)
+            .and_then([&] { return print_states(reader, o, cancelled_by_signal()); })
+            .map([] { return std::string(); });
+      });
 }
 
 }  // namespace orbwatch::app

@@ -1,8 +1,6 @@
 #include "app/cli/dds/command_client.h"
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
 #include <random>
 #include <utility>
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <span>
 
 #include "app/ports/dds/pictures/image_message.h"
 #include "proc/image/result.h"
@@ -25,5 +27,14 @@ struct ReceivedImage {
 /// of 0 or beyond kMaxImageSide, rows longer than the step, a step that is not a multiple of the
 /// sample's size, data of another size than step * height. Reentrant.
 Result<ReceivedImage> check_image(const ImageMessage& message);
+/// The check of its sides alone, in pixels.
+Result<> check_image_size(std::uint32_t width, std::uint32_t height);
+
+/// Writes the image as PNG, 16 bit kept, in place of whatever `path` names: readers see the old
+/// file or the new one. Errors: folder missing or not writable, disk full.
+Result<> save_png(const ReceivedImage& image, const std::filesystem::path& path);
+
+/// The same for the picture in a JPEG file. Error: also data that is damaged.
+Result<> save_jpeg_as_png(std::span<const std::uint8_t> jpeg, const std::filesystem::path& path);
 
 }  // namespace orbwatch::app

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <ostream>
 #include <set>
 
@@ -38,14 +37,7 @@ Result<Subscriptions> make_subscriptions(const SubscribeOptions& options) {
     if (!stems.insert(file_stem(topic, options.prefix)).second) {
       return fail("DDS: topic " + topic + " is named twice, or its file name is another's");
     }
-    if (is_process_state_topic(topic)) {
-      subscriptions.push_back(std::make_unique<ProcessStateSubscription>(topic));
-    } else if (is_compressed_topic(topic)) {
-      subscriptions.push_back(
-          std::make_unique<CompressedImageSubscription>(topic, !options.save.empty()));
-    } else {
-      subscriptions.push_back(std::make_unique<ImageSubscription>(topic, !options.save.empty()));
-    }
+    subscriptions.push_back(Subscription::make(topic, !options.save.empty()));
   }
   return subscriptions;
 }
@@ -134,8 +126,8 @@ Result<> make_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<SubscribeReport> subscribe(const SubscribeOptions& options,
-                                  const std::atomic<bool>& cancelled, std::ostream& out) {
+Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
+                                           const std::atomic<bool>& cancelled, std::ostream& out) {
   limit_dds_log();
   if (const auto made = make_folder(options.save); !made) return tl::unexpected(made.error());
   const auto participant = Participant::join(options.domain, options.security);
@@ -150,9 +142,9 @@ Result<SubscribeReport> subscribe(const SubscribeOptions& options,
                         .and_then([&] { return save(*subscriptions, options); });
   if (!done) return tl::unexpected(done.error());
 
-  SubscribeReport report;
-  for (const auto& subscription : *subscriptions) report.topics.push_back(subscription->report());
-  return report;
+  std::vector<TopicReport> reports;
+  for (const auto& subscription : *subscriptions) reports.push_back(subscription->report());
+  return reports;
 }
 
 }  // namespace orbwatch::app

@@ -25,17 +25,13 @@ struct SubscribeOptions {
   bool each = false;             ///< a line per sample
 };
 
-/// One entry per topic, in the order asked for.
-struct SubscribeReport {
-  std::vector<TopicReport> topics;
-};
-
 /// Reads topics until the time is over or `cancelled` is set, and saves the newest images at the
 /// end. Topics that end in /process_state carry process states, in /compressed JPEG pictures, all
-/// others images; invalid samples are refused and counted. Lines go to `out`.
+/// others images; invalid samples are refused and counted. Lines go to `out`. Returns an entry per
+/// topic, in the order asked for.
 /// Thread-bound; `cancelled` is checked ten times a second. Errors: a topic twice, no usable
 /// network interface, a file that cannot be written.
-Result<SubscribeReport> subscribe(const SubscribeOptions& options,
-                                  const std::atomic<bool>& cancelled, std::ostream& out);
+Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
+                                           const std::atomic<bool>& cancelled, std::ostream& out);
 
 }  // namespace orbwatch::app

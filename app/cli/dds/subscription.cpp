@@ -5,12 +5,13 @@
 #include <cstdio>
 #include <ostream>
 #include <span>
+#include <vector>
 
-#include "app/cli/dds/image_file.h"
+#include "app/cli/dds/received_image.h"
 #include "app/cli/dds/received_state.h"
 #include "app/cli/dds/subscribed_topic.h"
 #include "app/ports/dds/pictures/image_message.h"
-#include "app/ports/dds/topics/topic_reader.h"
+#include "hal/jpeg/jpeg_decoder.h"
 
 namespace orbwatch::app {
 
@@ -27,19 +28,116 @@ double milliseconds_between(dds_time_t earlier, dds_time_t later) {
   return (static_cast<double>(later) - static_cast<double>(earlier)) * 1e-6;
 }
 
+std::string size_text(std::uint32_t width, std::uint32_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// A topic of sensor_msgs/Image.
+class ImageSubscription final : public Subscription {
+ public:
+  ImageSubscription(const std::string& topic, bool keep)
+      : Subscription(sensor_msgs_msg_dds__Image__desc, topic, frame_qos()), keep_(keep) {}
+
+ private:
+  Result<Content> accept(const void* sample) override {
+    const auto& message = *static_cast<const ImageMessage*>(sample);
+    const auto image = check_image(message);
+    if (!image) return tl::unexpected(image.error());
+    if (keep_) {
+      newest_ = *image;
+      bytes_.assign(image->data, image->data + message.data._length);
+      newest_.data = bytes_.data();
+    }
+    return Content{message.header.stamp, size_text(image->width, image->height) + " " +
+                                             std::string(image->encoding.name)};
+  }
+
+  bool has_picture() const override { return newest_.data != nullptr; }
+  Result<> write_png(const std::filesystem::path& path) const override {
+    return save_png(newest_, path);
+  }
+
+  bool keep_;
+  ReceivedImage newest_;  ///< its data, if kept, are bytes_
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// A topic of sensor_msgs/CompressedImage that carries JPEG. The header of each picture is checked,
+/// its data when it is saved.
+class CompressedImageSubscription final : public Subscription {
+ public:
+  CompressedImageSubscription(const std::string& topic, bool keep)
+      : Subscription(sensor_msgs_msg_dds__CompressedImage__desc, topic, frame_qos()), keep_(keep) {}
+
+ private:
+  Result<Content> accept(const void* sample) override {
+    const auto& message = *static_cast<const CompressedImageMessage*>(sample);
+    const std::span jpeg(message.data._buffer, message.data._length);
+    const auto size = decoder_.read_size(std::as_bytes(jpeg));
+    if (!size) return tl::unexpected(size.error());
+    const auto width = static_cast<std::uint32_t>(size->width);
+    const auto height = static_cast<std::uint32_t>(size->height);
+    if (const auto checked = check_image_size(width, height); !checked) {
+      return tl::unexpected(checked.error());
+    }
+    if (keep_) jpeg_.assign(jpeg.begin(), jpeg.end());
+    return Content{message.header.stamp,
+                   size_text(width, height) + " jpeg, " + std::to_string(jpeg.size()) + " bytes"};
+  }
+
+  bool has_picture() const override { return !jpeg_.empty(); }
+  Result<> write_png(const std::filesystem::path& path) const override {
+    return save_jpeg_as_png(jpeg_, path);
+  }
+
+  bool keep_;
+  hal::JpegDecoder decoder_;
+  std::vector<std::uint8_t> jpeg_;
+};
+
+/// A topic of process states.
+class ProcessStateSubscription final : public Subscription {
+ public:
+  explicit ProcessStateSubscription(const std::string& topic)
+      : Subscription(orbwatch_msgs_msg_dds__ProcessState__desc, topic, state_qos()) {}
+
+ private:
+  Result<Content> accept(const void* sample) override {
+    const auto& message = *static_cast<const ProcessStateMessage*>(sample);
+    const auto state = check_process_state(message);
+    if (!state) return tl::unexpected(state.error());
+    return Content{message.header.stamp,
+                   std::string(name_of(state->system_state)) + ", frame set " +
+                       std::to_string(state->frame_set) +
+                       (state->trigger != 0 ? ", trigger " + std::to_string(state->trigger) : "") +
+                       ", heartbeat " + std::to_string(state->heartbeat)};
+  }
+};
+
 }  // namespace
 
-Subscription::Subscription(std::string topic, const dds_topic_descriptor_t& type, Qos qos)
-    : qos_(std::move(qos)), reader_(type, topic) {
+std::unique_ptr<Subscription> Subscription::make(const std::string& topic, bool keep) {
+  if (is_process_state_topic(topic)) return std::make_unique<ProcessStateSubscription>(topic);
+  if (is_compressed_topic(topic)) return std::make_unique<CompressedImageSubscription>(topic, keep);
+  return std::make_unique<ImageSubscription>(topic, keep);
+}
+
+Subscription::Subscription(const dds_topic_descriptor_t& type, std::string topic, Qos qos)
+    : qos_(deep(std::move(qos))), reader_(type, topic) {
   report_.topic = std::move(topic);
 }
 
 Result<> Subscription::take(std::ostream* each) {
   const auto taken =
       take_samples(reader_.get(), [&](const void* sample, const dds_sample_info_t& info) {
-        if (count(sample, info) && each != nullptr) {
-          *each << report_.topic << ": " << describe() << '\n';
+        const auto content = accept(sample);
+        if (!content) {
+          ++report_.refused;
+          report_.refusal = content.error().message;
+          return;
         }
+        count(*content, info.source_timestamp);
+        if (each != nullptr) *each << report_.topic << ": " << content->text << '\n';
       });
   if (!taken) return fail(taken.error().message + " (" + report_.topic + ")");
   dds_sample_lost_status_t lost{};
@@ -49,24 +147,19 @@ Result<> Subscription::take(std::ostream* each) {
   return {};
 }
 
-bool Subscription::count(const void* sample, const dds_sample_info_t& info) {
-  if (const auto accepted = accept(sample); !accepted) {
-    ++report_.refused;
-    report_.refusal = accepted.error().message;
-    return false;
-  }
+void Subscription::count(const Content& content, dds_time_t written) {
   ++report_.received;
   ++interval_.samples;
+  newest_ = content.text;
   if (last_written_) {
-    const double gap = milliseconds_between(*last_written_, info.source_timestamp);
+    const double gap = milliseconds_between(*last_written_, written);
     interval_.longest_gap_ms = std::max(interval_.longest_gap_ms, gap);
     report_.longest_gap_ms = std::max(report_.longest_gap_ms, gap);
   }
-  last_written_ = info.source_timestamp;
+  last_written_ = written;
   const dds_time_t now = dds_time();
-  interval_.since_write_ms += milliseconds_between(info.source_timestamp, now);
-  interval_.since_exposure_ms += milliseconds_between(since_epoch(stamp(sample)).count(), now);
-  return true;
+  interval_.since_write_ms += milliseconds_between(written, now);
+  interval_.since_exposure_ms += milliseconds_between(since_epoch(content.stamp).count(), now);
 }
 
 std::string Subscription::line(double seconds) {
@@ -82,7 +175,7 @@ std::string Subscription::line(double seconds) {
                   "exposure, ",
                   count / seconds, interval.longest_gap_ms, interval.since_write_ms / count,
                   interval.since_exposure_ms / count);
-    text += figures.data() + describe();
+    text += figures.data() + newest_;
   }
   text += ", lost " + std::to_string(report_.lost);
   if (report_.refused > 0) {
@@ -91,97 +184,10 @@ std::string Subscription::line(double seconds) {
   return text;
 }
 
-Result<> Subscription::save(const std::filesystem::path&, const std::string&) { return {}; }
-
-ImageSubscription::ImageSubscription(std::string topic, bool keep)
-    : Subscription(std::move(topic), sensor_msgs_msg_dds__Image__desc, deep(frame_qos())),
-      keep_(keep) {}
-
-Result<> ImageSubscription::accept(const void* sample) {
-  const auto& message = *static_cast<const ImageMessage*>(sample);
-  const auto image = check_image(message);
-  if (!image) return tl::unexpected(image.error());
-  newest_ = *image;
-  newest_.data = nullptr;
-  if (!keep_) return {};
-  bytes_.assign(image->data, image->data + message.data._length);
-  newest_.data = bytes_.data();
-  return {};
-}
-
-TimeMessage ImageSubscription::stamp(const void* sample) const {
-  return static_cast<const ImageMessage*>(sample)->header.stamp;
-}
-
-std::string ImageSubscription::describe() const {
-  return std::to_string(newest_.width) + "x" + std::to_string(newest_.height) + " " +
-         std::string(newest_.encoding.name);
-}
-
-Result<> ImageSubscription::save(const std::filesystem::path& folder, const std::string& prefix) {
-  if (newest_.data == nullptr) return {};
+Result<> Subscription::save(const std::filesystem::path& folder, const std::string& prefix) {
+  if (!has_picture()) return {};
   const auto path = folder / (file_stem(report_.topic, prefix) + ".png");
-  if (const auto saved = save_png(newest_, path); !saved) return saved;
-  report_.saved = path;
-  return {};
+  return write_png(path).map([&] { report_.saved = path; });
 }
-
-CompressedImageSubscription::CompressedImageSubscription(std::string topic, bool keep)
-    : Subscription(std::move(topic), sensor_msgs_msg_dds__CompressedImage__desc, deep(frame_qos())),
-      keep_(keep) {}
-
-Result<> CompressedImageSubscription::accept(const void* sample) {
-  const auto& data = static_cast<const CompressedImageMessage*>(sample)->data;
-  const auto size = decoder_.read_size(std::as_bytes(std::span(data._buffer, data._length)));
-  if (!size) return tl::unexpected(size.error());
-  constexpr int kMaxJpegSide = static_cast<int>(kMaxImageSide);
-  if (size->width > kMaxJpegSide || size->height > kMaxJpegSide) {
-    return fail("image: " + std::to_string(size->width) + " x " + std::to_string(size->height) +
-                " pixels, each side must be 1 to " + std::to_string(kMaxImageSide));
-  }
-  size_ = *size;
-  length_ = data._length;
-  if (keep_) jpeg_.assign(data._buffer, data._buffer + data._length);
-  return {};
-}
-
-TimeMessage CompressedImageSubscription::stamp(const void* sample) const {
-  return static_cast<const CompressedImageMessage*>(sample)->header.stamp;
-}
-
-std::string CompressedImageSubscription::describe() const {
-  return std::to_string(size_.width) + "x" + std::to_string(size_.height) + " jpeg, " +
-         std::to_string(length_) + " bytes";
-}
-
-Result<> CompressedImageSubscription::save(const std::filesystem::path& folder,
-                                           const std::string& prefix) {
-  if (jpeg_.empty()) return {};
-  const auto path = folder / (file_stem(report_.topic, prefix) + ".png");
-  if (const auto saved = save_jpeg_as_png(jpeg_, path); !saved) return saved;
-  report_.saved = path;
-  return {};
-}
-
-ProcessStateSubscription::ProcessStateSubscription(std::string topic)
-    : Subscription(std::move(topic), orbwatch_msgs_msg_dds__ProcessState__desc, deep(state_qos())) {
-}
-
-Result<> ProcessStateSubscription::accept(const void* sample) {
-  const auto state = check_process_state(*static_cast<const ProcessStateMessage*>(sample));
-  if (!state) return tl::unexpected(state.error());
-  const std::string_view text = operator_text(state->system_state);
-  newest_ = std::string(text.substr(0, text.find(':'))) + ", frame set " +
-            std::to_string(state->frame_set) +
-            (state->trigger != 0 ? ", trigger " + std::to_string(state->trigger) : "") +
-            ", heartbeat " + std::to_string(state->heartbeat);
-  return {};
-}
-
-TimeMessage ProcessStateSubscription::stamp(const void* sample) const {
-  return static_cast<const ProcessStateMessage*>(sample)->header.stamp;
-}
-
-std::string ProcessStateSubscription::describe() const { return newest_; }
 
 }  // namespace orbwatch::app

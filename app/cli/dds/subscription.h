@@ -3,15 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "app/cli/dds/received_image.h"
 #include "app/ports/dds/participant/entity.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/topics/topic_reader.h"
-#include "hal/jpeg/jpeg_decoder.h"
 
 namespace orbwatch::app {
 
@@ -31,6 +29,10 @@ struct TopicReport {
 /// One topic that is read. Thread-bound.
 class Subscription {
  public:
+  /// By its name `topic` carries process states, JPEG pictures or images. `keep`: the newest
+  /// picture is wanted by save().
+  static std::unique_ptr<Subscription> make(const std::string& topic, bool keep);
+
   Subscription(const Subscription&) = delete;
   Subscription& operator=(const Subscription&) = delete;
   virtual ~Subscription() = default;
@@ -45,26 +47,28 @@ class Subscription {
   /// One line on the time since the last call, `seconds` long: rate, latest content, latency.
   std::string line(double seconds);
 
-  /// Saves the newest image into `folder`; does nothing for other content, or without an image.
-  virtual Result<> save(const std::filesystem::path& folder, const std::string& prefix);
+  /// Saves the newest picture as PNG into `folder`; does nothing for other content, or without a
+  /// picture.
+  Result<> save(const std::filesystem::path& folder, const std::string& prefix);
 
   const TopicReport& report() const { return report_; }
 
  protected:
-  Subscription(std::string topic, const dds_topic_descriptor_t& type, Qos qos);
+  /// What a valid sample is.
+  struct Content {
+    TimeMessage stamp;  ///< exposure start
+    std::string text;   ///< in a few words
+  };
+
+  Subscription(const dds_topic_descriptor_t& type, std::string topic, Qos qos);
 
   /// Checks a sample, which is valid during the call only, and copies what is needed of it.
-  virtual Result<> accept(const void* sample) = 0;
-  /// Exposure start of the newest sample.
-  virtual TimeMessage stamp(const void* sample) const = 0;
-  /// The newest sample in a few words.
-  virtual std::string describe() const = 0;
-
-  TopicReport report_;
+  virtual Result<Content> accept(const void* sample) = 0;
+  virtual bool has_picture() const { return false; }
+  virtual Result<> write_png(const std::filesystem::path& /*path*/) const { return {}; }
 
  private:
-  /// Whether it was valid.
-  bool count(const void* sample, const dds_sample_info_t& info);
+  void count(const Content& content, dds_time_t written);
 
   /// Sums over the samples since the last line().
   struct Interval {
@@ -76,58 +80,10 @@ class Subscription {
 
   Qos qos_;
   TopicReader reader_;
+  TopicReport report_;
   Interval interval_;
+  std::string newest_;  ///< content
   std::optional<dds_time_t> last_written_;
-};
-
-/// A topic of sensor_msgs/Image.
-class ImageSubscription final : public Subscription {
- public:
-  /// `keep`: the newest image is wanted by save().
-  ImageSubscription(std::string topic, bool keep);
-  Result<> save(const std::filesystem::path& folder, const std::string& prefix) override;
-
- private:
-  Result<> accept(const void* sample) override;
-  TimeMessage stamp(const void* sample) const override;
-  std::string describe() const override;
-
-  bool keep_;
-  ReceivedImage newest_;  ///< its data, if kept, are bytes_
-  std::vector<std::uint8_t> bytes_;
-};
-
-/// A topic of sensor_msgs/CompressedImage that carries JPEG. The header of each picture is checked,
-/// its data when it is saved.
-class CompressedImageSubscription final : public Subscription {
- public:
-  /// `keep`: the newest image is wanted by save().
-  CompressedImageSubscription(std::string topic, bool keep);
-  Result<> save(const std::filesystem::path& folder, const std::string& prefix) override;
-
- private:
-  Result<> accept(const void* sample) override;
-  TimeMessage stamp(const void* sample) const override;
-  std::string describe() const override;
-
-  bool keep_;
-  hal::JpegDecoder decoder_;
-  hal::JpegSize size_;
-  std::size_t length_ = 0;  ///< bytes
-  std::vector<std::uint8_t> jpeg_;
-};
-
-/// A topic of process states.
-class ProcessStateSubscription final : public Subscription {
- public:
-  explicit ProcessStateSubscription(std::string topic);
-
- private:
-  Result<> accept(const void* sample) override;
-  TimeMessage stamp(const void* sample) const override;
-  std::string describe() const override;
-
-  std::string newest_;
 };
 
 }  // namespace orbwatch::app

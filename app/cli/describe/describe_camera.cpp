@@ -5,7 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include "app/cli/describe/describe.h"
+#include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/files/camera_calibration.h"
 #include "app/files/rig_file.h"
@@ -16,7 +16,6 @@ namespace orbwatch::app {
 namespace {
 
 struct DescribeCameraOptions {
-  bool help = false;
   std::filesystem::path rig;
   std::string camera;
   /// None: text for people.
@@ -34,7 +33,6 @@ std::vector<Option> declare(DescribeCameraOptions& o) {
       {"format", 0, joined(kFormats),
        "text (default), or its calibration as OpenCV\nor ROS write it",
        word_option("format", kFormats, o.format)},
-      {"help", 'h', "", "this text", flag_option(o.help)},
   };
 }
 
@@ -82,6 +80,8 @@ void write_place(const optics::BallProjection& ball, std::ostream& out) {
 }
 
 Result<std::string> describe(const DescribeCameraOptions& o) {
+  if (o.rig.empty()) return fail("--rig is missing; see --help");
+  if (o.camera.empty()) return fail("--camera is missing; see --help");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto camera = find_camera(*rig, o.camera);
@@ -107,18 +107,12 @@ Result<std::string> describe(const DescribeCameraOptions& o) {
 
 Result<std::string> describe_camera(const std::vector<std::string>& arguments) {
   DescribeCameraOptions o;
-  const std::vector<Option> options = declare(o);
-  const auto rest = parse_options(arguments, options);
-  if (!rest) return tl::unexpected(rest.error());
-  if (o.help) {
-    return "Usage: orbwatch describe camera --rig RIG --camera NAME [options]\n\n"
-           "Prints what follows from a rig for one camera.\n\n" +
-           options_help(options);
-  }
-  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
-  if (o.rig.empty()) return fail("--rig is missing; see --help");
-  if (o.camera.empty()) return fail("--camera is missing; see --help");
-  return describe(o);
+  return run_command(
+      arguments,
+      {.usage = "Usage: orbwatch describe camera --rig RIG --camera NAME [options]\n\n"
+                "Prints what follows from a rig for one camera.\n\n",
+       .options = declare(o)},
+      [&](const auto&) { return describe(o); });
 }
 
 }  // namespace orbwatch::app

@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "app/cli/describe/describe.h"
+#include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/view_options.h"
 #include "app/model/json.h"
@@ -26,7 +26,6 @@ constexpr double kCountsPerPixelPerDegree = 100;
 enum class Format { Markdown, Json };
 
 struct DescribeViewOptions {
-  bool help = false;
   CameraOptions cameras;
   std::optional<Size> picture_size;
   optics::ViewSpec view = kDefaultView;
@@ -52,7 +51,6 @@ std::vector<Option> declare(DescribeViewOptions& o) {
                      "write the best camera's resolution as 16-bit grey\npicture, in 1/100 pixel "
                      "per degree; 0: not seen",
                      text_option(o.output)});
-  options.push_back({"help", 'h', "", "this text", flag_option(o.help)});
   return options;
 }
 
@@ -221,18 +219,15 @@ Result<std::string> describe(const DescribeViewOptions& o) {
 
 Result<std::string> describe_view(const std::vector<std::string>& arguments) {
   DescribeViewOptions o;
-  const std::vector<Option> options = declare(o);
-  const auto rest = parse_options(arguments, options);
-  if (!rest) return tl::unexpected(rest.error());
-  if (o.help) {
-    return "Usage: orbwatch describe view --rig RIG --camera NAME [--camera NAME ...] [options]\n"
+  return run_command(
+      arguments,
+      {.usage =
+           "Usage: orbwatch describe view --rig RIG --camera NAME [--camera NAME ...] [options]\n"
            "       orbwatch describe view --ball CX,CY,R --size-of-picture WxH\n"
            "                (--alpha DEG | --distance RADII) [options]\n\n"
-           "Prints how many of a camera's pixels a degree of the view really has.\n\n" +
-           options_help(options);
-  }
-  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
-  return describe(o);
+           "Prints how many of a camera's pixels a degree of the view really has.\n\n",
+       .options = declare(o)},
+      [&](const auto&) { return describe(o); });
 }
 
 }  // namespace orbwatch::app

@@ -1,28 +1,36 @@
-#include <iostream>
+#include <iterator>
 
 #include "app/cli/command.h"
-#include "app/cli/list/list.h"
+#include "app/cli/list/list_text.h"
 #include "app/cli/options/options.h"
+#include "hal/libcamera/libcamera_list.h"
+#include "hal/lines/gpio/gpio_lines.h"
+#include "hal/v4l2/device/v4l2_list.h"
 
 namespace orbwatch::app {
+namespace {
 
-Result<> list_command(const std::vector<std::string>& arguments) {
-  bool json = false, help = false;
-  const std::vector<Option> options{{"json", 0, "", "for programs", flag_option(json)},
-                                    {"help", 'h', "", "this text", flag_option(help)}};
-  const auto rest = parse_options(arguments, options);
-  if (!rest) return tl::unexpected(rest.error());
-  if (!rest->empty()) return fail("unexpected argument " + rest->front() + "; see --help");
-  if (help) {
-    std::cout << "Usage: orbwatch list [--json]\n\n"
-                 "Shows the cameras that are connected, with their modes and controls, and the\n"
-                 "GPIO chips with their lines.\n\n"
-              << options_help(options);
-    return {};
-  }
-  const hal::Inventory inventory = take_inventory();
-  std::cout << (json ? list_json(inventory) : list_table(inventory));
-  return {};
+/// The devices that are connected now, of every back-end that can list them. Does not disturb
+/// streaming cameras.
+hal::Inventory take_inventory() {
+  hal::Inventory inventory{hal::list_v4l2_cameras(), hal::GpioLines().chips()};
+  std::ranges::move(hal::list_libcamera_cameras(), std::back_inserter(inventory.cameras));
+  return inventory;
+}
+
+}  // namespace
+
+Result<std::string> list_command(const std::vector<std::string>& arguments) {
+  bool json = false;
+  return run_command(arguments,
+                     {.usage = "Usage: orbwatch list [--json]\n\n"
+                               "Shows the cameras that are connected, with their modes and "
+                               "controls, and the\nGPIO chips with their lines.\n\n",
+                      .options = {{"json", 0, "", "for programs", flag_option(json)}}},
+                     [&](const auto&) -> Result<std::string> {
+                       const hal::Inventory inventory = take_inventory();
+                       return json ? list_json(inventory) : list_table(inventory);
+                     });
 }
 
 }  // namespace orbwatch::app

@@ -1,7 +1,7 @@
-#include <nlohmann/json.hpp>
-#include <string>
+#include "app/cli/list/list_text.h"
 
-#include "app/cli/list/list.h"
+#include <nlohmann/json.hpp>
+
 #include "app/cli/text_table.h"
 #include "app/model/json.h"
 

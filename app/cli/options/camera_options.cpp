@@ -112,10 +112,7 @@ std::vector<Option> camera_options(CameraOptions& o) {
       {"rig", 0, "RIG", "file that describes cameras, ball and machine;\nsee orbwatch describe rig",
        text_option(o.rig)},
       {"camera", 0, "NAME[=IMAGE]", "one of the rig's cameras, and its picture;\nmay be repeated",
-       [&o](const std::string& v) -> Result<> {
-         o.cameras.push_back(v);
-         return {};
-       }},
+       list_option(o.cameras)},
       {"ball", 0, "CX,CY,R | CX,CY,RX,RY,ANGLE",
        "without a rig: limb of the ball in the picture, pixels\n(centres at integers); ANGLE in "
        "degrees turns RX from\nright to down",

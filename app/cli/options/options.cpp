@@ -13,11 +13,9 @@ constexpr int kFirstLong = 1000;
 
 tl::unexpected<Error> refuse(const std::string& what) { return fail(what + "; see --help"); }
 
-}  // namespace
-
-Result<std::vector<std::string>> parse_options(std::vector<std::string> arguments,
-                                               const std::vector<Option>& options,
-                                               OptionOrder order) {
+/// Calls the options' set(); returns the arguments that are no option.
+Result<std::vector<std::string>> parse(std::vector<std::string> arguments,
+                                       const std::vector<Option>& options, OptionOrder order) {
   std::vector<option> table;
   table.reserve(options.size() + 1);
   // The colon: errors are reported here, not by getopt.
@@ -47,6 +45,7 @@ Result<std::vector<std::string>> parse_options(std::vector<std::string> argument
   return std::vector<std::string>(argv.begin() + optind, argv.begin() + argc);
 }
 
+/// The options as lines of --help.
 std::string options_help(const std::vector<Option>& options) {
   constexpr std::size_t kColumn = 36;
   std::string help;
@@ -60,6 +59,22 @@ std::string options_help(const std::vector<Option>& options) {
     help += line + "\n";
   }
   return help;
+}
+
+}  // namespace
+
+Result<std::string> run_command(
+    std::vector<std::string> arguments, CommandLine line,
+    const std::function<Result<std::string>(const std::vector<std::string>& words)>& run) {
+  bool asks_help = false;
+  line.options.push_back({"help", 'h', "", "this text", flag_option(asks_help)});
+  const auto words = parse(std::move(arguments), line.options, line.order);
+  if (!words) return tl::unexpected(words.error());
+  if (asks_help) return line.usage + options_help(line.options) + line.notes;
+  if (!words->empty() && !line.takes_words) {
+    return refuse("unexpected argument " + words->front());
+  }
+  return run(*words);
 }
 
 Result<double> parse_number(std::string_view name, std::string_view text) {
@@ -103,6 +118,13 @@ Result<Size> parse_size(std::string_view name, std::string_view text) {
 std::function<Result<>(const std::string&)> flag_option(bool& target) {
   return [&target](const std::string&) -> Result<> {
     target = true;
+    return {};
+  };
+}
+
+std::function<Result<>(const std::string&)> list_option(std::vector<std::string>& target) {
+  return [&target](const std::string& value) -> Result<> {
+    target.push_back(value);
     return {};
   };
 }

@@ -26,14 +26,21 @@ enum class OptionOrder {
   First  ///< before the first other argument, so that -40 may be a number there
 };
 
-/// Parses `arguments` (the command's name first) and calls the options' set(). Returns the
-/// arguments that are no option. Errors: unknown option, missing value, those of set().
-Result<std::vector<std::string>> parse_options(std::vector<std::string> arguments,
-                                               const std::vector<Option>& options,
-                                               OptionOrder order = OptionOrder::Anywhere);
+/// What a command accepts; --help is added to its options.
+struct CommandLine {
+  std::string usage;  ///< printed by --help before the options
+  std::vector<Option> options;
+  bool takes_words = false;  ///< arguments that are no option
+  OptionOrder order = OptionOrder::Anywhere;
+  std::string notes{};  ///< printed by --help behind the options
+};
 
-/// The options as lines of --help.
-std::string options_help(const std::vector<Option>& options);
+/// Parses `arguments` (the command's name first), calls the options' set(), and returns what `run`
+/// makes of the arguments that are no option; or the help. Errors: unknown option, missing value,
+/// unexpected argument, those of set() and `run`.
+Result<std::string> run_command(
+    std::vector<std::string> arguments, CommandLine line,
+    const std::function<Result<std::string>(const std::vector<std::string>& words)>& run);
 
 /// `text` as a finite number. The error names the option `name`.
 Result<double> parse_number(std::string_view name, std::string_view text);
@@ -53,6 +60,9 @@ Result<Size> parse_size(std::string_view name, std::string_view text);
 
 /// set() for a flag.
 std::function<Result<>(const std::string&)> flag_option(bool& target);
+
+/// set() for an option that may be repeated; each value is appended.
+std::function<Result<>(const std::string&)> list_option(std::vector<std::string>& target);
 
 /// set() for an option whose text is stored unchanged: a name, a file.
 template <class Text>

@@ -1,4 +1,4 @@
-#include "app/cli/dds/image_file.h"
+#include "app/cli/dds/received_image.h"
 
 #include <gtest/gtest.h>
 

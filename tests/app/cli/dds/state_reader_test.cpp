@@ -1,5 +1,5 @@
 // The process state from the sink to whoever reads it, field by field over a real DDS network.
-#include "app/cli/dds/state_reader.h"
+#include "app/cli/dds/received_state.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

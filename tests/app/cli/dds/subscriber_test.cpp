@@ -68,7 +68,7 @@ class Subscriber {
   ~Subscriber() { cancelled_ = true; }
 
   const SharedText& printed() const { return text_; }
-  Result<SubscribeReport> cancel() {
+  Result<std::vector<TopicReport>> cancel() {
     cancelled_ = true;
     return result_.get();
   }
@@ -76,7 +76,7 @@ class Subscriber {
  private:
   SharedText text_;
   std::atomic<bool> cancelled_{false};
-  std::future<Result<SubscribeReport>> result_;
+  std::future<Result<std::vector<TopicReport>>> result_;
 };
 
 /// An image message of 4 x 3 grey pixels, unless the test spoils it.
@@ -135,14 +135,14 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
   })) << subscriber.printed().text();
   const auto report = subscriber.cancel();
   ASSERT_TRUE(report) << report.error().message;
-  ASSERT_EQ(report->topics.size(), 3u);
-  for (const auto& topic : report->topics) {
+  ASSERT_EQ(report->size(), 3u);
+  for (const auto& topic : *report) {
     EXPECT_GT(topic.received, 0u) << topic.topic;
     EXPECT_EQ(topic.refused, 0u) << topic.refusal;
   }
-  EXPECT_EQ(report->topics[0].saved, folder / "front.png");
-  EXPECT_EQ(report->topics[1].saved, folder / "front-radiometric.png");
-  EXPECT_EQ(report->topics[2].saved, "");
+  EXPECT_EQ((*report)[0].saved, folder / "front.png");
+  EXPECT_EQ((*report)[1].saved, folder / "front-radiometric.png");
+  EXPECT_EQ((*report)[2].saved, "");
 
   const cv::Mat colour = cv::imread((folder / "front.png").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat counts =
@@ -188,11 +188,11 @@ TEST_F(SubscriberTest, ReadsCompressedPicturesAndRefusesWhatIsNone) {
   })) << subscriber.printed().text();
   const auto report = subscriber.cancel();
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->topics[0].received, 1u);
-  EXPECT_EQ(report->topics[0].refused, 2u);
-  EXPECT_THAT(report->topics[0].refusal, HasSubstr("JPEG"));
-  EXPECT_EQ(report->topics[0].saved, folder / "front-compressed.png");
-  const cv::Mat saved = cv::imread(report->topics[0].saved.string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ((*report)[0].received, 1u);
+  EXPECT_EQ((*report)[0].refused, 2u);
+  EXPECT_THAT((*report)[0].refusal, HasSubstr("JPEG"));
+  EXPECT_EQ((*report)[0].saved, folder / "front-compressed.png");
+  const cv::Mat saved = cv::imread((*report)[0].saved.string(), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(saved.size(), grey.size());
   EXPECT_LE(cv::norm(saved, grey, cv::NORM_INF), 2);
 }
@@ -236,9 +236,9 @@ TEST_F(SubscriberTest, RefusesImagesThatDoNotAddUp) {
   }
   const auto report = subscriber.cancel();
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->topics[0].received, 1u);
-  EXPECT_EQ(report->topics[0].refused, 7u);
-  EXPECT_EQ(report->topics[0].refusal, "image: encoding is none of rgb8, bgr8, mono8, mono16");
+  EXPECT_EQ((*report)[0].received, 1u);
+  EXPECT_EQ((*report)[0].refused, 7u);
+  EXPECT_EQ((*report)[0].refusal, "image: encoding is none of rgb8, bgr8, mono8, mono16");
   const cv::Mat saved = cv::imread((folder_.path() / "front.png").string(), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(saved.size(), cv::Size(4, 3)) << "the sound one is what is saved";
 }
@@ -256,9 +256,9 @@ TEST_F(SubscriberTest, RefusesStatesThatItDoesNotKnow) {
   ASSERT_TRUE(writer.flush());
   const auto report = subscriber.cancel();
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->topics[0].received, 1u);
-  EXPECT_EQ(report->topics[0].refused, 1u);
-  EXPECT_THAT(report->topics[0].refusal, HasSubstr("system state 200"));
+  EXPECT_EQ((*report)[0].received, 1u);
+  EXPECT_EQ((*report)[0].refused, 1u);
+  EXPECT_THAT((*report)[0].refusal, HasSubstr("system state 200"));
 }
 
 TEST_F(SubscriberTest, EndsByItselfAndSaysThatNothingCame) {
@@ -271,10 +271,10 @@ TEST_F(SubscriberTest, EndsByItselfAndSaysThatNothingCame) {
                                  .stats = true},
                                 cancelled, out);
   ASSERT_TRUE(report) << report.error().message;
-  ASSERT_EQ(report->topics.size(), 2u) << "the selected view and the process state";
-  EXPECT_EQ(report->topics[0].topic, "rt/orbwatch/selected/image_raw");
-  EXPECT_EQ(report->topics[1].topic, kStateTopic);
-  EXPECT_EQ(report->topics[0].received + report->topics[1].received, 0u);
+  ASSERT_EQ(report->size(), 2u) << "the selected view and the process state";
+  EXPECT_EQ((*report)[0].topic, "rt/orbwatch/selected/image_raw");
+  EXPECT_EQ((*report)[1].topic, kStateTopic);
+  EXPECT_EQ((*report)[0].received + (*report)[1].received, 0u);
   EXPECT_EQ(folder_.files(), 0);
   EXPECT_THAT(text.text(), HasSubstr("rt/orbwatch/selected/image_raw: nothing, lost 0\n"));
 }

@@ -1,4 +1,4 @@
-#include "app/cli/list/list.h"
+#include "app/cli/list/list_text.h"
 
 #include <gtest/gtest.h>
 

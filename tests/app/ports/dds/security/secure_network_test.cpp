@@ -7,7 +7,7 @@
 #include <atomic>
 
 #include "app/cli/dds/command_client.h"
-#include "app/cli/dds/state_reader.h"
+#include "app/cli/dds/received_state.h"
 #include "app/cli/dds/subscribed_topic.h"
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/pictures/camera_info.h"

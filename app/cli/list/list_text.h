@@ -6,10 +6,6 @@
 
 namespace orbwatch::app {
 
-/// The devices that are connected now, of every back-end that can list them. Does not disturb
-/// streaming cameras.
-hal::Inventory take_inventory();
-
 /// An inventory as one JSON document (RFC 8259). Bytes that are not UTF-8 become U+FFFD.
 std::string list_json(const hal::Inventory& inventory);
 
