@@ -11,7 +11,6 @@
 #include "app/cli/keys/staged_folder.h"
 #include "app/ports/dds/security/enclave.h"
 #include "app/ports/dds/security/key_file.h"
-#include "app/ports/dds/security/signed_document.h"
 
 namespace orbwatch::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/ports/dds/security/permissions.h"
+#include "app/ports/dds/security/access_documents.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

@@ -1,7 +1,5 @@
 #include "app/cli/keys/topic_access.h"
 
-#include <string>
-
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {

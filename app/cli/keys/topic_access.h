@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/ports/dds/security/permissions.h"
+#include "app/ports/dds/security/access_documents.h"
 
 namespace orbwatch::app {
 

@@ -1,19 +1,38 @@
 #pragma once
 
+#include <openssl/evp.h>
+#include <openssl/x509.h>
+
 #include <chrono>
+#include <memory>
 #include <string>
 #include <string_view>
 
-#include "app/ports/dds/security/openssl_handle.h"
 #include "proc/image/result.h"
 
+/// Everything that OpenSSL does: keys, certificates and signatures. All reentrant.
 namespace orbwatch::app {
+
+/// Releases an object of OpenSSL's C API by its own function.
+template <auto release>
+struct OpensslDeleter {
+  template <class Object>
+  void operator()(Object* object) const {
+    release(object);
+  }
+};
+
+using Key = std::unique_ptr<EVP_PKEY, OpensslDeleter<EVP_PKEY_free>>;
+using Certificate = std::unique_ptr<X509, OpensslDeleter<X509_free>>;
 
 /// UTC.
 struct Validity {
   std::chrono::sys_seconds from{};
   std::chrono::sys_seconds until{};
 };
+
+/// A moment by a format of strftime().
+std::string date_text(std::chrono::sys_seconds time, const char* format);
 
 /// A key with its certificate.
 struct Credential {
@@ -29,7 +48,7 @@ enum class CertificateUse {
 };
 
 /// A new P-256 key with a certificate of subject CN=`name`, signed by `issuer`, or by itself when
-/// there is none. Error: OpenSSL refuses, out of entropy for example. Reentrant, as all of these.
+/// there is none. Error: OpenSSL refuses, out of entropy for example.
 Result<Credential> make_credential(const std::string& name, CertificateUse use,
                                    const Validity& validity, const Credential* issuer = nullptr);
 
@@ -48,5 +67,14 @@ Result<Validity> validity_of(const Certificate& certificate);
 /// Whether `certificate` was issued by `authority`; dates are not checked.
 bool is_issued_by(const Certificate& certificate, const Certificate& authority);
 bool is_key_of(const Key& key, const Certificate& certificate);
+
+/// `text` as S/MIME multipart/signed with a detached PKCS #7 signature, as DDS
+/// Security 1.1, 9.4.1.2, requires of governance and permissions.
+Result<std::string> sign_document(std::string_view text, const Credential& signer);
+
+/// The text of a signed document. Only the key of `signer` is trusted, not one whose
+/// certificate it issued or that the document contains. Errors: not S/MIME; not signed by
+/// `signer`, or changed afterwards.
+Result<std::string> verified_document(std::string_view document, const Certificate& signer);
 
 }  // namespace orbwatch::app

@@ -2,10 +2,7 @@
 
 #include <sys/stat.h>
 
-#include <ctime>
-
 #include "app/ports/dds/security/key_file.h"
-#include "app/ports/dds/security/signed_document.h"
 
 namespace orbwatch::app {
 namespace {
@@ -19,13 +16,7 @@ Result<Value> of_file(const fs::path& file, Result<Value> result) {
   return fail(file.string() + ": " + result.error().message);
 }
 
-std::string day(std::chrono::sys_seconds time) {
-  const std::time_t seconds = time.time_since_epoch().count();
-  std::tm calendar{};
-  gmtime_r(&seconds, &calendar);
-  char text[32];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &calendar)};
-}
+std::string day(std::chrono::sys_seconds time) { return date_text(time, "%Y-%m-%d %H:%M UTC"); }
 
 Result<> check_dates(const fs::path& file, const Validity& validity, std::chrono::sys_seconds now) {
   if (now >= validity.until) {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "app/ports/dds/security/access_documents.h"
 #include "app/ports/dds/security/certificate.h"
-#include "app/ports/dds/security/permissions.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

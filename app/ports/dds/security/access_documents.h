@@ -4,9 +4,27 @@
 #include <vector>
 
 #include "app/ports/dds/security/certificate.h"
-#include "app/ports/dds/security/governance.h"
 
+/// The two documents of DDS Security, governance and permissions, written and read. All reentrant.
 namespace orbwatch::app {
+
+/// DDS domains from `first` to `last`, both included.
+struct DomainRange {
+  int first = 0;
+  int last = 0;
+};
+
+bool contains(const std::vector<DomainRange>& domains, int domain);
+
+/// The protection of domains as XML of DDS Security 1.1, 9.4.1.2: participants are authenticated,
+/// each topic is under access control, every message is signed, and content, discovery and
+/// liveliness are encrypted. `bulk_topics`, names with '*' for any text, carry much data: their
+/// submessages are protected from outsiders only, not from other participants.
+std::string governance_document(const DomainRange& domains,
+                                const std::vector<std::string>& bulk_topics);
+
+/// The domains that a governance document has rules for. Error: no such XML.
+Result<std::vector<DomainRange>> governed_domains(const std::string& document);
 
 /// DDS names of topics; '*' stands for any text, '/' included.
 struct TopicAccess {

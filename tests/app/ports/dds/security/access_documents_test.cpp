@@ -1,4 +1,4 @@
-#include "app/ports/dds/security/permissions.h"
+#include "app/ports/dds/security/access_documents.h"
 
 #include <gmock/gmock.h>
 
