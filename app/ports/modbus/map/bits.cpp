@@ -1,6 +1,7 @@
 #include "app/ports/modbus/map/bits.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "app/model/condition.h"
@@ -21,21 +22,57 @@ Bit in_state(std::string name, std::string description, SystemState state) {
           [state](I image) { return image.live.status.state == state; }};
 }
 
+std::span<const AlarmStatus> alarms_of(const Status& status) {
+  return std::span(status.alarms).first(status.alarm_count);
+}
+
 bool any_stands(const Status& status, Severity severity) {
-  const auto* end = status.alarms.begin() + status.alarm_count;
-  return std::any_of(status.alarms.begin(), end, [severity](const AlarmStatus& alarm) {
+  return std::ranges::any_of(alarms_of(status), [severity](const AlarmStatus& alarm) {
     return standing_severity(alarm) == severity;
   });
 }
 
 bool any_awaits_acknowledgement(const Status& status) {
-  const auto* end = status.alarms.begin() + status.alarm_count;
-  return std::any_of(status.alarms.begin(), end, [](const AlarmStatus& alarm) {
+  return std::ranges::any_of(alarms_of(status), [](const AlarmStatus& alarm) {
     return signals::awaits_acknowledgement(alarm.alarm.state);
   });
 }
 
-std::vector<Bit> make_status_bits() {
+/// `number` in place of each '#'.
+std::string numbered(std::string_view text, std::size_t number) {
+  std::string result;
+  for (const char c : text) result += c == '#' ? std::to_string(number) : std::string(1, c);
+  return result;
+}
+
+/// A bit for each entry of a list, numbered from `first`. `is_set` gets the process image and the
+/// entry's place.
+template <class IsSet>
+void append(std::vector<Bit>& bits, std::size_t count, std::string_view name,
+            std::string_view description, IsSet is_set, std::size_t first = 0) {
+  for (std::size_t i = 0; i < count; ++i) {
+    bits.push_back({numbered(name, first + i), numbered(description, first + i),
+                    [i, is_set](I image) { return is_set(image, i); }});
+  }
+}
+
+/// A bit per alarm. Alarms are numbered from 1, as acknowledge_alarm counts them.
+std::vector<Bit> alarm_bits(std::string_view name, std::string_view description,
+                            bool (*is_set)(signals::AlarmState)) {
+  std::vector<Bit> bits;
+  append(
+      bits, signals::kMaxAlarms, name, description,
+      [is_set](I image, std::size_t i) {
+        const Status& status = image.live.status;
+        return i < status.alarm_count && is_set(status.alarms[i].alarm.state);
+      },
+      1);
+  return bits;
+}
+
+}  // namespace
+
+std::vector<Bit> status_bits() {
   return {
       in_state("running", "Every camera delivers", SystemState::Running),
       in_state("degraded", "Some camera has a fault; what the others see is measured",
@@ -68,64 +105,46 @@ std::vector<Bit> make_status_bits() {
   };
 }
 
-std::vector<Bit> make_measurement_bits() {
+std::vector<Bit> measurement_bits() {
   std::vector<Bit> bits;
-  for (std::size_t i = 0; i < kMaxCameras; ++i) {
-    const std::string n = std::to_string(i);
-    bits.push_back({"camera_" + n + "_delivers", "Camera " + n + " is configured and has no fault",
-                    [i](I image) {
-                      const Status& status = image.live.status;
-                      return !image.stale && i < status.camera_count &&
-                             status.cameras[i].fault == hal::Fault::None;
-                    }});
-  }
+  append(bits, kMaxCameras, "camera_#_delivers", "Camera # is configured and has no fault",
+         [](I image, std::size_t i) {
+           const Status& status = image.live.status;
+           return !image.stale && i < status.camera_count &&
+                  status.cameras[i].fault == hal::Fault::None;
+         });
   bits.resize(kFirstMeasuredBit);
-  for (std::size_t i = 0; i < signals::kMaxRegions; ++i) {
-    const std::string n = std::to_string(i);
-    bits.push_back(
-        {"region_" + n + "_measured", "Region " + n + " has a quality above 0",
-         [i](I image) { return image.live.status.regions[i].quality != Quality::NotMeasured; }});
-  }
+  append(bits, signals::kMaxRegions, "region_#_measured", "Region # has a quality above 0",
+         [](I image, std::size_t i) {
+           return image.live.status.regions[i].quality != Quality::NotMeasured;
+         });
   bits.resize(kFirstHotSpotBit);
-  for (std::size_t i = 0; i < signals::kMaxRegions; ++i) {
-    const std::string n = std::to_string(i);
-    bits.push_back({"region_" + n + "_hot_spot", "Region " + n + " has a hot spot", [i](I image) {
-                      const double present = image.live.status.regions[i].signals.hot_spot_present;
-                      return present > 0;  // not for NaN
-                    }});
-  }
+  append(bits, signals::kMaxRegions, "region_#_hot_spot", "Region # has a hot spot",
+         [](I image, std::size_t i) {
+           const double present = image.live.status.regions[i].signals.hot_spot_present;
+           return present > 0;  // not for NaN
+         });
   return bits;
 }
 
-std::vector<Bit> make_process_input_bits() {
+std::vector<Bit> process_input_bits() {
   std::vector<Bit> bits;
-  for (unsigned i = 0; i < 32; ++i) {
-    const std::string n = std::to_string(i);
-    bits.push_back({"process_input_" + n, "Process input " + n + " of the configuration is active",
-                    [i](I image) { return (image.live.status.process_inputs >> i & 1U) != 0; }});
-  }
+  append(bits, 32, "process_input_#", "Process input # of the configuration is active",
+         [](I image, std::size_t i) { return (image.live.status.process_inputs >> i & 1U) != 0; });
   return bits;
 }
 
-std::string numbered(const std::string& before, std::size_t number, const std::string& after) {
-  return before + std::to_string(number) + after;
+std::vector<Bit> active_bits() {
+  return alarm_bits("alarm_#_active", "Alarm # stands: its condition holds, or it is latched",
+                    signals::is_active);
 }
 
-/// A bit per alarm. Alarms are numbered from 1, as acknowledge_alarm counts them.
-std::vector<Bit> make_alarm_bits(const std::string& name, const std::string& description,
-                                 bool (*is_set)(signals::AlarmState)) {
-  std::vector<Bit> bits;
-  for (std::size_t i = 0; i < signals::kMaxAlarms; ++i) {
-    bits.push_back({numbered("alarm_", i + 1, name), numbered("Alarm ", i + 1, description),
-                    [i, is_set](I image) {
-                      const Status& status = image.live.status;
-                      return i < status.alarm_count && is_set(status.alarms[i].alarm.state);
-                    }});
-  }
-  return bits;
+std::vector<Bit> unacknowledged_bits() {
+  return alarm_bits("alarm_#_unacknowledged", "Alarm # awaits its acknowledgement",
+                    signals::awaits_acknowledgement);
 }
 
-std::vector<Bit> make_fault_bits() {
+std::vector<Bit> fault_bits() {
   std::vector<Bit> bits{
       {"pipeline_silent", "As the discrete input stale", [](I image) { return image.stale; }},
       {"no_camera", "No camera delivers",
@@ -142,48 +161,11 @@ std::vector<Bit> make_fault_bits() {
        [](I image) { return image.live.status.health.clock_synchronised == 0; }},
   };
   bits.resize(kFirstCameraFaultBit);
-  for (std::size_t i = 0; i < kMaxCameras; ++i) {
-    const std::string n = std::to_string(i);
-    bits.push_back(
-        {"camera_" + n, "Camera " + n + " has a fault: see its fault register", [i](I image) {
+  append(bits, kMaxCameras, "camera_#", "Camera # has a fault: see its fault register",
+         [](I image, std::size_t i) {
            const Status& status = image.live.status;
            return i < status.camera_count && status.cameras[i].fault != hal::Fault::None;
-         }});
-  }
-  return bits;
-}
-
-}  // namespace
-
-const std::vector<Bit>& status_bits() {
-  static const std::vector<Bit> bits = make_status_bits();
-  return bits;
-}
-
-const std::vector<Bit>& measurement_bits() {
-  static const std::vector<Bit> bits = make_measurement_bits();
-  return bits;
-}
-
-const std::vector<Bit>& process_input_bits() {
-  static const std::vector<Bit> bits = make_process_input_bits();
-  return bits;
-}
-
-const std::vector<Bit>& active_bits() {
-  static const std::vector<Bit> bits = make_alarm_bits(
-      "_active", " stands: its condition holds, or it is latched", signals::is_active);
-  return bits;
-}
-
-const std::vector<Bit>& unacknowledged_bits() {
-  static const std::vector<Bit> bits = make_alarm_bits(
-      "_unacknowledged", " awaits its acknowledgement", signals::awaits_acknowledgement);
-  return bits;
-}
-
-const std::vector<Bit>& fault_bits() {
-  static const std::vector<Bit> bits = make_fault_bits();
+         });
   return bits;
 }
 

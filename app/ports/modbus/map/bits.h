@@ -17,13 +17,13 @@ struct Bit {
 };
 
 /// The bits of each word, bit 0 (the lowest) first. All reentrant.
-const std::vector<Bit>& status_bits();
-const std::vector<Bit>& measurement_bits();
-const std::vector<Bit>& process_input_bits();
-const std::vector<Bit>& active_bits();
-const std::vector<Bit>& unacknowledged_bits();
+std::vector<Bit> status_bits();
+std::vector<Bit> measurement_bits();
+std::vector<Bit> process_input_bits();
+std::vector<Bit> active_bits();
+std::vector<Bit> unacknowledged_bits();
 /// What is wrong; these are not discrete inputs.
-const std::vector<Bit>& fault_bits();
+std::vector<Bit> fault_bits();
 
 /// Bit n of the word is that of bits[n].
 std::uint32_t word_of(const std::vector<Bit>& bits, const ProcessImage& image);

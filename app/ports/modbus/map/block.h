@@ -36,15 +36,17 @@ inline Quantity quantity_in(const AlarmStatus& alarm, const FieldInfo& field) {
   return field.name == "value" ? quantity_of(alarm) : Quantity(field);
 }
 
-/// Makes the rows of one part, in the order of their addresses; `find` gives the part in a process
-/// image. 32-bit values stand at even addresses.
+/// Appends the rows of one part to `rows`, in the order of their addresses; `find` gives the part
+/// in a process image. 32-bit values stand at even addresses.
 template <class Part>
 class Block {
  public:
   using Find = std::function<const Part&(const ProcessImage&)>;
 
-  Block(Table table, Section section, std::string prefix, Find find)
-      : table_(table),
+  Block(std::vector<Row>& rows, Table table, Section section, std::string prefix, Find find)
+      : rows_(rows),
+        begin_(rows.size()),
+        table_(table),
         section_(section),
         next_(section.begin),
         prefix_(std::move(prefix)),
@@ -122,7 +124,7 @@ class Block {
 
   /// Lets the first row, a code, read kNone while the entry `is_absent`.
   Block& absent(std::string_view thing, std::function<bool(const ProcessImage&)> is_absent) {
-    Row& row = rows_.front();
+    Row& row = rows_[begin_];
     row.quantity.maximum = kNone;
     row.description += "; 65535 no such " + std::string(thing) + " is configured";
     row.read = [is_absent = std::move(is_absent),
@@ -132,28 +134,17 @@ class Block {
     return *this;
   }
 
-  std::vector<Row>& rows() { return rows_; }
-
  private:
+  std::vector<Row>& rows_;
+  const std::size_t begin_;  ///< of its own rows
   Table table_;
   Section section_;
   int next_;
   std::string prefix_;
   Find find_;
-  std::vector<Row> rows_;
 };
 
 /// For rows that combine parts.
 inline const ProcessImage& whole_image(const ProcessImage& image) { return image; }
-
-/// The rows of entries 0 to count - 1.
-template <class RowsOf>
-std::vector<Row> joined(std::size_t count, RowsOf rows_of) {
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (Row& row : rows_of(i)) rows.push_back(std::move(row));
-  }
-  return rows;
-}
 
 }  // namespace orbwatch::app::modbus

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iterator>
 
 #include "app/model/condition.h"
 #include "app/ports/modbus/map/block.h"
@@ -67,9 +66,9 @@ std::uint32_t valid_word(const RegionStatus& region, std::size_t first, std::siz
 /// Builds one block of one region.
 class RegionBlock {
  public:
-  RegionBlock(const Window& window, std::size_t region, Section section)
+  RegionBlock(std::vector<Row>& rows, const Window& window, std::size_t region, Section section)
       : region_(region),
-        stamped_(Table::Input, section, prefix(window, region),
+        stamped_(rows, Table::Input, section, prefix(window, region),
                  [source = window.source](const ProcessImage& image) -> const StampedStatus& {
                    return image.*source;
                  }) {}
@@ -123,8 +122,6 @@ class RegionBlock {
     return *this;
   }
 
-  std::vector<Row> rows() { return std::move(stamped_.rows()); }
-
  private:
   static std::string prefix(const Window& window, std::size_t region) {
     return std::string(window.prefix) + std::to_string(region) + "_";
@@ -150,34 +147,28 @@ class RegionBlock {
   Block<StampedStatus> stamped_;
 };
 
-std::vector<Row> rows_of_region(const Window& window, std::size_t region) {
+void add_region(std::vector<Row>& rows, const Window& window, std::size_t region) {
   const std::size_t count = all_signals().size();
-  std::vector<Row> rows = RegionBlock(window, region, window.first.entry(region))
-                              .number()
-                              .conditions()
-                              .signal_rows(0, std::min(count, kFirstSignals))
-                              .rows();
+  RegionBlock(rows, window, region, window.first.entry(region))
+      .number()
+      .conditions()
+      .signal_rows(0, std::min(count, kFirstSignals));
   for (std::size_t block = 1, first = kFirstSignals; first < count; ++block) {
     const std::size_t end = std::min(count, first + kMoreSignals);
     const int begin = window.more.entry(region).begin + static_cast<int>(block - 1) * kMoreStride;
-    RegionBlock more(window, region, {begin, begin + kMoreStride});
-    more.number("more_" + std::to_string(block) + "_").signal_rows(first, end);
-    std::ranges::move(more.rows(), std::back_inserter(rows));
+    RegionBlock(rows, window, region, {begin, begin + kMoreStride})
+        .number("more_" + std::to_string(block) + "_")
+        .signal_rows(first, end);
     first = end;
   }
-  return rows;
 }
 
 }  // namespace
 
-std::vector<Row> region_rows() {
-  std::vector<Row> rows;
+void add_region_rows(std::vector<Row>& rows) {
   for (const Window& window : kWindows) {
-    std::ranges::move(joined(signals::kMaxRegions,
-                             [&window](std::size_t r) { return rows_of_region(window, r); }),
-                      std::back_inserter(rows));
+    for (std::size_t r = 0; r < signals::kMaxRegions; ++r) add_region(rows, window, r);
   }
-  return rows;
 }
 
 }  // namespace orbwatch::app::modbus

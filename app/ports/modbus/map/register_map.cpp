@@ -42,11 +42,11 @@ Row mirrored(Row row) {
 }
 
 std::vector<Row> all_rows() {
-  std::vector<Row> input = status_rows();
-  std::ranges::move(alarm_rows(), std::back_inserter(input));
-  std::ranges::move(region_rows(), std::back_inserter(input));
-  std::vector<Row> discrete = discrete_rows();
-  std::vector<Row> rows = written_rows();
+  std::vector<Row> input, discrete, rows;
+  add_status_rows(input);
+  add_region_rows(input);
+  add_discrete_rows(discrete);
+  add_written_rows(rows);
   reserve_gaps(rows, kWritten.end);
   reserve_gaps(input, kResults.end);
   reserve_gaps(discrete, kUnacknowledgedBits.end);

@@ -6,11 +6,10 @@
 
 namespace orbwatch::app::modbus {
 
-/// The rows of each block, without mirrors and reserved places. All reentrant.
-std::vector<Row> discrete_rows();
-std::vector<Row> status_rows();  ///< all input registers but alarms and regions
-std::vector<Row> alarm_rows();
-std::vector<Row> region_rows();
-std::vector<Row> written_rows();
+/// Append the rows of each block, without mirrors and reserved places. All reentrant.
+void add_discrete_rows(std::vector<Row>& rows);
+void add_status_rows(std::vector<Row>& rows);  ///< all input registers but regions
+void add_region_rows(std::vector<Row>& rows);
+void add_written_rows(std::vector<Row>& rows);
 
 }  // namespace orbwatch::app::modbus

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <iterator>
-
 #include "app/model/condition.h"
 #include "app/ports/modbus/map/bits.h"
 #include "app/ports/modbus/map/block.h"
@@ -17,16 +14,22 @@ static_assert(registers_of<PlcStatus>() <= kPlc.size());
 static_assert(registers_of<ServerStatus>() <= kServer.size());
 static_assert(registers_of<CameraStatus>() <= kCameras.stride);
 static_assert(registers_of<ViewStatus>() <= kViews.stride);
-static_assert(kCameras.has_room_for(kMaxCameras) && kViews.has_room_for(kMaxViews));
+static_assert(registers_of<AlarmStatus>() <= kAlarms.stride);
+static_assert(kCameras.has_room_for(kMaxCameras) && kViews.has_room_for(kMaxViews) &&
+              kAlarms.has_room_for(signals::kMaxAlarms));
+static_assert(signals::kMaxAlarms <= 32, "bits of a UDINT; the next 32 get one each beside them");
+
+/// Places between the words of alarms 1 to 32: those of 33 to 64 fit in.
+constexpr int kWordStride = 4;
 
 /// What combines several parts, or belongs to this interface alone.
-std::vector<Row> summary_rows() {
+void add_summary(std::vector<Row>& rows) {
   using I = const ProcessImage&;
-  Block<ProcessImage> block(Table::Input, kSummary, "", whole_image);
+  Block<ProcessImage> block(rows, Table::Input, kSummary, "", whole_image);
   const auto word = [&block](std::string_view name, std::string_view description,
                              const std::vector<Bit>& bits) {
     block.row(Type::Udint, name, kDoubleWord, std::string(description),
-              [&bits](I, I image) { return word_of(bits, image); });
+              [bits](I, I image) { return word_of(bits, image); });
   };
   const auto count = [&block](std::string_view name, std::size_t maximum,
                               std::string_view description, std::size_t Status::*member) {
@@ -53,58 +56,90 @@ std::vector<Row> summary_rows() {
   count("camera_count", kMaxCameras, "Configured cameras", &Status::camera_count);
   count("view_count", kMaxViews, "Configured views", &Status::view_count);
   count("alarm_count", signals::kMaxAlarms, "Alarms of the recipe", &Status::alarm_count);
-  return std::move(block.rows());
+}
+
+/// Bit n: alarm n + 1 satisfies `holds`.
+template <class Holds>
+std::uint32_t alarm_word(const Status& status, Holds holds) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < status.alarm_count; ++i) {
+    if (holds(status.alarms[i])) word |= 1U << i;
+  }
+  return word;
+}
+
+void add_alarm_summary(std::vector<Row>& rows) {
+  using I = const ProcessImage&;
+  Block<ProcessImage> block(rows, Table::Input, kAlarmSummary, "alarms_", whole_image);
+  block.row(Type::Udint, "active", kDoubleWord,
+            "Bit n is discrete input 128 + n: alarm n + 1 stands",
+            [bits = active_bits()](I, I image) { return word_of(bits, image); });
+  block.at(kAlarmSummary.begin + kWordStride)
+      .row(Type::Udint, "unacknowledged", kDoubleWord,
+           "Bit n is discrete input 192 + n: alarm n + 1 awaits its acknowledgement",
+           [bits = unacknowledged_bits()](I, I image) { return word_of(bits, image); });
+  block.at(kAlarmSummary.begin + 2 * kWordStride)
+      .row(Type::Udint, "severe", kDoubleWord, "Bit n: alarm n + 1 stands at an alarm level",
+           [](I, I image) {
+             return alarm_word(image.live.status, [](const AlarmStatus& alarm) {
+               return standing_severity(alarm) == Severity::Alarm;
+             });
+           });
+  block.at(kAlarmSummary.begin + 3 * kWordStride)
+      .row(Type::Udint, "not_measured", kDoubleWord,
+           "Bit n: the signal of alarm n + 1 is not measured", [](I, I image) {
+             return alarm_word(image.live.status, [](const AlarmStatus& alarm) {
+               return alarm.alarm.measurement_lost;
+             });
+           });
 }
 
 /// The rows of a part that there is once.
 template <class Part>
-std::vector<Row> rows_of(Section section, const std::string& prefix,
-                         typename Block<Part>::Find find) {
-  return std::move(Block<Part>(Table::Input, section, prefix, std::move(find)).fields().rows());
+void add_part(std::vector<Row>& rows, Section section, const std::string& prefix,
+              typename Block<Part>::Find find) {
+  Block<Part>(rows, Table::Input, section, prefix, std::move(find)).fields();
 }
 
-std::vector<Row> rows_of_camera(std::size_t i) {
-  Block<CameraStatus> block(
-      Table::Input, kCameras.entry(i), "camera_" + std::to_string(i) + "_",
-      [i](const ProcessImage& p) -> const CameraStatus& { return p.live.status.cameras[i]; });
-  block.fields().absent("camera",
-                        [i](const ProcessImage& p) { return i >= p.live.status.camera_count; });
-  return std::move(block.rows());
-}
-
-std::vector<Row> rows_of_view(std::size_t i) {
-  return rows_of<ViewStatus>(
-      kViews.entry(i), "view_" + std::to_string(i) + "_",
-      [i](const ProcessImage& p) -> const ViewStatus& { return p.live.status.views[i]; });
+/// The rows of each part of a list, numbered from `first`. Those beyond `count`, if there is one,
+/// are not configured.
+template <class Part, std::size_t size>
+void add_parts(std::vector<Row>& rows, const Series& series, const std::string& name,
+               std::size_t first, std::array<Part, size> Status::*parts,
+               std::size_t Status::*count = nullptr) {
+  using I = const ProcessImage&;
+  for (std::size_t i = 0; i < size; ++i) {
+    Block<Part> block(rows, Table::Input, series.entry(i),
+                      name + "_" + std::to_string(first + i) + "_",
+                      [i, parts](I p) -> const Part& { return (p.live.status.*parts)[i]; });
+    block.fields();
+    if (count) block.absent(name, [i, count](I p) { return i >= p.live.status.*count; });
+  }
 }
 
 }  // namespace
 
-std::vector<Row> status_rows() {
+void add_status_rows(std::vector<Row>& rows) {
   using I = const ProcessImage&;
-  std::vector<Row> rows;
-  for (auto& block : {
-           summary_rows(),
-           rows_of<ResultQueueStatus>(
-               kResultQueue, "result_", [](I p) -> auto& { return p.results; }),
-           rows_of<SystemStatus>(
-               kSystem, "system_", [](I p) -> auto& { return p.live.status; }),
-           rows_of<Health>(
-               kHealth, "health_", [](I p) -> auto& { return p.live.status.health; }),
-           rows_of<PlcStatus>(
-               kPlc, "plc_", [](I p) -> auto& { return p.plc; }),
-           rows_of<ServerStatus>(
-               kServer, "modbus_", [](I p) -> auto& { return p.server; }),
-           joined(kMaxCameras, rows_of_camera),
-           joined(kMaxViews, rows_of_view),
-       }) {
-    std::ranges::copy(block, std::back_inserter(rows));
-  }
-  return rows;
+  add_summary(rows);
+  add_part<ResultQueueStatus>(
+      rows, kResultQueue, "result_", [](I p) -> auto& { return p.results; });
+  add_part<SystemStatus>(
+      rows, kSystem, "system_", [](I p) -> auto& { return p.live.status; });
+  add_part<Health>(
+      rows, kHealth, "health_", [](I p) -> auto& { return p.live.status.health; });
+  add_part<PlcStatus>(
+      rows, kPlc, "plc_", [](I p) -> auto& { return p.plc; });
+  add_part<ServerStatus>(
+      rows, kServer, "modbus_", [](I p) -> auto& { return p.server; });
+  add_parts(rows, kCameras, "camera", 0, &Status::cameras, &Status::camera_count);
+  add_parts(rows, kViews, "view", 0, &Status::views);
+  add_alarm_summary(rows);
+  add_parts(rows, kAlarms, "alarm", 1, &Status::alarms, &Status::alarm_count);
 }
 
-std::vector<Row> discrete_rows() {
-  Block<ProcessImage> all(Table::Discrete, {kStatusBits.begin, kUnacknowledgedBits.end}, "",
+void add_discrete_rows(std::vector<Row>& rows) {
+  Block<ProcessImage> all(rows, Table::Discrete, {kStatusBits.begin, kUnacknowledgedBits.end}, "",
                           whole_image);
   const auto append = [&all](const std::vector<Bit>& bits, Section section) {
     for (std::size_t n = 0; n < bits.size(); ++n) {
@@ -118,7 +153,6 @@ std::vector<Row> discrete_rows() {
   append(process_input_bits(), kProcessInputBits);
   append(active_bits(), kActiveBits);
   append(unacknowledged_bits(), kUnacknowledgedBits);
-  return std::move(all.rows());
 }
 
 }  // namespace orbwatch::app::modbus

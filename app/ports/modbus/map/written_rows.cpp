@@ -24,13 +24,13 @@ void write_command(PlcRegisters& plc, std::uint32_t value) {
 /// Writable registers stand side by side, so that a PLC may write them in one cyclic request, the
 /// sequence last: a PLC that writes register by register in ascending order starts the command with
 /// the last one.
-std::vector<Row> written_rows() {
+void add_written_rows(std::vector<Row>& rows) {
   using P = const PlcRegisters&;
   using I = const ProcessImage&;
   const std::vector<CodeText> commands = command_codes();
   const Quantity any_command{"", 1, 0, static_cast<double>(commands.back().number)};
   Block<PlcRegisters> block(
-      Table::Holding, kWritten, "", [](I image) -> auto& { return image.written; });
+      rows, Table::Holding, kWritten, "", [](I image) -> auto& { return image.written; });
   for (std::size_t i = 0; i < kMaxArguments; ++i) {
     const std::string n = std::to_string(i);
     block
@@ -67,7 +67,6 @@ std::vector<Row> written_rows() {
            [](P plc, I) { return static_cast<int>(plc.command.result); })
       .row(Type::Uint, "last_command", any_command, "Code of that command; 0: none yet",
            [](P plc, I) { return plc.command.last_command; });
-  return std::move(block.rows());
 }
 
 }  // namespace orbwatch::app::modbus

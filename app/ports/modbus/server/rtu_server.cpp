@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cerrno>
-#include <string>
 #include <system_error>
 
 #include "hal/back_off.h"

@@ -9,7 +9,7 @@
 #include "app/ports/modbus/modbus_settings.h"
 #include "app/ports/modbus/server/responder.h"
 #include "app/ports/modbus/server/rtu_framer.h"
-#include "app/ports/modbus/server/rtu_transport.h"
+#include "app/ports/modbus/server/transport.h"
 #include "hal/clock.h"
 #include "hal/thread/file_descriptor.h"
 

@@ -12,8 +12,6 @@
 #include <tuple>
 #include <utility>
 
-#include "app/ports/modbus/server/socket_address.h"
-
 namespace orbwatch::app::modbus {
 namespace {
 
