@@ -1,7 +1,6 @@
 #include "app/ports/dds/commands/command_service.h"
 
 #include "app/ports/dds/topics/topic_names.h"
-#include "app/ports/dds/topics/topic_reader.h"
 
 namespace orbwatch::app {
 

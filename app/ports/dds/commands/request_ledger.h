@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "app/ports/dds/commands/command_request.h"
@@ -20,20 +22,34 @@ class RequestLedger {
     Again,  ///< its client's newest, already answered
     Late    ///< older than its client's newest
   };
-  Verdict judge(const RequestId& id) const;
+  Verdict judge(const RequestId& id) const {
+    const auto entry = find(id.client);
+    if (entry == entries_.end() || id.number > entry->newest.number) return Verdict::New;
+    return id.number == entry->newest.number ? Verdict::Again : Verdict::Late;
+  }
 
   /// The answer to a request that is judged Again.
-  const CommandAnswer& answer(const RequestId& id) const;
+  const CommandAnswer& answer(const RequestId& id) const { return find(id.client)->answer; }
 
   /// Keeps the answer to a request that is judged New.
-  void record(const RequestId& id, CommandAnswer answer);
+  void record(const RequestId& id, CommandAnswer answer) {
+    if (const auto entry = find(id.client); entry != entries_.end()) {
+      entries_.erase(entry);
+    } else if (entries_.size() == capacity_) {
+      entries_.erase(entries_.begin());
+    }
+    entries_.push_back({id, std::move(answer)});
+  }
 
  private:
   struct Entry {
     RequestId newest;
     CommandAnswer answer;
   };
-  std::vector<Entry>::const_iterator find(std::uint64_t client) const;
+  std::vector<Entry>::const_iterator find(std::uint64_t client) const {
+    return std::ranges::find(entries_, client,
+                             [](const Entry& entry) { return entry.newest.client; });
+  }
 
   std::size_t capacity_;
   std::vector<Entry> entries_;  ///< by the time of the last new request, oldest first

@@ -11,11 +11,12 @@ Result<Entity> checked(std::string_view what, dds_entity_t handle) {
   return Entity(handle);
 }
 
-Qos newest_reliably(std::int32_t depth = 1) {
+Qos newest_reliably(dds_durability_kind_t durability, std::int32_t depth = 1) {
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE,
                        std::chrono::nanoseconds(kMaxBlockingTime).count());
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  dds_qset_durability(qos.get(), durability);
   return qos;
 }
 
@@ -31,32 +32,19 @@ void Entity::reset() {
   handle_ = 0;
 }
 
-Qos frame_qos() {
-  Qos qos = newest_reliably();
-  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
-  return qos;
-}
+Qos frame_qos() { return newest_reliably(DDS_DURABILITY_VOLATILE); }
 
-Qos state_qos() {
-  Qos qos = newest_reliably();
-  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-  return qos;
-}
+Qos state_qos() { return newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL); }
 
 Qos event_qos() {
-  Qos qos = newest_reliably(kEventDepth);
-  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  Qos qos = newest_reliably(DDS_DURABILITY_TRANSIENT_LOCAL, kEventDepth);
   // The history for late joiners has a depth of its own, 1 by default.
   dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kEventDepth,
                               DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   return qos;
 }
 
-Qos command_qos() {
-  Qos qos = newest_reliably(kCommandDepth);
-  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
-  return qos;
-}
+Qos command_qos() { return newest_reliably(DDS_DURABILITY_VOLATILE, kCommandDepth); }
 
 void show_order_of_calls() {
   static std::mutex mutex;

@@ -5,20 +5,11 @@
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {
-namespace {
-
-std::chrono::nanoseconds period_of(double rate) {
-  if (rate <= 0) return {};
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(1 / rate));
-}
-
-}  // namespace
 
 PictureTopic::PictureTopic(std::string name, std::unique_ptr<PictureWriter> writer, double rate)
     : writer_(std::move(writer)),
       topic_(writer_->type(), std::move(name)),
-      period_(period_of(rate)) {}
+      period_(hal::period_of(rate)) {}
 
 Result<> PictureTopic::open(const Entity& participant) {
   if (open_) return {};

@@ -2,7 +2,6 @@
 
 #include "app/pictures/picture_conversion.h"
 #include "app/ports/dds/participant/participant.h"
-#include "app/ports/dds/pictures/image_message.h"
 
 namespace orbwatch::app {
 namespace {

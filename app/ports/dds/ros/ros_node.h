@@ -1,7 +1,13 @@
 #pragma once
 
+#include <dds/dds.h>
+
 #include <cstdint>
+#include <span>
 #include <string_view>
+
+#include "app/ports/dds/participant/entity.h"
+#include "proc/image/result.h"
 
 namespace orbwatch::app {
 
@@ -18,5 +24,29 @@ inline constexpr std::string_view kNodeNamespace = "/";
 /// USER_DATA of a participant with nodes: without the security enclave ROS 2 keeps it out of its
 /// graph until its node is announced.
 inline constexpr std::string_view kParticipantUserData = "enclave=/;";
+
+/// Announces writers and readers of a participant as those of the node kNodeName, so that
+/// `ros2 node list` and `ros2 node info` show it. Its participant needs kParticipantUserData.
+/// Thread-bound.
+class DiscoveryInfo {
+ public:
+  /// Not a ROS topic: without "rt/".
+  static constexpr const char* kTopic = "ros_discovery_info";
+
+  /// Creates topic and writer; nothing is announced yet. Error: DDS refuses.
+  Result<> open(const Entity& participant, RosGeneration generation);
+  void close();
+
+  /// Announces all endpoints of the node in place of those announced before, also to late joiners;
+  /// without any the node still exists. To be called whenever one is created or deleted. Errors:
+  /// not open, an invalid handle, DDS refuses.
+  Result<> announce(std::span<const dds_entity_t> writers, std::span<const dds_entity_t> readers);
+
+ private:
+  RosGeneration generation_ = RosGeneration::Iron;
+  dds_entity_t participant_ = 0;
+  Entity topic_;
+  Entity writer_;
+};
 
 }  // namespace orbwatch::app

@@ -6,49 +6,10 @@ namespace orbwatch::app {
 
 namespace {
 
-constexpr std::string_view kRosTopic = "rt/";
-constexpr std::string_view kImage = "/image_raw";
-
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
-
-std::string image_topic(std::string_view prefix, std::string_view view) {
-  return std::string(kRosTopic).append(prefix).append("/").append(view).append(kImage);
-}
-
-std::string radiometric_topic(std::string_view prefix, std::string_view view) {
-  return image_topic(prefix, std::string(view) + "/radiometric");
-}
-
-std::string camera_info_topic(std::string_view prefix, std::string_view view) {
-  return std::string(kRosTopic).append(prefix).append("/").append(view).append("/camera_info");
-}
-
-std::string ball_topic(std::string_view prefix, std::string_view camera) {
-  return image_topic(prefix, std::string(camera) + "/ball");
-}
-
-std::string compressed_topic(std::string_view raw) {
-  return std::string(raw).append("/compressed");
-}
-
-std::string process_state_topic(std::string_view prefix) {
-  return std::string(kRosTopic).append(prefix).append("/process_state");
-}
-
-std::string event_topic(std::string_view prefix) {
-  return std::string(kRosTopic).append(prefix).append("/event");
-}
-
-std::string command_topic(std::string_view prefix) {
-  return std::string(kRosTopic).append(prefix).append("/command");
-}
-
-std::string command_result_topic(std::string_view prefix) {
-  return std::string(kRosTopic).append(prefix).append("/command_result");
-}
 
 Result<> check_topic_part(std::string_view part, std::string_view what) {
   const bool valid = !part.empty() && !is_digit(part.front()) &&

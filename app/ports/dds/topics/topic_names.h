@@ -7,6 +7,11 @@
 
 namespace orbwatch::app {
 
+/// "rt/<prefix>/<name>".
+inline std::string ros_topic(std::string_view prefix, std::string_view name) {
+  return std::string("rt/").append(prefix).append("/").append(name);
+}
+
 /// DDS topic names as ROS 2 derives them from its own: "rt/" before the ROS name. The topics:
 ///   rt/<prefix>/<view>/image_raw              the picture for people
 ///   rt/<prefix>/<view>/radiometric/image_raw  the measured plane, mono16 counts or mono8
@@ -18,16 +23,30 @@ namespace orbwatch::app {
 ///   rt/<prefix>/event                         events
 ///   rt/<prefix>/command                       requests to orbwatch
 ///   rt/<prefix>/command_result                answers to them
-std::string image_topic(std::string_view prefix, std::string_view view);
-std::string radiometric_topic(std::string_view prefix, std::string_view view);
-std::string camera_info_topic(std::string_view prefix, std::string_view view);
-std::string ball_topic(std::string_view prefix, std::string_view camera);
+inline std::string image_topic(std::string_view prefix, std::string_view view) {
+  return ros_topic(prefix, view) + "/image_raw";
+}
+inline std::string radiometric_topic(std::string_view prefix, std::string_view view) {
+  return ros_topic(prefix, view) + "/radiometric/image_raw";
+}
+inline std::string camera_info_topic(std::string_view prefix, std::string_view view) {
+  return ros_topic(prefix, view) + "/camera_info";
+}
+inline std::string ball_topic(std::string_view prefix, std::string_view camera) {
+  return ros_topic(prefix, camera) + "/ball/image_raw";
+}
 /// The JPEG topic beside an image topic.
-std::string compressed_topic(std::string_view raw);
-std::string process_state_topic(std::string_view prefix);
-std::string event_topic(std::string_view prefix);
-std::string command_topic(std::string_view prefix);
-std::string command_result_topic(std::string_view prefix);
+inline std::string compressed_topic(std::string_view raw) {
+  return std::string(raw) + "/compressed";
+}
+inline std::string process_state_topic(std::string_view prefix) {
+  return ros_topic(prefix, "process_state");
+}
+inline std::string event_topic(std::string_view prefix) { return ros_topic(prefix, "event"); }
+inline std::string command_topic(std::string_view prefix) { return ros_topic(prefix, "command"); }
+inline std::string command_result_topic(std::string_view prefix) {
+  return ros_topic(prefix, "command_result");
+}
 
 /// Stands for a view's name in the topics of the selected view.
 inline constexpr std::string_view kSelectedView = "selected";

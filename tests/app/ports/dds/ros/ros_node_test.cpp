@@ -1,4 +1,4 @@
-#include "app/ports/dds/ros/discovery_info.h"
+#include "app/ports/dds/ros/ros_node.h"
 
 #include <gtest/gtest.h>
 
