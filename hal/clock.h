@@ -8,6 +8,12 @@ namespace orbwatch::hal {
 using Clock = std::chrono::steady_clock;
 using TimePoint = Clock::time_point;
 
+/// The time between two of `rate` events per second; 0 without a rate above 0.
+inline Clock::duration period_of(double rate) {
+  if (rate <= 0) return Clock::duration(0);
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate));
+}
+
 /// UTC of a moment on the steady clock, for interfaces only (DDS stamps, log lines). Follows
 /// corrections of the system clock, as the difference is measured at each call. Thread-safe.
 inline std::chrono::system_clock::time_point to_utc(TimePoint moment) {

@@ -11,12 +11,6 @@
 namespace orbwatch::app {
 namespace {
 
-/// 0: no period.
-hal::Clock::duration period_of(double rate) {
-  if (rate <= 0) return hal::Clock::duration(0);
-  return std::chrono::duration_cast<hal::Clock::duration>(std::chrono::duration<double>(1 / rate));
-}
-
 /// A simulated chip with each configured line name once.
 std::unique_ptr<hal::LineBackEnd> make_simulated(const std::vector<LineSettings>& settings) {
   std::set<std::string> names;
@@ -96,7 +90,7 @@ void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::Digit
   hal::PulseOutput::Outputs outputs;
   outputs.push_back(std::move(output));
   hal::PulseSettings pulse = settings.pulse;
-  pulse.period = period_of(settings.rate);
+  pulse.period = hal::period_of(settings.rate);
   auto& pulses = pulses_.emplace_back(
       std::make_unique<hal::PulseOutput>(pulse, std::move(outputs), [this] { thread_.wake(); }));
   thread_.add(*pulses);
@@ -110,7 +104,7 @@ void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::Digit
 void Lines::open_watchdog(const LineSettings& settings,
                           std::unique_ptr<hal::DigitalOutput> output) {
   hal::WatchdogSettings watchdog = settings.watchdog;
-  watchdog.half_period = period_of(2 * settings.toggle_rate);
+  watchdog.half_period = hal::period_of(2 * settings.toggle_rate);
   auto& outputs = settings.use == LineUse::Alarm ? alarms_ : process_ok_;
   outputs.push_back(std::make_unique<hal::WatchdogOutput>(watchdog, std::move(output),
                                                           [this] { thread_.wake(); }));

@@ -3,19 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <ctime>
+#include <compare>
 #include <map>
 #include <optional>
 #include <regex>
-#include <string>
 #include <system_error>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "app/log.h"
+#include "app/model/utc_text.h"
 #include "app/pictures/picture_file.h"
 
 namespace orbwatch::app {
@@ -23,15 +20,9 @@ namespace {
 
 /// 20260131T235959.123Z: sorts by time.
 std::string stamp_text(hal::TimePoint moment) {
-  using std::chrono::milliseconds;
-  const auto utc = std::chrono::floor<milliseconds>(hal::to_utc(moment)).time_since_epoch();
-  const std::time_t seconds = std::chrono::floor<std::chrono::seconds>(utc).count();
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y%m%dT%H%M%S", &parts);
-  const std::string fraction = std::to_string(1000 + utc.count() % 1000).substr(1);
-  return std::string(text.data()) + "." + fraction + "Z";
+  std::string text = utc_text(hal::to_utc(moment)).value_or("");
+  std::erase_if(text, [](char c) { return c == '-' || c == ':'; });
+  return text.substr(0, text.find('.') + 4) + "Z";
 }
 
 /// VIEW_TIME_FRAMESET
@@ -44,9 +35,7 @@ std::string name_of(const View& view) {
 struct Snapshot {
   std::string stamp;
   std::string name;
-  bool operator<(const Snapshot& other) const {
-    return std::tie(stamp, name) < std::tie(other.stamp, other.name);
-  }
+  auto operator<=>(const Snapshot&) const = default;
 };
 
 /// The snapshot of a file written here; nullopt for other files.
