@@ -1,5 +1,8 @@
 #include "app/ports/modbus/server/request.h"
 
+#include <algorithm>
+#include <array>
+
 namespace orbwatch::app::modbus {
 namespace {
 
@@ -26,30 +29,25 @@ std::vector<std::uint16_t> words(Pdu bytes) {
 
 bool in_range(int count, int maximum) { return count >= 1 && count <= maximum; }
 
-Parsed read_request(Pdu pdu, Table table, int maximum) {
-  if (pdu.size() != 5 || !in_range(word(pdu, 3), maximum)) return kBadValue;
+template <Table table, int maximum>
+Parsed read_request(Pdu pdu) {
+  if (!in_range(word(pdu, 3), maximum)) return kBadValue;
   return Request{.read = Range{table, word(pdu, 1), word(pdu, 3)}};
 }
 
 Parsed write_single_coil(Pdu pdu) {
-  if (pdu.size() != 5) return kBadValue;
   const int value = word(pdu, 3);
   if (value != 0 && value != 0xff00) return kBadValue;
   return Request{.write = Write{{Table::Coil, word(pdu, 1), 1}, {value != 0}}};
 }
 
 Parsed write_single_register(Pdu pdu) {
-  if (pdu.size() != 5) return kBadValue;
   return Request{.write = Write{{Table::Holding, word(pdu, 1), 1}, {word(pdu, 3)}}};
 }
 
 Parsed write_multiple_coils(Pdu pdu) {
-  if (pdu.size() < 6) return kBadValue;
   const int count = word(pdu, 3);
-  const auto bytes = static_cast<std::size_t>((count + 7) / 8);
-  if (!in_range(count, kMaxWriteBits) || pdu[5] != bytes || pdu.size() != 6 + bytes) {
-    return kBadValue;
-  }
+  if (!in_range(count, kMaxWriteBits) || pdu[5] != (count + 7) / 8) return kBadValue;
   Write write{{Table::Coil, word(pdu, 1), count}, {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     write.values.push_back(pdu[6 + i / 8] >> i % 8 & 1);
@@ -58,31 +56,52 @@ Parsed write_multiple_coils(Pdu pdu) {
 }
 
 Parsed write_multiple_registers(Pdu pdu) {
-  if (pdu.size() < 6) return kBadValue;
   const int count = word(pdu, 3);
-  const auto bytes = static_cast<std::size_t>(count) * 2;
-  if (!in_range(count, kMaxWriteRegisters) || pdu[5] != bytes || pdu.size() != 6 + bytes) {
-    return kBadValue;
-  }
+  if (!in_range(count, kMaxWriteRegisters) || pdu[5] != 2 * count) return kBadValue;
   return Request{.write = Write{{Table::Holding, word(pdu, 1), count}, words(pdu.subspan(6))}};
 }
 
 Parsed mask_write_register(Pdu pdu) {
-  if (pdu.size() != 7) return kBadValue;
   return Request{.mask = MaskWrite{word(pdu, 1), word(pdu, 3), word(pdu, 5)}};
 }
 
 Parsed read_write_registers(Pdu pdu) {
-  if (pdu.size() < 10) return kBadValue;
   const int reads = word(pdu, 3);
   const int writes = word(pdu, 7);
-  const auto bytes = static_cast<std::size_t>(writes) * 2;
   if (!in_range(reads, kMaxReadRegisters) || !in_range(writes, kMaxReadWriteRegisters) ||
-      pdu[9] != bytes || pdu.size() != 10 + bytes) {
+      pdu[9] != 2 * writes) {
     return kBadValue;
   }
   return Request{.read = Range{Table::Holding, word(pdu, 1), reads},
                  .write = Write{{Table::Holding, word(pdu, 5), writes}, words(pdu.subspan(10))}};
+}
+
+/// A function that is served.
+struct Function {
+  std::uint8_t code;
+  std::size_t fixed;         ///< bytes of the fixed fields
+  bool is_counted;           ///< the last of them is the number of bytes that follow
+  Parsed (*parse)(Pdu pdu);  ///< of a request of the right length
+};
+
+constexpr std::array kFunctions{
+    Function{0x01, 5, false, read_request<Table::Coil, kMaxReadBits>},
+    Function{0x02, 5, false, read_request<Table::Discrete, kMaxReadBits>},
+    Function{0x03, 5, false, read_request<Table::Holding, kMaxReadRegisters>},
+    Function{0x04, 5, false, read_request<Table::Input, kMaxReadRegisters>},
+    Function{0x05, 5, false, write_single_coil},
+    Function{0x06, 5, false, write_single_register},
+    Function{0x0f, 6, true, write_multiple_coils},
+    Function{0x10, 6, true, write_multiple_registers},
+    Function{0x16, 7, false, mask_write_register},
+    Function{0x17, 10, true, read_write_registers},
+    Function{0x2b, 4, false, nullptr},  // Read Device Identification, which identify() parses
+};
+
+/// The function of a protocol data unit, or nullptr when it is not served.
+const Function* function_of(Pdu pdu) {
+  const auto* const found = std::ranges::find(kFunctions, pdu[0], &Function::code);
+  return found == kFunctions.end() ? nullptr : found;
 }
 
 /// The value for the row whose first register is value `first` of the write.
@@ -99,57 +118,17 @@ double in_unit(std::uint32_t code, const Row& row) {
 }  // namespace
 
 Parsed parse(Pdu pdu) {
-  switch (pdu[0]) {
-    case 0x01:
-      return read_request(pdu, Table::Coil, kMaxReadBits);
-    case 0x02:
-      return read_request(pdu, Table::Discrete, kMaxReadBits);
-    case 0x03:
-      return read_request(pdu, Table::Holding, kMaxReadRegisters);
-    case 0x04:
-      return read_request(pdu, Table::Input, kMaxReadRegisters);
-    case 0x05:
-      return write_single_coil(pdu);
-    case 0x06:
-      return write_single_register(pdu);
-    case 0x0f:
-      return write_multiple_coils(pdu);
-    case 0x10:
-      return write_multiple_registers(pdu);
-    case 0x16:
-      return mask_write_register(pdu);
-    case 0x17:
-      return read_write_registers(pdu);
-    default:
-      return tl::unexpected(Exception::IllegalFunction);
-  }
+  const Function* function = function_of(pdu);
+  if (!function || !function->parse) return tl::unexpected(Exception::IllegalFunction);
+  if (pdu.size() != request_length(pdu)) return kBadValue;
+  return function->parse(pdu);
 }
 
 std::optional<std::size_t> request_length(Pdu pdu) {
-  // The last of the fixed fields is the number of bytes that follow.
-  const auto counted = [&](std::size_t fixed) {
-    return pdu.size() < fixed ? fixed : fixed + pdu[fixed - 1];
-  };
-  switch (pdu[0]) {
-    case 0x01:
-    case 0x02:
-    case 0x03:
-    case 0x04:
-    case 0x05:
-    case 0x06:
-      return 5;
-    case 0x0f:
-    case 0x10:
-      return counted(6);
-    case 0x16:
-      return 7;
-    case 0x17:
-      return counted(10);
-    case 0x2b:  // Read Device Identification
-      return 4;
-    default:
-      return std::nullopt;
-  }
+  const Function* function = function_of(pdu);
+  if (!function) return std::nullopt;
+  const std::size_t fixed = function->fixed;
+  return function->is_counted && pdu.size() >= fixed ? fixed + pdu[fixed - 1] : fixed;
 }
 
 Write resolved(const MaskWrite& mask, const RegisterMap& map, const ProcessImage& image) {

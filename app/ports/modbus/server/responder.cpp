@@ -9,12 +9,11 @@
 
 namespace orbwatch::app::modbus {
 
-void Responder::Free::operator()(_modbus_mapping_t* mapping) const { modbus_mapping_free(mapping); }
-
 Result<std::unique_ptr<Responder>> Responder::create(const RegisterMap& map, WriteRegisters write,
                                                      MakeImage make_image) {
   Mapping mapping(modbus_mapping_new(map.size(Table::Coil), map.size(Table::Discrete),
-                                     map.size(Table::Holding), map.size(Table::Input)));
+                                     map.size(Table::Holding), map.size(Table::Input)),
+                  modbus_mapping_free);
   if (!mapping) return fail("modbus: no memory for the registers");
   return std::unique_ptr<Responder>(
       new Responder(map, std::move(write), std::move(make_image), std::move(mapping)));

@@ -41,10 +41,7 @@ class Responder {
   Outcome answer(Transport& transport, std::span<const std::uint8_t> frame, bool may_write);
 
  private:
-  struct Free {
-    void operator()(_modbus_mapping_t* mapping) const;
-  };
-  using Mapping = std::unique_ptr<_modbus_mapping_t, Free>;
+  using Mapping = std::unique_ptr<_modbus_mapping_t, void (*)(_modbus_mapping_t*)>;
 
   Responder(const RegisterMap& map, WriteRegisters write, MakeImage make_image, Mapping mapping);
 

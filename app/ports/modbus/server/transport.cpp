@@ -37,15 +37,13 @@ Result<> check(const ModbusSerialSettings& settings) {
 
 }  // namespace
 
-void Transport::Free::operator()(_modbus* context) const { modbus_free(context); }
-
 Transport::Transport(Context context, std::size_t checksum)
     : context_(std::move(context)),
       header_(static_cast<std::size_t>(modbus_get_header_length(context_.get()))),
       checksum_(checksum) {}
 
 Result<Transport::Context> Transport::prepared(_modbus* context) {
-  Context owned(context);
+  Context owned(context, modbus_free);
   // libmodbus sleeps for its response timeout before some exceptions.
   if (!owned || modbus_set_response_timeout(owned.get(), 0, 1) != 0) {
     return fail("modbus: libmodbus gives no context: " + std::string(modbus_strerror(errno)));

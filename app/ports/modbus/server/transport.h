@@ -42,10 +42,7 @@ class Transport {
   virtual bool send(std::span<const std::uint8_t> request, std::span<const std::uint8_t> pdu) = 0;
 
  protected:
-  struct Free {
-    void operator()(_modbus* context) const;
-  };
-  using Context = std::unique_ptr<_modbus, Free>;
+  using Context = std::unique_ptr<_modbus, void (*)(_modbus*)>;
 
   /// `checksum`: bytes behind the protocol data unit.
   Transport(Context context, std::size_t checksum);
