@@ -2,7 +2,6 @@
 
 #include "app/cli/command.h"
 #include "app/cli/keys/keystore.h"
-#include "app/cli/keys/topic_access.h"
 #include "app/cli/options/dds_options.h"
 #include "app/cli/options/options.h"
 #include "app/ports/dds/topics/topic_names.h"

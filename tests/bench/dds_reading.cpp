@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/cli/dds/subscribed_topic.h"
+#include "app/cli/dds/subscription.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/pictures/image_message.h"
 #include "app/ports/dds/topics/topic_names.h"

@@ -6,7 +6,6 @@
 #include <ostream>
 #include <set>
 
-#include "app/cli/dds/subscribed_topic.h"
 #include "app/ports/dds/participant/dds_log.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/topics/topic_names.h"

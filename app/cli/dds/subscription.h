@@ -6,12 +6,27 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/ports/dds/participant/entity.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/topics/topic_reader.h"
 
 namespace orbwatch::app {
+
+/// Whether the topic of that name carries JPEG pictures.
+bool is_compressed_topic(std::string_view topic);
+/// Whether the topic of that name carries the process state.
+bool is_process_state_topic(std::string_view topic);
+
+/// The DDS name of a topic given with or without "rt/" or a leading "/".
+std::string full_topic(std::string_view topic);
+
+/// The file name, without extension, of the newest image of `topic`: "front" of
+/// rt/<prefix>/front/image_raw, "front-radiometric" of rt/<prefix>/front/radiometric/image_raw,
+/// "front-compressed" of rt/<prefix>/front/image_raw/compressed. Whatever the topic, it holds
+/// letters, digits, '_', '-' and '.' only and never starts with a dot.
+std::string file_stem(std::string_view topic, std::string_view prefix);
 
 /// What was received on one topic.
 struct TopicReport {

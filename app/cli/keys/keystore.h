@@ -3,12 +3,23 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/ports/dds/security/access_documents.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
+
+/// The rights that orbwatchd needs for these topics.
+TopicAccess appliance_access(std::string_view prefix);
+
+/// The rights of its readers, and of readers that also send commands.
+TopicAccess reader_access(std::string_view prefix);
+TopicAccess controller_access(std::string_view prefix);
+
+/// The topics of pictures.
+std::vector<std::string> bulk_topics(std::string_view prefix);
 
 /// The contents of a keystore.
 struct KeystoreRequest {

@@ -17,10 +17,6 @@ To* writable(const From* data) {
 
 }  // namespace
 
-const dds_topic_descriptor_t& RawPictureWriter::type() const {
-  return sensor_msgs_msg_dds__Image__desc;
-}
-
 void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const Picture& picture = stamped.picture;
   const bool counts = converts(picture.format, PixelFormat::Y16);
@@ -51,10 +47,6 @@ void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const auto length = static_cast<std::uint32_t>(size);
   message.data = {length, length, writable<std::uint8_t>(pixels), false};
   topic.write(&message);
-}
-
-const dds_topic_descriptor_t& JpegPictureWriter::type() const {
-  return sensor_msgs_msg_dds__CompressedImage__desc;
 }
 
 void JpegPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {

@@ -41,7 +41,7 @@ class RawPictureWriter final : public PictureWriter {
   /// `encoding` is Rgb, Bgr or Grey.
   explicit RawPictureWriter(PixelFormat encoding) : encoding_(encoding) {}
 
-  const dds_topic_descriptor_t& type() const override;
+  const dds_topic_descriptor_t& type() const override { return sensor_msgs_msg_dds__Image__desc; }
   std::string_view thread_name() const override { return "dds raw"; }
   void write(StampedPicture picture, TopicWriter& topic) override;
 
@@ -55,7 +55,9 @@ class JpegPictureWriter final : public PictureWriter {
  public:
   explicit JpegPictureWriter(const JpegSettings& settings) : quality_(settings) {}
 
-  const dds_topic_descriptor_t& type() const override;
+  const dds_topic_descriptor_t& type() const override {
+    return sensor_msgs_msg_dds__CompressedImage__desc;
+  }
   std::string_view thread_name() const override { return "dds jpeg"; }
   void write(StampedPicture picture, TopicWriter& topic) override;
 

@@ -1,4 +1,4 @@
-#include "app/cli/dds/subscribed_topic.h"
+#include "app/cli/dds/subscription.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "app/cli/keys/topic_access.h"
+#include "app/cli/keys/keystore.h"
 #include "app/ports/dds/topics/topic_names.h"
 
 #include <fnmatch.h>

@@ -8,7 +8,7 @@
 
 #include "app/cli/dds/command_client.h"
 #include "app/cli/dds/received_state.h"
-#include "app/cli/dds/subscribed_topic.h"
+#include "app/cli/dds/subscription.h"
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/pictures/camera_info.h"
 #include "app/ports/dds/pictures/image_message.h"

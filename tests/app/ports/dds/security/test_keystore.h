@@ -7,7 +7,6 @@
 #include <string>
 
 #include "app/cli/keys/keystore.h"
-#include "app/cli/keys/topic_access.h"
 
 namespace orbwatch::app::tests {
 
