@@ -69,11 +69,6 @@ Result<Recipe> load_recipe(const std::filesystem::path& file, TextFiles& files) 
   });
 }
 
-Result<Recipe> load_recipe(const std::filesystem::path& file) {
-  TextFiles files;
-  return load_recipe(file, files);
-}
-
 std::string recipe_manual() {
   Recipe recipe;
   return manual(

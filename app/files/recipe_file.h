@@ -12,7 +12,6 @@ namespace orbwatch::app {
 /// Reads and checks a recipe's file, all but its references to cameras and lines, which resolve()
 /// sets. The error says file, line, key, what is wrong and what is allowed.
 Result<Recipe> load_recipe(const std::filesystem::path& file, TextFiles& files);
-Result<Recipe> load_recipe(const std::filesystem::path& file);
 
 /// The same for text that stands in for a file named `name`.
 Result<Recipe> parse_recipe(const std::string& text, const std::string& name);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "proc/settings/settings.h"
@@ -35,7 +37,20 @@ class JpegQuality {
 
   /// Adapts to the size of a picture of the current quality. True: it was too large, and should be
   /// encoded again with the quality lowered; at most kMaxRepeats times for each picture.
-  bool adapt(std::size_t bytes);
+  bool adapt(std::size_t bytes) {
+    if (target_ == 0) return false;
+    const double ratio = static_cast<double>(bytes) / static_cast<double>(target_);
+    if (ratio > 1 && quality_ > kLeast && repeats_ < kMaxRepeats) {
+      // Around the usual qualities half the size takes 20 to 40 steps.
+      const int step = static_cast<int>(std::ceil(40 * std::log2(ratio)));
+      quality_ = std::max(kLeast, quality_ - std::max(3, step));
+      ++repeats_;
+      return true;
+    }
+    repeats_ = 0;
+    if (ratio < kRoom) quality_ = std::min(best_, quality_ + 1);
+    return false;
+  }
 
  private:
   static constexpr int kMaxRepeats = 4;

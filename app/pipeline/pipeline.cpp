@@ -204,9 +204,7 @@ void Pipeline::follow_pace() {
   const std::size_t camera = cameras_.pacing_camera();
   const double stated = plan_.formats[camera].frame_rate;
   const double rate = stated > 0 ? stated : status_.cameras[camera].frames_per_second;
-  if (!(rate > 0)) return;
-  const std::chrono::duration<double> period(1 / rate);
-  budget_.set_deadline(std::chrono::duration_cast<hal::Clock::duration>(period));
+  if (rate > 0) budget_.set_deadline(hal::period_of(rate));
 }
 
 std::uint32_t Pipeline::process_inputs() const {

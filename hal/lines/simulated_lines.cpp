@@ -24,8 +24,6 @@ struct SimulatedLines::Wire {
   std::optional<EventFd> readable;  ///< the input's descriptor, while it is open
   std::array<EdgeEvent, kQueue> edges;
   std::size_t waiting = 0;
-  std::uint64_t edge_count = 0;
-  std::vector<ScriptedLineFault> faults;
   LineFault fault = LineFault::None;
 
   LineFaultReport report() const { return {fault, "line " + name + ": simulated fault"}; }
@@ -34,23 +32,9 @@ struct SimulatedLines::Wire {
     if (readable) readable->signal();
   }
 
-  void set_fault(LineFault now) {
-    if (std::exchange(fault, now) != now) signal();
-  }
-
-  /// Sets the script's fault of edge `number`; without a script the fault is unchanged.
-  void follow_script(std::uint64_t number) {
-    if (faults.empty()) return;
-    const auto entry = std::ranges::find_if(faults, [number](const ScriptedLineFault& f) {
-      return number >= f.from && number < f.until;
-    });
-    set_fault(entry == faults.end() ? LineFault::None : entry->fault);
-  }
-
   void drive(bool active, TimePoint stamp) {
     const std::lock_guard lock(mutex);
     if (std::exchange(level, active) == active) return;
-    follow_script(edge_count++);
     if (on_change) on_change(name, active);
     if (fault != LineFault::None || !has_input || waiting == kQueue) return;
     edges[waiting++] = {edge_to(active), stamp};
@@ -205,16 +189,10 @@ bool SimulatedLines::level(const std::string& line) const {
   return found.level;
 }
 
-void SimulatedLines::script_faults(const std::string& line, std::vector<ScriptedLineFault> faults) {
-  Wire& found = wire(line);
-  const std::lock_guard lock(found.mutex);
-  found.faults = std::move(faults);
-}
-
 void SimulatedLines::fail_with(const std::string& line, LineFault fault) {
   Wire& found = wire(line);
   const std::lock_guard lock(found.mutex);
-  found.set_fault(fault);
+  if (std::exchange(found.fault, fault) != fault) found.signal();
 }
 
 }  // namespace orbwatch::hal

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,14 +8,6 @@
 #include "hal/lines/line.h"
 
 namespace orbwatch::hal {
-
-/// A simulated line's fault, from edge number `from` up to, not including, `until`. Its edges are
-/// lost meanwhile.
-struct ScriptedLineFault {
-  LineFault fault = LineFault::None;
-  std::uint64_t from = 0;
-  std::uint64_t until = 0;
-};
 
 /// Lines of a simulated chip, labelled "simulated", that behave as the kernel's without debounce. A
 /// line may be opened once as an input and once as an output: then it is a wire between the two.
@@ -43,9 +34,7 @@ class SimulatedLines : public LineBackEnd {
   /// The wire's level.
   bool level(const std::string& line) const;
 
-  /// Faults by number of the edge, from 0.
-  void script_faults(const std::string& line, std::vector<ScriptedLineFault> faults);
-  /// A fault from now on, until a call with None.
+  /// A fault from now on, until a call with None; edges are lost meanwhile.
   void fail_with(const std::string& line, LineFault fault);
 
  private:

@@ -56,13 +56,6 @@ void ExactMap::evaluate(const optics::Vec2Lanes& pixels, MapLanes& out) const {
   coordinates(directions, closeness, out.coordinates);
 }
 
-ExactMap::MapPoint ExactMap::evaluate(int x, int y) const {
-  const auto direction = view_.direction(x, y);
-  if (!direction) return {};
-  const auto hit = ball_.proxy().hit(*direction);
-  return {hit.surface, coordinate(*direction, hit.closeness)};
-}
-
 int ExactMap::surface(int x, int y) const {
   const auto direction = view_.direction(x, y);
   return direction ? ball_.proxy().hit(*direction).surface : kNoSurface;

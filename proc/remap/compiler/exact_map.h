@@ -29,21 +29,14 @@ class ExactMap {
   /// Beyond the end of the view's projection: no surface of the scene.
   static constexpr int kNoSurface = -2;
 
-  struct MapPoint {
-    int surface = kNoSurface;  ///< as SceneProxy counts them
-    Coordinate coordinate{kBlind, 0};
-  };
-  /// At pixel (x, y), also outside of the view.
-  MapPoint evaluate(int x, int y) const;
-
-  /// The same for kLanes pixels.
   struct MapLanes {
-    std::array<int, optics::kLanes> surfaces;
+    std::array<int, optics::kLanes> surfaces;  ///< as SceneProxy counts them
     CoordinateLanes coordinates;
   };
+  /// At kLanes pixels, also outside of the view.
   void evaluate(const optics::Vec2Lanes& pixels, MapLanes& out) const;
 
-  /// Only the surface.
+  /// Only the surface, at pixel (x, y).
   int surface(int x, int y) const;
 
   /// At (x, y) as if that surface were seen there. Smooth on each surface.

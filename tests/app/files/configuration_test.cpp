@@ -255,7 +255,8 @@ TEST(Configuration, ShippedFilesAreValid) {
       EXPECT_TRUE(rig) << rig.error().message;
       ++rigs;
     } else if (entry.path().stem().string().ends_with("-recipe")) {
-      const auto recipe = load_recipe(entry.path());
+      TextFiles files;
+      const auto recipe = load_recipe(entry.path(), files);
       EXPECT_TRUE(recipe) << recipe.error().message;
       ++recipes;
     } else {

@@ -112,7 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& refusal) { return refusal.param.name; });
 
 TEST(RecipeFile, MissingOnesAreRefusedByName) {
-  const auto recipe = load_recipe("/nonexistent/recipe.toml");
+  TextFiles files;
+  const auto recipe = load_recipe("/nonexistent/recipe.toml", files);
   ASSERT_FALSE(recipe);
   EXPECT_NE(recipe.error().message.find("/nonexistent/recipe.toml"), std::string::npos);
 }

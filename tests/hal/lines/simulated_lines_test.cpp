@@ -75,21 +75,20 @@ TEST(SimulatedLines, AFullQueueDropsTheNewest) {
   EXPECT_TRUE(input->level().value()) << "only the level knows how it ended";
 }
 
-TEST(SimulatedLines, FaultsFollowTheScript) {
+TEST(SimulatedLines, ALineThatIsGoneLosesItsEdgesUntilItIsBack) {
   SimulatedLines lines({"IN"});
-  lines.script_faults("IN", {{LineFault::Gone, 1, 3}});
   auto input = lines.open_input({.address = {.name = "IN"}}).value();
   std::array<EdgeEvent, 4> edges;
   lines.drive("IN", true, at(0));
   EXPECT_EQ(input->take(edges).value(), 1U);
-  lines.drive("IN", false, at(1));
+  lines.fail_with("IN", LineFault::Gone);
   EXPECT_TRUE(is_readable(input->descriptor())) << "as a chip that goes";
+  lines.drive("IN", false, at(1));
   EXPECT_EQ(input->take(edges).error().fault, LineFault::Gone);
   EXPECT_FALSE(input->level());
   input.reset();
   EXPECT_THAT(lines.open_input({.address = {.name = "IN"}}).error().message, HasSubstr("IN"));
-  lines.drive("IN", true, at(2));
-  lines.drive("IN", false, at(3));
+  lines.fail_with("IN", LineFault::None);
   EXPECT_TRUE(lines.open_input({.address = {.name = "IN"}}));
 }
 
