@@ -176,21 +176,24 @@ void DdsSink::keep_joined() {
   ++joins_;
 }
 
-const TimeMessage& DdsSink::utc(hal::TimePoint stamp) {
+TimeMessage DdsSink::utc(hal::TimePoint stamp) {
   if (stamp != stamp_) {
     stamp_ = stamp;
-    utc_ = to_message(hal::to_utc(stamp));
+    utc_ = hal::to_utc(stamp);
   }
-  return utc_;
+  return to_message(utc_);
 }
 
 void DdsSink::accept_frames(const hal::FrameSet& set) {
   if (!running_) return;
+  utc(set.stamp);
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const hal::Frame& frame = set.frames[i];
     if (!frame || set.held[i]) continue;
     CameraTopics& camera = *cameras_[i];
-    camera.ball.accept({frame, frame->picture, utc(set.stamp), &camera.name});
+    // By the set's conversion, so that a frame exposed with the set has the stamp of its views.
+    const auto exposed = utc_ + (frame->metadata.exposure_start - set.stamp);
+    camera.ball.accept({frame, frame->picture, to_message(exposed), &camera.name});
   }
 }
 

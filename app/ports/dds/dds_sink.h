@@ -75,7 +75,7 @@ class DdsSink final : public Sink {
   void keep_joined();
   void run();
   /// UTC of a stamp, the same for the same stamp; on the pipeline's thread.
-  const TimeMessage& utc(hal::TimePoint stamp);
+  TimeMessage utc(hal::TimePoint stamp);
 
   const DdsSettings settings_;
   const StatusNames names_;
@@ -94,7 +94,7 @@ class DdsSink final : public Sink {
 
   // The pipeline's thread only.
   hal::TimePoint stamp_;
-  TimeMessage utc_{};
+  std::chrono::system_clock::time_point utc_;
   std::size_t selected_view_ = 0;
 
   // The sink's thread while it runs, else the owner's.

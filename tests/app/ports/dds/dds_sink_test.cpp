@@ -395,6 +395,7 @@ TEST_F(DdsSinkTest, CamerasPicturesAreSentWhileSomebodyReads) {
   frame->picture = Picture::contiguous(PixelFormat::Nv12, 64, 48, samples.data(), 64);
   set.frames[1] = frame;
   set.stamp = hal::Clock::now();
+  frame->metadata.exposure_start = set.stamp + std::chrono::milliseconds(70);
   sink_.accept_frames(set);
   EXPECT_EQ(frame.use_count(), 2) << "nobody reads it";
   const ImageReader reader("rt/orbwatch/thermal/ball/image_raw");
@@ -403,6 +404,10 @@ TEST_F(DdsSinkTest, CamerasPicturesAreSentWhileSomebodyReads) {
     sink_.accept_frames(set);
     reader.take([&](const ImageMessage& message) {
       EXPECT_STREQ(message.header.frame_id, "thermal");
+      const auto exposed = hal::to_utc(frame->metadata.exposure_start).time_since_epoch();
+      EXPECT_LT(std::chrono::abs(since_epoch(message.header.stamp) - exposed),
+                std::chrono::milliseconds(20))
+          << "of its own exposure, not of the set's";
       EXPECT_STREQ(message.encoding, "rgb8");
       EXPECT_EQ(message.width, 64u);
       EXPECT_EQ(message.height, 48u);
