@@ -10,7 +10,7 @@
 
 #include "tests/app/ports/modbus/abuses.h"
 #include "tests/app/ports/modbus/clients.h"
-#include "tests/support/reference_data.h"
+#include "tests/support/share.h"
 
 namespace orbwatch::app {
 namespace {
@@ -34,12 +34,10 @@ constexpr bool kHasTime = true;
 /// otherwise.
 using Case = std::tuple<tests::Abuse, bool>;
 
-/// A minute of random frames where everything is tested, in the release build and with
-/// AddressSanitizer.
+/// Random frames come for a minute, or the share of it that runs.
 seconds duration(const Case& abuse) {
-  const bool is_long = std::get<0>(abuse).name == "random frames" && std::get<1>(abuse) &&
-                       orbwatch::tests::acceptance_mode();
-  return is_long && kHasTime ? seconds(60) : seconds(1);
+  const bool is_long = std::get<0>(abuse).name == "random frames" && std::get<1>(abuse);
+  return seconds(is_long && kHasTime ? orbwatch::tests::share_of(60) : 1);
 }
 
 std::ptrdiff_t open_files() {
