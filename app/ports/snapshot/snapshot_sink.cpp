@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <compare>
 #include <map>
 #include <optional>
 #include <regex>
 #include <system_error>
+#include <tuple>
 #include <vector>
 
 #include "app/log.h"
@@ -35,7 +35,9 @@ std::string name_of(const View& view) {
 struct Snapshot {
   std::string stamp;
   std::string name;
-  auto operator<=>(const Snapshot&) const = default;
+  bool operator<(const Snapshot& other) const {
+    return std::tie(stamp, name) < std::tie(other.stamp, other.name);
+  }
 };
 
 /// The snapshot of a file written here; nullopt for other files.
