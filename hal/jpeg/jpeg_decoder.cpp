@@ -1,20 +1,13 @@
 #include "hal/jpeg/jpeg_decoder.h"
 
-#include <turbojpeg.h>
-
 #include <algorithm>
+#include <cstring>
 #include <string>
-#include <utility>
+
+#include "hal/jpeg/jpeg_reader.h"
 
 namespace orbwatch::hal {
 namespace {
-
-// A progressive picture may have any number of scans; the limit bounds the time of a hostile one.
-constexpr int kStrict = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-
-const unsigned char* bytes(std::span<const std::byte> jpeg) {
-  return reinterpret_cast<const unsigned char*>(jpeg.data());
-}
 
 constexpr std::uint8_t kNeutral = 128;
 
@@ -73,105 +66,143 @@ void interleave_chroma(const ImageView<const std::uint8_t>& u,
   write_plane(v, second);
 }
 
+/// Samples of the picture that one of the component covers, in each direction.
+struct Coverage {
+  int columns = 0;
+  int rows = 0;
+  bool operator==(const Coverage&) const = default;
+};
+
+Coverage coverage(const jpeg_decompress_struct& picture, std::size_t component) {
+  const jpeg_component_info& info = picture.comp_info[component];
+  const int columns = picture.max_h_samp_factor;
+  const int rows = picture.max_v_samp_factor;
+  if (columns % info.h_samp_factor != 0 || rows % info.v_samp_factor != 0) return {};
+  return {columns / info.h_samp_factor, rows / info.v_samp_factor};
+}
+
+/// Whether write_strip() can make Nv12 of the picture.
+Result<> check_components(const jpeg_decompress_struct& picture) {
+  if (picture.num_components == 1) return {};
+  if (picture.jpeg_color_space != JCS_YCbCr) {
+    return fail("an RGB JPEG picture; grey and YCbCr are read");
+  }
+  const Coverage chroma = coverage(picture, 1);
+  const bool known = (chroma.columns == 1 || chroma.columns == 2 || chroma.columns == 4) &&
+                     (chroma.rows == 1 || chroma.rows == 2);
+  if (!known || coverage(picture, 2) != chroma || coverage(picture, 0) != Coverage{1, 1}) {
+    return fail(
+        "a JPEG picture of unusual subsampling; chroma for 1, 2 or 4 columns and for 1 or "
+        "2 rows is read");
+  }
+  return {};
+}
+
+int rows_of_strip(const jpeg_component_info& component) {
+  return component.v_samp_factor * DCTSIZE;
+}
+
 }  // namespace
 
-JpegDecoder::JpegDecoder() : decoder_(tjInitDecompress()) {}
+JpegDecoder::JpegDecoder() : reader_(std::make_unique<JpegReader>()) {}
+JpegDecoder::~JpegDecoder() = default;
 
-void JpegDecoder::Close::operator()(void* decoder) const { tjDestroy(decoder); }
-
-/// After a bad header, libjpeg-turbo 2.1 reads the next picture as the rest of it, and it keeps the
-/// tables of damaged pictures. So it is created again after an error.
-tl::unexpected<Error> JpegDecoder::failed(const char* what) {
-  std::string message = std::string(what) + tjGetErrorStr2(decoder_.get());
-  decoder_.reset(tjInitDecompress());
-  return fail(std::move(message));
-}
-
-Result<JpegDecoder::Header> JpegDecoder::read_header(std::span<const std::byte> jpeg) {
-  if (!decoder_) return fail("JPEG decoder: out of memory");
-  Header header;
-  JpegSize& size = header.size;
-  if (tjDecompressHeader3(decoder_.get(), bytes(jpeg), jpeg.size(), &size.width, &size.height,
-                          &header.subsampling, &header.colours) != 0) {
-    return failed("not a JPEG picture: ");
-  }
-  if (size.width == 0 || size.height == 0) return fail("not a JPEG picture: ends before its size");
-  if (header.colours == TJCS_CMYK || header.colours == TJCS_YCCK) {
-    return fail("a CMYK JPEG picture; grey and YCbCr are read");
-  }
-  return header;
-}
-
-Result<JpegDecoder::Header> JpegDecoder::read_header_of(int width, int height,
-                                                        std::span<const std::byte> jpeg) {
-  auto header = read_header(jpeg);
-  if (header && (header->size.width != width || header->size.height != height)) {
-    return fail("a JPEG picture of " + std::to_string(header->size.width) + "x" +
-                std::to_string(header->size.height) + " instead of " + std::to_string(width) + "x" +
-                std::to_string(height));
-  }
-  return header;
-}
+bool JpegDecoder::is_flawed() const { return reader_->is_flawed(); }
 
 Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
-  return read_header(jpeg).map([](const Header& header) { return header.size; });
+  if (auto opened = reader_->open(jpeg); !opened) return tl::unexpected(opened.error());
+  const jpeg_decompress_struct& picture = reader_->picture();
+  const J_COLOR_SPACE colours = picture.jpeg_color_space;
+  if (colours != JCS_GRAYSCALE && colours != JCS_YCbCr && colours != JCS_RGB) {
+    return fail("a CMYK JPEG picture; grey and YCbCr are read");
+  }
+  return JpegSize{static_cast<int>(picture.image_width), static_cast<int>(picture.image_height)};
+}
+
+Result<> JpegDecoder::open(int width, int height, std::span<const std::byte> jpeg) {
+  const auto size = read_size(jpeg);
+  if (!size) return tl::unexpected(size.error());
+  if (size->width == width && size->height == height) return {};
+  return fail("a JPEG picture of " + std::to_string(size->width) + "x" +
+              std::to_string(size->height) + " instead of " + std::to_string(width) + "x" +
+              std::to_string(height));
 }
 
 Result<> JpegDecoder::check(std::span<const std::byte> jpeg) {
-  const auto header = read_header(jpeg);
-  if (!header) return tl::unexpected(header.error());
+  if (const auto size = read_size(jpeg); !size) return tl::unexpected(size.error());
   // At an eighth of the size, the entropy-coded data is still read completely.
-  constexpr tjscalingfactor kEighth{1, 8};
-  const int width = TJSCALED(header->size.width, kEighth);
-  const int height = TJSCALED(header->size.height, kEighth);
+  if (auto started = reader_->start_grey(8); !started) return started;
+  const auto width = static_cast<int>(reader_->picture().output_width);
+  const auto height = static_cast<int>(reader_->picture().output_height);
   thumbnail_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  return decompress_grey(jpeg, {thumbnail_.data(), width, height, 1, width});
+  return reader_->read_grey({thumbnail_.data(), width, height, 1, width}).and_then([this] {
+    return reader_->finish();
+  });
 }
 
 Result<> JpegDecoder::decode_grey(std::span<const std::byte> jpeg,
                                   const ImageView<std::uint8_t>& target) {
-  return read_header_of(target.width, target.height, jpeg).and_then([&](const Header&) {
-    return decompress_grey(jpeg, target);
-  });
-}
-
-Result<> JpegDecoder::decompress_grey(std::span<const std::byte> jpeg,
-                                      const ImageView<std::uint8_t>& target) {
-  if (tjDecompress2(decoder_.get(), bytes(jpeg), jpeg.size(), target.data, target.width,
-                    static_cast<int>(target.stride), target.height, TJPF_GRAY, kStrict) != 0) {
-    return failed("damaged JPEG picture: ");
-  }
-  return {};
+  return open(target.width, target.height, jpeg)
+      .and_then([this] { return reader_->start_grey(1); })
+      .and_then([&] { return reader_->read_grey(target); })
+      .and_then([this] { return reader_->finish(); });
 }
 
 Result<> JpegDecoder::decode_nv12(std::span<const std::byte> jpeg, const MutablePicture& target) {
-  const auto header = read_header_of(target.width, target.height, jpeg);
-  if (!header) return tl::unexpected(header.error());
-  const int subsampling = header->subsampling;
-  if (header->colours == TJCS_RGB) return fail("an RGB JPEG picture; grey and YCbCr are read");
-  if (tjPlaneWidth(0, target.width, subsampling) != target.width) {
-    return fail("a JPEG picture with chroma shared by 4 pixels of a row, " +
-                std::to_string(target.width) + " wide; it must be a multiple of 4");
+  return open(target.width, target.height, jpeg)
+      .and_then([this] { return check_components(reader_->picture()); })
+      .and_then([this] { return reader_->start_components(); })
+      .and_then([&] { return read_strips(target); })
+      .and_then([this] { return reader_->finish(); });
+}
+
+Result<> JpegDecoder::read_strips(const MutablePicture& target) {
+  prepare_strips();
+  std::array<JSAMPARRAY, 3> rows{rows_[0].data(), rows_[1].data(), rows_[2].data()};
+  const int step = reader_->picture().max_v_samp_factor * DCTSIZE;
+  for (int y = 0; y < target.height; y += step) {
+    if (auto read = reader_->read_components(rows.data()); !read) return read;
+    write_strip(y, std::min(step, target.height - y), target);
   }
-  const bool grey = subsampling == TJSAMP_GRAY;
-  const int width = grey ? 0 : tjPlaneWidth(1, target.width, subsampling);
-  const int height = grey ? 0 : tjPlaneHeight(1, target.height, subsampling);
-  for (auto& plane : chroma_) {
-    plane.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  }
-  std::array<unsigned char*, 3> planes{reinterpret_cast<unsigned char*>(target.planes[0].data),
-                                       chroma_[0].data(), chroma_[1].data()};
-  std::array<int, 3> strides{static_cast<int>(target.planes[0].stride), width, width};
-  if (tjDecompressToYUVPlanes(decoder_.get(), bytes(jpeg), jpeg.size(), planes.data(), target.width,
-                              strides.data(), target.height, kStrict) != 0) {
-    return failed("damaged JPEG picture: ");
-  }
-  const ImageView<std::uint8_t> pairs{reinterpret_cast<std::uint8_t*>(target.planes[1].data),
-                                      target.width / 2, target.height / 2, 2,
-                                      target.planes[1].stride};
-  interleave_chroma({chroma_[0].data(), width, height, 1, width},
-                    {chroma_[1].data(), width, height, 1, width}, pairs);
   return {};
+}
+
+/// Makes room for one row of MCUs of each component, whole blocks wide as libjpeg writes them.
+void JpegDecoder::prepare_strips() {
+  const jpeg_decompress_struct& picture = reader_->picture();
+  for (std::size_t n = 0; n < strips_.size(); ++n) {
+    rows_[n].clear();
+    if (n >= static_cast<std::size_t>(picture.num_components)) continue;
+    const jpeg_component_info& component = picture.comp_info[n];
+    const std::size_t stride = std::size_t{component.width_in_blocks} * DCTSIZE;
+    const auto count = static_cast<std::size_t>(rows_of_strip(component));
+    strips_[n].resize(stride * count);
+    for (std::size_t y = 0; y < count; ++y) rows_[n].push_back(strips_[n].data() + y * stride);
+  }
+}
+
+/// A component's samples of the strip that was read last; empty without this component.
+ImageView<const std::uint8_t> JpegDecoder::strip(std::size_t number, int height) const {
+  if (rows_[number].empty()) return {};
+  const jpeg_component_info& component = reader_->picture().comp_info[number];
+  return {strips_[number].data(), static_cast<int>(component.downsampled_width), height, 1,
+          static_cast<std::ptrdiff_t>(component.width_in_blocks) * DCTSIZE};
+}
+
+/// Writes the strip that was read last to `count` rows of the target from row `y` on.
+void JpegDecoder::write_strip(int y, int count, const MutablePicture& target) const {
+  const jpeg_decompress_struct& picture = reader_->picture();
+  const auto luminance = strip(0, count);
+  for (int row = 0; row < count; ++row) {
+    std::memcpy(target.planes[0].data + (y + row) * target.planes[0].stride, luminance.row(row),
+                static_cast<std::size_t>(target.width));
+  }
+  const int pairs_y = y / 2;
+  const ImageView<std::uint8_t> pairs{
+      reinterpret_cast<std::uint8_t*>(target.planes[1].data + pairs_y * target.planes[1].stride),
+      target.width / 2, count / 2, 2, target.planes[1].stride};
+  const int rows = picture.num_components == 1 ? 0 : count / coverage(picture, 1).rows;
+  interleave_chroma(strip(1, rows), strip(2, rows), pairs);
 }
 
 }  // namespace orbwatch::hal

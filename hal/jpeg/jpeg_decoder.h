@@ -19,13 +19,21 @@ struct JpegSize {
   int height = 0;
 };
 
+class JpegReader;
+
 /// libjpeg-turbo in strict mode: data that it would repair (a truncated file, a broken code, bytes
-/// lost on USB) is an error here, because a repaired picture must not be measured. Reads grey and
+/// lost on USB) is an error here, because a repaired picture must not be measured. Padding before a
+/// marker and a missing end marker, which many USB cameras send, are no errors. Reads grey and
 /// YCbCr pictures, baseline and progressive, also without the standard Huffman tables, which USB
 /// cameras omit. Thread-bound and reusable.
 class JpegDecoder {
  public:
   JpegDecoder();
+  ~JpegDecoder();
+
+  /// Whether the picture checked or decoded last had such padding, or no end marker: see
+  /// JpegReader::is_flawed().
+  bool is_flawed() const;
 
   /// Errors: not a JPEG picture, header damaged, CMYK.
   Result<JpegSize> read_size(std::span<const std::byte> jpeg);
@@ -39,30 +47,22 @@ class JpegDecoder {
   Result<> decode_grey(std::span<const std::byte> jpeg, const ImageView<std::uint8_t>& target);
 
   /// Decodes into `target`, Nv12, BT.601 of full range, without conversion to RGB. Finer chroma is
-  /// averaged; grey pictures get neutral chroma. Errors as decode_grey, an RGB picture, and widths
-  /// that are no multiple of 4 with chroma shared by 4 pixels.
+  /// averaged; grey pictures get neutral chroma. Errors as decode_grey, an RGB picture, and chroma
+  /// for other than 1, 2 or 4 columns and 1 or 2 rows.
   Result<> decode_nv12(std::span<const std::byte> jpeg, const MutablePicture& target);
 
  private:
-  struct Close {
-    void operator()(void* decoder) const;
-  };
+  Result<> open(int width, int height, std::span<const std::byte> jpeg);
+  Result<> read_strips(const MutablePicture& target);
+  void prepare_strips();
+  ImageView<const std::uint8_t> strip(std::size_t number, int height) const;
+  void write_strip(int y, int count, const MutablePicture& target) const;
 
-  /// turbojpeg's header fields.
-  struct Header {
-    JpegSize size;
-    int subsampling = 0;
-    int colours = 0;
-  };
-
-  tl::unexpected<Error> failed(const char* what);
-  Result<Header> read_header(std::span<const std::byte> jpeg);
-  Result<Header> read_header_of(int width, int height, std::span<const std::byte> jpeg);
-  Result<> decompress_grey(std::span<const std::byte> jpeg, const ImageView<std::uint8_t>& target);
-
-  std::unique_ptr<void, Close> decoder_;
-  std::vector<std::uint8_t> thumbnail_;              ///< target of check()
-  std::array<std::vector<std::uint8_t>, 2> chroma_;  ///< U and V in the file's resolution
+  std::unique_ptr<JpegReader> reader_;
+  std::vector<std::uint8_t> thumbnail_;  ///< target of check()
+  /// One row of MCUs of Y, U and V in the file's resolution, and where its rows are.
+  std::array<std::vector<std::uint8_t>, 3> strips_;
+  std::array<std::vector<std::uint8_t*>, 3> rows_;
 };
 
 }  // namespace orbwatch::hal

@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <vector>
+
+// After <cstdio>.
+#include <jpeglib.h>
+
+#include "hal/jpeg/jpeg_decoder.h"
+
+/// What of libjpeg's warnings is a fault of a picture.
+namespace orbwatch::hal {
+namespace {
+
+constexpr int kWidth = 72;
+constexpr int kHeight = 40;
+
+using Bytes = std::vector<std::byte>;
+
+/// How a picture is compressed.
+struct Coding {
+  std::string name;
+  bool progressive = false;
+  bool arithmetic = false;
+  bool scan_for_each = false;  ///< components one after another, each in a scan of its own
+  unsigned restart_rows = 0;   ///< rows of MCUs between restart markers
+};
+
+/// Without a pattern that repeats, so that any loss shows.
+std::uint8_t sample(int x, int y, int channel) {
+  return static_cast<std::uint8_t>((x * x + 3 * y * y + 7 * x * y + 41 * channel) / 16);
+}
+
+void write_rows(jpeg_compress_struct& picture) {
+  std::vector<std::uint8_t> row(3 * kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      for (int c = 0; c < 3; ++c) row[static_cast<std::size_t>(3 * x + c)] = sample(x, y, c);
+    }
+    JSAMPROW first = row.data();
+    jpeg_write_scanlines(&picture, &first, 1);
+  }
+}
+
+Bytes compress(const Coding& coding) {
+  jpeg_compress_struct picture{};
+  jpeg_error_mgr errors{};
+  picture.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&picture);
+  unsigned char* file = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&picture, &file, &size);
+  picture.image_width = kWidth;
+  picture.image_height = kHeight;
+  picture.input_components = 3;
+  picture.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&picture);
+  jpeg_set_quality(&picture, 90, TRUE);
+  picture.arith_code = coding.arithmetic ? TRUE : FALSE;
+  picture.restart_in_rows = static_cast<int>(coding.restart_rows);
+  if (coding.progressive) jpeg_simple_progression(&picture);
+  const std::array<jpeg_scan_info, 3> scans{
+      {{1, {0}, 0, 63, 0, 0}, {1, {1}, 0, 63, 0, 0}, {1, {2}, 0, 63, 0, 0}}};
+  if (coding.scan_for_each) {
+    picture.scan_info = scans.data();
+    picture.num_scans = static_cast<int>(scans.size());
+  }
+  jpeg_start_compress(&picture, TRUE);
+  write_rows(picture);
+  jpeg_finish_compress(&picture);
+  const auto* const first = reinterpret_cast<const std::byte*>(file);
+  Bytes jpeg(first, first + size);
+  jpeg_destroy_compress(&picture);
+  std::free(file);
+  return jpeg;
+}
+
+/// The decoded picture; empty when it is refused.
+struct Decoded {
+  explicit Decoded(JpegDecoder& decoder, std::span<const std::byte> jpeg)
+      : memory(kWidth * kHeight * 3 / 2) {
+    const auto done = decoder.decode_nv12(
+        jpeg,
+        MutablePicture::contiguous(PixelFormat::Nv12, kWidth, kHeight, memory.data(), kWidth));
+    if (done) return;
+    memory.clear();
+    error = done.error().message;
+  }
+  bool is_refused() const { return memory.empty(); }
+
+  Bytes memory;
+  std::string error;
+};
+
+/// Where a marker begins, the last one of its kind.
+std::ptrdiff_t last_marker(const Bytes& jpeg, int marker) {
+  for (std::size_t at = jpeg.size() - 2;; --at) {
+    if (jpeg[at] == std::byte{0xff} && std::to_integer<int>(jpeg[at + 1]) == marker) {
+      return static_cast<std::ptrdiff_t>(at);
+    }
+  }
+}
+
+constexpr int kEndOfImage = 0xd9;
+constexpr int kStartOfScan = 0xda;
+constexpr std::size_t kMarkerBytes = 2;
+
+class JpegCoding : public testing::TestWithParam<Coding> {};
+
+TEST_P(JpegCoding, IsWholeOrRefusedAtEveryLength) {
+  const Bytes jpeg = compress(GetParam());
+  ASSERT_GT(jpeg.size(), 1000U);
+  JpegDecoder decoder;
+  const Decoded whole(decoder, jpeg);
+  ASSERT_FALSE(whole.is_refused()) << whole.error;
+  EXPECT_FALSE(decoder.is_flawed());
+  for (std::size_t length = 0; length < jpeg.size(); ++length) {
+    const std::span part(jpeg.data(), length);
+    const Decoded cut(decoder, part);
+    EXPECT_EQ(decoder.check(part).has_value(), !cut.is_refused()) << length;
+    if (cut.is_refused()) continue;
+    ASSERT_EQ(cut.memory, whole.memory) << length << " of " << jpeg.size();
+    ASSERT_TRUE(decoder.is_flawed()) << length << " of " << jpeg.size();
+  }
+}
+
+TEST_P(JpegCoding, NeedsNoEndMarkerWhereTheRestTellsThatItIsWhole) {
+  Bytes jpeg = compress(GetParam());
+  jpeg.resize(jpeg.size() - kMarkerBytes);
+  JpegDecoder decoder;
+  EXPECT_EQ(Decoded(decoder, jpeg).is_refused(), GetParam().arithmetic);
+}
+
+TEST_P(JpegCoding, MayHavePaddingBeforeItsEnd) {
+  const Bytes jpeg = compress(GetParam());
+  JpegDecoder decoder;
+  const Decoded whole(decoder, jpeg);
+  Bytes padded = jpeg;
+  // The first few of them are in the decoder's bit buffer, unnoticed.
+  padded.insert(padded.end() - kMarkerBytes, 16, std::byte{0});
+  const Decoded decoded(decoder, padded);
+  ASSERT_FALSE(decoded.is_refused()) << decoded.error;
+  EXPECT_EQ(decoded.memory, whole.memory);
+  EXPECT_TRUE(decoder.is_flawed());
+  EXPECT_TRUE(decoder.check(padded));
+  EXPECT_TRUE(decoder.is_flawed());
+  ASSERT_TRUE(decoder.check(jpeg));
+  EXPECT_FALSE(decoder.is_flawed()) << "of an earlier picture";
+}
+
+INSTANTIATE_TEST_SUITE_P(Codings, JpegCoding,
+                         testing::Values(Coding{"sequential"},
+                                         Coding{.name = "restarts", .restart_rows = 1},
+                                         Coding{.name = "progressive", .progressive = true},
+                                         Coding{.name = "scan_for_each", .scan_for_each = true},
+                                         Coding{.name = "arithmetic", .arithmetic = true}),
+                         [](const auto& run) { return run.param.name; });
+
+TEST(JpegReader, TakesPaddingBeforeARestart) {
+  const Bytes jpeg = compress({.name = "restarts", .restart_rows = 1});
+  constexpr int kFirstRestart = 0xd0;
+  Bytes padded = jpeg;
+  padded.insert(padded.begin() + last_marker(jpeg, kFirstRestart), 2, std::byte{0});
+  JpegDecoder decoder;
+  const Decoded decoded(decoder, padded);
+  ASSERT_FALSE(decoded.is_refused()) << decoded.error;
+  EXPECT_TRUE(decoder.is_flawed());
+  EXPECT_EQ(decoded.memory, Decoded(decoder, jpeg).memory);
+}
+
+TEST(JpegReader, RefusesAPictureWithoutOneOfItsComponents) {
+  Bytes jpeg = compress({.name = "scan_for_each", .scan_for_each = true});
+  jpeg.erase(jpeg.begin() + last_marker(jpeg, kStartOfScan), jpeg.end() - kMarkerBytes);
+  JpegDecoder decoder;
+  const Decoded decoded(decoder, jpeg);
+  EXPECT_TRUE(decoded.is_refused());
+  EXPECT_NE(decoded.error.find("ends early"), std::string::npos) << decoded.error;
+}
+
+TEST(JpegReader, RefusesMoreScansThanAPictureNeeds) {
+  const Bytes jpeg = compress({.name = "scan_for_each", .scan_for_each = true});
+  const auto scan = jpeg.begin() + last_marker(jpeg, kStartOfScan);
+  const auto with_scans = [&](int more) {
+    Bytes repeated = jpeg;
+    for (int n = 0; n < more; ++n) {
+      repeated.insert(repeated.end() - kMarkerBytes, scan, jpeg.end() - kMarkerBytes);
+    }
+    return repeated;
+  };
+  JpegDecoder decoder;
+  EXPECT_FALSE(Decoded(decoder, with_scans(450)).is_refused());
+  const Decoded hostile(decoder, with_scans(550));
+  EXPECT_TRUE(hostile.is_refused());
+  EXPECT_NE(hostile.error.find("has more than 500 scans"), std::string::npos) << hostile.error;
+}
+
+TEST(JpegReader, TakesTheNextPictureAfterAnyError) {
+  const Bytes jpeg = compress({"sequential"});
+  JpegDecoder decoder;
+  const Decoded whole(decoder, jpeg);
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{1}, std::size_t{30}, jpeg.size() / 2}) {
+    ASSERT_TRUE(Decoded(decoder, {jpeg.data(), length}).is_refused());
+    const Decoded next(decoder, jpeg);
+    ASSERT_EQ(next.memory, whole.memory) << next.error;
+    EXPECT_FALSE(decoder.is_flawed());
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::hal
