@@ -50,6 +50,9 @@ Result<> Camera::start(OnFrame on_frame, OnFault on_fault) {
   on_fault_ = std::move(on_fault);
   last_fault_ = Fault::None;
   withheld_ = 0;
+  damage_.clear();
+  damaged_ = 0;
+  flawed_ = 0;
   thread_.start(thread_name(info_.id), [this] { run(thread_.stop_token()); });
   return {};
 }
@@ -64,15 +67,48 @@ Result<> Camera::set(std::string_view control, double) {
 
 void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {
   if (thread_.stop_requested()) return;
-  if (gate_ && !gate_(frame->metadata)) {
-    ++withheld_;
+  FrameMetadata& metadata = frame->metadata;
+  if (damage_.add_intact(metadata.exposure_start)) {
+    metadata.status = FrameStatus::Withheld;
+    passes_gate(metadata);
     return;
   }
-  frame->metadata.sequence -= withheld_;
+  report(Fault::None);
+  if (!passes_gate(metadata)) return;
+  if (metadata.status == FrameStatus::Flawed) ++flawed_;
   on_frame_(std::move(frame));
 }
 
+void Camera::discard(FrameMetadata metadata, std::string detail) {
+  ++damaged_;
+  metadata.status = FrameStatus::Withheld;
+  passes_gate(metadata);
+  if (damage_.add_damaged(metadata.exposure_start)) report(Fault::CorruptFrame, std::move(detail));
+}
+
+bool Camera::passes_gate(FrameMetadata& metadata) {
+  if (gate_ && !gate_(metadata)) {
+    ++withheld_;
+    return false;
+  }
+  metadata.sequence -= withheld_;
+  return true;
+}
+
+bool Camera::fails(const FaultScript& script, const FrameMetadata& metadata) {
+  const Fault fault = script.at(metadata.sequence);
+  if (fault == Fault::None) return false;
+  std::string detail = "scripted at frame " + std::to_string(metadata.sequence);
+  if (fault == Fault::CorruptFrame) {
+    discard(metadata, std::move(detail));
+  } else {
+    report(fault, std::move(detail));
+  }
+  return true;
+}
+
 void Camera::report(Fault fault, std::string detail) {
+  if (fault != Fault::None && fault != Fault::CorruptFrame) damage_.clear();
   if (fault == std::exchange(last_fault_, fault)) return;
   if (!thread_.stop_requested()) on_fault_({fault, std::move(detail)});
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/damage_watch.h"
 #include "hal/fault.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/thread.h"
@@ -50,13 +52,20 @@ struct StreamFormat {
   double frame_rate = 0;
 };
 
+/// What a camera had to say of its frames since start().
+struct FrameQuality {
+  std::uint64_t damaged = 0;  ///< withheld: see Camera::discard()
+  std::uint64_t flawed = 0;   ///< delivered: see FrameStatus
+};
+
 /// A source of frames: real, replayed or simulated. This class is the shell that guards the
 /// invariants; back-ends implement the protected part.
 ///
 /// Life: configure, start, stop, in this order; start and stop may be repeated, and configure again
 /// while stopped. Frames and faults arrive on the camera's own thread, one at a time.
+/// A damaged frame costs itself and its trigger; many are a fault: see DamageWatch.
 /// Thread rule: configure, start and stop are thread-bound (one owner); stop may also be called
-/// inside a callback; trigger and set are thread-safe.
+/// inside a callback; trigger, set and quality are thread-safe.
 class Camera {
  public:
   using OnFrame = std::function<void(Frame)>;
@@ -74,7 +83,8 @@ class Camera {
   Result<StreamFormat> configure(const StreamRequest& request);
 
   /// Called for each frame before it is forwarded, on the camera's thread: may complete the
-  /// metadata; false withholds the frame, which then counts as never exposed. Set while stopped.
+  /// metadata; false withholds the frame, which then counts as never exposed. Also called for each
+  /// frame that is withheld already, as FrameStatus says. Set while stopped.
   void set_gate(Gate gate) { gate_ = std::move(gate); }
 
   /// Starts the camera's thread. `on_frame` and `on_fault` must return quickly and not throw.
@@ -88,6 +98,8 @@ class Camera {
   /// GenICam TriggerSoftware: exposes one frame. Error: the camera has no software trigger.
   virtual Result<> trigger();
 
+  FrameQuality quality() const { return {damaged_, flawed_}; }
+
   /// Sets a control by name in its own unit. Error: no such control, or out of range.
   virtual Result<> set(std::string_view control, double value);
 
@@ -100,10 +112,17 @@ class Camera {
   /// back-end reconnects by itself.
   virtual void run(const std::stop_token& stop) = 0;
 
-  /// For run(): forwards a frame.
+  /// For run(): forwards an intact frame, which ends a fault; between many damaged ones it is
+  /// withheld, and the fault lasts.
   void deliver(std::shared_ptr<FrameBuffer> frame);
+  /// For run(): counts a damaged frame, of which at least number and moment are known. `detail` is
+  /// for the fault CorruptFrame, which many of them are.
+  void discard(FrameMetadata metadata, std::string detail);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
+  /// For run(): shows the fault of a script, if it has one for the exposure with this metadata.
+  /// False: it has none.
+  bool fails(const FaultScript& script, const FrameMetadata& metadata);
   /// For run(): waits until `moment`. False: the stop was requested.
   bool wait_until(TimePoint moment);
   /// For run(): waits for a wake(). False: the stop was requested.
@@ -112,10 +131,15 @@ class Camera {
   void wake() { thread_.wake(); }
 
  private:
+  bool passes_gate(FrameMetadata& metadata);
+
   CameraInfo info_;
   bool configured_ = false;
   Gate gate_;
   std::uint64_t withheld_ = 0;  ///< by the gate since start
+  DamageWatch damage_;
+  std::atomic<std::uint64_t> damaged_ = 0;
+  std::atomic<std::uint64_t> flawed_ = 0;
   OnFrame on_frame_;
   OnFault on_fault_;
   Fault last_fault_ = Fault::None;

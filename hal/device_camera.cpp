@@ -63,7 +63,6 @@ FaultReport DeviceCamera::capture_until_fault(const std::stop_token& stop, doubl
 
 void DeviceCamera::forward(std::shared_ptr<FrameBuffer> frame) {
   forwarded_ = true;
-  report(Fault::None);
   deliver(std::move(frame));
 }
 

@@ -65,7 +65,7 @@ class DeviceCamera : public Camera {
     return counter_.number(driver_sequence);
   }
 
-  /// For capture(): delivers an intact frame, which ends a fault.
+  /// For capture(): delivers an intact frame.
   void forward(std::shared_ptr<FrameBuffer> frame);
 
  private:

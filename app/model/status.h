@@ -131,7 +131,11 @@ struct SystemStatus {
         "Frames delivered while the pacing camera had none of that moment")                      \
   FIELD(std::uint64_t, triggers, kCount, "Edges of its trigger line since start")                \
   FIELD(std::uint64_t, missed, kCount,                                                           \
-        "Triggers without a frame: faster than the camera, or its fault")
+        "Triggers without a frame: faster than the camera, its fault, or the frame was damaged") \
+  FIELD(std::uint64_t, damaged, kCount,                                                          \
+        "Damaged frames, which are lost; 5 of the last 20 are a fault")                          \
+  FIELD(std::uint64_t, flawed, kCount,                                                           \
+        "Frames used although their JPEG data has padding before a marker, or no end marker")
 
 /// One camera.
 struct CameraStatus {

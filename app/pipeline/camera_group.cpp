@@ -14,9 +14,12 @@ bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
          picture.height == format.height;
 }
 
-/// Passes the frames that belong to a trigger and numbers them.
+/// Passes the frames that belong to a trigger and numbers them; that of a withheld one is missed.
 hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) {
   return [trigger](hal::FrameMetadata& metadata) {
+    if (metadata.status == hal::FrameStatus::Withheld) {
+      return trigger->miss(metadata.exposure_start);
+    }
     const auto stamp = trigger->claim(metadata.exposure_start);
     if (stamp) metadata.trigger = stamp->id;
     return stamp.has_value();
@@ -109,11 +112,14 @@ void CameraGroup::report(Status& status, std::optional<hal::Clock::duration> ela
     Member& member = members_[i];
     CameraStatus& camera = status.cameras[i];
     const hal::FrameCounts counts = sync_.counts(i);
+    const hal::FrameQuality quality = member.camera->quality();
     camera.fault = member.fault;
     camera.frames = counts.frames;
     camera.lost = counts.lost;
     camera.dropped = counts.dropped();
     camera.unmatched = counts.unmatched;
+    camera.damaged = quality.damaged;
+    camera.flawed = quality.flawed;
     camera.last_frame = member.last_frame;
     if (member.trigger) {
       const hal::TriggerCounts triggers = member.trigger->counts();

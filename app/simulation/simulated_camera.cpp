@@ -128,11 +128,7 @@ void SimulatedCamera::run_triggered() {
   do {
     const auto moment = take_trigger();
     if (!moment) continue;
-    if (const hal::Fault fault = script_.at(n); fault != hal::Fault::None) {
-      report(fault, "as scripted");
-    } else {
-      expose(n, *moment);
-    }
+    if (!fails(script_, {.sequence = n, .exposure_start = *moment})) expose(n, *moment);
     ++n;
   } while (wait());
 }
@@ -143,11 +139,8 @@ void SimulatedCamera::run(const std::stop_token&) {
   const auto moment = [&](std::uint64_t n) { return moment_of(n, start, format_.frame_rate); };
   for (std::uint64_t n = 0; wait_until(moment(n)); ++n) {
     // Also when late, so that a fault script is always shown completely.
-    if (const hal::Fault fault = script_.at(n); fault != hal::Fault::None) {
-      report(fault, "as scripted");
-    } else if (hal::Clock::now() < moment(n + 1)) {
-      expose(n, moment(n));
-    }
+    if (fails(script_, {.sequence = n, .exposure_start = moment(n)})) continue;
+    if (hal::Clock::now() < moment(n + 1)) expose(n, moment(n));
   }
 }
 
@@ -157,7 +150,6 @@ void SimulatedCamera::expose(std::uint64_t sequence, hal::TimePoint moment) {
   buffer->metadata = {.sequence = sequence, .exposure_start = moment};
   renderer_->render(machine_->process_time(moment), buffer->memory);
   add_noise(*buffer);
-  report(hal::Fault::None);
   deliver(buffer);
 }
 

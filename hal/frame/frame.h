@@ -18,6 +18,13 @@ enum class StampSource : std::uint8_t {
   Arrival,   ///< dequeued by the camera's thread: the camera gave no stamp
 };
 
+/// Whether a frame can be used.
+enum class FrameStatus : std::uint8_t {
+  Intact,
+  Flawed,    ///< complete; its JPEG data drew a warning: see JpegDecoder::is_flawed()
+  Withheld,  ///< damaged, or intact between damaged ones: see DamageWatch; never delivered
+};
+
 /// What a camera states about one frame.
 struct FrameMetadata {
   std::uint64_t sequence = 0;  ///< counts exposures since start; a gap is a lost frame
@@ -29,6 +36,7 @@ struct FrameMetadata {
   /// that it started. None: the camera runs freely.
   std::optional<std::uint64_t> trigger = std::nullopt;
   double lux = 0;  ///< illuminance of the scene as the camera estimates it; 0: unknown
+  FrameStatus status = FrameStatus::Intact;
 };
 
 /// One picture in a camera's buffer: filled by the camera's thread, then immutable. The memory

@@ -144,19 +144,20 @@ DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
 }
 
 void LibcameraCamera::forward_intact(const LibcameraStream::Captured& captured) {
-  const std::uint64_t sequence = sequence_of(captured.buffer.sequence);
-  if (!is_intact(captured)) return;
-  captured.frame->metadata =
+  FrameMetadata metadata =
       metadata_of(captured.metadata, captured.buffer.timestamp, ClockReading::now());
-  captured.frame->metadata.sequence = sequence;
+  metadata.sequence = sequence_of(captured.buffer.sequence);
+  if (auto intact = check_intact(captured); !intact) {
+    return discard(metadata, id_ + ": " + intact.error().message);
+  }
+  captured.frame->metadata = metadata;
   forward(captured.frame);
 }
 
-/// Whether the camera delivered a complete frame; reports it if not.
-bool LibcameraCamera::is_intact(const LibcameraStream::Captured& captured) {
+/// Error: the frame is damaged.
+Result<> LibcameraCamera::check_intact(const LibcameraStream::Captured& captured) {
   if (captured.buffer.status != libcamera::FrameMetadata::FrameSuccess) {
-    report(Fault::CorruptFrame, id_ + ": the driver marks a frame as damaged");
-    return false;
+    return fail("the driver marks a frame as damaged");
   }
   const Picture& picture = captured.frame->picture;
   // The last row may be unpadded.
@@ -164,12 +165,9 @@ bool LibcameraCamera::is_intact(const LibcameraStream::Captured& captured) {
   const std::size_t padding =
       stride - static_cast<std::size_t>(row_bytes(picture.format, picture.width));
   const std::size_t needed = picture_bytes(picture.format, stride, picture.height) - padding;
-  if (const std::size_t used = used_bytes(captured.buffer); used < needed) {
-    report(Fault::CorruptFrame, id_ + ": a frame of " + std::to_string(used) + " bytes; it takes " +
-                                    std::to_string(needed));
-    return false;
-  }
-  return true;
+  const std::size_t used = used_bytes(captured.buffer);
+  if (used >= needed) return {};
+  return fail("a frame of " + std::to_string(used) + " bytes; it takes " + std::to_string(needed));
 }
 
 std::unique_ptr<Camera> make_camera(const LibcameraSettings& settings, const CameraContext&) {

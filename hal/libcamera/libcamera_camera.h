@@ -44,7 +44,7 @@ class LibcameraCamera : public DeviceCamera {
   DeviceResult<std::unique_ptr<LibcameraStream>> start_again();
   std::string lost_text() const;
   void forward_intact(const LibcameraStream::Captured& captured);
-  bool is_intact(const LibcameraStream::Captured& captured);
+  static Result<> check_intact(const LibcameraStream::Captured& captured);
 
   LibcameraSettings settings_;
   /// Of id_, manager_, is_lost_, and of the camera's list of controls while it is configured.

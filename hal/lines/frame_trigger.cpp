@@ -68,6 +68,20 @@ bool FrameTrigger::prepare_exposure(TimePoint now, std::uint64_t& id) {
 
 std::optional<TriggerStamp> FrameTrigger::claim(TimePoint exposure_start) {
   const std::lock_guard lock(mutex_);
+  const auto trigger = take(exposure_start);
+  if (trigger) ++counts_.frames;
+  return trigger;
+}
+
+bool FrameTrigger::miss(TimePoint exposure_start) {
+  const std::lock_guard lock(mutex_);
+  const auto trigger = take(exposure_start);
+  if (trigger) ++counts_.missed;
+  return trigger.has_value();
+}
+
+/// With the lock held: the trigger of an exposure, which waits no longer.
+std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
   const bool software = settings_.mode == TriggerMode::Software;
   std::size_t due = 0;  // triggers at or before the exposure
   while (due < counts_.waiting && waiting_[due].moment <= exposure_start &&
@@ -81,7 +95,6 @@ std::optional<TriggerStamp> FrameTrigger::claim(TimePoint exposure_start) {
   const TriggerStamp trigger = waiting_[due - 1].trigger;
   drop_oldest(due);
   counts_.missed += due - 1;
-  ++counts_.frames;
   return trigger;
 }
 

@@ -37,7 +37,8 @@ struct TriggerStamp {
 struct TriggerCounts {
   std::uint64_t triggers = 0;  ///< edges that are triggers
   std::uint64_t frames = 0;    ///< with a trigger
-  std::uint64_t missed = 0;    ///< triggers without a frame: too fast for the camera, or its fault
+  std::uint64_t missed = 0;    ///< triggers without a frame: too fast for the camera, or its fault,
+                               ///< or the frame is damaged
   std::uint64_t waiting = 0;   ///< triggers whose frame may still arrive, at most kMaxWaiting
   std::uint64_t untriggered = 0;  ///< frames without a trigger
 };
@@ -48,8 +49,8 @@ struct TriggerCounts {
 /// trigger is due, unless the frame before is outstanding: then the trigger is missed.
 /// Bounded: of more than kMaxWaiting triggers the newest are missed, as the oldest may belong to
 /// frames that are on their way.
-/// Thread rule: on_edge, due and run on the line thread, claim and abandon on the camera's, fire
-/// and counts on any.
+/// Thread rule: on_edge, due and run on the line thread, claim, miss and abandon on the camera's,
+/// fire and counts on any.
 class FrameTrigger : public LineTask {
  public:
   static constexpr std::size_t kMaxWaiting = 32;
@@ -70,6 +71,9 @@ class FrameTrigger : public LineTask {
   /// The trigger of a frame; nullopt: it has none and is to be dropped.
   std::optional<TriggerStamp> claim(TimePoint exposure_start);
 
+  /// The trigger of a frame that is damaged is missed. False: it has none.
+  bool miss(TimePoint exposure_start);
+
   /// The camera has a fault: waiting triggers are missed.
   void abandon();
 
@@ -83,6 +87,7 @@ class FrameTrigger : public LineTask {
   };
 
   bool is_trigger(Edge edge) const;
+  std::optional<TriggerStamp> take(TimePoint exposure_start);
   bool prepare_exposure(TimePoint now, std::uint64_t& id);
   void drop_oldest(std::size_t count);
 

@@ -20,13 +20,17 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
+struct CheckedFile {
+  std::uint32_t side = 0;  ///< the longer one
+  bool is_flawed = false;
+};
+
 /// OpenCV repairs a damaged file and reports it on stderr only; so the file is checked first.
-/// Returns the longer side.
-Result<std::uint32_t> check_file(std::span<const std::byte> file) {
+Result<CheckedFile> check_file(std::span<const std::byte> file) {
   if (is_png(file)) {
     const auto size = check_png(file);
     if (!size) return tl::unexpected(size.error());
-    return std::max(size->width, size->height);
+    return CheckedFile{std::max(size->width, size->height)};
   }
   constexpr std::array kJpegStart{std::byte{0xff}, std::byte{0xd8}, std::byte{0xff}};
   if (file.size() < kJpegStart.size() ||
@@ -37,9 +41,9 @@ Result<std::uint32_t> check_file(std::span<const std::byte> file) {
   const auto size = decoder.read_size(file);
   if (!size) return tl::unexpected(size.error());
   const auto side = static_cast<std::uint32_t>(std::max(size->width, size->height));
-  if (side > kMaxSide) return side;
+  if (side > kMaxSide) return CheckedFile{side};
   if (auto whole = decoder.check(file); !whole) return tl::unexpected(whole.error());
-  return side;
+  return CheckedFile{side, decoder.is_flawed()};
 }
 
 Result<DecodedPicture> to_picture(const cv::Mat& image) {
@@ -99,14 +103,15 @@ Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::stri
     return fail(std::string(name) + ": " + message);
   };
   if (file.size() > kMaxFileBytes) return named("is larger than 1 GiB");
-  const auto side = check_file(file);
-  if (!side) return named(side.error().message);
-  if (*side > kMaxSide) {
-    return named("is " + std::to_string(*side) + " pixels long or wide; at most " +
+  const auto checked = check_file(file);
+  if (!checked) return named(checked.error().message);
+  if (checked->side > kMaxSide) {
+    return named("is " + std::to_string(checked->side) + " pixels long or wide; at most " +
                  std::to_string(kMaxSide) + " are read");
   }
   auto decoded = decode_checked(file);
   if (!decoded) return named(decoded.error().message);
+  decoded->is_flawed = checked->is_flawed;
   return decoded;
 }
 

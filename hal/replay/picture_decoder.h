@@ -15,6 +15,7 @@ namespace orbwatch::hal {
 struct DecodedPicture {
   Picture picture;  ///< Grey, Y16, Rgb or Rgb16, rows without padding
   std::unique_ptr<std::byte[]> storage;
+  bool is_flawed = false;  ///< see JpegDecoder::is_flawed()
 };
 
 /// True for the file extensions of read_picture, regardless of case.

@@ -115,6 +115,7 @@ DeviceResult<> PictureFolder::show(std::uint64_t number, FrameBuffer& target,
   const auto copy = [&](const DeviceResult<DecodedPicture>& shown) -> DeviceResult<> {
     if (!shown) return tl::unexpected(shown.error());
     std::memcpy(target.memory, shown->storage.get(), picture_bytes(format_));
+    if (shown->is_flawed) target.metadata.status = FrameStatus::Flawed;
     return {};
   };
   return kept_.empty() ? copy(load(index)) : copy(kept_[index]);

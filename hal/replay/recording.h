@@ -21,8 +21,9 @@ class Recording {
   virtual const StreamFormat& format() const = 0;
 
   /// Copies the pixels of picture `number` into `target`, which has the recording's size and
-  /// format. A looped recording shows number modulo count. Faults: CorruptFrame or WrongFormat, for
-  /// this picture only; Unplugged at the recording's end; any fault once `stop` is requested.
+  /// format, and sets its status where the picture is flawed. A looped recording shows number
+  /// modulo count. Faults: CorruptFrame or WrongFormat, for this picture only; Unplugged at the
+  /// recording's end; any fault once `stop` is requested.
   virtual DeviceResult<> show(std::uint64_t number, FrameBuffer& target,
                               const std::stop_token& stop) = 0;
 };

@@ -84,22 +84,24 @@ void ReplayCamera::run(const std::stop_token& stop) {
 
 /// One exposure; false when the recording is over.
 bool ReplayCamera::expose(std::uint64_t exposure, TimePoint due, const std::stop_token& stop) {
-  if (const Fault fault = script_.at(exposure); fault != Fault::None) {
-    report(fault, "scripted at frame " + std::to_string(exposure));
-    return true;
-  }
+  const FrameMetadata metadata{.sequence = exposure, .exposure_start = due};
+  if (fails(script_, metadata)) return true;
   const auto buffer = pool_->acquire();
   if (!buffer) return true;  // lost: all buffers are in use
+  buffer->metadata = metadata;
   if (const auto shown = recording_->show(exposure, *buffer, stop); !shown) {
-    report(shown.error().fault, shown.error().detail);
-    return shown.error().fault != Fault::Unplugged;
+    const auto& [fault, detail] = shown.error();
+    if (fault == Fault::CorruptFrame) {
+      discard(metadata, detail);
+    } else {
+      report(fault, detail);
+    }
+    return fault != Fault::Unplugged;
   }
   if (Clock::now() - due > kLateEnoughToTell) {
     report(Fault::Stalled, "the recording decodes slower than it is played");
   }
   buffer->picture.colour_space = format_.colour_space;
-  buffer->metadata = {.sequence = exposure, .exposure_start = due};
-  report(Fault::None);
   deliver(buffer);
   return true;
 }

@@ -122,39 +122,33 @@ DeviceResult<> V4l2Camera::set_up_again(V4l2Device& device) {
 
 void V4l2Camera::forward_intact(const V4l2Stream::Captured& captured) {
   const FrameStamp stamp = frame_stamp(captured.buffer, Clock::now());
-  const FrameMetadata metadata{.sequence = sequence_of(captured.buffer.sequence),
-                               .exposure_start = stamp.moment,
-                               .stamp_source = stamp.source};
-  if (!is_intact(captured)) return;
-  std::shared_ptr<FrameBuffer> frame = captured.frame;
-  if (decoder_) {
-    auto decoded = decoder_->decode(captured.samples(0));
-    if (!decoded) {
-      return report(Fault::CorruptFrame, settings_.device + ": " + decoded.error().message);
-    }
-    frame = std::move(*decoded);
-  }
+  FrameMetadata metadata{.sequence = sequence_of(captured.buffer.sequence),
+                         .exposure_start = stamp.moment,
+                         .stamp_source = stamp.source};
+  auto frame = intact_frame(captured);
+  if (!frame) return discard(metadata, settings_.device + ": " + frame.error().message);
   // All buffers of decoded frames are in use: the frame is lost, a gap in the sequence.
-  if (!frame) return;
-  frame->metadata = metadata;
-  forward(std::move(frame));
+  if (!*frame) return;
+  if (decoder_ && decoder_->is_flawed()) metadata.status = FrameStatus::Flawed;
+  (*frame)->metadata = metadata;
+  forward(std::move(*frame));
 }
 
-/// Whether the driver delivered a complete frame; reports it if not.
-bool V4l2Camera::is_intact(const V4l2Stream::Captured& captured) {
+/// The frame that the driver delivered, decoded if need be; null when there is no buffer for it.
+/// Error: it is damaged.
+Result<std::shared_ptr<FrameBuffer>> V4l2Camera::intact_frame(
+    const V4l2Stream::Captured& captured) {
   if ((captured.buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
-    report(Fault::CorruptFrame, settings_.device + ": the driver marks a frame as damaged");
-    return false;
+    return fail("the driver marks a frame as damaged");
   }
   for (std::size_t i = 0; i < negotiated_.layout.memory_count; ++i) {
     const std::size_t got = captured.samples(i).size();
     const std::size_t needed = negotiated_.layout.needed[i];
     if (got >= needed) continue;
-    report(Fault::CorruptFrame, settings_.device + ": a frame of " + std::to_string(got) +
-                                    " bytes; it takes " + std::to_string(needed));
-    return false;
+    return fail("a frame of " + std::to_string(got) + " bytes; it takes " + std::to_string(needed));
   }
-  return true;
+  if (decoder_) return decoder_->decode(captured.samples(0));
+  return captured.frame;
 }
 
 std::unique_ptr<Camera> make_camera(const V4l2Settings& settings, const CameraContext&) {

@@ -17,7 +17,7 @@ namespace orbwatch::hal {
 
 /// A USB, CSI or other V4L2 camera. Frames are forwarded in the driver's memory, or decoded where
 /// the pipeline does not read their format. Frames that are short, damaged according to the driver,
-/// or whose JPEG picture is damaged are withheld and reported. The device is open only while the
+/// or whose JPEG picture is damaged are withheld and counted. The device is open only while the
 /// camera runs or a call needs it; silence while it waits for a trigger is no fault.
 class V4l2Camera : public DeviceCamera {
  public:
@@ -50,7 +50,7 @@ class V4l2Camera : public DeviceCamera {
                         const StreamRequest& request);
   DeviceResult<> set_up_again(V4l2Device& device);
   void forward_intact(const V4l2Stream::Captured& captured);
-  bool is_intact(const V4l2Stream::Captured& captured);
+  Result<std::shared_ptr<FrameBuffer>> intact_frame(const V4l2Stream::Captured& captured);
 
   V4l2Settings settings_;
   NegotiatedFormat negotiated_;

@@ -124,6 +124,105 @@ TEST(Camera, ReportsAFaultOncePerChange) {
   EXPECT_EQ(faults[2], Fault::ReadError);
 }
 
+/// A camera that plays a script: '.' is an intact frame, 'f' a flawed and 'd' a damaged one, 'u'
+/// that it is unplugged and '_' a second without frames.
+class PlayingCamera : public Camera {
+ public:
+  explicit PlayingCamera(std::string script)
+      : Camera({"playing", "player", "test"}), script_(std::move(script)) {}
+  ~PlayingCamera() override { stop(); }
+
+  /// Plays the script to its end.
+  void play() {
+    ASSERT_TRUE(configure({}));
+    ASSERT_TRUE(start([this](const Frame& frame) { frames.push_back(frame->metadata); },
+                      [this](const FaultReport& fault) { faults.push_back(fault.fault); }));
+    played_.get_future().wait();
+    stop();
+  }
+
+  std::vector<FrameMetadata> frames;
+  std::vector<Fault> faults;
+
+ private:
+  Result<StreamFormat> do_configure(const StreamRequest&) override { return StreamFormat{}; }
+  void run(const std::stop_token&) override {
+    FrameMetadata metadata;
+    for (const char step : script_) {
+      metadata.exposure_start += std::chrono::milliseconds(step == '_' ? 1000 : 33);
+      if (step == 'u') report(Fault::Unplugged);
+      if (step == '_' || step == 'u') continue;
+      if (step == 'd') {
+        discard(metadata, "as scripted");
+      } else {
+        auto buffer = pool_.acquire();
+        buffer->metadata = metadata;
+        if (step == 'f') buffer->metadata.status = FrameStatus::Flawed;
+        deliver(std::move(buffer));
+      }
+      ++metadata.sequence;
+    }
+    played_.set_value();
+  }
+
+  const std::string script_;
+  std::promise<void> played_;
+  FramePool pool_ = make_frame_pool(PixelFormat::Grey, 1, 1);
+};
+
+std::vector<std::uint64_t> sequences(const std::vector<FrameMetadata>& frames) {
+  std::vector<std::uint64_t> numbers;
+  for (const FrameMetadata& frame : frames) numbers.push_back(frame.sequence);
+  return numbers;
+}
+
+TEST(Camera, ADamagedFrameCostsItselfOnly) {
+  PlayingCamera camera(".d.dd.d.");
+  camera.play();
+  EXPECT_TRUE(camera.faults.empty());
+  EXPECT_EQ(sequences(camera.frames), (std::vector<std::uint64_t>{0, 2, 5, 7}));
+  EXPECT_EQ(camera.quality().damaged, 4U);
+}
+
+TEST(Camera, ManyDamagedFramesAreOneFaultUntilASecondAfterTheLast) {
+  PlayingCamera camera("ddddddd..d.._..");
+  camera.play();
+  EXPECT_EQ(camera.faults, (std::vector{Fault::CorruptFrame, Fault::None}));
+  EXPECT_EQ(sequences(camera.frames), (std::vector<std::uint64_t>{12, 13}));
+  EXPECT_EQ(camera.quality().damaged, 8U);
+}
+
+TEST(Camera, AnotherFaultForgetsDamagedFrames) {
+  PlayingCamera camera("dddddu.ddd.");
+  camera.play();
+  EXPECT_EQ(camera.faults, (std::vector{Fault::CorruptFrame, Fault::Unplugged, Fault::None}));
+  EXPECT_EQ(sequences(camera.frames), (std::vector<std::uint64_t>{5, 9}));
+}
+
+TEST(Camera, AsksTheGateAboutFramesThatAreWithheld) {
+  PlayingCamera camera(".d.ddddd.");
+  std::vector<FrameStatus> asked;
+  camera.set_gate([&asked](FrameMetadata& metadata) {
+    asked.push_back(metadata.status);
+    return asked.size() != 2;
+  });
+  camera.play();
+  std::vector<FrameStatus> expected(9, FrameStatus::Withheld);
+  expected[0] = expected[2] = FrameStatus::Intact;
+  EXPECT_EQ(asked, expected);
+  EXPECT_EQ(sequences(camera.frames), (std::vector<std::uint64_t>{0, 1}))
+      << "the damaged frame was never asked for, so it is not lost";
+}
+
+TEST(Camera, DeliversAndCountsFlawedFrames) {
+  PlayingCamera camera("f.ff");
+  camera.play();
+  EXPECT_TRUE(camera.faults.empty());
+  EXPECT_EQ(camera.frames.size(), 4U);
+  EXPECT_EQ(camera.quality().flawed, 3U);
+  EXPECT_EQ(camera.quality().damaged, 0U);
+}
+
 TEST(Camera, SaysWhatItCannotDo) {
   CountingCamera camera;
   EXPECT_FALSE(camera.trigger());

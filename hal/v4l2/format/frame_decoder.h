@@ -37,6 +37,9 @@ class FrameDecoder {
   /// use. Errors: a damaged JPEG picture, or one of another size.
   Result<std::shared_ptr<FrameBuffer>> decode(std::span<const std::byte> samples);
 
+  /// Of the frame decoded last: see JpegDecoder::is_flawed().
+  bool is_flawed() const { return jpeg_.is_flawed(); }
+
  private:
   Result<> decode_into(const MutablePicture& target, std::span<const std::byte> samples);
   Result<> decode_jpeg(const MutablePicture& target, std::span<const std::byte> samples);

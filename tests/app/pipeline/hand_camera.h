@@ -33,10 +33,13 @@ class HandCamera : public hal::Camera {
       auto buffer = pool_.acquire();
       if (!buffer) return;
       paint(*buffer, bright);
-      buffer->metadata.sequence = sequence_++;
-      buffer->metadata.exposure_start = moment;
-      report(hal::Fault::None);
+      buffer->metadata = {.sequence = sequence_++, .exposure_start = moment};
       deliver(buffer);
+    });
+  }
+  void expose_damaged(hal::TimePoint moment = hal::Clock::now()) {
+    act([this, moment] {
+      discard({.sequence = sequence_++, .exposure_start = moment}, "as asked for");
     });
   }
   void fail_with(hal::Fault fault) {

@@ -234,6 +234,25 @@ TEST_F(PipelineTest, ACameraFaultMissesItsTriggers) {
   EXPECT_EQ(status.cameras[0].frames, 0U);
 }
 
+TEST_F(PipelineTest, ADamagedFrameMissesItsTriggerAndIsNoFault) {
+  const auto trigger = std::make_shared<hal::FrameTrigger>(
+      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
+  plan.triggers = {trigger, nullptr};
+  start();
+  const auto first = hal::Clock::now();
+  const auto second = first + std::chrono::milliseconds(1);
+  trigger->on_edge({hal::Edge::Rising, first});
+  trigger->on_edge({hal::Edge::Rising, second});
+  cameras[0]->expose_damaged(first);
+  cameras[0]->expose(40000, second);
+  const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 1; });
+  EXPECT_EQ(status.trigger, 2U) << "still waited for its frame";
+  EXPECT_EQ(status.cameras[0].fault, hal::Fault::None);
+  EXPECT_EQ(status.cameras[0].damaged, 1U);
+  EXPECT_EQ(status.cameras[0].missed, 1U);
+  EXPECT_EQ(status.cameras[0].frames, 1U);
+}
+
 TEST_F(PipelineTest, ReportsWhichProcessInputsAreActive) {
   const auto door = std::make_shared<hal::ProcessInput>(true, hal::Clock::now());
   const auto laser = std::make_shared<hal::ProcessInput>(false, hal::Clock::now());

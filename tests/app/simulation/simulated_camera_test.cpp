@@ -246,14 +246,14 @@ TEST(SimulatedCamera, PlaysItsFaultScriptAndRecovers) {
   settings.faults = {{Fault::Unplugged, 3, 6},
                      {Fault::Stalled, 9, 11},
                      {Fault::ReadError, 14, 15},
-                     {Fault::CorruptFrame, 18, 20},
-                     {Fault::WrongFormat, 23, 25}};
+                     {Fault::CorruptFrame, 18, 23},
+                     {Fault::WrongFormat, 26, 28}};
   SimulatedCamera camera(machine(), settings);
   ASSERT_TRUE(camera.configure({}));
   Audience audience;
   ASSERT_TRUE(audience.start(camera));
   ASSERT_TRUE(audience.wait([](const Audience& a) {
-    return !a.shots.empty() && a.shots.back().metadata.sequence >= 26;
+    return !a.shots.empty() && a.shots.back().metadata.sequence >= 29;
   }));
   camera.stop();
 

@@ -111,6 +111,21 @@ TEST(FrameTrigger, ACameraFaultMissesWhatWaits) {
   EXPECT_FALSE(trigger.claim(at(3)));
 }
 
+TEST(FrameTrigger, ADamagedFrameMissesItsTriggerOnly) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.on_edge(rising(10));
+  trigger.on_edge(rising(20));
+  trigger.on_edge(rising(30));
+  EXPECT_FALSE(trigger.miss(at(9))) << "of no trigger";
+  EXPECT_EQ(trigger.counts().missed, 0U);
+  EXPECT_TRUE(trigger.miss(at(10.1)));
+  EXPECT_EQ(trigger.counts().missed, 1U);
+  EXPECT_EQ(trigger.counts().frames, 0U);
+  EXPECT_EQ(trigger.claim(at(20.1))->id, 2U);
+  EXPECT_EQ(trigger.claim(at(30.1))->id, 3U);
+  EXPECT_EQ(sum(trigger.counts()), 3U);
+}
+
 TEST(FrameTrigger, ACommandIsATriggerWhateverTheActivation) {
   for (const auto activation : {TriggerActivation::RisingEdge, TriggerActivation::FallingEdge,
                                 TriggerActivation::AnyEdge}) {

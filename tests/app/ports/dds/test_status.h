@@ -34,6 +34,8 @@ inline CameraStatus make_camera(Numbers& numbers) {
   camera.latency_p99_ms = numbers.real();
   camera.triggers = numbers.whole();
   camera.missed = numbers.whole();
+  camera.damaged = numbers.whole();
+  camera.flawed = numbers.whole();
   return camera;
 }
 

@@ -64,6 +64,11 @@ class CameraRun {
     return came;
   }
 
+  bool has_reported() {
+    const std::lock_guard lock(mutex_);
+    return !reports_.empty();
+  }
+
   /// Lets go of the frame that it holds.
   void release() {
     const std::lock_guard lock(mutex_);

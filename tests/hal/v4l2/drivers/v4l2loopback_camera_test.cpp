@@ -110,7 +110,7 @@ TEST_P(LoopbackJpeg, ShowsThePictureThatWasCompressed) {
 }
 INSTANTIATE_TEST_SUITE_P(OfDriver, LoopbackJpeg, testing::Bool());
 
-TEST(LoopbackFaults, ADamagedJpegPictureIsWithheldAndReported) {
+TEST(LoopbackFaults, DamagedJpegPicturesAreWithheldAndReported) {
   Feeder feeder(loopback(), V4L2_PIX_FMT_MJPEG, kBallWidth, kBallHeight, {ball_jpeg(0)});
   CameraRun run({loopback(), "mjpeg", true});
   ASSERT_TRUE(run.start(kRequest));
@@ -123,7 +123,19 @@ TEST(LoopbackFaults, ADamagedJpegPictureIsWithheldAndReported) {
   EXPECT_TRUE(run.reports(Fault::None));
 }
 
-TEST(LoopbackFaults, AShortFrameIsWithheldAndReported) {
+TEST(LoopbackFaults, AJpegPictureWithoutItsEndIsDeliveredAndCounted) {
+  auto picture = ball_jpeg(0);
+  constexpr std::size_t kEndMarkerBytes = 2;
+  picture.resize(picture.size() - kEndMarkerBytes);
+  const Feeder feeder(loopback(), V4L2_PIX_FMT_MJPEG, kBallWidth, kBallHeight, {picture});
+  CameraRun run({loopback(), "mjpeg", true});
+  ASSERT_TRUE(run.start(kRequest));
+  EXPECT_TRUE(run.next_frame());
+  EXPECT_GE(run.camera().quality().flawed, 1U);
+  EXPECT_FALSE(run.has_reported());
+}
+
+TEST(LoopbackFaults, ShortFramesAreWithheldAndReported) {
   const auto whole = ball_samples(0, 1, kBallWidth, kBallHeight);
   Feeder feeder(loopback(), V4L2_PIX_FMT_GREY, kBallWidth, kBallHeight, {whole});
   CameraRun run({loopback(), "grey", true});

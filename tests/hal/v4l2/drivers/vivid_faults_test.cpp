@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "tests/hal/v4l2/drivers/camera_run.h"
 #include "tests/hal/v4l2/drivers/vivid_device.h"
@@ -31,15 +32,29 @@ TEST(VividFaults, DroppedBuffersAreGapsInTheSequence) {
   EXPECT_TRUE(gap);
 }
 
-TEST(VividFaults, ADamagedFrameIsWithheldAndReported) {
+TEST(VividFaults, ADamagedFrameIsWithheldAndCounted) {
   CameraRun run(settings());
   ASSERT_TRUE(run.start(kRequest));
   ASSERT_TRUE(run.next_frame());
-  for (int n = 0; n < 3; ++n) {
+  for (std::uint64_t n = 1; n < DamageWatch::kTooMany; ++n) {
     set_vivid("inject_v4l2_buf_flag_error", 1);
-    EXPECT_TRUE(run.reports(Fault::CorruptFrame));
-    EXPECT_TRUE(run.reports(Fault::None));
+    while (run.camera().quality().damaged < n) ASSERT_TRUE(run.next_frame());
   }
+  EXPECT_TRUE(run.next_frame());
+  EXPECT_FALSE(run.has_reported());
+}
+
+TEST(VividFaults, ManyDamagedFramesAreAFaultUntilTheyStop) {
+  CameraRun run(settings());
+  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.next_frame());
+  for (std::uint64_t n = 1; n <= DamageWatch::kTooMany; ++n) {
+    set_vivid("inject_v4l2_buf_flag_error", 1);
+    while (run.camera().quality().damaged < n) std::this_thread::yield();
+  }
+  EXPECT_TRUE(run.reports(Fault::CorruptFrame));
+  EXPECT_TRUE(run.reports(Fault::None));
+  EXPECT_TRUE(run.next_frame());
 }
 
 TEST(VividFaults, ABrokenStreamIsOpenedAgain) {

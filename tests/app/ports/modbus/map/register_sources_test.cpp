@@ -265,6 +265,8 @@ void RegisterSources::expect_cameras_and_views() {
     expect_of("unmatched", [](C c) { ++c.unmatched; });
     expect_of("triggers", [](C c) { ++c.triggers; });
     expect_of("missed", [](C c) { ++c.missed; });
+    expect_of("damaged", [](C c) { ++c.damaged; });
+    expect_of("flawed", [](C c) { ++c.flawed; });
   }
   for (std::size_t i = 0; i < kMaxViews; ++i) {
     const auto expect_of = [&](const std::string& what, auto change) {
