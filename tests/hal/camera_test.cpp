@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
+#include <iterator>
 #include <vector>
 
 #include "hal/frame/frame_pool.h"
@@ -172,7 +174,7 @@ class PlayingCamera : public Camera {
 
 std::vector<std::uint64_t> sequences(const std::vector<FrameMetadata>& frames) {
   std::vector<std::uint64_t> numbers;
-  for (const FrameMetadata& frame : frames) numbers.push_back(frame.sequence);
+  std::ranges::transform(frames, std::back_inserter(numbers), &FrameMetadata::sequence);
   return numbers;
 }
 
