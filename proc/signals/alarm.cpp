@@ -60,11 +60,13 @@ void watch_limits(const AlarmLimits& limits, double value, nanoseconds elapsed,
   if (high_holds) memory.low_warning = memory.low_alarm = {};
 }
 
-void restart_delays(AlarmMemory& memory) {
-  for (AlarmCondition* condition :
-       {&memory.low_alarm, &memory.low_warning, &memory.high_warning, &memory.high_alarm}) {
-    *condition = {condition->on};
-  }
+void end_limits(AlarmMemory& memory) {
+  memory.low_alarm = memory.low_warning = memory.high_warning = memory.high_alarm = {};
+}
+
+bool is_beyond_limits(const AlarmMemory& memory) {
+  return memory.low_alarm.on || memory.low_warning.on || memory.high_warning.on ||
+         memory.high_alarm.on;
 }
 
 /// At most one side is on.
@@ -97,7 +99,9 @@ Alarm judged(const Alarm& before, AlarmLevel level, bool measurement_lost, bool 
   after.level = level;
   after.measurement_lost = measurement_lost;
   if (is_raised(before, after)) {
-    const bool seen = before.state == AlarmState::Acknowledged && !latching;
+    // The loss of a measurement calms nothing.
+    const bool seen =
+        before.state == AlarmState::Acknowledged && !latching && level != AlarmLevel::NoMeasurement;
     if (seen || severity(level) >= severity(before.announced)) after.announced = level;
     after.state = AlarmState::Unacknowledged;
   } else if (level == AlarmLevel::None) {
@@ -138,8 +142,9 @@ AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const Ala
   if (next.measured) {
     watch_limits(limits, inputs.value, memory.measured ? elapsed : nanoseconds(0), next);
   } else if (next.loss.on) {
-    restart_delays(next);
+    end_limits(next);
   }
+  if (next.loss.on && is_beyond_limits(next)) next.loss = {};
   next.alarm = judged(memory.alarm, level_of(next), next.loss.on, limits.latching);
   return next;
 }

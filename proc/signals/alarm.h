@@ -30,7 +30,7 @@ enum class AlarmLevel : std::uint8_t {
   LowWarning = 2,
   HighWarning = 3,
   HighAlarm = 4,
-  NoMeasurement = 5,  ///< within the limits when it was last measured
+  NoMeasurement = 5,  ///< for longer than the loss delay
 };
 
 /// An event of an alarm. The numbers go to the controller: append, never renumber.
@@ -121,10 +121,10 @@ constexpr int severity(AlarmLevel level) {
 struct Alarm {
   AlarmState state = AlarmState::Normal;
   AlarmLevel level = AlarmLevel::None;  ///< of the signal now, after hysteresis and delays
-  /// The worst level that was not acknowledged yet, or is latched; else as `level`.
+  /// The worst level that was not acknowledged yet, is latched, or stood when its measurement was
+  /// lost and was not acknowledged since; else as `level`.
   AlarmLevel announced = AlarmLevel::None;
-  /// Not measured for longer than the loss delay: `level` is that of the last measurement, or
-  /// NoMeasurement when that was within limits.
+  /// `level` is NoMeasurement.
   bool measurement_lost = false;
 
   bool operator==(const Alarm&) const = default;
@@ -177,8 +177,10 @@ inline bool is_suppressed(const AlarmLimits& limits, const AlarmInputs& inputs) 
 ///   alarm, to the other side, and the loss of the measurement. From alarm to warning it only
 ///   eases.
 /// - Delays are paused while the value is not new.
-/// - Without a measurement nothing begins or ends, and delays are paused; after the loss delay the
-///   loss is raised, and delays restart. It ends after measurements for the off delay.
+/// - Without a measurement nothing begins or ends, and delays are paused. After the loss delay the
+///   loss is raised in place of what stood, which stays announced until it is acknowledged, and
+///   delays restart. It ends after measurements for the off delay, or when a limit's condition
+///   begins.
 /// - While suppressed nothing is pending: an alarm is cleared, except that a latching one stays
 ///   latched. Delays start when the process does.
 AlarmMemory step(const AlarmLimits& limits, const AlarmMemory& memory, const AlarmInputs& inputs);

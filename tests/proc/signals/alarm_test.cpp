@@ -227,17 +227,33 @@ TEST_P(NoMeasurement, IsRaisedAfterItsDelayAndEndsAfterTheOffDelay) {
   EXPECT_EQ(clock.after(milliseconds(100), 0), Alarm{});
 }
 
-TEST_P(NoMeasurement, OfAnAcknowledgedAlarmIsRaisedAtTheLevelThatIsHeld) {
+TEST_P(NoMeasurement, TakesThePlaceOfTheAlarmThatStoodAndCalmsNothing) {
   AlarmClock clock(both_sides());
   keep(clock, milliseconds(2100), 25);
   clock.acknowledge();
-  keep(clock, milliseconds(5100), GetParam());
+  const Alarm standing = clock.alarm();
+  EXPECT_EQ(keep(clock, milliseconds(5000), GetParam()), standing) << "the delay counts";
+  clock.after(milliseconds(100), GetParam());
   EXPECT_EQ(clock.alarm(),
-            (Alarm{State::Unacknowledged, Level::HighAlarm, Level::HighAlarm, true}));
-  clock.acknowledge();
+            (Alarm{State::Unacknowledged, Level::NoMeasurement, Level::HighAlarm, true}));
+  EXPECT_EQ(clock.acknowledge(),
+            (Alarm{State::Acknowledged, Level::NoMeasurement, Level::NoMeasurement, true}));
   keep(clock, milliseconds(3000), 0);
-  EXPECT_EQ(clock.level(), Level::HighAlarm);
-  EXPECT_EQ(clock.after(milliseconds(100), 0), Alarm{}) << "without a detour by NoMeasurement";
+  EXPECT_EQ(clock.level(), Level::NoMeasurement);
+  EXPECT_EQ(clock.after(milliseconds(100), 0), Alarm{});
+}
+
+TEST_P(NoMeasurement, EndsWhenALimitIsReachedAgain) {
+  AlarmClock clock(both_sides());
+  keep(clock, milliseconds(2100), 25);
+  keep(clock, milliseconds(5100), GetParam());
+  clock.acknowledge();
+  EXPECT_EQ(keep(clock, milliseconds(2000), 25).level, Level::NoMeasurement);
+  EXPECT_EQ(clock.after(milliseconds(100), 25),
+            (Alarm{State::Unacknowledged, Level::HighAlarm, Level::HighAlarm}));
+  EXPECT_EQ(keep(clock, milliseconds(5000), GetParam()).level, Level::HighAlarm)
+      << "the next loss has a delay of its own";
+  EXPECT_EQ(clock.after(milliseconds(100), GetParam()).level, Level::NoMeasurement);
 }
 
 TEST_P(NoMeasurement, ThatComesAndGoesNeverClearsALostAlarm) {
@@ -247,8 +263,9 @@ TEST_P(NoMeasurement, ThatComesAndGoesNeverClearsALostAlarm) {
   for (int i = 0; i < 20; ++i) {
     keep(clock, milliseconds(2900), 0);
     keep(clock, milliseconds(200), GetParam());
-    ASSERT_EQ(clock.level(), Level::HighAlarm) << i;
-    ASSERT_TRUE(clock.alarm().measurement_lost) << i;
+    ASSERT_EQ(clock.alarm(),
+              (Alarm{State::Unacknowledged, Level::NoMeasurement, Level::HighAlarm, true}))
+        << i;
   }
 }
 

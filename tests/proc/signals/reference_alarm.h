@@ -45,8 +45,12 @@ class ReferenceAlarm {
     if (std::isfinite(value)) {
       for (int i = 0; i < kLoss; ++i) reconsider(i);
       for (int i = 0; i < kLoss; ++i) end_the_other_side_of(i);
-    } else {
-      story_.back().forgets = lost;
+    } else if (lost) {
+      story_.back().forgets = true;
+      for (int i = 0; i < kLoss; ++i) end(i);
+    }
+    for (int i = 0; i < kLoss; ++i) {
+      if (conditions_[static_cast<std::size_t>(i)].on) end(kLoss);
     }
     judge(lost && !was_lost);
   }
@@ -120,7 +124,13 @@ class ReferenceAlarm {
     if (!conditions_[static_cast<std::size_t>(index)].on) return;
     if (says(index, story_.back().value) != Says::Yes) return;
     const std::size_t other = index < 2 ? 2 : 0;
-    conditions_[other] = conditions_[other + 1] = {false, story_.size()};
+    end(static_cast<int>(other));
+    end(static_cast<int>(other + 1));
+  }
+
+  void end(int condition) {
+    Condition& ended = conditions_[static_cast<std::size_t>(condition)];
+    if (ended.on) ended = {false, story_.size()};
   }
 
   AlarmLevel level() const {
@@ -137,7 +147,8 @@ class ReferenceAlarm {
     const bool eases = (before == AlarmLevel::HighAlarm && level_ == AlarmLevel::HighWarning) ||
                        (before == AlarmLevel::LowAlarm && level_ == AlarmLevel::LowWarning);
     if (lost_now || (standing() && level_ != before && !eases)) {
-      if (!unseen_ && !limits_.latching) worst_.clear();
+      const bool lost = level_ == AlarmLevel::NoMeasurement;
+      if (!unseen_ && !limits_.latching && !lost) worst_.clear();
       worst_.push_back(level_);
       unseen_ = true;
       latched_ = limits_.latching;

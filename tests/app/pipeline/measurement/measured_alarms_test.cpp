@@ -108,6 +108,26 @@ TEST_F(MeasuredAlarms, ALostCameraRaisesTheLossOfADetectedProcess) {
   }
 }
 
+TEST_F(MeasuredAlarms, AnAlarmWhoseHotSpotIsGoneBecomesItsLoss) {
+  RecipePlan watched = plan(1);
+  watched.process_active = ActiveSource::Always;
+  watched.alarms = {hotter_than(celsius(1) - 10)};
+  watched.alarms[0].loss_delay = std::chrono::nanoseconds(0);
+  measure_by({watched});
+  ASSERT_EQ(expose().alarms[0].alarm.level, signals::AlarmLevel::HighAlarm);
+  ASSERT_EQ(measurement->acknowledge_alarm(1), CommandResult::Done);
+  constexpr std::uint16_t kCold = 20000;
+  const signals::Alarm lost = expose({}, Clock::now(), kCold).alarms[0].alarm;
+  EXPECT_EQ(lost,
+            (signals::Alarm{signals::AlarmState::Unacknowledged, signals::AlarmLevel::NoMeasurement,
+                            signals::AlarmLevel::HighAlarm, true}));
+  EXPECT_EQ(notices.back().event.kind, AlarmEventKind::Raised);
+  ASSERT_EQ(measurement->acknowledge_alarm(1), CommandResult::Done);
+  EXPECT_EQ(expose({}, Clock::now(), kCold).alarms[0].alarm.announced,
+            signals::AlarmLevel::NoMeasurement);
+  EXPECT_EQ(expose({}, Clock::now(), 31000).alarms[0].alarm, signals::Alarm{});
+}
+
 TEST_F(MeasuredAlarms, ANoticeBeforeTheFirstSetHasATimeStamp) {
   RecipePlan watched = plan(1);
   watched.alarms = {hotter_than(1000)};
