@@ -45,10 +45,17 @@ void SpatterTracker::reset() {
   tracks_.clear();
   bins_.clear();
   sparks_.clear();
+  parts_ = 0;
   beyond_ = 0;
 }
 
 void SpatterTracker::add(const Vec3& moment) {
+  if (parts_ == kMaxSparkParts) {
+    ++beyond_;
+    return;
+  }
+  ++parts_;
+  comparisons_ += sparks_.size();
   const Vec3 direction = optics::normalized(moment);
   const auto same = std::ranges::find_if(sparks_, [&](const Spark& spark) {
     const Vec3 apart = spark.direction - direction;
@@ -100,13 +107,15 @@ void SpatterTracker::update(double now, const std::optional<Vec3>& hot_spot) {
   });
   add_tracks(now, hot_spot);
   count_ = sparks_.size() + beyond_;
-  untracked_ += beyond_;
+  lose(beyond_, now);
+  parts_ = 0;
   beyond_ = 0;
   sparks_.clear();
 }
 
 /// Assigns sparks to tracks, the best pairs first.
 void SpatterTracker::match(double now) {
+  comparisons_ += tracks_.size() * sparks_.size();
   candidates_.clear();
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     tracks_[t].matched = false;
@@ -130,7 +139,7 @@ void SpatterTracker::add_tracks(double now, const std::optional<Vec3>& hot_spot)
   for (const Spark& spark : sparks_) {
     if (spark.matched) continue;
     if (tracks_.size() == kMaxSparks) {
-      ++untracked_;
+      lose(1, now);
       continue;
     }
     Track track;
@@ -173,12 +182,19 @@ void SpatterTracker::end(Track& track, double now) {
   bin.by_speed[std::min(kBins - 1, static_cast<std::size_t>(speed / kBinWidth))] += 1;
 }
 
+void SpatterTracker::lose(std::size_t sparks, double now) {
+  if (sparks == 0) return;
+  untracked_ += sparks;
+  bins_.at(now).untracked += static_cast<double>(sparks);
+}
+
 void SpatterTracker::write(Signals& signals) const {
   Bin all;
   bins_.for_each([&](const Bin& bin) {
     all.born += bin.born;
     all.ended += bin.ended;
     all.speed += bin.speed;
+    all.untracked += bin.untracked;
     for (std::size_t i = 0; i < kBins; ++i) all.by_speed[i] += bin.by_speed[i];
   });
   signals.spatter_count = static_cast<double>(count_);

@@ -15,6 +15,9 @@ namespace orbwatch::signals {
 /// Sparks that are tracked at once.
 inline constexpr std::size_t kMaxSparks = 128;
 
+/// Their parts in a frame set; each is compared with every spark.
+inline constexpr std::size_t kMaxSparkParts = 8 * kMaxSparks;
+
 /// Tracks sparks from frame set to frame set, so that each counts once and has a speed. Speeds are
 /// those of directions, deg/s: one ball does not measure the distance of a spark.
 ///
@@ -41,8 +44,12 @@ class SpatterTracker {
   void write(Signals& signals) const;
 
   /// Sparks since the start that were neither tracked nor counted as new: more than kMaxSparks at
-  /// once.
+  /// once, or parts beyond kMaxSparkParts.
   std::uint64_t untracked() const { return untracked_; }
+
+  /// Pairs since the start of a part, a spark or a track that were compared: the work. At most
+  /// kMaxSparks (kMaxSparkParts + kMaxSparks) in a frame set.
+  std::uint64_t comparisons() const { return comparisons_; }
 
  private:
   static constexpr std::size_t kBins = 8;
@@ -73,6 +80,7 @@ class SpatterTracker {
     double born = 0;
     double ended = 0;  ///< that had been seen at least twice
     double speed = 0;  ///< their sum, deg/s
+    double untracked = 0;
     std::array<double, kBins> by_speed{};
   };
 
@@ -89,15 +97,18 @@ class SpatterTracker {
   void extend(Track& track, const optics::Vec3& spark, double now);
   static void measure_path(Track& track);
   void end(Track& track, double now);
+  void lose(std::size_t sparks, double now);
 
   std::vector<Track> tracks_;
   std::vector<Candidate> candidates_;
   std::vector<Spark> sparks_;
-  std::size_t beyond_ = 0;  ///< sparks of the current frame set beyond kMaxSparks
+  std::size_t parts_ = 0;   ///< of the current frame set
+  std::size_t beyond_ = 0;  ///< sparks and parts of the current frame set that are too many
   std::size_t count_ = 0;   ///< of the last frame set
   LastSecond<Bin> bins_;
   double time_ = 0;
   std::uint64_t untracked_ = 0;
+  std::uint64_t comparisons_ = 0;
 };
 
 }  // namespace orbwatch::signals

@@ -122,6 +122,28 @@ TEST(Spatter, MoreThanCanBeFollowedAreCounted) {
   EXPECT_EQ(tracker.untracked(), 20U);
 }
 
+/// As many blobs as a picture of 640x480 can have, from all over the sphere.
+TEST(Spatter, NoiseAtTheThresholdCostsABoundedWorkAndWhatItDropsIsCounted) {
+  constexpr int kParts = 640 / 2 * 480 / 2;
+  SpatterTracker tracker;
+  std::uint64_t before = 0;
+  for (int frame = 0; frame < 3; ++frame) {
+    for (int i = 0; i < kParts; ++i) {
+      const double z = 2 * (i + 0.5) / kParts - 1, level = std::sqrt(1 - z * z);
+      tracker.add({level * std::cos(i), level * std::sin(i), z});
+    }
+    tracker.update(frame / 30.0, {});
+    const std::uint64_t work = tracker.comparisons() - before;
+    before = tracker.comparisons();
+    EXPECT_LE(work, kMaxSparks * (kMaxSparkParts + kMaxSparks)) << frame;
+    EXPECT_GT(work, 0U);
+  }
+  Signals signals;
+  tracker.write(signals);
+  EXPECT_GE(tracker.untracked(), 3 * (kParts - kMaxSparkParts));
+  EXPECT_LE(signals.spatter_rate, 3.0 * kMaxSparks);
+}
+
 TEST(Spatter, ASecondLaterNothingIsLeft) {
   SpatterTracker tracker;
   const Signals signals = follow(tracker, {{0.01, 0.2, 30, 100}}, 1.6);
