@@ -112,6 +112,8 @@ class Builder {
       return scale->is_radiometric() ? scale->counts(value) : counts(value, measured, format);
     };
     settings.hot_spot_threshold = threshold(region.hot_spot_threshold);
+    if (region.hot_spot_min_area) settings.hot_spot_limits.min_area = *region.hot_spot_min_area;
+    if (region.hot_spot_max_speed) settings.hot_spot_limits.max_speed = *region.hot_spot_max_speed;
     if (region.plume_threshold) settings.plume_threshold = threshold(*region.plume_threshold);
     if (region.spatter_threshold) settings.spatter_threshold = threshold(*region.spatter_threshold);
     return settings;

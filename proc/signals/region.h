@@ -11,6 +11,7 @@
 #include "proc/optics/scene_proxy.h"
 #include "proc/optics/vec.h"
 #include "proc/optics/view_projection.h"
+#include "proc/signals/hot_spot/hot_spot_limits.h"
 #include "proc/signals/radiometry.h"
 #include "proc/signals/signals.h"
 
@@ -22,7 +23,8 @@ struct RegionSettings {
   /// Corners of a spherical polygon in either sense of rotation: vectors of any length from the
   /// ball's centre, machine frame. It must fit into half of the sphere. Empty: the whole view.
   std::vector<optics::Vec3> outline;
-  double hot_spot_threshold = 0;              ///< counts at which a pixel belongs to the hot spot
+  double hot_spot_threshold = 0;  ///< counts at which a pixel belongs to the hot spot
+  HotSpotLimits hot_spot_limits{};
   std::optional<double> plume_threshold{};    ///< counts, below the hot spot's
   std::optional<double> spatter_threshold{};  ///< counts at which a pixel is a spark's
   std::optional<double> width_set_point{};    ///< mm

@@ -18,6 +18,16 @@ Result<> check(const std::string& name, double value, double full_scale) {
               " counts; it must be above 0 and at most full scale, " + std::to_string(full_scale));
 }
 
+Result<> check(const HotSpotLimits& limits) {
+  if (!(limits.min_area >= 0 && std::isfinite(limits.min_area))) {
+    return fail("region: the hot spot's least area is " + std::to_string(limits.min_area) +
+                " mm2; it must be 0 or more");
+  }
+  if (limits.max_speed > 0) return {};
+  return fail("region: the hot spot's highest speed is " + std::to_string(limits.max_speed) +
+              " mm/s; it must be above 0");
+}
+
 Result<> check(const RegionSettings& s) {
   if (!(s.full_scale > 0 && s.full_scale <= 65535)) {
     return fail("region: full scale is " + std::to_string(s.full_scale) +
@@ -36,7 +46,7 @@ Result<> check(const RegionSettings& s) {
   if (s.width_set_point && !(*s.width_set_point > 0 && std::isfinite(*s.width_set_point))) {
     return fail("region: the width's set-point must be above 0 mm");
   }
-  return {};
+  return check(s.hot_spot_limits);
 }
 
 /// The full axis of the ellipse whose variance along it is `variance`.
@@ -77,6 +87,11 @@ Result<RegionMeter> RegionMeter::make(const optics::ViewProjection& view, const 
   if (auto checked = optics::check_ball(scene.ball); !checked) {
     return tl::unexpected(checked.error());
   }
+  if (settings.hot_spot_limits.need_surface() && scene.proxy.is_far()) {
+    return fail(
+        "region: hot_spot_min_area and hot_spot_max_speed are those on the machine's surface: the "
+        "rig needs a [scene]");
+  }
   auto radiometry = Radiometry::make(settings.radiometry);
   if (!radiometry) return tl::unexpected(radiometry.error());
   auto mask = RegionMask::make(view, settings.outline, sees);
@@ -93,6 +108,7 @@ RegionMeter::RegionMeter(const optics::ViewProjection& view, const RegionScene& 
       radiometry_(std::move(radiometry)),
       geometry_(view, scene, mask_),
       hot_pixels_(mask_),
+      track_(settings.hot_spot_limits),
       plume_pixels_(mask_),
       cooling_(mask_, settings.hot_spot_threshold) {
   std::vector<double> thresholds{settings.hot_spot_threshold};
@@ -122,14 +138,15 @@ void RegionMeter::reset() {
   cooling_.reset();
   spatter_.reset();
   for (Statistics& statistics : statistics_) statistics.reset();
-  usual_.reset();
+  track_.reset();
   peak_x_ = peak_y_ = -1;
 }
 
 template <class T>
 Signals RegionMeter::measure_any(const ImageView<const T>& values,
                                  const ImageView<const std::uint8_t>& validity, double seconds) {
-  const double passed = seconds > last_ ? std::min(seconds - last_, 1.0) : 0;
+  constexpr double kLongest = 3600;  // s; there is none before the first one
+  const double passed = seconds > last_ ? std::min(seconds - last_, kLongest) : 0;
   if (passed == 0) reset();
   last_ = seconds;
   find_levels(values, validity);
@@ -140,7 +157,7 @@ Signals RegionMeter::measure_any(const ImageView<const T>& values,
   if (settings_.plume_threshold) signals.plume_area = 0;
   hot_direction_.reset();
   const LevelSet& hot = levels_[hot_];
-  const std::size_t chosen = choose_hot_spot(hot, passed);
+  const std::size_t chosen = track_.follow(hot, passed);
   hot_pixels_.clear();
   if (chosen != LevelSet::kNone) {
     hot_pixels_.assign(hot, chosen);
@@ -166,33 +183,6 @@ Signals RegionMeter::measure_any(const ImageView<const T>& values,
   return signals;
 }
 
-/// The largest blob, weighted by its distance from the hot spot's usual place, down to a ninth: a
-/// spark near the ball may look larger than the pool. The usual place follows within a tenth of a
-/// second.
-std::size_t RegionMeter::choose_hot_spot(const LevelSet& hot, double passed) {
-  constexpr double kNear = optics::radians(3);
-  constexpr double kLeast = 1.0 / 9;
-  constexpr double kFollow = 0.1;  // s
-  std::size_t best = LevelSet::kNone;
-  double best_size = 0;
-  for (std::size_t i = 0; i < hot.size(); ++i) {
-    if (!hot.is_whole(i)) continue;
-    double size = hot.blob(i).solid_angle;
-    if (usual_) {
-      const Vec3 apart = optics::normalized(hot.blob(i).moment) - *usual_;
-      size *= std::max(kLeast, 1 / (1 + optics::dot(apart, apart) / (kNear * kNear)));
-    }
-    if (size <= best_size) continue;
-    best = i;
-    best_size = size;
-  }
-  if (best == LevelSet::kNone) return best;
-  const Vec3 direction = optics::normalized(hot.blob(best).moment);
-  const Vec3 before = usual_.value_or(direction);
-  usual_ = optics::normalized(before + (direction - before) * (passed / (passed + kFollow)));
-  return best;
-}
-
 /// One pass over the region for the lowest threshold; the others search its runs.
 template <class T>
 void RegionMeter::find_levels(const ImageView<const T>& values,
@@ -214,6 +204,7 @@ double RegionMeter::plume(const ImageView<const T>& values,
 
 void RegionMeter::write(const HotSpot& spot, const Blob& blob, Signals& signals) const {
   signals.hot_spot_present = 1;
+  signals.hot_spot_confidence = 100 * track_.confidence();
   signals.hot_spot_pixels = spot.pixels;
   signals.hot_spot_solid_angle = 1000 * spot.solid_angle;
   write_angles(spot, signals);

@@ -13,6 +13,7 @@
 #include "proc/signals/hot_spot/blob_pixels.h"
 #include "proc/signals/hot_spot/cooling.h"
 #include "proc/signals/hot_spot/hot_spot.h"
+#include "proc/signals/hot_spot/hot_spot_track.h"
 #include "proc/signals/hot_spot/level_set.h"
 #include "proc/signals/radiometry.h"
 #include "proc/signals/region.h"
@@ -28,7 +29,8 @@ namespace orbwatch::signals {
 class RegionMeter {
  public:
   /// `sees`: as in RegionMask. Error: an outline that is no polygon or outside of the view,
-  /// thresholds out of range or in the wrong order, radiometry out of range.
+  /// thresholds out of range or in the wrong order, limits of the hot spot out of range or without
+  /// the surface that they are on, radiometry out of range.
   static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
                                   const RegionSettings& settings,
                                   const RegionMask::Sees& sees = nullptr);
@@ -63,7 +65,6 @@ class RegionMeter {
                       const ImageView<const std::uint8_t>& validity, double seconds);
   template <class T>
   void find_levels(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity);
-  std::size_t choose_hot_spot(const LevelSet& hot, double passed);
   template <class T>
   double plume(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity);
   void write(const HotSpot& spot, const Blob& blob, Signals& signals) const;
@@ -81,7 +82,7 @@ class RegionMeter {
   std::optional<std::size_t> plume_level_;
   std::optional<std::size_t> spatter_level_;
   BlobPixels hot_pixels_;
-  std::optional<optics::Vec3> usual_;  ///< unit vector to the hot spot of the last frame sets
+  HotSpotTrack track_;
   BlobPixels plume_pixels_;
   CoolingMeter cooling_;
   std::optional<optics::Vec3> hot_direction_;

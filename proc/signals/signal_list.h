@@ -92,6 +92,15 @@
   X(name##_trend, unit "/s", scale, -10 * (maximum), 10 * (maximum), requirements, \
     "Least-squares slope of " #name " over the last second")
 
-#define ORBWATCH_SIGNALS(X) ORBWATCH_FRAME_SIGNALS(X) ORBWATCH_MAIN_SIGNALS(ORBWATCH_STATISTICS, X)
+/* Appended since numbers of signals are fixed: PLCs and controllers know them. */
+#define ORBWATCH_LATER_SIGNALS(X)                                                                  \
+  X(hot_spot_confidence, "%", 0.1, 0, 100, Nothing,                                                \
+    "How sure the hot spot is the one before: seen in the last frame sets, of its usual size, no " \
+    "other like it")                                                                               \
+  X(spatter_untracked, "", 1, 0, 10000, SpatterThreshold,                                          \
+    "Sparks of the last second that were too many to be followed, and miss in spatter_rate")
+
+#define ORBWATCH_SIGNALS(X) \
+  ORBWATCH_FRAME_SIGNALS(X) ORBWATCH_MAIN_SIGNALS(ORBWATCH_STATISTICS, X) ORBWATCH_LATER_SIGNALS(X)
 
 #endif

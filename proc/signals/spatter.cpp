@@ -199,6 +199,7 @@ void SpatterTracker::write(Signals& signals) const {
   });
   signals.spatter_count = static_cast<double>(count_);
   signals.spatter_rate = all.born;
+  signals.spatter_untracked = all.untracked;
   if (all.ended > 0) signals.spatter_speed = all.speed / all.ended;
   signals.spatter_speed_0 = all.by_speed[0];
   signals.spatter_speed_50 = all.by_speed[1];

@@ -22,6 +22,8 @@ struct RegionOfInterest {
   std::vector<std::array<double, 2>> directions;
   std::vector<std::array<double, 3>> points;
   double hot_spot_threshold = 0;
+  std::optional<double> hot_spot_min_area;
+  std::optional<double> hot_spot_max_speed;
   std::optional<double> plume_threshold;
   std::optional<double> spatter_threshold;
   std::optional<double> width;
@@ -57,6 +59,13 @@ void visit(Visitor& v, RegionOfInterest& region) {
   v.required("hot_spot_threshold", region.hot_spot_threshold, threshold,
              "Where the hot spot begins: degC for a radiometric camera, else percent of full "
              "scale");
+  v.optional("hot_spot_min_area", region.hot_spot_min_area, Range::above(0, 1e6),
+             "What is smaller is a spark, or a hot spot of which too much is hidden, mm2 on the "
+             "machine's surface; needs the rig's scene");
+  v.optional("hot_spot_max_speed", region.hot_spot_max_speed, Range::above(0, 1e5),
+             "The hot spot's centre moves no faster, mm/s on the machine's surface: while it is "
+             "hidden, nothing farther away is taken for it for half a second; needs the rig's "
+             "scene");
   v.optional("plume_threshold", region.plume_threshold, threshold,
              "Where the plume around it begins, in the same unit; else it is not measured");
   v.optional("spatter_threshold", region.spatter_threshold, threshold,

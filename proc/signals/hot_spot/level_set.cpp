@@ -1,6 +1,7 @@
 #include "proc/signals/hot_spot/level_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -23,6 +24,8 @@ int first_hot(const T* values, int x, int end, int level) {
   while (x < end && values[x] < level) ++x;
   return x;
 }
+
+optics::Vec3 vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
@@ -81,8 +84,9 @@ void LevelSet::add_run(const T* values, const Span& span, const RegionGeometry& 
     // Counting from just below the threshold keeps a blob of equal values a plain centroid.
     const double weight = pixel.solid_angle * (values[x] - threshold_ + 1);
     blob.solid_angle += pixel.solid_angle;
-    blob.moment = blob.moment +
-                  optics::Vec3{pixel.direction[0], pixel.direction[1], pixel.direction[2]} * weight;
+    blob.moment = blob.moment + vec(pixel.direction) * weight;
+    blob.area += pixel.area;
+    blob.position = blob.position + vec(pixel.position) * pixel.solid_angle;
     if (values[x] > blob.peak || x == span.begin) {
       blob.peak = values[x];
       blob.peak_x = x;
@@ -120,6 +124,8 @@ void LevelSet::join(std::size_t a, std::size_t b) {
   Blob& joined = blobs_[joined_index];
   kept.solid_angle += joined.solid_angle;
   kept.moment = kept.moment + joined.moment;
+  kept.area += joined.area;
+  kept.position = kept.position + joined.position;
   if (joined.peak > kept.peak) {
     kept.peak = joined.peak;
     kept.peak_x = joined.peak_x;

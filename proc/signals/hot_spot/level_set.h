@@ -21,6 +21,8 @@ struct Run {
 struct Blob {
   double solid_angle = 0;  ///< steradian, of whole pixels
   optics::Vec3 moment;     ///< directions weighted by solid angle and counts above the threshold
+  double area = 0;         ///< mm2 of the machine's surface; not a number if far
+  optics::Vec3 position;   ///< mm from the ball's centre, weighted by solid angle; likewise
   int peak = 0;            ///< counts of its brightest pixel, and where that is
   int peak_x = 0;
   int peak_y = 0;

@@ -143,6 +143,32 @@ TEST(RenderedProcess, ThermalCameraFindsThePool) {
   EXPECT_NEAR(errors.counted, static_cast<double>(errors.sparks.size()), 7);
 }
 
+TEST(RenderedProcess, NoSparkIsThePoolWhileTheNozzleHidesIt) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures() / "scene.json");
+  const RenderedSequence sequence("seq_thermal");
+  signals::RegionSettings region;
+  region.radiometry.kelvin_per_count = 0.04;
+  region.hot_spot_threshold = (700 + 273.15) / 0.04;
+  region.hot_spot_limits = {.min_area = 60, .max_speed = 1000};
+  MeasuredSequence measured(sequence, PixelFormat::Y16, region);
+  ErrorDistribution errors("position_mm");
+  for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
+    const Vec3& melt = sequence.frames()[i].melt;
+    const signals::Signals s = measured.measure(i);
+    const double here = measured.counts_at(pixel_of_point(sequence.camera(), melt).value());
+    if (here < region.hot_spot_threshold) {
+      EXPECT_EQ(s.hot_spot_present, 0) << "frame " << i;
+      EXPECT_FALSE(signals::is_valid(s.hot_spot_width)) << "frame " << i;
+      EXPECT_FALSE(signals::is_valid(s.hot_spot_confidence)) << "frame " << i;
+    }
+    if (s.hot_spot_present == 0) continue;
+    errors.add(optics::norm(Vec3{s.hot_spot_x, s.hot_spot_y, s.hot_spot_z} - melt));
+  }
+  errors.report();
+  EXPECT_GE(errors.size(), 17U);
+  EXPECT_LE(errors.max(), 5);
+}
+
 TEST(RenderedProcess, ColourCameraFindsThePool) {
   ORBWATCH_REQUIRE_FILE(rendered_pictures() / "scene.json");
   const RenderedSequence sequence("seq_spark");

@@ -11,6 +11,16 @@
 
 namespace orbwatch::signals {
 
+/// A ball of 50 mm above a floor 400 mm below its centre.
+inline RegionScene floor_scene() {
+  optics::Scene scene;
+  scene.room = optics::Scene::Room::Plane;
+  scene.point = {0, 0, -300};
+  scene.normal = {0, 0, 1};
+  const optics::Ball ball{{10, 20, 100}, 50};
+  return {ball, optics::SceneProxy::make(scene, ball).value()};
+}
+
 /// A measured view that tests paint, all of it seen.
 struct PaintedView {
   explicit PaintedView(const optics::ViewSpec& spec, std::uint16_t background = 100)

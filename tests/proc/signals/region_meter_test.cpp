@@ -1,5 +1,6 @@
 #include "proc/signals/region_meter.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,16 +24,6 @@ RegionSettings settings() {
   region.plume_threshold = 10000;
   region.spatter_threshold = 5000;
   return region;
-}
-
-/// A ball of 50 mm above a floor 400 mm below its centre.
-RegionScene floor_scene() {
-  optics::Scene scene;
-  scene.room = optics::Scene::Room::Plane;
-  scene.point = {0, 0, -300};
-  scene.normal = {0, 0, 1};
-  const optics::Ball ball{{10, 20, 100}, 50};
-  return {ball, optics::SceneProxy::make(scene, ball).value()};
 }
 
 RegionMeter meter_of(const PaintedView& painted, const RegionSettings& region,
@@ -348,6 +339,27 @@ TEST(RegionMeter, RefusesWhatCannotBeMeasured) {
   EXPECT_TRUE(refused([](auto& r) { r.width_set_point = 0; }));
   EXPECT_TRUE(refused([](auto& r) { r.radiometry.kelvin_per_count = -1; }));
   EXPECT_TRUE(refused([](auto& r) { r.outline = {{0, 1, 0}}; }));
+}
+
+TEST(RegionMeter, RefusesLimitsOfTheHotSpotThatHaveNoSurface) {
+  const PaintedView painted(kView);
+  const auto error = [&](const HotSpotLimits& limits, const RegionScene& scene) {
+    RegionSettings region = settings();
+    region.hot_spot_limits = limits;
+    const auto meter = RegionMeter::make(painted.view, scene, region);
+    return meter ? std::string() : meter.error().message;
+  };
+  EXPECT_EQ(error({}, {}), "");
+  EXPECT_EQ(error({20, 30}, floor_scene()), "");
+  for (const HotSpotLimits& limits : {HotSpotLimits{20}, HotSpotLimits{0, 30}}) {
+    EXPECT_THAT(error(limits, {}), testing::HasSubstr("the rig needs a [scene]"));
+  }
+  for (const double bad : {-1.0, static_cast<double>(NAN), HUGE_VAL}) {
+    EXPECT_THAT(error({bad}, floor_scene()), testing::HasSubstr("least area")) << bad;
+  }
+  for (const double bad : {-1.0, 0.0, static_cast<double>(NAN)}) {
+    EXPECT_THAT(error({0, bad}, floor_scene()), testing::HasSubstr("highest speed")) << bad;
+  }
 }
 
 }  // namespace

@@ -140,7 +140,8 @@ TEST(Spatter, NoiseAtTheThresholdCostsABoundedWorkAndWhatItDropsIsCounted) {
   }
   Signals signals;
   tracker.write(signals);
-  EXPECT_GE(tracker.untracked(), 3 * (kParts - kMaxSparkParts));
+  EXPECT_GE(signals.spatter_untracked, 3 * (kParts - static_cast<double>(kMaxSparkParts)));
+  EXPECT_EQ(signals.spatter_untracked, static_cast<double>(tracker.untracked()));
   EXPECT_LE(signals.spatter_rate, 3.0 * kMaxSparks);
 }
 

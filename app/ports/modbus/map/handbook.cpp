@@ -146,7 +146,7 @@ Texts layout_numbers() {
   set("ALARM COUNT", signals::kMaxAlarms);
   set("VERSION", kMapVersion);
   set("MIRROR", kMirrorOffset);
-  set("SIGNALS", signals::kSignals.size());
+  set("SIGNALS", std::min(signals::kSignals.size(), kFirstSignals));
   set("DEPTH", kResultQueueDepth);
   const ModbusSettings defaults;
   set("PORT", defaults.port);
@@ -158,8 +158,7 @@ Texts layout_numbers() {
 Texts addresses(const RegisterMap& map) {
   Texts texts;
   for (const Row& row : map.rows()) {
-    const bool is_mirror = row.address >= kMirrorOffset;
-    texts.emplace(row.name + (is_mirror ? "+" : ""), std::to_string(row.address));
+    texts.emplace(row.name + (is_mirror(row) ? "+" : ""), std::to_string(row.address));
   }
   return texts;
 }
@@ -186,6 +185,7 @@ Texts tables(const RegisterMap& map) {
           {"rows alarm summary", input(kAlarmSummary)},
           {"rows alarms", input(kAlarms.entry(0))},
           {"rows regions", input(kRegions.entry(0))},
+          {"rows more regions", input(kMoreOfRegions.entry(0))},
           {"rows written", row_table(map, Table::Holding, kWritten)},
           {"commands", command_table()},
           {"fault bits", bit_table(fault_bits())},

@@ -53,6 +53,11 @@ inline constexpr Series kAlarms{1520, 16, 2600};
 inline constexpr Series kRegions{2600, 128, 3700};
 inline constexpr Series kResults{3700, 128, 5000};
 
+/// Signals in the first block of a region, behind its 16 registers of header and a bit for each.
+inline constexpr int kRegionHeader = 16;
+inline constexpr int kValidWords = 4;
+inline constexpr std::size_t kFirstSignals = (kMaxReadRegisters - kRegionHeader - kValidWords) / 2;
+
 // Signals without room in the first block of a region continue here.
 inline constexpr Series kMoreOfRegions{10000, 512, 15000};
 inline constexpr Series kMoreOfResults{15000, 512, 20000};

@@ -10,13 +10,10 @@
 namespace orbwatch::app::modbus {
 namespace {
 
-constexpr int kValidWords = 4;
-constexpr int kHeader = 16;
 constexpr int kMoreHeader = 4;
 constexpr int kMoreStride = 128;
 
-/// Signals of the first block and of each further one.
-constexpr std::size_t kFirstSignals = (kMaxReadRegisters - kHeader - kValidWords) / 2;
+/// Signals of each further block.
 constexpr std::size_t kMoreSignals = (kMaxReadRegisters - kMoreHeader - kValidWords) / 2;
 constexpr std::size_t kMoreBlocks = kMoreOfRegions.stride / kMoreStride;
 

@@ -42,6 +42,11 @@ struct Row {
   std::function<void(PlcRegisters& registers, std::uint32_t value)> write{};
 };
 
+/// Whether it repeats a row of another table, for PLCs that read only coils and holding registers.
+inline bool is_mirror(const Row& row) {
+  return row.address >= kMirrorOffset && (row.table == Table::Coil || row.table == Table::Holding);
+}
+
 /// The one declaration of what PLCs read and write. Immutable; reentrant.
 class RegisterMap {
  public:

@@ -91,7 +91,7 @@ int place_in(std::initializer_list<modbus::Table> tables, std::string_view name)
   static const modbus::RegisterMap map;
   for (const modbus::Row& row : map.rows()) {
     const bool is_there = std::ranges::find(tables, row.table) != tables.end();
-    if (is_there && row.name == name && row.address < modbus::kMirrorOffset) return row.address;
+    if (is_there && row.name == name && !is_mirror(row)) return row.address;
   }
   throw std::out_of_range(std::string(name));
 }
