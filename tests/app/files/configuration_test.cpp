@@ -233,6 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
                 triggered("", replaced("\"flash\"", "\"software\"", kLines)),
                 {"line.name", "\"software\""}},
         Refusal{"NotToml", "[[camera\n", {"site.toml:1:", "not valid TOML"}},
+        Refusal{"NameOfATableThatIsNone", "[[$recipe]]\n", {"site.toml:1:", "not valid TOML"}},
         Refusal{
             "TableExpected", "rig = \"rig.toml\"\ncamera = 3\n", {"site.toml:2:", "[[camera]]"}}),
     [](const auto& refusal) { return refusal.param.name; });
