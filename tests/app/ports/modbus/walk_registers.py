@@ -74,7 +74,7 @@ def walk(client, rows):
         wrong = wrong_value(row, values)
         if wrong:
             yield f"{where}: {wrong}"
-        if row["address"] < MIRROR_OFFSET:
+        if row["table"] not in MIRRORS or row["address"] < MIRROR_OFFSET:
             continue
         original = by_place[MIRRORS[row["table"]], row["address"] - MIRROR_OFFSET]
         if not mirror_is_between(client, row, original):
