@@ -21,6 +21,8 @@
 #include "app/log.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
+#include "app/state/command_record.h"
+#include "app/state/state_folder.h"
 #include "app/version.h"
 #include "proc/remap/remap.h"
 
@@ -125,9 +127,13 @@ Result<PipelinePlan> open_site(const Resolved& site, Lines& lines) {
 /// Runs until a signal. True: to be started again.
 Result<bool> run(const Resolved& site, const sigset_t& signals, const std::filesystem::path& file) {
   const Configuration& configuration = site.site;
-  HealthSampler health([board = std::make_shared<BoardHealth>(health_sources(configuration))] {
-    return board->read();
-  });
+  const auto record = std::make_shared<CommandRecord>(state_folder(configuration.state_folder));
+  HealthSampler health(
+      [record, board = std::make_shared<BoardHealth>(health_sources(configuration))] {
+        Health read = board->read();
+        read.commands_recorded = record->is_kept() ? 1 : 0;
+        return read;
+      });
   std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
   auto lines = Lines::open({configuration.lines.begin(), configuration.lines.end()});
   if (!lines) return tl::unexpected(lines.error());
@@ -139,8 +145,8 @@ Result<bool> run(const Resolved& site, const sigset_t& signals, const std::files
   if (configuration.snapshot) snapshots.emplace(*configuration.snapshot);
   const Receivers receivers{*pipeline, **lines, snapshots ? &*snapshots : nullptr,
                             [] { ::kill(::getpid(), SIGHUP); }};
-  const auto made =
-      make_sinks(site, [&](const Command& command) { return dispatch(command, receivers); });
+  const auto made = make_sinks(
+      site, [&](const Command& command) { return dispatch(command, receivers); }, record);
   std::vector<Sink*> sinks{lines->get()};
   if (snapshots) sinks.push_back(&*snapshots);
   for (const auto& sink : made) sinks.push_back(sink.get());

@@ -6,8 +6,9 @@
 namespace orbwatch::app {
 namespace {
 
-SinkContext make_context(const Resolved& site, CommandHandler handler) {
-  SinkContext context{site.names, {}, {}, std::move(handler)};
+SinkContext make_context(const Resolved& site, CommandHandler handler,
+                         std::shared_ptr<CommandRecord> record) {
+  SinkContext context{site.names, {}, {}, std::move(handler), std::move(record)};
   context.views.resize(site.names.views.size());
   const auto publish = [&context](const ViewSettings& view, bool measured) {
     const bool perspective = view.kind == optics::ViewKind::Perspective;
@@ -25,8 +26,9 @@ SinkContext make_context(const Resolved& site, CommandHandler handler) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Sink>> make_sinks(const Resolved& site, CommandHandler handler) {
-  const SinkContext context = make_context(site, std::move(handler));
+std::vector<std::unique_ptr<Sink>> make_sinks(const Resolved& site, CommandHandler handler,
+                                              std::shared_ptr<CommandRecord> record) {
+  const SinkContext context = make_context(site, std::move(handler), std::move(record));
   std::vector<std::unique_ptr<Sink>> sinks;
   const auto add = [&](const auto& settings) {
     if (auto sink = make_sink(settings, context)) sinks.push_back(std::move(sink));

@@ -6,10 +6,13 @@
 #include "app/files/resolve.h"
 #include "app/model/command.h"
 #include "app/model/sink.h"
+#include "app/state/command_record.h"
 
 namespace orbwatch::app {
 
-/// Makes every enabled sink of SinkSettings. Commands from outside go to `handler`.
-std::vector<std::unique_ptr<Sink>> make_sinks(const Resolved& site, CommandHandler handler);
+/// Makes every enabled sink of SinkSettings. Commands from outside go to `handler`, noted in
+/// `record`.
+std::vector<std::unique_ptr<Sink>> make_sinks(const Resolved& site, CommandHandler handler,
+                                              std::shared_ptr<CommandRecord> record);
 
 }  // namespace orbwatch::app

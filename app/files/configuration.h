@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -44,6 +45,8 @@ struct Configuration {
   std::vector<Located<ViewSettings>> views;
   std::vector<Located<RecipeFile>> recipes;  ///< the first one is measured from the start
   std::optional<SnapshotSettings> snapshot;
+  /// Of what must outlast a restart; empty: see state_folder().
+  std::filesystem::path state_folder;
   SinkSettings sinks;
 };
 
@@ -57,6 +60,9 @@ template <class Visitor>
 void visit(Visitor& v, Configuration& configuration) {
   v.required("rig", configuration.rig,
              "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
+  v.optional("state_folder", configuration.state_folder,
+             "Of the record of commands, 16 KiB; else systemd's STATE_DIRECTORY, or "
+             "/var/lib/orbwatch");
   v.table("pipeline", configuration.pipeline, "Frame budget and threads");
   v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,

@@ -102,8 +102,10 @@ enum class CommandResult : std::uint16_t {
   Done = 0,
   UnknownCommand = 1,
   ArgumentOutOfRange = 2,
-  Busy = 3,         ///< not now; may be sent again
-  NotPossible = 4,  ///< never with this configuration
+  Busy = 3,           ///< not now; may be sent again
+  NotPossible = 4,    ///< never with this configuration
+  Interrupted = 5,    ///< the process ended meanwhile: it may be carried out, or in part, or not
+  NotCarriedOut = 6,  ///< it may have been carried out before, or could not be recorded
 };
 
 /// The operator's text; empty for a number that is no result.
@@ -119,6 +121,10 @@ constexpr std::string_view operator_text(CommandResult result) {
       return "busy: try again";
     case CommandResult::NotPossible:
       return "not possible with this configuration";
+    case CommandResult::Interrupted:
+      return "interrupted by a restart: it may be carried out or not";
+    case CommandResult::NotCarriedOut:
+      return "not carried out: it may have been before a restart, or could not be recorded";
   }
   return {};
 }

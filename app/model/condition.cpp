@@ -71,6 +71,9 @@ Condition condition_of(const Health& health) {
   if (health.clock_synchronised == 0) {
     text += std::string(text.empty() ? "" : "; ") + "the clock follows no time server";
   }
+  if (health.commands_recorded == 0) {
+    text += std::string(text.empty() ? "" : "; ") + "commands are not recorded: see state_folder";
+  }
   if (text.empty()) return {Severity::None, "no complaint"};
   return {Severity::Warning, text};
 }

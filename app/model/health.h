@@ -24,7 +24,9 @@ namespace orbwatch::app {
   X(clock_estimated_error, "ms", 0.001, 0, 1e6, "Error of the system's clock as its server says") \
   X(clock_maximum_error, "ms", 0.001, 0, 1e6, "Bound of that error; grows until the next answer") \
   X(resident_memory, "MiB", 0.1, 0, 1e8, "Memory that orbwatch itself holds")                     \
-  X(open_descriptors, "", 1, 0, 1e9, "Files, devices and connections that orbwatch has open")
+  X(open_descriptors, "", 1, 0, 1e9, "Files, devices and connections that orbwatch has open")     \
+  X(commands_recorded, "", 1, 0, 1,                                                               \
+    "1: each command is noted on the disk first, so that no restart repeats it")
 
 /// Causes of throttling, the low bits of Health::throttling. The bits are those of the Raspberry
 /// Pi's firmware (vcgencmd get_throttled). The PLC reads the numbers: append, never renumber.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "app/model/command.h"
@@ -19,12 +20,15 @@ struct PublishedView {
   bool measured = true;                     ///< it has a plane that is measured
 };
 
+class CommandRecord;
+
 /// What every sink is made with, besides its own settings.
 struct SinkContext {
   StatusNames names;
   std::vector<PublishedView> views;           ///< by place in names.views
   std::vector<PixelFormat> camera_encodings;  ///< Rgb, Bgr or Grey, by place in names.cameras
   CommandHandler handler;
+  std::shared_ptr<CommandRecord> record;  ///< of the commands that go to `handler`
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses

@@ -21,7 +21,7 @@ struct Rule {
 
 /// A port sees the model and its own folder, never another port.
 std::vector<std::string> port(const std::string& folder) {
-  return {"proc", "hal", "app/model", "app/log.h", "app/pictures", folder};
+  return {"proc", "hal", "app/model", "app/log.h", "app/pictures", "app/state", folder};
 }
 
 // The most specific rule counts. The standard library and the C library are allowed everywhere.
@@ -56,7 +56,8 @@ const std::vector<Rule> kRules{
     {"app/pictures", {"proc", "hal", "app/pictures"}, {"opencv2/", "turbojpeg", "tl/expected"}},
     {"app/ports/modbus", port("app/ports/modbus"), {"modbus/", "tl/expected"}},
     {"app/ports/modbus/map",
-     {"proc", "hal", "app/model", "app/ports/modbus/map", "app/ports/modbus/modbus_settings.h"},
+     {"proc", "hal", "app/model", "app/ports/modbus/map", "app/ports/modbus/modbus_settings.h",
+      "app/state"},
      {"tl/expected"}},
     {"app/ports/modbus/server",
      {"proc", "hal", "app/ports/modbus/map", "app/ports/modbus/server",
@@ -66,6 +67,7 @@ const std::vector<Rule> kRules{
      {"proc", "hal", "app/model", "app/pipeline", "app/pictures", "app/log.h"},
      {"tl/expected"}},
     {"app/simulation", {"proc", "hal", "app/simulation"}, {"tl/expected"}},
+    {"app/state", {"proc", "hal", "app/model", "app/log.h", "app/state"}, {"tl/expected"}},
     {"app/health", {"proc", "hal", "app/model", "app/health", "app/log.h"}, {"tl/expected"}},
 };
 

@@ -172,8 +172,11 @@ class Connection {
   hal::FileDescriptor server_;
   hal::FileDescriptor client_;
   const app::modbus::RegisterMap& map_ = shared_map();
-  app::modbus::PlcHandshake plc_{
-      [](const app::Command&) { return app::CommandResult::Done; }, std::chrono::seconds(1), {}};
+  app::CommandRecord record_;
+  app::modbus::PlcHandshake plc_{record_,
+                                 [](const app::Command&) { return app::CommandResult::Done; },
+                                 std::chrono::seconds(1),
+                                 {}};
   std::unique_ptr<app::modbus::Responder> responder_;
   std::unique_ptr<app::modbus::TcpTransport> transport_;
   MbapFramer framer_;

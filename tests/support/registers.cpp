@@ -4,11 +4,13 @@
 #include <modbus/modbus.h>
 
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 namespace orbwatch::tests {
@@ -84,6 +86,11 @@ void write_command(int port, std::uint16_t code, const std::vector<std::int32_t>
   ASSERT_EQ(address("command_sequence"), address("command") + 1);
   words = {code, sequence};
   write(address("command"));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (read_register(port, "acknowledged_sequence") != sequence) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << "no answer to command " << code;
+    std::this_thread::yield();
+  }
 }
 
 }  // namespace orbwatch::tests

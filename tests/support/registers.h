@@ -11,7 +11,8 @@ namespace orbwatch::tests {
 /// answers. Unscaled.
 std::int64_t read_register(int port, const std::string& name);
 
-/// Writes arguments (value / scale), then a command and a new sequence.
+/// Writes arguments (value / scale), then a command and a new sequence, and waits until it is
+/// acknowledged, also over a restart of the server.
 void write_command(int port, std::uint16_t code, const std::vector<std::int32_t>& arguments,
                    std::uint16_t sequence);
 

@@ -26,14 +26,15 @@ DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::stri
       ball(ball_topic(settings.prefix, camera), encoding(settings, camera), settings.jpeg) {}
 
 DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
-                 Addresses addresses)
+                 Addresses addresses, std::shared_ptr<CommandRecord> record)
     : settings_(std::move(settings)),
       names_(std::move(names)),
       addresses_(std::move(addresses)),
       selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg),
       status_topics_(settings_.prefix, names_),
       takes_commands_(settings_.commands && handler),
-      commands_(settings_.prefix, std::move(handler)) {
+      record_(std::move(record)),
+      commands_(settings_.prefix, std::move(handler), *record_) {
   for (const auto& name : names_.views) {
     views_.push_back(std::make_unique<ViewTopics>(settings_, name));
   }
@@ -263,7 +264,8 @@ std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context
   for (std::size_t i = 0; i < names.cameras.size(); ++i) {
     settings.cameras[names.cameras[i]] = context.camera_encodings[i];
   }
-  return std::make_unique<DdsSink>(std::move(settings), names, context.handler);
+  return std::make_unique<DdsSink>(std::move(settings), names, context.handler, network_addresses,
+                                   context.record);
 }
 
 }  // namespace orbwatch::app

@@ -41,7 +41,8 @@ class DdsSink final : public Sink {
   /// topic part and the frame_id of its images. `handler` carries commands out, on a thread of the
   /// sink; without one there is no command topic. `addresses` are checked once a second.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
-          Addresses addresses = network_addresses);
+          Addresses addresses = network_addresses,
+          std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>());
   ~DdsSink() override;
 
   /// Starts the sink's thread. Does nothing when disabled or running. Errors: a domain or name that
@@ -111,6 +112,7 @@ class DdsSink final : public Sink {
   hal::Thread thread_;
 
   const bool takes_commands_;
+  const std::shared_ptr<CommandRecord> record_;
   CommandService commands_;
 };
 

@@ -9,8 +9,9 @@ namespace orbwatch::app {
 
 using std::chrono::microseconds;
 
-ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler)
-    : settings_(std::move(settings)), handler_(std::move(handler)) {}
+ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler,
+                       std::shared_ptr<CommandRecord> record)
+    : settings_(std::move(settings)), handler_(std::move(handler)), record_(std::move(record)) {}
 
 ModbusSink::~ModbusSink() { stop(); }
 
@@ -19,7 +20,7 @@ Result<> ModbusSink::start() {
   start_ = hal::Clock::now();
   const std::chrono::duration<double, std::milli> plc_timeout(settings_.plc_timeout_ms);
   plc_ = std::make_unique<modbus::PlcHandshake>(
-      handler_, std::chrono::duration_cast<hal::Clock::duration>(plc_timeout), start_);
+      *record_, handler_, std::chrono::duration_cast<hal::Clock::duration>(plc_timeout), start_);
   auto responder = modbus::Responder::create(
       map_, [this](const modbus::Write& registers) { write(registers); },
       [this] { return process_image(); });
@@ -31,6 +32,13 @@ Result<> ModbusSink::start() {
     const std::lock_guard lock(mutex_);
     received_at_ = hal::Clock::now();  // the status time-out starts here
   }
+  command_thread_.start("modbus commands", [this] {
+    // What was written before stop() is still carried out.
+    for (bool last = false; !last;) {
+      last = !command_thread_.wait();
+      plc_->carry_out();
+    }
+  });
   tcp_thread_.start("modbus", [this] { tcp_->run(); });
   if (serial_line_) serial_thread_.start("modbus rtu", [this] { serial_line_->run(); });
   return {};
@@ -76,6 +84,7 @@ void ModbusSink::stop() {
   if (serial_line_) serial_line_->stop();
   tcp_thread_.stop();
   serial_thread_.stop();
+  command_thread_.stop();
   tcp_.reset();
   serial_line_.reset();
   tcp_transport_.reset();
@@ -102,6 +111,7 @@ int ModbusSink::port() const { return tcp_ ? tcp_->port() : 0; }
 
 void ModbusSink::write(const modbus::Write& write) {
   const std::uint32_t acknowledged = plc_->write(write, map_, hal::Clock::now());
+  if (plc_->has_command()) command_thread_.wake();
   const std::lock_guard lock(mutex_);
   if (acknowledged != 0) results_.acknowledge(acknowledged);
 }
@@ -131,7 +141,7 @@ modbus::ProcessImage ModbusSink::process_image() const {
 
 std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<ModbusSink>(settings, context.handler);
+  return std::make_unique<ModbusSink>(settings, context.handler, context.record);
 }
 
 }  // namespace orbwatch::app

@@ -13,19 +13,21 @@
 #include "app/ports/modbus/server/responder.h"
 #include "app/ports/modbus/server/rtu_server.h"
 #include "app/ports/modbus/server/tcp_server.h"
+#include "app/state/command_record.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
 
 /// The Modbus server for PLCs: serves the newest status by the register map, keeps results until
-/// they are acknowledged, and executes commands. One thread for all clients on TCP, and one for the
-/// serial line if configured. The newest status wins; of results the first ResultQueue::kDepth
-/// wait.
-/// Thread rule: as Sink; statistics() is thread-safe, port() is for the thread of start().
+/// they are acknowledged, and carries commands out. One thread for all clients on TCP, one for the
+/// serial line if configured, and one for commands, which wait for the disk. The newest status
+/// wins; of results the first ResultQueue::kDepth wait. Thread rule: as Sink; statistics() is
+/// thread-safe, port() is for the thread of start().
 class ModbusSink final : public Sink {
  public:
   /// `handler` is called on the sink's threads.
-  ModbusSink(ModbusSettings settings, CommandHandler handler);
+  ModbusSink(ModbusSettings settings, CommandHandler handler,
+             std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>());
   ~ModbusSink() override;
 
   /// Errors: address or port cannot be used, or a setting is wrong; a serial line that is not
@@ -49,6 +51,7 @@ class ModbusSink final : public Sink {
 
   const ModbusSettings settings_;
   const CommandHandler handler_;
+  const std::shared_ptr<CommandRecord> record_;
   const modbus::RegisterMap map_;
   modbus::ServerCounters counters_;
   mutable std::mutex mutex_;  ///< of these three, held only while they are copied
@@ -63,6 +66,7 @@ class ModbusSink final : public Sink {
   std::unique_ptr<modbus::RtuServer> serial_line_;
   hal::Thread tcp_thread_;
   hal::Thread serial_thread_;
+  hal::Thread command_thread_;
 };
 
 }  // namespace orbwatch::app

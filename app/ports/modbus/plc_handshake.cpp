@@ -14,18 +14,17 @@ Command command_in(const CommandRegisters& registers) {
   return command;
 }
 
-bool execute(CommandRegisters& registers, const CommandHandler& handler) {
-  if (registers.sequence == registers.acknowledged) return false;
-  const Command command = command_in(registers);
-  registers.result = check(command);
-  if (registers.result == CommandResult::Done) registers.result = handler(command);
-  registers.last_command = registers.command;
-  registers.acknowledged = registers.sequence;
-  return true;
+PlcHandshake::PlcHandshake(CommandRecord& record, CommandHandler handler,
+                           hal::Clock::duration timeout, hal::TimePoint now)
+    : record_(record), handler_(std::move(handler)), timeout_(timeout), last_change_(now) {
+  for (const CommandRecord::Entry& entry : record.entries()) {
+    if (entry.id.client != kPlcClient) continue;
+    CommandRegisters& command = registers_.command;
+    command.sequence = command.acknowledged = static_cast<std::uint16_t>(entry.id.number);
+    command.result = entry.result;
+    command.last_command = entry.command;
+  }
 }
-
-PlcHandshake::PlcHandshake(CommandHandler handler, hal::Clock::duration timeout, hal::TimePoint now)
-    : handler_(std::move(handler)), timeout_(timeout), last_change_(now) {}
 
 std::uint32_t PlcHandshake::write(const Write& write, const RegisterMap& map, hal::TimePoint now) {
   const std::lock_guard lock(mutex_);
@@ -35,12 +34,35 @@ std::uint32_t PlcHandshake::write(const Write& write, const RegisterMap& map, ha
     last_change_ = now;
     has_changed_ = true;
   }
-  const CommandRegisters& command = registers_.command;
-  if (execute(registers_.command, handler_) && command.result == CommandResult::Done &&
-      command.last_command == static_cast<std::uint16_t>(CommandCode::SetProcessActive)) {
+  return std::exchange(registers_.result_acknowledged, 0);
+}
+
+bool PlcHandshake::has_command() const {
+  const std::lock_guard lock(mutex_);
+  return registers_.command.sequence != registers_.command.acknowledged;
+}
+
+void PlcHandshake::carry_out() {
+  const CommandRegisters registers = this->registers().command;
+  if (registers.sequence == registers.acknowledged) return;
+  const Command command = command_in(registers);
+  const CommandResult result =
+      record_.carry_out({kPlcClient, registers.sequence}, command, [this](const Command& recorded) {
+        const CommandResult checked = check(recorded);
+        return checked == CommandResult::Done ? handler_(recorded) : checked;
+      });
+  acknowledge(registers, result);
+}
+
+void PlcHandshake::acknowledge(const CommandRegisters& command, CommandResult result) {
+  const std::lock_guard lock(mutex_);
+  registers_.command.acknowledged = command.sequence;
+  registers_.command.result = result;
+  registers_.command.last_command = command.command;
+  if (result == CommandResult::Done &&
+      command.command == static_cast<std::uint16_t>(CommandCode::SetProcessActive)) {
     set_active_ = command.arguments[0] != 0;
   }
-  return std::exchange(registers_.result_acknowledged, 0);
 }
 
 hal::TimePoint PlcHandshake::supervise(hal::TimePoint now) {

@@ -113,7 +113,8 @@ class Daemon : public testing::Test {
     std::ofstream(folder / "rig.toml") << rig;
     std::ofstream(folder / "recipe.toml") << recipe;
     const auto path = folder / "site.toml";
-    std::ofstream(path) << "rig = \"rig.toml\"\n[modbus]\nport = " << port
+    std::ofstream(path) << "rig = \"rig.toml\"\nstate_folder = \"" << state_folder
+                        << "\"\n[modbus]\nport = " << port
                         << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain << "\n"
                         << text << "[[recipe]]\nnumber = 1\nfile = \"recipe.toml\"\n";
     return path.string();
@@ -134,6 +135,7 @@ class Daemon : public testing::Test {
   std::int64_t read(const std::string& name) const { return read_register(port, name); }
 
   TemporaryFolder folder;
+  std::string state_folder = "state";
   int port = free_port();
   int domain = 1 + getpid() % 100;
 };

@@ -295,7 +295,7 @@ TEST_F(Daemon, RefusesBadFilesAndArgumentsInOneLine) {
   };
   refused({}, "--config");
   refused({"--config", "/no/such.toml"}, "/no/such.toml");
-  refused({"--config", write_config("[cameras]\n")}, "site.toml:7: cameras");
+  refused({"--config", write_config("[cameras]\n")}, "site.toml:8: cameras");
   const auto replay = [](const std::string& source) {
     std::string text = small_machine();
     const std::size_t begin = text.find("[camera.simulated]"), end = text.find("[[camera]]", begin);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/model/command.h"
+#include "app/model/status.h"
 #include "tests/app/daemon/daemon_program.h"
 
 /// Recipes, results, snapshots and restarts as a PLC commands them.
@@ -235,6 +236,54 @@ TEST_F(RecipeCommands, ARestartReadsTheFilesAgainUnlessTheyAreWrong) {
   EXPECT_TRUE(measures(daemon, 2));
   daemon.send(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+TEST_F(RecipeCommands, AKilledDaemonRepeatsNoCommandOfTheStandingBlock) {
+  const std::string config = two_recipes();
+  {
+    Subprocess daemon = start(config);
+    ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
+    EXPECT_EQ(command(daemon, CommandCode::Stop), CommandResult::Done);
+    EXPECT_TRUE(eventually(
+        daemon, [&] { return read("system_state") == std::int64_t(app::SystemState::Stopped); }));
+    daemon.send(SIGKILL);
+    daemon.wait();
+  }
+  Subprocess daemon = start(config);
+  ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
+  EXPECT_EQ(read("acknowledged_sequence"), sequence) << "before the PLC writes";
+  write_command(port, static_cast<std::uint16_t>(CommandCode::Stop), {}, sequence);
+  // A command of the queue behind it shows that it was looked at.
+  EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {2}), CommandResult::Done);
+  EXPECT_TRUE(measures(daemon, 2)) << "it was stopped again";
+}
+
+TEST_F(RecipeCommands, ACommandedRestartIsOne) {
+  Subprocess daemon = start(two_recipes());
+  ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::Restart), CommandResult::Done);
+  ASSERT_TRUE(says(daemon, "restarts with its files read again")) << daemon.output();
+  ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
+  write_command(port, static_cast<std::uint16_t>(CommandCode::Restart), {}, sequence);
+  EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {2}), CommandResult::Done);
+  EXPECT_TRUE(measures(daemon, 2));
+  daemon.send(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+  const std::string said = daemon.output();
+  EXPECT_EQ(said.find("restarts with"), said.rfind("restarts with")) << said;
+}
+
+TEST_F(RecipeCommands, WithoutAStateFolderItSaysSoAndTakesTheFirstAsKnown) {
+  constexpr std::int64_t kNotRecorded = 1 << 7;
+  state_folder = "/proc/orbwatch";
+  Subprocess daemon = start(two_recipes());
+  ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
+  EXPECT_NE(daemon.output().find("/proc/orbwatch: cannot be opened"), std::string::npos);
+  EXPECT_TRUE(eventually(daemon, [&] { return (read("fault_bits") & kNotRecorded) != 0; }));
+  EXPECT_EQ(read("health_commands_recorded"), 0);
+  EXPECT_EQ(command(daemon, CommandCode::Stop), CommandResult::NotCarriedOut);
+  EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {2}), CommandResult::Done);
+  EXPECT_TRUE(measures(daemon, 2)) << "it was stopped";
 }
 
 TEST_F(RecipeCommands, ChecksWhatFollowsFromTheFilesToo) {

@@ -6,6 +6,7 @@
 
 #include "app/model/command.h"
 #include "app/ports/dds/generated/command.h"
+#include "app/state/command_record.h"
 
 namespace orbwatch::app {
 
@@ -13,12 +14,7 @@ using CommandMessage = orbwatch_msgs_msg_dds__Command_;
 using CommandResultMessage = orbwatch_msgs_msg_dds__CommandResult_;
 
 /// Identifies a request.
-struct RequestId {
-  std::uint64_t client = 0;
-  std::uint64_t number = 0;
-
-  bool operator==(const RequestId&) const = default;
-};
+using RequestId = CommandId;
 
 /// A request as received, cut to the longest that any command could need.
 struct CommandRequest {

@@ -4,10 +4,17 @@
 
 namespace orbwatch::app {
 
-CommandService::CommandService(const std::string& prefix, CommandHandler handler)
+CommandService::CommandService(const std::string& prefix, CommandHandler handler,
+                               CommandRecord& record)
     : handler_(std::move(handler)),
+      record_(record),
       requests_(orbwatch_msgs_msg_dds__Command__desc, command_topic(prefix)),
-      results_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic(prefix)) {}
+      results_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic(prefix)) {
+  for (const CommandRecord::Entry& entry : record.entries()) {
+    if (entry.id.client == kPlcClient) continue;
+    ledger_.record(entry.id, {entry.result, std::string(operator_text(entry.result))});
+  }
+}
 
 CommandService::~CommandService() { close(); }
 
@@ -66,7 +73,11 @@ void CommandService::serve(const CommandRequest& request) {
 CommandAnswer CommandService::answer_new(const CommandRequest& request) {
   CommandAnswer answer{CommandResult::Busy, "more than " + std::to_string(kMaxPerSecond) +
                                                 " commands in a second: try again"};
-  if (rate_.admit(hal::Clock::now())) answer = carry_out(request, handler_);
+  if (rate_.admit(hal::Clock::now())) {
+    answer = carry_out(request, [&](const Command& command) {
+      return record_.carry_out(request.id, command, handler_);
+    });
+  }
   ++(answer.result == CommandResult::Done ? done_ : refused_);
   return answer;
 }

@@ -11,11 +11,12 @@
 #include "app/ports/dds/status/dds_statistics.h"
 #include "app/ports/dds/topics/topic_reader.h"
 #include "app/ports/dds/topics/topic_writer.h"
+#include "app/state/command_record.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
 
-/// Receives commands over DDS, carries each out once and answers it.
+/// Receives commands over DDS, carries each out at most once and answers it.
 /// The receive thread of DDS puts requests into a bounded queue and never waits; the service's own
 /// thread carries them out, so that pictures blocked by the network delay no command.
 /// Thread rule: one owner; counts() and statistics() are thread-safe.
@@ -24,7 +25,8 @@ class CommandService {
   /// More than these in a second are refused as Busy.
   static constexpr int kMaxPerSecond = 50;
 
-  CommandService(const std::string& prefix, CommandHandler handler);
+  /// `record` outlives this; requests in it are not carried out again.
+  CommandService(const std::string& prefix, CommandHandler handler, CommandRecord& record);
   ~CommandService();
 
   /// Reads the command topic until close(). Error: DDS refuses.
@@ -37,7 +39,6 @@ class CommandService {
 
  private:
   static constexpr std::size_t kMaxWaiting = 64;
-  static constexpr std::size_t kMaxClients = 256;
 
   static void receive(dds_entity_t reader, void* service);
   void run();
@@ -46,6 +47,7 @@ class CommandService {
   void send(const RequestId& id, const CommandAnswer& answer);
 
   const CommandHandler handler_;
+  CommandRecord& record_;
   TopicReader requests_;
   TopicWriter results_;
 
@@ -53,7 +55,7 @@ class CommandService {
   BoundedQueue<CommandRequest, kMaxWaiting> queue_;
 
   // The service's thread only; kept when it is opened again.
-  RequestLedger ledger_{kMaxClients};
+  RequestLedger ledger_{CommandRecord::kMaxClients};
   RateLimit rate_{kMaxPerSecond, std::chrono::seconds(1)};
 
   std::atomic<std::uint64_t> done_{0};

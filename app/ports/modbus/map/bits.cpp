@@ -159,6 +159,9 @@ std::vector<Bit> fault_bits() {
        [](I image) { return is_throttled(image.live.status.health); }},
       {"clock_not_synchronised", "The clock follows no time server: UTC stamps may be wrong",
        [](I image) { return image.live.status.health.clock_synchronised == 0; }},
+      {"commands_not_recorded",
+       "The state folder cannot be used: after a restart the first command is not carried out",
+       [](I image) { return image.live.status.health.commands_recorded == 0; }},
   };
   bits.resize(kFirstCameraFaultBit);
   append(bits, kMaxCameras, "camera_#", "Camera # has a fault: see its fault register",

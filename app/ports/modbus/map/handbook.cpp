@@ -14,6 +14,7 @@
 #include "app/ports/modbus/map/encoding.h"
 #include "app/ports/modbus/map/register_map.h"
 #include "app/ports/modbus/modbus_settings.h"
+#include "app/state/slot_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -148,6 +149,16 @@ Texts layout_numbers() {
   set("MIRROR", kMirrorOffset);
   set("SIGNALS", std::min(signals::kSignals.size(), kFirstSignals));
   set("DEPTH", kResultQueueDepth);
+  // A command is noted, then its result; an example of a busy PLC.
+  constexpr long kWrites = 2, kSecondsEach = 2, kCommands = 24 * 60 * 60 / kSecondsEach;
+  set("SLOT", SlotFile::kSlotSize);
+  set("FILE", SlotFile::kFileSize);
+  set("SECONDS EACH", kSecondsEach);
+  set("COMMANDS A DAY", kCommands);
+  set("WRITES A DAY", kWrites * kCommands);
+  set("MB A DAY", kWrites * kCommands * long{SlotFile::kSlotSize} / 1000000);
+  set("INTERRUPTED", static_cast<long>(CommandResult::Interrupted));
+  set("NOT CARRIED OUT", static_cast<long>(CommandResult::NotCarriedOut));
   const ModbusSettings defaults;
   set("PORT", defaults.port);
   set("STALE", std::chrono::duration_cast<std::chrono::seconds>(defaults.status_timeout).count());

@@ -76,8 +76,8 @@ struct ServerCounters {
 };
 
 /// The command handshake: the PLC writes arguments and command, then another sequence; the command
-/// is executed once, and its sequence returned as acknowledged. Counters, not toggle bits: two
-/// toggles between two reads cancel each other.
+/// is carried out at most once, and then its sequence returned as acknowledged. Counters, not
+/// toggle bits: two toggles between two reads cancel each other.
 struct CommandRegisters {
   std::array<std::int32_t, kMaxArguments> arguments{};  ///< value / the argument's scale
   std::uint16_t command = 0;

@@ -56,7 +56,8 @@ void add_written_rows(std::vector<Row>& rows) {
            [](P plc, I) { return plc.command.command; })
       .written(write_command<&CommandRegisters::command>)
       .row(Type::Uint, "command_sequence", kWord,
-           "Another value than acknowledged_sequence executes the command, once",
+           "Another value than acknowledged_sequence carries the command out, once, also over "
+           "restarts",
            [](P plc, I) { return plc.command.sequence; })
       .written(write_command<&CommandRegisters::sequence>)
       .row(Type::Uint, "acknowledged_sequence", kWord,

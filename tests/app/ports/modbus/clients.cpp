@@ -157,6 +157,14 @@ int Plc::write(int address, const Words& values) {
                                         values.data()));
 }
 
+int Plc::command(int address, const Words& values) {
+  if (const int exception = write(address, values); exception != 0) return exception;
+  const bool is_acknowledged = eventually([&] {
+    return read_holding(address_of("acknowledged_sequence"), 1) == 0 && words[0] == values.back();
+  });
+  return is_acknowledged ? 0 : -1;
+}
+
 int Plc::mask_write(int address, std::uint16_t and_mask, std::uint16_t or_mask) {
   return outcome(modbus_mask_write_register(context_.get(), address, and_mask, or_mask));
 }

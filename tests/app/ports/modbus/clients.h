@@ -51,6 +51,8 @@ class Plc {
   int read_input(int address, int count);
   int write(int address, std::uint16_t value);
   int write(int address, const Words& values);
+  /// Writes what contains a sequence at its end, and waits until that is acknowledged.
+  int command(int address, const Words& values);
   int mask_write(int address, std::uint16_t and_mask, std::uint16_t or_mask);
   int write_and_read(int write_address, const Words& values, int read_address, int count);
   int write_coil(int address);

@@ -27,6 +27,7 @@ class PlcHandshakeTest : public testing::Test {
     const Write write{{Table::Holding, address, count}, std::move(values)};
     ASSERT_EQ(check(write, map_), std::nullopt);
     plc_.write(write, map_, now_);
+    plc_.carry_out();
   }
   void beat() { write(heartbeat_register_, {++heartbeat_}); }
   void say_active(std::uint16_t active) {
@@ -45,7 +46,9 @@ class PlcHandshakeTest : public testing::Test {
   CommandResult answer_ = CommandResult::Done;
   std::vector<int> said_;  ///< arguments of set_process_active
   hal::TimePoint now_ = kStart;
-  PlcHandshake plc_{[this](const Command& command) {
+  CommandRecord record_;
+  PlcHandshake plc_{record_,
+                    [this](const Command& command) {
                       EXPECT_EQ(command.code, CommandCode::SetProcessActive);
                       said_.push_back(static_cast<int>(command.arguments[0]));
                       return answer_;
@@ -153,7 +156,8 @@ TEST_F(PlcHandshakeTest, IsNotSupervisedWithoutATimeout) {
     ADD_FAILURE() << "nobody supervises";
     return CommandResult::Done;
   };
-  PlcHandshake plc(unexpected, milliseconds(0), kStart);
+  CommandRecord record;
+  PlcHandshake plc(record, unexpected, milliseconds(0), kStart);
   plc.write({{Table::Holding, heartbeat_register_, 1}, {1}}, map_, kStart);
   EXPECT_EQ(plc.supervise(kStart + std::chrono::hours(1)), hal::TimePoint::max());
   const PlcStatus status = plc.status(kStart + std::chrono::seconds(1));

@@ -49,10 +49,12 @@ class Plc:
         address = self.map.address["command"]
         for _ in range(self.random.choice((1, 1, 1, 2))):
             self.client.write(address, words)
-        acknowledged, result = self.client.read(
-            "holding", self.map.address["acknowledged_sequence"], 2)
-        if (acknowledged, result) != (self.sequence, 0):
-            raise AssertionError(f"trigger {self.sequence}: {acknowledged}, result {result}")
+        acknowledged = None
+        while acknowledged != self.sequence:
+            acknowledged, result = self.client.read(
+                "holding", self.map.address["acknowledged_sequence"], 2)
+        if result != 0:
+            raise AssertionError(f"trigger {self.sequence}: result {result}")
         self.triggered += 1
 
     def wait_for(self, number):

@@ -31,7 +31,11 @@ def main(line, unit):
     print("read", shown(client.read_input_registers(address["map_version"], count=1, slave=unit)))
     print("heartbeat", shown(client.read_input_registers(heartbeat, count=2, slave=unit)))
     print("write", shown(client.write_registers(first, SELECT_VIEW_2, slave=unit)))
-    print("acknowledged", shown(client.read_holding_registers(acknowledged, count=3, slave=unit)))
+    while True:  # until it is carried out
+        answer = client.read_holding_registers(acknowledged, count=3, slave=unit)
+        if answer.isError() or answer.registers[0] == SELECT_VIEW_2[-1]:
+            break
+    print("acknowledged", shown(answer))
     print("half", shown(client.write_register(first, 5, slave=unit)))
     print("nowhere", shown(client.read_input_registers(65000, count=1, slave=unit)))
     identity = client.execute(ReadDeviceInformationRequest(1, 0, unit=unit))

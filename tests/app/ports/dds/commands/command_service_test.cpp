@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "tests/app/ports/dds/figures.h"
 #include "tests/app/ports/dds/foreign_writer.h"
 #include "tests/app/ports/dds/topic_reader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -99,6 +102,77 @@ class Controller {
 
 DdsSettings settings() { return {.domain = DdsNetwork::kSinkDomain}; }
 
+/// A sink whose record of commands is in a folder.
+class RecordedCommands : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(network_.valid()); }
+
+  /// The sink before is stopped; the controller has none of its answers.
+  void start(const std::filesystem::path& folder, CommandHandler handler) {
+    sink_.reset();
+    controller_.emplace();
+    sink_.emplace(settings(), StatusNames{{}, {"front"}, {}}, std::move(handler), network_addresses,
+                  std::make_shared<CommandRecord>(folder));
+    const auto started = sink_->start();
+    ASSERT_TRUE(started) << started.error().message;
+    ASSERT_TRUE(controller_->connect());
+  }
+
+  DdsNetwork network_;
+  const orbwatch::tests::TemporaryFolder folder_;
+  Machine machine_;
+  std::optional<Controller> controller_;
+  std::optional<DdsSink> sink_;
+};
+
+TEST_F(RecordedCommands, ARestartRepeatsNoRequest) {
+  start(folder_.path(), machine_.handler());
+  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::Done);
+  start(folder_.path(), machine_.handler());
+  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}),
+            (CommandAnswer{CommandResult::Done, "done"}));
+  EXPECT_EQ(machine_.count(), 1U);
+  EXPECT_EQ(controller_->ask({7, 4}, "select_view", {5}).result, CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(machine_.count(), 2U);
+}
+
+TEST_F(RecordedCommands, OneThatWasCutOffIsInterrupted) {
+  const orbwatch::tests::TemporaryFolder then;
+  start(folder_.path(), [&](const Command&) {
+    // What the disk holds if the power fails now.
+    std::filesystem::copy(folder_.path(), then.path(), std::filesystem::copy_options::recursive);
+    return CommandResult::Done;
+  });
+  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::Done);
+  start(then.path(), machine_.handler());
+  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::Interrupted);
+  EXPECT_EQ(machine_.count(), 0U);
+}
+
+TEST_F(RecordedCommands, WithoutAFolderTheFirstOfAClientIsNotCarriedOut) {
+  start("/proc/orbwatch", machine_.handler());
+  EXPECT_EQ(controller_->ask({7, 3}, "select_view", {0}).result, CommandResult::NotCarriedOut);
+  EXPECT_EQ(machine_.count(), 0U);
+  EXPECT_EQ(controller_->ask({7, 4}, "select_view", {0}).result, CommandResult::Done);
+  EXPECT_EQ(machine_.count(), 1U);
+}
+
+Result<CommandAnswer> send(const Command& command, std::chrono::milliseconds timeout) {
+  const std::atomic<bool> cancelled{false};
+  return send_command({.domain = DdsNetwork::kReaderDomain, .timeout = timeout}, command,
+                      cancelled);
+}
+
+TEST_F(RecordedCommands, TheCommandLineSendsAgainWhatWasNotCarriedOut) {
+  start("/proc/orbwatch", machine_.handler());
+  // Unless it had to repeat the request before the answer came.
+  EXPECT_TRUE(eventually([&] {
+    const auto answer = send({CommandCode::Start, {}}, std::chrono::minutes(1));
+    return answer && answer->result == CommandResult::Done;
+  }));
+  EXPECT_EQ(machine_.count(), 1U);
+}
+
 class CommandServiceTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -117,12 +191,6 @@ class CommandServiceTest : public testing::Test {
   Machine machine_;
   DdsSink sink_{settings(), {{}, {"front"}, {}}, machine_.handler()};
 };
-
-Result<CommandAnswer> send(const Command& command, std::chrono::milliseconds timeout) {
-  const std::atomic<bool> cancelled{false};
-  return send_command({.domain = DdsNetwork::kReaderDomain, .timeout = timeout}, command,
-                      cancelled);
-}
 
 TEST_F(CommandServiceTest, ClientGetsTheAnswerOfTheMachine) {
   const Command point{CommandCode::PointView, {2, -115.5, -40.25, 60}};

@@ -153,6 +153,9 @@ TEST_F(Diagnostics, BoardWarnsOfWhatIsWrongNow) {
   health.throttling = 0;
   health.clock_synchronised = 0;
   EXPECT_EQ(found("orbwatch: health").message, "the clock follows no time server");
+  health.commands_recorded = 0;
+  EXPECT_EQ(found("orbwatch: health").message,
+            "the clock follows no time server; commands are not recorded: see state_folder");
   health = {};
   EXPECT_EQ(level("orbwatch: health"), DiagnosticLevel::Stale);
   health.disk_free = 7;

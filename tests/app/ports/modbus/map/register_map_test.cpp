@@ -142,7 +142,7 @@ TEST(RegisterMap, BlocksStandWhereTheyWereDecidedToStand) {
 }
 
 TEST(RegisterMap, OneRequestReadsWhatEachScanNeeds) {
-  EXPECT_LE(row_named("health_open_descriptors").address + 2, kMaxReadRegisters);
+  EXPECT_LE(row_named("health_commands_recorded").address + 2, kMaxReadRegisters);
   for (const std::string window : {"region_0_", "result_0_"}) {
     const Row& last = row_named(window + std::string(signals::kSignals[kFirstSignals - 1].name));
     EXPECT_LE(last.address + last.count - row_named(window + "result").address, kMaxReadRegisters);

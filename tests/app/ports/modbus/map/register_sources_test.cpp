@@ -88,7 +88,7 @@ ProcessImage full_image() {
     status.health.*figure.get = (figure.minimum + figure.maximum) / 2;
   }
   status.health.throttling = 0;
-  status.health.clock_synchronised = 1;
+  status.health.clock_synchronised = status.health.commands_recorded = 1;
   return image;
 }
 
@@ -345,6 +345,7 @@ void RegisterSources::expect_health() {
   for (const HealthField& figure : kHealthFigures) {
     Names names{"health_" + std::string(figure.name)};
     if (figure.get == &Health::throttling) names.insert("fault_bits");
+    if (figure.get == &Health::commands_recorded) names.insert("fault_bits");
     if (figure.get == &Health::clock_synchronised) {
       names = names + Names{"clock_synchronised?", "status_bits", "fault_bits"};
     }

@@ -92,11 +92,16 @@ TEST_F(ModbusRtu, ServesLibmodbusWithEveryFunction) {
   EXPECT_EQ(plc.words, (tests::Words{1, 0x0102}));
   EXPECT_EQ(plc.read_discrete(0, 16), 0);
   EXPECT_EQ(plc.read_bits(modbus::kMirrorOffset, 16), 0);
-  EXPECT_EQ(plc.write(0, select_view(41)), 0);
+  EXPECT_EQ(plc.command(0, select_view(41)), 0);
   ASSERT_EQ(plc.read_holding(kAcknowledged, 3), 0);
   EXPECT_EQ(plc.words, (tests::Words{41, 0, 1}));
-  EXPECT_EQ(plc.write(kSequence, 42), 0);
+  EXPECT_EQ(plc.command(kSequence, {42}), 0);
   EXPECT_EQ(plc.mask_write(kSequence, 0xfff0, 3), 0);
+  EXPECT_TRUE(eventually([&] {
+    EXPECT_EQ(plc.read_holding(kAcknowledged, 1), 0);
+    return plc.words[0] == 0x23;
+  }));
+  ASSERT_EQ(plc.command(0, select_view(44)), 0);
   ASSERT_EQ(plc.write_and_read(0, select_view(44), kAcknowledged, 3), 0);
   EXPECT_EQ(plc.words, (tests::Words{44, 0, 1}));
   EXPECT_EQ(plc.write_coil(0), 2);
@@ -189,8 +194,10 @@ TEST_F(ModbusRtu, CarriesOutWhatIsForAllWithoutAnAnswer) {
   master.send(rtu_frame(0, {16, 0, 0, 0, 1, 2, 0, 1}));  // half a double word
   master.send(rtu_frame(0, {43, 14, 1, 0}));
   master.send(rtu_frame(0, {99}));
-  master.send(rtu_frame(kUnit, {3, 0, static_cast<std::uint8_t>(kAcknowledged), 0, 3}));
-  EXPECT_EQ(master.receive(11), rtu_frame(kUnit, {3, 6, 0, 7, 0, 0, 0, 1}));
+  EXPECT_TRUE(eventually([&] {
+    master.send(rtu_frame(kUnit, {3, 0, static_cast<std::uint8_t>(kAcknowledged), 0, 3}));
+    return master.receive(11) == rtu_frame(kUnit, {3, 6, 0, 7, 0, 0, 0, 1});
+  }));
   sink_->stop();
   EXPECT_THAT(carried_out_, ElementsAre(2));
 }
@@ -210,10 +217,10 @@ TEST_F(ModbusRtu, SharesItsRegistersWithTcp) {
   start();
   Plc serial(cable_.master(), kUnit);
   Plc tcp(sink_->port());
-  ASSERT_EQ(serial.write(0, select_view(41)), 0);
+  ASSERT_EQ(serial.command(0, select_view(41)), 0);
   ASSERT_EQ(tcp.read_holding(kAcknowledged, 1), 0);
   EXPECT_EQ(tcp.words[0], 41);
-  ASSERT_EQ(tcp.write(kSequence, 42), 0);
+  ASSERT_EQ(tcp.command(kSequence, {42}), 0);
   ASSERT_EQ(serial.read_holding(kAcknowledged, 1), 0);
   EXPECT_EQ(serial.words[0], 42);
 }

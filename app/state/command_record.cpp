@@ -1,0 +1,131 @@
+#include "app/state/command_record.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "app/log.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr const char* kFile = "commands";
+
+/// What a slot holds. Its layout belongs to SlotFile::kVersion.
+struct StoredEntry {
+  std::uint64_t client = 0;
+  std::uint64_t number = 0;
+  std::uint16_t command = 0;
+  std::uint16_t result = 0;
+  std::uint32_t reserved = 0;
+};
+struct StoredRecord {
+  std::uint32_t count = 0;
+  std::uint32_t plc_is_unknown = 0;
+  std::array<StoredEntry, CommandRecord::kMaxClients> entries{};
+};
+static_assert(sizeof(StoredRecord) <= sizeof(SlotFile::Content));
+
+}  // namespace
+
+CommandRecord::CommandRecord(const std::filesystem::path& folder) {
+  const auto content =
+      SlotFile::open(folder / kFile).and_then([this](std::unique_ptr<SlotFile> opened) {
+        file_ = std::move(opened);
+        is_kept_ = true;
+        return file_->content();
+      });
+  if (content) {
+    load(*content);
+    return;
+  }
+  knows_plc_ = knows_others_ = false;
+  log_line(LogLevel::Warning, content.error().message +
+                                  "; the first command of each client is not carried out, because "
+                                  "it may have been before");
+}
+
+std::vector<CommandRecord::Entry> CommandRecord::entries() const {
+  const std::lock_guard lock(mutex_);
+  return entries_;
+}
+
+CommandResult CommandRecord::carry_out(const CommandId& id, const Command& command,
+                                       const CommandHandler& handler) {
+  if (!begin(id, command.code)) return CommandResult::NotCarriedOut;
+  const CommandResult result = handler(command);
+  finish(id, result);
+  return result;
+}
+
+/// False: it must not be carried out.
+bool CommandRecord::begin(const CommandId& id, CommandCode code) {
+  const std::lock_guard lock(mutex_);
+  const bool may_be_known = is_first_of_unknown(id.client);
+  Entry& entry = renew(id.client);
+  entry = {id, static_cast<std::uint16_t>(code),
+           may_be_known ? CommandResult::NotCarriedOut : CommandResult::Interrupted};
+  if (save() && !may_be_known) return true;
+  entry.result = CommandResult::NotCarriedOut;
+  return false;
+}
+
+void CommandRecord::finish(const CommandId& id, CommandResult result) {
+  const std::lock_guard lock(mutex_);
+  const auto entry = std::ranges::find(entries_, id, &Entry::id);
+  if (entry == entries_.end()) return;  // removed meanwhile: 256 others came
+  entry->result = result;
+  save();
+}
+
+bool CommandRecord::is_first_of_unknown(std::uint64_t client) const {
+  if (client == kPlcClient ? knows_plc_ : knows_others_) return false;
+  return std::ranges::none_of(entries_, [&](const Entry& e) { return e.id.client == client; });
+}
+
+/// The place for the newest command of the client.
+CommandRecord::Entry& CommandRecord::renew(std::uint64_t client) {
+  const auto is_of = [client](const Entry& e) { return e.id.client == client; };
+  auto place = std::ranges::find_if(entries_, is_of);
+  if (place == entries_.end() && entries_.size() == kMaxClients) {
+    place =
+        std::ranges::find_if(entries_, [](const Entry& e) { return e.id.client != kPlcClient; });
+  }
+  if (place != entries_.end()) entries_.erase(place);
+  return entries_.emplace_back();
+}
+
+void CommandRecord::load(const SlotFile::Content& content) {
+  StoredRecord stored;
+  std::memcpy(&stored, content.data(), sizeof stored);
+  knows_plc_ = stored.plc_is_unknown == 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(stored.count, kMaxClients); ++i) {
+    const StoredEntry& entry = stored.entries[i];
+    entries_.push_back(
+        {{entry.client, entry.number}, entry.command, static_cast<CommandResult>(entry.result)});
+  }
+}
+
+/// False: there is a file, but it could not be written.
+bool CommandRecord::save() {
+  if (!file_) return true;
+  StoredRecord stored{.count = static_cast<std::uint32_t>(entries_.size()),
+                      .plc_is_unknown = knows_plc_ ? 0U : 1U};
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    stored.entries[i] = {entry.id.client, entry.id.number, entry.command,
+                         static_cast<std::uint16_t>(entry.result)};
+  }
+  SlotFile::Content content{};
+  std::memcpy(content.data(), &stored, sizeof stored);
+  const auto written = file_->write(content);
+  if (!written && is_kept_) {
+    log_line(LogLevel::Error, written.error().message + "; commands are not carried out");
+  }
+  is_kept_ = written.has_value();
+  return is_kept_;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "app/model/command.h"
+#include "app/state/slot_file.h"
+
+namespace orbwatch::app {
+
+/// Identifies a command: who gave it, and its number among those of this client.
+struct CommandId {
+  std::uint64_t client = 0;
+  std::uint64_t number = 0;
+
+  bool operator==(const CommandId&) const = default;
+};
+
+/// The client behind the command registers of Modbus, which all PLCs share; its numbers are the
+/// sequences. Other clients have other numbers.
+inline constexpr std::uint64_t kPlcClient = 0;
+
+/// The newest command of each client, kept on the disk: noted before it is carried out, and with
+/// its result before that is told. So a command is carried out at most once, whatever ends the
+/// process. One that the process did not survive reads Interrupted.
+/// Without a usable folder, or after the file was damaged, nobody knows what was carried out
+/// before: the first command of each client is answered NotCarriedOut. A command that cannot be
+/// noted in an open file is answered so, too.
+/// Thread-safe. carry_out waits for the disk, twice, and for the handler in between.
+class CommandRecord {
+ public:
+  /// One more removes the client that has been silent longest, never the PLC.
+  static constexpr std::size_t kMaxClients = 256;
+
+  struct Entry {
+    CommandId id;
+    std::uint16_t command = 0;  ///< its code, 0 for none
+    CommandResult result = CommandResult::Interrupted;
+
+    bool operator==(const Entry&) const = default;
+  };
+
+  /// Of a new appliance, kept as long as this object.
+  CommandRecord() = default;
+
+  /// Continues the record in `folder`, or begins one; complains in the log.
+  explicit CommandRecord(const std::filesystem::path& folder);
+
+  /// A file keeps the commands: one is open and the newest write to it succeeded.
+  bool is_kept() const { return is_kept_; }
+
+  /// By the time of the newest command, the oldest first.
+  std::vector<Entry> entries() const;
+
+  /// The caller judged the command to be new by entries() and by what it gave to carry_out since.
+  CommandResult carry_out(const CommandId& id, const Command& command,
+                          const CommandHandler& handler);
+
+ private:
+  bool begin(const CommandId& id, CommandCode code);
+  void finish(const CommandId& id, CommandResult result);
+  bool is_first_of_unknown(std::uint64_t client) const;
+  Entry& renew(std::uint64_t client);
+  void load(const SlotFile::Content& content);
+  bool save();
+
+  mutable std::mutex mutex_;        ///< of what follows, also while the disk is written
+  std::unique_ptr<SlotFile> file_;  ///< null: kept in memory only
+  std::vector<Entry> entries_;      ///< oldest first
+  bool knows_plc_ = true;           ///< nothing was carried out for it but what is in entries_
+  bool knows_others_ = true;        ///< as much of the clients of this run
+  std::atomic<bool> is_kept_{false};
+};
+
+}  // namespace orbwatch::app

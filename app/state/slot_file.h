@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hal/thread/file_descriptor.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// One value of fixed size in a file that is locked while it is open. The file has two slots, each
+/// with a number and a checksum; the valid one with the higher number counts. A write goes to the
+/// other one, so that a power cut at any moment leaves the value before or the new one. The file is
+/// allocated when it is created: no write needs more of the disk.
+/// Thread-bound.
+class SlotFile {
+ public:
+  static constexpr std::size_t kSlotSize = 8192;
+  static constexpr std::size_t kFileSize = 2 * kSlotSize;
+  /// Of the form of the slots and of what they hold.
+  static constexpr std::uint32_t kVersion = 1;
+
+  struct Header {
+    std::array<char, 8> magic{};
+    std::uint32_t version = 0;
+    std::uint32_t checksum = 0;  ///< CRC-32 of number and content
+    std::uint64_t number = 0;
+  };
+  using Content = std::array<std::byte, kSlotSize - sizeof(Header)>;
+
+  /// Opens `file`; an absent one is created, with its folder, and holds zeros. Errors: folder or
+  /// file cannot be created, read or written, or another process has the folder open.
+  static Result<std::unique_ptr<SlotFile>> open(const std::filesystem::path& file);
+
+  /// The newest valid value, or why there is none: both slots are damaged, or of another version.
+  const Result<Content>& content() const { return content_; }
+
+  /// The value is on the disk on return. Error: it may be or not; the value before is not lost.
+  Result<> write(const Content& content);
+
+ private:
+  struct Slot {
+    Header header;
+    Content content;
+  };
+  static_assert(sizeof(Slot) == kSlotSize);
+
+  explicit SlotFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+  Result<> lock();
+  Result<> create();
+  Result<> load();
+  Error error(const std::string& what) const;
+
+  std::filesystem::path path_;
+  hal::FileDescriptor folder_;  ///< locked: two daemons would each record half
+  hal::FileDescriptor file_;
+  Result<Content> content_;
+  std::uint64_t number_ = 0;  ///< of the newest valid slot
+  std::size_t next_ = 0;      ///< the slot that the next write goes to
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,141 @@
+/// A PLC that writes its block in every cycle, and a server that is killed again and again.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <random>
+#include <thread>
+
+#include "tests/app/ports/modbus/clients.h"
+#include "tests/support/share.h"
+#include "tests/support/subprocess.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+using orbwatch::tests::Subprocess;
+using tests::address_of;
+using tests::Plc;
+using tests::Words;
+
+const int kBlock = address_of("argument_0");
+const int kAcknowledged = address_of("acknowledged_sequence");
+
+/// Every command has an argument of its own, by which the journal shows how often it was carried
+/// out.
+class CyclicPlc {
+ public:
+  /// Cycles until the connection is lost, or a command of at least this argument is acknowledged.
+  void run(int port, int last) {
+    try {
+      Plc plc(port);
+      while (argument_ <= last && cycle(plc)) {
+      }
+    } catch (const std::exception&) {
+      // The server was killed before it accepted.
+    }
+  }
+
+  /// As its own restart: it forgets its block, and continues as the handbook says.
+  void restart() {
+    is_new_ = true;
+    ++argument_;
+  }
+
+  int argument() const { return argument_; }
+  const std::map<int, CommandResult>& results() const { return results_; }
+
+ private:
+  bool cycle(Plc& plc) {
+    if (is_new_) {
+      if (plc.read_holding(kAcknowledged, 1) != 0) return false;
+      sequence_ = static_cast<std::uint16_t>(plc.words[0] + 1);
+      is_new_ = false;
+    }
+    const auto view = static_cast<std::uint16_t>(argument_);
+    const Words block{0, view, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence_};
+    if (plc.write_and_read(kBlock, block, kAcknowledged, 2) != 0) return false;
+    if (plc.words[0] == sequence_) {
+      results_[argument_++] = static_cast<CommandResult>(plc.words[1]);
+      ++sequence_;
+    }
+    return true;
+  }
+
+  std::map<int, CommandResult> results_;  ///< by argument, as acknowledged
+  int argument_ = 0;
+  std::uint16_t sequence_ = 65500;  // wraps soon
+  bool is_new_ = false;
+};
+
+class CommandKill : public testing::Test {
+ protected:
+  /// Runs the server until it is killed after `life`, or until all of the PLC's commands up to
+  /// `last` are answered.
+  void run(CyclicPlc& plc, std::optional<std::chrono::microseconds> life, int signal, int last) {
+    Subprocess server({ORBWATCH_KILLED_APPLIANCE, folder_ / "state", folder_ / "journal"},
+                      folder_ / "output");
+    std::jthread killer;
+    if (life) {
+      killer = std::jthread([&server, life, signal] {
+        std::this_thread::sleep_for(*life);  // the moment is what the test is about
+        server.send(signal);
+      });
+    }
+    int port = 0;
+    while (server.runs() && std::sscanf(server.output().c_str(), "%d\n", &port) != 1) {
+      std::this_thread::yield();
+    }
+    if (port != 0) plc.run(port, last);
+    killer = {};
+    if (!life) server.send(SIGTERM);
+    server.wait();
+  }
+
+  std::map<int, int> journal() const {
+    std::map<int, int> times;
+    std::ifstream in(folder_ / "journal");
+    for (int argument = 0; in >> argument;) ++times[argument];
+    return times;
+  }
+
+  const orbwatch::tests::TemporaryFolder folder_;
+};
+
+TEST_F(CommandKill, NoCommandIsCarriedOutTwiceAndEachThatIsDoneWas) {
+  constexpr int kNoEnd = 65000;
+  std::mt19937 random(20240611);
+  CyclicPlc plc;
+  const int kills = orbwatch::tests::share_of(1000);
+  for (int n = 0; n < kills; ++n) {
+    const std::chrono::microseconds life(random() % 60000);
+    run(plc, life, random() % 4 == 0 ? SIGTERM : SIGKILL, kNoEnd);
+    if (random() % 20 == 0) plc.restart();
+  }
+  run(plc, std::nullopt, 0, plc.argument() + 2);
+
+  const auto times = journal();
+  std::map<CommandResult, int> counts;
+  for (const auto& [argument, count] : times) EXPECT_EQ(count, 1) << "command " << argument;
+  for (const auto& [argument, result] : plc.results()) {
+    ++counts[result];
+    if (result == CommandResult::Done) {
+      EXPECT_TRUE(times.contains(argument)) << "command " << argument;
+    }
+  }
+  const int done = counts[CommandResult::Done], interrupted = counts[CommandResult::Interrupted];
+  RecordProperty("done", done);
+  RecordProperty("interrupted", interrupted);
+  std::printf("%d restarts, %zu commands carried out, %d done, %d interrupted\n", kills,
+              times.size(), done, interrupted);
+  EXPECT_EQ(done + interrupted, static_cast<int>(plc.results().size())) << "nothing else is said";
+  EXPECT_GT(done, kills / 10);
+  EXPECT_GT(interrupted, 0) << "no kill hit a command";
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,142 @@
+/// What a PLC that writes its block again and again sees over restarts of the server.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <latch>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "tests/app/ports/modbus/clients.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+using orbwatch::tests::TemporaryFolder;
+using testing::ElementsAre;
+using tests::address_of;
+using tests::loopback;
+using tests::Plc;
+using tests::Words;
+
+const int kBlock = address_of("argument_0");
+const int kAcknowledged = address_of("acknowledged_sequence");
+
+constexpr auto kInterrupted = static_cast<std::uint16_t>(CommandResult::Interrupted);
+constexpr auto kNotCarriedOut = static_cast<std::uint16_t>(CommandResult::NotCarriedOut);
+
+/// All that a PLC writes in each cycle: select_view.
+Words block(std::uint16_t view, std::uint16_t sequence) {
+  return {0, view, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence};
+}
+
+class CommandRestart : public testing::Test {
+ protected:
+  /// A server whose record is in `folder`; the one before is stopped.
+  Plc start(const std::filesystem::path& folder) {
+    sink_.reset();
+    sink_.emplace(
+        loopback(), [this](const Command& command) { return carry_out(command); },
+        std::make_shared<CommandRecord>(folder));
+    const auto started = sink_->start();
+    EXPECT_TRUE(started) << started.error().message;
+    return Plc(sink_->port());
+  }
+  CommandResult carry_out(const Command& command) {
+    if (on_command_) on_command_();
+    const std::lock_guard lock(mutex_);
+    views_.push_back(static_cast<int>(command.arguments[0]));
+    return CommandResult::Done;
+  }
+  std::vector<int> views() {
+    const std::lock_guard lock(mutex_);
+    return views_;
+  }
+  /// Acknowledged sequence, result and last command.
+  Words answer(Plc& plc) const {
+    EXPECT_EQ(plc.read_holding(kAcknowledged, 3), 0);
+    return plc.words;
+  }
+
+  const TemporaryFolder folder_;
+  std::function<void()> on_command_;
+  std::mutex mutex_;
+  std::vector<int> views_;
+  std::optional<ModbusSink> sink_;
+};
+
+TEST_F(CommandRestart, TheStandingBlockRepeatsNothing) {
+  Plc plc = start(folder_.path());
+  ASSERT_EQ(plc.command(kBlock, block(5, 700)), 0);
+  for (int restart = 0; restart < 3; ++restart) {
+    Plc again = start(folder_.path());
+    EXPECT_EQ(answer(again), (Words{700, 0, 1})) << "before it writes";
+    for (int cycle = 0; cycle < 3; ++cycle) ASSERT_EQ(again.write(kBlock, block(5, 700)), 0);
+    EXPECT_EQ(answer(again), (Words{700, 0, 1}));
+  }
+  sink_->stop();  // carries out what waits
+  EXPECT_THAT(views(), ElementsAre(5));
+}
+
+TEST_F(CommandRestart, WhatWasWrittenMeanwhileIsCarriedOut) {
+  Plc plc = start(folder_.path());
+  ASSERT_EQ(plc.command(kBlock, block(5, 700)), 0);
+  Plc again = start(folder_.path());
+  ASSERT_EQ(again.command(kBlock, block(6, 701)), 0);
+  EXPECT_EQ(answer(again), (Words{701, 0, 1}));
+  EXPECT_THAT(views(), ElementsAre(5, 6));
+}
+
+TEST_F(CommandRestart, OneThatWasCutOffIsInterrupted) {
+  const TemporaryFolder then;
+  on_command_ = [&] {
+    // What the disk holds if the power fails now.
+    std::filesystem::copy(folder_.path(), then.path(), std::filesystem::copy_options::recursive);
+  };
+  Plc plc = start(folder_.path());
+  ASSERT_EQ(plc.command(kBlock, block(5, 700)), 0);
+  Plc again = start(then.path());
+  ASSERT_EQ(again.write(kBlock, block(5, 700)), 0);
+  EXPECT_EQ(answer(again), (Words{700, kInterrupted, 1}));
+  on_command_ = nullptr;
+  ASSERT_EQ(again.command(kBlock, block(5, 701)), 0);
+  EXPECT_EQ(answer(again), (Words{701, 0, 1}));
+  EXPECT_THAT(views(), ElementsAre(5, 5));
+}
+
+TEST_F(CommandRestart, WithoutAFolderTheFirstSequenceIsTakenAsKnown) {
+  for (std::uint16_t sequence = 700; sequence < 706; sequence += 2) {
+    Plc plc = start("/proc/orbwatch");
+    ASSERT_EQ(plc.command(kBlock, block(sequence, sequence)), 0);
+    EXPECT_EQ(answer(plc), (Words{sequence, kNotCarriedOut, 1}));
+    const auto next = static_cast<std::uint16_t>(sequence + 1);
+    ASSERT_EQ(plc.command(kBlock, block(next, next)), 0);
+    EXPECT_EQ(answer(plc), (Words{next, 0, 1}));
+  }
+  EXPECT_THAT(views(), ElementsAre(701, 703, 705));
+}
+
+TEST_F(CommandRestart, NoOtherAnswerWaitsForACommand) {
+  std::latch begun(1), finished(1);
+  on_command_ = [&, is_first = true]() mutable {
+    if (!std::exchange(is_first, false)) return;
+    begun.count_down();
+    finished.wait();
+  };
+  Plc plc = start(folder_.path());
+  ASSERT_EQ(plc.write(kBlock, block(5, 700)), 0);
+  begun.wait();
+  Plc reader(sink_->port());
+  EXPECT_EQ(reader.read_input(0, 100), 0);
+  EXPECT_EQ(answer(plc), (Words{0, 0, 0})) << "nothing is acknowledged yet";
+  // Of what is written over the command, the last is next.
+  ASSERT_EQ(plc.write(kBlock, block(6, 701)), 0);
+  ASSERT_EQ(plc.write(kBlock, block(7, 702)), 0);
+  finished.count_down();
+  ASSERT_EQ(plc.command(kBlock, block(7, 702)), 0);
+  EXPECT_THAT(views(), ElementsAre(5, 7));
+}
+
+}  // namespace
+}  // namespace orbwatch::app
