@@ -38,7 +38,8 @@ constexpr const char* kHelp =
     "\n"
     "  --config FILE  cameras, views and interfaces (TOML); names the files of rig and recipes.\n"
     "                 `orbwatch describe config`, `... rig` and `... recipe` print the manuals\n"
-    "  --check        read and check all these files and all that follows from them, then exit\n"
+    "  --check        read and check all these files and all that follows from them, say who may\n"
+    "                 command, then exit\n"
     "  --help, --version\n";
 
 struct Arguments {
@@ -159,6 +160,7 @@ Result<bool> run(const Resolved& site, const sigset_t& signals, const std::files
                                std::to_string(site.names.views.size()) + " views and " +
                                std::to_string(site.recipes.size()) + " recipes, remap kernel " +
                                std::string(remap::default_kernel().name));
+  log_line(LogLevel::Info, commanders_text(configuration.sinks));
   const bool restarts = wait_for_end(signals, file);
   pipeline->stop();
   for (Sink* sink : sinks) sink->stop();
@@ -185,6 +187,7 @@ int main(int argc, char** argv) {
     result = tl::unexpected(kernel.error());
   } else if (arguments->check) {
     result = check_site(*site);
+    if (result) log_line(LogLevel::Info, commanders_text(site->site.sinks));
   } else {
     result = run(*site, signals, *arguments->config).and_then([&](bool restarts) {
       return restarts ? start_again(argv) : Result<>();

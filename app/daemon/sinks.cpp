@@ -26,6 +26,15 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
 
 }  // namespace
 
+std::string commanders_text(const SinkSettings& sinks) {
+  std::string text;
+  const auto add = [&text](const std::string& commanders) {
+    if (!commanders.empty()) text += (text.empty() ? "" : "; ") + commanders;
+  };
+  std::apply([&add](const auto&... settings) { (add(commanders(settings)), ...); }, sinks);
+  return "takes commands " + (text.empty() ? "from nobody" : text);
+}
+
 std::vector<std::unique_ptr<Sink>> make_sinks(const Resolved& site, CommandHandler handler,
                                               std::shared_ptr<CommandRecord> record) {
   const SinkContext context = make_context(site, std::move(handler), std::move(record));

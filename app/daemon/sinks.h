@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/files/resolve.h"
@@ -9,6 +10,9 @@
 #include "app/state/command_record.h"
 
 namespace orbwatch::app {
+
+/// Who may command this appliance, in one line. Reentrant.
+std::string commanders_text(const SinkSettings& sinks);
 
 /// Makes every enabled sink of SinkSettings. Commands from outside go to `handler`, noted in
 /// `record`.

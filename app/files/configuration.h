@@ -24,7 +24,7 @@ namespace orbwatch::app {
 
 /// The list of sinks: one line each. A settings struct has the name and the meaning of its table as
 /// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
-/// if it is not enabled.
+/// if it is not enabled, and commanders() says who may command by it.
 using SinkSettings = std::tuple<ConsoleSettings,  //
                                 ModbusSettings,   //
                                 DdsSettings>;

@@ -70,6 +70,7 @@ Result<> SlotFile::lock() {
                 "; state_folder of the site file must be a folder that orbwatchd may write to");
   }
   if (::flock(folder_.get(), LOCK_EX | LOCK_NB) == 0) return {};
+  if (errno != EWOULDBLOCK) return tl::unexpected(error("be locked"));
   return fail(folder.string() +
               ": is used by another orbwatchd; give each a state_folder of its own");
 }

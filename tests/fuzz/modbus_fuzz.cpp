@@ -158,7 +158,7 @@ class Connection {
             "answer's transaction, protocol or unit");
     const auto pdu = answer.subspan(kHeader);
     const std::uint8_t function = request[kHeader];
-    if (answered == Outcome::Refused) {
+    if (answered == Outcome::Refused || answered == Outcome::Forbidden) {
       require(pdu.size() == 2 && pdu[0] == (function | 0x80), "form of an exception");
       require((pdu[1] >= 1 && pdu[1] <= 3) || pdu[1] == 11, "number of an exception");
       return;

@@ -24,9 +24,9 @@ struct DdsSettings {
   bool enabled = true;
   int domain = 0;                   ///< DDS domain, ROS_DOMAIN_ID of ROS 2; 0 to 230
   std::string prefix = "orbwatch";  ///< topics are rt/<prefix>/...
-  bool commands = true;             ///< accept commands
   std::optional<SecuritySettings>
-      security{};  ///< none: every participant of the domain is admitted
+      security{};                  ///< none: every participant of the domain is admitted
+  std::optional<bool> commands{};  ///< accept them; not stated: if there is security
   JpegSettings jpeg{};
   /// Cyclone DDS' settings of the network, its interfaces and peers; empty: what CYCLONEDDS_URI
   /// says.
@@ -36,6 +36,10 @@ struct DdsSettings {
   std::map<std::string, PublishedView> views{};
   std::map<std::string, PixelFormat> cameras{};  ///< encoding: Rgb, Bgr or Grey
 };
+
+inline bool takes_commands(const DdsSettings& dds) {
+  return dds.enabled && dds.commands.value_or(dds.security.has_value());
+}
 
 inline constexpr std::array kRosGenerations{Word{"humble", RosGeneration::Humble},
                                             Word{"iron", RosGeneration::Iron}};
@@ -56,11 +60,15 @@ void visit(Visitor& v, DdsSettings& dds) {
              "CYCLONEDDS_URI names");
   v.optional("ros", dds.ros, kRosGenerations,
              "How the node orbwatch is announced in ROS 2's graph: iron for Iron and later");
-  v.optional("commands", dds.commands, "Accept commands over DDS, too");
+  v.optional("commands", dds.commands,
+             "Accept commands over DDS, too; without the key only with [dds.security]");
   v.table("security", dds.security,
           "Authentication, access control and encryption: only holders of keys read and command");
   v.table("jpeg", dds.jpeg, "Of the compressed topics");
 }
+
+/// Who may command over DDS, in words; empty: nobody. Reentrant.
+std::string commanders(const DdsSettings& settings);
 
 std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context);
 

@@ -32,7 +32,7 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
       addresses_(std::move(addresses)),
       selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg),
       status_topics_(settings_.prefix, names_),
-      takes_commands_(settings_.commands && handler),
+      takes_commands_(takes_commands(settings_) && handler),
       record_(std::move(record)),
       commands_(settings_.prefix, std::move(handler), *record_) {
   for (const auto& name : names_.views) {
@@ -253,6 +253,13 @@ DdsStatistics DdsSink::statistics() const {
   statistics.mistyped = mistyped_;
   statistics.malformed = malformed_samples();
   return statistics;
+}
+
+std::string commanders(const DdsSettings& settings) {
+  if (!takes_commands(settings)) return {};
+  return "over DDS from " + (settings.security
+                                 ? std::string("holders of keys")
+                                 : "everybody in domain " + std::to_string(settings.domain));
 }
 
 std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context) {

@@ -49,7 +49,7 @@ struct ModbusSettings {
   /// Numeric addresses or prefixes (10.0.0.0/24, fd00::/8) of the clients that may read; empty: all
   /// of them.
   std::vector<std::string> readers;
-  /// Of those that may write, and read; empty: all that may read.
+  /// Of those that may write, and read; empty: this host alone.
   std::vector<std::string> writers;
   /// The units that are answered. Over TCP the unit only matters behind a gateway: 255 is
   /// recommended, 0 accepted (Modbus Messaging on TCP/IP Implementation Guide), and 1 is what most
@@ -105,8 +105,7 @@ void visit(Visitor& v, ModbusSettings& modbus) {
   v.optional("readers", modbus.readers,
              "Numeric addresses or prefixes (10.0.0.0/24) of clients that may read; []: all");
   require_networks(v, "readers", modbus.readers);
-  v.optional("writers", modbus.writers,
-             "Of clients that may write, and read; []: all that may read");
+  v.optional("writers", modbus.writers, "Of clients that may write, and read; []: this host only");
   require_networks(v, "writers", modbus.writers);
   v.optional("unit_ids", modbus.unit_ids, Range::between(0, 255),
              "Units that are answered; requests for others get exception 11");
@@ -115,6 +114,9 @@ void visit(Visitor& v, ModbusSettings& modbus) {
   v.optional("plc_timeout_ms", modbus.plc_timeout_ms, Range::between(0, 60000),
              "Longest time without a change of the PLC's heartbeat; 0: it is not supervised");
 }
+
+/// Who may command over Modbus, in words; empty: nobody. Reentrant.
+std::string commanders(const ModbusSettings& settings);
 
 std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context);
 

@@ -1,5 +1,7 @@
 #include "app/ports/modbus/modbus_sink.h"
 
+#include <sys/socket.h>
+
 #include <chrono>
 #include <utility>
 
@@ -8,6 +10,17 @@
 namespace orbwatch::app {
 
 using std::chrono::microseconds;
+
+namespace {
+
+/// As TOML writes a list: ["10.0.0.7", "10.0.0.8"].
+std::string quoted(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "\"" : ", \"") + text + "\"";
+  return "[" + list + "]";
+}
+
+}  // namespace
 
 ModbusSink::ModbusSink(ModbusSettings settings, CommandHandler handler,
                        std::shared_ptr<CommandRecord> record)
@@ -52,12 +65,28 @@ Result<> ModbusSink::open_tcp() {
       settings_,
       [this](int socket, std::span<const std::uint8_t> frame, bool may_write) {
         tcp_transport_->use(socket);
-        return responder_->answer(*tcp_transport_, frame, may_write);
+        const modbus::Outcome outcome = responder_->answer(*tcp_transport_, frame, may_write);
+        if (outcome == modbus::Outcome::Forbidden) report_forbidden(socket);
+        return outcome;
       },
       [this] { return plc_->supervise(hal::Clock::now()); }, counters_);
   if (!server) return tl::unexpected(server.error());
   tcp_ = std::move(*server);
   return {};
+}
+
+/// Once for each host, with the line that would let it write.
+void ModbusSink::report_forbidden(int socket) {
+  modbus::SocketAddress peer;
+  if (::getpeername(socket, peer.get(), &peer.length) != 0) return;  // it has gone
+  const modbus::HostAddress host = modbus::host_of(peer);
+  if (!forbidden_.is_new(host)) return;
+  std::vector<std::string> writers = settings_.writers;
+  writers.push_back(modbus::text_of(host));
+  log_line(LogLevel::Warning, "modbus: refuses to let " + writers.back() +
+                                  " write; if it may, the line for [modbus] of the site file is "
+                                  "writers = " +
+                                  quoted(writers));
 }
 
 Result<> ModbusSink::open_serial_line() {
@@ -137,6 +166,16 @@ modbus::ProcessImage ModbusSink::process_image() const {
     image.live.status.regions = {};
   }
   return image;
+}
+
+std::string commanders(const ModbusSettings& settings) {
+  if (!settings.enabled) return {};
+  std::string text = "over Modbus from " +
+                     (settings.writers.empty() ? "this host only" : quoted(settings.writers));
+  if (settings.serial && settings.serial->may_write) {
+    text += " and on the serial line " + settings.serial->device;
+  }
+  return text;
 }
 
 std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context) {

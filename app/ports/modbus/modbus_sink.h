@@ -12,6 +12,7 @@
 #include "app/ports/modbus/result_queue.h"
 #include "app/ports/modbus/server/responder.h"
 #include "app/ports/modbus/server/rtu_server.h"
+#include "app/ports/modbus/server/seen_hosts.h"
 #include "app/ports/modbus/server/tcp_server.h"
 #include "app/state/command_record.h"
 #include "hal/thread/thread.h"
@@ -48,6 +49,7 @@ class ModbusSink final : public Sink {
   Result<> open_serial_line();
   modbus::ProcessImage process_image() const;
   void write(const modbus::Write& write);
+  void report_forbidden(int socket);
 
   const ModbusSettings settings_;
   const CommandHandler handler_;
@@ -63,6 +65,7 @@ class ModbusSink final : public Sink {
   std::unique_ptr<modbus::Responder> responder_;
   std::unique_ptr<modbus::TcpTransport> tcp_transport_;
   std::unique_ptr<modbus::TcpServer> tcp_;
+  modbus::SeenHosts forbidden_;  ///< whose writes were refused; the TCP thread's
   std::unique_ptr<modbus::RtuServer> serial_line_;
   hal::Thread tcp_thread_;
   hal::Thread serial_thread_;

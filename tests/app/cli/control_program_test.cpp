@@ -51,9 +51,9 @@ class Control : public CommandLine {
   const int domain = 1 + getpid() % 100;
   std::mutex mutex;
   std::vector<Command> commands;
-  app::DdsSink sink{{.domain = domain}, app::tests::make_names(), [this](const Command& command) {
-                      return carry_out(command);
-                    }};
+  app::DdsSink sink{{.domain = domain, .commands = true},
+                    app::tests::make_names(),
+                    [this](const Command& command) { return carry_out(command); }};
 };
 
 TEST_F(Control, CommandEndsWithWhatTheMachineSays) {

@@ -115,7 +115,8 @@ class Daemon : public testing::Test {
     const auto path = folder / "site.toml";
     std::ofstream(path) << "rig = \"rig.toml\"\nstate_folder = \"" << state_folder
                         << "\"\n[modbus]\nport = " << port
-                        << "\naddress = \"127.0.0.1\"\n[dds]\ndomain = " << domain << "\n"
+                        << "\naddress = \"127.0.0.1\"\n[dds]\ncommands = true\ndomain = " << domain
+                        << "\n"
                         << text << "[[recipe]]\nnumber = 1\nfile = \"recipe.toml\"\n";
     return path.string();
   }

@@ -295,7 +295,7 @@ TEST_F(Daemon, RefusesBadFilesAndArgumentsInOneLine) {
   };
   refused({}, "--config");
   refused({"--config", "/no/such.toml"}, "/no/such.toml");
-  refused({"--config", write_config("[cameras]\n")}, "site.toml:8: cameras");
+  refused({"--config", write_config("[cameras]\n")}, "site.toml:9: cameras");
   const auto replay = [](const std::string& source) {
     std::string text = small_machine();
     const std::size_t begin = text.find("[camera.simulated]"), end = text.find("[[camera]]", begin);
@@ -315,6 +315,10 @@ TEST_F(Daemon, ChecksAFileWithoutRunning) {
   Subprocess program({ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine())},
                      folder.path() / "said");
   EXPECT_EQ(program.wait(), 0) << program.output();
+  EXPECT_EQ(program.output(),
+            "orbwatch: takes commands over Modbus from this host only; over DDS from everybody in "
+            "domain " +
+                std::to_string(domain) + "\n");
 }
 
 TEST_F(Daemon, ChecksTheRigToo) {

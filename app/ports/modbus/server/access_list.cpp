@@ -42,6 +42,13 @@ bool any_contains(const std::vector<Network>& networks, const HostAddress& host)
                              [&](const Network& network) { return network.contains(host); });
 }
 
+/// No packet from another host has such a client address.
+bool is_same_host(const HostAddress& client, const HostAddress& server) {
+  static const std::vector<Network> kLoopback{parse_network("127.0.0.0/8").value(),
+                                              parse_network("::1").value()};
+  return client == server || any_contains(kLoopback, client);
+}
+
 }  // namespace
 
 std::optional<SocketAddress> parse_address(const std::string& text, int port) {
@@ -78,6 +85,15 @@ HostAddress host_of(const SocketAddress& address) {
     std::memcpy(host.data(), &v6.sin6_addr, host.size());
   }
   return host;
+}
+
+std::string text_of(const HostAddress& host) {
+  static const Network kMapped{parse_network("::ffff:0:0/96").value()};
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  const bool is_v4 = kMapped.contains(host);
+  ::inet_ntop(is_v4 ? AF_INET : AF_INET6, host.data() + (is_v4 ? kMappedBits / 8 : 0), text.data(),
+              text.size());
+  return text.data();
 }
 
 int port_of(const SocketAddress& address) {
@@ -131,10 +147,11 @@ Result<AccessList> AccessList::create(const std::vector<std::string>& readers,
   return list;
 }
 
-Permission AccessList::of(const HostAddress& host) const {
-  const bool is_reader = readers_.empty() || any_contains(readers_, host);
-  if (writers_.empty()) return is_reader ? Permission::Write : Permission::None;
-  if (any_contains(writers_, host)) return Permission::Write;
+Permission AccessList::of(const HostAddress& client, const HostAddress& server) const {
+  const bool is_reader = readers_.empty() || any_contains(readers_, client);
+  const bool is_writer =
+      writers_.empty() ? is_reader && is_same_host(client, server) : any_contains(writers_, client);
+  if (is_writer) return Permission::Write;
   return is_reader ? Permission::Read : Permission::None;
 }
 

@@ -29,6 +29,9 @@ using HostAddress = std::array<std::uint8_t, 16>;
 /// Parses a numeric IPv4 or IPv6 address; never waits for a name server. Reentrant.
 std::optional<SocketAddress> parse_address(const std::string& text, int port);
 
+/// As numbers are written: 10.0.0.7, fd00::1. Reentrant.
+std::string text_of(const HostAddress& host);
+
 /// The host and the port of an IPv4 or IPv6 address. Reentrant.
 HostAddress host_of(const SocketAddress& address);
 int port_of(const SocketAddress& address);
@@ -51,15 +54,16 @@ enum class Permission : std::uint8_t { None, Read, Write };
 /// The permissions of clients by their address: Modbus has no authentication. Immutable; reentrant.
 class AccessList {
  public:
-  /// Everybody may read and write.
+  /// Everybody may read, and the server's own host write.
   AccessList() = default;
 
   /// Networks as for parse_network. No readers: everybody may read. Writers may read. No writers:
-  /// all readers may write.
+  /// readers on the server's own host may write.
   static Result<AccessList> create(const std::vector<std::string>& readers,
                                    const std::vector<std::string>& writers);
 
-  Permission of(const HostAddress& host) const;
+  /// `server`: the address by which the client reached the server.
+  Permission of(const HostAddress& client, const HostAddress& server) const;
 
  private:
   std::vector<Network> readers_;

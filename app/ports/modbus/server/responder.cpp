@@ -30,8 +30,8 @@ Outcome Responder::answer(Transport& transport, std::span<const std::uint8_t> fr
                           bool may_write) {
   const auto pdu = transport.pdu_of(frame);
   if (pdu[0] >= 0x80) return Outcome::NotModbus;  // an answer, not a request
-  const auto refuse = [&](Exception exception) {
-    return transport.refuse(frame, exception) ? Outcome::Refused : Outcome::NotSent;
+  const auto refuse = [&](Exception exception, Outcome outcome = Outcome::Refused) {
+    return transport.refuse(frame, exception) ? outcome : Outcome::NotSent;
   };
   const auto answered = [](bool sent) { return sent ? Outcome::Answered : Outcome::NotSent; };
   if (!transport.is_ours(frame)) return refuse(Exception::GatewayTargetFailed);
@@ -42,8 +42,11 @@ Outcome Responder::answer(Transport& transport, std::span<const std::uint8_t> fr
   }
   const auto request = parse(pdu);
   if (!request) return refuse(request.error());
+  if ((request->write || request->mask) && !may_write) {
+    return refuse(Exception::IllegalFunction, Outcome::Forbidden);
+  }
   const std::lock_guard lock(mutex_);
-  if (const auto exception = execute(*request, may_write)) return refuse(*exception);
+  if (const auto exception = execute(*request)) return refuse(*exception);
   // libmodbus would first store what was written in its registers, then read there.
   if (request->read && request->write) {
     return answered(transport.send(frame, read_write_answer(*request->read)));
@@ -64,16 +67,15 @@ std::vector<std::uint8_t> Responder::read_write_answer(const Range& read) const 
 }
 
 /// Writes, then fills the registers that the request reads.
-std::optional<Exception> Responder::execute(Request request, bool may_write) {
+std::optional<Exception> Responder::execute(Request request) {
   if (request.mask) request.write = resolved(*request.mask, map_, make_image_());
-  if (const auto exception = check_access(request, may_write)) return exception;
+  if (const auto exception = check_access(request)) return exception;
   if (request.write) write_(*request.write);
   if (request.read) fill_mapping(*request.read, make_image_());
   return std::nullopt;
 }
 
-std::optional<Exception> Responder::check_access(const Request& request, bool may_write) const {
-  if (request.write && !may_write) return Exception::IllegalFunction;
+std::optional<Exception> Responder::check_access(const Request& request) const {
   if (request.read) {
     if (const auto exception = check(*request.read, map_)) return exception;
   }

@@ -19,6 +19,7 @@ namespace orbwatch::app::modbus {
 enum class Outcome : std::uint8_t {
   Answered,
   Refused,    ///< with an exception
+  Forbidden,  ///< the same, because the client may not write
   NotModbus,  ///< no answer
   NotSent,    ///< the client does not receive, or disconnected
 };
@@ -45,8 +46,8 @@ class Responder {
 
   Responder(const RegisterMap& map, WriteRegisters write, MakeImage make_image, Mapping mapping);
 
-  std::optional<Exception> execute(Request request, bool may_write);
-  std::optional<Exception> check_access(const Request& request, bool may_write) const;
+  std::optional<Exception> execute(Request request);
+  std::optional<Exception> check_access(const Request& request) const;
   void fill_mapping(const Range& range, const ProcessImage& image);
   std::vector<std::uint8_t> read_write_answer(const Range& read) const;
 

@@ -77,8 +77,8 @@ void RtuServer::answer_frames(RtuFramer& framer) {
     // Until then the master may still be switching its line from sending to receiving.
     if (is_stopped_within(rtu_pause(settings_.baud_rate))) return;
     const Outcome outcome = answer_(*transport_, *frame);
-    if (outcome == Outcome::NotModbus || outcome == Outcome::Refused) ++counters_.refused;
-    if (outcome == Outcome::Answered || outcome == Outcome::Refused) ++counters_.answered;
+    if (outcome != Outcome::Answered && outcome != Outcome::NotSent) ++counters_.refused;
+    if (outcome != Outcome::NotModbus && outcome != Outcome::NotSent) ++counters_.answered;
   }
   counters_.serial_errors += framer.errors() - errors;
   counters_.serial_other_units += framer.other_units() - other_units;

@@ -53,6 +53,14 @@ Result<> check(const ModbusSettings& settings) {
   return {};
 }
 
+/// The address by which the client of an accepted socket reached this host; nobody's when the
+/// client has gone.
+HostAddress server_host(int socket) {
+  SocketAddress address;
+  return ::getsockname(socket, address.get(), &address.length) == 0 ? host_of(address)
+                                                                    : HostAddress{};
+}
+
 int watch_file(int epoll, int operation, int file, std::uint64_t id, std::uint32_t events) {
   epoll_event event{};
   event.events = events;
@@ -148,7 +156,7 @@ void TcpServer::accept_client() {
     return;
   }
   const HostAddress host = host_of(peer);
-  const Permission permission = access_.of(host);
+  const Permission permission = access_.of(host, server_host(socket.get()));
   if (permission == Permission::None || !has_room_for(permission)) {
     ++counters_.dropped;
     return;
@@ -213,7 +221,7 @@ bool TcpServer::answer_frames(Connection& connection) {
   bool any = false;
   while (const auto frame = connection.framer.next()) {
     const Outcome outcome = answer_(connection.socket.get(), *frame, connection.may_write);
-    if (outcome == Outcome::NotModbus || outcome == Outcome::Refused) ++counters_.refused;
+    if (outcome != Outcome::Answered && outcome != Outcome::NotSent) ++counters_.refused;
     if (outcome == Outcome::NotModbus || outcome == Outcome::NotSent) return false;
     ++counters_.answered;
     any = true;

@@ -104,7 +104,10 @@ int address_of(std::string_view name) {
 
 int bit_of(std::string_view name) { return place_in({modbus::Table::Discrete}, name); }
 
-Plc::Plc(int port, int unit) : context_(modbus_new_tcp("127.0.0.1", port)) { connect(unit); }
+Plc::Plc(int port, int unit, const std::string& server)
+    : context_(modbus_new_tcp(server.c_str(), port)) {
+  connect(unit);
+}
 
 Plc::Plc(const std::string& line, int unit)
     : context_(modbus_new_rtu(line.c_str(), 19200, 'N', 8, 1)) {

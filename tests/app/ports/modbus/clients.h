@@ -41,7 +41,7 @@ inline std::size_t place_of(std::string_view name, std::string_view first) {
 /// connection failed.
 class Plc {
  public:
-  explicit Plc(int port, int unit = 1);
+  explicit Plc(int port, int unit = 1, const std::string& server = "127.0.0.1");
   /// On a serial line of 19200 bit/s without parity.
   Plc(const std::string& line, int unit);
 

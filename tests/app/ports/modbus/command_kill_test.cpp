@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -72,27 +73,35 @@ class CyclicPlc {
   bool is_new_ = false;
 };
 
+/// How a server ends.
+struct End {
+  int signal = SIGKILL;
+  std::chrono::microseconds after{};  ///< it runs, or was started
+  bool is_at_start = false;
+};
+
 class CommandKill : public testing::Test {
  protected:
-  /// Runs the server until it is killed after `life`, or until all of the PLC's commands up to
-  /// `last` are answered.
-  void run(CyclicPlc& plc, std::optional<std::chrono::microseconds> life, int signal, int last) {
+  /// Runs the server to its end, or without one until the PLC's commands up to `last` are answered.
+  void run(CyclicPlc& plc, const std::optional<End>& end, int last) {
     Subprocess server({ORBWATCH_KILLED_APPLIANCE, folder_ / "state", folder_ / "journal"},
                       folder_ / "output");
     std::jthread killer;
-    if (life) {
-      killer = std::jthread([&server, life, signal] {
-        std::this_thread::sleep_for(*life);  // the moment is what the test is about
-        server.send(signal);
+    const auto arm = [&] {
+      killer = std::jthread([&server, end] {
+        std::this_thread::sleep_for(end->after);  // the moment is what the test is about
+        server.send(end->signal);
       });
-    }
+    };
+    if (end && end->is_at_start) arm();
     int port = 0;
     while (server.runs() && std::sscanf(server.output().c_str(), "%d\n", &port) != 1) {
       std::this_thread::yield();
     }
+    if (end && !end->is_at_start) arm();
     if (port != 0) plc.run(port, last);
     killer = {};
-    if (!life) server.send(SIGTERM);
+    if (!end) server.send(SIGTERM);
     server.wait();
   }
 
@@ -112,11 +121,12 @@ TEST_F(CommandKill, NoCommandIsCarriedOutTwiceAndEachThatIsDoneWas) {
   CyclicPlc plc;
   const int kills = orbwatch::tests::share_of(1000);
   for (int n = 0; n < kills; ++n) {
-    const std::chrono::microseconds life(random() % 60000);
-    run(plc, life, random() % 4 == 0 ? SIGTERM : SIGKILL, kNoEnd);
+    const int signal = random() % 4 == 0 ? SIGTERM : SIGKILL;
+    const std::chrono::microseconds after(random() % 50000);
+    run(plc, End{signal, after, random() % 8 == 0}, kNoEnd);
     if (random() % 20 == 0) plc.restart();
   }
-  run(plc, std::nullopt, 0, plc.argument() + 2);
+  run(plc, std::nullopt, plc.argument() + 2);
 
   const auto times = journal();
   std::map<CommandResult, int> counts;

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "tests/app/ports/modbus/clients.h"
+#include "tests/support/network_namespace.h"
 
 namespace orbwatch::app {
 namespace {
@@ -250,6 +251,47 @@ TEST(ModbusPlcHeartbeat, WithoutItTheProcessIsTakenForInactive) {
   EXPECT_THAT(said, ElementsAre(1, 0));
 }
 
+TEST(ModbusWriters, WithoutAListOtherHostsMayOnlyRead) {
+  ORBWATCH_REQUIRE_NETWORK_NAMESPACES();
+  const orbwatch::tests::NetworkNamespace appliance, machine;
+  const orbwatch::tests::Cable cable(appliance, machine);
+  ModbusSettings settings = loopback();
+  settings.address = "0.0.0.0";
+  int carried_out = 0;
+  ModbusSink sink(settings, [&](const Command&) {
+    ++carried_out;
+    return CommandResult::Done;
+  });
+  appliance.run([&] { ASSERT_TRUE(sink.start()); });
+  const auto write_from = [&](const orbwatch::tests::NetworkNamespace& where) {
+    int exception = -1;
+    where.run([&] {
+      Plc plc(sink.port(), 1, orbwatch::tests::Cable::kLeft);
+      EXPECT_EQ(plc.read_input(0, 1), 0);
+      exception = plc.write(kCommand, {1, 1});
+    });
+    return exception;
+  };
+  EXPECT_EQ(write_from(machine), 1);
+  EXPECT_EQ(write_from(appliance), 0);
+  sink.stop();
+  EXPECT_EQ(carried_out, 1);
+}
+
+TEST(ModbusWriters, SaysWhoTheyAre) {
+  ModbusSettings settings;
+  EXPECT_EQ(commanders(settings), "over Modbus from this host only");
+  settings.writers = {"10.0.0.7", "10.1.0.0/24"};
+  EXPECT_EQ(commanders(settings), "over Modbus from [\"10.0.0.7\", \"10.1.0.0/24\"]");
+  settings.serial.emplace().device = "/dev/ttyUSB0";
+  EXPECT_EQ(commanders(settings),
+            "over Modbus from [\"10.0.0.7\", \"10.1.0.0/24\"] and on the serial line /dev/ttyUSB0");
+  settings.serial->may_write = false;
+  EXPECT_EQ(commanders(settings), "over Modbus from [\"10.0.0.7\", \"10.1.0.0/24\"]");
+  settings.enabled = false;
+  EXPECT_EQ(commanders(settings), "");
+}
+
 TEST(ModbusWriters, OthersMayOnlyRead) {
   ModbusSettings settings = loopback();
   settings.writers = {"192.0.2.7", "127.0.0.2"};
@@ -262,11 +304,19 @@ TEST(ModbusWriters, OthersMayOnlyRead) {
   const auto command = static_cast<std::uint8_t>(kCommand);
   const auto acknowledged = static_cast<std::uint8_t>(kAcknowledged);
   const tests::Bytes write{16, 0, command, 0, 2, 4, 0, 1, 0, 1};
+  testing::internal::CaptureStderr();
   RawClient stranger(sink.port());
   ASSERT_TRUE(stranger.send(tests::frame(write)));
   EXPECT_EQ(stranger.receive_pdu(), (tests::Bytes{0x90, 1}));
   ASSERT_TRUE(stranger.send(tests::frame({3, 0, acknowledged, 0, 1})));
   EXPECT_EQ(stranger.receive_pdu(), (tests::Bytes{3, 2, 0, 0}));
+  RawClient again(sink.port());
+  ASSERT_TRUE(again.send(tests::frame(write)));
+  EXPECT_EQ(again.receive_pdu(), (tests::Bytes{0x90, 1}));
+  // Once, and as the site file wants it.
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "orbwatch: modbus: refuses to let 127.0.0.1 write; if it may, the line for [modbus] of "
+            "the site file is writers = [\"192.0.2.7\", \"127.0.0.2\", \"127.0.0.1\"]\n");
 
   RawClient writer(sink.port(), "127.0.0.2");
   ASSERT_TRUE(writer.send(tests::frame(write)));

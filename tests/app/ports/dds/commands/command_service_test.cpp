@@ -100,7 +100,7 @@ class Controller {
   tests::TopicReader<CommandResultMessage> results_;
 };
 
-DdsSettings settings() { return {.domain = DdsNetwork::kSinkDomain}; }
+DdsSettings settings() { return {.domain = DdsNetwork::kSinkDomain, .commands = true}; }
 
 /// A sink whose record of commands is in a folder.
 class RecordedCommands : public testing::Test {
@@ -372,6 +372,26 @@ TEST(CommandServiceOffTest, NobodyTakesCommandsWhenSwitchedOff) {
   off.commands = false;
   expect_deaf(off, machine.handler());
   EXPECT_EQ(machine.count(), 0u);
+}
+
+TEST(CommandServiceOffTest, NobodyTakesCommandsUnlessTheyAreAskedFor) {
+  Machine machine;
+  expect_deaf({.domain = DdsNetwork::kSinkDomain}, machine.handler());
+  EXPECT_EQ(machine.count(), 0u);
+}
+
+TEST(CommandServiceOffTest, SecurityAsksForThemToo) {
+  DdsSettings dds;
+  EXPECT_FALSE(takes_commands(dds));
+  EXPECT_EQ(commanders(dds), "");
+  dds.commands = true;
+  EXPECT_EQ(commanders(dds), "over DDS from everybody in domain 0");
+  dds.commands.reset();
+  dds.security.emplace();
+  EXPECT_TRUE(takes_commands(dds));
+  EXPECT_EQ(commanders(dds), "over DDS from holders of keys");
+  dds.commands = false;
+  EXPECT_FALSE(takes_commands(dds));
 }
 
 TEST(CommandServiceOffTest, NobodyTakesCommandsWithoutAHandler) {

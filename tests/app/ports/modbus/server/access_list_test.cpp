@@ -62,32 +62,49 @@ TEST(Network, SaysWhatIsWrong) {
   EXPECT_THAT(error("fd00::1/8"), HasSubstr("bits set"));
 }
 
-TEST(AccessList, LetsEverybodyDoEverythingUnlessToldOtherwise) {
+/// The server's own address in these tests.
+const HostAddress kServer = host("10.0.0.1");
+
+TEST(AccessList, LetsEverybodyReadAndItsOwnHostWriteUnlessToldOtherwise) {
   const AccessList list;
-  EXPECT_EQ(list.of(host("192.0.2.1")), Permission::Write);
+  for (const char* other : {"192.0.2.1", "10.0.0.2", "fd00::1", "128.0.0.1", "::2"}) {
+    EXPECT_EQ(list.of(host(other), kServer), Permission::Read) << other;
+  }
+  for (const char* own : {"10.0.0.1", "127.0.0.1", "127.8.9.10", "::1"}) {
+    EXPECT_EQ(list.of(host(own), kServer), Permission::Write) << own;
+  }
 }
 
 TEST(AccessList, WritersMayReadToo) {
   const auto list = AccessList::create({"10.0.0.0/24"}, {"10.1.0.7", "fd00::/8"});
   ASSERT_TRUE(list);
-  EXPECT_EQ(list->of(host("10.0.0.9")), Permission::Read);
-  EXPECT_EQ(list->of(host("10.1.0.7")), Permission::Write);
-  EXPECT_EQ(list->of(host("fd12::1")), Permission::Write);
-  EXPECT_EQ(list->of(host("10.1.0.8")), Permission::None);
+  EXPECT_EQ(list->of(host("10.0.0.9"), kServer), Permission::Read);
+  EXPECT_EQ(list->of(host("10.1.0.7"), kServer), Permission::Write);
+  EXPECT_EQ(list->of(host("fd12::1"), kServer), Permission::Write);
+  EXPECT_EQ(list->of(host("10.1.0.8"), kServer), Permission::None);
+  EXPECT_EQ(list->of(kServer, kServer), Permission::Read) << "the list names all writers";
 }
 
-TEST(AccessList, WithoutWritersAllReadersMayWrite) {
+TEST(AccessList, WithoutWritersReadersElsewhereMayNotWrite) {
   const auto list = AccessList::create({"10.0.0.0/24"}, {});
   ASSERT_TRUE(list);
-  EXPECT_EQ(list->of(host("10.0.0.9")), Permission::Write);
-  EXPECT_EQ(list->of(host("10.1.0.9")), Permission::None);
+  EXPECT_EQ(list->of(host("10.0.0.9"), kServer), Permission::Read);
+  EXPECT_EQ(list->of(kServer, kServer), Permission::Write);
+  EXPECT_EQ(list->of(host("10.1.0.9"), kServer), Permission::None);
+  EXPECT_EQ(list->of(host("127.0.0.1"), kServer), Permission::None);
+}
+
+TEST(HostAddress, IsWrittenAsItIsRead) {
+  for (const char* text : {"10.0.0.7", "fd00::1", "::1", "127.0.0.1"}) {
+    EXPECT_EQ(text_of(host(text)), text);
+  }
 }
 
 TEST(AccessList, WithoutReadersAllMayRead) {
   const auto list = AccessList::create({}, {"10.1.0.7"});
   ASSERT_TRUE(list);
-  EXPECT_EQ(list->of(host("10.0.0.9")), Permission::Read);
-  EXPECT_EQ(list->of(host("10.1.0.7")), Permission::Write);
+  EXPECT_EQ(list->of(host("10.0.0.9"), kServer), Permission::Read);
+  EXPECT_EQ(list->of(host("10.1.0.7"), kServer), Permission::Write);
 }
 
 TEST(AccessList, SaysWhichListIsWrong) {
