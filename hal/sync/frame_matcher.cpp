@@ -7,6 +7,10 @@
 namespace orbwatch::hal {
 namespace {
 
+/// Of a free-running camera, before it counts as late.
+constexpr int kLateIntervals = 3;
+constexpr Clock::duration kLeastPatience = std::chrono::milliseconds(100);
+
 bool have_triggers(const FrameMetadata& a, const FrameMetadata& b) {
   return a.trigger.has_value() && b.trigger.has_value();
 }
@@ -40,8 +44,8 @@ void FrameMatcher::discard(Inbox& inbox, std::size_t index, Reason reason,
 
 void FrameMatcher::put(std::size_t camera, Frame frame, TimePoint now, ReleasedFrames& released) {
   Inbox& inbox = inboxes_[camera];
-  observe(inbox, frame->metadata);
-  const bool paces = camera == pacing();
+  observe(inbox, frame->metadata, now);
+  const bool paces = camera == pacing(now);
   const std::size_t limit = depth(frame);
   while (inbox.size >= limit) {
     const bool triggered = inbox.queue[0].frame->metadata.trigger.has_value();
@@ -54,7 +58,7 @@ void FrameMatcher::put(std::size_t camera, Frame frame, TimePoint now, ReleasedF
   inbox.queue[inbox.size++] = {std::move(frame), now};
 }
 
-void FrameMatcher::observe(Inbox& inbox, const FrameMetadata& metadata) {
+void FrameMatcher::observe(Inbox& inbox, const FrameMetadata& metadata, TimePoint now) {
   ++inbox.counts.frames;
   inbox.delivers = true;
   inbox.interval = Clock::duration::zero();
@@ -68,6 +72,14 @@ void FrameMatcher::observe(Inbox& inbox, const FrameMetadata& metadata) {
     }
   }
   inbox.last = metadata;
+  inbox.arrived = now;
+}
+
+/// The latest arrival of the next frame; a triggered camera, or one of unknown interval, has none.
+TimePoint FrameMatcher::due(const Inbox& inbox) {
+  const bool is_paced = inbox.delivers && inbox.last && !inbox.last->trigger;
+  if (!is_paced || inbox.interval.count() == 0) return TimePoint::max();
+  return inbox.arrived + std::max(kLateIntervals * inbox.interval, kLeastPatience);
 }
 
 void FrameMatcher::clear(std::size_t camera, ReleasedFrames& released) {
@@ -83,21 +95,26 @@ std::size_t FrameMatcher::depth(const Frame& frame) const {
   return cameras_ == 1 ? 1 : kFreeRunningDepth;
 }
 
-std::size_t FrameMatcher::pacing() const {
-  std::size_t camera = 0;
-  while (camera < cameras_ && !inboxes_[camera].delivers) ++camera;
-  return camera;
+/// The first camera that delivers; a late one only when all are.
+std::size_t FrameMatcher::pacing(TimePoint now) const {
+  std::size_t first = cameras_;
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    if (!inboxes_[camera].delivers) continue;
+    if (!is_late(camera, now)) return camera;
+    first = std::min(first, camera);
+  }
+  return first;
 }
 
 std::optional<FrameSet> FrameMatcher::take(TimePoint now, ReleasedFrames& released) {
-  const std::size_t pacer = pacing();
+  const std::size_t pacer = pacing(now);
   if (pacer == cameras_) return std::nullopt;
   Inbox& inbox = inboxes_[pacer];
   discard_late(inbox, released);
   const auto chosen = choose(pacer, now);
   if (!chosen) return std::nullopt;
   for (std::size_t i = 0; i < *chosen; ++i) discard(inbox, 0, &FrameCounts::superseded, released);
-  return assemble(pacer, released);
+  return assemble(pacer, now, released);
 }
 
 /// A trigger makes one set at most: a new pacing camera does not repeat those of the last one.
@@ -108,10 +125,13 @@ void FrameMatcher::discard_late(Inbox& pacer, ReleasedFrames& released) {
   }
 }
 
-TimePoint FrameMatcher::wake() const {
-  const std::size_t pacer = pacing();
-  if (pacer == cameras_ || inboxes_[pacer].size == 0) return TimePoint::max();
-  return inboxes_[pacer].queue[0].arrived + settings_.max_wait;
+TimePoint FrameMatcher::wake(TimePoint now) const {
+  const std::size_t pacer = pacing(now);
+  if (pacer == cameras_) return TimePoint::max();
+  const Inbox& inbox = inboxes_[pacer];
+  if (inbox.size > 0) return inbox.queue[0].arrived + settings_.max_wait;
+  if (is_late(pacer, now) || due(inbox) == TimePoint::max()) return TimePoint::max();
+  return due(inbox) + Clock::duration(1);  // then another one paces
 }
 
 /// The pacing camera's frame of the next set: the oldest triggered one, else the newest ready one.
@@ -174,10 +194,10 @@ std::optional<std::size_t> FrameMatcher::nearest(const Inbox& partner,
 }
 
 /// Puts one camera's frame into the set; true when it is of the set's moment.
-bool FrameMatcher::join(std::size_t partner, const FrameMetadata& paced, FrameSet& set,
-                        ReleasedFrames& released) {
+bool FrameMatcher::join(std::size_t partner, const FrameMetadata& paced, TimePoint now,
+                        FrameSet& set, ReleasedFrames& released) {
   Inbox& inbox = inboxes_[partner];
-  const bool holds = settings_.policies[partner] == SyncPolicy::Hold;
+  const bool holds = settings_.policies[partner] == SyncPolicy::Hold && !is_late(partner, now);
   auto chosen = nearest(inbox, paced);
   for (std::size_t i = 0; holds && !chosen && i < inbox.size; ++i) {
     const std::size_t newest_first = inbox.size - 1 - i;
@@ -200,7 +220,7 @@ bool FrameMatcher::join(std::size_t partner, const FrameMetadata& paced, FrameSe
   return set.frames[partner] && is_of_moment(set.frames[partner]->metadata, paced);
 }
 
-FrameSet FrameMatcher::assemble(std::size_t pacer, ReleasedFrames& released) {
+FrameSet FrameMatcher::assemble(std::size_t pacer, TimePoint now, ReleasedFrames& released) {
   Inbox& pacing_inbox = inboxes_[pacer];
   const Frame paced = pacing_inbox.pop(0);
   const FrameMetadata& metadata = paced->metadata;
@@ -218,7 +238,7 @@ FrameSet FrameMatcher::assemble(std::size_t pacer, ReleasedFrames& released) {
   TimePoint last = set.stamp;
   for (std::size_t i = 0; i < cameras_; ++i) {
     if (i == pacer) continue;
-    if (join(i, metadata, set, released)) {
+    if (join(i, metadata, now, set, released)) {
       first = std::min(first, set.frames[i]->metadata.exposure_start);
       last = std::max(last, set.frames[i]->metadata.exposure_start);
     } else if (inboxes_[i].delivers) {

@@ -12,7 +12,7 @@ namespace orbwatch::hal {
 
 /// What a set contains of a camera that has no frame of the set's moment.
 enum class SyncPolicy : std::uint8_t {
-  Hold,     ///< its newest older frame, from set to set, however old
+  Hold,     ///< its newest older frame, from set to set, until it is late
   Nearest,  ///< nothing; each frame is in one set at most
 };
 
@@ -60,14 +60,16 @@ class ReleasedFrames {
 
 /// Decides which frames form a set; uses neither clock nor threads. Thread-bound.
 ///
-/// The first camera without a fault sets the pace: each set is a frame of it and, of every other
-/// camera, the unused frame of the same moment. That is the one with the same trigger number when
-/// both have one, else the nearest whose exposure began within the window. A frame of the pacing
-/// camera waits until no nearer partner can come, judged by the partner's own interval, or until
-/// for SyncSettings::max_wait.
-/// Queues: of a free-running camera the last 3 frames, so that the nearest is among them (1 when it
-/// is alone); of the pacing camera the newest ready frame wins; of a triggered camera a FIFO of 8,
-/// each of which becomes a set. Frames that leave unused are counted by reason.
+/// The first camera without a fault that is not late sets the pace: each set is a frame of it and,
+/// of every other camera, the unused frame of the same moment. That is the one with the same
+/// trigger number when both have one, else the nearest whose exposure began within the window. A
+/// frame of the pacing camera waits until no nearer partner can come, judged by the partner's own
+/// interval, or until for SyncSettings::max_wait. A free-running camera is late after three of its
+/// intervals without a frame, and 100 ms at least: a silent one must not stop the sets of the
+/// others until it is known to have a fault, nor be shown as new. Queues: of a free-running camera
+/// the last 3 frames, so that the nearest is among them (1 when it is alone); of the pacing camera
+/// the newest ready frame wins; of a triggered camera a FIFO of 8, each of which becomes a set.
+/// Frames that leave unused are counted by reason.
 class FrameMatcher {
  public:
   /// `cameras`: 1..kMaxCameras. Window and max_wait must not be below 0.
@@ -83,8 +85,11 @@ class FrameMatcher {
   /// The set that is ready at `now`, or nullopt.
   std::optional<FrameSet> take(TimePoint now, ReleasedFrames& released);
 
-  /// When take() may return a set without another put(); TimePoint::max(): never.
-  TimePoint wake() const;
+  /// Whether the camera, which has no fault, is late at `now`.
+  bool is_late(std::size_t camera, TimePoint now) const { return now > due(inboxes_[camera]); }
+
+  /// When take() may return a set without another put(), seen at `now`; TimePoint::max(): never.
+  TimePoint wake(TimePoint now) const;
 
   const FrameCounts& counts(std::size_t camera) const { return inboxes_[camera].counts; }
 
@@ -103,25 +108,27 @@ class FrameMatcher {
     Frame held;                         ///< last used
     bool delivers = true;               ///< no fault since its last frame
     std::optional<FrameMetadata> last;  ///< of the newest frame
+    TimePoint arrived;                  ///< of the newest frame
     Clock::duration interval{0};        ///< between exposures; 0: unknown
     FrameCounts counts;
 
     Frame pop(std::size_t index);
   };
 
-  static void observe(Inbox& inbox, const FrameMetadata& metadata);
+  static void observe(Inbox& inbox, const FrameMetadata& metadata, TimePoint now);
+  static TimePoint due(const Inbox& inbox);
   static void discard(Inbox& inbox, std::size_t index, Reason reason, ReleasedFrames& released);
   std::size_t depth(const Frame& frame) const;
-  std::size_t pacing() const;
+  std::size_t pacing(TimePoint now) const;
   void discard_late(Inbox& pacer, ReleasedFrames& released);
   std::optional<std::size_t> choose(std::size_t pacer, TimePoint now) const;
   bool is_ready(std::size_t pacer, std::size_t index, TimePoint now) const;
   bool is_settled(const Inbox& partner, const FrameMetadata& paced) const;
   bool is_of_moment(const FrameMetadata& frame, const FrameMetadata& paced) const;
   std::optional<std::size_t> nearest(const Inbox& partner, const FrameMetadata& paced) const;
-  bool join(std::size_t partner, const FrameMetadata& paced, FrameSet& set,
+  bool join(std::size_t partner, const FrameMetadata& paced, TimePoint now, FrameSet& set,
             ReleasedFrames& released);
-  FrameSet assemble(std::size_t pacer, ReleasedFrames& released);
+  FrameSet assemble(std::size_t pacer, TimePoint now, ReleasedFrames& released);
 
   const std::size_t cameras_;
   const SyncSettings settings_;

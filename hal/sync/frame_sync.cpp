@@ -34,7 +34,7 @@ std::optional<FrameSet> FrameSync::next(TimePoint until) {
       lock.lock();
       continue;
     }
-    const TimePoint wake = std::min(until, matcher_.wake());
+    const TimePoint wake = std::min(until, matcher_.wake(Clock::now()));
     if (changed_.wait_until(lock, wake) == std::cv_status::timeout && Clock::now() >= until) {
       return std::nullopt;
     }
@@ -48,6 +48,11 @@ void FrameSync::close() {
     closed_ = true;
   }
   changed_.notify_all();
+}
+
+bool FrameSync::is_late(std::size_t camera) const {
+  const std::lock_guard lock(mutex_);
+  return matcher_.is_late(camera, Clock::now());
 }
 
 FrameCounts FrameSync::counts(std::size_t camera) const {

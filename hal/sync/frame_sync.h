@@ -9,8 +9,8 @@
 namespace orbwatch::hal {
 
 /// Hands frames from the cameras' threads to the pipeline's: a FrameMatcher on the steady clock.
-/// Cameras never wait here. Thread rule: put and clear on any thread, next on one, close and counts
-/// on any.
+/// Cameras never wait here. Thread rule: put and clear on any thread, next on one, the rest on
+/// any.
 class FrameSync {
  public:
   FrameSync(std::size_t cameras, const SyncSettings& settings) : matcher_(cameras, settings) {}
@@ -26,6 +26,9 @@ class FrameSync {
 
   /// Ends next() for good.
   void close();
+
+  /// See FrameMatcher::is_late().
+  bool is_late(std::size_t camera) const;
 
   FrameCounts counts(std::size_t camera) const;
 

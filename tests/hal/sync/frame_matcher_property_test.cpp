@@ -34,7 +34,7 @@ struct CameraPlan {
   int jitter = 0;    ///< of each exposure start, up to
   int latency = 0;   ///< from exposure start to arrival, least
   int delay = 0;     ///< of the arrival, up to
-  double loss = 0;   ///< probability
+  double loss = 0;   ///< probability; never two in a row, after which it would be late
   double fault = 0;  ///< probability, before a frame: a restart that counts from 0 again
   bool triggered = false;
 };
@@ -46,6 +46,7 @@ std::vector<Event> live(std::size_t camera, const CameraPlan& plan, int end,
   std::uint64_t sequence = 0;
   TimePoint arrived = kStart;
   std::uint64_t exposures = 0;
+  bool is_lost = false;
   for (int at = plan.triggered ? 0 : between(random, 0, plan.period); at < end; at += plan.period) {
     ++exposures;
     const TimePoint exposed = kStart + microseconds(at + between(random, 0, plan.jitter));
@@ -56,7 +57,8 @@ std::vector<Event> live(std::size_t camera, const CameraPlan& plan, int end,
     }
     FrameMetadata metadata{.sequence = sequence++, .exposure_start = exposed};
     if (plan.triggered) metadata.trigger = exposures;
-    if (lost(random)) continue;
+    is_lost = !is_lost && lost(random);
+    if (is_lost) continue;
     arrived =
         std::max(arrived, exposed + microseconds(plan.latency + between(random, 0, plan.delay)));
     events.push_back({arrived, camera, metadata});
@@ -85,6 +87,7 @@ class Play {
   void run(const std::vector<Event>& events) {
     for (const Event& event : events) {
       take_until(event.at);
+      now_ = event.at;
       if (event.frame) {
         matcher.put(event.camera, make(*event.frame), event.at, released_);
       } else {
@@ -96,8 +99,9 @@ class Play {
     }
   }
 
-  void finish(std::size_t cameras) {
-    take_until(TimePoint::max());
+  /// Nothing comes any more; `end`: of the taking.
+  void finish(std::size_t cameras, TimePoint end = TimePoint::max()) {
+    take_until(end);
     for (std::size_t i = 0; i < cameras; ++i) matcher.clear(i, released_);
     released_.clear();
   }
@@ -121,8 +125,9 @@ class Play {
   }
 
   void take_until(TimePoint end) {
-    while (eager_ && matcher.wake() < end) {
-      if (!take(matcher.wake())) break;
+    while (eager_ && matcher.wake(now_) < end) {
+      now_ = std::max(now_, matcher.wake(now_));
+      if (!take(now_) && matcher.wake(now_) <= now_) break;
     }
   }
 
@@ -145,6 +150,7 @@ class Play {
 
   bool eager_;
   std::mt19937_64 random_;
+  TimePoint now_;
   ReleasedFrames released_;
   int alive_ = 0;
 };
@@ -327,7 +333,7 @@ TEST(FrameMatcherProperties, PairsAreThoseOfAllFramesSeenAtOnce) {
     const auto events = lives(plans, 100 * fastest, random);
     Play play(plans.size(), settings, true, seed);
     play.run(events);
-    play.finish(plans.size());
+    play.finish(plans.size(), events.back().at + settings.max_wait + microseconds(1));
 
     const Reference reference{events, settings};
     std::size_t n = 0;

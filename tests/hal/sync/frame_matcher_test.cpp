@@ -34,7 +34,8 @@ class Matcher {
   void clear(std::size_t camera) { matcher_.clear(camera, released_); }
   void advance_to(int ms) { now_ = kStart + milliseconds(ms); }
   std::optional<FrameSet> take() { return matcher_.take(now_, released_); }
-  TimePoint wake() const { return matcher_.wake(); }
+  TimePoint wake() const { return matcher_.wake(now_); }
+  bool is_late(std::size_t camera) const { return matcher_.is_late(camera, now_); }
   const FrameCounts& counts(std::size_t camera) const { return matcher_.counts(camera); }
 
  private:
@@ -211,6 +212,63 @@ TEST(FrameMatcher, AnotherCameraPacesWhileTheFirstHasAFault) {
   EXPECT_TRUE(set->matched) << "a missing camera is a fault, not a mismatch";
   matcher.clear(1);
   EXPECT_FALSE(matcher.take());
+  EXPECT_EQ(matcher.wake(), TimePoint::max());
+}
+
+TEST(FrameMatcher, AnotherCameraPacesWhileTheFirstIsSilent) {
+  Matcher matcher(2);
+  for (int n = 0; n < 3; ++n) {  // both at 20 Hz
+    matcher.advance_to(50 * n);
+    matcher.put(0, frame(static_cast<std::uint64_t>(n), 50 * n));
+    matcher.put(1, frame(static_cast<std::uint64_t>(n), 50 * n + 1));
+    ASSERT_TRUE(matcher.take());
+  }
+  // The first falls silent.
+  matcher.advance_to(150);
+  matcher.put(1, frame(3, 151));
+  EXPECT_FALSE(matcher.take()) << "it may be coming";
+  EXPECT_EQ(matcher.wake(), kStart + milliseconds(250) + Clock::duration(1));
+  matcher.advance_to(251);
+  EXPECT_TRUE(matcher.is_late(0));
+  matcher.put(1, frame(5, 251));
+  matcher.advance_to(261);
+  const auto set = matcher.take();
+  ASSERT_TRUE(set);
+  EXPECT_EQ(number(*set, 1), 5);
+  EXPECT_EQ(number(*set, 0), -1) << "what is old is not shown as new";
+  EXPECT_FALSE(set->matched);
+  // It comes back.
+  matcher.advance_to(300);
+  matcher.put(0, frame(6, 300));
+  matcher.put(1, frame(6, 301));
+  EXPECT_FALSE(matcher.is_late(0));
+  const auto next = matcher.take();
+  ASSERT_TRUE(next);
+  EXPECT_EQ(number(*next, 0), 6);
+  EXPECT_EQ(number(*next, 1), 6);
+}
+
+TEST(FrameMatcher, ATriggeredCameraIsNeverLate) {
+  Matcher matcher(2);
+  matcher.put(0, frame(0, 0, 1));
+  matcher.put(0, frame(1, 50, 2));
+  matcher.advance_to(100000);
+  EXPECT_FALSE(matcher.is_late(0));
+  matcher.put(1, frame(0, 100000));
+  EXPECT_TRUE(matcher.take()) << "of its trigger";
+}
+
+TEST(FrameMatcher, WhenAllAreSilentNothingWakes) {
+  Matcher matcher(2);
+  for (int n = 0; n < 2; ++n) {
+    matcher.put(0, frame(static_cast<std::uint64_t>(n), 50 * n));
+    matcher.put(1, frame(static_cast<std::uint64_t>(n), 50 * n));
+    matcher.advance_to(50 * n + 20);
+    while (matcher.take()) {
+    }
+  }
+  matcher.advance_to(10000);
+  EXPECT_TRUE(matcher.is_late(0) && matcher.is_late(1));
   EXPECT_EQ(matcher.wake(), TimePoint::max());
 }
 
