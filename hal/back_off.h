@@ -7,7 +7,7 @@
 
 namespace orbwatch::hal {
 
-/// Pauses between attempts to reconnect: 1 s, 2 s, 4 s, 8 s, then 10 s each.
+/// Pauses between attempts to reconnect: 1 s, then 2 s each.
 class BackOff {
  public:
   Clock::duration next() {
@@ -20,7 +20,7 @@ class BackOff {
 
  private:
   static constexpr Clock::duration kFirst = std::chrono::seconds(1);
-  static constexpr Clock::duration kLongest = std::chrono::seconds(10);
+  static constexpr Clock::duration kLongest = std::chrono::seconds(2);
   Clock::duration next_ = kFirst;
 };
 

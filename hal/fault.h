@@ -22,6 +22,7 @@ enum class Fault : std::uint8_t {
   ReadError = 3,
   CorruptFrame = 4,
   WrongFormat = 5,
+  Refused = 6,
 };
 
 /// The one place of the operator's text for each fault. Empty for a number that is none.
@@ -30,7 +31,7 @@ constexpr std::string_view operator_text(Fault fault) {
     case Fault::None:
       return "camera delivers";
     case Fault::Unplugged:
-      return "camera is not connected";
+      return "camera is not connected, or cannot be opened";
     case Fault::Stalled:
       return "camera sends no frames";
     case Fault::ReadError:
@@ -39,6 +40,8 @@ constexpr std::string_view operator_text(Fault fault) {
       return "camera sends damaged frames";
     case Fault::WrongFormat:
       return "camera sends another format than configured";
+    case Fault::Refused:
+      return "camera refuses its settings";
   }
   return {};
 }

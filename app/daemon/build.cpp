@@ -1,5 +1,6 @@
 #include "app/daemon/build.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "app/pictures/colour_maps.h"
-#include "app/ports/dds/security/participant_security.h"
 #include "proc/optics/rotation.h"
 
 namespace orbwatch::app {
@@ -140,22 +140,29 @@ class Builder {
   const signals::RegionScene scene_;
 };
 
-/// What cameras will deliver as far as the files state it; limits in percent fit any depth.
-std::vector<hal::StreamFormat> expected_formats(const Resolved& site) {
-  std::vector<hal::StreamFormat> formats;
-  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    const CameraSettings& camera = site.site.cameras[i];
-    hal::StreamFormat format;
-    format.format = camera.radiometry.kelvin_per_count > 0 ? PixelFormat::Y16 : PixelFormat::Grey;
-    format.width = site.rig_camera(i).width;
-    format.height = site.rig_camera(i).height;
-    format.frame_rate = camera.stream.frame_rate;
-    formats.push_back(format);
-  }
-  return formats;
+bool uses(const std::vector<ViewSource>& sources, std::size_t camera) {
+  return std::ranges::find(sources, camera, &ViewSource::camera) != sources.end();
+}
+
+bool uses(const Recipe& recipe, std::size_t camera) {
+  return std::ranges::any_of(recipe.views, [camera](const MeasuredViewSettings& view) {
+    return std::ranges::any_of(view.sources, [camera](const SourceSettings& source) {
+      return source.camera.index == camera;
+    });
+  });
 }
 
 }  // namespace
+
+hal::StreamFormat expected_format(const Resolved& site, std::size_t camera) {
+  const CameraSettings& settings = site.site.cameras[camera];
+  hal::StreamFormat format;
+  format.format = settings.radiometry.kelvin_per_count > 0 ? PixelFormat::Y16 : PixelFormat::Grey;
+  format.width = site.rig_camera(camera).width;
+  format.height = site.rig_camera(camera).height;
+  format.frame_rate = settings.stream.frame_rate;
+  return format;
+}
 
 Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> formats) {
   auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
@@ -183,10 +190,41 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
   return plan;
 }
 
-Result<> check_site(const Resolved& site) {
+Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> formats,
+                           std::size_t camera) {
+  auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
+  if (!proxy) return tl::unexpected(proxy.error());
+  const Builder builder(site, formats, std::move(*proxy));
+  Recompiled recompiled;
+  for (std::size_t i = 0; i < site.site.views.size(); ++i) {
+    auto view = builder.plan_view(site.site.views[i]);
+    if (!view) return tl::unexpected(view.error());
+    if (uses(view->sources, camera)) recompiled.sources[i] = std::move(view->sources);
+  }
+  recompiled.recipes.resize(site.recipes.size());
+  for (std::size_t i = 0; i < site.recipes.size(); ++i) {
+    if (!uses(site.recipes[i], camera)) continue;
+    auto recipe = builder.compile(site.recipes[i], site.site.recipes[i].number);
+    if (!recipe) return tl::unexpected(recipe.error());
+    recompiled.recipes[i] = std::move(*recipe);
+  }
+  recompiled.formats = std::move(formats);
+  return recompiled;
+}
+
+Result<> check_keys(const Resolved& site, Dates dates) {
   const auto& dds = std::get<DdsSettings>(site.site.sinks);
-  return build(site, expected_formats(site)).and_then([&](const PipelinePlan&) {
-    return dds.enabled && dds.security ? check_security(*dds.security, dds.domain) : Result<>();
+  return dds.enabled && dds.security ? check_security(*dds.security, dds.domain, dates)
+                                     : Result<>();
+}
+
+Result<> check_site(const Resolved& site, Dates dates) {
+  std::vector<hal::StreamFormat> formats;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    formats.push_back(expected_format(site, i));
+  }
+  return build(site, std::move(formats)).and_then([&](const PipelinePlan&) {
+    return check_keys(site, dates);
   });
 }
 

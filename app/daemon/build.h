@@ -1,12 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "app/files/resolve.h"
 #include "app/pipeline/pipeline.h"
+#include "app/ports/dds/security/participant_security.h"
 #include "hal/camera.h"
 
 namespace orbwatch::app {
+
+/// What a camera will deliver as far as the files state it; limits in percent fit any depth.
+hal::StreamFormat expected_format(const Resolved& site, std::size_t camera);
 
 /// Makes the pipeline's plan of a site, all but cameras, triggers and process inputs: the one place
 /// where settings become objects. Compiles every recipe, so that each can be selected within a
@@ -14,8 +19,16 @@ namespace orbwatch::app {
 /// right by itself; they name view, region or recipe.
 Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> formats);
 
-/// Builds the site with the formats that its files state, and checks the keys for DDS. Opens no
-/// camera and no line.
-Result<> check_site(const Resolved& site);
+/// Makes those parts of the plan anew that use `camera`, which came with another format than was
+/// expected. Errors: as build().
+Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> formats,
+                           std::size_t camera);
+
+/// Checks the keys for DDS; without security there are none.
+Result<> check_keys(const Resolved& site, Dates dates);
+
+/// Builds the site with the formats that are expected, and checks the keys. Opens no camera and no
+/// line.
+Result<> check_site(const Resolved& site, Dates dates);
 
 }  // namespace orbwatch::app

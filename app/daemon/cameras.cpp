@@ -37,22 +37,6 @@ Result<> check_format(const hal::StreamFormat& format, const CameraSettings& set
               std::to_string(rig.height) + " pictures");
 }
 
-Result<OpenCamera> open_camera(const Resolved& site, std::size_t index,
-                               const std::shared_ptr<const simulation::Machine>& machine) {
-  const CameraSettings& settings = site.site.cameras[index];
-  auto camera = make_camera(settings, machine);
-  const auto format = camera->configure(settings.stream);
-  if (!format) return tl::unexpected(format.error());
-  for (const ControlSettings& control : controls_of(site, index)) {
-    if (auto done = camera->set(control.name, control.value); !done) {
-      return tl::unexpected(done.error());
-    }
-  }
-  return check_format(*format, settings, site.rig_camera(index)).map([&] {
-    return OpenCamera{std::move(camera), *format};
-  });
-}
-
 }  // namespace
 
 std::unique_ptr<hal::Camera> make_camera(
@@ -65,16 +49,30 @@ std::unique_ptr<hal::Camera> make_camera(
                     settings.back_end);
 }
 
-Result<std::vector<OpenCamera>> open_cameras(const Resolved& site) {
-  const auto machine = simulation::Machine::make(site.site.simulation, hal::Clock::now());
-  if (!machine) return tl::unexpected(machine.error());
-  std::vector<OpenCamera> cameras;
-  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    auto camera = open_camera(site, i, *machine);
-    if (!camera) return fail("camera " + site.site.cameras[i].name + ": " + camera.error().message);
-    cameras.push_back(std::move(*camera));
+Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& site) {
+  return simulation::Machine::make(site.site.simulation, hal::Clock::now())
+      .map([&](const auto& machine) {
+        std::vector<std::unique_ptr<hal::Camera>> cameras;
+        for (const auto& camera : site.site.cameras)
+          cameras.push_back(make_camera(camera, machine));
+        return cameras;
+      });
+}
+
+hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
+                                                 std::size_t index) {
+  const CameraSettings& settings = site.site.cameras[index];
+  const auto format = camera.configure(settings.stream);
+  if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
+  for (const ControlSettings& control : controls_of(site, index)) {
+    if (const auto done = camera.set(control.name, control.value); !done) {
+      return hal::fail(hal::Fault::Refused, done.error().message);
+    }
   }
-  return cameras;
+  if (const auto usable = check_format(*format, settings, site.rig_camera(index)); !usable) {
+    return hal::fail(hal::Fault::WrongFormat, usable.error().message);
+  }
+  return *format;
 }
 
 }  // namespace orbwatch::app

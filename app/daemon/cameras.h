@@ -1,25 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "app/files/resolve.h"
 #include "app/simulation/machine.h"
 #include "hal/camera.h"
+#include "hal/fault.h"
 
 namespace orbwatch::app {
-
-/// A camera that is configured.
-struct OpenCamera {
-  std::unique_ptr<hal::Camera> camera;
-  hal::StreamFormat format;
-};
 
 /// Makes the camera that `settings` describe. Simulated ones look into `machine`.
 std::unique_ptr<hal::Camera> make_camera(const CameraSettings& settings,
                                          const std::shared_ptr<const simulation::Machine>& machine);
 
-/// Opens every camera of the site, with the controls of the first recipe. Errors name the camera.
-Result<std::vector<OpenCamera>> open_cameras(const Resolved& site);
+/// Makes every camera of the site, none of them opened. Error: the simulated machine.
+Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& site);
+
+/// Configures a camera of the site, with its controls and those of the first recipe. The fault:
+/// Unplugged, as it is not there or cannot be opened; Refused, one of the controls; WrongFormat, it
+/// delivers what the pipeline cannot use, or another size than the rig's.
+hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
+                                                 std::size_t index);
 
 }  // namespace orbwatch::app

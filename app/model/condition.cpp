@@ -32,6 +32,13 @@ Condition condition_of(const SystemStatus& system) {
     if (condition.severity == Severity::None) condition.severity = Severity::Warning;
     condition.text += "; a camera refused the recipe's settings";
   }
+  if (system.line_faults != 0 || system.interface_faults != 0) {
+    if (condition.severity == Severity::None) condition.severity = Severity::Warning;
+    if (system.line_faults != 0) condition.text += "; a line has a fault: see line_faults";
+    if (system.interface_faults != 0) {
+      condition.text += "; an interface cannot be opened: see interface_faults";
+    }
+  }
   return condition;
 }
 

@@ -39,8 +39,11 @@ class Sink {
  public:
   virtual ~Sink() = default;
 
-  /// Opens what is needed (sockets, participants) and starts the sink's own thread.
+  /// Opens what is needed (sockets, participants) and starts the sink's own thread. After an error
+  /// it is called again; views and status may come before.
   virtual Result<> start() = 0;
+  /// False: what it serves is missing although it started, the network for example. On any thread.
+  virtual bool works() const { return true; }
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 

@@ -38,7 +38,7 @@ constexpr std::string_view operator_text(SystemState state) {
     case SystemState::Running:
       return "running: every camera delivers";
     case SystemState::Degraded:
-      return "degraded: some camera has a fault; what the others see is measured";
+      return "degraded: some camera has a fault or is late; what the others see is measured";
     case SystemState::Fault:
       return "fault: no camera delivers, or the pipeline is silent";
     case SystemState::Stopped:
@@ -107,7 +107,13 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(double, skew_ms, kLatency,                                                               \
         "Largest between the exposure starts of a frame set, of the last full second")           \
   FIELD(double, load, kShare,                                                                    \
-        "Share of its deadline that the slowest frame set of the last second took")
+        "Share of its deadline that the slowest frame set of the last second took")              \
+  FIELD(std::uint32_t, process_inputs_known, kCount,                                             \
+        "Bit n: process input n is read; else its line has a fault, and it counts as inactive")  \
+  FIELD(std::uint32_t, line_faults, kCount,                                                      \
+        "Bit n: line n of the configuration is not there, or has a fault")                       \
+  FIELD(std::uint32_t, interface_faults, kCount,                                                 \
+        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshots")
 
 inline constexpr Quantity kShare{"", 0.001, 0, 1000};
 

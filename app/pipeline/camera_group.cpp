@@ -28,8 +28,8 @@ hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) 
 
 }  // namespace
 
-CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const Triggers& triggers,
-                         const hal::SyncSettings& sync)
+CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const CameraSet& absent,
+                         const Triggers& triggers, const hal::SyncSettings& sync)
     : sync_(cameras.size(), sync), members_(cameras.size()) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
@@ -37,17 +37,23 @@ CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const Triggers
     member.format = formats[i];
     if (i < triggers.size()) member.trigger = triggers[i];
     if (member.trigger) member.camera->set_gate(stamp_with(member.trigger));
+    member.absent = absent[i];
+    if (member.absent) miss(i, hal::Fault::Unplugged);
   }
 }
 
 Result<> CameraGroup::start() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    auto started = members_[i].camera->start(
-        [this, i](hal::Frame frame) { on_frame(i, std::move(frame)); },
-        [this, i](const hal::FaultReport& report) { on_fault(i, report); });
-    if (!started) return started;
+    if (members_[i].absent) continue;
+    if (auto started = start(i); !started) return started;
   }
   return {};
+}
+
+Result<> CameraGroup::start(std::size_t index) {
+  return members_[index].camera->start(
+      [this, index](hal::Frame frame) { on_frame(index, std::move(frame)); },
+      [this, index](const hal::FaultReport& report) { on_fault(index, report); });
 }
 
 void CameraGroup::stop() {
@@ -59,6 +65,12 @@ std::size_t CameraGroup::faulty() const {
       members_, [](const Member& member) { return member.fault != hal::Fault::None; }));
 }
 
+std::size_t CameraGroup::late() const {
+  std::size_t late = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) late += sync_.is_late(i) ? 1 : 0;
+  return late;
+}
+
 std::size_t CameraGroup::pacing_camera() const {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i].fault == hal::Fault::None) return i;
@@ -66,14 +78,42 @@ std::size_t CameraGroup::pacing_camera() const {
   return 0;
 }
 
-Result<> CameraGroup::apply(const RecipePlan& recipe) {
+void CameraGroup::miss(std::size_t camera, hal::Fault fault) {
+  members_[camera].fault = fault;
+  sync_.clear(camera);
+}
+
+Result<> CameraGroup::admit(std::size_t camera, const hal::StreamFormat& format) {
+  const std::lock_guard lock(setting_);
+  if (auto done = set(camera); !done) return done;
+  Member& member = members_[camera];
+  member.format = format;
+  auto started = start(camera);
+  member.absent = !started;
+  return started;
+}
+
+Result<> CameraGroup::apply(std::uint16_t recipe, const std::vector<CameraControl>& controls) {
+  const std::lock_guard lock(setting_);
+  controls_ = controls;
   Result<> result;
-  for (const CameraControl& control : recipe.controls) {
-    hal::Camera& camera = *members_[control.camera.index].camera;
-    const auto done = camera.set(control.name, control.value);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].absent) continue;
+    const auto done = set(i);
     if (done || !result) continue;
-    result = fail("recipe " + std::to_string(recipe.number) + ": camera " + camera.info().id +
+    result = fail("recipe " + std::to_string(recipe) + ": camera " + members_[i].camera->info().id +
                   ": " + done.error().message);
+  }
+  return result;
+}
+
+/// Sets the controls of one camera; returns the first error.
+Result<> CameraGroup::set(std::size_t index) {
+  Result<> result;
+  for (const CameraControl& control : controls_) {
+    if (control.camera.index != index) continue;
+    auto done = members_[index].camera->set(control.name, control.value);
+    if (result) result = std::move(done);
   }
   return result;
 }

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <atomic>
+#include <bitset>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,20 +20,23 @@
 
 namespace orbwatch::app {
 
+/// Bit n: camera n.
+using CameraSet = std::bitset<kMaxCameras>;
+
 /// The cameras of a pipeline: joins their frames into frame sets, turns their faults into values
 /// and keeps their figures.
-/// Thread rule: start and stop on the main thread, next and report on the pipeline's, the rest on
-/// any.
+/// Thread rule: start, stop, miss and admit on the main thread, next and report on the pipeline's,
+/// the rest on any.
 class CameraGroup {
  public:
   using Cameras = std::vector<std::unique_ptr<hal::Camera>>;
   using Formats = std::vector<hal::StreamFormat>;
   using Triggers = std::vector<std::shared_ptr<hal::FrameTrigger>>;
 
-  /// 1..kMaxCameras cameras, configured to `formats`. A camera with a trigger delivers only the
-  /// frames that belong to one.
-  CameraGroup(Cameras cameras, const Formats& formats, const Triggers& triggers,
-              const hal::SyncSettings& sync);
+  /// 1..kMaxCameras cameras, configured to `formats` unless they are `absent`. A camera with a
+  /// trigger delivers only the frames that belong to one.
+  CameraGroup(Cameras cameras, const Formats& formats, const CameraSet& absent,
+              const Triggers& triggers, const hal::SyncSettings& sync);
 
   Result<> start();
   /// No frame set comes after close(), no frame after stop().
@@ -44,13 +49,21 @@ class CameraGroup {
   std::size_t size() const { return members_.size(); }
   /// How many cameras have a fault.
   std::size_t faulty() const;
+  /// How many cameras have no fault but are late: see FrameMatcher.
+  std::size_t late() const;
   /// The first camera without a fault: its frames begin the sets.
   std::size_t pacing_camera() const;
 
+  /// An absent camera's fault.
+  void miss(std::size_t camera, hal::Fault fault);
+  /// Starts an absent camera, configured to `format`, with the controls that were applied last. It
+  /// stays absent on error: it refuses one of them.
+  Result<> admit(std::size_t camera, const hal::StreamFormat& format);
+
   /// Sets the controls of a recipe; may wait for the cameras. A refused one does not keep the
   /// others from being set, since the way back must set as many as possible; returns the first
-  /// error.
-  Result<> apply(const RecipePlan& recipe);
+  /// error. An absent camera gets them when it is admitted.
+  Result<> apply(std::uint16_t recipe, const std::vector<CameraControl>& controls);
 
   /// Fills in `status.cameras`; rates and latencies only with `elapsed`, the time since they were
   /// reported last.
@@ -59,6 +72,7 @@ class CameraGroup {
  private:
   struct Member {
     std::unique_ptr<hal::Camera> camera;
+    bool absent = false;  ///< under setting_
     hal::StreamFormat format;
     std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: it runs freely
     std::atomic<hal::Fault> fault{hal::Fault::None};
@@ -67,10 +81,14 @@ class CameraGroup {
     SecondMeter meter;
   };
 
+  Result<> start(std::size_t index);
+  Result<> set(std::size_t index);
   void on_frame(std::size_t index, hal::Frame frame);
   void on_fault(std::size_t index, const hal::FaultReport& report);
 
   hal::FrameSync sync_;
+  std::mutex setting_;                   ///< held while controls are set
+  std::vector<CameraControl> controls_;  ///< applied last; under setting_
   std::vector<Member> members_;
 };
 

@@ -31,7 +31,8 @@ MipLevelCounts levels_of(std::span<const ViewChannel> views) {
 
 Pipeline::Pipeline(PipelinePlan plan)
     : plan_(std::move(plan)),
-      cameras_(std::move(plan_.cameras), plan_.formats, plan_.triggers, plan_.sync),
+      formats_(plan_.formats),
+      cameras_(std::move(plan_.cameras), plan_.formats, plan_.absent, plan_.triggers, plan_.sync),
       workers_(worker_count(plan_.workers)),
       pyramids_(plan_.formats),
       displays_(plan_.views.begin(), plan_.views.end()),
@@ -46,11 +47,17 @@ Pipeline::Pipeline(PipelinePlan plan)
 }
 
 void Pipeline::make_measurement() {
-  std::vector<const RecipePlan*> recipes;  // they live as long as the measurement
-  for (const auto& recipe : plan_.recipes) recipes.push_back(&recipe->plan());
+  std::vector<std::pair<std::uint16_t, std::vector<CameraControl>>> settings;  // by recipe
+  bool sets_cameras = false;
+  for (const auto& recipe : plan_.recipes) {
+    settings.emplace_back(recipe->plan().number, recipe->plan().controls);
+    sets_cameras = sets_cameras || !recipe->plan().controls.empty();
+  }
   RecipeSwitch::Apply apply;
-  if (std::ranges::any_of(recipes, [](const auto* recipe) { return !recipe->controls.empty(); })) {
-    apply = [this, recipes](std::size_t n) { return cameras_.apply(*recipes[n]); };
+  if (sets_cameras) {
+    apply = [this, settings](std::size_t n) {
+      return cameras_.apply(settings[n].first, settings[n].second);
+    };
   }
   measurement_.emplace(std::move(plan_.recipes), plan_.process_inputs, std::move(apply));
 }
@@ -78,13 +85,46 @@ void Pipeline::run() {
   while (true) {
     const auto set = cameras_.next(hal::Clock::now() + kHeartbeatPeriod);
     if (thread_.stop_requested()) return;
+    exchange();
     if (set) {
       process(*set);
     } else {
       idle();
     }
     publish_status();
+    end_exchange();
   }
+}
+
+Result<> Pipeline::take_over(Recompiled recompiled) {
+  for (auto& [view, sources] : recompiled.sources) {
+    if (auto adopted = pan_tilt_zoom_.adopt(view, std::move(sources)); !adopted) return adopted;
+  }
+  formats_ = recompiled.formats;
+  FramePyramids pyramids(recompiled.formats);
+  Exchange exchange{std::move(pyramids), std::move(recompiled)};  // frees here what it replaces
+  std::unique_lock lock(exchanging_);
+  exchange_ = &exchange;
+  exchanged_.wait(lock, [this] { return exchange_ == nullptr; });
+  return {};
+}
+
+/// Between two sets; allocates and frees nothing.
+void Pipeline::exchange() {
+  const std::lock_guard lock(exchanging_);
+  if (!exchange_) return;
+  std::swap(pyramids_, exchange_->pyramids);
+  std::swap(plan_.formats, exchange_->recompiled.formats);
+  if (measurement_) measurement_->exchange(exchange_->recompiled.recipes);
+  exchange_->is_in_use = true;
+}
+
+/// What was replaced is not needed any more.
+void Pipeline::end_exchange() {
+  const std::lock_guard lock(exchanging_);
+  if (!exchange_ || !exchange_->is_in_use) return;
+  exchange_ = nullptr;
+  exchanged_.notify_one();
 }
 
 /// The way of a frame set through the product. Measured views come first and with every set;
@@ -120,7 +160,7 @@ void Pipeline::process(const hal::FrameSet& set) {
 void Pipeline::idle() {
   if (!measurement_) return;
   measurement_->apply_commands(hal::Clock::now());
-  measurement_->idle(cameras_.faulty() == cameras_.size());
+  measurement_->idle(cameras_.faulty() + cameras_.late() == cameras_.size());
 }
 
 /// Forwards the view that was rendered last; without one, since it was not due or the sinks hold
@@ -161,9 +201,14 @@ void Pipeline::publish_status() {
   ++status_.heartbeat;
   status_.state = state();
   status_.selected_view = selected_view_;
-  status_.process_inputs = process_inputs();
+  report_process_inputs();
   status_.overruns = budget_.overruns();
-  if (plan_.health) status_.health = plan_.health(now);
+  if (plan_.surroundings) {
+    const Surroundings surroundings = plan_.surroundings(now);
+    status_.health = surroundings.health;
+    status_.line_faults = surroundings.line_faults;
+    status_.interface_faults = surroundings.interface_faults;
+  }
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
   }
@@ -207,12 +252,14 @@ void Pipeline::follow_pace() {
   if (rate > 0) budget_.set_deadline(hal::period_of(rate));
 }
 
-std::uint32_t Pipeline::process_inputs() const {
-  std::uint32_t bits = 0;
+void Pipeline::report_process_inputs() {
+  status_.process_inputs = 0;
+  status_.process_inputs_known = 0;
   for (std::size_t i = 0; i < plan_.process_inputs.size(); ++i) {
-    bits |= (plan_.process_inputs[i]->state().active ? 1U : 0U) << i;
+    const std::optional<bool> active = plan_.process_inputs[i]->active();
+    status_.process_inputs |= (active.value_or(false) ? 1U : 0U) << i;
+    status_.process_inputs_known |= (active ? 1U : 0U) << i;
   }
-  return bits;
 }
 
 SystemState Pipeline::state() const {
@@ -220,7 +267,7 @@ SystemState Pipeline::state() const {
   if (faulty == cameras_.size()) return SystemState::Fault;
   if (status_.frame_set == 0) return SystemState::Starting;
   if (measurement_ && measurement_->is_paused()) return SystemState::Stopped;
-  return faulty > 0 ? SystemState::Degraded : SystemState::Running;
+  return faulty + cameras_.late() > 0 ? SystemState::Degraded : SystemState::Running;
 }
 
 CommandResult Pipeline::select_view(std::size_t view) {

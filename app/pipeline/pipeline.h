@@ -1,8 +1,12 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,10 +33,18 @@
 
 namespace orbwatch::app {
 
-/// Everything the pipeline needs; cameras are configured already.
+/// What the pipeline cannot see and reports for others.
+struct Surroundings {
+  Health health;
+  std::uint32_t line_faults = 0;       ///< as SystemStatus
+  std::uint32_t interface_faults = 0;  ///< as SystemStatus
+};
+
+/// Everything the pipeline needs; cameras are configured already, unless they are absent.
 struct PipelinePlan : PipelineSettings {
   std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< 1..kMaxCameras; the first one paces
-  std::vector<hal::StreamFormat> formats;             ///< by camera
+  std::vector<hal::StreamFormat> formats;             ///< by camera; of an absent one a guess
+  CameraSet absent;                                   ///< to be taken up when they come
   std::vector<std::shared_ptr<hal::FrameTrigger>>
       triggers;  ///< by camera; null or none: runs freely
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
@@ -41,7 +53,14 @@ struct PipelinePlan : PipelineSettings {
   std::size_t view_count = 0;                            ///< those of the recipes included
   std::uint32_t configuration_checksum = 0;
   /// The newest figures, without waiting; null: none are known.
-  std::function<Health(hal::TimePoint now)> health;
+  std::function<Surroundings(hal::TimePoint now)> surroundings;
+};
+
+/// What is made anew for a camera that delivers another format than was guessed.
+struct Recompiled {
+  std::vector<hal::StreamFormat> formats;                  ///< by camera
+  std::map<std::size_t, std::vector<ViewSource>> sources;  ///< of the display views that show it
+  std::vector<std::unique_ptr<CompiledRecipe>> recipes;    ///< by index; null: not of this camera
 };
 
 /// Frames in, views and status out, on one thread and its workers; see process(). Nothing here
@@ -57,6 +76,19 @@ class Pipeline {
   /// Sinks are the caller's, started, and outlive the run.
   Result<> start(std::vector<Sink*> sinks);
   void stop();
+
+  /// What the views are compiled for, by camera. On the main thread.
+  const std::vector<hal::StreamFormat>& formats() const { return formats_; }
+  /// Between two frame sets: takes over what was made for a camera. Returns once it is in use, at
+  /// the latest after a heartbeat. On the main thread, while the pipeline runs.
+  Result<> take_over(Recompiled recompiled);
+  /// Starts an absent camera that was configured to `format`: see CameraGroup::admit(). On the
+  /// main thread.
+  Result<> admit(std::size_t camera, const hal::StreamFormat& format) {
+    return cameras_.admit(camera, format);
+  }
+  /// An absent camera's fault. On the main thread.
+  void miss(std::size_t camera, hal::Fault fault) { cameras_.miss(camera, fault); }
 
   /// Those of the recipes included.
   std::size_t view_count() const { return plan_.view_count; }
@@ -87,7 +119,16 @@ class Pipeline {
   CommandResult set_process_active(bool active);
 
  private:
+  /// What take_over() waits for.
+  struct Exchange {
+    FramePyramids pyramids;
+    Recompiled recompiled;
+    bool is_in_use = false;
+  };
+
   void make_measurement();
+  void exchange();
+  void end_exchange();
   CommandResult check_display_view(std::size_t view) const;
   void run();
   void process(const hal::FrameSet& set);
@@ -98,10 +139,14 @@ class Pipeline {
   void roll_rates(hal::Clock::duration elapsed);
   void follow_pace();
   void report_live_views();
-  std::uint32_t process_inputs() const;
+  void report_process_inputs();
   SystemState state() const;
 
   PipelinePlan plan_;
+  std::vector<hal::StreamFormat> formats_;  ///< the main thread's copy
+  std::mutex exchanging_;
+  std::condition_variable exchanged_;
+  Exchange* exchange_ = nullptr;  ///< pending or in use; under exchanging_
   CameraGroup cameras_;
   WorkerPool workers_;
   FramePyramids pyramids_;

@@ -100,6 +100,12 @@ Result<> check_nozzle(const MachineSettings& s) {
 
 }  // namespace
 
+bool is_connected(const MachineSettings& machine, const std::string& device) {
+  std::error_code inaccessible;
+  return machine.connected.empty() ||
+         std::filesystem::exists(machine.connected / device, inaccessible);
+}
+
 Result<std::shared_ptr<const Machine>> Machine::make(const MachineSettings& settings,
                                                      hal::TimePoint epoch) {
   auto checked = check_bodies(settings)

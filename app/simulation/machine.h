@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include "app/simulation/tracing/ray.h"
 #include "hal/clock.h"
@@ -64,7 +66,13 @@ struct MachineSettings {
   SparkSettings sparks;
   NozzleSettings nozzle;
   std::uint64_t seed = 1;  ///< of everything random: same seed, same sparks and same noise
+  /// A folder with a file for each simulated device that is connected, named as the camera or the
+  /// line; empty: all are.
+  std::filesystem::path connected;
 };
+
+/// Whether a simulated device is connected now. Reentrant.
+bool is_connected(const MachineSettings& machine, const std::string& device);
 
 /// What a site's file states of it.
 template <class Visitor>
@@ -75,6 +83,10 @@ void visit(Visitor& v, MachineSettings& machine) {
              "Of the molten pool, mm, mean");
   v.optional("pool_temperature", machine.pool.peak, Range::between(1500, 2300),
              "In the pool's centre, degC, mean");
+  v.optional(
+      "connected", machine.connected,
+      "Folder with a file for each simulated camera (its name) and line (its line_name) that "
+      "is connected: to try what happens without them; else all are");
 }
 
 /// One machine and its clock, shared by all cameras that look into it. Immutable, reentrant.

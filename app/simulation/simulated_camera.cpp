@@ -77,6 +77,9 @@ Result<> SimulatedCamera::check(int width, int height, double frame_rate) const 
 }
 
 Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest& request) {
+  if (!is_connected(machine_->settings(), info().id)) {
+    return fail("camera " + info().id + ": is not connected");
+  }
   const int width = request.width != 0 ? request.width : settings_.width;
   const int height = request.height != 0 ? request.height : settings_.height;
   const double rate = request.frame_rate != 0 ? request.frame_rate : settings_.frame_rate;
@@ -123,12 +126,21 @@ std::optional<hal::TimePoint> SimulatedCamera::take_trigger() {
   return std::exchange(trigger_, std::nullopt);
 }
 
+/// Whether exposure `n` fails; then it was reported.
+bool SimulatedCamera::is_missed(std::uint64_t n, hal::TimePoint moment) {
+  if (is_connected(machine_->settings(), info().id)) {
+    return fails(script_, {.sequence = n, .exposure_start = moment});
+  }
+  report(hal::Fault::Unplugged, "simulated");
+  return true;
+}
+
 void SimulatedCamera::run_triggered() {
   std::uint64_t n = 0;
   do {
     const auto moment = take_trigger();
     if (!moment) continue;
-    if (!fails(script_, {.sequence = n, .exposure_start = *moment})) expose(n, *moment);
+    if (!is_missed(n, *moment)) expose(n, *moment);
     ++n;
   } while (wait());
 }
@@ -139,7 +151,7 @@ void SimulatedCamera::run(const std::stop_token&) {
   const auto moment = [&](std::uint64_t n) { return moment_of(n, start, format_.frame_rate); };
   for (std::uint64_t n = 0; wait_until(moment(n)); ++n) {
     // Also when late, so that a fault script is always shown completely.
-    if (fails(script_, {.sequence = n, .exposure_start = moment(n)})) continue;
+    if (is_missed(n, moment(n))) continue;
     if (hal::Clock::now() < moment(n + 1)) expose(n, moment(n));
   }
 }

@@ -45,6 +45,7 @@ class SimulatedCamera : public hal::Camera {
   void run(const std::stop_token& stop) override;
 
  private:
+  bool is_missed(std::uint64_t n, hal::TimePoint moment);
   Result<> check(int width, int height, double frame_rate) const;
   void run_triggered();
   std::optional<hal::TimePoint> take_trigger();

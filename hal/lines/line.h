@@ -55,7 +55,7 @@ constexpr std::string_view operator_text(LineFault fault) {
     case LineFault::None:
       return "line works";
     case LineFault::Gone:
-      return "the line's chip is not connected";
+      return "line is not there, or cannot be opened";
     case LineFault::ReadError:
       return "line reports an error";
   }

@@ -1,37 +1,21 @@
 #pragma once
 
-#include <cstdint>
-#include <mutex>
-
-#include "hal/lines/line.h"
+#include <atomic>
+#include <optional>
 
 namespace orbwatch::hal {
 
 /// The state of an input from the machine, for example laser on. Thread-safe.
 class ProcessInput {
  public:
-  struct State {
-    bool active = false;
-    TimePoint since;          ///< of the newest edge, else of opening
-    std::uint64_t edges = 0;  ///< since opening
-  };
+  /// Nullopt: not known, as its line has a fault.
+  explicit ProcessInput(std::optional<bool> active = {}) : active_(active) {}
 
-  ProcessInput(bool active, TimePoint now) : state_{active, now, 0} {}
-
-  /// An edge of the line.
-  void on_edge(const EdgeEvent& edge) {
-    const std::lock_guard lock(mutex_);
-    state_ = {edge.edge == Edge::Rising, edge.stamp, state_.edges + 1};
-  }
-
-  State state() const {
-    const std::lock_guard lock(mutex_);
-    return state_;
-  }
+  void set(std::optional<bool> active) { active_ = active; }
+  std::optional<bool> active() const { return active_; }
 
  private:
-  mutable std::mutex mutex_;
-  State state_;
+  std::atomic<std::optional<bool>> active_;
 };
 
 }  // namespace orbwatch::hal

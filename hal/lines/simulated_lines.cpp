@@ -17,6 +17,7 @@ namespace orbwatch::hal {
 struct SimulatedLines::Wire {
   std::string name;
   OnChange on_change;
+  IsConnected is_connected;
   mutable std::mutex mutex;
   bool level = false;
   bool has_input = false;
@@ -26,7 +27,15 @@ struct SimulatedLines::Wire {
   std::size_t waiting = 0;
   LineFault fault = LineFault::None;
 
-  LineFaultReport report() const { return {fault, "line " + name + ": simulated fault"}; }
+  /// An error while it has a fault; the caller holds the mutex.
+  LineResult<> check() const {
+    if (is_connected && !is_connected(name)) {
+      return tl::unexpected(
+          LineFaultReport{LineFault::Gone, "line " + name + ": is not connected"});
+    }
+    if (fault == LineFault::None) return {};
+    return tl::unexpected(LineFaultReport{fault, "line " + name + ": simulated fault"});
+  }
 
   void signal() {
     if (readable) readable->signal();
@@ -56,7 +65,7 @@ class SimulatedLines::Input : public DigitalInput {
 
   LineResult<std::size_t> take(std::span<EdgeEvent> edges) override {
     const std::lock_guard lock(wire_->mutex);
-    if (wire_->fault != LineFault::None) return tl::unexpected(wire_->report());
+    if (auto works = wire_->check(); !works) return tl::unexpected(works.error());
     const std::size_t count = std::min(edges.size(), wire_->waiting);
     for (std::size_t i = 0; i < count; ++i) {
       const bool level = wire_->edges[i].edge == Edge::Rising;
@@ -72,7 +81,7 @@ class SimulatedLines::Input : public DigitalInput {
 
   LineResult<bool> level() const override {
     const std::lock_guard lock(wire_->mutex);
-    if (wire_->fault != LineFault::None) return tl::unexpected(wire_->report());
+    if (auto works = wire_->check(); !works) return tl::unexpected(works.error());
     return wire_->level != active_low_;
   }
 
@@ -99,7 +108,7 @@ class SimulatedLines::Output : public DigitalOutput {
   LineResult<> set(bool active) override {
     {
       const std::lock_guard lock(wire_->mutex);
-      if (wire_->fault != LineFault::None) return tl::unexpected(wire_->report());
+      if (auto works = wire_->check(); !works) return tl::unexpected(works.error());
     }
     wire_->drive(active != active_low_, Clock::now());
     return {};
@@ -110,11 +119,13 @@ class SimulatedLines::Output : public DigitalOutput {
   bool active_low_;
 };
 
-SimulatedLines::SimulatedLines(const std::vector<std::string>& names, const OnChange& on_change) {
+SimulatedLines::SimulatedLines(const std::vector<std::string>& names, const OnChange& on_change,
+                               const IsConnected& is_connected) {
   for (const std::string& name : names) {
     wires_.push_back(std::make_shared<Wire>());
     wires_.back()->name = name;
     wires_.back()->on_change = on_change;
+    wires_.back()->is_connected = is_connected;
   }
 }
 
@@ -138,7 +149,7 @@ Result<std::shared_ptr<SimulatedLines::Wire>> SimulatedLines::find(
   if (!found) return tl::unexpected(found.error());
   const auto& wire = wires_[found->line->offset];
   const std::lock_guard lock(wire->mutex);
-  if (wire->fault != LineFault::None) return fail(wire->report().detail);
+  if (const auto works = wire->check(); !works) return fail(works.error().detail);
   return wire;
 }
 

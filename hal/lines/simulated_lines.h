@@ -20,8 +20,13 @@ class SimulatedLines : public LineBackEnd {
   /// Called with each new level of a wire, on the thread that changed it, in order.
   using OnChange = std::function<void(const std::string& line, bool level)>;
 
+  /// Whether a line is there now. Thread-safe.
+  using IsConnected = std::function<bool(const std::string& line)>;
+
+  /// Null: nobody hears of changes; every line is there.
   explicit SimulatedLines(const std::vector<std::string>& names,
-                          const OnChange& on_change = nullptr);
+                          const OnChange& on_change = nullptr,
+                          const IsConnected& is_connected = nullptr);
   ~SimulatedLines() override;
 
   std::vector<ChipInfo> chips() const override;

@@ -6,8 +6,6 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Kernels before 6.6 do not signal the removal of a chip.
-constexpr Clock::duration kCheckPeriod = std::chrono::seconds(1);
 /// Batches per read(), so that one line does not starve the others.
 constexpr int kBatches = 4;
 
@@ -45,16 +43,10 @@ std::optional<EdgeEvent> EdgeFilter::change_to(bool level, TimePoint stamp) {
   return EdgeEvent{edge_to(level), stamp};
 }
 
-WatchedInput::WatchedInput(LineBackEnd& back_end, InputSettings settings, OnFault on_fault)
-    : back_end_(back_end), settings_(std::move(settings)), on_fault_(std::move(on_fault)) {}
-
-Result<std::unique_ptr<WatchedInput>> WatchedInput::open(LineBackEnd& back_end,
-                                                         const InputSettings& settings,
-                                                         OnFault on_fault) {
-  std::unique_ptr<WatchedInput> watched(new WatchedInput(back_end, settings, std::move(on_fault)));
-  if (auto opened = watched->open_line(); !opened) return tl::unexpected(opened.error());
-  watched->initial_level_ = watched->level_;
-  return watched;
+WatchedInput::WatchedInput(LineBackEnd& back_end, InputSettings settings,
+                           LineRetry::OnFault on_fault, TimePoint now)
+    : back_end_(back_end), settings_(std::move(settings)), retry_(std::move(on_fault)) {
+  open(now);
 }
 
 /// Also reads the level, from which edges alternate.
@@ -65,9 +57,9 @@ Result<> WatchedInput::open_line() {
   if (!level) return fail(level.error().detail);
   const bool needs_debounce = !(*input)->is_debounced();
   filter_ = EdgeFilter(needs_debounce ? settings_.debounce : Clock::duration(0), *level);
-  level_ = *level;
   input_ = std::move(*input);
   ++opened_;
+  state_->set(*level);
   return {};
 }
 
@@ -84,11 +76,11 @@ void WatchedInput::read(TimePoint now) {
 
 void WatchedInput::run(TimePoint now) {
   if (now < due()) return;
-  if (!input_) return reopen(now);
+  if (!input_) return open(now);
   // Level before edges: an edge between the two must not count as lost.
   const auto level = input_->level();
   if (!level) return fail_with(level.error(), now);
-  check_ = now + kCheckPeriod;
+  check_ = now + kLineCheckPeriod;
   read(now);
   if (!input_ || now < filter_.due()) return;
   forward(filter_.settle(*level, now));
@@ -102,26 +94,24 @@ void WatchedInput::count_lost() {
 void WatchedInput::forward(const std::optional<EdgeEvent>& edge) {
   if (!edge) return;
   level_ = edge->edge == Edge::Rising;
+  state_->set(level_);
   for (const OnEdge& on_edge : on_edge_) on_edge(*edge);
 }
 
 void WatchedInput::fail_with(const LineFaultReport& report, TimePoint now) {
   lost_before_ = lost_;
   input_.reset();
-  retry_ = now + pause_.next();
-  on_fault_(report);
+  state_->set(std::nullopt);
+  retry_.failed(report, now);
 }
 
-void WatchedInput::reopen(TimePoint now) {
-  const bool before = level_;
-  if (const auto opened = open_line(); !opened) {
-    retry_ = now + pause_.next();
-    return;
-  }
-  pause_.reset();
-  on_fault_({});
+void WatchedInput::open(TimePoint now) {
+  if (const auto opened = open_line(); !opened) return retry_.refused(opened.error(), now);
+  retry_.works();
+  const bool level = *state_->active();
   // Changes meanwhile count as one edge, stamped now.
-  if (level_ != before) forward(EdgeEvent{edge_to(level_), now});
+  if (level_ && *level_ != level) forward(EdgeEvent{edge_to(level), now});
+  level_ = level;
 }
 
 }  // namespace orbwatch::hal

@@ -6,12 +6,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "hal/back_off.h"
 #include "hal/lines/line.h"
+#include "hal/lines/line_retry.h"
 #include "hal/lines/line_task.h"
+#include "hal/lines/process_input.h"
 
 namespace orbwatch::hal {
 
@@ -56,22 +56,20 @@ class EdgeFilter {
   std::uint64_t found_lost_ = 0;
 };
 
-/// An input line that forwards its debounced edges. A line that fails (a chip on USB may
-/// disconnect) is reported once, closed, and opened again after a BackOff. Thread rule:
-/// thread-bound (the line thread), apart from lost().
+/// An input line that forwards its debounced edges. A line that is not there, or fails later (a
+/// chip on USB may disconnect), is a fault, and opened again after a BackOff. Thread rule:
+/// thread-bound (the line thread), apart from lost() and state().
 class WatchedInput : public LineTask {
  public:
   using OnEdge = std::function<void(const EdgeEvent&)>;
-  using OnFault = std::function<void(const LineFaultReport&)>;
 
-  /// Opens the line of `back_end`, which must outlive it. Edges alternate, from initial_level() on.
-  /// The error is open_input()'s.
-  static Result<std::unique_ptr<WatchedInput>> open(LineBackEnd& back_end,
-                                                    const InputSettings& settings,
-                                                    OnFault on_fault);
+  /// Opens the line of `back_end`, which must outlive it; `on_fault` is told when that fails.
+  /// Edges alternate, from the level then.
+  WatchedInput(LineBackEnd& back_end, InputSettings settings, LineRetry::OnFault on_fault,
+               TimePoint now);
 
-  /// The level at the first open().
-  bool initial_level() const { return initial_level_; }
+  /// Its level, debounced; not known while it has a fault.
+  std::shared_ptr<const ProcessInput> state() const { return state_; }
 
   /// Adds a receiver of edges; called before the line thread starts.
   void subscribe(OnEdge on_edge) { on_edge_.push_back(std::move(on_edge)); }
@@ -83,34 +81,30 @@ class WatchedInput : public LineTask {
   /// Reads the waiting edges.
   void read(TimePoint now);
 
-  TimePoint due() const override { return input_ ? std::min(filter_.due(), check_) : retry_; }
+  TimePoint due() const override { return input_ ? std::min(filter_.due(), check_) : retry_.due(); }
   void run(TimePoint now) override;
 
   /// Edges that the kernel dropped before they were read.
   std::uint64_t lost() const { return lost_; }
 
  private:
-  WatchedInput(LineBackEnd& back_end, InputSettings settings, OnFault on_fault);
-
   Result<> open_line();
+  void open(TimePoint now);
   void count_lost();
   void forward(const std::optional<EdgeEvent>& edge);
   void fail_with(const LineFaultReport& report, TimePoint now);
-  void reopen(TimePoint now);
 
   LineBackEnd& back_end_;
   InputSettings settings_;
-  OnFault on_fault_;
+  LineRetry retry_;
   std::vector<OnEdge> on_edge_;
   std::unique_ptr<DigitalInput> input_;
   EdgeFilter filter_{Clock::duration(0), false};
-  bool initial_level_ = false;
-  bool level_ = false;  ///< of the newest forwarded edge
+  std::optional<bool> level_;  ///< of the newest forwarded edge; nullopt: it was never open
+  std::shared_ptr<ProcessInput> state_ = std::make_shared<ProcessInput>();
   unsigned opened_ = 0;
-  TimePoint retry_ = TimePoint::max();
   TimePoint check_ = TimePoint::min();  ///< when the open line is probed next
-  BackOff pause_;
-  std::uint64_t lost_before_ = 0;  ///< of closed files
+  std::uint64_t lost_before_ = 0;       ///< of closed files
   std::atomic<std::uint64_t> lost_{0};
 };
 

@@ -45,8 +45,8 @@ struct Close {
 };
 using Connection = std::unique_ptr<modbus_t, Close>;
 
-Connection connect_to(int port) {
-  Connection context(modbus_new_tcp("127.0.0.1", port));
+Connection connect_to(int port, const std::string& host = "127.0.0.1") {
+  Connection context(modbus_new_tcp(host.c_str(), port));
   modbus_set_slave(context.get(), 1);
   if (modbus_connect(context.get()) != 0) return nullptr;
   return context;
@@ -54,10 +54,10 @@ Connection connect_to(int port) {
 
 }  // namespace
 
-std::int64_t read_register(int port, const std::string& name) {
+std::int64_t read_register(int port, const std::string& name, const std::string& host) {
   constexpr auto kNothing = std::numeric_limits<std::int64_t>::min();
   const Row row = find_row(name);
-  const Connection connection = connect_to(port);
+  const Connection connection = connect_to(port, host);
   if (!connection) return kNothing;
   std::array<std::uint16_t, 2> words{};
   const auto read = row.table == "input" ? modbus_read_input_registers : modbus_read_registers;

@@ -6,10 +6,11 @@
 
 namespace orbwatch::tests {
 
-/// One register of a Modbus server on loopback, found by its name in the committed manual
+/// One register of a Modbus server, found by its name in the committed manual
 /// app/ports/modbus/registers.csv and read with libmodbus as a PLC would; INT64_MIN while nobody
 /// answers. Unscaled.
-std::int64_t read_register(int port, const std::string& name);
+std::int64_t read_register(int port, const std::string& name,
+                           const std::string& host = "127.0.0.1");
 
 /// Writes arguments (value / scale), then a command and a new sequence, and waits until it is
 /// acknowledged, also over a restart of the server.

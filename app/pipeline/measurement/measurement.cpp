@@ -4,10 +4,20 @@
 #include <utility>
 
 namespace orbwatch::app {
+namespace {
+
+std::vector<std::uint16_t> numbers_of(const std::vector<std::unique_ptr<CompiledRecipe>>& recipes) {
+  std::vector<std::uint16_t> numbers;
+  for (const auto& recipe : recipes) numbers.push_back(recipe->plan().number);
+  return numbers;
+}
+
+}  // namespace
 
 Measurement::Measurement(std::vector<std::unique_ptr<CompiledRecipe>> recipes, ProcessInputs inputs,
                          RecipeSwitch::Apply apply)
-    : recipes_(std::move(recipes)),
+    : numbers_(numbers_of(recipes)),
+      recipes_(std::move(recipes)),
       inputs_(std::move(inputs)),
       switch_(0, std::move(apply)),
       recipe_(recipes_.front().get()),
@@ -29,12 +39,10 @@ CommandResult Measurement::set_process_active(bool active) {
 }
 
 CommandResult Measurement::select_recipe(std::size_t number) {
-  for (std::size_t i = 0; i < recipes_.size(); ++i) {
-    if (recipes_[i]->plan().number != number) continue;
-    switch_.request(i);
-    return CommandResult::Done;
-  }
-  return CommandResult::ArgumentOutOfRange;
+  const auto found = std::ranges::find(numbers_, number);
+  if (found == numbers_.end()) return CommandResult::ArgumentOutOfRange;
+  switch_.request(static_cast<std::size_t>(found - numbers_.begin()));
+  return CommandResult::Done;
 }
 
 CommandResult Measurement::trigger() {
@@ -60,6 +68,14 @@ void Measurement::apply_commands(hal::TimePoint stamp) {
   // Also when a refusal set the cameras back to the same recipe.
   if (std::exchange(changes_, selection_->changes) != selection_->changes || is_another) {
     to_settle_ = selected.plan().settle_frames;
+  }
+}
+
+void Measurement::exchange(std::vector<std::unique_ptr<CompiledRecipe>>& recipes) {
+  for (std::size_t i = 0; i < recipes_.size(); ++i) {
+    if (!recipes[i]) continue;
+    std::swap(recipes_[i], recipes[i]);
+    if (recipe_ == recipes[i].get()) change_to(*recipes_[i]);
   }
 }
 
@@ -104,7 +120,7 @@ std::optional<bool> Measurement::process_active() const {
     case ActiveSource::Always:
       return true;
     case ActiveSource::Input:
-      return inputs_[recipe_->plan().process_input]->state().active;
+      return inputs_[recipe_->plan().process_input]->active();
     case ActiveSource::Command:
       return commanded_active_;
     case ActiveSource::Detected:

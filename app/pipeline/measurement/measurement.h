@@ -49,12 +49,16 @@ class Measurement {
   /// status never mixes two of them. `stamp`: exposure of the next set; without one, now.
   void apply_commands(hal::TimePoint stamp);
 
+  /// Between two sets: takes `recipes`, by index, in place of its own and leaves those there; null:
+  /// keeps its own. The replaced ones are needed until the next watch() is over.
+  void exchange(std::vector<std::unique_ptr<CompiledRecipe>>& recipes);
+
   /// The views of the current recipe.
   std::span<ViewChannel> views() { return recipe_->views(); }
 
   /// Renders and measures a set.
   void process(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
-  /// Replaces process() while no set comes. `blind`: no camera delivers.
+  /// Replaces process() while no set comes. `blind`: no camera delivers, or all are late.
   void idle(bool blind);
 
   /// Steps the alarms; called after each process() or idle(), and at least ten times a second.
@@ -77,7 +81,8 @@ class Measurement {
   /// Nullopt: what would tell is not measured.
   std::optional<bool> process_active() const;
 
-  const std::vector<std::unique_ptr<CompiledRecipe>> recipes_;
+  const std::vector<std::uint16_t> numbers_;  ///< of recipes_, by index
+  std::vector<std::unique_ptr<CompiledRecipe>> recipes_;
   const ProcessInputs inputs_;
   RecipeSwitch switch_;
   CompiledRecipe* recipe_;

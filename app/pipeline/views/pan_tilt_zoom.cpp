@@ -20,10 +20,7 @@ Result<optics::ViewProjection> pointed(const ViewPlan& view, const Pointing& poi
 PanTiltZoom::PanTiltZoom(std::span<const ViewPlan> views) : views_(views), slots_(views.size()) {
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const optics::ViewSpec& spec = views_[i].projection.spec();
-    slots_[i].aim.pointing = {spec.orientation, spec.h_fov, spec.v_fov};
-    for (const ViewSource& source : views_[i].sources) {
-      slots_[i].aim.weights.push_back(source.weight);
-    }
+    slots_[i].aim = {{spec.orientation, spec.h_fov, spec.v_fov}, views_[i].sources};
   }
   thread_.start("view compiler", [this] { run(); });
 }
@@ -46,7 +43,7 @@ Result<std::uint64_t> PanTiltZoom::request(std::size_t view, const Change& chang
   if (const auto done = change(aim); !done) return refused(done.error().message);
   const auto projection = pointed(views_[view], aim.pointing);
   if (!projection) return refused(projection.error().message);
-  Request request{*projection, aim.weights, slot.requests + 1};
+  Request request{*projection, aim.sources, slot.requests + 1};
   {
     const std::lock_guard lock(mutex_);
     if (stopped_) return refused("cannot be pointed any more; the pipeline has stopped");
@@ -76,14 +73,23 @@ Result<std::uint64_t> PanTiltZoom::turn(std::size_t view, double yaw, double pit
 
 Result<std::uint64_t> PanTiltZoom::mix(std::size_t view, std::size_t source, double weight) {
   return request(view, [&](Aim& aim) -> Result<> {
-    if (source >= aim.weights.size()) {
+    if (source >= aim.sources.size()) {
       return fail("has no source " + std::to_string(source) + "; it has " +
-                  std::to_string(aim.weights.size()) + ", from 0");
+                  std::to_string(aim.sources.size()) + ", from 0");
     }
     if (!(weight > 0) || !std::isfinite(weight)) return fail("a weight must be above 0");
-    aim.weights[source] = weight;
+    aim.sources[source].weight = weight;
     return {};
   });
+}
+
+Result<> PanTiltZoom::adopt(std::size_t view, std::vector<ViewSource> sources) {
+  const auto requested = request(view, [&](Aim& aim) -> Result<> {
+    for (std::size_t i = 0; i < sources.size(); ++i) sources[i].weight = aim.sources[i].weight;
+    aim.sources = std::move(sources);
+    return {};
+  });
+  return requested.map([](std::uint64_t) {});
 }
 
 void PanTiltZoom::exchange(std::size_t view, std::unique_ptr<ViewRenderer>& in_use) {
@@ -136,9 +142,7 @@ std::optional<PanTiltZoom::Work> PanTiltZoom::next_work(std::size_t last) {
 void PanTiltZoom::compile(std::size_t view, const Request& request) {
   ViewPlan plan = views_[view];
   plan.projection = request.projection;
-  for (std::size_t i = 0; i < plan.sources.size(); ++i) {
-    plan.sources[i].weight = request.weights[i];
-  }
+  plan.sources = request.sources;
   plan.pointing = request.number;
   // Holds the superseded one at the end, which is freed after the lock.
   auto renderer = std::make_unique<ViewRenderer>(std::move(plan));

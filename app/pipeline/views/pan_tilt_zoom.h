@@ -27,8 +27,8 @@ struct Pointing {
 /// Points display views elsewhere while frames run: compiles renderers on a thread of its own, off
 /// the frame path, which exchanges them between two frame sets. Queues per view: one request and
 /// one compiled renderer; the newest wins, each one replaced before its use is counted.
-/// Thread rule: point, turn, mix and superseded on any thread, exchange on the pipeline's, stop on
-/// the main.
+/// Thread rule: point, turn, mix, adopt and superseded on any thread, exchange on the pipeline's,
+/// stop on the main.
 class PanTiltZoom {
  public:
   /// `views`, by index, outlive this. Starts the thread.
@@ -50,6 +50,10 @@ class PanTiltZoom {
   /// source, a weight that is not above 0.
   Result<std::uint64_t> mix(std::size_t view, std::size_t source, double weight);
 
+  /// Requests the view with other `sources` in place of its own, of the same cameras, with the
+  /// weights that those have now. Error: after stop().
+  Result<> adopt(std::size_t view, std::vector<ViewSource> sources);
+
   /// Between two frame sets: swaps the renderer in use for the one compiled since, if there is one.
   /// Waits for no compilation, neither allocates nor frees: the thread frees the old one.
   void exchange(std::size_t view, std::unique_ptr<ViewRenderer>& in_use);
@@ -65,11 +69,11 @@ class PanTiltZoom {
   /// All that a request can change.
   struct Aim {
     Pointing pointing;
-    std::vector<double> weights;  ///< by source
+    std::vector<ViewSource> sources;
   };
   struct Request {
     optics::ViewProjection projection;
-    std::vector<double> weights;
+    std::vector<ViewSource> sources;
     std::uint64_t number;
   };
   struct Slot {

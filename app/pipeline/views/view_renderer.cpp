@@ -102,13 +102,22 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   render(pyramids, {picture_of(PixelFormat::Rgb, view.colour), view.validity, measured}, workers);
 }
 
+/// A camera that came after the start has another format until the view is compiled for it.
+std::span<const Picture> ViewRenderer::pictures_of(std::size_t source,
+                                                   const FramePyramids& pyramids) const {
+  const ViewSource& from = plan_.sources[source];
+  const auto pictures = pyramids.pictures(from.camera, levels(source));
+  const bool fits = !pictures.empty() && pictures.front().format == from.format.format;
+  return fits ? pictures : std::span<const Picture>();
+}
+
 void ViewRenderer::render(const FramePyramids& pyramids, const RenderTarget& target,
                           WorkerPool& workers) const {
   std::array<remap::MergedSource, remap::kMaxSources> sources;
   for (std::size_t n = 0; n < grids_.size(); ++n) {
     sources[n].grid = &grids_[n];
     sources[n].colours = &plan_.sources[n].colour_map;
-    sources[n].pictures = pyramids.pictures(plan_.sources[n].camera, levels(n));
+    sources[n].pictures = pictures_of(n, pyramids);
     if (plan_.measured == n) sources[n].measured = target.measured;
     if (!matches_.empty()) sources[n].match = &matches_[n];
   }

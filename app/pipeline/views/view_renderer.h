@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "app/model/view.h"
@@ -57,6 +58,7 @@ class ViewRenderer {
   remap::BlendGrid make_blend() const;
   std::vector<std::uint8_t> make_unseen() const;
   int levels(std::size_t source) const;
+  std::span<const Picture> pictures_of(std::size_t source, const FramePyramids& pyramids) const;
   template <class T>
   std::vector<remap::PhotometricMatch> compare_sources(const FramePyramids& pyramids) const;
 

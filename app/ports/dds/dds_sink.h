@@ -49,6 +49,8 @@ class DdsSink final : public Sink {
   /// is not allowed, or a duplicate name. A missing network is no error.
   Result<> start() override;
   void stop() override;
+  /// Whether it is in the domain.
+  bool works() const override { return joined_; }
 
   void accept_frames(const hal::FrameSet& set) override;
   void accept(const ViewPtr& view) override;
@@ -100,7 +102,7 @@ class DdsSink final : public Sink {
 
   // The sink's thread while it runs, else the owner's.
   Participant participant_;
-  bool joined_ = false;
+  std::atomic<bool> joined_{false};
   std::vector<std::string> tried_addresses_;  ///< at the newest attempt to join
   hal::TimePoint next_check_;                 ///< of the addresses
   hal::TimePoint next_try_;                   ///< to join, unless the addresses change before

@@ -2,25 +2,28 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "app/log.h"
 #include "app/model/condition.h"
 #include "hal/lines/gpio/gpio_lines.h"
-#include "hal/lines/simulated_lines.h"
+#include "hal/lines/watched_output.h"
 
 namespace orbwatch::app {
 namespace {
 
 /// A simulated chip with each configured line name once.
-std::unique_ptr<hal::LineBackEnd> make_simulated(const std::vector<LineSettings>& settings) {
+std::unique_ptr<hal::LineBackEnd> make_simulated(
+    const std::vector<LineSettings>& settings,
+    const hal::SimulatedLines::IsConnected& is_connected) {
   std::set<std::string> names;
   for (const LineSettings& line : settings) {
     if (line.back_end == LineKind::Simulated && !line.wire.address.name.empty()) {
       names.insert(line.wire.address.name);
     }
   }
-  return std::make_unique<hal::SimulatedLines>(
-      std::vector<std::string>(names.begin(), names.end()));
+  return std::make_unique<hal::SimulatedLines>(std::vector<std::string>(names.begin(), names.end()),
+                                               nullptr, is_connected);
 }
 
 void log_fault(const std::string& name, const hal::LineFaultReport& report) {
@@ -31,17 +34,17 @@ void log_fault(const std::string& name, const hal::LineFaultReport& report) {
 
 }  // namespace
 
-Result<std::unique_ptr<Lines>> Lines::open(const std::vector<LineSettings>& settings) {
-  std::unique_ptr<Lines> lines(new Lines());
-  lines->gpio_ = std::make_unique<hal::GpioLines>();
-  lines->simulated_ = make_simulated(settings);
+Lines::Lines(const std::vector<LineSettings>& settings,
+             const hal::SimulatedLines::IsConnected& is_connected)
+    : gpio_(std::make_unique<hal::GpioLines>()),
+      simulated_(make_simulated(settings, is_connected)) {
   // Inputs first: outputs may have one as their source.
-  if (auto opened = lines->open_inputs(settings); !opened) return tl::unexpected(opened.error());
-  for (const LineSettings& line : settings) {
-    if (is_input(line.use)) continue;
-    if (auto opened = lines->open_output(line); !opened) return tl::unexpected(opened.error());
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (is_input(settings[i].use)) open_input(i, settings[i]);
   }
-  return lines;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!is_input(settings[i].use)) open_output(i, settings[i]);
+  }
 }
 
 Lines::~Lines() { thread_.stop(); }
@@ -55,38 +58,41 @@ hal::WatchedInput& Lines::input(const std::string& name) {
   return *std::ranges::find(inputs_, name, &Input::name)->line;
 }
 
-Result<> Lines::open_inputs(const std::vector<LineSettings>& settings) {
-  for (const LineSettings& line : settings) {
-    if (!is_input(line.use)) continue;
-    auto opened = hal::WatchedInput::open(
-        back_end(line.back_end), line.wire,
-        [name = line.name](const hal::LineFaultReport& report) { log_fault(name, report); });
-    if (!opened) return tl::unexpected(opened.error());
-    thread_.watch(**opened);
-    if (line.use == LineUse::ProcessInput) {
-      const auto state =
-          std::make_shared<hal::ProcessInput>((*opened)->initial_level(), hal::Clock::now());
-      (*opened)->subscribe([state](const hal::EdgeEvent& edge) { state->on_edge(edge); });
-      process_inputs_.push_back(state);
+/// On the line thread, once it runs.
+hal::LineRetry::OnFault Lines::on_fault(std::size_t index, const std::string& name) {
+  return [this, bit = 1U << index, name](const hal::LineFaultReport& report) {
+    if (report.fault == hal::LineFault::None) {
+      faults_ &= ~bit;
+    } else {
+      faults_ |= bit;
     }
-    inputs_.push_back({line.name, std::move(*opened)});
-  }
-  return {};
+    log_fault(name, report);
+  };
 }
 
-Result<> Lines::open_output(const LineSettings& settings) {
+void Lines::open_input(std::size_t index, const LineSettings& settings) {
+  auto line =
+      std::make_unique<hal::WatchedInput>(back_end(settings.back_end), settings.wire,
+                                          on_fault(index, settings.name), hal::Clock::now());
+  thread_.watch(*line);
+  if (settings.use == LineUse::ProcessInput) process_inputs_.push_back(line->state());
+  inputs_.push_back({settings.name, std::move(line)});
+}
+
+void Lines::open_output(std::size_t index, const LineSettings& settings) {
   const hal::InputSettings& wire = settings.wire;
-  auto output = back_end(settings.back_end).open_output({wire.address, wire.active_low, wire.bias});
-  if (!output) return tl::unexpected(output.error());
+  auto output = std::make_unique<hal::WatchedOutput>(
+      back_end(settings.back_end), hal::OutputSettings{wire.address, wire.active_low, wire.bias},
+      on_fault(index, settings.name), hal::Clock::now());
+  thread_.add(*output);
   if (is_pulsed(settings.use)) {
-    open_pulses(settings, std::move(*output));
+    add_pulses(settings, std::move(output));
   } else {
-    open_watchdog(settings, std::move(*output));
+    add_watchdog(settings, std::move(output));
   }
-  return {};
 }
 
-void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output) {
+void Lines::add_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output) {
   hal::PulseOutput::Outputs outputs;
   outputs.push_back(std::move(output));
   hal::PulseSettings pulse = settings.pulse;
@@ -101,8 +107,7 @@ void Lines::open_pulses(const LineSettings& settings, std::unique_ptr<hal::Digit
   });
 }
 
-void Lines::open_watchdog(const LineSettings& settings,
-                          std::unique_ptr<hal::DigitalOutput> output) {
+void Lines::add_watchdog(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output) {
   hal::WatchdogSettings watchdog = settings.watchdog;
   watchdog.half_period = hal::period_of(2 * settings.toggle_rate);
   auto& outputs = settings.use == LineUse::Alarm ? alarms_ : process_ok_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "hal/lines/line_thread.h"
 #include "hal/lines/process_input.h"
 #include "hal/lines/pulse_output.h"
+#include "hal/lines/simulated_lines.h"
 #include "hal/lines/watchdog_output.h"
 
 namespace orbwatch::app {
@@ -21,9 +24,14 @@ namespace orbwatch::app {
 /// rule: as Sink's; open and trigger before start.
 class Lines : public Sink {
  public:
-  /// Opens all lines. Errors name the line and the reason.
-  static Result<std::unique_ptr<Lines>> open(const std::vector<LineSettings>& settings);
+  /// Opens all lines. One that is not there, or fails later, is a fault and taken up when it comes.
+  /// `is_connected`: of the simulated lines; null: all.
+  explicit Lines(const std::vector<LineSettings>& settings,
+                 const hal::SimulatedLines::IsConnected& is_connected = nullptr);
   ~Lines() override;
+
+  /// Bit n: line n of the configuration has a fault. On any thread.
+  std::uint32_t faults() const { return faults_; }
 
   /// Joins the camera's trigger line with its frames; null when the camera runs freely. Called for
   /// the cameras in the configuration's order. `source`: name of the trigger line, or
@@ -57,16 +65,17 @@ class Lines : public Sink {
     std::unique_ptr<hal::WatchedInput> line;
   };
 
-  Lines() = default;
-  Result<> open_inputs(const std::vector<LineSettings>& settings);
-  Result<> open_output(const LineSettings& settings);
-  void open_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
-  void open_watchdog(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
+  void open_input(std::size_t index, const LineSettings& settings);
+  void open_output(std::size_t index, const LineSettings& settings);
+  void add_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
+  void add_watchdog(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
+  hal::LineRetry::OnFault on_fault(std::size_t index, const std::string& name);
   hal::LineBackEnd& back_end(LineKind kind);
   hal::WatchedInput& input(const std::string& name);
 
-  std::unique_ptr<hal::LineBackEnd> gpio_;
-  std::unique_ptr<hal::LineBackEnd> simulated_;
+  const std::unique_ptr<hal::LineBackEnd> gpio_;
+  const std::unique_ptr<hal::LineBackEnd> simulated_;
+  std::atomic<std::uint32_t> faults_{0};
   std::vector<Input> inputs_;
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs_;
   std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;  ///< by camera; null: runs freely

@@ -30,6 +30,13 @@ ModbusSink::~ModbusSink() { stop(); }
 
 Result<> ModbusSink::start() {
   if (!settings_.enabled || tcp_) return {};
+  if (auto made = make_responder(); !made) return made;
+  if (auto opened = open_serial_line(); !opened) return opened;
+  return open_tcp();
+}
+
+Result<> ModbusSink::make_responder() {
+  if (responder_) return {};
   start_ = hal::Clock::now();
   const std::chrono::duration<double, std::milli> plc_timeout(settings_.plc_timeout_ms);
   plc_ = std::make_unique<modbus::PlcHandshake>(
@@ -39,12 +46,6 @@ Result<> ModbusSink::start() {
       [this] { return process_image(); });
   if (!responder) return tl::unexpected(responder.error());
   responder_ = std::move(*responder);
-  if (auto opened = open_serial_line(); !opened) return opened;
-  if (auto opened = open_tcp(); !opened) return opened;
-  {
-    const std::lock_guard lock(mutex_);
-    received_at_ = hal::Clock::now();  // the status time-out starts here
-  }
   command_thread_.start("modbus commands", [this] {
     // What was written before stop() is still carried out.
     for (bool last = false; !last;) {
@@ -52,8 +53,8 @@ Result<> ModbusSink::start() {
       plc_->carry_out();
     }
   });
-  tcp_thread_.start("modbus", [this] { tcp_->run(); });
-  if (serial_line_) serial_thread_.start("modbus rtu", [this] { serial_line_->run(); });
+  const std::lock_guard lock(mutex_);
+  received_at_ = hal::Clock::now();  // the status time-out starts here
   return {};
 }
 
@@ -72,6 +73,7 @@ Result<> ModbusSink::open_tcp() {
       [this] { return plc_->supervise(hal::Clock::now()); }, counters_);
   if (!server) return tl::unexpected(server.error());
   tcp_ = std::move(*server);
+  tcp_thread_.start("modbus", [this] { tcp_->run(); });
   return {};
 }
 
@@ -90,13 +92,14 @@ void ModbusSink::report_forbidden(int socket) {
 }
 
 Result<> ModbusSink::open_serial_line() {
-  if (!settings_.serial) return {};
+  if (!settings_.serial || serial_line_) return {};
   auto server = modbus::RtuServer::open(
       *settings_.serial,
       [this](modbus::Transport& transport, std::span<const std::uint8_t> frame) {
         return responder_->answer(transport, frame, settings_.serial->may_write);
       },
       [this](const Result<>& line) {
+        serial_is_lost_ = !line;
         log_line(line ? LogLevel::Info : LogLevel::Warning,
                  line ? "modbus: the serial line " + settings_.serial->device + " is back"
                       : line.error().message);
@@ -104,12 +107,12 @@ Result<> ModbusSink::open_serial_line() {
       counters_);
   if (!server) return tl::unexpected(server.error());
   serial_line_ = std::move(*server);
+  serial_thread_.start("modbus rtu", [this] { serial_line_->run(); });
   return {};
 }
 
 void ModbusSink::stop() {
-  if (!tcp_) return;
-  tcp_->stop();
+  if (tcp_) tcp_->stop();
   if (serial_line_) serial_line_->stop();
   tcp_thread_.stop();
   serial_thread_.stop();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -31,10 +32,11 @@ class ModbusSink final : public Sink {
              std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>());
   ~ModbusSink() override;
 
-  /// Errors: address or port cannot be used, or a setting is wrong; a serial line that is not
+  /// Error: address or port cannot be used; the serial line is served already then. One that is not
   /// connected is waited for. Does nothing when disabled or already started.
   Result<> start() override;
   void stop() override;
+  bool works() const override { return !serial_is_lost_; }
 
   void accept(const ViewPtr&) override {}  // registers show no pictures
   void accept(const Status& status) override;
@@ -45,6 +47,7 @@ class ModbusSink final : public Sink {
   modbus::ServerStatus statistics() const { return counters_.read(); }
 
  private:
+  Result<> make_responder();
   Result<> open_tcp();
   Result<> open_serial_line();
   modbus::ProcessImage process_image() const;
@@ -61,6 +64,7 @@ class ModbusSink final : public Sink {
   hal::TimePoint received_at_;
   modbus::ResultQueue results_;
   hal::TimePoint start_;
+  std::atomic<bool> serial_is_lost_{false};
   std::unique_ptr<modbus::PlcHandshake> plc_;
   std::unique_ptr<modbus::Responder> responder_;
   std::unique_ptr<modbus::TcpTransport> tcp_transport_;

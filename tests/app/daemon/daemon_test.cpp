@@ -267,8 +267,8 @@ hot_spot_threshold = 500
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
-TEST_F(Daemon, RefusesAPortInUseInOneLine) {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
+TEST_F(Daemon, APortInUseIsAFaultUntilItIsFree) {
+  const int s = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -276,11 +276,13 @@ TEST_F(Daemon, RefusesAPortInUseInOneLine) {
   ASSERT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
   ASSERT_EQ(listen(s, 1), 0);
   Subprocess daemon = start(write_config(small_machine()));
-  EXPECT_GT(daemon.wait(), 0);
-  const std::string said = daemon.output();
-  EXPECT_NE(said.find(std::to_string(port)), std::string::npos) << said;
-  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  const auto says = [&](const std::string& text) {
+    return daemon.output().find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(eventually(daemon, [&] { return says("runs with 2 cameras"); })) << daemon.output();
+  EXPECT_TRUE(says(std::to_string(port))) << daemon.output();
   close(s);
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
 }
 
 TEST_F(Daemon, RefusesBadFilesAndArgumentsInOneLine) {
@@ -296,19 +298,29 @@ TEST_F(Daemon, RefusesBadFilesAndArgumentsInOneLine) {
   refused({}, "--config");
   refused({"--config", "/no/such.toml"}, "/no/such.toml");
   refused({"--config", write_config("[cameras]\n")}, "site.toml:9: cameras");
-  const auto replay = [](const std::string& source) {
-    std::string text = small_machine();
-    const std::size_t begin = text.find("[camera.simulated]"), end = text.find("[[camera]]", begin);
-    text.replace(begin, end - begin, "[camera.replay]\nsource = \"" + source + "\"\n");
-    const std::string size = "width = 200\nheight = 200\n";
-    text.erase(text.find(size), size.size());
-    return text.replace(text.find("\"simulated\""), 11, "\"replay\"");
+}
+
+TEST_F(Daemon, ACameraThatCannotBeUsedIsAFaultWithItsReason) {
+  std::string text = small_machine();
+  const std::size_t begin = text.find("[camera.simulated]"), end = text.find("[[camera]]", begin);
+  text.replace(begin, end - begin, "[camera.replay]\nsource = \"pictures\"\n");
+  const std::string size = "width = 200\nheight = 200\n";
+  text.erase(text.find(size), size.size());
+  text.replace(text.find("\"simulated\""), 11, "\"replay\"");
+  Subprocess daemon = start(write_config(text));
+  const auto says = [&](const std::string& what) {
+    return eventually(daemon, [&] { return daemon.output().find(what) != std::string::npos; });
   };
-  refused({"--config", write_config(replay("nothing"))}, "camera colour: ");
-  std::filesystem::create_directory(folder / "pictures");
-  cv::imwrite((folder / "pictures/000.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(9)));
-  refused({"--config", write_config(replay("pictures"))},
-          "camera colour: delivers 64x48, but the rig is for 200x200 pictures");
+  EXPECT_TRUE(says("camera colour: ")) << daemon.output();
+  EXPECT_TRUE(eventually(daemon, [&] { return read("camera_0_fault") == 1; })) << "not there";
+  const auto pictures = folder / "pictures", staged = folder / "staged";
+  std::filesystem::create_directory(staged);
+  cv::imwrite((staged / "000.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(9)));
+  std::filesystem::rename(staged, pictures);
+  EXPECT_TRUE(says("camera colour: delivers 64x48, but the rig is for 200x200 pictures"))
+      << daemon.output();
+  EXPECT_TRUE(eventually(daemon, [&] { return read("camera_0_fault") == 5; })) << "another format";
+  EXPECT_EQ(read("system_state"), 2) << "the other camera is measured";
 }
 
 TEST_F(Daemon, ChecksAFileWithoutRunning) {

@@ -254,15 +254,81 @@ TEST_F(PipelineTest, ADamagedFrameMissesItsTriggerAndIsNoFault) {
 }
 
 TEST_F(PipelineTest, ReportsWhichProcessInputsAreActive) {
-  const auto door = std::make_shared<hal::ProcessInput>(true, hal::Clock::now());
-  const auto laser = std::make_shared<hal::ProcessInput>(false, hal::Clock::now());
+  const auto door = std::make_shared<hal::ProcessInput>(true);
+  const auto laser = std::make_shared<hal::ProcessInput>(false);
   plan.process_inputs = {door, laser};
   start();
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b01; });
-  laser->on_edge({hal::Edge::Rising, hal::Clock::now()});
+  laser->set(true);
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b11; });
-  door->on_edge({hal::Edge::Falling, hal::Clock::now()});
+  door->set(false);
   sink.wait_for([](const Status& s) { return s.process_inputs == 0b10; });
+  EXPECT_EQ(sink.wait_for([](const Status&) { return true; }).process_inputs_known, 0b11U);
+  laser->set({});
+  sink.wait_for(
+      [](const Status& s) { return s.process_inputs == 0 && s.process_inputs_known == 0b01; });
+}
+
+TEST_F(PipelineTest, ReportsWhatItsSurroundingsSay) {
+  plan.surroundings = [](hal::TimePoint) {
+    Surroundings surroundings;
+    surroundings.health.board_temperature = 51;
+    surroundings.line_faults = 0b101;
+    surroundings.interface_faults = 0b10;
+    return surroundings;
+  };
+  start();
+  const Status status = sink.wait_for([](const Status& s) { return s.heartbeat > 0; });
+  EXPECT_EQ(status.health.board_temperature, 51);
+  EXPECT_EQ(status.line_faults, 0b101U);
+  EXPECT_EQ(status.interface_faults, 0b10U);
+}
+
+TEST_F(PipelineTest, AnAbsentCameraIsAFaultAndTakenUpWhenItComes) {
+  plan.absent[0] = true;
+  start();
+  cameras[1]->expose(200);
+  Status status = sink.wait_for([](const Status& s) { return s.frame_set == 1; });
+  EXPECT_EQ(status.state, SystemState::Degraded);
+  EXPECT_EQ(status.cameras[0].fault, hal::Fault::Unplugged);
+  EXPECT_EQ(status.regions[0].quality, Quality::NotMeasured);
+  pipeline->miss(0, hal::Fault::WrongFormat);
+  sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::WrongFormat; });
+  ASSERT_TRUE(pipeline->admit(0, pipeline->formats()[0]));
+  cameras[0]->expose(40000);  // it paces from now on
+  expose_both(40000);
+  status =
+      sink.wait_for([](const Status& s) { return s.regions[0].quality != Quality::NotMeasured; });
+  EXPECT_EQ(status.state, SystemState::Running);
+}
+
+TEST_F(PipelineTest, ACameraOfAnotherFormatThanExpectedIsSeenOnceItsViewsAreCompiled) {
+  const auto formats = plan.formats;
+  const auto compile = [&] {
+    return compiled(recipe_plan(view("measured", 1, {0, 1}), 30000, 0.04));
+  };
+  auto real = compile();
+  const auto seen = view("seen", 0, {1});
+  // The files say nothing of its format, so 8 bits are expected; it delivers 16.
+  plan.formats[0].format = PixelFormat::Grey;
+  plan.recipes[0] = compiled(recipe_plan(view("measured", 1, {0, 1}), 100, 0));
+  plan.absent[0] = true;
+  start();
+  cameras[1]->expose(200);
+  sink.wait_for([](const Status& s) { return s.frame_set == 1; });
+  Recompiled recompiled;
+  recompiled.formats = formats;
+  recompiled.sources[0] = seen.sources;
+  recompiled.recipes.push_back(std::move(real));
+  ASSERT_TRUE(pipeline->take_over(std::move(recompiled)));
+  EXPECT_EQ(pipeline->formats()[0].format, PixelFormat::Y16);
+  ASSERT_TRUE(pipeline->admit(0, formats[0]));
+  cameras[0]->expose(40000);  // it paces from now on
+  expose_both(40000);
+  const Status status =
+      sink.wait_for([](const Status& s) { return s.regions[0].quality != Quality::NotMeasured; });
+  EXPECT_EQ(status.state, SystemState::Running);
+  EXPECT_NEAR(status.regions[0].signals.hot_spot_peak_temperature, 40000 * 0.04 - 273.15, 0.1);
 }
 
 TEST_F(PipelineTest, SelectsAViewOnCommand) {

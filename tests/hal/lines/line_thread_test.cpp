@@ -8,6 +8,7 @@
 #include "hal/lines/pulse_output.h"
 #include "hal/lines/simulated_lines.h"
 #include "hal/lines/watchdog_output.h"
+#include "hal/lines/watched_output.h"
 #include "tests/hal/lines/edges.h"
 
 namespace orbwatch::hal {
@@ -39,10 +40,9 @@ class Log {
 
 std::unique_ptr<WatchedInput> watch(SimulatedLines& lines, const std::string& name,
                                     Log<EdgeEvent>& edges, Log<LineFault>& faults) {
-  auto input =
-      WatchedInput::open(lines, {.address = {.name = name}}, [&faults](const auto& report) {
-        faults.add(report.fault);
-      }).value();
+  auto input = std::make_unique<WatchedInput>(
+      lines, InputSettings{.address = {.name = name}},
+      [&faults](const auto& report) { faults.add(report.fault); }, Clock::now());
   input->subscribe([&edges](const EdgeEvent& edge) { edges.add(edge); });
   return input;
 }
@@ -142,6 +142,27 @@ TEST(LineThread, ALineThatComesBackIsHeardAgain) {
   thread.stop();
   EXPECT_EQ(input->opened(), 2U);
   EXPECT_EQ(other->opened(), 1U);
+}
+
+TEST(LineThread, AnOutputThatComesLateGetsItsLevel) {
+  Log<bool> levels;
+  SimulatedLines lines({"OK"}, [&levels](const std::string&, bool level) { levels.add(level); });
+  lines.fail_with("OK", LineFault::Gone);
+  Log<LineFault> faults;
+  auto output = std::make_unique<WatchedOutput>(
+      lines, OutputSettings{.address = {.name = "OK"}},
+      [&faults](const auto& report) { faults.add(report.fault); }, Clock::now());
+  LineThread thread;
+  thread.add(*output);
+  WatchdogOutput ok({.timeout = std::chrono::minutes(1)}, std::move(output),
+                    [&thread] { thread.wake(); });
+  thread.add(ok);
+  ASSERT_TRUE(thread.start());
+  ok.report(true, Clock::now());
+  EXPECT_THAT(faults.wait_for(1), testing::ElementsAre(LineFault::Gone));
+  lines.fail_with("OK", LineFault::None);
+  EXPECT_THAT(levels.wait_for(1), testing::ElementsAre(true));
+  thread.stop();
 }
 
 TEST(LineThread, StopsTwiceAndStartsAgain) {

@@ -16,9 +16,9 @@ class WatchedInputTest : public testing::Test {
   std::unique_ptr<WatchedInput> open(Clock::duration debounce) {
     InputSettings settings{.address = {.name = "IN"}};
     settings.debounce = debounce;
-    auto input = WatchedInput::open(lines, settings, [this](const LineFaultReport& report) {
-                   faults.push_back(report.fault);
-                 }).value();
+    auto input = std::make_unique<WatchedInput>(
+        lines, settings, [this](const LineFaultReport& report) { faults.push_back(report.fault); },
+        at(0));
     input->subscribe([this](const EdgeEvent& edge) { heard.push_back(edge); });
     return input;
   }
@@ -65,6 +65,37 @@ TEST_F(WatchedInputTest, ALineThatGoesSilentlyIsNoticed) {
   EXPECT_THAT(faults, ElementsAre(LineFault::Gone));
 }
 
+TEST_F(WatchedInputTest, ALineThatIsNotThereIsTakenUpWhenItComes) {
+  lines.fail_with("IN", LineFault::Gone);
+  const auto input = open(Clock::duration(0));
+  EXPECT_THAT(faults, ElementsAre(LineFault::Gone));
+  EXPECT_EQ(input->state()->active(), std::nullopt) << "nobody knows";
+  lines.drive("IN", true, at(0));
+  lines.fail_with("IN", LineFault::None);
+  EXPECT_EQ(input->due(), at(1000));
+  input->run(at(1000));
+  EXPECT_THAT(faults, ElementsAre(LineFault::Gone, LineFault::None));
+  EXPECT_EQ(input->state()->active(), true);
+  EXPECT_THAT(heard, ElementsAre()) << "its first level is no edge";
+  lines.drive("IN", false, at(1001));
+  input->read(at(1001));
+  EXPECT_THAT(heard, ElementsAre(EdgeEvent{Edge::Falling, at(1001)}));
+  EXPECT_EQ(input->state()->active(), false);
+}
+
+TEST_F(WatchedInputTest, TheStateOfALineThatFailsIsNotKnown) {
+  const auto input = open(Clock::duration(0));
+  lines.drive("IN", true, at(0));
+  input->read(at(0));
+  EXPECT_EQ(input->state()->active(), true);
+  lines.fail_with("IN", LineFault::ReadError);
+  input->read(at(1));
+  EXPECT_EQ(input->state()->active(), std::nullopt);
+  lines.fail_with("IN", LineFault::None);
+  input->run(input->due());
+  EXPECT_EQ(input->state()->active(), true) << "without an edge, too";
+}
+
 TEST_F(WatchedInputTest, ALineThatGoesIsReportedOnceAndOpenedAgain) {
   const auto input = open(Clock::duration(0));
   lines.fail_with("IN", LineFault::Gone);
@@ -77,7 +108,7 @@ TEST_F(WatchedInputTest, ALineThatGoesIsReportedOnceAndOpenedAgain) {
     retries.push_back(due.count());
     input->run(input->due());
   }
-  EXPECT_THAT(retries, ElementsAre(1, 3, 7, 15, 25, 35)) << "after 1, 2, 4, 8, 10, 10 s";
+  EXPECT_THAT(retries, ElementsAre(1, 3, 5, 7, 9, 11)) << "after 1, 2, 2, ... s";
   lines.drive("IN", true, at(0));
   lines.fail_with("IN", LineFault::None);
   const TimePoint back = input->due();

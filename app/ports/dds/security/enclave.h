@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/ports/dds/security/access_documents.h"
@@ -31,7 +32,9 @@ Result<Key> read_key(const std::filesystem::path& file);
 
 /// Checks whether a participant with these files can join the domain and be authenticated. Cyclone
 /// DDS checks less and does not name the file. Errors: a file that is missing, damaged, expired at
-/// `now`, not valid yet, or inconsistent with the others or the domain. Reentrant.
-Result<> check_enclave(const EnclaveFiles& files, int domain, std::chrono::sys_seconds now);
+/// `now`, not valid yet, or inconsistent with the others or the domain. Without `now` dates are not
+/// checked. Reentrant.
+Result<> check_enclave(const EnclaveFiles& files, int domain,
+                       std::optional<std::chrono::sys_seconds> now);
 
 }  // namespace orbwatch::app

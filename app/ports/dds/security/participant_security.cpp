@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -79,14 +80,17 @@ Result<> set_plugins(const Qos& qos) {
 
 }  // namespace
 
-Result<> check_security(const SecuritySettings& settings, int domain) {
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+Result<> check_security(const SecuritySettings& settings, int domain, Dates dates) {
+  std::optional<std::chrono::sys_seconds> now;
+  if (dates == Dates::Checked) {
+    now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  }
   return check_enclave(EnclaveFiles(settings.folder), domain, now)
       .map_error([](const Error& error) { return Error{"DDS security: " + error.message}; });
 }
 
 Result<Qos> security_qos(const SecuritySettings& settings, int domain) {
-  if (const auto checked = check_security(settings, domain); !checked) {
+  if (const auto checked = check_security(settings, domain, Dates::Checked); !checked) {
     return tl::unexpected(checked.error());
   }
   Qos qos(dds_create_qos());

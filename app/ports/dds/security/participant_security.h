@@ -12,8 +12,12 @@ struct SecuritySettings {
   std::filesystem::path folder;  ///< holds the files of EnclaveFiles
 };
 
-/// Checks the files at this moment, as check_enclave().
-Result<> check_security(const SecuritySettings& settings, int domain);
+/// Whether certificates and permissions must be valid now. A board without a battery has a wrong
+/// clock until a time server is reached.
+enum class Dates { Checked, Ignored };
+
+/// Checks the files, as check_enclave().
+Result<> check_security(const SecuritySettings& settings, int domain, Dates dates);
 
 /// QoS that makes a participant of the domain a secure one, by Cyclone DDS' own plugins. Reads the
 /// files once to check them; the plugins read them again. Errors: as check_security; the plugins

@@ -75,7 +75,7 @@ std::vector<Bit> alarm_bits(std::string_view name, std::string_view description,
 std::vector<Bit> status_bits() {
   return {
       in_state("running", "Every camera delivers", SystemState::Running),
-      in_state("degraded", "Some camera has a fault; what the others see is measured",
+      in_state("degraded", "Some camera has a fault or is late; what the others see is measured",
                SystemState::Degraded),
       in_state("fault", "No camera delivers, or the pipeline is silent", SystemState::Fault),
       in_state("stopped", "Measuring is switched off", SystemState::Stopped),

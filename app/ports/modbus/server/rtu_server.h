@@ -16,7 +16,7 @@
 namespace orbwatch::app::modbus {
 
 /// Modbus RTU: serves one unit on a serial line. A line that cannot be opened, or disconnects as
-/// adapters on USB may, is opened again after 1 s, then 2 s, up to every 10 s.
+/// adapters on USB may, is opened again after 1 s, then every 2 s.
 /// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
 class RtuServer {
  public:

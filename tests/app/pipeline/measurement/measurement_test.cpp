@@ -301,8 +301,8 @@ TEST_F(MeasurementTest, ACameraThatIsAwayIsNotMeasured) {
 }
 
 TEST_F(MeasurementTest, TheProcessIsActiveAsTheRecipeSays) {
-  const auto other = std::make_shared<hal::ProcessInput>(true, Clock::now());
-  const auto laser = std::make_shared<hal::ProcessInput>(false, Clock::now());
+  const auto other = std::make_shared<hal::ProcessInput>(true);
+  const auto laser = std::make_shared<hal::ProcessInput>(false);
   inputs = {other, laser};
   std::vector<RecipePlan> plans{plan(1), plan(2), plan(3), plan(4)};
   plans[1].process_active = ActiveSource::Input;
@@ -317,11 +317,11 @@ TEST_F(MeasurementTest, TheProcessIsActiveAsTheRecipeSays) {
 
   ASSERT_EQ(select(2), CommandResult::Done);
   EXPECT_FALSE(is_active());
-  laser->on_edge({hal::Edge::Rising, Clock::now()});
+  laser->set(true);
   EXPECT_TRUE(is_active());
-  other->on_edge({hal::Edge::Falling, Clock::now()});
+  other->set(false);
   EXPECT_TRUE(is_active());
-  laser->on_edge({hal::Edge::Falling, Clock::now()});
+  laser->set(false);
   EXPECT_FALSE(idle().process_active) << "without frames, too";
 
   ASSERT_EQ(select(3), CommandResult::Done);

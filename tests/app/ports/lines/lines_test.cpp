@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -25,12 +26,10 @@ LineSettings line(const std::string& name, LineUse use, const std::string& wire)
 class StatusLines : public testing::Test {
  protected:
   StatusLines() {
-    auto opened =
-        Lines::open({line("hears_ok", LineUse::ProcessInput, "OK"),
-                     line("hears_alarm", LineUse::ProcessInput, "ALARM"),
-                     line("ok", LineUse::ProcessOk, "OK"), line("alarm", LineUse::Alarm, "ALARM")});
-    EXPECT_TRUE(opened) << opened.error().message;
-    lines = std::move(*opened);
+    lines = std::make_unique<Lines>(std::vector{line("hears_ok", LineUse::ProcessInput, "OK"),
+                                                line("hears_alarm", LineUse::ProcessInput, "ALARM"),
+                                                line("ok", LineUse::ProcessOk, "OK"),
+                                                line("alarm", LineUse::Alarm, "ALARM")});
     EXPECT_TRUE(lines->start());
   }
   ~StatusLines() override { lines->stop(); }
@@ -50,7 +49,7 @@ class StatusLines : public testing::Test {
   bool becomes(const Status& status, bool ok, bool no_alarm) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     const auto is = [&](std::size_t input, bool active) {
-      return lines->process_inputs()[input]->state().active == active;
+      return lines->process_inputs()[input]->active() == active;
     };
     lines->accept(status);
     while (!(is(0, ok) && is(1, no_alarm)) && std::chrono::steady_clock::now() < end) {
@@ -94,6 +93,19 @@ TEST_F(StatusLines, AlarmsBeyondTheirCountAreNone) {
   Status left = status(AlarmState::Unacknowledged, AlarmLevel::HighAlarm);
   left.alarm_count = 1;
   EXPECT_TRUE(becomes(left, true, true));
+}
+
+TEST(MissingLines, AreFaultsUntilTheyCome) {
+  std::atomic<bool> there = false;
+  Lines lines({line("door", LineUse::ProcessInput, "DOOR"), line("ok", LineUse::ProcessOk, "OK")},
+              [&there](const std::string& name) { return name == "DOOR" || there; });
+  EXPECT_EQ(lines.faults(), 0b10U) << "bit 1: the second line";
+  ASSERT_TRUE(lines.start());
+  there = true;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (lines.faults() != 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_EQ(lines.faults(), 0U);
+  lines.stop();
 }
 
 }  // namespace

@@ -10,7 +10,6 @@ namespace orbwatch::hal {
 namespace {
 
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class GpioInputs : public SimulatedChip {
@@ -18,10 +17,10 @@ class GpioInputs : public SimulatedChip {
   void start(Clock::duration debounce = Clock::duration(0)) {
     InputSettings settings{.address = {.name = "TRIGGER_IN"}};
     settings.debounce = debounce;
-    auto opened = WatchedInput::open(
-        lines, settings, [this](const LineFaultReport& report) { faults.add(report.fault); });
-    ASSERT_TRUE(opened) << opened.error().message;
-    input = std::move(*opened);
+    input = std::make_unique<WatchedInput>(
+        lines, settings, [this](const LineFaultReport& report) { faults.add(report.fault); },
+        Clock::now());
+    ASSERT_TRUE(faults.items().empty());
     input->subscribe([this](const EdgeEvent& edge) { edges.add(edge); });
     thread.watch(*input);
     ASSERT_TRUE(thread.start());
@@ -67,7 +66,8 @@ TEST_F(GpioInputs, EdgesComeInOrderWithTheKernelsStamps) {
 TEST_F(GpioInputs, TriggersAreFramesAndMissed) {
   FrameTrigger trigger({.mode = TriggerMode::Line}, nullptr);
   InputSettings settings{.address = {.chip = "orbwatch", .offset = kInput}};
-  input = WatchedInput::open(lines, settings, [](const LineFaultReport&) {}).value();
+  input = std::make_unique<WatchedInput>(
+      lines, settings, [](const LineFaultReport&) {}, Clock::now());
   input->subscribe([&trigger, this](const EdgeEvent& edge) {
     trigger.on_edge(edge);
     edges.add(edge);
@@ -124,8 +124,7 @@ TEST_F(GpioInputs, AChipThatGoesIsAFaultAndComesBack) {
   set_live(false);
   ASSERT_TRUE(faults.wait_for(1));
   set_live(true);
-  ASSERT_TRUE(faults.wait_for(2));
-  EXPECT_THAT(faults.items(), ElementsAre(LineFault::Gone, LineFault::None));
+  ASSERT_TRUE(comes_true([this] { return faults.items().back() == LineFault::None; }));
   // The new chip's wire is low: that is heard, and so is what follows.
   ASSERT_TRUE(edges.wait_for(2));
   pull(kInput, true);

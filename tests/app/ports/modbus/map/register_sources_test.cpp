@@ -240,6 +240,9 @@ void RegisterSources::expect_status() {
   expect([](S s) { s.live.status.load = 0.5; }, {"system_load"});
   expect([](S s) { s.live.status.load = 1.5; }, {"system_load", "fault_bits"});
   expect([](S s) { ++s.live.status.selected_view; }, {"system_selected_view"});
+  expect([](S s) { ++s.live.status.process_inputs_known; }, {"system_process_inputs_known"});
+  expect([](S s) { ++s.live.status.line_faults; }, {"system_line_faults"});
+  expect([](S s) { ++s.live.status.interface_faults; }, {"system_interface_faults"});
   for (std::size_t i = 0; i < 32; ++i) {
     expect([i](S s) { s.live.status.process_inputs = 1U << i; },
            {"system_process_inputs", "process_input_" + std::to_string(i) + "?"});

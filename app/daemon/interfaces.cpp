@@ -1,0 +1,88 @@
+#include "app/daemon/interfaces.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace orbwatch::app {
+namespace {
+
+SinkContext make_context(const Resolved& site, CommandHandler handler,
+                         std::shared_ptr<CommandRecord> record) {
+  SinkContext context{site.names, {}, {}, std::move(handler), std::move(record)};
+  context.views.resize(site.names.views.size());
+  const auto publish = [&context](const ViewSettings& view, bool measured) {
+    const bool perspective = view.kind == optics::ViewKind::Perspective;
+    context.views[view.index] = {view.encoding, perspective, measured};
+  };
+  for (const ViewSettings& view : site.site.views) publish(view, false);
+  for (const Recipe& recipe : site.recipes) {
+    for (const ViewSettings& view : recipe.views) publish(view, true);
+  }
+  for (const CameraSettings& camera : site.site.cameras) {
+    context.camera_encodings.push_back(camera.encoding);
+  }
+  return context;
+}
+
+/// By bit of Interfaces::faults().
+template <class... Settings>
+constexpr auto names_of(const std::tuple<Settings...>*) {
+  return std::array{Settings::kName..., std::string_view("snapshots")};
+}
+constexpr auto kNames = names_of(static_cast<const SinkSettings*>(nullptr));
+
+}  // namespace
+
+std::string commanders_text(const SinkSettings& sinks) {
+  std::string text;
+  const auto add = [&text](const std::string& commanders) {
+    if (!commanders.empty()) text += (text.empty() ? "" : "; ") + commanders;
+  };
+  std::apply([&add](const auto&... settings) { (add(commanders(settings)), ...); }, sinks);
+  return "takes commands " + (text.empty() ? "from nobody" : text);
+}
+
+Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
+                       std::shared_ptr<CommandRecord> record, SnapshotSink* snapshots) {
+  const SinkContext context = make_context(site, std::move(handler), std::move(record));
+  std::size_t next = 0;
+  std::apply(
+      [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },
+      site.site.sinks);
+  for (std::size_t i = 0; i < kMade; ++i) all_[i] = made_[i].get();
+  all_.back() = snapshots;
+}
+
+void Interfaces::start(Attempts& attempts, hal::TimePoint now) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (!all_[i]) continue;
+    const auto attempt = [this, i] {
+      return all_[i]->start().map([this, i] { started_ |= 1U << i; });
+    };
+    attempts.add(std::string(kNames[i]), attempt, now);
+  }
+}
+
+void Interfaces::stop() {
+  for (Sink* sink : sinks()) sink->stop();
+}
+
+std::vector<Sink*> Interfaces::sinks() const {
+  std::vector<Sink*> sinks;
+  std::ranges::copy_if(all_, std::back_inserter(sinks), [](const Sink* sink) { return sink; });
+  return sinks;
+}
+
+std::uint32_t Interfaces::faults() const {
+  std::uint32_t faults = 0;
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    const bool works = !all_[i] || ((started_ >> i & 1U) != 0 && all_[i]->works());
+    faults |= (works ? 0U : 1U) << i;
+  }
+  return faults;
+}
+
+}  // namespace orbwatch::app

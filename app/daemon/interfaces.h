@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/daemon/attempts.h"
+#include "app/files/resolve.h"
+#include "app/model/command.h"
+#include "app/model/sink.h"
+#include "app/ports/snapshot/snapshot_sink.h"
+#include "app/state/command_record.h"
+
+namespace orbwatch::app {
+
+/// Who may command this appliance, in one line. Reentrant.
+std::string commanders_text(const SinkSettings& sinks);
+
+/// The interfaces of a site to the outside, each started by itself: one that cannot be opened is
+/// tried again while the others work. Thread rule: one owner, apart from faults().
+class Interfaces {
+ public:
+  /// Makes the enabled ones. `handler` carries commands out, noted in `record`; `snapshots` is the
+  /// caller's and outlives this; null: none.
+  Interfaces(const Resolved& site, CommandHandler handler, std::shared_ptr<CommandRecord> record,
+             SnapshotSink* snapshots);
+
+  /// Starts them, with those that cannot be opened among the `attempts`.
+  void start(Attempts& attempts, hal::TimePoint now);
+  void stop();
+
+  /// For the pipeline.
+  std::vector<Sink*> sinks() const;
+
+  /// As the figure interface_faults of SystemStatus. On any thread.
+  std::uint32_t faults() const;
+
+ private:
+  static constexpr std::size_t kMade = std::tuple_size_v<SinkSettings>;
+
+  std::array<std::unique_ptr<Sink>, kMade> made_;  ///< null: not enabled
+  std::array<Sink*, kMade + 1> all_{};             ///< by bit of faults(): made_, then snapshots
+  std::atomic<std::uint32_t> started_{0};          ///< bit n: all_[n]
+};
+
+}  // namespace orbwatch::app
