@@ -11,8 +11,8 @@ namespace orbwatch::signals {
 
 /// Follows the hot spot from frame set to frame set: of the blobs that can be it, the largest near
 /// its usual place. Behind a nozzle it is not seen, however large a spark is beside it; the way it
-/// may have gone meanwhile grows until it is seen again, twice. Where it turns out to be elsewhere it
-/// is believed once it has stayed there for longer than a spark lives. Work: linear in blobs. No
+/// may have gone meanwhile grows until it is seen again, twice. Where it turns out to be elsewhere
+/// it is believed once it has stayed there for longer than a spark lives. Work: linear in blobs. No
 /// allocation. Thread-bound.
 class HotSpotTrack {
  public:

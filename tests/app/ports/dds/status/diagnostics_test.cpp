@@ -93,7 +93,7 @@ TEST_F(Diagnostics, CameraTellsItsFaultAndItsFigures) {
   status_.cameras[0].fault = hal::Fault::Unplugged;
   const Diagnostic camera = found("orbwatch: camera colour");
   EXPECT_EQ(camera.level, DiagnosticLevel::Error);
-  EXPECT_EQ(camera.message, "camera is not connected");
+  EXPECT_EQ(camera.message, "camera is not connected, or cannot be opened");
   EXPECT_EQ(value(camera, "dropped"), std::to_string(status_.cameras[0].dropped));
   EXPECT_EQ(value(camera, "last_frame_age (s)"), "not valid");
   EXPECT_EQ(level("orbwatch: camera thermal"), DiagnosticLevel::Ok);
