@@ -8,6 +8,7 @@ namespace {
 
 std::vector<std::uint16_t> numbers_of(const std::vector<std::unique_ptr<CompiledRecipe>>& recipes) {
   std::vector<std::uint16_t> numbers;
+  numbers.reserve(recipes.size());
   for (const auto& recipe : recipes) numbers.push_back(recipe->plan().number);
   return numbers;
 }
