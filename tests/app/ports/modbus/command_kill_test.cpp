@@ -88,9 +88,9 @@ class CommandKill : public testing::Test {
                       folder_ / "output");
     std::jthread killer;
     const auto arm = [&] {
-      killer = std::jthread([&server, end] {
+      killer = std::jthread([pid = server.pid(), end] {
         std::this_thread::sleep_for(end->after);  // the moment is what the test is about
-        server.send(end->signal);
+        ::kill(pid, end->signal);
       });
     };
     if (end && end->is_at_start) arm();
