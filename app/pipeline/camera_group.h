@@ -72,7 +72,7 @@ class CameraGroup {
  private:
   struct Member {
     std::unique_ptr<hal::Camera> camera;
-    bool absent = false;  ///< under setting_
+    bool absent = false;  ///< changed on the main thread, under setting_
     hal::StreamFormat format;
     std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: it runs freely
     std::atomic<hal::Fault> fault{hal::Fault::None};
