@@ -40,6 +40,9 @@ constexpr Edge edge_to(bool active) { return active ? Edge::Rising : Edge::Falli
 struct EdgeEvent {
   Edge edge = Edge::Rising;
   TimePoint stamp;  ///< the kernel's; with debounce: of the edge to the level that was kept
+  /// Edges that a full queue dropped between the one before and this one, where the kernel numbers
+  /// edges (libgpiod 2.x); elsewhere 0.
+  std::uint32_t lost_before = 0;
 };
 
 /// The faults of a line in use. Append, never renumber.
@@ -105,10 +108,6 @@ class DigitalInput {
 
   /// Whether the line is active now.
   virtual LineResult<bool> level() const = 0;
-
-  /// Edges dropped by a full queue, where edges are numbered; else nullopt, and EdgeFilter
-  /// estimates.
-  virtual std::optional<std::uint64_t> lost() const = 0;
 
   /// Whether the edges are debounced already, with InputSettings::debounce.
   virtual bool is_debounced() const = 0;

@@ -85,7 +85,6 @@ class SimulatedLines::Input : public DigitalInput {
     return wire_->level != active_low_;
   }
 
-  std::optional<std::uint64_t> lost() const override { return std::nullopt; }
   bool is_debounced() const override { return false; }
 
  private:

@@ -1,6 +1,7 @@
 #include "hal/lines/watched_input.h"
 
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 namespace orbwatch::hal {
@@ -9,6 +10,9 @@ namespace {
 /// Batches per read(), so that one line does not starve the others.
 constexpr int kBatches = 4;
 
+/// Edges that the kernel keeps of a line: a full batch may mean that more are lost.
+constexpr std::size_t kKernelQueue = 16;
+
 }  // namespace
 
 std::optional<EdgeEvent> EdgeFilter::take(const EdgeEvent& edge) {
@@ -16,10 +20,11 @@ std::optional<EdgeEvent> EdgeFilter::take(const EdgeEvent& edge) {
   const EdgeEvent before = std::exchange(last_, edge);
   due_ = edge.stamp + wait();
   doubted_ = false;
+  if (edge.lost_before > 0) doubt();
+  lost_ += edge.lost_before;
   if (period_.count() <= 0) {
-    level_ = !level_;
-    last_.edge = edge_to(level_);
-    return last_;
+    if (edge.lost_before % 2 == 0) level_ = !level_;  // else the lost ones led to the other level
+    return last_ = {edge_to(level_), edge.stamp};
   }
   return kept ? change_to(before.edge == Edge::Rising, before.stamp) : std::nullopt;
 }
@@ -32,8 +37,25 @@ std::optional<EdgeEvent> EdgeFilter::settle(bool level, TimePoint now) {
   }
   due_ = TimePoint::max();
   doubted_ = false;
-  if (level == expected) return change_to(level, last_.stamp);
-  ++found_lost_;
+  in_doubt_ = false;
+  return level == expected ? change_to(level, last_.stamp) : make_up(level, now);
+}
+
+void EdgeFilter::doubt() {
+  if (in_doubt_ || period_.count() > 0) return;  // with a period each burst ends with a reading
+  in_doubt_ = true;
+  readings_ = 0;
+}
+
+std::optional<EdgeEvent> EdgeFilter::confirm(bool level, TimePoint now) {
+  readings_ += level == level_ ? 1 : -1;
+  if (std::abs(readings_) < kReadings) return std::nullopt;
+  in_doubt_ = false;
+  return readings_ > 0 ? std::nullopt : make_up(level, now);
+}
+
+std::optional<EdgeEvent> EdgeFilter::make_up(bool level, TimePoint now) {
+  ++lost_;
   last_ = {edge_to(level), now};
   return change_to(level, now);
 }
@@ -64,11 +86,16 @@ Result<> WatchedInput::open_line() {
 }
 
 void WatchedInput::read(TimePoint now) {
-  std::array<EdgeEvent, 16> edges;
+  std::array<EdgeEvent, kKernelQueue> edges;
   for (int batch = 0; input_ && batch < kBatches; ++batch) {
+    // Level before edges: an edge between the two must not count as lost.
+    const LineResult<bool> level = filter_.in_doubt() ? input_->level() : false;
+    if (!level) return fail_with(level.error(), now);
     const auto count = input_->take(edges);
     if (!count) return fail_with(count.error(), now);
     for (std::size_t i = 0; i < *count; ++i) forward(filter_.take(edges[i]));
+    if (*count == edges.size()) filter_.doubt();
+    if (*count == 0 && filter_.in_doubt()) forward(filter_.confirm(*level, now));
     count_lost();
     if (*count == 0) return;
   }
@@ -77,8 +104,7 @@ void WatchedInput::read(TimePoint now) {
 void WatchedInput::run(TimePoint now) {
   if (now < due()) return;
   if (!input_) return open(now);
-  // Level before edges: an edge between the two must not count as lost.
-  const auto level = input_->level();
+  const auto level = input_->level();  // before edges, as in read()
   if (!level) return fail_with(level.error(), now);
   check_ = now + kLineCheckPeriod;
   read(now);
@@ -87,9 +113,7 @@ void WatchedInput::run(TimePoint now) {
   count_lost();
 }
 
-void WatchedInput::count_lost() {
-  lost_ = lost_before_ + input_->lost().value_or(filter_.found_lost());
-}
+void WatchedInput::count_lost() { lost_ = lost_before_ + filter_.lost(); }
 
 void WatchedInput::forward(const std::optional<EdgeEvent>& edge) {
   if (!edge) return;

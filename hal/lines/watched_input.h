@@ -19,12 +19,20 @@ namespace orbwatch::hal {
 /// that long; its edge has the stamp of the change. Without one (or when the kernel debounces) each
 /// edge passes at once, as the opposite of the one before: the kernel derives the direction from a
 /// level that it reads some microseconds later, so both edges of a short pulse may have the same
-/// one. As queues overflow, the level is read again after a burst, so that the last edge agrees
-/// with the line. Pure: time is an argument.
+/// one.
+///
+/// Queues overflow. Of numbered edges it is known how many are lost, and so which level the next
+/// one leads to. Others, and those that no number names (an interrupt may stand for three edges),
+/// show in the level: it is confirmed with kReadings after each loss, however busy the line is, and
+/// read again after a burst, so that the last edge agrees with the line. Pure: time is an argument.
 class EdgeFilter {
  public:
   /// From the last edge to reading the level, without debounce.
   static constexpr Clock::duration kQuiet = std::chrono::milliseconds(5);
+
+  /// By so many, the readings of the level after a loss must outnumber the others: a single one may
+  /// belong to an edge that has not arrived.
+  static constexpr int kReadings = 3;
 
   EdgeFilter(Clock::duration period, bool level)
       : period_(period), level_(level), last_{edge_to(level), {}} {}
@@ -41,19 +49,32 @@ class EdgeFilter {
   /// it counts when it is the same a period later.
   std::optional<EdgeEvent> settle(bool level, TimePoint now);
 
-  /// Lost edges, as derived from the level after a burst.
-  std::uint64_t found_lost() const { return found_lost_; }
+  /// Edges may have been lost without a number: the queue was full.
+  void doubt();
+
+  /// Whether the level is to be read as soon as no edge waits, for confirm(). Never with a period.
+  bool in_doubt() const { return in_doubt_; }
+
+  /// The line's level, read with no edge left to take. Returns the edge that makes up for lost ones
+  /// once the level contradicts them.
+  std::optional<EdgeEvent> confirm(bool level, TimePoint now);
+
+  /// Lost edges: by their numbers, and one for each that the level told.
+  std::uint64_t lost() const { return lost_; }
 
  private:
   Clock::duration wait() const { return period_.count() > 0 ? period_ : kQuiet; }
   std::optional<EdgeEvent> change_to(bool level, TimePoint stamp);
+  std::optional<EdgeEvent> make_up(bool level, TimePoint now);
 
   Clock::duration period_;
   bool level_;  ///< of the newest returned edge
   EdgeEvent last_;
   TimePoint due_ = TimePoint::max();
-  bool doubted_ = false;
-  std::uint64_t found_lost_ = 0;
+  bool doubted_ = false;   ///< by settle()
+  bool in_doubt_ = false;  ///< since a loss
+  int readings_ = 0;       ///< since then: those that agreed less those that did not
+  std::uint64_t lost_ = 0;
 };
 
 /// An input line that forwards its debounced edges. A line that is not there, or fails later (a

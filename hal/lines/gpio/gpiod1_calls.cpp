@@ -67,7 +67,6 @@ class Input : public DigitalInput {
     return value == 1;
   }
 
-  std::optional<std::uint64_t> lost() const override { return std::nullopt; }
   bool is_debounced() const override { return false; }
 
  private:

@@ -88,18 +88,17 @@ class Input : public DigitalInput {
     return value == GPIOD_LINE_VALUE_ACTIVE;
   }
 
-  std::optional<std::uint64_t> lost() const override { return lost_; }
   bool is_debounced() const override { return true; }
 
  private:
-  /// The kernel numbers edges from 1 and stamps a debounced one at the end of the debounce period.
+  /// The kernel numbers edges from 1, drops the oldest of a full queue, and stamps a debounced one
+  /// at the end of the debounce period.
   EdgeEvent edge_of(gpiod_edge_event* event) {
-    const unsigned long number = gpiod_edge_event_get_line_seqno(event);
-    if (number > last_number_ + 1) lost_ += number - last_number_ - 1;
-    last_number_ = number;
+    const auto number = static_cast<std::uint32_t>(gpiod_edge_event_get_line_seqno(event));
+    const std::uint32_t lost = number - std::exchange(last_number_, number) - 1;
     const std::chrono::nanoseconds age(gpiod_edge_event_get_timestamp_ns(event));
     const bool rising = gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE;
-    return {edge_to(rising), TimePoint(age) - debounce_};
+    return {edge_to(rising), TimePoint(age) - debounce_, lost};
   }
 
   Request request_;
@@ -107,8 +106,7 @@ class Input : public DigitalInput {
   unsigned offset_;
   Clock::duration debounce_;
   std::string text_;
-  unsigned long last_number_ = 0;
-  std::uint64_t lost_ = 0;
+  std::uint32_t last_number_ = 0;  ///< wraps as the kernel's
 };
 
 class Output : public DigitalOutput {

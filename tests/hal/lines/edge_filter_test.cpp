@@ -53,7 +53,7 @@ TEST(EdgeFilter, PassesEdgesAtOnceWithoutAPeriod) {
   wire.change(1.001, false);
   wire.change(1.002, true);
   EXPECT_EQ(wire.run(100), wire.edges);
-  EXPECT_EQ(wire.filter.found_lost(), 0U);
+  EXPECT_EQ(wire.filter.lost(), 0U);
 }
 
 TEST(EdgeFilter, ABurstIsOneEdgeAtItsLastChange) {
@@ -85,7 +85,7 @@ TEST(EdgeFilter, AsksAgainWhenTheLevelContradictsTheLastEdge) {
   EXPECT_EQ(filter.due(), at(14));
   EXPECT_EQ(filter.take({Edge::Falling, at(12.5)}), (EdgeEvent{Edge::Rising, at(10)}));
   EXPECT_EQ(filter.settle(false, at(15)), (EdgeEvent{Edge::Falling, at(12.5)}));
-  EXPECT_EQ(filter.found_lost(), 0U);
+  EXPECT_EQ(filter.lost(), 0U);
 }
 
 TEST(EdgeFilter, ALostLastEdgeIsFoundByTheLevel) {
@@ -103,7 +103,7 @@ TEST(EdgeFilter, ALostLastEdgeIsFoundByTheLevel) {
     }
     ASSERT_FALSE(out.empty());
     EXPECT_EQ(out.back().edge, Edge::Falling) << "the final state is right";
-    EXPECT_EQ(wire.filter.found_lost(), 1U);
+    EXPECT_EQ(wire.filter.lost(), 1U);
     EXPECT_EQ(wire.filter.due(), TimePoint::max());
   }
 }
@@ -113,7 +113,42 @@ TEST(EdgeFilter, AShortPulseIsOneHoweverItsEdgesAreNamed) {
   EXPECT_EQ(filter.take({Edge::Falling, at(1)}), (EdgeEvent{Edge::Rising, at(1)}));
   EXPECT_EQ(filter.take({Edge::Falling, at(1.01)}), (EdgeEvent{Edge::Falling, at(1.01)}));
   EXPECT_EQ(filter.settle(false, filter.due()), std::nullopt);
-  EXPECT_EQ(filter.found_lost(), 0U);
+  EXPECT_EQ(filter.lost(), 0U);
+}
+
+TEST(EdgeFilter, AfterNumberedLossesTheDirectionIsRightAtOnce) {
+  for (const unsigned lost : {1U, 2U, 7U, 40U}) {
+    EdgeFilter filter(Clock::duration(0), false);
+    filter.take({Edge::Rising, at(1)});
+    const bool level = lost % 2 == 1;  // to which the first edge after the lost ones leads
+    EXPECT_EQ(filter.take({edge_to(level), at(2), lost}), (EdgeEvent{edge_to(level), at(2)}));
+    EXPECT_EQ(filter.take({edge_to(!level), at(3)}), (EdgeEvent{edge_to(!level), at(3)}));
+    EXPECT_EQ(filter.lost(), lost);
+  }
+}
+
+TEST(EdgeFilter, ALossThatNoNumberNamesIsFoundByThreeReadings) {
+  EdgeFilter filter(Clock::duration(0), false);
+  EXPECT_FALSE(filter.in_doubt());
+  filter.take({Edge::Rising, at(1)});
+  filter.doubt();
+  EXPECT_EQ(filter.confirm(false, at(1.1)), std::nullopt) << "its edge may be on the way";
+  EXPECT_EQ(filter.confirm(false, at(1.2)), std::nullopt);
+  EXPECT_EQ(filter.confirm(false, at(1.3)), (EdgeEvent{Edge::Falling, at(1.3)}));
+  EXPECT_FALSE(filter.in_doubt());
+  EXPECT_EQ(filter.lost(), 1U);
+}
+
+TEST(EdgeFilter, AReadingThatIsAheadOfItsEdgeIsOutnumbered) {
+  EdgeFilter filter(Clock::duration(0), false);
+  filter.doubt();
+  EXPECT_EQ(filter.confirm(true, at(1)), std::nullopt);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(filter.in_doubt());
+    EXPECT_EQ(filter.confirm(false, at(2 + i)), std::nullopt);
+  }
+  EXPECT_FALSE(filter.in_doubt());
+  EXPECT_EQ(filter.lost(), 0U);
 }
 
 /// What debounce means, from the whole wave at once: the levels that were kept for the period.
@@ -137,7 +172,7 @@ TEST(EdgeFilter, AgreesWithTheDefinitionOnRandomWaves) {
     double when = 10;
     for (int i = 0; i < 101; ++i) wire.change(when += 0.001 + pause(random), i % 2 == 0);
     EXPECT_EQ(wire.run(when + 100), kept_levels(wire.edges, milliseconds(2))) << "seed " << seed;
-    EXPECT_EQ(wire.filter.found_lost(), 0U);
+    EXPECT_EQ(wire.filter.lost(), 0U);
   }
 }
 

@@ -56,6 +56,22 @@ TEST_F(WatchedInputTest, WithoutDebounceALostLastEdgeIsMadeUpFor) {
   EXPECT_EQ(input->lost(), 1U);
 }
 
+TEST_F(WatchedInputTest, WithoutDebounceALostEdgeIsMadeUpForOnABusyLine) {
+  const auto input = open(Clock::duration(0));
+  for (int i = 0; i < 17; ++i) lines.drive("IN", i % 2 == 0, at(i * 0.01));
+  input->read(at(1));
+  for (int i = 0; i < 2; ++i) {  // inverted still: so many readings are wanted
+    lines.drive("IN", i % 2 == 1, at(2 + i));
+    input->read(at(2 + i));
+  }
+  for (int i = 0; i < 20; ++i) {
+    lines.drive("IN", i % 2 == 1, at(4 + i));
+    input->read(at(4 + i));
+    EXPECT_EQ(heard.back(), (EdgeEvent{edge_to(i % 2 == 1), at(4 + i)}));
+  }
+  EXPECT_EQ(input->lost(), 1U);
+}
+
 TEST_F(WatchedInputTest, ALineThatGoesSilentlyIsNoticed) {
   const auto input = open(Clock::duration(0));
   input->run(at(0));

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -115,6 +116,28 @@ TEST_F(GpioInputs, AStormWithoutDebounceEndsWithTheRightLevel) {
   thread.stop();
   const auto heard = edges.items();
   for (std::size_t i = 1; i < heard.size(); ++i) EXPECT_LE(heard[i - 1].stamp, heard[i].stamp);
+}
+
+TEST_F(GpioInputs, AfterLostEdgesABusyLineHasTheRightLevel) {
+  WatchedInput busy(
+      lines, {.address = {.name = "TRIGGER_IN"}}, [](const LineFaultReport&) {}, Clock::now());
+  std::optional<Edge> last;
+  busy.subscribe([&last](const EdgeEvent& edge) { last = edge.edge; });
+  const auto read_one = [&busy] {
+    pollfd file{busy.descriptor(), POLLIN, 0};
+    ASSERT_EQ(::poll(&file, 1, 60'000), 1);
+    busy.read(Clock::now());
+  };
+  bool up = false;
+  for (int i = 0; i < 301; ++i) pull(kInput, up = !up);  // the queue overflows
+  read_one();
+  // Nobody calls run(), which reads the level of a line that is quiet.
+  for (int i = 0; i < 20; ++i) {
+    pull(kInput, up = !up);
+    read_one();
+    if (i < EdgeFilter::kReadings) continue;  // so many edges may be inverted
+    EXPECT_EQ(last, edge_to(up)) << "edge " << i;
+  }
 }
 
 TEST_F(GpioInputs, AChipThatGoesIsAFaultAndComesBack) {
