@@ -38,10 +38,10 @@ class YuvToRgb {
     green_v_ = fixed(2 * (1 - kr) * kr / kg * c_gain);
     blue_u_ = fixed(2 * (1 - kb) * c_gain);
     constexpr int kNeutral = 128;
-    const int black = (1 << (kBits - 1)) - (full ? 0 : 16) * y_;
-    red_ = black - kNeutral * red_v_;
-    green_ = black + kNeutral * (green_u_ + green_v_);
-    blue_ = black - kNeutral * blue_u_;
+    black_ = (1 << (kBits - 1)) - (full ? 0 : 16) * y_;
+    red_ = black_ - kNeutral * red_v_;
+    green_ = black_ + kNeutral * (green_u_ + green_v_);
+    blue_ = black_ - kNeutral * blue_u_;
   }
 
   constexpr void operator()(int y, int u, int v, std::uint8_t* rgb) const {
@@ -64,6 +64,9 @@ class YuvToRgb {
     for (std::size_t i = 0; i < kPairs; ++i) blue[i] = blue_u[i] + blue_;
     return {samples(even, odd, red), samples(even, odd, green), samples(even, odd, blue)};
   }
+
+  /// Luma alone, 0..255: what a pixel without colour gets in all three.
+  constexpr std::uint8_t luma(int y) const { return clip((y * y_ + black_) >> kBits); }
 
  private:
   static constexpr int kBits = 14;
@@ -125,12 +128,13 @@ class YuvToRgb {
   std::uint16_t green_u_;
   std::uint16_t green_v_;
   std::uint16_t blue_u_;
+  std::int32_t black_;
   std::int32_t red_;
   std::int32_t green_;
   std::int32_t blue_;
 };
 
-/// Luma of an R'G'B' pixel by BT.601, 0..255.
+/// Luma of a pixel that the camera gave as R'G'B', by BT.601, 0..255.
 constexpr std::uint8_t luma(const std::uint8_t* rgb) {
   return static_cast<std::uint8_t>((rgb[0] * 19595 + rgb[1] * 38470 + rgb[2] * 7471 + 32768) >> 16);
 }

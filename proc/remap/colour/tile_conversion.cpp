@@ -200,6 +200,15 @@ void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_
   }
 }
 
+void write_luminance(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
+                     const TileArea& area) {
+  const YuvToRgb convert = conversion_from(colour_space);
+  write_rows<1>(out, area, [&](int y, std::uint8_t* to) {
+    const auto luminance = run_at<SampleRun>(tile, 0, y * kTile);
+    for (std::size_t x = 0; x < kRun; ++x) to[x] = convert.luma(luminance[x]);
+  });
+}
+
 void clear_area(const MutablePicture& out, const TileArea& area) {
   SampledTile tile;
   std::size_t n = 0;

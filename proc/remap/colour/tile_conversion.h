@@ -37,6 +37,11 @@ constexpr std::uint8_t black(const PlaneSampling& sampling, PixelFormat format,
 void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
                 const MutablePicture& out, const TileArea& area);
 
+/// Writes the luminance of a tile that was sampled from a Yuv format into its area of `out`, Grey:
+/// the source's own Y, brought to the full range. Reentrant.
+void write_luminance(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
+                     const TileArea& area);
+
 /// Makes an area black.
 void clear_area(const MutablePicture& out, const TileArea& area);
 

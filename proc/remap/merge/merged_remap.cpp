@@ -50,15 +50,22 @@ class SourceTiles {
 
   /// Writes a tile into `area` of `out`, and its measured plane.
   void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
-    const bool is_luminance = info(format_).colour == ColourModel::Luminance;
+    const ColourModel colour = info(format_).colour;
     const bool is_wide = info(format_).bytes_per_sample() == 2;
-    if (is_luminance && out.format == PixelFormat::Rgb) {
+    if (colour == ColourModel::Luminance && out.format == PixelFormat::Rgb) {
       const auto rgb = part(out.samples<std::uint8_t>(), area);
       is_wide ? write_mapped<std::uint16_t>(tx, ty, rgb) : write_mapped<std::uint8_t>(tx, ty, rgb);
       return;
     }
-    tiles_.write(tx, ty, out, area);
-    if (is_measured(source_)) write_luminance(tx, ty, part(out.samples<std::uint8_t>(), area));
+    if (!is_measured(source_)) {
+      tiles_.write(tx, ty, out, area);
+    } else if (colour == ColourModel::Yuv) {
+      const TileLuminance luminance{source_.measured, area_of(*source_.grid, tx, ty)};
+      tiles_.write(tx, ty, out, area, &luminance);
+    } else {
+      tiles_.write(tx, ty, out, area);
+      write_luma(tx, ty, part(out.samples<std::uint8_t>(), area));
+    }
     if (!source_.match) return;
     is_wide ? source_.match->apply(part(out.samples<std::uint16_t>(), area))
             : source_.match->apply(part(out.samples<std::uint8_t>(), area));
@@ -80,7 +87,7 @@ class SourceTiles {
     source_.colours->apply(values, rgb, {0, 1});
   }
 
-  void write_luminance(int tx, int ty, const ImageView<std::uint8_t>& rgb) const {
+  void write_luma(int tx, int ty, const ImageView<std::uint8_t>& rgb) const {
     const TileArea place = area_of(*source_.grid, tx, ty);
     const auto out = part(source_.measured.samples<std::uint8_t>(), place);
     for (int y = 0; y < place.rows; ++y) {

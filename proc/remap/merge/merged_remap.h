@@ -21,8 +21,9 @@ struct MergedSource {
   std::span<const Picture> pictures;
   const ColourMap* colours = nullptr;  ///< of a one-channel source of an RGB view
   /// The target of what is measured, whether or not it counts in the picture: Grey for the
-  /// luminance of a colour or 8 bit source, a 16 bit source's own format for its counts. No data:
-  /// none. Only in RGB views.
+  /// luminance of a colour or 8 bit source, a 16 bit source's own format for its counts. Luminance
+  /// is of full range: of YUV the source's own Y, which colours outside RGB do not change, of RGB
+  /// luma by BT.601. No data: none. Only in RGB views.
   MutablePicture measured;
   /// Brings the source to another one's exposure, unless it is colour-mapped; null: as it is.
   const PhotometricTable* match = nullptr;

@@ -48,11 +48,14 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
   }
 }
 
-void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area,
+                      const TileLuminance* luminance) const {
+  assert(luminance == nullptr ||
+         (info(format_).colour == ColourModel::Yuv && info(out.format).colour == ColourModel::Rgb));
   const bool in_place = lies_as_sampled(format_, out.format) && is_whole(area);
   const Targets targets = in_place ? targets_in(out, area.x, area.y) : Targets();
   if (!in_place || !write_simple(tx, ty, targets)) {
-    write_other(tx, ty, out, area, in_place ? &targets : nullptr);
+    write_other(tx, ty, out, area, in_place ? &targets : nullptr, luminance);
   }
 }
 
@@ -83,13 +86,19 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
 
 /// `in_place`: where the tile's samples go, if they lie in the view as they are sampled.
 [[gnu::noinline]] void TileRemap::write_other(int tx, int ty, const MutablePicture& out,
-                                              const TileArea& area, const Targets* in_place) const {
+                                              const TileArea& area, const Targets* in_place,
+                                              const TileLuminance* luminance) const {
   const Tile tile = grid_.tile(tx, ty);
-  if (is_empty(tile.kind)) return clear_area(out, area);
+  if (is_empty(tile.kind)) {
+    if (luminance != nullptr) clear_area(luminance->out, luminance->area);
+    return clear_area(out, area);
+  }
   SampledTile sampled;
   const Targets targets = in_place != nullptr ? *in_place : targets_in(sampled);
   const auto convert = [&] {
     if (in_place == nullptr) write_tile(sampled, format_, colour_space_, out, area);
+    if (luminance == nullptr) return;
+    write_luminance(sampled, colour_space_, luminance->out, luminance->area);
   };
   const Reading reading = this->reading(tile);
   const bool smooth = interpolation_ != Interpolation::Nearest;

@@ -29,6 +29,12 @@ constexpr bool uses_mip_levels(Interpolation interpolation) {
   return interpolation == Interpolation::Area;
 }
 
+/// Where the luminance of a tile goes, beside the tile.
+struct TileLuminance {
+  MutablePicture out;  ///< Grey
+  TileArea area;
+};
+
 /// Fills tiles of a view from one source. Refers to its arguments; reentrant.
 class TileRemap {
  public:
@@ -36,8 +42,10 @@ class TileRemap {
   TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
             Interpolation interpolation, const Kernel& kernel);
 
-  /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`.
-  void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+  /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`; of a Yuv source
+  /// whose `out` is Rgb or Bgr also its luminance, unless null (see write_luminance).
+  void write(int tx, int ty, const MutablePicture& out, const TileArea& area,
+             const TileLuminance* luminance = nullptr) const;
   /// Writes a row of tiles of the view `out`.
   void write_row(int ty, const MutablePicture& out) const;
 
@@ -49,7 +57,7 @@ class TileRemap {
   Targets targets_in(SampledTile& tile) const;
   bool write_simple(int tx, int ty, const Targets& targets) const;
   void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
-                   const Targets* in_place) const;
+                   const Targets* in_place, const TileLuminance* luminance = nullptr) const;
   Reading reading(const Tile& tile) const;
   void sample(const Patch& patch, Reading reading, const Targets& targets) const;
   template <int Cell>

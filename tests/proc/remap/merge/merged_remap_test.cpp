@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "proc/image/image_view.h"
@@ -212,6 +214,57 @@ TEST_F(MergedRemap, TheLuminanceOfColourIsMeasured) {
               luma(&truth[3 * static_cast<std::size_t>(i)]));
   }
 }
+
+/// The Y of a YUV picture as it lies there.
+std::unique_ptr<StoredPicture> luminance_plane(const StoredPicture& yuv) {
+  auto grey = std::make_unique<StoredPicture>(PixelFormat::Grey, kSide, kSide);
+  const PixelFormat format = yuv.picture.format;
+  const int step = info(format).channels(), first = format == PixelFormat::Uyvy ? 1 : 0;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      grey->picture.samples<std::uint8_t>().at(x, y)[0] = yuv.sample(0, y, step * x + first);
+    }
+  }
+  return grey;
+}
+
+class MergedYuv : public MergedRemap,
+                  public testing::WithParamInterface<std::tuple<PixelFormat, ColourMatrix>> {};
+
+// Noise holds every colour, most of them outside RGB.
+TEST_P(MergedYuv, ItsLuminanceIsTheCamerasOwnInFullRange) {
+  const auto [format, matrix] = GetParam();
+  for (const ColourRange range : {ColourRange::Limited, ColourRange::Full}) {
+    cameras.clear();
+    add(0, format);
+    add(150);
+    compile();
+    cameras[0]->source.source.colour_space = {matrix, range};
+    StoredPicture luminance(PixelFormat::Grey, kWidth, kHeight),
+        own(luminance.picture.format, kWidth, kHeight);
+    measured = luminance.picture;
+    render();
+    expect_mean();
+    remap(cameras[0]->grid, luminance_plane(cameras[0]->source)->as_source(),
+          Interpolation::Bilinear, own.picture, {0, cameras[0]->grid.tiles_y()});
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const int y = own.sample(0, i / kWidth, i % kWidth);
+      const double full = range == ColourRange::Full ? y : (y - 16) * 255.0 / 219;
+      ASSERT_NEAR(luminance.sample(0, i / kWidth, i % kWidth), std::clamp(full, 0.0, 255.0), 0.53)
+          << i % kWidth << ", " << i / kWidth;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, MergedYuv,
+    testing::Combine(testing::Values(PixelFormat::Yuyv, PixelFormat::Uyvy, PixelFormat::Nv12,
+                                     PixelFormat::Nv21, PixelFormat::I420),
+                     testing::Values(ColourMatrix::Bt601, ColourMatrix::Bt709)),
+    [](const auto& test) {
+      return std::string(orbwatch::info(std::get<0>(test.param)).name) +
+             (std::get<1>(test.param) == ColourMatrix::Bt601 ? "_bt601" : "_bt709");
+    });
 
 /// Two sources of one format in a view of that format, the second one matched.
 template <class T>
