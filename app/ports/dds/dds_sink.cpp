@@ -137,6 +137,7 @@ Result<> DdsSink::watch_types() {
 
 void DdsSink::leave() {
   joined_ = false;
+  interfaces_.left();
   type_watch_.close();
   discovery_.close();
   commands_.close();
@@ -147,17 +148,17 @@ void DdsSink::leave() {
   participant_.leave();
 }
 
-/// Cyclone DDS binds to the addresses that the host has when it joins; it ignores later ones.
 void DdsSink::keep_joined() {
   const auto now = hal::Clock::now();
   if (now < next_check_) return;
   next_check_ = now + kCheckPeriod;
   mistyped_ = type_watch_.update();
   const auto addresses = addresses_();
-  const bool changed = addresses && *addresses != tried_addresses_;
+  const bool changed = addresses && interfaces_.is_change(tried_addresses_, *addresses);
   if (joined_ ? !changed : !changed && now < next_try_) return;
   if (joined_) {
-    log_line(LogLevel::Warning, "DDS: the host's addresses changed, joins the domain again");
+    log_line(LogLevel::Warning,
+             "DDS: the addresses of its network changed, joins the domain again");
     leave();
   }
   if (changed) {
@@ -173,6 +174,7 @@ void DdsSink::keep_joined() {
     return;
   }
   if (!std::exchange(refusal_, {}).empty()) log_line(LogLevel::Info, "DDS: joined the domain");
+  interfaces_.joined(tried_addresses_, bound_addresses());
   joined_ = true;
   ++joins_;
 }

@@ -13,6 +13,7 @@
 #include "app/ports/dds/commands/bounded_queue.h"
 #include "app/ports/dds/commands/command_service.h"
 #include "app/ports/dds/dds_settings.h"
+#include "app/ports/dds/participant/network_addresses.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/pictures/picture_topic.h"
 #include "app/ports/dds/pictures/view_topics.h"
@@ -31,11 +32,11 @@ namespace orbwatch::app {
 /// commands out; see topic_names.h. Everything of a frame set has the same UTC stamp, so that
 /// readers can pair images and state exactly. Each picture topic has a thread; the rest is
 /// published on the sink's, which also joins the domain, retries until it succeeds, and rejoins
-/// when the host's addresses change. Thread rule: as Sink; statistics() is thread-safe; start may
-/// run while views are passed to accept().
+/// when the addresses of its interfaces change. Thread rule: as Sink; statistics() is thread-safe;
+/// start may run while views are passed to accept().
 class DdsSink final : public Sink {
  public:
-  using Addresses = std::function<std::optional<std::vector<std::string>>()>;
+  using Addresses = std::function<std::optional<std::vector<NetworkAddress>>()>;
 
   /// `names` in the order of View::index and of FrameSet::frames; the name of a view or camera is a
   /// topic part and the frame_id of its images. `handler` carries commands out, on a thread of the
@@ -103,9 +104,10 @@ class DdsSink final : public Sink {
   // The sink's thread while it runs, else the owner's.
   Participant participant_;
   std::atomic<bool> joined_{false};
-  std::vector<std::string> tried_addresses_;  ///< at the newest attempt to join
-  hal::TimePoint next_check_;                 ///< of the addresses
-  hal::TimePoint next_try_;                   ///< to join, unless the addresses change before
+  std::vector<NetworkAddress> tried_addresses_;  ///< at the newest attempt to join
+  InterfaceWatch interfaces_;
+  hal::TimePoint next_check_;  ///< of the addresses
+  hal::TimePoint next_try_;    ///< to join, unless the addresses change before
   hal::BackOff back_off_;
   std::string refusal_;  ///< why the newest attempt failed; empty: it succeeded
   StatusTopics status_topics_;

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "app/ports/dds/participant/entity.h"
 #include "app/ports/dds/security/participant_security.h"
@@ -56,11 +55,5 @@ class Participant {
   std::shared_ptr<const void> domain_;  ///< empty when other code created the domain
   Entity entity_;
 };
-
-/// The IPv4 addresses of this host's interfaces that are up, "eth0 192.168.0.7", sorted; nullopt
-/// when the system call fails. Others than when a participant joined: it must join again. An
-/// interface that loses its link keeps its address unless the network manager removes it.
-/// Thread-safe.
-std::optional<std::vector<std::string>> network_addresses();
 
 }  // namespace orbwatch::app

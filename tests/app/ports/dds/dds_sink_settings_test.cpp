@@ -87,8 +87,8 @@ TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
 
 TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
   std::mutex mutex;
-  std::optional<std::vector<std::string>> addresses{{"eth0 192.168.0.7"}};
-  const auto set = [&](std::optional<std::vector<std::string>> to) {
+  std::optional<std::vector<NetworkAddress>> addresses{{{"eth0", "192.168.0.7"}}};
+  const auto set = [&](std::optional<std::vector<NetworkAddress>> to) {
     const std::lock_guard lock(mutex);
     addresses = std::move(to);
   };
@@ -124,7 +124,7 @@ TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
     return looks >= before + 2;
   }));
   EXPECT_EQ(sink.statistics().joins, 1u) << "not known: no reason to leave";
-  set({{"eth0 192.168.0.8"}});
+  set({{{"eth0", "192.168.0.8"}}});
   ASSERT_TRUE(joins(2));
   reader.drain();
   EXPECT_TRUE(arrives()) << "the same reader gets pictures again";

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -168,6 +169,31 @@ TEST_F(NetworkFault, PicturesComeAgainUnderAnotherAddress) {
   }));
   EXPECT_TRUE(gets_more(*far));
   expect_accounted();
+}
+
+TEST_F(NetworkFault, AnAddressOfAnotherInterfaceInterruptsNobody) {
+  std::atomic<int> checks = 0;
+  DdsSink counted({.domain = tests::kDomain}, tests::make_names(), nullptr, [&checks] {
+    ++checks;
+    return network_addresses();
+  });
+  sink_.stop();
+  network_->start(counted);
+  const auto checked = [&](int times) {
+    const int before = checks;
+    return eventually([&] {
+      counted.accept(Status{});  // wakes its thread
+      return checks >= before + times;
+    });
+  };
+  network_->writers().run([] { orbwatch::tests::ip("addr add 10.88.0.1/24 dev lo"); });
+  ASSERT_TRUE(checked(2));
+  EXPECT_EQ(counted.statistics().joins, 1U);
+  network_->cable().readdress("10.77.0.9");
+  EXPECT_TRUE(eventually([&] {
+    counted.accept(Status{});
+    return counted.statistics().joins == 2;
+  }));
 }
 
 TEST_F(NetworkFault, ALateReaderGetsTheLastState) {

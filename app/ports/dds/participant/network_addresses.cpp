@@ -1,0 +1,94 @@
+#include "app/ports/dds/participant/network_addresses.h"
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <system_error>
+
+namespace orbwatch::app {
+namespace {
+
+std::string text_of(const in_addr& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
+/// The IPv4 address to which the UDP socket `file` is bound; nullopt: no such socket, or to all.
+std::optional<std::string> bound_address(int file) {
+  int type = 0;
+  socklen_t length = sizeof type;
+  if (getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &length) != 0 || type != SOCK_DGRAM) return {};
+  sockaddr_in name{};
+  length = sizeof name;
+  if (getsockname(file, reinterpret_cast<sockaddr*>(&name), &length) != 0) return {};
+  if (name.sin_family != AF_INET || name.sin_addr.s_addr == INADDR_ANY) return {};
+  return text_of(name.sin_addr);
+}
+
+bool is_loopback(const NetworkAddress& address) { return address.address.starts_with("127."); }
+
+}  // namespace
+
+std::optional<std::vector<NetworkAddress>> network_addresses() {
+  ifaddrs* found = nullptr;
+  if (getifaddrs(&found) != 0) return std::nullopt;
+  const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> list(found, freeifaddrs);
+  std::vector<NetworkAddress> addresses;
+  for (const ifaddrs* at = found; at != nullptr; at = at->ifa_next) {
+    const bool up = (at->ifa_flags & IFF_UP) != 0;
+    if (!up || at->ifa_addr == nullptr || at->ifa_addr->sa_family != AF_INET) continue;
+    const auto& address = reinterpret_cast<const sockaddr_in*>(at->ifa_addr)->sin_addr;
+    addresses.push_back({at->ifa_name, text_of(address)});
+  }
+  std::ranges::sort(addresses);
+  return addresses;
+}
+
+std::set<std::string> bound_addresses() {
+  std::set<std::string> addresses;
+  std::error_code unreadable;  // no /proc: none are known
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", unreadable)) {
+    const std::string name = entry.path().filename();
+    int file = -1;
+    std::from_chars(name.data(), name.data() + name.size(), file);
+    if (auto address = bound_address(file)) addresses.insert(std::move(*address));
+  }
+  return addresses;
+}
+
+void InterfaceWatch::joined(const std::vector<NetworkAddress>& host,
+                            const std::set<std::string>& bound) {
+  bool is_known = false;
+  for (const NetworkAddress& address : host) {
+    if (!bound.contains(address.address)) continue;
+    interfaces_.insert(address.interface);
+    is_known = true;
+  }
+  // Loopback for want of another: whichever comes may be the one.
+  watches_all_ = !is_known || std::ranges::all_of(host, is_loopback);
+}
+
+bool InterfaceWatch::is_change(const std::vector<NetworkAddress>& before,
+                               const std::vector<NetworkAddress>& after) const {
+  return watched(before) != watched(after);
+}
+
+std::vector<NetworkAddress> InterfaceWatch::watched(
+    const std::vector<NetworkAddress>& addresses) const {
+  std::vector<NetworkAddress> kept;
+  std::ranges::copy_if(addresses, std::back_inserter(kept), [this](const NetworkAddress& address) {
+    return watches_all_ || interfaces_.contains(address.interface);
+  });
+  return kept;
+}
+
+}  // namespace orbwatch::app
