@@ -72,10 +72,13 @@ std::size_t CameraGroup::late() const {
 }
 
 std::size_t CameraGroup::pacing_camera() const {
+  std::size_t first = members_.size();
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (members_[i].fault == hal::Fault::None) return i;
+    if (members_[i].fault != hal::Fault::None) continue;
+    if (!sync_.is_late(i)) return i;
+    first = std::min(first, i);
   }
-  return 0;
+  return first == members_.size() ? 0 : first;
 }
 
 void CameraGroup::miss(std::size_t camera, hal::Fault fault) {

@@ -51,7 +51,8 @@ class CameraGroup {
   std::size_t faulty() const;
   /// How many cameras have no fault but are late: see FrameMatcher.
   std::size_t late() const;
-  /// The first camera without a fault: its frames begin the sets.
+  /// The first camera without a fault that is not late, or the first without a fault when all are:
+  /// its frames begin the sets, see FrameMatcher.
   std::size_t pacing_camera() const;
 
   /// An absent camera's fault.

@@ -106,13 +106,13 @@ void Measurement::idle(bool blind) {
 }
 
 /// Every triggered set is a result, even when nothing could be measured: whoever triggered waits
-/// for it. A commanded trigger applies to a set without one of its own.
+/// for it. A set that has a trigger of its own answers a commanded one, too: another camera paces
+/// than when it was commanded, and the command triggered that.
 bool Measurement::is_result(const hal::FrameSet& set) {
-  if (set.trigger) return true;
   const hal::Clock::rep since = trigger_;
   const bool is_commanded = since != 0 && set.stamp.time_since_epoch().count() >= since;
   if (is_commanded) trigger_ = 0;
-  return is_commanded;
+  return is_commanded || set.trigger.has_value();
 }
 
 std::optional<bool> Measurement::process_active() const {

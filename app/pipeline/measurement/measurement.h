@@ -38,7 +38,7 @@ class Measurement {
   CommandResult pause();
   /// By its number, for frame sets exposed from now on. ArgumentOutOfRange: no such recipe.
   CommandResult select_recipe(std::size_t number);
-  /// Makes a result of the next frame set that has no trigger of its own. Busy: one is pending.
+  /// Makes a result of the next frame set exposed from now on. Busy: one is pending.
   CommandResult trigger();
   /// By its number, from 1; 0: all. ArgumentOutOfRange: the recipe has no such alarm.
   CommandResult acknowledge_alarm(std::size_t number);

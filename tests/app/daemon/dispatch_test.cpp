@@ -100,6 +100,13 @@ class Dispatch : public testing::Test {
     }
     ASSERT_EQ(cameras[camera]->triggers, number);
   }
+  void wait_until_paces(std::size_t camera) {
+    const auto end = std::chrono::steady_clock::now() + seconds(30);
+    while (pipeline->pacing_camera() != camera && std::chrono::steady_clock::now() < end) {
+      std::this_thread::yield();
+    }
+    ASSERT_EQ(pipeline->pacing_camera(), camera);
+  }
 
   ResultSink sink;
   std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
@@ -154,6 +161,30 @@ TEST_F(Dispatch, ATriggerIsAResultOfTheFreeCameraThatPacesForATriggeredOne) {
   ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
   EXPECT_EQ(next_set(1).result, 1U);
   EXPECT_EQ(next_set(1).result, 1U);
+}
+
+TEST_F(Dispatch, ATriggerEndsWithTheSetOfTheTriggeredCameraThatPacesInstead) {
+  start({hal::TriggerMode::Off, hal::TriggerMode::Software});
+  ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+  wait_for_trigger(1, 1);
+  cameras[0]->fail_with(hal::Fault::Unplugged);
+  wait_until_paces(1);
+  EXPECT_EQ(next_set(1).result, 1U);
+  cameras[0]->fail_with(hal::Fault::None);
+  wait_until_paces(0);
+  EXPECT_EQ(command(CommandCode::Trigger), CommandResult::Done) << "none is pending";
+  EXPECT_EQ(next_set(0).result, 2U);
+}
+
+TEST_F(Dispatch, ATriggerIsAResultOfTheCameraThatPacesForASilentOne) {
+  start({hal::TriggerMode::Off, hal::TriggerMode::Software});
+  for (int n = 0; n < 3; ++n) next_set();
+  wait_until_paces(1);
+  for (int n = 1; n <= 2; ++n) {
+    ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
+    wait_for_trigger(1, n);
+    EXPECT_EQ(next_set(1).result, static_cast<std::uint64_t>(n));
+  }
 }
 
 TEST_F(Dispatch, PulsesGoToTheLines) {
