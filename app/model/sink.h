@@ -47,8 +47,8 @@ class Sink {
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 
-  /// The cameras' own pictures, before the views made of them. Their buffers are the cameras': a
-  /// sink that keeps many makes a camera lose frames.
+  /// The cameras' own pictures, before the views made of them. Their buffers are the cameras': all
+  /// sinks together keep hal::kFrameReaders of a camera, each for one conversion.
   virtual void accept_frames(const hal::FrameSet& /*set*/) {}
   virtual void accept(const ViewPtr& view) = 0;
   /// Called after the views of the same frame set, and at least ten times a second without frames.

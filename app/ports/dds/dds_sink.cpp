@@ -196,7 +196,7 @@ void DdsSink::accept_frames(const hal::FrameSet& set) {
     CameraTopics& camera = *cameras_[i];
     // By the set's conversion, so that a frame exposed with the set has the stamp of its views.
     const auto exposed = utc_ + (frame->metadata.exposure_start - set.stamp);
-    camera.ball.accept({frame, frame->picture, to_message(exposed), &camera.name});
+    camera.ball.accept({frame, frame->picture, to_message(exposed), &camera.name, true});
   }
 }
 

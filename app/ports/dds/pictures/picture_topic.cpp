@@ -25,35 +25,44 @@ void PictureTopic::close() {
   mailbox_.close();
   thread_.stop();
   mailbox_.discard();
+  busy_ = false;
   topic_.close();
 }
 
 void PictureTopic::accept(const StampedPicture& picture) {
+  const auto now = since_epoch(picture.stamp);
   if (!open_ || !topic_.has_reader()) {
     topic_.count_unread();
-  } else if (!is_due(picture.stamp)) {
+  } else if (!is_due(now)) {
     ++limited_;
+  } else if (picture.is_scarce && busy_) {
+    ++passed_over_;
   } else {
+    due_ = (was_clock_set(now) ? now : due_) + period_;
+    busy_ = true;
     mailbox_.put(picture);
   }
 }
 
 /// Tolerates jitter of a quarter period; a late picture does not delay the next.
-bool PictureTopic::is_due(const TimeMessage& stamp) {
-  const auto now = since_epoch(stamp);
-  const bool clock_was_set = now <= due_ - 2 * period_ || now >= due_ + period_;
-  if (!clock_was_set && now < due_ - period_ / 4) return false;
-  due_ = (clock_was_set ? now : due_) + period_;
-  return true;
+bool PictureTopic::is_due(std::chrono::nanoseconds now) const {
+  return was_clock_set(now) || now >= due_ - period_ / 4;
+}
+
+bool PictureTopic::was_clock_set(std::chrono::nanoseconds now) const {
+  return now <= due_ - 2 * period_ || now >= due_ + period_;
 }
 
 void PictureTopic::run() {
-  while (auto picture = mailbox_.take()) writer_->write(std::move(*picture), topic_);
+  while (auto picture = mailbox_.take()) {
+    writer_->write(std::move(*picture), topic_);
+    busy_ = false;
+  }
 }
 
 TopicStatistics PictureTopic::statistics() const {
   TopicStatistics statistics = topic_.statistics();
-  statistics.replaced = mailbox_.drops();
+  statistics.replaced = mailbox_.drops() + passed_over_;
   statistics.limited = limited_;
   return statistics;
 }

@@ -13,8 +13,8 @@
 namespace orbwatch::app {
 
 /// A topic of pictures and its own thread, on which they are converted, compressed and written: a
-/// large sample can block in the socket. The newest picture wins; a topic without reader costs
-/// nothing.
+/// large sample can block in the socket. The newest picture wins; a scarce one is only taken while
+/// none is at work, so that a topic never has two of them. A topic without reader costs nothing.
 /// Thread rule: open and close by one owner; accept by one thread, also meanwhile; statistics by
 /// any.
 class PictureTopic {
@@ -36,7 +36,8 @@ class PictureTopic {
 
  private:
   void run();
-  bool is_due(const TimeMessage& stamp);
+  bool is_due(std::chrono::nanoseconds now) const;
+  bool was_clock_set(std::chrono::nanoseconds now) const;
 
   std::unique_ptr<PictureWriter> writer_;
   TopicWriter topic_;
@@ -44,6 +45,8 @@ class PictureTopic {
   std::chrono::nanoseconds due_{0};        ///< of the next one, since 1970; the accepting thread's
   hal::Mailbox<StampedPicture> mailbox_;
   std::atomic<bool> open_{false};
+  std::atomic<bool> busy_{false};  ///< with a picture, from accept() to the end of its write
+  std::atomic<std::uint64_t> passed_over_{0};  ///< scarce ones that came meanwhile
   std::atomic<std::uint64_t> limited_{0};
   hal::Thread thread_;
 };
@@ -52,6 +55,8 @@ class PictureTopic {
 /// Thread rule: as PictureTopic.
 class PictureTopics {
  public:
+  static constexpr std::size_t kTopics = 2;
+
   /// `raw` is the name of the sensor_msgs/Image topic; `encoding` Rgb, Bgr or Grey.
   PictureTopics(const std::string& raw, PixelFormat encoding, const JpegSettings& jpeg);
 

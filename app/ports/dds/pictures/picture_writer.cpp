@@ -30,7 +30,8 @@ void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
     return;
   }
   const std::byte* pixels = picture.planes[0].data;
-  if ((picture.format != format && !counts) || picture.planes[0].stride != step) {
+  const bool is_as_sent = (picture.format == format || counts) && picture.planes[0].stride == step;
+  if (stamped.is_scarce || !is_as_sent) {
     converted_.resize(size);
     convert(picture, format, converted_.data());
     pixels = converted_.data();

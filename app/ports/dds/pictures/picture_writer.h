@@ -21,6 +21,8 @@ struct StampedPicture {
   Picture picture;
   TimeMessage stamp{};                    ///< UTC of the exposure's start
   const std::string* frame_id = nullptr;  ///< outlives the topics
+  /// Lies in one of a camera's few buffers: never waits for a write to end, nor lasts through one.
+  bool is_scarce = false;
 };
 
 /// Turns pictures into samples of a topic. Thread-bound; reuses its memory.
@@ -29,13 +31,14 @@ class PictureWriter {
   virtual ~PictureWriter() = default;
   virtual const dds_topic_descriptor_t& type() const = 0;
   virtual std::string_view thread_name() const = 0;
-  /// Writes one sample, or counts a failure. A converted picture is released before the write,
-  /// which may block: cameras have few buffers.
+  /// Writes one sample, or counts a failure. A converted or scarce picture is released before the
+  /// write, which may block.
   virtual void write(StampedPicture picture, TopicWriter& topic) = 0;
 };
 
 /// sensor_msgs/Image in one encoding; luminance of more than 8 bit is sent as mono16 whatever the
-/// encoding. Pixels of that encoding without padding are passed to DDS in place.
+/// encoding. Pixels of that encoding without padding are passed to DDS in place, unless they are
+/// scarce.
 class RawPictureWriter final : public PictureWriter {
  public:
   /// `encoding` is Rgb, Bgr or Grey.

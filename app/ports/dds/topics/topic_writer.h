@@ -13,12 +13,13 @@ namespace orbwatch::app {
 struct TopicStatistics {
   std::string topic;
   std::uint64_t written = 0;
-  std::uint64_t unread = 0;    ///< without a reader
-  std::uint64_t replaced = 0;  ///< by a newer one before the write
-  std::uint64_t limited = 0;   ///< more than the topic's rate
-  std::uint64_t blocked = 0;   ///< abandoned after kMaxBlockingTime: a reader does not keep up
-  std::uint64_t failed = 0;    ///< refused by DDS, or the writer could not be made
-  std::string last_error{};    ///< of the newest failure; empty when there was none
+  std::uint64_t unread = 0;  ///< without a reader
+  /// By a newer one before the write; of a camera's own pictures, those during a write.
+  std::uint64_t replaced = 0;
+  std::uint64_t limited = 0;  ///< more than the topic's rate
+  std::uint64_t blocked = 0;  ///< abandoned after kMaxBlockingTime: a reader does not keep up
+  std::uint64_t failed = 0;   ///< refused by DDS, or the writer could not be made
+  std::string last_error{};   ///< of the newest failure; empty when there was none
 };
 
 /// One topic and its writer, with statistics.

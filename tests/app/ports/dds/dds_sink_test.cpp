@@ -13,6 +13,7 @@
 #include "app/ports/dds/pictures/camera_info.h"
 #include "app/ports/dds/status/diagnostics.h"
 #include "app/ports/dds/topics/topic_names.h"
+#include "hal/frame/frame_pool.h"
 #include "tests/app/ports/dds/figures.h"
 #include "tests/app/ports/dds/sink_topics.h"
 #include "tests/app/ports/dds/test_status.h"
@@ -422,6 +423,74 @@ TEST_F(DdsSinkTest, CamerasPicturesAreSentWhileSomebodyReads) {
   EXPECT_EQ(sum(of_topic(sink_, "rt/orbwatch/thermal/ball/image_raw")), before)
       << "it was sent already";
   sink_.stop();  // until then its thread may read the samples
+}
+
+/// Readers of a picture's two topics in the sink's own domain, which are called inside its writes
+/// and stay there until their end.
+class HoldingReaders {
+ public:
+  explicit HoldingReaders(const std::string& raw)
+      : participant_(Participant::join(tests::DdsNetwork::kSinkDomain).value()),
+        raw_(read(sensor_msgs_msg_dds__Image__desc, raw)),
+        compressed_(read(sensor_msgs_msg_dds__CompressedImage__desc, compressed_topic(raw))) {}
+  ~HoldingReaders() {
+    ended_ = true;
+    ended_.notify_all();
+  }
+
+  /// Writes that wait here.
+  int held() const { return held_; }
+
+ private:
+  Entity read(const dds_topic_descriptor_t& type, const std::string& name) {
+    const Entity& topic =
+        topics_.emplace_back(make_topic(participant_.entity(), type, name).value());
+    show_order_of_calls();
+    const Listener listener(dds_create_listener(this));
+    dds_lset_data_available(listener.get(), hold);
+    return make_reader(participant_.entity(), topic, frame_qos(), listener.get()).value();
+  }
+  static void hold(dds_entity_t, void* argument) {
+    auto& self = *static_cast<HoldingReaders*>(argument);
+    show_order_of_calls();
+    ++self.held_;
+    self.ended_.wait(false);
+    show_order_of_calls();
+  }
+
+  std::atomic<int> held_ = 0;
+  std::atomic<bool> ended_ = false;
+  Participant participant_;
+  std::vector<Entity> topics_;
+  Entity raw_;
+  Entity compressed_;
+};
+
+TEST_F(DdsSinkTest, AWriteThatBlocksHoldsNoBufferOfACamera) {
+  const std::string raw = "rt/orbwatch/thermal/ball/image_raw";
+  const HoldingReaders readers(raw);
+  // RGB without padding, which could be passed to DDS in place.
+  hal::FramePool pool = hal::make_frame_pool(PixelFormat::Rgb, 64, 48);
+  hal::FrameSet set;
+  const auto expose = [&] {
+    const auto buffer = pool.acquire();
+    ASSERT_TRUE(buffer);
+    set.stamp = hal::Clock::now();
+    buffer->metadata.exposure_start = set.stamp;
+    set.frames[1] = buffer;
+    sink_.accept_frames(set);
+    set.frames[1].reset();
+  };
+  ASSERT_TRUE(eventually([&] {
+    expose();
+    return HasFatalFailure() || readers.held() == 2;
+  }));
+  const auto before = of_topic(sink_, raw);
+  for (int n = 0; n < 3; ++n) {
+    expose();
+    EXPECT_EQ(pool.lent(), 0U);
+  }
+  EXPECT_EQ(of_topic(sink_, raw).replaced, before.replaced + 3);
 }
 
 TEST_F(DdsSinkTest, ViewsWithoutATopicAreCounted) {
