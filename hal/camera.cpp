@@ -18,6 +18,10 @@ Result<> check(const StreamRequest& request) {
     return fail("asked for the frame rate " + std::to_string(request.frame_rate) + "; at most " +
                 std::to_string(kMaxFrameRate) + " frames per second");
   }
+  if (request.buffers < 1 || request.buffers > kMaxBuffers) {
+    return fail("asked for " + std::to_string(request.buffers) + " buffers; 1 to " +
+                std::to_string(kMaxBuffers));
+  }
   return {};
 }
 

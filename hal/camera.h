@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "hal/damage_watch.h"
 #include "hal/fault.h"
+#include "hal/frame/buffer_count.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"
@@ -41,6 +43,9 @@ struct StreamRequest {
   int width = 0;
   int height = 0;
   double frame_rate = 0;  ///< frames per second (GenICam AcquisitionFrameRate)
+  /// Frames in use at once (GenICam StreamBufferCountManual): 1..kMaxBuffers. A driver may make
+  /// fewer.
+  std::size_t buffers = kFreeRunningBuffers;
 };
 
 /// The negotiated stream. A requested size or format is honoured or refused.

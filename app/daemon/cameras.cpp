@@ -21,6 +21,14 @@ std::vector<ControlSettings> controls_of(const Resolved& site, std::size_t camer
   return controls;
 }
 
+/// A triggered camera's frames queue.
+hal::StreamRequest stream_of(const CameraSettings& settings) {
+  hal::StreamRequest stream = settings.stream;
+  const bool triggered = settings.trigger.mode != hal::TriggerMode::Off;
+  stream.buffers = triggered ? hal::kTriggeredBuffers : hal::kFreeRunningBuffers;
+  return stream;
+}
+
 /// Whether the pipeline can use the format that the camera delivers.
 Result<> check_format(const hal::StreamFormat& format, const CameraSettings& settings,
                       const optics::RigCamera& rig) {
@@ -62,7 +70,7 @@ Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& s
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
                                                  std::size_t index) {
   const CameraSettings& settings = site.site.cameras[index];
-  const auto format = camera.configure(settings.stream);
+  const auto format = camera.configure(stream_of(settings));
   if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
   for (const ControlSettings& control : controls_of(site, index)) {
     if (const auto done = camera.set(control.name, control.value); !done) {

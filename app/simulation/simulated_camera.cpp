@@ -95,7 +95,7 @@ Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest
         static_cast<std::size_t>(width) *
         static_cast<std::size_t>(orbwatch::info(renderer_->format()).channels());
     noise_.emplace(settings_.noise_sigma, seed_of(machine.seed, settings_.name), row_samples);
-    pool_ = hal::make_frame_pool(renderer_->format(), width, height);
+    pool_ = hal::make_frame_pool(renderer_->format(), width, height, request.buffers);
   }
   format_ = {renderer_->format(), {}, width, height, rate};
   return format_;

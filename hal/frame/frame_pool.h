@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/frame/buffer_count.h"
 #include "hal/frame/buffer_pool.h"
 #include "hal/frame/frame.h"
 #include "proc/image/pixel_format.h"
@@ -14,12 +15,9 @@ namespace orbwatch::hal {
 /// Buffers of a camera that fills its own memory (simulation, replay, decoded pictures).
 using FramePool = BufferPool<FrameBuffer>;
 
-/// Frames of one camera in use at once: driver, mailbox, sync and pipeline.
-inline constexpr std::size_t kFramesPerCamera = 6;
-
 /// A pool of `count` buffers of `width` x `height` in `format`, rows without padding.
 inline FramePool make_frame_pool(PixelFormat format, int width, int height,
-                                 std::size_t count = kFramesPerCamera) {
+                                 std::size_t count = kFreeRunningBuffers) {
   std::vector<std::unique_ptr<FrameBuffer>> buffers;
   for (std::size_t i = 0; i < count; ++i) {
     auto buffer = std::make_unique<FrameBuffer>();

@@ -86,6 +86,7 @@ Result<StreamFormat> LibcameraCamera::do_configure(const StreamRequest& request)
   if (!negotiated) return tl::unexpected(negotiated.error());
   id_ = (*acquired)->id();
   format_ = negotiated->stream;
+  buffers_ = request.buffers;
   pixel_format_ = negotiated->pixels->name;
   expected_rate_ = format_.frame_rate != 0 ? format_.frame_rate : request.frame_rate;
   return format_;
@@ -136,7 +137,7 @@ DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
   if (!camera) return fail(Fault::Unplugged, camera.error().message);
   auto acquired = AcquiredCamera::acquire(std::move(*camera));
   if (!acquired) return tl::unexpected(acquired.error());
-  const StreamRequest request{format_.width, format_.height, format_.frame_rate};
+  const StreamRequest request{format_.width, format_.height, format_.frame_rate, buffers_};
   const auto negotiated =
       negotiate_configuration(**acquired, pixel_format_, settings_.sensor_mode, request);
   if (!negotiated) return fail(Fault::WrongFormat, negotiated.error().message);

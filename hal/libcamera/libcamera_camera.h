@@ -53,6 +53,7 @@ class LibcameraCamera : public DeviceCamera {
   bool is_lost_ = false;   ///< permanently: see has_lost_its_nodes()
   std::string id_;         ///< libcamera's; the same after a reconnection
   StreamFormat format_;
+  std::size_t buffers_ = kFreeRunningBuffers;
   std::string_view pixel_format_;
   double expected_rate_ = 0;
   ControlSettings controls_;

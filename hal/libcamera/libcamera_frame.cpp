@@ -35,7 +35,7 @@ Result<MappedDmaBuffer> map_file(const libcamera::SharedFD& file, std::size_t le
 
 using std::chrono::nanoseconds;
 
-/// Six buffers hold no older frame: the stamp is of another clock.
+/// A camera's few buffers hold no older frame: the stamp is of another clock.
 constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace

@@ -27,7 +27,7 @@ namespace orbwatch::hal {
 /// overflow. Thread-safe with one waiter; senders never wait for it.
 class CaptureEvents {
  public:
-  static constexpr std::size_t kMaxRequests = 32;
+  static constexpr std::size_t kMaxRequests = kMaxBuffers;
 
   /// Events since the last wait().
   struct Pending {

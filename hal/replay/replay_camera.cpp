@@ -68,7 +68,7 @@ Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
   }
   recording_ = std::move(*recording);
   format_ = format;
-  pool_ = make_frame_pool(format.format, format.width, format.height);
+  pool_ = make_frame_pool(format.format, format.width, format.height, request.buffers);
   return format;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "hal/frame/buffer_count.h"
 #include "hal/sync/frame_set.h"
 
 namespace orbwatch::hal {
@@ -53,7 +54,7 @@ class ReleasedFrames {
   }
 
  private:
-  static constexpr std::size_t kMost = kMaxCameras * 9;  ///< full queues and held frames
+  static constexpr std::size_t kMost = kMaxCameras * (kTriggeredDepth + kHeldFrames);
   std::array<Frame, kMost> frames_;
   std::size_t count_ = 0;
 };
@@ -67,9 +68,9 @@ class ReleasedFrames {
 /// interval, or until for SyncSettings::max_wait. A free-running camera is late after three of its
 /// intervals without a frame, and 100 ms at least: a silent one must not stop the sets of the
 /// others until it is known to have a fault, nor be shown as new. Queues: of a free-running camera
-/// the last 3 frames, so that the nearest is among them (1 when it is alone); of the pacing camera
-/// the newest ready frame wins; of a triggered camera a FIFO of 8, each of which becomes a set.
-/// Frames that leave unused are counted by reason.
+/// the last kFreeRunningDepth frames (1 when it is alone); of the pacing camera
+/// the newest ready frame wins; of a triggered camera a FIFO of kTriggeredDepth, each of which
+/// becomes a set. Frames that leave unused are counted by reason.
 class FrameMatcher {
  public:
   /// `cameras`: 1..kMaxCameras. Window and max_wait must not be below 0.
@@ -94,8 +95,6 @@ class FrameMatcher {
   const FrameCounts& counts(std::size_t camera) const { return inboxes_[camera].counts; }
 
  private:
-  static constexpr std::size_t kFreeRunningDepth = 3;
-  static constexpr std::size_t kTriggeredDepth = 8;
   using Reason = std::uint64_t FrameCounts::*;
 
   struct Waiting {

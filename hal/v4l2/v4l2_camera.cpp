@@ -33,7 +33,11 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   if (auto ready = set_up(*device, settings_.pixel_format, request); !ready)
     return fail(ready.error().detail);
   decoder_.reset();
-  if (!negotiated_.is_zero_copy()) decoder_ = std::make_unique<FrameDecoder>(negotiated_);
+  buffers_ = request.buffers;
+  if (!negotiated_.is_zero_copy()) {
+    decoder_ = std::make_unique<FrameDecoder>(negotiated_, request.buffers);
+    buffers_ = kDecodedDeviceBuffers;
+  }
   return negotiated_.stream;
 }
 
@@ -93,7 +97,7 @@ DeviceResult<double> V4l2Camera::open_stream() {
   auto device = open();
   if (!device) return tl::unexpected(device.error());
   if (auto ready = set_up_again(*device); !ready) return tl::unexpected(ready.error());
-  auto stream = V4l2Stream::start(std::move(*device), negotiated_);
+  auto stream = V4l2Stream::start(std::move(*device), negotiated_, buffers_);
   if (!stream) return tl::unexpected(stream.error());
   stream_ = std::move(*stream);
   return negotiated_.stream.frame_rate;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -54,9 +55,10 @@ class V4l2Camera : public DeviceCamera {
 
   V4l2Settings settings_;
   NegotiatedFormat negotiated_;
-  std::unique_ptr<FrameDecoder> decoder_;  ///< for formats that are not zero-copy
-  std::unique_ptr<V4l2Stream> stream_;     ///< while open
-  std::atomic<bool> triggered_ = false;    ///< it waits for triggers
+  std::size_t buffers_ = kFreeRunningBuffers;  ///< of the driver
+  std::unique_ptr<FrameDecoder> decoder_;      ///< for formats that are not zero-copy
+  std::unique_ptr<V4l2Stream> stream_;         ///< while open
+  std::atomic<bool> triggered_ = false;        ///< it waits for triggers
   std::mutex controls_mutex_;
   /// The stored controls, in the order of their first setting.
   std::vector<Control> controls_;

@@ -6,12 +6,12 @@
 #include <array>
 #include <utility>
 
-#include "hal/frame/frame_pool.h"
+#include "hal/frame/buffer_count.h"
 
 namespace orbwatch::hal {
 namespace {
 
-/// A driver with six buffers holds no older frame: the stamp is of another clock.
+/// A driver's few buffers hold no older frame: the stamp is of another clock.
 constexpr std::chrono::seconds kOldest{60};
 
 /// The picture in a driver's memory.
@@ -88,10 +88,11 @@ tl::unexpected<FaultReport> V4l2Stream::failed(const std::string& message) const
 }
 
 DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(V4l2Device device,
-                                                            const NegotiatedFormat& format) {
+                                                            const NegotiatedFormat& format,
+                                                            std::size_t buffers) {
   std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device), format));
   if (!stream->returned_->is_open()) return stream->failed("too many open files");
-  if (auto made = stream->make_buffers(); !made) return tl::unexpected(made.error());
+  if (auto made = stream->make_buffers(buffers); !made) return tl::unexpected(made.error());
   if (auto queued = stream->queue_returned(); !queued) return tl::unexpected(queued.error());
   if (auto on = stream->device_.stream_on(); !on) return tl::unexpected(on.error());
   return stream;
@@ -104,11 +105,11 @@ V4l2Stream::~V4l2Stream() {
   static_cast<void>(device_.request_buffers(0));
 }
 
-DeviceResult<> V4l2Stream::make_buffers() {
-  const auto made = device_.request_buffers(kFramesPerCamera);
+DeviceResult<> V4l2Stream::make_buffers(std::size_t count) {
+  const auto made = device_.request_buffers(static_cast<std::uint32_t>(count));
   if (!made) return tl::unexpected(made.error());
   std::vector<std::unique_ptr<DriverFrame>> frames;
-  for (std::size_t i = 0; i < std::min<std::size_t>(*made, ReturnedBuffers::kMaxBuffers); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(*made, kMaxBuffers); ++i) {
     auto memory = device_.map_buffer(static_cast<std::uint32_t>(i));
     if (!memory) return tl::unexpected(memory.error());
     if (memory->size() != format_.layout.memory_count) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/frame/buffer_count.h"
 #include "hal/frame/buffer_pool.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/file_descriptor.h"
@@ -48,16 +49,16 @@ struct DriverFrame : FrameBuffer {
 /// queues them again. Outlives the stream for as long as frames are held. Thread-safe, lock-free.
 class ReturnedBuffers {
  public:
-  static constexpr std::size_t kMaxBuffers = 32;
-
   bool is_open() const { return woken_.is_open(); }
   int descriptor() const { return woken_.get(); }  ///< readable after put() or wake(), until take()
   void put(std::size_t index);
   void wake() { woken_.signal(); }
-  /// One bit per returned buffer.
+  /// One bit per returned buffer, of kMaxBuffers.
   std::uint32_t take();
 
  private:
+  static_assert(kMaxBuffers <= 32, "one bit each");
+
   EventFd woken_;
   std::atomic<std::uint32_t> returned_{0};
 };
@@ -74,9 +75,11 @@ class V4l2Stream {
     std::span<const std::byte> samples(std::size_t memory) const;
   };
 
-  /// Makes the buffers and starts the device, whose format was negotiated.
+  /// Makes `buffers`, or as many as the driver does, and starts the device, whose format was
+  /// negotiated.
   static DeviceResult<std::unique_ptr<V4l2Stream>> start(V4l2Device device,
-                                                         const NegotiatedFormat& format);
+                                                         const NegotiatedFormat& format,
+                                                         std::size_t buffers);
   V4l2Stream(const V4l2Stream&) = delete;
   V4l2Stream& operator=(const V4l2Stream&) = delete;
   ~V4l2Stream();
@@ -96,7 +99,7 @@ class V4l2Stream {
         format_(format),
         returned_(std::make_shared<ReturnedBuffers>()) {}
 
-  DeviceResult<> make_buffers();
+  DeviceResult<> make_buffers(std::size_t count);
   DeviceResult<> check_size(const DriverFrame& frame) const;
   DeviceResult<> queue_returned();
   DeviceResult<> queue(std::uint32_t index);

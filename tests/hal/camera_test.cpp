@@ -45,6 +45,14 @@ TEST(Camera, RefusesToStartUnconfigured) {
   EXPECT_FALSE(camera.start([](const Frame&) {}, ignore_fault));
 }
 
+TEST(Camera, RefusesNoBuffersAndMoreThanItsBackEndsCount) {
+  CountingCamera camera;
+  EXPECT_TRUE(camera.configure({.buffers = 1}));
+  EXPECT_TRUE(camera.configure({.buffers = kMaxBuffers}));
+  EXPECT_FALSE(camera.configure({.buffers = 0}));
+  EXPECT_FALSE(camera.configure({.buffers = kMaxBuffers + 1}));
+}
+
 TEST(Camera, AGateWithholdsFramesAndCompletesTheOthers) {
   CountingCamera camera;
   ASSERT_TRUE(camera.configure({}));

@@ -22,6 +22,7 @@
 #include "app/ports/dds/status/status_topics.h"
 #include "app/ports/dds/topics/type_watch.h"
 #include "hal/back_off.h"
+#include "hal/frame/buffer_count.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/thread.h"
 
@@ -66,6 +67,7 @@ class DdsSink final : public Sink {
 
     const std::string name;
     PictureTopics ball;
+    static_assert(PictureTopics::kTopics <= hal::kFrameReaders);
   };
   /// Every alarm may be acknowledged and change in one frame set: room for four of those.
   static constexpr std::size_t kMaxNotices = 8 * signals::kMaxAlarms;

@@ -10,8 +10,6 @@
 #include <system_error>
 #include <vector>
 
-#include "hal/frame/frame_pool.h"
-
 namespace orbwatch::hal {
 namespace {
 
@@ -61,7 +59,7 @@ Result<NegotiatedConfiguration> validate(libcamera::Camera& camera, const Libcam
   stream.pixelFormat = pixels.code;
   if (request.width != 0) stream.size.width = static_cast<unsigned>(request.width);
   if (request.height != 0) stream.size.height = static_cast<unsigned>(request.height);
-  stream.bufferCount = kFramesPerCamera;
+  stream.bufferCount = static_cast<unsigned>(request.buffers);
   libcamera::StreamConfiguration asked = stream;
   if (negotiated.configuration->validate() == CameraConfiguration::Invalid) {
     return fail("refuses " + to_text(asked) + (mode.is_set() ? " from " + to_text(mode) : ""));

@@ -68,9 +68,10 @@ void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int wi
   shift_to_8_bit(row, width, bits, samples);
 }
 
-FrameDecoder::FrameDecoder(const NegotiatedFormat& format)
+FrameDecoder::FrameDecoder(const NegotiatedFormat& format, std::size_t buffers)
     : format_(format),
-      pool_(make_frame_pool(format.stream.format, format.stream.width, format.stream.height)) {
+      pool_(make_frame_pool(format.stream.format, format.stream.width, format.stream.height,
+                            buffers)) {
   if (format.coding.mosaic == Mosaic::None || format.stream.format != PixelFormat::Bgr) return;
   prepare_demosaic();
   mosaic_.resize(static_cast<std::size_t>(format.stream.width) *

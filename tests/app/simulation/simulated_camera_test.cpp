@@ -233,10 +233,10 @@ TEST(SimulatedCamera, LosesExposuresWhileAllBuffersAreLent) {
   ASSERT_TRUE(audience.start(camera));
   ASSERT_TRUE(audience.wait_for_faults(1));
   audience.let_go();
-  ASSERT_TRUE(audience.wait_for_frames(hal::kFramesPerCamera + 3));
+  ASSERT_TRUE(audience.wait_for_frames(hal::kFreeRunningBuffers + 3));
   camera.stop();
-  EXPECT_LT(audience.shots[hal::kFramesPerCamera - 1].metadata.sequence, kSignal);
-  EXPECT_GT(audience.shots[hal::kFramesPerCamera].metadata.sequence, kSignal);
+  EXPECT_LT(audience.shots[hal::kFreeRunningBuffers - 1].metadata.sequence, kSignal);
+  EXPECT_GT(audience.shots[hal::kFreeRunningBuffers].metadata.sequence, kSignal);
   EXPECT_THAT(audience.faults(), testing::ElementsAre(Fault::ReadError, Fault::None));
 }
 

@@ -258,10 +258,10 @@ TEST(ReplayCamera, LosesFramesWhenAllAreHeldAndComesBack) {
   const TimePoint begin = Clock::now();
   ASSERT_TRUE(camera.start(on_frame, [](const FaultReport&) {}));
   std::unique_lock lock(mutex);
-  ASSERT_TRUE(changed.wait_for(lock, kGuard, [&] { return held.size() == kFramesPerCamera; }));
+  ASSERT_TRUE(changed.wait_for(lock, kGuard, [&] { return held.size() == kFreeRunningBuffers; }));
   // Some exposures must pass by with no buffer to go to.
   EXPECT_FALSE(
-      changed.wait_until(lock, begin + 200ms, [&] { return held.size() > kFramesPerCamera; }));
+      changed.wait_until(lock, begin + 200ms, [&] { return held.size() > kFreeRunningBuffers; }));
   const std::uint64_t last_held = last;
   EXPECT_EQ(held[0]->picture.samples<std::uint16_t>().at(0, 0)[0],
             value_of(held[0]->metadata.sequence % 3))

@@ -62,6 +62,30 @@ TEST(FrameSync, ClosingEndsAWait) {
   EXPECT_LT(Clock::now(), kStart + kGuard);
 }
 
+TEST(FrameSync, ATriggeredCamerasQueueFillsWhileAllOtherPlacesAreFull) {
+  FramePool pool = make_frame_pool(PixelFormat::Grey, 1, 1, kTriggeredBuffers);
+  FrameSync sync(1, {});
+  std::uint64_t trigger = 0;
+  const auto expose = [&] {
+    const auto buffer = pool.acquire();
+    ASSERT_TRUE(buffer) << "no buffer is left for trigger " << trigger;
+    buffer->metadata = {.sequence = trigger, .exposure_start = Clock::now(), .trigger = trigger};
+    sync.put(0, buffer);
+    ++trigger;
+  };
+  expose();
+  const auto processed = sync.next(soon());
+  ASSERT_TRUE(processed);
+  std::vector<Frame> others;  // an older one that is held, and those of readers
+  for (std::size_t n = 0; n < kHeldFrames + kFrameReaders; ++n) others.push_back(pool.acquire());
+  for (std::size_t n = 0; n < kTriggeredDepth; ++n) expose();
+  EXPECT_EQ(sync.counts(0).dropped(), 0U);
+  EXPECT_EQ(pool.size() - pool.lent(), kArrivingFrames + kDeviceBuffers);
+  expose();
+  EXPECT_EQ(sync.counts(0).overflowed, 1U);
+  EXPECT_EQ(pool.size() - pool.lent(), kArrivingFrames + kDeviceBuffers) << "the oldest came back";
+}
+
 // Four cameras' threads, faults and a consumer at once: buffers of real pools, all of which come
 // home.
 TEST(FrameSync, KeepsNoBufferAndCountsEachUnderFullLoad) {
@@ -78,7 +102,7 @@ TEST(FrameSync, KeepsNoBufferAndCountsEachUnderFullLoad) {
     cameras.emplace_back([&, i] {
       for (std::uint64_t n = 0; n < kFrames; ++n) {
         const auto buffer = pools[i].acquire();
-        if (!buffer) continue;  // the sync and its consumer hold five
+        if (!buffer) continue;
         buffer->metadata = {.sequence = n, .exposure_start = Clock::now()};
         sync.put(i, buffer);
         ++sent[i];

@@ -165,7 +165,7 @@ TEST(VividFaults, AConsumerThatHoldsAllFramesIsNoFaultOfTheCamera) {
   ASSERT_TRUE(run.start(kRequest));
   ASSERT_TRUE(run.next_frame());
   std::vector<Frame> held;
-  while (held.size() < kFramesPerCamera) {
+  while (held.size() < kFreeRunningBuffers) {
     const Frame frame = run.next_frame();
     ASSERT_TRUE(frame);
     if (std::find(held.begin(), held.end(), frame) == held.end()) held.push_back(frame);

@@ -39,7 +39,7 @@ std::vector<std::byte> packed_mosaic(std::size_t stride) {
 TEST(FrameDecoder, UnpacksAMosaicThatStaysOne) {
   const auto agreed = format(V4L2_PIX_FMT_SRGGB10P, false, 23);
   ASSERT_FALSE(agreed.is_zero_copy());
-  FrameDecoder decoder(agreed);
+  FrameDecoder decoder(agreed, 1);
   const auto memory = packed_mosaic(23);
   const auto frame = decoder.decode(memory);
   ASSERT_TRUE(frame && *frame);
@@ -53,7 +53,7 @@ TEST(FrameDecoder, UnpacksAMosaicThatStaysOne) {
 }
 
 TEST(FrameDecoder, MakesColourOfAPackedMosaic) {
-  FrameDecoder decoder(format(V4L2_PIX_FMT_SRGGB10P, true, 23));
+  FrameDecoder decoder(format(V4L2_PIX_FMT_SRGGB10P, true, 23), kFreeRunningBuffers);
   const auto memory = packed_mosaic(23);
   const auto frame = decoder.decode(memory);
   ASSERT_TRUE(frame && *frame);
@@ -69,10 +69,10 @@ TEST(FrameDecoder, MakesColourOfAPackedMosaic) {
 }
 
 TEST(FrameDecoder, HasNoFrameWhileAllAreInUse) {
-  FrameDecoder decoder(format(V4L2_PIX_FMT_Y16_BE, true, 2 * kWidth));
+  FrameDecoder decoder(format(V4L2_PIX_FMT_Y16_BE, true, 2 * kWidth), kFreeRunningBuffers);
   const std::vector<std::byte> memory(std::size_t{2} * kWidth * kHeight, std::byte{1});
   std::vector<std::shared_ptr<FrameBuffer>> held;
-  for (std::size_t n = 0; n < kFramesPerCamera; ++n) {
+  for (std::size_t n = 0; n < kFreeRunningBuffers; ++n) {
     held.push_back(decoder.decode(memory).value());
     ASSERT_TRUE(held.back());
   }
@@ -82,9 +82,9 @@ TEST(FrameDecoder, HasNoFrameWhileAllAreInUse) {
 }
 
 TEST(FrameDecoder, GivesTheBufferOfADamagedPictureBack) {
-  FrameDecoder decoder(format(V4L2_PIX_FMT_MJPEG, true, 0));
+  FrameDecoder decoder(format(V4L2_PIX_FMT_MJPEG, true, 0), kFreeRunningBuffers);
   const std::vector<std::byte> garbage(100, std::byte{0x5a});
-  for (std::size_t n = 0; n < 2 * kFramesPerCamera; ++n) {
+  for (std::size_t n = 0; n < 2 * kFreeRunningBuffers; ++n) {
     EXPECT_FALSE(decoder.decode(garbage)) << "an error, not a lack of buffers";
   }
 }
