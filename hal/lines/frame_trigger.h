@@ -49,8 +49,9 @@ struct TriggerCounts {
 /// trigger is due, unless the frame before is outstanding: then the trigger is missed.
 /// Bounded: of more than kMaxWaiting triggers the newest are missed, as the oldest may belong to
 /// frames that are on their way.
-/// Thread rule: on_edge, due and run on the line thread, claim, miss and abandon on the camera's,
-/// fire and counts on any.
+/// Thread rule: on_edge on the line thread; due and run on a LineThread of its own in mode
+/// Software, as a camera may take its time to answer; claim, miss and abandon on the camera's, fire
+/// and counts on any.
 class FrameTrigger : public LineTask {
  public:
   static constexpr std::size_t kMaxWaiting = 32;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <string>
 #include <system_error>
 
 namespace orbwatch::hal {
@@ -30,16 +31,16 @@ itimerspec alarm_at(TimePoint moment) {
 
 }  // namespace
 
-Result<> LineThread::start() {
+Result<> LineThread::start(std::string_view name) {
   poll_ = FileDescriptor(::epoll_create1(EPOLL_CLOEXEC));
   timer_ = FileDescriptor(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC));
   if (!poll_.is_open() || !woken_.is_open() || !timer_.is_open() ||
       !poll_for_input(poll_, woken_.get(), nullptr) ||
       !poll_for_input(poll_, timer_.get(), nullptr)) {
-    return fail("lines: " + std::generic_category().message(errno));
+    return fail(std::string(name) + ": " + std::generic_category().message(errno));
   }
   for (Watched& watched : watched_) watched.registered = 0;
-  thread_.start("lines", [this] { run(); });
+  thread_.start(name, [this] { run(); });
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "hal/lines/line_task.h"
@@ -11,7 +12,8 @@
 
 namespace orbwatch::hal {
 
-/// The one thread of all lines: forwards edges and runs tasks when they are due.
+/// The thread of lines and of timed tasks: forwards edges and runs tasks when they are due. All
+/// lines share one; a task that may wait for a device has one of its own.
 /// Thread rule: watch, add, start and stop on one thread; wake on any.
 class LineThread {
  public:
@@ -19,8 +21,8 @@ class LineThread {
   void watch(WatchedInput& input) { watched_.push_back({&input, 0}); }
   void add(LineTask& task) { tasks_.push_back(&task); }
 
-  /// Error: too many open files.
-  Result<> start();
+  /// `name`: of the thread. Error: too many open files.
+  Result<> start(std::string_view name = "lines");
   void stop() { thread_.stop(); }
 
   /// A task's due() changed on another thread.

@@ -73,7 +73,23 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
   return {};
 }
 
-Result<> V4l2Camera::trigger() { return set("TriggerSoftware", 1); }
+Result<V4l2Camera::TriggerButton> V4l2Camera::find_button() const {
+  auto device = open();
+  if (!device) return fail(device.error().detail);
+  const auto control = find_control(*device, "TriggerSoftware");
+  if (!control) return tl::unexpected(control.error());
+  if (control->type != V4L2_CTRL_TYPE_BUTTON) return fail("its TriggerSoftware is no button");
+  return TriggerButton{std::move(*device), *control};
+}
+
+Result<> V4l2Camera::trigger() {
+  const std::lock_guard lock(button_mutex_);
+  if (!button_) return fail(settings_.device + ": " + button_.error().message);
+  if (auto done = button_->device.set_control(button_->control, 0); !done) {
+    return fail(done.error().detail);
+  }
+  return {};
+}
 
 Result<> V4l2Camera::set(std::string_view control, double value) {
   // Controls do not belong to the stream: another descriptor of the device will do.
@@ -100,6 +116,8 @@ DeviceResult<double> V4l2Camera::open_stream() {
   auto stream = V4l2Stream::start(std::move(*device), negotiated_, buffers_);
   if (!stream) return tl::unexpected(stream.error());
   stream_ = std::move(*stream);
+  const std::lock_guard lock(button_mutex_);
+  button_ = find_button();
   return negotiated_.stream.frame_rate;
 }
 
@@ -112,6 +130,8 @@ DeviceResult<std::size_t> V4l2Camera::capture(TimePoint deadline) {
 
 DeviceResult<> V4l2Camera::close_stream() {
   stream_.reset();
+  const std::lock_guard lock(button_mutex_);
+  button_ = fail("does not run");
   return {};
 }
 

@@ -25,7 +25,8 @@ class V4l2Camera : public DeviceCamera {
   explicit V4l2Camera(V4l2Settings settings);
   ~V4l2Camera() override;
 
-  /// Presses the driver's button TriggerSoftware. Errors as set().
+  /// Presses the driver's button TriggerSoftware. Errors: the camera does not run, has no such
+  /// button, or the driver refuses.
   Result<> trigger() override;
 
   /// See set_control(). The value is set again after each reconnection, as USB cameras lose it with
@@ -44,9 +45,15 @@ class V4l2Camera : public DeviceCamera {
 
  private:
   using Control = std::pair<std::string, double>;
+  /// On a descriptor of its own, so that a trigger is one call.
+  struct TriggerButton {
+    V4l2Device device;
+    v4l2_query_ext_ctrl control;
+  };
 
   Result<> check() const;
   DeviceResult<V4l2Device> open() const;
+  Result<TriggerButton> find_button() const;
   DeviceResult<> set_up(V4l2Device& device, std::string_view pixel_format,
                         const StreamRequest& request);
   DeviceResult<> set_up_again(V4l2Device& device);
@@ -59,6 +66,8 @@ class V4l2Camera : public DeviceCamera {
   std::unique_ptr<FrameDecoder> decoder_;      ///< for formats that are not zero-copy
   std::unique_ptr<V4l2Stream> stream_;         ///< while open
   std::atomic<bool> triggered_ = false;        ///< it waits for triggers
+  std::mutex button_mutex_;
+  Result<TriggerButton> button_ = fail("does not run");
   std::mutex controls_mutex_;
   /// The stored controls, in the order of their first setting.
   std::vector<Control> controls_;

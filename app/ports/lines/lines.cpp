@@ -47,7 +47,19 @@ Lines::Lines(const std::vector<LineSettings>& settings,
   }
 }
 
-Lines::~Lines() { thread_.stop(); }
+Lines::~Lines() { stop(); }
+
+Result<> Lines::start() {
+  for (const auto& asking : asking_) {
+    if (auto started = asking->start("trigger"); !started) return started;
+  }
+  return thread_.start();
+}
+
+void Lines::stop() {
+  thread_.stop();
+  for (const auto& asking : asking_) asking->stop();
+}
 
 hal::LineBackEnd& Lines::back_end(LineKind kind) {
   return kind == LineKind::Gpio ? *gpio_ : *simulated_;
@@ -121,10 +133,17 @@ std::shared_ptr<hal::FrameTrigger> Lines::trigger(const hal::TriggerSettings& se
   if (settings.mode == hal::TriggerMode::Off) return triggers_.emplace_back();
   auto trigger =
       std::make_shared<hal::FrameTrigger>(settings, [&camera] { return camera.trigger(); });
-  if (source != kSoftwareSource) {
-    input(source).subscribe([trigger](const hal::EdgeEvent& edge) { trigger->on_edge(edge); });
+  hal::LineThread* asking = nullptr;
+  if (settings.mode == hal::TriggerMode::Software) {
+    asking = asking_.emplace_back(std::make_unique<hal::LineThread>()).get();
+    asking->add(*trigger);
   }
-  thread_.add(*trigger);
+  if (source != kSoftwareSource) {
+    input(source).subscribe([trigger, asking](const hal::EdgeEvent& edge) {
+      trigger->on_edge(edge);
+      if (asking) asking->wake();
+    });
+  }
   triggers_.push_back(trigger);
   return trigger;
 }
@@ -134,7 +153,7 @@ void Lines::trigger() {
   for (const auto& trigger : triggers_) {
     if (trigger) trigger->fire(now);
   }
-  thread_.wake();
+  for (const auto& asking : asking_) asking->wake();
 }
 
 CommandResult Lines::pulse(std::size_t output) {

@@ -54,8 +54,8 @@ class Lines : public Sink {
     return process_inputs_;
   }
 
-  Result<> start() override { return thread_.start(); }
-  void stop() override { thread_.stop(); }
+  Result<> start() override;
+  void stop() override;
   void accept(const ViewPtr&) override {}
   void accept(const Status& status) override;
 
@@ -79,6 +79,8 @@ class Lines : public Sink {
   std::vector<Input> inputs_;
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs_;
   std::vector<std::shared_ptr<hal::FrameTrigger>> triggers_;  ///< by camera; null: runs freely
+  /// One for each camera that is asked for its frames: it may be slow, and lines wait for nobody.
+  std::vector<std::unique_ptr<hal::LineThread>> asking_;
   std::vector<std::unique_ptr<hal::PulseOutput>> pulses_;
   std::vector<hal::PulseOutput*> trigger_outputs_;  ///< of pulses_, in the configuration's order
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;

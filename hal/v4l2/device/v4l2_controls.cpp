@@ -43,23 +43,6 @@ std::string letters_of(std::string_view name) {
   return letters;
 }
 
-Result<v4l2_query_ext_ctrl> find(const V4l2Device& device, std::string_view name) {
-  const Alias* const alias = alias_of(name);
-  const std::string letters = letters_of(name);
-  std::string known;
-  std::optional<v4l2_query_ext_ctrl> control = device.next_control(0);
-  for (; control; control = device.next_control(control->id)) {
-    if (alias != nullptr ? control->id == alias->id : letters_of(control->name) == letters) {
-      return *control;
-    }
-    if (takes_number(*control)) {
-      known += (known.empty() ? "" : ", ") + control_variable(control->name);
-    }
-  }
-  return fail("no control \"" + std::string(name) +
-              "\"; there are: " + (known.empty() ? "none" : known));
-}
-
 /// V4L2's menu entry for GenICam's ExposureAuto: off, or on with the automatic mode that the camera
 /// has.
 Result<double> exposure_entry(const V4l2Device& device, const v4l2_query_ext_ctrl& control,
@@ -132,11 +115,28 @@ std::string control_variable(std::string_view name) {
   return variable;
 }
 
+Result<v4l2_query_ext_ctrl> find_control(const V4l2Device& device, std::string_view name) {
+  const Alias* const alias = alias_of(name);
+  const std::string letters = letters_of(name);
+  std::string known;
+  std::optional<v4l2_query_ext_ctrl> control = device.next_control(0);
+  for (; control; control = device.next_control(control->id)) {
+    if (alias != nullptr ? control->id == alias->id : letters_of(control->name) == letters) {
+      return *control;
+    }
+    if (takes_number(*control)) {
+      known += (known.empty() ? "" : ", ") + control_variable(control->name);
+    }
+  }
+  return fail("no control \"" + std::string(name) +
+              "\"; there are: " + (known.empty() ? "none" : known));
+}
+
 Result<> set_control(V4l2Device& device, std::string_view name, double value) {
   const auto named = [&device](const std::string& message) {
     return fail(device.path() + ": " + message);
   };
-  const auto control = find(device, name);
+  const auto control = find_control(device, name);
   if (!control) return named(control.error().message);
   const auto units = in_units(device, *control, alias_of(name), value);
   if (!units) return named(units.error().message);
@@ -149,17 +149,17 @@ Result<> set_control(V4l2Device& device, std::string_view name, double value) {
 }
 
 bool is_inactive(const V4l2Device& device, std::string_view name) {
-  const auto control = find(device, name);
+  const auto control = find_control(device, name);
   return control && (control->flags & kNotSettable) != 0;
 }
 
 bool is_button(const V4l2Device& device, std::string_view name) {
-  const auto control = find(device, name);
+  const auto control = find_control(device, name);
   return control && control->type == V4L2_CTRL_TYPE_BUTTON;
 }
 
 bool waits_for_trigger(const V4l2Device& device) {
-  const auto control = find(device, "TriggerMode");
+  const auto control = find_control(device, "TriggerMode");
   if (!control || !takes_number(*control)) return false;
   const auto value = device.control(*control);
   return value && *value != 0;

@@ -14,6 +14,9 @@ std::string control_variable(std::string_view name);
 /// True for the types of set_control(): number, boolean, menu, button.
 bool takes_number(const v4l2_query_ext_ctrl& control);
 
+/// A control by its name, as in set_control(). Error: there is none.
+Result<v4l2_query_ext_ctrl> find_control(const V4l2Device& device, std::string_view name);
+
 /// Sets a control by its V4L2 name in V4L2's units, regardless of case and punctuation
 /// ("TriggerMode" is "Trigger Mode" and trigger_mode), or by a GenICam name: ExposureTime in
 /// microseconds, Gain in the driver's units, GainAuto, ExposureAuto and BalanceWhiteAuto as 0 (off)

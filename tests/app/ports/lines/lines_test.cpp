@@ -108,5 +108,52 @@ TEST(MissingLines, AreFaultsUntilTheyCome) {
   lines.stop();
 }
 
+/// A camera that does not answer its trigger until it is allowed to.
+class SlowCamera : public hal::Camera {
+ public:
+  SlowCamera() : Camera({"slow", "slow", "test"}) {}
+
+  Result<> trigger() override {
+    ++asked;
+    asked.notify_all();
+    answers.wait(false);
+    return {};
+  }
+
+  std::atomic<int> asked = 0;
+  std::atomic<bool> answers = false;
+
+ protected:
+  Result<hal::StreamFormat> do_configure(const hal::StreamRequest&) override { return {}; }
+  void run(const std::stop_token&) override {}
+};
+
+TEST(SlowTriggers, HoldUpNoLine) {
+  SlowCamera camera;
+  Lines lines({line("part", LineUse::TriggerIn, "PART"), line("start", LineUse::TriggerOut, "PART"),
+               line("hears_ok", LineUse::ProcessInput, "OK"),
+               line("ok", LineUse::ProcessOk, "OK")});
+  const auto trigger = lines.trigger({.mode = hal::TriggerMode::Software}, "part", camera);
+  ASSERT_TRUE(lines.start());
+  ASSERT_EQ(lines.pulse(0), CommandResult::Done);
+  camera.asked.wait(0);
+  Status status;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  for (const SystemState state : {SystemState::Running, SystemState::Fault, SystemState::Running}) {
+    status.state = state;
+    lines.accept(status);
+    const bool works = state == SystemState::Running;
+    while (lines.process_inputs()[0]->active() != works && std::chrono::steady_clock::now() < end) {
+      std::this_thread::yield();
+    }
+    EXPECT_EQ(lines.process_inputs()[0]->active(), works);
+  }
+  EXPECT_EQ(camera.asked, 1);
+  camera.answers = true;
+  camera.answers.notify_all();
+  lines.stop();
+  EXPECT_EQ(trigger->counts().waiting, 1U) << "for its frame";
+}
+
 }  // namespace
 }  // namespace orbwatch::app
