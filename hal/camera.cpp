@@ -72,22 +72,29 @@ Result<> Camera::set(std::string_view control, double) {
 void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {
   if (thread_.stop_requested()) return;
   FrameMetadata& metadata = frame->metadata;
+  if (requires_stamps_ && metadata.stamp_source == StampSource::Arrival) {
+    return discard(metadata,
+                   "frame " + std::to_string(metadata.sequence) + " has the moment of its arrival",
+                   Fault::NoTimeStamps);
+  }
+  metadata.exposure_start = exposure_start(metadata, stamps_);
   if (damage_.add_intact(metadata.exposure_start)) {
     metadata.status = FrameStatus::Withheld;
     passes_gate(metadata);
     return;
   }
-  report(Fault::None);
+  announce(Fault::None, {});
   if (!passes_gate(metadata)) return;
   if (metadata.status == FrameStatus::Flawed) ++flawed_;
   on_frame_(std::move(frame));
 }
 
-void Camera::discard(FrameMetadata metadata, std::string detail) {
+void Camera::discard(FrameMetadata metadata, std::string detail, Fault fault) {
   ++damaged_;
   metadata.status = FrameStatus::Withheld;
+  metadata.exposure_start = exposure_start(metadata, stamps_);
   passes_gate(metadata);
-  if (damage_.add_damaged(metadata.exposure_start)) report(Fault::CorruptFrame, std::move(detail));
+  if (damage_.add_damaged(metadata.exposure_start)) announce(fault, std::move(detail));
 }
 
 bool Camera::passes_gate(FrameMetadata& metadata) {
@@ -112,7 +119,11 @@ bool Camera::fails(const FaultScript& script, const FrameMetadata& metadata) {
 }
 
 void Camera::report(Fault fault, std::string detail) {
-  if (fault != Fault::None && fault != Fault::CorruptFrame) damage_.clear();
+  if (fault != Fault::None) damage_.clear();
+  announce(fault, std::move(detail));
+}
+
+void Camera::announce(Fault fault, std::string detail) {
   if (fault == std::exchange(last_fault_, fault)) return;
   if (!thread_.stop_requested()) on_fault_({fault, std::move(detail)});
 }

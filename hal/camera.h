@@ -14,6 +14,7 @@
 #include "hal/damage_watch.h"
 #include "hal/fault.h"
 #include "hal/frame/buffer_count.h"
+#include "hal/frame/exposure_start.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"
@@ -92,6 +93,13 @@ class Camera {
   /// frame that is withheld already, as FrameStatus says. Set while stopped.
   void set_gate(Gate gate) { gate_ = std::move(gate); }
 
+  /// What the site knows of the stamps. Set while stopped.
+  void set_stamps(const StampSettings& settings) { stamps_ = settings; }
+  /// From now on a frame without a stamp of its own (StampSource::Arrival) counts as damaged, and
+  /// many of them are the fault NoTimeStamps: its moment is not known well enough to tell to which
+  /// trigger, or to which frame of another camera, it belongs. Set while stopped.
+  void require_stamps() { requires_stamps_ = true; }
+
   /// Starts the camera's thread. `on_frame` and `on_fault` must return quickly and not throw.
   /// Errors: not configured, running already.
   Result<> start(OnFrame on_frame, OnFault on_fault);
@@ -120,9 +128,9 @@ class Camera {
   /// For run(): forwards an intact frame, which ends a fault; between many damaged ones it is
   /// withheld, and the fault lasts.
   void deliver(std::shared_ptr<FrameBuffer> frame);
-  /// For run(): counts a damaged frame, of which at least number and moment are known. `detail` is
-  /// for the fault CorruptFrame, which many of them are.
-  void discard(FrameMetadata metadata, std::string detail);
+  /// For run(): counts a damaged frame, of which at least number and stamp are known. `detail` is
+  /// for `fault`, which many of them are.
+  void discard(FrameMetadata metadata, std::string detail, Fault fault = Fault::CorruptFrame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
   /// For run(): shows the fault of a script, if it has one for the exposure with this metadata.
@@ -137,10 +145,13 @@ class Camera {
 
  private:
   bool passes_gate(FrameMetadata& metadata);
+  void announce(Fault fault, std::string detail);
 
   CameraInfo info_;
   bool configured_ = false;
   Gate gate_;
+  StampSettings stamps_;
+  bool requires_stamps_ = false;
   std::uint64_t withheld_ = 0;  ///< by the gate since start
   DamageWatch damage_;
   std::atomic<std::uint64_t> damaged_ = 0;

@@ -23,6 +23,7 @@ enum class Fault : std::uint8_t {
   CorruptFrame = 4,
   WrongFormat = 5,
   Refused = 6,
+  NoTimeStamps = 7,
 };
 
 /// The one place of the operator's text for each fault. Empty for a number that is none.
@@ -42,6 +43,8 @@ constexpr std::string_view operator_text(Fault fault) {
       return "camera sends another format than configured";
     case Fault::Refused:
       return "camera refuses its settings";
+    case Fault::NoTimeStamps:
+      return "camera gives no time stamps, which triggers and joined cameras need";
   }
   return {};
 }

@@ -53,8 +53,11 @@ std::unique_ptr<hal::Camera> make_camera(
       {settings.name, settings.stream.frame_rate, settings.radiometry.kelvin_per_count,
        settings.faults},
       machine};
-  return std::visit([&context](const auto& back_end) { return make_camera(back_end, context); },
-                    settings.back_end);
+  auto camera =
+      std::visit([&context](const auto& back_end) { return make_camera(back_end, context); },
+                 settings.back_end);
+  camera->set_stamps(settings.stamps);
+  return camera;
 }
 
 Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& site) {

@@ -39,6 +39,7 @@ struct CameraSettings {
   std::string name;  ///< also in the rig
   BackEndSettings back_end;
   hal::StreamRequest stream;
+  hal::StampSettings stamps;
   signals::RadiometrySettings radiometry;
   hal::SyncPolicy sync = hal::SyncPolicy::Hold;
   hal::TriggerSettings trigger{.mode = hal::TriggerMode::Off};
@@ -105,6 +106,12 @@ void visit(Visitor& v, CameraSettings& camera) {
              "In a set without a frame of it within the window: hold its last one, which is not "
              "measured again, or nearest, which leaves it out");
   visit_trigger(v, camera);
+  v.optional(
+      "readout_time_us", camera.stamps.readout_time, Microseconds{Range::between(0, 1e6)},
+      "From the first row to the last, of the sensor's data sheet, us: for cameras that stamp "
+      "the end of a frame, as most V4L2 drivers but USB's do");
+  v.optional("stamp_offset_us", camera.stamps.offset, Microseconds{Range::between(-1e6, 1e6)},
+             "How much later its time stamps are than they should be, as measured, us");
   v.optional("encoding", camera.encoding, kEncodings,
              "Of its own pictures over DDS; 16-bit ones go out as mono16");
   v.tables("control", camera.controls, 0, 64,

@@ -37,6 +37,7 @@ CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const CameraSe
     member.format = formats[i];
     if (i < triggers.size()) member.trigger = triggers[i];
     if (member.trigger) member.camera->set_gate(stamp_with(member.trigger));
+    if (member.trigger || members_.size() > 1) member.camera->require_stamps();
     member.absent = absent[i];
     if (member.absent) miss(i, hal::Fault::Unplugged);
   }

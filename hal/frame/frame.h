@@ -14,8 +14,9 @@ namespace orbwatch::hal {
 /// What a camera's time stamps mark.
 enum class StampSource : std::uint8_t {
   ExposureStart,
-  FrameEnd,  ///< arrival of the last pixel: later by the unknown exposure and readout
-  Arrival,   ///< dequeued by the camera's thread: the camera gave no stamp
+  ReadoutStart,  ///< arrival of the first pixel: later by the exposure time
+  FrameEnd,      ///< arrival of the last pixel: later by exposure and readout time
+  Arrival,       ///< dequeued by the camera's thread: the camera gave no stamp
 };
 
 /// Whether a frame can be used.
@@ -28,10 +29,10 @@ enum class FrameStatus : std::uint8_t {
 /// What a camera states about one frame.
 struct FrameMetadata {
   std::uint64_t sequence = 0;  ///< counts exposures since start; a gap is a lost frame
-  TimePoint exposure_start;    ///< as exactly as stamp_source allows
-  StampSource stamp_source = StampSource::ExposureStart;
-  std::chrono::microseconds exposure_time{0};  ///< 0: unknown
-  double gain = 1.0;                           ///< linear, analogue times digital
+  TimePoint exposure_start;    ///< of the first row; back-ends give the stamp: see exposure_start()
+  StampSource stamp_source = StampSource::ExposureStart;  ///< what the camera's stamp marked
+  std::chrono::microseconds exposure_time{0};             ///< 0: unknown
+  double gain = 1.0;                                      ///< linear, analogue times digital
   /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
   /// that it started. None: the camera runs freely.
   std::optional<std::uint64_t> trigger = std::nullopt;

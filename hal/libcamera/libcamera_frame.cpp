@@ -87,10 +87,14 @@ std::optional<TimePoint> to_steady(nanoseconds stamp, const ClockReading& arriva
 FrameMetadata metadata_of(const libcamera::ControlList& request, std::uint64_t buffer_stamp,
                           const ClockReading& arrival) {
   namespace controls = libcamera::controls;
-  const nanoseconds of_buffer(static_cast<std::int64_t>(buffer_stamp));
-  const nanoseconds stamp(request.get(controls::SensorTimestamp).value_or(of_buffer.count()));
+  const auto of_sensor = request.get(controls::SensorTimestamp);
+  const nanoseconds stamp(of_sensor.value_or(static_cast<std::int64_t>(buffer_stamp)));
+  const auto moment = to_steady(stamp, arrival);
   FrameMetadata metadata;
-  metadata.exposure_start = to_steady(stamp, arrival).value_or(arrival.steady);
+  metadata.exposure_start = moment.value_or(arrival.steady);
+  metadata.stamp_source = !moment     ? StampSource::Arrival
+                          : of_sensor ? StampSource::ReadoutStart
+                                      : StampSource::FrameEnd;
   metadata.exposure_time =
       std::chrono::microseconds(request.get(controls::ExposureTime).value_or(0));
   metadata.gain = static_cast<double>(request.get(controls::AnalogueGain).value_or(1.0F)) *

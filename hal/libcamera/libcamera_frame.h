@@ -52,8 +52,11 @@ struct ClockReading {
 /// CLOCK_MONOTONIC. The two differ only after a suspend, and then boot stamps are in the future.
 std::optional<TimePoint> to_steady(std::chrono::nanoseconds stamp, const ClockReading& arrival);
 
-/// A frame's metadata from its request; the sequence stays 0. Without SensorTimestamp,
-/// `buffer_stamp` (ns) counts; where that is not plausible, `arrival`.
+/// A frame's metadata from its request; the sequence stays 0. SensorTimestamp is taken as the start
+/// of the readout: documented as the exposure of the first row, it is on a Raspberry Pi the frame
+/// start that Unicam or CFE sees, the end of that row's exposure (raspberrypi/picamera2 821), and
+/// nowhere earlier. Without it `buffer_stamp` (ns), the end of the frame, counts; where that is not
+/// plausible, `arrival`.
 FrameMetadata metadata_of(const libcamera::ControlList& request, std::uint64_t buffer_stamp,
                           const ClockReading& arrival);
 

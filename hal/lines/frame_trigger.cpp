@@ -88,6 +88,7 @@ std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
          (!software || waiting_[due].exposed)) {
     ++due;
   }
+  if (!software && may_have_begun(due, exposure_start)) ++due;
   if (due == 0) {
     ++counts_.untriggered;
     return std::nullopt;
@@ -96,6 +97,14 @@ std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
   drop_oldest(due);
   counts_.missed += due - 1;
   return trigger;
+}
+
+/// Whether the first trigger after the exposure's start began it nevertheless.
+bool FrameTrigger::may_have_begun(std::size_t next, TimePoint exposure_start) const {
+  if (next == counts_.waiting) return false;
+  const Clock::duration after = waiting_[next].moment - exposure_start;
+  const bool is_nearer = next == 0 || after < exposure_start - waiting_[next - 1].moment;
+  return is_nearer && after < kStampError;
 }
 
 void FrameTrigger::abandon() {

@@ -44,8 +44,9 @@ struct TriggerCounts {
 };
 
 /// Joins the edges of a trigger line with the frames of one camera.
-/// A frame belongs to the newest trigger (edge plus delay) at or before its exposure's start;
-/// earlier triggers without a frame are missed. In mode Software the camera is triggered when the
+/// A frame belongs to the newest trigger (edge plus delay) at or before its exposure's start, or to
+/// the next one if that is nearer and less than kStampError after it; earlier triggers without a
+/// frame are missed. In mode Software the camera is triggered when the
 /// trigger is due, unless the frame before is outstanding: then the trigger is missed.
 /// Bounded: of more than kMaxWaiting triggers the newest are missed, as the oldest may belong to
 /// frames that are on their way.
@@ -55,6 +56,9 @@ struct TriggerCounts {
 class FrameTrigger : public LineTask {
  public:
   static constexpr std::size_t kMaxWaiting = 32;
+  /// Of the start of an exposure that a line began: interrupts are stamped late, and the exposure
+  /// time that was subtracted is rounded. Half a period at the highest rate.
+  static constexpr std::chrono::microseconds kStampError{500};
   using Expose = std::function<Result<>()>;
 
   /// `expose` triggers the camera in mode Software; when it fails, the trigger is missed.
@@ -89,6 +93,7 @@ class FrameTrigger : public LineTask {
 
   bool is_trigger(Edge edge) const;
   std::optional<TriggerStamp> take(TimePoint exposure_start);
+  bool may_have_begun(std::size_t next, TimePoint exposure_start) const;
   bool prepare_exposure(TimePoint now, std::uint64_t& id);
   void drop_oldest(std::size_t count);
 

@@ -68,9 +68,15 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
       return fail(Fault::ReadError, done.error().message);
     }
   }
-  triggered_ = waits_for_trigger(device);
+  read_controls(device);
   negotiated_ = *negotiated;
   return {};
+}
+
+/// What the controls say about frames.
+void V4l2Camera::read_controls(const V4l2Device& device) {
+  triggered_ = waits_for_trigger(device);
+  exposure_time_ = exposure_time(device);
 }
 
 Result<V4l2Camera::TriggerButton> V4l2Camera::find_button() const {
@@ -97,7 +103,7 @@ Result<> V4l2Camera::set(std::string_view control, double value) {
   if (!device) return fail(device.error().detail);
   if (auto done = set_control(*device, control, value); !done) return done;
   if (is_button(*device, control)) return {};
-  triggered_ = waits_for_trigger(*device);
+  read_controls(*device);
   const std::lock_guard lock(controls_mutex_);
   const auto known = std::ranges::find(controls_, control, &Control::first);
   if (known != controls_.end()) {
@@ -148,7 +154,8 @@ void V4l2Camera::forward_intact(const V4l2Stream::Captured& captured) {
   const FrameStamp stamp = frame_stamp(captured.buffer, Clock::now());
   FrameMetadata metadata{.sequence = sequence_of(captured.buffer.sequence),
                          .exposure_start = stamp.moment,
-                         .stamp_source = stamp.source};
+                         .stamp_source = stamp.source,
+                         .exposure_time = exposure_time_};
   auto frame = intact_frame(captured);
   if (!frame) return discard(metadata, settings_.device + ": " + frame.error().message);
   // All buffers of decoded frames are in use: the frame is lost, a gap in the sequence.

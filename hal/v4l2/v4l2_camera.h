@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -57,6 +58,7 @@ class V4l2Camera : public DeviceCamera {
   DeviceResult<> set_up(V4l2Device& device, std::string_view pixel_format,
                         const StreamRequest& request);
   DeviceResult<> set_up_again(V4l2Device& device);
+  void read_controls(const V4l2Device& device);
   void forward_intact(const V4l2Stream::Captured& captured);
   Result<std::shared_ptr<FrameBuffer>> intact_frame(const V4l2Stream::Captured& captured);
 
@@ -66,6 +68,7 @@ class V4l2Camera : public DeviceCamera {
   std::unique_ptr<FrameDecoder> decoder_;      ///< for formats that are not zero-copy
   std::unique_ptr<V4l2Stream> stream_;         ///< while open
   std::atomic<bool> triggered_ = false;        ///< it waits for triggers
+  std::atomic<std::chrono::microseconds> exposure_time_{};  ///< as exposure_time()
   std::mutex button_mutex_;
   Result<TriggerButton> button_ = fail("does not run");
   std::mutex controls_mutex_;

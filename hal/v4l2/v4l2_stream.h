@@ -18,7 +18,7 @@
 
 namespace orbwatch::hal {
 
-/// A time stamp on the steady clock and what it marks.
+/// A driver's time stamp on the steady clock and what it marks.
 struct FrameStamp {
   TimePoint moment;
   StampSource source = StampSource::Arrival;

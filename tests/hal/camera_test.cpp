@@ -134,8 +134,8 @@ TEST(Camera, ReportsAFaultOncePerChange) {
   EXPECT_EQ(faults[2], Fault::ReadError);
 }
 
-/// A camera that plays a script: '.' is an intact frame, 'f' a flawed and 'd' a damaged one, 'u'
-/// that it is unplugged and '_' a second without frames.
+/// A camera that plays a script: '.' is an intact frame, 'f' a flawed and 'd' a damaged one, 'a'
+/// one without a stamp, 'u' that it is unplugged and '_' a second without frames.
 class PlayingCamera : public Camera {
  public:
   explicit PlayingCamera(std::string script)
@@ -168,6 +168,7 @@ class PlayingCamera : public Camera {
         auto buffer = pool_.acquire();
         buffer->metadata = metadata;
         if (step == 'f') buffer->metadata.status = FrameStatus::Flawed;
+        if (step == 'a') buffer->metadata.stamp_source = StampSource::Arrival;
         deliver(std::move(buffer));
       }
       ++metadata.sequence;
@@ -200,6 +201,37 @@ TEST(Camera, ManyDamagedFramesAreOneFaultUntilASecondAfterTheLast) {
   EXPECT_EQ(camera.faults, (std::vector{Fault::CorruptFrame, Fault::None}));
   EXPECT_EQ(sequences(camera.frames), (std::vector<std::uint64_t>{12, 13}));
   EXPECT_EQ(camera.quality().damaged, 8U);
+}
+
+TEST(Camera, WithoutTimeStampsIsAFaultWhereTheyAreNeeded) {
+  PlayingCamera alone("aaaaaaa");
+  alone.play();
+  EXPECT_TRUE(alone.faults.empty());
+  EXPECT_EQ(alone.frames.size(), 7U);
+  PlayingCamera joined(".aaaaaaa.__.");
+  joined.require_stamps();
+  joined.play();
+  EXPECT_EQ(joined.faults, (std::vector{Fault::NoTimeStamps, Fault::None}));
+  EXPECT_EQ(sequences(joined.frames), (std::vector<std::uint64_t>{0, 9}));
+  PlayingCamera hiccup("..a..a...");
+  hiccup.require_stamps();
+  hiccup.play();
+  EXPECT_TRUE(hiccup.faults.empty()) << "one frame costs itself";
+  EXPECT_EQ(hiccup.quality().damaged, 2U);
+}
+
+TEST(Camera, StampsBecomeExposureStartsBeforeTheGateSeesThem) {
+  PlayingCamera camera(".d.");
+  camera.set_stamps({.readout_time = {}, .offset = std::chrono::milliseconds(3)});
+  std::vector<TimePoint> seen;
+  camera.set_gate([&seen](FrameMetadata& metadata) {
+    seen.push_back(metadata.exposure_start);
+    return true;
+  });
+  camera.play();
+  using std::chrono::milliseconds;
+  EXPECT_EQ(seen, (std::vector{TimePoint(milliseconds(30)), TimePoint(milliseconds(63)),
+                               TimePoint(milliseconds(96))}));
 }
 
 TEST(Camera, AnotherFaultForgetsDamagedFrames) {

@@ -18,9 +18,11 @@ struct Alias {
   double units;  ///< V4L2's per GenICam unit
 };
 
+/// Of V4L2_CID_EXPOSURE_ABSOLUTE.
+constexpr std::chrono::microseconds kExposureUnit{100};
+
 constexpr std::array kAliases{
-    // Microseconds; V4L2's unit is 100 us.
-    Alias{"ExposureTime", V4L2_CID_EXPOSURE_ABSOLUTE, 0.01},
+    Alias{"ExposureTime", V4L2_CID_EXPOSURE_ABSOLUTE, 1.0 / kExposureUnit.count()},
     Alias{"ExposureAuto", V4L2_CID_EXPOSURE_AUTO, 1},
     Alias{"Gain", V4L2_CID_GAIN, 1},
     Alias{"GainAuto", V4L2_CID_AUTOGAIN, 1},
@@ -156,6 +158,12 @@ bool is_inactive(const V4l2Device& device, std::string_view name) {
 bool is_button(const V4l2Device& device, std::string_view name) {
   const auto control = find_control(device, name);
   return control && control->type == V4L2_CTRL_TYPE_BUTTON;
+}
+
+std::chrono::microseconds exposure_time(const V4l2Device& device) {
+  const auto control = find_control(device, "ExposureTime");
+  if (!control || (control->flags & V4L2_CTRL_FLAG_INACTIVE) != 0) return {};
+  return device.control(*control).value_or(0) * kExposureUnit;
 }
 
 bool waits_for_trigger(const V4l2Device& device) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,9 @@ bool is_inactive(const V4l2Device& device, std::string_view name);
 
 /// True for a button, which has no value. Names as in set_control.
 bool is_button(const V4l2Device& device, std::string_view name);
+
+/// The exposure time that is set, as ExposureTime says; 0: unknown, as under automatic control.
+std::chrono::microseconds exposure_time(const V4l2Device& device);
 
 /// True when the device's control TriggerMode is on: frames then arrive on triggers.
 bool waits_for_trigger(const V4l2Device& device);

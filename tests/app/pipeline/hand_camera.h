@@ -29,11 +29,16 @@ class HandCamera : public hal::Camera {
   /// A frame with a bright square on darker ground, no part of which looks like another; delivered
   /// before it returns. `bright` is above 199.
   void expose(std::uint16_t bright, hal::TimePoint moment = hal::Clock::now()) {
-    act([this, bright, moment] {
+    expose(bright, {.exposure_start = moment});
+  }
+  /// The same with a frame's metadata as the device states them, but for its number.
+  void expose(std::uint16_t bright, const hal::FrameMetadata& stated) {
+    act([this, bright, &stated] {
       auto buffer = pool_.acquire();
       if (!buffer) return;
       paint(*buffer, bright);
-      buffer->metadata = {.sequence = sequence_++, .exposure_start = moment};
+      buffer->metadata = stated;
+      buffer->metadata.sequence = sequence_++;
       deliver(buffer);
     });
   }

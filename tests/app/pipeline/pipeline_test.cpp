@@ -222,6 +222,41 @@ TEST_F(PipelineTest, ATriggeredCameraGivesOneFrameForEachTriggerAndTheRestIsMiss
   EXPECT_EQ(status.cameras[0].lost, 0U) << "frames without a trigger are not lost";
 }
 
+TEST_F(PipelineTest, AFrameStampedAtItsEndBelongsToTheTriggerThatBeganIt) {
+  const auto trigger = std::make_shared<hal::FrameTrigger>(
+      hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);
+  plan.triggers = {trigger, nullptr};
+  constexpr std::chrono::milliseconds kPeriod{10}, kExposure{6}, kReadout{8};
+  cameras[0]->set_stamps({.readout_time = kReadout});
+  start();
+  const auto begin = hal::Clock::now();
+  trigger->on_edge({hal::Edge::Rising, begin});
+  for (std::uint64_t part = 1; part <= 5; ++part) {
+    // The next part's edge comes before this one's frame is there.
+    const auto edge = begin + (part - 1) * kPeriod;
+    trigger->on_edge({hal::Edge::Rising, edge + kPeriod});
+    cameras[0]->expose(40000, {.exposure_start = edge + kExposure + kReadout,
+                               .stamp_source = hal::StampSource::FrameEnd,
+                               .exposure_time = kExposure});
+    const Status status = sink.wait_for([part](const Status& s) { return s.frame_set == part; });
+    EXPECT_EQ(status.trigger, part);
+    EXPECT_EQ(status.cameras[0].missed, 0U);
+  }
+}
+
+TEST_F(PipelineTest, ACameraWithoutStampsIsAFaultWhereItIsJoinedWithAnother) {
+  start();
+  cameras[1]->expose(200);
+  for (int n = 0; n < 10; ++n) {
+    cameras[0]->expose(
+        40000, {.exposure_start = hal::Clock::now(), .stamp_source = hal::StampSource::Arrival});
+  }
+  const Status status =
+      sink.wait_for([](const Status& s) { return s.cameras[0].fault == hal::Fault::NoTimeStamps; });
+  EXPECT_EQ(status.cameras[0].frames, 0U);
+  EXPECT_EQ(status.cameras[1].fault, hal::Fault::None);
+}
+
 TEST_F(PipelineTest, ACameraFaultMissesItsTriggers) {
   const auto trigger = std::make_shared<hal::FrameTrigger>(
       hal::TriggerSettings{.mode = hal::TriggerMode::Line}, nullptr);

@@ -47,6 +47,7 @@ TEST(MetadataOf, TakesWhatTheRequestSays) {
   request.set(controls::Lux, 420.0F);
   const FrameMetadata metadata = metadata_of(request, 98'000'000'000, kNeverSlept);
   EXPECT_EQ(metadata.exposure_start, TimePoint(99s + 900ms));
+  EXPECT_EQ(metadata.stamp_source, StampSource::ReadoutStart);
   EXPECT_EQ(metadata.exposure_time, 8333us);
   EXPECT_DOUBLE_EQ(metadata.gain, 3);
   EXPECT_DOUBLE_EQ(metadata.lux, 420);
@@ -56,11 +57,15 @@ TEST(MetadataOf, MakesDoWithTheBuffersStampAndThenTheArrival) {
   const libcamera::ControlList request(controls::controls);
   const FrameMetadata metadata = metadata_of(request, 98'000'000'000, kNeverSlept);
   EXPECT_EQ(metadata.exposure_start, TimePoint(98s));
+  EXPECT_EQ(metadata.stamp_source, StampSource::FrameEnd);
   EXPECT_EQ(metadata.exposure_time, 0us);
   EXPECT_DOUBLE_EQ(metadata.gain, 1);
   EXPECT_DOUBLE_EQ(metadata.lux, 0);
-  EXPECT_EQ(metadata_of(request, 0, kNeverSlept).exposure_start, TimePoint(100s));
-  EXPECT_EQ(metadata_of(request, UINT64_MAX, kNeverSlept).exposure_start, TimePoint(100s));
+  for (const std::uint64_t impossible : {std::uint64_t{0}, UINT64_MAX}) {
+    const FrameMetadata unstamped = metadata_of(request, impossible, kNeverSlept);
+    EXPECT_EQ(unstamped.exposure_start, TimePoint(100s));
+    EXPECT_EQ(unstamped.stamp_source, StampSource::Arrival);
+  }
 }
 
 }  // namespace

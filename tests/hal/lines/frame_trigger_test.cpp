@@ -33,7 +33,7 @@ TEST(FrameTrigger, StampsTheFrameThatFollowsTheEdge) {
   FrameTrigger trigger(line_settings(), never);
   EXPECT_FALSE(trigger.claim(at(1))) << "no edge yet";
   trigger.on_edge(rising(10));
-  EXPECT_FALSE(trigger.claim(at(9.9))) << "began before";
+  EXPECT_FALSE(trigger.claim(at(9))) << "began before";
   const auto stamp = trigger.claim(at(10));
   ASSERT_TRUE(stamp);
   EXPECT_EQ(stamp->id, 1U);
@@ -63,6 +63,17 @@ TEST(FrameTrigger, AnEdgeDuringTheExposureIsMissed) {
   EXPECT_EQ(trigger.counts().missed, 1U);
 }
 
+TEST(FrameTrigger, AStampAMomentTooEarlyKeepsItsTrigger) {
+  FrameTrigger trigger(line_settings(), never);
+  trigger.on_edge(rising(10));
+  trigger.on_edge(rising(20));
+  EXPECT_EQ(trigger.claim(at(9.6))->id, 1U) << "no other one is near";
+  trigger.on_edge(rising(20.2));
+  EXPECT_EQ(trigger.claim(at(20.05))->id, 2U) << "the next is near, but this one is nearer";
+  EXPECT_EQ(trigger.claim(at(20.15))->id, 3U);
+  EXPECT_EQ(trigger.counts().missed, 0U);
+}
+
 TEST(FrameTrigger, ActivationChoosesTheEdges) {
   const auto triggers = [](TriggerActivation activation) {
     FrameTrigger trigger({.mode = TriggerMode::Line, .activation = activation}, never);
@@ -81,7 +92,7 @@ TEST(FrameTrigger, DelaysTheExposure) {
   settings.delay = milliseconds(5);
   FrameTrigger trigger(settings, never);
   trigger.on_edge(rising(10));
-  EXPECT_FALSE(trigger.claim(at(14.9)));
+  EXPECT_FALSE(trigger.claim(at(14)));
   const auto stamp = trigger.claim(at(15));
   ASSERT_TRUE(stamp);
   EXPECT_EQ(stamp->edge, at(10)) << "the stamp is the edge's own";

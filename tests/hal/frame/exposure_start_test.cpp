@@ -1,0 +1,42 @@
+#include "hal/frame/exposure_start.h"
+
+#include <gtest/gtest.h>
+
+namespace orbwatch::hal {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr TimePoint kStart(100s);
+constexpr auto kExposure = 8ms;
+constexpr StampSettings kSettings{.readout_time = 12ms, .offset = 700us};
+
+/// A frame whose exposure began at kStart, stamped as the source says, and late by the offset.
+FrameMetadata stamped(StampSource source) {
+  const bool after_exposure = source != StampSource::ExposureStart;
+  const bool after_readout = after_exposure && source != StampSource::ReadoutStart;
+  FrameMetadata metadata;
+  metadata.stamp_source = source;
+  metadata.exposure_time = kExposure;
+  metadata.exposure_start = kStart + kSettings.offset +
+                            (after_exposure ? kExposure : Clock::duration(0)) +
+                            (after_readout ? kSettings.readout_time : Clock::duration(0));
+  return metadata;
+}
+
+TEST(ExposureStart, IsKnownWhateverTheStampMarks) {
+  for (const auto source : {StampSource::ExposureStart, StampSource::ReadoutStart,
+                            StampSource::FrameEnd, StampSource::Arrival}) {
+    EXPECT_EQ(exposure_start(stamped(source), kSettings), kStart) << static_cast<int>(source);
+  }
+}
+
+TEST(ExposureStart, IsTheStampWhereNothingIsKnown) {
+  FrameMetadata metadata{.exposure_start = kStart, .stamp_source = StampSource::FrameEnd};
+  EXPECT_EQ(exposure_start(metadata, {}), kStart);
+  metadata.stamp_source = StampSource::ReadoutStart;
+  EXPECT_EQ(exposure_start(metadata, {}), kStart);
+}
+
+}  // namespace
+}  // namespace orbwatch::hal
