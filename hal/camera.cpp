@@ -65,7 +65,13 @@ void Camera::stop() { thread_.stop(); }
 
 Result<> Camera::trigger() { return fail("camera " + info_.id + ": has no software trigger"); }
 
-Result<> Camera::set(std::string_view control, double) {
+Result<> Camera::set(std::string_view control, double value) {
+  auto done = do_set(control, value);
+  if (done) control_delay_.set(Clock::now());
+  return done;
+}
+
+Result<> Camera::do_set(std::string_view control, double) {
   return fail("has no control \"" + std::string(control) + "\"");
 }
 
@@ -78,6 +84,7 @@ void Camera::deliver(std::shared_ptr<FrameBuffer> frame) {
                    Fault::NoTimeStamps);
   }
   metadata.exposure_start = exposure_start(metadata, stamps_);
+  metadata.controls_as_of = control_delay_.as_of(metadata, control_delay());
   if (damage_.add_intact(metadata.exposure_start)) {
     metadata.status = FrameStatus::Withheld;
     passes_gate(metadata);

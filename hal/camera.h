@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/control_delay.h"
 #include "hal/damage_watch.h"
 #include "hal/fault.h"
 #include "hal/frame/buffer_count.h"
@@ -113,13 +114,18 @@ class Camera {
 
   FrameQuality quality() const { return {damaged_, flawed_}; }
 
-  /// Sets a control by name in its own unit. Error: no such control, or out of range.
-  virtual Result<> set(std::string_view control, double value);
+  /// Sets a control by name in its own unit. Frames say when it is in effect: see
+  /// FrameMetadata::controls_as_of. Error: no such control, or out of range.
+  Result<> set(std::string_view control, double value);
 
  protected:
   explicit Camera(CameraInfo info) : info_(std::move(info)) {}
 
   virtual Result<StreamFormat> do_configure(const StreamRequest& request) = 0;
+
+  virtual Result<> do_set(std::string_view control, double value);
+  /// How many exposures that begin after do_set() may be without its control.
+  virtual std::size_t control_delay() const { return 0; }
 
   /// The camera's thread: delivers until `stop` is requested. Faults are reported, not thrown; the
   /// back-end reconnects by itself.
@@ -154,6 +160,7 @@ class Camera {
   bool requires_stamps_ = false;
   std::uint64_t withheld_ = 0;  ///< by the gate since start
   DamageWatch damage_;
+  ControlDelay control_delay_;
   std::atomic<std::uint64_t> damaged_ = 0;
   std::atomic<std::uint64_t> flawed_ = 0;
   OnFrame on_frame_;

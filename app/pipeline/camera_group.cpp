@@ -9,6 +9,9 @@
 namespace orbwatch::app {
 namespace {
 
+/// More than any camera takes for a control that it accepts.
+constexpr std::chrono::seconds kControlPatience{2};
+
 bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
   return picture.format == format.format && picture.width == format.width &&
          picture.height == format.height;
@@ -129,6 +132,7 @@ void CameraGroup::on_frame(std::size_t index, hal::Frame frame) {
     return;
   }
   if (member.fault != hal::Fault::None) on_fault(index, {});
+  watch_controls(member, frame->metadata);
   const auto now = hal::Clock::now();
   {
     const std::lock_guard lock(member.metering);
@@ -136,6 +140,17 @@ void CameraGroup::on_frame(std::size_t index, hal::Frame frame) {
   }
   member.last_frame = now;
   sync_.put(index, std::move(frame));
+}
+
+/// Says once that a camera does not do what it was set to; what needs the setting is not measured.
+void CameraGroup::watch_controls(Member& member, const hal::FrameMetadata& metadata) {
+  const bool is_overdue =
+      metadata.not_as_set && metadata.exposure_start - metadata.controls_as_of > kControlPatience;
+  if (is_overdue && !member.is_otherwise) {
+    log_line(LogLevel::Warning, member.camera->info().id + ": its " + metadata.not_as_set +
+                                    " is another than was set; choose a value that it takes");
+  }
+  member.is_otherwise = is_overdue;
 }
 
 void CameraGroup::on_fault(std::size_t index, const hal::FaultReport& report) {

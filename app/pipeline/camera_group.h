@@ -77,6 +77,7 @@ class CameraGroup {
     hal::StreamFormat format;
     std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: it runs freely
     std::atomic<hal::Fault> fault{hal::Fault::None};
+    bool is_otherwise = false;                 ///< than it was set; the camera's thread's
     std::atomic<hal::TimePoint> last_frame{};  ///< arrival
     std::mutex metering;                       ///< of the camera's thread and the pipeline's
     SecondMeter meter;
@@ -85,6 +86,7 @@ class CameraGroup {
   Result<> start(std::size_t index);
   Result<> set(std::size_t index);
   void on_frame(std::size_t index, hal::Frame frame);
+  static void watch_controls(Member& member, const hal::FrameMetadata& metadata);
   void on_fault(std::size_t index, const hal::FaultReport& report);
 
   hal::FrameSync sync_;

@@ -101,7 +101,7 @@ Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest
   return format_;
 }
 
-Result<> SimulatedCamera::set(std::string_view control, double value) {
+Result<> SimulatedCamera::do_set(std::string_view control, double value) {
   if (control != "TriggerMode" || (value != 0 && value != 1)) {
     return fail("control \"" + std::string(control) +
                 "\" cannot be set; it takes TriggerMode, 0 or 1");

@@ -35,10 +35,10 @@ class SimulatedCamera : public hal::Camera {
 
   /// Errors: not in TriggerMode, the exposure before is not rendered yet.
   Result<> trigger() override;
-  /// The only control is TriggerMode, 0 (off) or 1 (on). Error: another one.
-  Result<> set(std::string_view control, double value) override;
 
  protected:
+  /// The only control is TriggerMode, 0 (off) or 1 (on). Error: another one.
+  Result<> do_set(std::string_view control, double value) override;
   /// Renders the static scene. Errors: a size, rate, angle or noise out of range, a position inside
   /// a body.
   Result<hal::StreamFormat> do_configure(const hal::StreamRequest& request) override;

@@ -36,6 +36,10 @@ struct FrameMetadata {
   /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
   /// that it started. None: the camera runs freely.
   std::optional<std::uint64_t> trigger = std::nullopt;
+  /// The exposure has every control that was set before this moment: see ControlDelay.
+  TimePoint controls_as_of{};
+  /// The name of a control whose value the frame states, and it is another than was set; static.
+  const char* not_as_set = nullptr;
   double lux = 0;  ///< illuminance of the scene as the camera estimates it; 0: unknown
   FrameStatus status = FrameStatus::Intact;
 };

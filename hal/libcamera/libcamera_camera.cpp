@@ -92,7 +92,7 @@ Result<StreamFormat> LibcameraCamera::do_configure(const StreamRequest& request)
   return format_;
 }
 
-Result<> LibcameraCamera::set(std::string_view control, double value) {
+Result<> LibcameraCamera::do_set(std::string_view control, double value) {
   const std::lock_guard lock(camera_mutex_);
   const auto camera = open();
   if (!camera) return tl::unexpected(camera.error());
@@ -148,6 +148,8 @@ void LibcameraCamera::forward_intact(const LibcameraStream::Captured& captured) 
   FrameMetadata metadata =
       metadata_of(captured.metadata, captured.buffer.timestamp, ClockReading::now());
   metadata.sequence = sequence_of(captured.buffer.sequence);
+  const libcamera::ControlId* const other = controls_.find_other(captured.metadata);
+  metadata.not_as_set = other ? other->name().c_str() : nullptr;
   if (auto intact = check_intact(captured); !intact) {
     return discard(metadata, id_ + ": " + intact.error().message);
   }

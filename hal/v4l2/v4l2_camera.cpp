@@ -97,7 +97,7 @@ Result<> V4l2Camera::trigger() {
   return {};
 }
 
-Result<> V4l2Camera::set(std::string_view control, double value) {
+Result<> V4l2Camera::do_set(std::string_view control, double value) {
   // Controls do not belong to the stream: another descriptor of the device will do.
   auto device = open();
   if (!device) return fail(device.error().detail);

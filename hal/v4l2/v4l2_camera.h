@@ -30,11 +30,13 @@ class V4l2Camera : public DeviceCamera {
   /// button, or the driver refuses.
   Result<> trigger() override;
 
+ protected:
   /// See set_control(). The value is set again after each reconnection, as USB cameras lose it with
   /// their power, unless a later setting put the control under automatic control.
-  Result<> set(std::string_view control, double value) override;
-
- protected:
+  Result<> do_set(std::string_view control, double value) override;
+  /// Drivers set controls at once, sensors take them on 2 exposures later; one more for a camera
+  /// that computes its exposures ahead, and one for stamps that mark a frame's end.
+  std::size_t control_delay() const override { return 4; }
   /// Errors: no such device or not a camera, busy, size or format not offered, a stored control
   /// that cannot be set.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;

@@ -71,7 +71,10 @@ void CompiledRecipe::render(const hal::FrameSet& set, const FramePyramids& pyram
     const std::size_t camera = plan.sources[*plan.measured].camera;
     const bool is_measurable = is_of_trigger(set, set.frames[camera]);
     frames_[n].view = is_measurable ? view : nullptr;
-    if (is_measurable) frames_[n].exposed = set.frames[camera]->metadata.exposure_start;
+    if (is_measurable) {
+      frames_[n].exposed = set.frames[camera]->metadata.exposure_start;
+      frames_[n].controls_as_of = set.frames[camera]->metadata.controls_as_of;
+    }
     frames_[n].held = set.held[camera];
   }
 }
@@ -79,8 +82,8 @@ void CompiledRecipe::render(const hal::FrameSet& set, const FramePyramids& pyram
 void CompiledRecipe::measure(hal::TimePoint set_since) {
   for (std::size_t i = 0; i < meters_.size(); ++i) {
     auto& [meter, n, quality] = meters_[i];
-    const auto& [view, exposed, held] = frames_[n];
-    const bool is_measurable = view && exposed >= set_since;
+    const auto& [view, exposed, controls_as_of, held] = frames_[n];
+    const bool is_measurable = view && controls_as_of >= set_since;
     if (is_measurable && held && regions_[i].quality != Quality::NotMeasured) continue;
     stale_[i] = false;
     regions_[i] = {};
@@ -91,6 +94,12 @@ void CompiledRecipe::measure(hal::TimePoint set_since) {
                               ? meter.measure(view->luminance, view->validity, seconds)
                               : meter.measure(view->radiometric, view->validity, seconds);
   }
+}
+
+bool CompiledRecipe::is_set(hal::TimePoint set_since) const {
+  return std::ranges::all_of(frames_, [set_since](const MeasuredFrame& frame) {
+    return !frame.view || frame.controls_as_of >= set_since;
+  });
 }
 
 void CompiledRecipe::skip() { regions_.fill({}); }

@@ -39,9 +39,11 @@ class CompiledRecipe {
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
 
   /// Measures every region in the views that were rendered last, at the exposure of its camera.
-  /// Not measured is a frame whose exposure began before `set_since`, with other settings, and in a
-  /// triggered set the frame of another trigger. While a frame is held its measurement is kept.
+  /// Not measured is a frame without all that was set until `set_since`, and in a triggered set the
+  /// frame of another trigger. While a frame is held its measurement is kept.
   void measure(hal::TimePoint set_since = hal::TimePoint::min());
+  /// Whether each camera that is measured and has a frame has in it all that was set until then.
+  bool is_set(hal::TimePoint set_since) const;
   /// Leaves every region without a measurement.
   void skip();
 
@@ -60,7 +62,8 @@ class CompiledRecipe {
   struct MeasuredFrame {
     const View* view = nullptr;  ///< null: the set has no frame of the camera, or of its trigger
     hal::TimePoint exposed{};    ///< start of its exposure
-    bool held = false;           ///< it was in an earlier set, too
+    hal::TimePoint controls_as_of{};  ///< of its metadata
+    bool held = false;                ///< it was in an earlier set, too
   };
   struct Region {
     signals::RegionMeter meter;

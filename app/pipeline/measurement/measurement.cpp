@@ -92,7 +92,7 @@ void Measurement::process(const hal::FrameSet& set, const FramePyramids& pyramid
   stamp_ = set.stamp;
   recipe_->render(set, pyramids, workers);
   const bool is_settling = selection_ && to_settle_ > 0;
-  to_settle_ -= is_settling ? 1 : 0;
+  to_settle_ -= is_settling && recipe_->is_set(selection_->set_since) ? 1 : 0;
   if (selection_ && !is_settling && !paused_) {
     recipe_->measure(selection_->set_since);
   } else {

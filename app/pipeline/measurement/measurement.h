@@ -90,7 +90,7 @@ class Measurement {
   /// Of the newest set; nullopt: it belongs to no recipe.
   std::optional<RecipeSwitch::Selection> selection_;
   std::uint64_t changes_ = 0;  ///< of the cameras, up to the one that was settled for
-  int to_settle_ = 0;          ///< sets that are not measured yet
+  int to_settle_ = 0;          ///< sets with all settings that are not measured
   bool paused_ = false;
   std::uint64_t frame_set_ = 0;
   hal::TimePoint stamp_{};

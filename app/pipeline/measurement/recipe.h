@@ -105,7 +105,8 @@ void visit(Visitor& v, Recipe& recipe) {
   v.require((recipe.process_active == ActiveSource::Input) != recipe.process_input.name.empty(),
             "process_active", "\"input\" needs process_input");
   v.optional("settle_frames", recipe.settle_frames, Range::between(0, 1000),
-             "Frame sets after a switch that are not measured, while cameras apply their settings");
+             "Frame sets that are not measured once the cameras have taken on a recipe's settings, "
+             "which is waited for anyway: for a light or a lens that needs longer");
   v.tables("view", recipe.views, 1, kMaxViews,
            "Views that are measured; they cannot be pointed, and are never slowed down");
   v.tables("region", recipe.regions, 1, signals::kMaxRegions, "What is measured");

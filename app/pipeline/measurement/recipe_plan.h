@@ -36,7 +36,7 @@ struct RecipePlan {
   std::vector<RegionPlan> regions;
   std::vector<signals::AlarmLimits> alarms;
   std::vector<CameraControl> controls;
-  int settle_frames = 0;  ///< sets after its selection that are not measured
+  int settle_frames = 0;  ///< sets with its settings that are not measured
   ActiveSource process_active = ActiveSource::Always;
   std::size_t process_input = 0;  ///< index, for ActiveSource::Input
 };

@@ -25,8 +25,8 @@ class RecipeSwitch {
   /// The recipe of a frame set.
   struct Selection {
     std::size_t recipe = 0;
-    /// The cameras have its settings in exposures that begin here or later; min() until they are
-    /// set for the first time.
+    /// When the cameras were set, which takes effect later: see hal::FrameMetadata; min() until
+    /// they are set for the first time.
     hal::TimePoint set_since = hal::TimePoint::min();
     std::uint64_t changes = 0;  ///< how often cameras were set since the start
 

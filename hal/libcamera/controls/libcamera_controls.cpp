@@ -126,6 +126,32 @@ bool is_array(const libcamera::ControlId& id) {
   return std::find(arrays.begin(), arrays.end(), &id) != arrays.end();
 }
 
+/// What sensors round to: exposures to lines, gains to codes, which are coarse where they are high.
+constexpr double kExposureError = 60;  // us
+constexpr double kRelativeError = 0.05;
+
+bool is_near(double asked, double stated, double error) {
+  return std::abs(asked - stated) <= std::max(error, kRelativeError * asked);
+}
+
+/// Whether both lists have the control, with values that are not near each other.
+template <class Number>
+bool differs(const libcamera::Control<Number>& control, const libcamera::ControlList& asked,
+             const libcamera::ControlList& stated, double error) {
+  const auto wanted = asked.get(control);
+  const auto got = stated.get(control);
+  return wanted && got && !is_near(static_cast<double>(*wanted), static_cast<double>(*got), error);
+}
+
+bool colours_differ(const libcamera::ControlList& asked, const libcamera::ControlList& stated) {
+  const auto wanted = asked.get(libcamera::controls::ColourGains);
+  const auto got = stated.get(libcamera::controls::ColourGains);
+  return wanted && got &&
+         !std::equal(wanted->begin(), wanted->end(), got->begin(), [](float a, float b) {
+           return is_near(static_cast<double>(a), static_cast<double>(b), 0);
+         });
+}
+
 CameraControl describe(std::string_view name, const libcamera::ControlInfo& info,
                        libcamera::ControlType type, const Limits& limits) {
   CameraControl control{.name = std::string(name),
@@ -211,6 +237,20 @@ libcamera::ControlList ControlSettings::all() {
   changes_.clear();
   changed_ = false;
   return all_;
+}
+
+const libcamera::ControlId* ControlSettings::find_other(
+    const libcamera::ControlList& metadata) const {
+  namespace controls = libcamera::controls;
+  const std::lock_guard lock(mutex_);
+  if (!all_.get(controls::AeEnable).value_or(false)) {
+    if (differs(controls::ExposureTime, all_, metadata, kExposureError)) {
+      return &controls::ExposureTime;
+    }
+    if (differs(controls::AnalogueGain, all_, metadata, 0)) return &controls::AnalogueGain;
+  }
+  const bool is_white_fixed = !all_.get(controls::AwbEnable).value_or(false);
+  return is_white_fixed && colours_differ(all_, metadata) ? &controls::ColourGains : nullptr;
 }
 
 void ControlSettings::add_changes(libcamera::ControlList& request) {

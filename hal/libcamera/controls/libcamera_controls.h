@@ -39,12 +39,17 @@ class ControlSettings {
   /// Every control that was set, for a camera's start.
   libcamera::ControlList all();
 
+  /// The first control that was set to another value than a frame's metadata state, or nullptr. Of
+  /// exposure, gains and colour gains, which are fixed and which metadata state as the sensor
+  /// rounded them.
+  const libcamera::ControlId* find_other(const libcamera::ControlList& metadata) const;
+
   /// Adds the settings since the last call, or since all(), to a request.
   void add_changes(libcamera::ControlList& request);
 
  private:
   std::atomic<bool> changed_{false};  ///< spares the frame path the lock
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   libcamera::ControlList all_;
   libcamera::ControlList changes_;
 };

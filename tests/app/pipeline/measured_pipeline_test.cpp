@@ -22,24 +22,21 @@ namespace {
 using hal::Clock;
 using std::chrono::seconds;
 
-/// A camera whose exposure time can be set and is the brightness of its pictures.
+/// A camera whose exposure time can be set and is the brightness of its pictures. As with a sensor,
+/// some exposures after it was set are still as before.
 class SettableCamera : public HandCamera {
  public:
-  SettableCamera() : HandCamera("thermal", PixelFormat::Y16) {}
+  explicit SettableCamera(std::size_t delay)
+      : HandCamera("thermal", PixelFormat::Y16), delay_(delay) {}
 
-  Result<> set(std::string_view control, double value) override {
-    if (control != "ExposureTime") return Camera::set(control, value);
-    std::this_thread::sleep_for(std::chrono::microseconds(200));  // its driver takes a while
-    const std::lock_guard lock(mutex_);
-    exposure_ = static_cast<std::uint16_t>(value);
-    return {};
-  }
-  /// A frame whose exposure begins now, with what the camera is set to now.
+  /// A frame whose exposure begins now.
   void expose_as_set() {
     std::uint16_t bright = 0;
     hal::TimePoint moment;
     {
       const std::lock_guard lock(mutex_);
+      if (waiting_ == 0) exposure_ = set_;
+      waiting_ -= waiting_ > 0 ? 1 : 0;
       bright = exposure_;
       moment = Clock::now();
     }
@@ -47,8 +44,21 @@ class SettableCamera : public HandCamera {
   }
 
  private:
+  Result<> do_set(std::string_view control, double value) override {
+    if (control != "ExposureTime") return Camera::do_set(control, value);
+    std::this_thread::sleep_for(std::chrono::microseconds(200));  // its driver takes a while
+    const std::lock_guard lock(mutex_);
+    set_ = static_cast<std::uint16_t>(value);
+    waiting_ = delay_;
+    return {};
+  }
+  std::size_t control_delay() const override { return delay_; }
+
+  const std::size_t delay_;
   std::mutex mutex_;
+  std::uint16_t set_ = 0;
   std::uint16_t exposure_ = 0;
+  std::size_t waiting_ = 0;  ///< exposures that are not as it was set
 };
 
 /// Calls what examines, one at a time; the test waits for a status that it expects.
@@ -108,9 +118,9 @@ RecipePlan plan_with_exposure(std::uint16_t number) {
 
 class MeasuredPipeline : public testing::Test {
  protected:
-  void start(std::vector<RecipePlan> recipes) {
+  void start(std::vector<RecipePlan> recipes, std::size_t control_delay = 0) {
     PipelinePlan plan;
-    auto hand = std::make_unique<SettableCamera>();
+    auto hand = std::make_unique<SettableCamera>(control_delay);
     plan.formats.push_back(hand->configure({}).value());
     camera = hand.get();
     EXPECT_TRUE(camera->set("ExposureTime", exposure(1)));
@@ -166,7 +176,7 @@ TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
     unknown_view += recipe_of_views == status.recipe ? 0U : 1U;
     ++measured[status.recipe];
   };
-  start({plan_with_exposure(1), plan_with_exposure(2), plan_with_exposure(3)});
+  start({plan_with_exposure(1), plan_with_exposure(2), plan_with_exposure(3)}, 3);
   {
     const std::jthread exposing([this](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
@@ -188,6 +198,21 @@ TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
   EXPECT_EQ(mixed, 0U) << "the camera's setting, the scale and the number belong together";
   EXPECT_EQ(unknown_view, 0U);
   for (const std::uint16_t recipe : {1, 2, 3}) EXPECT_GT(measured[recipe], 2U) << recipe;
+}
+
+TEST_F(MeasuredPipeline, FramesFromBeforeTheCameraTookOnTheSettingsAreNotMeasured) {
+  RecipePlan second = plan_with_exposure(2);
+  second.settle_frames = 2;
+  constexpr std::size_t kDelay = 3;
+  start({plan_with_exposure(1), second}, kDelay);
+  ASSERT_EQ(pipeline->select_recipe(2), CommandResult::Done);
+  sink.wait_for([](const Status& status) { return status.recipe == 2; });
+  for (std::size_t n = 0; n < kDelay + 2; ++n) {
+    EXPECT_EQ(next_frame().regions[0].quality, Quality::NotMeasured) << n;
+  }
+  const RegionStatus region = next_frame().regions[0];
+  EXPECT_EQ(region.quality, Quality::Apparent);
+  EXPECT_NEAR(region.signals.hot_spot_peak_temperature, celsius(2), 0.1);
 }
 
 TEST_F(MeasuredPipeline, SettingsThatACameraRefusesAreReported) {
