@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "hal/device_camera.h"
-#include "hal/frame/frame_pool.h"
 #include "hal/libcamera/camera_manager.h"
 #include "hal/libcamera/controls/libcamera_controls.h"
 #include "hal/libcamera/format/camera_configuration.h"
@@ -27,7 +26,7 @@ class LibcameraCamera : public DeviceCamera {
   Result<> do_set(std::string_view control, double value) override;
   /// Controls ride on a request behind those that are queued; Raspberry Pi's sensors take exposure
   /// and gain on up to 3 frames after it (libcamera's DelayedControls).
-  std::size_t control_delay() const override { return kFramesPerCamera + 3; }
+  std::size_t control_delay() const override { return buffers_ + 3; }
   /// Errors: no such camera, or several; busy; size, format or sensor mode not offered.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
   DeviceResult<double> open_stream() override;
