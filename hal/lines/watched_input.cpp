@@ -56,8 +56,8 @@ std::optional<EdgeEvent> EdgeFilter::confirm(bool level, TimePoint now) {
 
 std::optional<EdgeEvent> EdgeFilter::make_up(bool level, TimePoint now) {
   ++lost_;
-  last_ = {edge_to(level), now};
-  return change_to(level, now);
+  last_ = {edge_to(level), std::max(now, last_.stamp)};  // edges may be newer than `now`
+  return change_to(level, last_.stamp);
 }
 
 std::optional<EdgeEvent> EdgeFilter::change_to(bool level, TimePoint stamp) {

@@ -139,6 +139,15 @@ TEST(EdgeFilter, ALossThatNoNumberNamesIsFoundByThreeReadings) {
   EXPECT_EQ(filter.lost(), 1U);
 }
 
+TEST(EdgeFilter, AnEdgeThatMakesUpForALostOneIsNoOlderThanTheLastOne) {
+  EdgeFilter filter(Clock::duration(0), false);
+  filter.take({Edge::Rising, at(2)});
+  filter.doubt();
+  filter.confirm(false, at(1));
+  filter.confirm(false, at(1));
+  EXPECT_EQ(filter.confirm(false, at(1)), (EdgeEvent{Edge::Falling, at(2)}));
+}
+
 TEST(EdgeFilter, AReadingThatIsAheadOfItsEdgeIsOutnumbered) {
   EdgeFilter filter(Clock::duration(0), false);
   filter.doubt();
