@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/daemon/build.h"
 #include "app/pipeline/views/view_renderer.h"
 
 namespace orbwatch::app {
@@ -84,6 +85,49 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Reso
     return hal::fail(hal::Fault::WrongFormat, usable.error().message);
   }
   return *format;
+}
+
+Result<PipelinePlan> open_cameras(const Resolved& site, Lines& lines) {
+  auto cameras = make_cameras(site);
+  if (!cameras) return tl::unexpected(cameras.error());
+  CameraSet absent;
+  std::vector<hal::StreamFormat> formats;
+  for (std::size_t i = 0; i < cameras->size(); ++i) {
+    const auto format = open_camera(*(*cameras)[i], site, i);
+    absent[i] = !format;
+    formats.push_back(format.value_or(expected_format(site, i)));
+  }
+  auto plan = build(site, std::move(formats));
+  if (!plan) return plan;
+  for (std::size_t i = 0; i < cameras->size(); ++i) {
+    const CameraSettings& settings = site.site.cameras[i];
+    plan->triggers.push_back(
+        lines.trigger(settings.trigger, settings.trigger_source, *(*cameras)[i]));
+  }
+  plan->cameras = std::move(*cameras);
+  plan->absent = absent;
+  plan->process_inputs = lines.process_inputs();
+  return plan;
+}
+
+Result<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera, Pipeline& pipeline) {
+  const auto missing = [&](const hal::FaultReport& fault) {
+    pipeline.miss(index, fault.fault);
+    return fail("camera " + site.site.cameras[index].name + ": " + fault.detail);
+  };
+  const auto format = open_camera(camera, site, index);
+  if (!format) return missing(format.error());
+  if (format->format != pipeline.formats()[index].format) {
+    std::vector<hal::StreamFormat> formats = pipeline.formats();
+    formats[index] = *format;
+    auto recompiled = rebuild(site, std::move(formats), index);
+    if (!recompiled) return missing({hal::Fault::WrongFormat, recompiled.error().message});
+    if (auto taken = pipeline.take_over(std::move(*recompiled)); !taken) return taken;
+  }
+  if (const auto admitted = pipeline.admit(index, *format); !admitted) {
+    return missing({hal::Fault::Refused, admitted.error().message});
+  }
+  return {};
 }
 
 }  // namespace orbwatch::app

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "app/files/resolve.h"
+#include "app/pipeline/pipeline.h"
+#include "app/ports/lines/lines.h"
 #include "app/simulation/machine.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
@@ -23,5 +25,14 @@ Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& s
 /// delivers what the pipeline cannot use, or another size than the rig's.
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
                                                  std::size_t index);
+
+/// Makes and opens the site's cameras, joins them with their trigger `lines`, and plans the
+/// pipeline for what they deliver. A camera that cannot be opened is absent. Error: the files.
+Result<PipelinePlan> open_cameras(const Resolved& site, Lines& lines);
+
+/// Opens an absent camera and has the pipeline take it up; compiles its views first where it
+/// delivers another format than was expected. On the main thread. The error is also the camera's
+/// fault.
+Result<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera, Pipeline& pipeline);
 
 }  // namespace orbwatch::app

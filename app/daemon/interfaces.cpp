@@ -27,13 +27,6 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
   return context;
 }
 
-/// By bit of Interfaces::faults().
-template <class... Settings>
-constexpr auto names_of(const std::tuple<Settings...>*) {
-  return std::array{Settings::kName..., std::string_view("snapshots")};
-}
-constexpr auto kNames = names_of(static_cast<const SinkSettings*>(nullptr));
-
 }  // namespace
 
 std::string commanders_text(const SinkSettings& sinks) {
@@ -62,7 +55,7 @@ void Interfaces::start(Attempts& attempts, hal::TimePoint now) {
     const auto attempt = [this, i] {
       return all_[i]->start().map([this, i] { started_ |= 1U << i; });
     };
-    attempts.add(std::string(kNames[i]), attempt, now);
+    attempts.add(std::string(kInterfaceNames[i]), attempt, now);
   }
 }
 

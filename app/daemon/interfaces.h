@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -20,6 +21,11 @@ namespace orbwatch::app {
 
 /// Who may command this appliance, in one line. Reentrant.
 std::string commanders_text(const SinkSettings& sinks);
+
+/// By bit of Interfaces::faults().
+inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<Settings...>*) {
+  return std::array{Settings::kName..., std::string_view("snapshots")};
+}(static_cast<const SinkSettings*>(nullptr));
 
 /// The interfaces of a site to the outside, each started by itself: one that cannot be opened is
 /// tried again while the others work. Thread rule: one owner, apart from faults().

@@ -6,29 +6,18 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "app/daemon/appliance.h"
 #include "app/daemon/attempts.h"
 #include "app/daemon/build.h"
-#include "app/daemon/cameras.h"
-#include "app/daemon/dispatch.h"
 #include "app/daemon/interfaces.h"
 #include "app/files/resolve.h"
-#include "app/health/board_health.h"
-#include "app/health/health_sampler.h"
 #include "app/log.h"
-#include "app/ports/lines/lines.h"
-#include "app/ports/snapshot/snapshot_sink.h"
-#include "app/state/command_record.h"
-#include "app/state/state_folder.h"
 #include "app/version.h"
 #include "proc/remap/remap.h"
 
@@ -122,119 +111,13 @@ bool wait_for_end(const sigset_t& signals, const std::filesystem::path& file, At
   }
 }
 
-HealthSources health_sources(const Configuration& configuration) {
-  HealthSources sources;
-  if (configuration.snapshot) sources.disk = configuration.snapshot->folder;
-  return sources;
-}
-
-/// The lines as configured; simulated ones are connected as the machine's settings say.
-std::unique_ptr<Lines> open_lines(const Configuration& site) {
-  const std::vector<LineSettings> settings{site.lines.begin(), site.lines.end()};
-  return std::make_unique<Lines>(settings, [machine = site.simulation](const std::string& line) {
-    return simulation::is_connected(machine, line);
-  });
-}
-
-/// Adds to the plan what runs: cameras, their triggers, process inputs. A camera that cannot be
-/// opened is absent.
-Result<PipelinePlan> open_site(const Resolved& site, Lines& lines) {
-  auto cameras = make_cameras(site);
-  if (!cameras) return tl::unexpected(cameras.error());
-  CameraSet absent;
-  std::vector<hal::StreamFormat> formats;
-  for (std::size_t i = 0; i < cameras->size(); ++i) {
-    const auto format = open_camera(*(*cameras)[i], site, i);
-    absent[i] = !format;
-    formats.push_back(format.value_or(expected_format(site, i)));
-  }
-  auto plan = build(site, std::move(formats));
-  if (!plan) return plan;
-  for (std::size_t i = 0; i < cameras->size(); ++i) {
-    const CameraSettings& settings = site.site.cameras[i];
-    plan->triggers.push_back(
-        lines.trigger(settings.trigger, settings.trigger_source, *(*cameras)[i]));
-  }
-  plan->cameras = std::move(*cameras);
-  plan->absent = absent;
-  plan->process_inputs = lines.process_inputs();
-  return plan;
-}
-
-/// Opens an absent camera and has the pipeline take it up.
-Result<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera, Pipeline& pipeline) {
-  const auto missing = [&](const hal::FaultReport& fault) {
-    pipeline.miss(index, fault.fault);
-    return fail("camera " + site.site.cameras[index].name + ": " + fault.detail);
-  };
-  const auto format = open_camera(camera, site, index);
-  if (!format) return missing(format.error());
-  if (format->format != pipeline.formats()[index].format) {
-    std::vector<hal::StreamFormat> formats = pipeline.formats();
-    formats[index] = *format;
-    auto recompiled = rebuild(site, std::move(formats), index);
-    if (!recompiled) return missing({hal::Fault::WrongFormat, recompiled.error().message});
-    if (auto taken = pipeline.take_over(std::move(*recompiled)); !taken) return taken;
-  }
-  if (const auto admitted = pipeline.admit(index, *format); !admitted) {
-    return missing({hal::Fault::Refused, admitted.error().message});
-  }
-  return {};
-}
-
 /// Runs until a signal. True: to be started again.
 Result<bool> run(const Resolved& site, const sigset_t& signals, const std::filesystem::path& file) {
-  const Configuration& configuration = site.site;
-  const auto record = std::make_shared<CommandRecord>(state_folder(configuration.state_folder));
-  HealthSampler health(
-      [record, board = std::make_shared<BoardHealth>(health_sources(configuration))] {
-        Health read = board->read();
-        read.commands_recorded = record->is_kept() ? 1 : 0;
-        return read;
-      });
-  std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
-  const auto lines = open_lines(configuration);
-  auto plan = open_site(site, *lines);
-  if (!plan) return tl::unexpected(plan.error());
-  std::optional<SnapshotSink> snapshots;
-  if (configuration.snapshot) snapshots.emplace(*configuration.snapshot);
-  std::optional<Receivers> receivers;
-  Interfaces interfaces(
-      site, [&](const Command& command) { return dispatch(command, *receivers); }, record,
-      snapshots ? &*snapshots : nullptr);
-  plan->surroundings = [&](hal::TimePoint now) {
-    return Surroundings{health.latest(now), lines->faults(), interfaces.faults()};
-  };
-  const CameraSet absent = plan->absent;
-  std::vector<hal::Camera*> cameras;
-  for (const auto& camera : plan->cameras) cameras.push_back(camera.get());
-  pipeline.emplace(std::move(*plan));
-  receivers.emplace(Receivers{*pipeline, *lines, snapshots ? &*snapshots : nullptr,
-                              [] { ::kill(::getpid(), SIGHUP); }});
-
-  Attempts attempts;
-  attempts.add(
-      "lines", [&] { return lines->start(); }, hal::Clock::now());
-  interfaces.start(attempts, hal::Clock::now());
-  health.start();
-  std::vector<Sink*> sinks = interfaces.sinks();
-  sinks.insert(sinks.begin(), lines.get());
-  if (auto started = pipeline->start(sinks); !started) return tl::unexpected(started.error());
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (!absent[i]) continue;
-    attempts.add(
-        "camera " + configuration.cameras[i].name,
-        [&, i] { return take_up(site, i, *cameras[i], *pipeline); }, hal::Clock::now());
-  }
-  log_line(LogLevel::Info, "runs with " + std::to_string(site.names.cameras.size()) + " cameras, " +
-                               std::to_string(site.names.views.size()) + " views and " +
-                               std::to_string(site.recipes.size()) + " recipes, remap kernel " +
-                               std::string(remap::default_kernel().name));
-  log_line(LogLevel::Info, commanders_text(configuration.sinks));
-  const bool restarts = wait_for_end(signals, file, attempts);
-  pipeline->stop();
-  interfaces.stop();
-  lines->stop();
+  auto appliance = Appliance::make(site, [] { ::kill(::getpid(), SIGHUP); });
+  if (!appliance) return tl::unexpected(appliance.error());
+  if (auto started = (*appliance)->start(); !started) return tl::unexpected(started.error());
+  const bool restarts = wait_for_end(signals, file, (*appliance)->attempts());
+  (*appliance)->stop();
   return restarts;
 }
 

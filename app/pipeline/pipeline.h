@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "app/pipeline/measurement/compiled_recipe.h"
 #include "app/pipeline/measurement/measurement.h"
 #include "app/pipeline/pipeline_settings.h"
+#include "app/pipeline/recompiled.h"
 #include "app/pipeline/second_meter.h"
 #include "app/pipeline/views/frame_pyramids.h"
 #include "app/pipeline/views/pan_tilt_zoom.h"
@@ -54,13 +54,6 @@ struct PipelinePlan : PipelineSettings {
   std::uint32_t configuration_checksum = 0;
   /// The newest figures, without waiting; null: none are known.
   std::function<Surroundings(hal::TimePoint now)> surroundings;
-};
-
-/// What is made anew for a camera that delivers another format than was guessed.
-struct Recompiled {
-  std::vector<hal::StreamFormat> formats;                  ///< by camera
-  std::map<std::size_t, std::vector<ViewSource>> sources;  ///< of the display views that show it
-  std::vector<std::unique_ptr<CompiledRecipe>> recipes;    ///< by index; null: not of this camera
 };
 
 /// Frames in, views and status out, on one thread and its workers; see process(). Nothing here

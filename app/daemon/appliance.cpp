@@ -1,0 +1,95 @@
+#include "app/daemon/appliance.h"
+
+#include <string>
+#include <utility>
+
+#include "app/daemon/cameras.h"
+#include "app/health/board_health.h"
+#include "app/log.h"
+#include "app/state/state_folder.h"
+#include "proc/remap/remap.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// Reads the board's health and whether commands are recorded.
+std::function<Health()> health_of(const Configuration& configuration,
+                                  std::shared_ptr<const CommandRecord> record) {
+  HealthSources sources;
+  if (configuration.snapshot) sources.disk = configuration.snapshot->folder;
+  return [record = std::move(record), board = std::make_shared<BoardHealth>(sources)] {
+    Health read = board->read();
+    read.commands_recorded = record->is_kept() ? 1 : 0;
+    return read;
+  };
+}
+
+/// The lines as configured; simulated ones are connected as the machine's settings say.
+std::unique_ptr<Lines> open_lines(const Configuration& site) {
+  const std::vector<LineSettings> settings{site.lines.begin(), site.lines.end()};
+  return std::make_unique<Lines>(settings, [machine = site.simulation](const std::string& line) {
+    return simulation::is_connected(machine, line);
+  });
+}
+
+}  // namespace
+
+Appliance::Appliance(const Resolved& site)
+    : site_(site),
+      record_(std::make_shared<CommandRecord>(state_folder(site.site.state_folder))),
+      health_(health_of(site.site, record_)),
+      lines_(open_lines(site.site)) {
+  if (site.site.snapshot) snapshots_.emplace(*site.site.snapshot);
+}
+
+Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
+                                                   std::function<void()> restart) {
+  std::unique_ptr<Appliance> made(new Appliance(site));
+  Appliance& all = *made;
+  auto plan = open_cameras(site, *all.lines_);
+  if (!plan) return tl::unexpected(plan.error());
+  all.interfaces_.emplace(
+      site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
+      all.record_, all.snapshots());
+  plan->surroundings = [&all](hal::TimePoint now) {
+    return Surroundings{all.health_.latest(now), all.lines_->faults(), all.interfaces_->faults()};
+  };
+  all.absent_ = plan->absent;
+  for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
+  all.pipeline_.emplace(std::move(*plan));
+  all.receivers_.emplace(
+      Receivers{*all.pipeline_, *all.lines_, all.snapshots(), std::move(restart)});
+  return made;
+}
+
+Result<> Appliance::start() {
+  const auto now = hal::Clock::now();
+  attempts_.add(
+      "lines", [this] { return lines_->start(); }, now);
+  interfaces_->start(attempts_, now);
+  health_.start();
+  std::vector<Sink*> sinks = interfaces_->sinks();
+  sinks.insert(sinks.begin(), lines_.get());
+  if (auto started = pipeline_->start(sinks); !started) return started;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (!absent_[i]) continue;
+    attempts_.add(
+        "camera " + site_.site.cameras[i].name,
+        [this, i] { return take_up(site_, i, *cameras_[i], *pipeline_); }, now);
+  }
+  log_line(LogLevel::Info, "runs with " + std::to_string(site_.names.cameras.size()) +
+                               " cameras, " + std::to_string(site_.names.views.size()) +
+                               " views and " + std::to_string(site_.recipes.size()) +
+                               " recipes, remap kernel " +
+                               std::string(remap::default_kernel().name));
+  log_line(LogLevel::Info, commanders_text(site_.site.sinks));
+  return {};
+}
+
+void Appliance::stop() {
+  pipeline_->stop();
+  interfaces_->stop();
+  lines_->stop();
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/daemon/attempts.h"
+#include "app/daemon/dispatch.h"
+#include "app/daemon/interfaces.h"
+#include "app/files/resolve.h"
+#include "app/health/health_sampler.h"
+#include "app/pipeline/pipeline.h"
+#include "app/ports/lines/lines.h"
+#include "app/ports/snapshot/snapshot_sink.h"
+#include "app/state/command_record.h"
+
+namespace orbwatch::app {
+
+/// All that runs for a site: lines, cameras and their pipeline, interfaces. What is not there is
+/// among the attempts. Thread rule: one owner.
+class Appliance {
+ public:
+  /// Opens the lines and cameras that are there. `site` outlives it. `restart` requests a new start
+  /// on any thread and returns. Error: the files.
+  static Result<std::unique_ptr<Appliance>> make(const Resolved& site,
+                                                 std::function<void()> restart);
+  Appliance(const Appliance&) = delete;
+  Appliance& operator=(const Appliance&) = delete;
+
+  /// Error: a camera that is there does not start.
+  Result<> start();
+  void stop();
+
+  /// What is missing, to be tried again by the owner when it is due.
+  Attempts& attempts() { return attempts_; }
+
+ private:
+  explicit Appliance(const Resolved& site);
+  SnapshotSink* snapshots() { return snapshots_ ? &*snapshots_ : nullptr; }
+
+  const Resolved& site_;
+  const std::shared_ptr<CommandRecord> record_;
+  HealthSampler health_;
+  std::optional<Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
+  const std::unique_ptr<Lines> lines_;
+  std::vector<hal::Camera*> cameras_;  ///< the pipeline's
+  CameraSet absent_;
+  std::optional<SnapshotSink> snapshots_;
+  std::optional<Receivers> receivers_;
+  std::optional<Interfaces> interfaces_;
+  Attempts attempts_;
+};
+
+}  // namespace orbwatch::app
