@@ -32,6 +32,11 @@ Status example_status();
 int address_of(std::string_view name);
 int bit_of(std::string_view name);
 
+/// All that a PLC writes for the command select_view, from the first argument to the sequence.
+inline Words select_view(std::uint16_t view, std::uint16_t sequence) {
+  return {0, view, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence};
+}
+
 /// Where it stands in an answer that begins with another register.
 inline std::size_t place_of(std::string_view name, std::string_view first) {
   return static_cast<std::size_t>(address_of(name) - address_of(first));

@@ -58,7 +58,7 @@ class CyclicPlc {
       is_new_ = false;
     }
     const auto view = static_cast<std::uint16_t>(argument_);
-    const Words block{0, view, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence_};
+    const Words block = tests::select_view(view, sequence_);
     if (plc.write_and_read(kBlock, block, kAcknowledged, 2) != 0) return false;
     if (plc.words[0] == sequence_) {
       results_[argument_++] = static_cast<CommandResult>(plc.words[1]);

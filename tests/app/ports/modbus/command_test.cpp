@@ -17,6 +17,7 @@ using tests::bit_of;
 using tests::loopback;
 using tests::Plc;
 using tests::RawClient;
+using tests::select_view;
 using tests::Words;
 
 const int kArguments = address_of("argument_0");
@@ -25,11 +26,6 @@ const int kCommand = address_of("command");
 const int kSequence = address_of("command_sequence");
 const int kAcknowledged = address_of("acknowledged_sequence");
 const int kCount = address_of("last_command") + 1;
-
-/// A write from the first argument to the sequence; select_view with its one argument.
-Words select_view(std::uint16_t view, std::uint16_t sequence) {
-  return {0, view, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence};
-}
 
 /// A server whose commands are written down.
 class ModbusCommand : public testing::Test {

@@ -65,15 +65,10 @@ class ModbusRtu : public testing::Test {
 const int kSequence = address_of("command_sequence");
 const int kAcknowledged = address_of("acknowledged_sequence");
 
-/// Everything from the first argument to the sequence: selects view 2.
-tests::Words select_view(std::uint16_t sequence) {
-  return {0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence};
-}
-
-/// The same as the request of function 16.
+/// Selects view 2, as the request of function 16.
 Bytes command(std::uint8_t sequence) {
   Bytes pdu{16, 0, 0, 0, 13, 26};
-  for (const std::uint16_t word : select_view(sequence)) {
+  for (const std::uint16_t word : tests::select_view(2, sequence)) {
     pdu.push_back(static_cast<std::uint8_t>(word >> 8));
     pdu.push_back(static_cast<std::uint8_t>(word));
   }
@@ -92,7 +87,7 @@ TEST_F(ModbusRtu, ServesLibmodbusWithEveryFunction) {
   EXPECT_EQ(plc.words, (tests::Words{1, 0x0102}));
   EXPECT_EQ(plc.read_discrete(0, 16), 0);
   EXPECT_EQ(plc.read_bits(modbus::kMirrorOffset, 16), 0);
-  EXPECT_EQ(plc.command(0, select_view(41)), 0);
+  EXPECT_EQ(plc.command(0, tests::select_view(2, 41)), 0);
   ASSERT_EQ(plc.read_holding(kAcknowledged, 3), 0);
   EXPECT_EQ(plc.words, (tests::Words{41, 0, 1}));
   EXPECT_EQ(plc.command(kSequence, {42}), 0);
@@ -101,8 +96,8 @@ TEST_F(ModbusRtu, ServesLibmodbusWithEveryFunction) {
     EXPECT_EQ(plc.read_holding(kAcknowledged, 1), 0);
     return plc.words[0] == 0x23;
   }));
-  ASSERT_EQ(plc.command(0, select_view(44)), 0);
-  ASSERT_EQ(plc.write_and_read(0, select_view(44), kAcknowledged, 3), 0);
+  ASSERT_EQ(plc.command(0, tests::select_view(2, 44)), 0);
+  ASSERT_EQ(plc.write_and_read(0, tests::select_view(2, 44), kAcknowledged, 3), 0);
   EXPECT_EQ(plc.words, (tests::Words{44, 0, 1}));
   EXPECT_EQ(plc.write_coil(0), 2);
   EXPECT_EQ(plc.write_coils(0, 9), 2);
@@ -217,7 +212,7 @@ TEST_F(ModbusRtu, SharesItsRegistersWithTcp) {
   start();
   Plc serial(cable_.master(), kUnit);
   Plc tcp(sink_->port());
-  ASSERT_EQ(serial.command(0, select_view(41)), 0);
+  ASSERT_EQ(serial.command(0, tests::select_view(2, 41)), 0);
   ASSERT_EQ(tcp.read_holding(kAcknowledged, 1), 0);
   EXPECT_EQ(tcp.words[0], 41);
   ASSERT_EQ(tcp.command(kSequence, {42}), 0);
