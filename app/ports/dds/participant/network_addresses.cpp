@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <system_error>
+#include <tuple>
 
 namespace orbwatch::app {
 namespace {
@@ -49,7 +50,9 @@ std::optional<std::vector<NetworkAddress>> network_addresses() {
     const auto& address = reinterpret_cast<const sockaddr_in*>(at->ifa_addr)->sin_addr;
     addresses.push_back({at->ifa_name, text_of(address)});
   }
-  std::ranges::sort(addresses);
+  std::ranges::sort(addresses, {}, [](const NetworkAddress& address) {
+    return std::tie(address.interface, address.address);
+  });
   return addresses;
 }
 

@@ -12,7 +12,7 @@ struct NetworkAddress {
   std::string interface;  ///< "eth0"
   std::string address;    ///< "192.168.0.7"
 
-  auto operator<=>(const NetworkAddress&) const = default;
+  bool operator==(const NetworkAddress&) const = default;
 };
 
 /// Those of the interfaces that are up, sorted; nullopt when the system call fails. An interface
