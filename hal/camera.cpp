@@ -135,6 +135,12 @@ void Camera::announce(Fault fault, std::string detail) {
   if (!thread_.stop_requested()) on_fault_({fault, std::move(detail)});
 }
 
+void Camera::notify(const std::string& text) {
+  if (text == last_notice_) return;
+  last_notice_ = text;
+  if (on_notice_ && !thread_.stop_requested()) on_notice_(text);
+}
+
 bool Camera::wait_until(TimePoint moment) {
   while (thread_.wait_until(moment)) {
     if (Clock::now() >= moment) return true;

@@ -78,6 +78,7 @@ class Camera {
   using OnFrame = std::function<void(Frame)>;
   using OnFault = std::function<void(const FaultReport&)>;
   using Gate = std::function<bool(FrameMetadata&)>;
+  using OnNotice = std::function<void(const std::string&)>;
 
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
@@ -100,6 +101,10 @@ class Camera {
   /// many of them are the fault NoTimeStamps: its moment is not known well enough to tell to which
   /// trigger, or to which frame of another camera, it belongs. Set while stopped.
   void require_stamps() { requires_stamps_ = true; }
+
+  /// Called on the camera's thread with what is worth a line in the log but no fault, when it
+  /// changes. Set while stopped; must not throw.
+  void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
 
   /// Starts the camera's thread. `on_frame` and `on_fault` must return quickly and not throw.
   /// Errors: not configured, running already.
@@ -139,6 +144,8 @@ class Camera {
   void discard(FrameMetadata metadata, std::string detail, Fault fault = Fault::CorruptFrame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
+  /// For run(): a notice, unless it is the last one again.
+  void notify(const std::string& text);
   /// For run(): shows the fault of a script, if it has one for the exposure with this metadata.
   /// False: it has none.
   bool fails(const FaultScript& script, const FrameMetadata& metadata);
@@ -165,7 +172,9 @@ class Camera {
   std::atomic<std::uint64_t> flawed_ = 0;
   OnFrame on_frame_;
   OnFault on_fault_;
+  OnNotice on_notice_;
   Fault last_fault_ = Fault::None;
+  std::string last_notice_;
   Thread thread_;
 };
 

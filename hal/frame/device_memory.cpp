@@ -32,6 +32,14 @@ MappedMemory::~MappedMemory() {
   if (!memory_.empty()) ::munmap(memory_.data(), memory_.size());
 }
 
+Result<MappedMemory> DmaBuffer::map(std::size_t bytes) const {
+  void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_.get(), 0);
+  if (memory == MAP_FAILED) {
+    return fail("cannot map a dma-buf: " + std::generic_category().message(errno));
+  }
+  return MappedMemory({static_cast<std::byte*>(memory), bytes});
+}
+
 Result<> DmaBuffer::begin_read() const { return synchronise(file_, DMA_BUF_SYNC_START); }
 
 Result<> DmaBuffer::end_read() const { return synchronise(file_, DMA_BUF_SYNC_END); }

@@ -33,6 +33,9 @@ class DmaBuffer {
 
   int descriptor() const { return file_.get(); }
 
+  /// The first `bytes` of it. Error: with the system's message.
+  Result<MappedMemory> map(std::size_t bytes) const;
+
   /// Error: the device is gone or refuses, with the system's message.
   Result<> begin_read() const;
   Result<> end_read() const;

@@ -53,6 +53,30 @@ TEST(Camera, RefusesNoBuffersAndMoreThanItsBackEndsCount) {
   EXPECT_FALSE(camera.configure({.buffers = kMaxBuffers + 1}));
 }
 
+TEST(Camera, GivesANoticeWhenItChanges) {
+  class Noticing : public Camera {
+   public:
+    Noticing() : Camera({"noticing", "noticing", "test"}) {}
+    ~Noticing() override { stop(); }
+    std::promise<void> said;
+
+   private:
+    Result<StreamFormat> do_configure(const StreamRequest&) override { return StreamFormat{}; }
+    void run(const std::stop_token&) override {
+      for (const char* text : {"a", "a", "b", "b", "a"}) notify(text);
+      said.set_value();
+    }
+  };
+  Noticing camera;
+  std::vector<std::string> notices;
+  camera.set_on_notice([&notices](const std::string& text) { notices.push_back(text); });
+  ASSERT_TRUE(camera.configure({}));
+  ASSERT_TRUE(camera.start([](const Frame&) {}, ignore_fault));
+  camera.said.get_future().wait();
+  camera.stop();
+  EXPECT_EQ(notices, (std::vector<std::string>{"a", "b", "a"}));
+}
+
 TEST(Camera, AGateWithholdsFramesAndCompletesTheOthers) {
   CountingCamera camera;
   ASSERT_TRUE(camera.configure({}));
