@@ -16,9 +16,10 @@ std::string model_of(const std::string& name) {
 
 }  // namespace
 
-V4l2Camera::V4l2Camera(V4l2Settings settings)
+V4l2Camera::V4l2Camera(V4l2Settings settings, DmaBufferSources sources)
     : DeviceCamera({settings.device, model_of(settings.device), "v4l2"}),
-      settings_(std::move(settings)) {}
+      settings_(std::move(settings)),
+      sources_(std::move(sources)) {}
 
 V4l2Camera::~V4l2Camera() { stop(); }
 
@@ -119,9 +120,10 @@ DeviceResult<double> V4l2Camera::open_stream() {
   auto device = open();
   if (!device) return tl::unexpected(device.error());
   if (auto ready = set_up_again(*device); !ready) return tl::unexpected(ready.error());
-  auto stream = V4l2Stream::start(std::move(*device), negotiated_, buffers_);
+  auto stream = V4l2Stream::start(std::move(*device), negotiated_, buffers_, sources_());
   if (!stream) return tl::unexpected(stream.error());
   stream_ = std::move(*stream);
+  notify(stream_->memory_text());
   const std::lock_guard lock(button_mutex_);
   button_ = find_button();
   return negotiated_.stream.frame_rate;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <atomic>
-#include <cstddef>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hal/device_camera.h"
+#include "hal/frame/dma_heap.h"
 #include "hal/v4l2/format/frame_decoder.h"
 #include "hal/v4l2/format/v4l2_format.h"
 #include "hal/v4l2/v4l2_settings.h"
@@ -17,13 +18,15 @@
 
 namespace orbwatch::hal {
 
-/// A USB, CSI or other V4L2 camera. Frames are forwarded in the driver's memory, or decoded where
+/// A USB, CSI or other V4L2 camera. Frames are forwarded in memory of a dma-heap that the driver
+/// imports, in the driver's own where it does not, or decoded where
 /// the pipeline does not read their format. Frames that are short, damaged according to the driver,
 /// or whose JPEG picture is damaged are withheld and counted. The device is open only while the
 /// camera runs or a call needs it; silence while it waits for a trigger is no fault.
 class V4l2Camera : public DeviceCamera {
  public:
-  explicit V4l2Camera(V4l2Settings settings);
+  explicit V4l2Camera(
+      V4l2Settings settings, DmaBufferSources sources = [] { return dma_heaps(); });
   ~V4l2Camera() override;
 
   /// Presses the driver's button TriggerSoftware. Errors: the camera does not run, has no such
@@ -65,11 +68,12 @@ class V4l2Camera : public DeviceCamera {
   Result<std::shared_ptr<FrameBuffer>> intact_frame(const V4l2Stream::Captured& captured);
 
   V4l2Settings settings_;
+  DmaBufferSources sources_;
   NegotiatedFormat negotiated_;
-  std::size_t buffers_ = kFreeRunningBuffers;  ///< of the driver
-  std::unique_ptr<FrameDecoder> decoder_;      ///< for formats that are not zero-copy
-  std::unique_ptr<V4l2Stream> stream_;         ///< while open
-  std::atomic<bool> triggered_ = false;        ///< it waits for triggers
+  std::size_t buffers_ = kFreeRunningBuffers;               ///< of the driver
+  std::unique_ptr<FrameDecoder> decoder_;                   ///< for formats that are not zero-copy
+  std::unique_ptr<V4l2Stream> stream_;                      ///< while open
+  std::atomic<bool> triggered_ = false;                     ///< it waits for triggers
   std::atomic<std::chrono::microseconds> exposure_time_{};  ///< as exposure_time()
   std::mutex button_mutex_;
   Result<TriggerButton> button_ = fail("does not run");

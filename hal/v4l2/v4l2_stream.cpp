@@ -42,8 +42,7 @@ FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival) {
   return {stamp, start ? StampSource::ExposureStart : StampSource::FrameEnd};
 }
 
-DriverFrame::DriverFrame(std::vector<BufferMemory> driver_memory)
-    : memory_planes(std::move(driver_memory)) {
+DriverFrame::DriverFrame(std::vector<BufferMemory> buffer) : memory_planes(std::move(buffer)) {
   memory = memory_planes.front().mapping.bytes().data();
   capacity = memory_planes.front().mapping.bytes().size();
 }
@@ -87,48 +86,107 @@ tl::unexpected<FaultReport> V4l2Stream::failed(const std::string& message) const
   return fail(Fault::ReadError, device_.path() + ": " + message);
 }
 
-DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(V4l2Device device,
-                                                            const NegotiatedFormat& format,
-                                                            std::size_t buffers) {
-  std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device), format));
+DeviceResult<std::unique_ptr<V4l2Stream>> V4l2Stream::start(
+    V4l2Device device, const NegotiatedFormat& format, std::size_t buffers,
+    const std::vector<DmaBufferSource>& sources) {
+  std::unique_ptr<V4l2Stream> stream(new V4l2Stream(std::move(device), format, buffers));
   if (!stream->returned_->is_open()) return stream->failed("too many open files");
-  if (auto made = stream->make_buffers(buffers); !made) return tl::unexpected(made.error());
-  if (auto queued = stream->queue_returned(); !queued) return tl::unexpected(queued.error());
-  if (auto on = stream->device_.stream_on(); !on) return tl::unexpected(on.error());
+  if (auto started = stream->start_in_best_memory(sources); !started) {
+    return tl::unexpected(started.error());
+  }
   return stream;
 }
 
-V4l2Stream::~V4l2Stream() {
-  // Mapped buffers keep the device's file open; freeing them still releases the device for the next
-  // stream. Both calls fail when the device is gone, and then nothing is left to do.
+V4l2Stream::~V4l2Stream() { reset(); }
+
+/// Ends the stream and frees the device's buffers. Mapped ones keep the device's file open; freeing
+/// them still releases the device for the next stream.
+void V4l2Stream::reset() {
+  // Both calls fail when the device is gone, and then nothing is left to do.
   static_cast<void>(device_.stream_off());
-  static_cast<void>(device_.request_buffers(0));
+  static_cast<void>(device_.free_buffers());
+  pool_.reset();
+  frames_.clear();
+  returned_->take();
+  queued_ = 0;
 }
 
-DeviceResult<> V4l2Stream::make_buffers(std::size_t count) {
-  const auto made = device_.request_buffers(static_cast<std::uint32_t>(count));
+DeviceResult<> V4l2Stream::start_in_best_memory(const std::vector<DmaBufferSource>& sources) {
+  const bool imports = sources.empty() || device_.may_import();
+  memory_ = choose_memory(imports ? sources : std::vector<DmaBufferSource>(),
+                          [this](const DmaBufferSource& source) -> Result<> {
+                            auto started = start_in(source);
+                            if (started) return {};
+                            reset();
+                            return fail(started.error().detail);
+                          });
+  if (!memory_.source.empty()) return {};
+  if (!imports) memory_.refusals = "the driver imports no other";
+  return start_in_own_memory();
+}
+
+DeviceResult<> V4l2Stream::start_in(const DmaBufferSource& source) {
+  const auto format = device_.format();
+  if (!format) return tl::unexpected(format.error());
+  const auto made =
+      device_.request_buffers(static_cast<std::uint32_t>(requested_), BufferOwner::Importer);
   if (!made) return tl::unexpected(made.error());
   std::vector<std::unique_ptr<DriverFrame>> frames;
-  for (std::size_t i = 0; i < std::min<std::size_t>(*made, kMaxBuffers); ++i) {
-    auto memory = device_.map_buffer(static_cast<std::uint32_t>(i));
-    if (!memory) return tl::unexpected(memory.error());
-    if (memory->size() != format_.layout.memory_count) {
-      return failed("has buffers in " + std::to_string(memory->size()) + " pieces instead of " +
-                    std::to_string(format_.layout.memory_count));
-    }
+  while (frames.size() < std::min<std::size_t>(*made, kMaxBuffers)) {
+    auto memory = allocate(source, *format);
+    if (!memory) return fail(Fault::ReadError, memory.error().message);
     frames.push_back(std::make_unique<DriverFrame>(std::move(*memory)));
-    frames_.push_back(frames.back().get());
-    if (auto large = check_size(*frames.back()); !large) return large;
-    returned_->put(i);
   }
-  if (frames.empty()) return failed("made no buffers");
-  pool_.emplace(std::move(frames),
-                [returned = returned_](std::size_t index) { returned->put(index); });
-  return {};
+  return start_with(std::move(frames));
 }
 
-DeviceResult<> V4l2Stream::check_size(const DriverFrame& frame) const {
-  for (std::size_t i = 0; i < frame.memory_planes.size(); ++i) {
+/// The memory planes of one buffer.
+Result<std::vector<BufferMemory>> V4l2Stream::allocate(const DmaBufferSource& source,
+                                                       const DriverFormat& format) {
+  std::vector<BufferMemory> memory;
+  for (std::size_t i = 0; i < std::min<std::size_t>(format.memory_count, kMaxPlanes); ++i) {
+    auto buffer = source.allocate(format.memory[i].bytes);
+    if (!buffer) return tl::unexpected(buffer.error());
+    auto mapping = buffer->map(format.memory[i].bytes);
+    if (!mapping) return tl::unexpected(mapping.error());
+    memory.push_back({std::move(*mapping), std::move(*buffer)});
+  }
+  return memory;
+}
+
+DeviceResult<> V4l2Stream::start_in_own_memory() {
+  const auto made = device_.request_buffers(static_cast<std::uint32_t>(requested_));
+  if (!made) return tl::unexpected(made.error());
+  std::vector<std::unique_ptr<DriverFrame>> frames;
+  while (frames.size() < std::min<std::size_t>(*made, kMaxBuffers)) {
+    auto memory = device_.map_buffer(static_cast<std::uint32_t>(frames.size()));
+    if (!memory) return tl::unexpected(memory.error());
+    frames.push_back(std::make_unique<DriverFrame>(std::move(*memory)));
+  }
+  return start_with(std::move(frames));
+}
+
+/// Queues all buffers and starts the device.
+DeviceResult<> V4l2Stream::start_with(std::vector<std::unique_ptr<DriverFrame>> frames) {
+  if (frames.empty()) return failed("made no buffers");
+  for (const auto& frame : frames) {
+    if (auto sound = check_memory(*frame); !sound) return sound;
+    returned_->put(frames_.size());
+    frames_.push_back(frame.get());
+  }
+  pool_.emplace(std::move(frames),
+                [returned = returned_](std::size_t index) { returned->put(index); });
+  if (auto queued = queue_returned(); !queued) return queued;
+  return device_.stream_on();
+}
+
+DeviceResult<> V4l2Stream::check_memory(const DriverFrame& frame) const {
+  const std::size_t planes = frame.memory_planes.size();
+  if (planes != format_.layout.memory_count) {
+    return failed("has buffers in " + std::to_string(planes) + " pieces instead of " +
+                  std::to_string(format_.layout.memory_count));
+  }
+  for (std::size_t i = 0; i < planes; ++i) {
     const std::size_t size = frame.memory_planes[i].mapping.bytes().size();
     const std::size_t needed = format_.layout.needed[i];
     if (size >= needed) continue;
@@ -149,7 +207,7 @@ DeviceResult<> V4l2Stream::queue_returned() {
 
 DeviceResult<> V4l2Stream::queue(std::uint32_t index) {
   if (auto ended = frames_[index]->end_read(); !ended) return failed(ended.error().message);
-  if (auto queued = device_.queue(index); !queued) return queued;
+  if (auto queued = device_.queue(index, frames_[index]->memory_planes); !queued) return queued;
   queued_ |= 1U << index;
   return {};
 }

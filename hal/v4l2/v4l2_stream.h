@@ -12,6 +12,7 @@
 #include "hal/frame/buffer_count.h"
 #include "hal/frame/buffer_pool.h"
 #include "hal/frame/frame.h"
+#include "hal/frame/frame_memory.h"
 #include "hal/thread/file_descriptor.h"
 #include "hal/v4l2/device/v4l2_device.h"
 #include "hal/v4l2/format/v4l2_format.h"
@@ -28,9 +29,9 @@ struct FrameStamp {
 /// declare whether they stamp the start of the exposure (USB cameras do) or the end of the frame.
 FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival);
 
-/// A frame in a driver's memory, which stays mapped while the frame is held.
+/// A frame in a device's buffer, which stays mapped while the frame is held.
 struct DriverFrame : FrameBuffer {
-  explicit DriverFrame(std::vector<BufferMemory> driver_memory);
+  explicit DriverFrame(std::vector<BufferMemory> buffer);
 
   /// For the camera's thread: before the first read of what the device wrote, and before the device
   /// writes again. Error: as DmaBuffer.
@@ -63,8 +64,8 @@ class ReturnedBuffers {
   std::atomic<std::uint32_t> returned_{0};
 };
 
-/// A device that streams into mapped buffers. Its end stops the device and closes it; frames that
-/// are still held stay valid. Thread-bound but for wake().
+/// A device that streams into mapped buffers, its own or imported ones. Its end stops the device
+/// and closes it; frames that are still held stay valid. Thread-bound but for wake().
 class V4l2Stream {
  public:
   struct Captured {
@@ -76,10 +77,11 @@ class V4l2Stream {
   };
 
   /// Makes `buffers`, or as many as the driver does, and starts the device, whose format was
-  /// negotiated.
-  static DeviceResult<std::unique_ptr<V4l2Stream>> start(V4l2Device device,
-                                                         const NegotiatedFormat& format,
-                                                         std::size_t buffers);
+  /// negotiated. They lie in memory of the first of `sources` with which the device starts, else in
+  /// the driver's own.
+  static DeviceResult<std::unique_ptr<V4l2Stream>> start(
+      V4l2Device device, const NegotiatedFormat& format, std::size_t buffers,
+      const std::vector<DmaBufferSource>& sources);
   V4l2Stream(const V4l2Stream&) = delete;
   V4l2Stream& operator=(const V4l2Stream&) = delete;
   ~V4l2Stream();
@@ -90,17 +92,27 @@ class V4l2Stream {
   /// True when frames in use hold all buffers: the device has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
+  /// For the log: how many buffers, in which memory.
+  std::string memory_text() const { return to_text(memory_, frames_.size(), requested_); }
+
   /// Ends a wait in next(). Thread-safe.
   void wake() { returned_->wake(); }
 
  private:
-  V4l2Stream(V4l2Device device, const NegotiatedFormat& format)
+  V4l2Stream(V4l2Device device, const NegotiatedFormat& format, std::size_t buffers)
       : device_(std::move(device)),
         format_(format),
+        requested_(buffers),
         returned_(std::make_shared<ReturnedBuffers>()) {}
 
-  DeviceResult<> make_buffers(std::size_t count);
-  DeviceResult<> check_size(const DriverFrame& frame) const;
+  DeviceResult<> start_in_best_memory(const std::vector<DmaBufferSource>& sources);
+  DeviceResult<> start_in(const DmaBufferSource& source);
+  static Result<std::vector<BufferMemory>> allocate(const DmaBufferSource& source,
+                                                    const DriverFormat& format);
+  DeviceResult<> start_in_own_memory();
+  DeviceResult<> start_with(std::vector<std::unique_ptr<DriverFrame>> frames);
+  void reset();
+  DeviceResult<> check_memory(const DriverFrame& frame) const;
   DeviceResult<> queue_returned();
   DeviceResult<> queue(std::uint32_t index);
   DeviceResult<std::optional<Captured>> take();
@@ -109,6 +121,8 @@ class V4l2Stream {
 
   V4l2Device device_;
   NegotiatedFormat format_;
+  const std::size_t requested_;  ///< buffers
+  FrameMemory memory_;
   std::shared_ptr<ReturnedBuffers> returned_;
   std::optional<BufferPool<DriverFrame>> pool_;
   std::vector<DriverFrame*> frames_;  ///< the pool's, by index

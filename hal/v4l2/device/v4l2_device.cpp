@@ -180,11 +180,11 @@ DeviceResult<double> V4l2Device::set_frame_rate(double frame_rate) {
 }
 
 struct V4l2Device::BufferQuery {
-  BufferQuery(std::uint32_t type, std::uint32_t index)
+  BufferQuery(std::uint32_t type, BufferOwner owner, std::uint32_t index)
       : buffer(cleared<v4l2_buffer>()), planes(cleared<decltype(planes)>()) {
     buffer.index = index;
     buffer.type = type;
-    buffer.memory = V4L2_MEMORY_MMAP;
+    buffer.memory = static_cast<std::uint32_t>(owner);
     if (type != V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE) return;
     buffer.m.planes = planes.data();
     buffer.length = static_cast<std::uint32_t>(planes.size());
@@ -192,23 +192,50 @@ struct V4l2Device::BufferQuery {
   BufferQuery(const BufferQuery&) = delete;
   BufferQuery& operator=(const BufferQuery&) = delete;
 
+  /// Names the dma-bufs to fill, of either interface.
+  void import(std::span<const BufferMemory> memory) {
+    const bool single = buffer.type != V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE;
+    for (std::size_t i = 0; i < memory.size() && i < planes.size(); ++i) {
+      planes[i].m.fd = memory[i].dma_buffer->descriptor();
+      planes[i].length = static_cast<std::uint32_t>(memory[i].mapping.bytes().size());
+    }
+    buffer.length = single ? planes[0].length : static_cast<std::uint32_t>(memory.size());
+    if (single) buffer.m.fd = planes[0].m.fd;
+  }
+
   v4l2_buffer buffer;
   std::array<v4l2_plane, VIDEO_MAX_PLANES> planes;
 };
 
-DeviceResult<std::uint32_t> V4l2Device::request_buffers(std::uint32_t count) {
+bool V4l2Device::may_import() const {
+  auto request = cleared<v4l2_requestbuffers>();
+  request.type = type_;
+  request.memory = V4L2_MEMORY_MMAP;
+  if (call(file_, VIDIOC_REQBUFS, request) != 0) return false;
+  return request.capabilities == 0 || (request.capabilities & V4L2_BUF_CAP_SUPPORTS_DMABUF) != 0;
+}
+
+DeviceResult<std::uint32_t> V4l2Device::request_buffers(std::uint32_t count, BufferOwner owner) {
   auto request = cleared<v4l2_requestbuffers>();
   request.count = count;
   request.type = type_;
-  request.memory = V4L2_MEMORY_MMAP;
+  request.memory = static_cast<std::uint32_t>(owner);
   if (const int error = call(file_, VIDIOC_REQBUFS, request); error != 0) {
     return failed("cannot get buffers", error);
   }
+  owner_ = owner;
   return request.count;
 }
 
+DeviceResult<> V4l2Device::free_buffers() {
+  auto none = cleared<v4l2_requestbuffers>();
+  none.type = type_;
+  none.memory = static_cast<std::uint32_t>(owner_);
+  return request(VIDIOC_REQBUFS, none, "cannot free buffers");
+}
+
 DeviceResult<std::vector<BufferMemory>> V4l2Device::map_buffer(std::uint32_t index) {
-  BufferQuery query(type_, index);
+  BufferQuery query(type_, owner_, index);
   if (const int error = call(file_, VIDIOC_QUERYBUF, query.buffer); error != 0) {
     return failed("cannot find buffer " + std::to_string(index), error);
   }
@@ -248,13 +275,14 @@ std::optional<DmaBuffer> V4l2Device::export_memory(std::uint32_t index, std::uin
   return DmaBuffer(FileDescriptor(request.fd));
 }
 
-DeviceResult<> V4l2Device::queue(std::uint32_t index) {
-  BufferQuery query(type_, index);
+DeviceResult<> V4l2Device::queue(std::uint32_t index, std::span<const BufferMemory> memory) {
+  BufferQuery query(type_, owner_, index);
+  if (owner_ == BufferOwner::Importer) query.import(memory);
   return request(VIDIOC_QBUF, query.buffer, "cannot queue a buffer");
 }
 
 DeviceResult<std::optional<FilledBuffer>> V4l2Device::dequeue() {
-  BufferQuery query(type_, 0);
+  BufferQuery query(type_, owner_, 0);
   const int error = call(file_, VIDIOC_DQBUF, query.buffer);
   if (error == EAGAIN) return std::nullopt;
   if (error != 0) return failed("cannot read a frame", error);

@@ -17,7 +17,13 @@
 
 namespace orbwatch::hal {
 
-/// One memory plane of a buffer: mapped, and exported where the driver can.
+/// Whose memory a device's buffers lie in: the driver's, or dma-bufs that it imports.
+enum class BufferOwner : std::uint32_t {
+  Driver = V4L2_MEMORY_MMAP,
+  Importer = V4L2_MEMORY_DMABUF,
+};
+
+/// One memory plane of a buffer: mapped, and a dma-buf if it is imported or the driver exports it.
 struct BufferMemory {
   MappedMemory mapping;
   std::optional<DmaBuffer> dma_buffer;
@@ -80,12 +86,18 @@ class V4l2Device {
   DeviceResult<std::int64_t> control(const v4l2_query_ext_ctrl& control) const;
   DeviceResult<> set_control(const v4l2_query_ext_ctrl& control, std::int64_t value);
 
-  /// Requests `count` buffers of the driver; returns how many it made. 0 frees them.
-  DeviceResult<std::uint32_t> request_buffers(std::uint32_t count);
-  /// The memory planes of one buffer, in the format's order.
+  /// Whether the driver does not exclude BufferOwner::Importer; drivers before Linux 4.20 state
+  /// nothing. Only while there are no buffers.
+  bool may_import() const;
+  /// Requests `count` buffers; returns how many the driver made.
+  DeviceResult<std::uint32_t> request_buffers(std::uint32_t count,
+                                              BufferOwner owner = BufferOwner::Driver);
+  DeviceResult<> free_buffers();
+  /// The memory planes of one of the driver's buffers, in the format's order.
   DeviceResult<std::vector<BufferMemory>> map_buffer(std::uint32_t index);
-  /// Queues a buffer to the driver.
-  DeviceResult<> queue(std::uint32_t index);
+  /// Queues a buffer to the driver. `memory`: its planes, all of them dma-bufs if the driver
+  /// imports them.
+  DeviceResult<> queue(std::uint32_t index, std::span<const BufferMemory> memory);
   /// Dequeues a filled buffer, or nullopt when none is ready.
   DeviceResult<std::optional<FilledBuffer>> dequeue();
   DeviceResult<> stream_on();
@@ -114,6 +126,7 @@ class V4l2Device {
   std::string driver_;
   std::string bus_;
   std::uint32_t type_ = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  BufferOwner owner_ = BufferOwner::Driver;  ///< of the buffers that were requested last
 };
 
 }  // namespace orbwatch::hal

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,14 @@ class CameraRun {
  public:
   using Controls = std::vector<std::pair<const char*, double>>;
 
-  explicit CameraRun(V4l2Settings settings, const Controls& controls = {})
-      : camera_(std::move(settings)) {
+  explicit CameraRun(
+      V4l2Settings settings, const Controls& controls = {},
+      DmaBufferSources sources = [] { return dma_heaps(); })
+      : camera_(std::move(settings), std::move(sources)) {
+    camera_.set_on_notice([this](const std::string& text) {
+      const std::lock_guard lock(mutex_);
+      notice_ = text;
+    });
     for (const auto& [name, value] : controls) {
       const auto set = camera_.set(name, value);
       EXPECT_TRUE(set) << set.error().message;
@@ -64,6 +71,12 @@ class CameraRun {
     return came;
   }
 
+  /// The newest.
+  std::string notice() {
+    const std::lock_guard lock(mutex_);
+    return notice_;
+  }
+
   bool has_reported() {
     const std::lock_guard lock(mutex_);
     return !reports_.empty();
@@ -92,6 +105,7 @@ class CameraRun {
   std::mutex mutex_;
   std::condition_variable changed_;
   Frame newest_;
+  std::string notice_;
   std::vector<FaultReport> reports_;
   std::size_t seen_ = 0;
   StreamFormat format_;

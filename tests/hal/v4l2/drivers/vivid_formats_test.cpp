@@ -131,7 +131,7 @@ TEST(VividFormats, BuffersAreExported) {
   V4l2Device device = open_vivid();
   const auto negotiated = negotiate_format(device, {"yuyv", true, kRequest});
   ASSERT_TRUE(negotiated) << negotiated.error().detail;
-  auto stream = V4l2Stream::start(std::move(device), *negotiated, kFreeRunningBuffers);
+  auto stream = V4l2Stream::start(std::move(device), *negotiated, kFreeRunningBuffers, {});
   ASSERT_TRUE(stream) << stream.error().detail;
   const TimePoint deadline = Clock::now() + std::chrono::seconds(60);
   DeviceResult<std::optional<V4l2Stream::Captured>> captured;
