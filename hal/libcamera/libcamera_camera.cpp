@@ -24,12 +24,15 @@ std::size_t used_bytes(const libcamera::FrameMetadata& buffer) {
 
 }  // namespace
 
-LibcameraCamera::LibcameraCamera(LibcameraSettings settings)
-    : LibcameraCamera(std::move(settings), camera_manager().value_or(nullptr)) {}
+LibcameraCamera::LibcameraCamera(LibcameraSettings settings, DmaBufferSources sources)
+    : LibcameraCamera(std::move(settings), std::move(sources), camera_manager().value_or(nullptr)) {
+}
 
-LibcameraCamera::LibcameraCamera(LibcameraSettings settings, SharedManager manager)
+LibcameraCamera::LibcameraCamera(LibcameraSettings settings, DmaBufferSources sources,
+                                 SharedManager manager)
     : DeviceCamera(info_of(settings.camera, manager.get())),
       settings_(std::move(settings)),
+      sources_(std::move(sources)),
       manager_(std::move(manager)) {}
 
 LibcameraCamera::~LibcameraCamera() { stop(); }
@@ -106,6 +109,7 @@ DeviceResult<double> LibcameraCamera::open_stream() {
   auto started = start_again();
   if (!started) return tl::unexpected(started.error());
   stream_ = std::move(*started);
+  notify(stream_->memory_text());
   return expected_rate_;
 }
 
@@ -141,7 +145,7 @@ DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraCamera::start_again() {
   const auto negotiated =
       negotiate_configuration(**acquired, pixel_format_, settings_.sensor_mode, request);
   if (!negotiated) return fail(Fault::WrongFormat, negotiated.error().message);
-  return LibcameraStream::start(std::move(*acquired), *negotiated, controls_);
+  return LibcameraStream::start(std::move(*acquired), *negotiated, controls_, sources_());
 }
 
 void LibcameraCamera::forward_intact(const LibcameraStream::Captured& captured) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hal/device_camera.h"
+#include "hal/frame/dma_heap.h"
 #include "hal/libcamera/camera_manager.h"
 #include "hal/libcamera/controls/libcamera_controls.h"
 #include "hal/libcamera/format/camera_configuration.h"
@@ -13,11 +14,15 @@
 
 namespace orbwatch::hal {
 
-/// A camera behind libcamera. Frames are forwarded in the device's memory. The camera is acquired
+/// A camera behind libcamera. Frames are forwarded in memory of a dma-heap, or the
+/// driver's own where there is none. The camera is acquired
 /// only while it runs or is configured.
 class LibcameraCamera : public DeviceCamera {
  public:
-  explicit LibcameraCamera(LibcameraSettings settings);
+  /// `sources`: none whose memory the camera's driver may refuse, which ends the process.
+  explicit LibcameraCamera(
+      LibcameraSettings settings,
+      DmaBufferSources sources = [] { return dma_heaps_for_any_device(); });
   ~LibcameraCamera() override;
 
  protected:
@@ -38,7 +43,7 @@ class LibcameraCamera : public DeviceCamera {
  private:
   using SharedManager = std::shared_ptr<libcamera::CameraManager>;
 
-  LibcameraCamera(LibcameraSettings settings, SharedManager manager);
+  LibcameraCamera(LibcameraSettings settings, DmaBufferSources sources, SharedManager manager);
   Result<> check() const;
   /// The libcamera id of the settings' camera, once it was connected.
   Result<std::string> find();
@@ -49,6 +54,7 @@ class LibcameraCamera : public DeviceCamera {
   static Result<> check_intact(const LibcameraStream::Captured& captured);
 
   LibcameraSettings settings_;
+  DmaBufferSources sources_;
   /// Of id_, manager_, is_lost_, and of the camera's list of controls while it is configured.
   std::mutex camera_mutex_;
   SharedManager manager_;  ///< null while libcamera does not start

@@ -3,10 +3,12 @@
 #include <libcamera/base/unique_fd.h>
 #include <libcamera/control_ids.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
+#include <map>
 #include <span>
 #include <string>
 #include <system_error>
@@ -22,6 +24,12 @@ std::size_t length_of(const libcamera::FrameBuffer& buffer, const libcamera::Sha
     length = std::max(length, std::size_t{plane.offset} + plane.length);
   }
   return length;
+}
+
+/// The driver made the file as large as it needs, which may be beyond the last plane.
+std::size_t size_of(const libcamera::FrameBuffer& buffer, const libcamera::SharedFD& file) {
+  const off_t size = ::lseek(file.get(), 0, SEEK_END);
+  return std::max(length_of(buffer, file), size > 0 ? static_cast<std::size_t>(size) : 0);
 }
 
 Result<MappedDmaBuffer> map_file(const libcamera::SharedFD& file, std::size_t length) {
@@ -62,6 +70,23 @@ Result<std::unique_ptr<LibcameraFrame>> LibcameraFrame::map(const libcamera::Fra
   if (!picture) return tl::unexpected(picture.error());
   frame->picture = *picture;
   return frame;
+}
+
+Result<std::unique_ptr<libcamera::FrameBuffer>> make_buffer_like(const libcamera::FrameBuffer& own,
+                                                                 const DmaBufferSource& source) {
+  std::map<int, libcamera::SharedFD> files;  // by the own buffer's file
+  std::vector<libcamera::FrameBuffer::Plane> planes;
+  for (const auto& plane : own.planes()) {
+    const auto [file, is_new] = files.try_emplace(plane.fd.get());
+    if (is_new) {
+      const auto memory = source.allocate(size_of(own, plane.fd));
+      if (!memory) return tl::unexpected(memory.error());
+      const int descriptor = memory->descriptor();  // an lvalue is duplicated, not taken over
+      file->second = libcamera::SharedFD(descriptor);
+    }
+    planes.push_back({file->second, plane.offset, plane.length});
+  }
+  return std::make_unique<libcamera::FrameBuffer>(planes);
 }
 
 Result<> LibcameraFrame::synchronise(Result<> (DmaBuffer::*moment)() const) const {

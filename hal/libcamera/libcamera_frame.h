@@ -12,6 +12,7 @@
 
 #include "hal/frame/device_memory.h"
 #include "hal/frame/frame.h"
+#include "hal/frame/frame_memory.h"
 #include "hal/libcamera/format/libcamera_format.h"
 
 namespace orbwatch::hal {
@@ -38,6 +39,11 @@ struct LibcameraFrame : FrameBuffer {
  private:
   Result<> synchronise(Result<> (DmaBuffer::*moment)() const) const;
 };
+
+/// A buffer whose planes lie as those of `own`, a buffer that the camera made, in memory of
+/// `source`. Error: it cannot be allocated.
+Result<std::unique_ptr<libcamera::FrameBuffer>> make_buffer_like(const libcamera::FrameBuffer& own,
+                                                                 const DmaBufferSource& source);
 
 /// Two of the kernel's clocks at one moment.
 struct ClockReading {

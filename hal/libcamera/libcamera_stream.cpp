@@ -55,15 +55,14 @@ LibcameraStream::LibcameraStream(AcquiredCamera camera, ControlSettings& control
       allocator_(camera_.share()) {}
 
 DeviceResult<std::unique_ptr<LibcameraStream>> LibcameraStream::start(
-    AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls) {
+    AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls,
+    const std::vector<DmaBufferSource>& sources) {
   std::unique_ptr<LibcameraStream> stream(new LibcameraStream(std::move(camera), controls));
   const auto named = [&stream](const Error& error) {
     return fail(Fault::ReadError, stream->camera_->id() + ": " + error.message);
   };
-  if (auto made = stream->make_buffers(negotiated); !made) return named(made.error());
-  if (auto made = stream->make_requests(negotiated.picture().stream()); !made) {
-    return named(made.error());
-  }
+  if (auto made = stream->make_buffers(negotiated, sources); !made) return named(made.error());
+  if (auto made = stream->make_requests(); !made) return named(made.error());
   if (auto runs = stream->run(negotiated.stream.frame_rate); !runs) {
     return tl::unexpected(runs.error());
   }
@@ -85,14 +84,41 @@ bool LibcameraStream::end() {
   return true;
 }
 
-Result<> LibcameraStream::make_buffers(const NegotiatedConfiguration& negotiated) {
+/// The camera's own buffers show how a driver lays out their planes; imported ones replace them.
+Result<> LibcameraStream::make_buffers(const NegotiatedConfiguration& negotiated,
+                                       const std::vector<DmaBufferSource>& sources) {
   stream_ = negotiated.picture().stream();
+  requested_ = negotiated.requested_buffers;
   if (const int made = allocator_.allocate(stream_); made <= 0) {
     return fail("has no buffers: " + std::generic_category().message(-made));
   }
+  memory_ = choose_memory(sources, [&](const DmaBufferSource& source) {
+    return import_buffers(source).and_then([&] { return map_buffers(negotiated); });
+  });
+  if (!memory_.source.empty()) {
+    allocator_.free(stream_);
+    return {};
+  }
+  imported_.clear();
+  return map_buffers(negotiated);
+}
+
+Result<> LibcameraStream::import_buffers(const DmaBufferSource& source) {
+  std::vector<std::unique_ptr<libcamera::FrameBuffer>> buffers;
+  for (const auto& own : allocator_.buffers(stream_)) {
+    auto buffer = make_buffer_like(*own, source);
+    if (!buffer) return tl::unexpected(buffer.error());
+    buffers.push_back(std::move(*buffer));
+  }
+  imported_ = std::move(buffers);
+  return {};
+}
+
+Result<> LibcameraStream::map_buffers(const NegotiatedConfiguration& negotiated) {
   const StreamFormat& format = negotiated.stream;
+  frames_.clear();
   std::vector<std::unique_ptr<LibcameraFrame>> frames;
-  for (const auto& buffer : allocator_.buffers(stream_)) {
+  for (const auto& buffer : buffers()) {
     if (frames.size() == CaptureEvents::kMaxRequests) break;
     auto frame = LibcameraFrame::map(*buffer, *negotiated.pixels, format.width, format.height,
                                      negotiated.stride);
@@ -106,11 +132,11 @@ Result<> LibcameraStream::make_buffers(const NegotiatedConfiguration& negotiated
   return {};
 }
 
-Result<> LibcameraStream::make_requests(libcamera::Stream* stream) {
+Result<> LibcameraStream::make_requests() {
   for (std::size_t number = 0; number < pool_->size(); ++number) {
     auto request = camera_->createRequest(number);
     if (!request) return fail("creates no request");
-    const int error = request->addBuffer(stream, allocator_.buffers(stream)[number].get());
+    const int error = request->addBuffer(stream_, buffers()[number].get());
     if (error < 0) return fail("refuses a buffer: " + std::generic_category().message(-error));
     requests_.push_back(std::move(request));
   }

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/clock.h"
@@ -71,9 +72,11 @@ class LibcameraStream {
   using OnCaptured = std::function<void(const Captured&)>;
 
   /// Makes the buffers and starts the configured camera with `controls`; later settings are part of
-  /// the next request.
+  /// the next request. The buffers lie in memory of the first of `sources` that has enough, else in
+  /// that of the camera's driver.
   static DeviceResult<std::unique_ptr<LibcameraStream>> start(
-      AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls);
+      AcquiredCamera camera, const NegotiatedConfiguration& negotiated, ControlSettings& controls,
+      const std::vector<DmaBufferSource>& sources);
   LibcameraStream(const LibcameraStream&) = delete;
   LibcameraStream& operator=(const LibcameraStream&) = delete;
   ~LibcameraStream();
@@ -90,14 +93,24 @@ class LibcameraStream {
   /// True when frames in use hold all buffers: the camera has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
+  /// For the log: how many buffers, in which memory.
+  std::string memory_text() const { return to_text(memory_, frames_.size(), requested_); }
+
   /// Ends a wait(). Thread-safe.
   void wake() { events_->wake(); }
 
  private:
   LibcameraStream(AcquiredCamera camera, ControlSettings& controls);
 
-  Result<> make_buffers(const NegotiatedConfiguration& negotiated);
-  Result<> make_requests(libcamera::Stream* stream);
+  Result<> make_buffers(const NegotiatedConfiguration& negotiated,
+                        const std::vector<DmaBufferSource>& sources);
+  Result<> map_buffers(const NegotiatedConfiguration& negotiated);
+  /// Of the camera, or those that replace them.
+  const std::vector<std::unique_ptr<libcamera::FrameBuffer>>& buffers() const {
+    return imported_.empty() ? allocator_.buffers(stream_) : imported_;
+  }
+  Result<> import_buffers(const DmaBufferSource& source);
+  Result<> make_requests();
   DeviceResult<> run(double frame_rate);
   DeviceResult<> queue(std::size_t number);
   DeviceResult<> queue_returned(std::uint32_t returned);
@@ -111,6 +124,10 @@ class LibcameraStream {
   RemovalWatch removal_;
   libcamera::FrameBufferAllocator allocator_;
   libcamera::Stream* stream_ = nullptr;
+  /// Empty: the allocator's are used.
+  std::vector<std::unique_ptr<libcamera::FrameBuffer>> imported_;
+  FrameMemory memory_;
+  std::size_t requested_ = 0;  ///< buffers
   std::optional<BufferPool<LibcameraFrame>> pool_;
   std::vector<const LibcameraFrame*> frames_;                  ///< the pool's, by buffer
   std::vector<std::unique_ptr<libcamera::Request>> requests_;  ///< by buffer

@@ -55,6 +55,7 @@ Result<NegotiatedConfiguration> validate(libcamera::Camera& camera, const Libcam
   NegotiatedConfiguration negotiated;
   negotiated.configuration = std::move(*begun);
   negotiated.pixels = &pixels;
+  negotiated.requested_buffers = request.buffers;
   libcamera::StreamConfiguration& stream = negotiated.configuration->at(0);
   stream.pixelFormat = pixels.code;
   if (request.width != 0) stream.size.width = static_cast<unsigned>(request.width);

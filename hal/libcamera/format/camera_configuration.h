@@ -57,6 +57,7 @@ struct NegotiatedConfiguration {
   const LibcameraFormat* pixels = nullptr;                        ///< in kLibcameraFormats
   StreamFormat stream;                                            ///< frame rate 0: unknown
   std::size_t stride = 0;                                         ///< of the first plane, bytes
+  std::size_t requested_buffers = 0;                              ///< a pipeline may make fewer
 
   const libcamera::StreamConfiguration& picture() const { return configuration->at(0); }
 };

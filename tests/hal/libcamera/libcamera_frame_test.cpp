@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "tests/hal/frame/udmabuf.h"
+
 namespace orbwatch::hal {
 namespace {
 
@@ -51,6 +53,30 @@ TEST(LibcameraFrame, StaysMappedWhenTheBufferIsGone) {
   void* const page = const_cast<std::byte*>(frame->picture.planes[0].data);
   frame.reset();
   EXPECT_EQ(::msync(page, kPage, MS_ASYNC), -1) << "unmapped with the frame";
+}
+
+TEST(MakeBufferLike, HasThePlanesOfTheOtherInMemoryOfItsOwn) {
+  const auto luma = make_memory(3 * kPage);
+  const auto chroma = make_memory(kPage);
+  const libcamera::FrameBuffer own({{luma, 0, kPage}, {luma, kPage, kPage / 2}, {chroma, 0, 100}});
+  std::vector<std::size_t> sizes;
+  const DmaBufferSource source{"test", [&sizes](std::size_t bytes) {
+                                 sizes.push_back(bytes);
+                                 return shared_memory().allocate(bytes);
+                               }};
+  const auto made = make_buffer_like(own, source);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{3 * kPage, kPage})) << "as large as the driver's";
+  const auto planes = (*made)->planes();
+  ASSERT_EQ(planes.size(), 3U);
+  for (std::size_t n = 0; n < planes.size(); ++n) {
+    EXPECT_EQ(planes[n].offset, own.planes()[n].offset);
+    EXPECT_EQ(planes[n].length, own.planes()[n].length);
+    EXPECT_NE(planes[n].fd, own.planes()[n].fd);
+  }
+  EXPECT_EQ(planes[0].fd, planes[1].fd);
+  EXPECT_NE(planes[0].fd, planes[2].fd);
+  EXPECT_FALSE(make_buffer_like(own, empty_source()));
 }
 
 TEST(LibcameraFrame, RefusesBuffersThatAreNone) {

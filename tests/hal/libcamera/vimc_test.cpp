@@ -1,12 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "hal/libcamera/libcamera_camera.h"
+#include "tests/hal/frame/udmabuf.h"
 
 /// libcamera's whole way of a frame, through the kernel's virtual camera vimc. Run as root in a
 /// machine of its own (tests/hil): a case takes the driver away. No case needs more than 8 frames,
@@ -64,6 +67,11 @@ class Witness {
       return std::any_of(faults_.begin(), faults_.end(),
                          [fault](const FaultReport& report) { return report.fault == fault; });
     });
+  }
+
+  bool has_fault() {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(faults_, [](const auto& r) { return r.fault != Fault::None; });
   }
 
   /// Forgets frames that were not taken.
@@ -231,6 +239,36 @@ TEST(Vimc, WaitsForAConsumerThatHoldsAllBuffers) {
   EXPECT_EQ(next->picture.planes[0].data, released) << "the only one that the driver has";
   camera.stop();
   EXPECT_GT(mean_of(held.back()->picture), 0) << "held frames stay valid";
+}
+
+TEST(Vimc, FillsMemoryThatItImports) {
+  LibcameraCamera camera({.camera = kCamera}, [] { return std::vector{udmabuf()}; });
+  std::promise<std::string> notice;
+  camera.set_on_notice([&notice](const std::string& text) { notice.set_value(text); });
+  ASSERT_TRUE(camera.configure(kSmall));
+  Witness witness;
+  ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
+  EXPECT_EQ(notice.get_future().get(), "4 buffers instead of 10 from udmabuf");
+  // More frames than buffers: each is queued again.
+  for (int n = 0; n < 5; ++n) {
+    const Frame frame = witness.frame();
+    ASSERT_TRUE(frame);
+    EXPECT_GT(mean_of(frame->picture), 0);
+  }
+  EXPECT_FALSE(witness.has_fault());
+}
+
+TEST(Vimc, StaysInItsDriversMemoryWithoutAnother) {
+  LibcameraCamera camera({.camera = kCamera}, [] { return std::vector{empty_source()}; });
+  std::promise<std::string> notice;
+  camera.set_on_notice([&notice](const std::string& text) { notice.set_value(text); });
+  ASSERT_TRUE(camera.configure(kSmall));
+  Witness witness;
+  ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
+  EXPECT_EQ(notice.get_future().get(),
+            "4 buffers instead of 10 in memory of the driver, which the CPU may not cache "
+            "(empty: has no memory)");
+  EXPECT_TRUE(witness.frame());
 }
 
 TEST(Vimc, SetsControls) {
