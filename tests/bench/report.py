@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """report.py FOLDER: makes remap.md and remap.json from what tests/bench/run measured.
 
-Reads counts.txt (lines: program view format instructions bytes), times.json (Google Benchmark's) and
-cycles.json (model_cycles.py's) in FOLDER. Fails when a figure that must be reached is not.
+Reads counts.txt (lines: program view format instructions bytes), merged.txt (lines: view
+instructions), times.json (Google Benchmark's) and cycles.json (model_cycles.py's) in FOLDER. Fails when a figure that must be reached is not.
 """
 
 import datetime
@@ -17,6 +17,7 @@ import sys
 
 FLAT = ("flat_o0", "flat_o1", "flat_o2")
 FLAT_PIXELS = 1920 * 1080
+PANORAMA_PIXELS = 2048 * 1024
 KERNELS = ("scalar", "neon", "avx2", "avx512")
 
 
@@ -29,6 +30,11 @@ class Measured:
             program, view, layout, instructions, touched = line.split()
             self.instructions[program, view, layout] = int(instructions) / FLAT_PIXELS
             self.bytes[program, view, layout] = int(touched) / FLAT_PIXELS
+        self.merged = {}
+        for line in (folder / "merged.txt").read_text().splitlines():
+            view, instructions = line.split()
+            pixels = PANORAMA_PIXELS if view.startswith("panorama") else FLAT_PIXELS
+            self.merged[view] = int(instructions) / pixels
         times = json.loads((folder / "times.json").read_text())
         self.runs = {run.get("label", run["name"]): run
                      for run in times["benchmarks"]}
@@ -96,6 +102,11 @@ def gates(measured):
                                ("y16", 10.7, 10)):
         rows.append((f"aarch64 instructions per pixel, {layout}",
                      measured.mean_instructions("count_ours", layout), at_most, least, aim, False))
+    for view, least, aim in (("nv12", None, 13), ("yuyv", None, 15), ("rgb", 12.5, 11.3),
+                             ("nv12_y16", None, 35), ("rgb_y16", None, 36), ("grey_y16", None, 32),
+                             ("panorama", None, 75), ("panorama_grey", None, 75)):
+        rows.append((f"aarch64 instructions per pixel, merged view {view}",
+                     measured.merged.get(view), at_most, least, aim, False))
     for layout, aim in (("grey", 6.5), ("nv12", 6.4), ("bgr", 6.1), ("y16", 5.8)):
         rows.append((f"the same, OpenCV / ours, {layout}", measured.fewer_instructions(layout),
                      at_least, None, aim, False))

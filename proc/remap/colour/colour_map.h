@@ -24,14 +24,16 @@ class ColourMap {
              TileRows rows) const;
 
  private:
-  template <class T>
-  void apply_rows(const ImageView<const T>& values, const ImageView<std::uint8_t>& rgb,
-                  TileRows rows) const;
+  /// As bytes red, green, blue, 0 in memory.
+  using Entry = std::uint32_t;
 
-  Table table_;
+  std::size_t entry_of(std::int32_t value) const;
+
   std::int32_t low_;
   std::int32_t high_;
   std::int64_t scale_;  ///< table steps per count, Q32
+  std::array<Entry, 256> entries_;
+  std::array<Entry, 256> of_bytes_;  ///< by the value of an 8 bit picture
 };
 
 }  // namespace orbwatch::remap

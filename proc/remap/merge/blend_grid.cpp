@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "proc/optics/resolution.h"
+#include "proc/remap/colour/run_vector.h"
 #include "proc/remap/sampling/tile_remap.h"
 
 namespace orbwatch::remap {
@@ -36,6 +37,16 @@ double merit(const BlendSource& source, const optics::Vec3& direction) {
   double resolution = optics::resolution(source.ball, direction);
   if (source.enough) resolution = std::min(1.0, resolution / *source.enough);
   return source.weight * fourth_power(resolution) * feather(*pixel, source);
+}
+
+/// A row of weights between the sums of both its ends. 16 bits hold them, as unsigned numbers wrap.
+[[gnu::always_inline]] inline void write_weights(int left, int right, std::uint8_t* row) {
+  static_assert(UINT8_MAX * kTile * kTile + kTile * kTile / 2 <= UINT16_MAX);
+  const auto first = static_cast<std::uint16_t>(left * kTile + kTile * kTile / 2);
+  const auto step = static_cast<std::uint16_t>(right - left);
+  constexpr Words kSteps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const Bytes weights = narrowed((first + step * kSteps) >> 8);
+  store(weights == 0 ? Bytes{} + 1 : weights, row);
 }
 
 }  // namespace
@@ -87,12 +98,7 @@ void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid, int tx, int t
   const auto [a, b, c, d] = corners(n, tx, ty);
   for (int y = 0; y < kTile; ++y) {
     const int left = a * (kTile - y) + c * y, right = b * (kTile - y) + d * y;
-    std::uint8_t* row = &out[y * kTile];
-    for (int x = 0; x < kTile; ++x) {
-      constexpr int kArea = kTile * kTile;
-      const int mean = (left * (kTile - x) + right * x + kArea / 2) / kArea;
-      row[x] = static_cast<std::uint8_t>(std::max(1, mean));
-    }
+    write_weights(left, right, &out[y * kTile]);
   }
   if (is_defined_throughout(tile.kind)) return;
   const CoordinateTile coordinates = grid.pixels(tx, ty);

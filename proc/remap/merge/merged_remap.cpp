@@ -16,12 +16,20 @@ ImageView<T> part(const ImageView<T>& picture, const TileArea& area) {
   return {picture.at(area.x, area.y), area.columns, area.rows, picture.channels, picture.stride};
 }
 
+// Most tiles are whole: then the length of their rows is known to the compiler.
+
 void fill(const ImageView<std::uint8_t>& out, std::uint8_t value) {
-  for (int y = 0; y < out.height; ++y) std::fill_n(out.row(y), out.width, value);
+  for (int y = 0; y < out.height; ++y) {
+    out.width == kTile ? std::fill_n(out.row(y), kTile, value)
+                       : std::fill_n(out.row(y), out.width, value);
+  }
 }
 
 void copy(const ImageView<const std::uint8_t>& from, const ImageView<std::uint8_t>& to) {
-  for (int y = 0; y < to.height; ++y) std::copy_n(from.row(y), to.width, to.row(y));
+  for (int y = 0; y < to.height; ++y) {
+    to.width == kTile ? std::copy_n(from.row(y), kTile, to.row(y))
+                      : std::copy_n(from.row(y), to.width, to.row(y));
+  }
 }
 
 bool is_measured(const MergedSource& source) { return source.measured.planes[0].data != nullptr; }

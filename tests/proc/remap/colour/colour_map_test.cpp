@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace orbwatch::remap {
@@ -38,6 +42,28 @@ TEST(ColourMap, ShowsEightBitPicturesAndOnlyTheRowsAskedFor) {
   EXPECT_EQ(rgb[16 * 60], 200);
   EXPECT_EQ(rgb[31 * 60], 200);
   EXPECT_EQ(rgb[32 * 60], 1);
+}
+
+TEST(ColourMap, EveryValueTakesTheEntryOfItsPlaceInTheRange) {
+  const std::vector<std::pair<std::int64_t, std::int64_t>> ranges{
+      {0, 65535}, {5000, 60000}, {1000, 1255}, {1000, 1256}, {-500, 70000}, {65000, 90000}, {3, 4}};
+  constexpr int kWidth = 1027, kHeight = 64;  // more than all values, and a last run that is cut
+  std::vector<std::uint16_t> values(kWidth * kHeight);
+  std::iota(values.begin(), values.end(), std::uint16_t{0});
+  for (const auto& [low, high] : ranges) {
+    const ColourMap map(ramp(), static_cast<double>(low), static_cast<double>(high));
+    std::vector<std::uint8_t> rgb(values.size() * 3);
+    map.apply(ImageView<const std::uint16_t>{values.data(), kWidth, kHeight, 1, kWidth},
+              ImageView<std::uint8_t>{rgb.data(), kWidth, kHeight, 3, 3 * kWidth}, {0, 4});
+    const std::int64_t scale = (std::int64_t{255} << 32) / (high - low);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::int64_t above = std::clamp<std::int64_t>(values[i], low, high) - low;
+      const std::int64_t entry = (above * scale + (std::int64_t{1} << 31)) >> 32;
+      ASSERT_EQ(rgb[3 * i], entry) << values[i] << " in " << low << ".." << high;
+      ASSERT_EQ(rgb[3 * i + 1], 255 - entry);
+      ASSERT_EQ(rgb[3 * i + 2], 7);
+    }
+  }
 }
 
 TEST(ColourMap, BearsTheSmallestRange) {

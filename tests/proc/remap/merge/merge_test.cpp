@@ -101,6 +101,28 @@ TYPED_TEST(Merge, IsExactForEverySumOfWeightsAndTheLargestSamples) {
   }
 }
 
+TYPED_TEST(Merge, IsExactWhereAllSeeAndWeightsAddUpToAllOrOneMore) {
+  for (const int all : {255, 256}) {
+    for (const int channels : {1, 3}) {
+      for (int weight = 1; weight < 256; ++weight) {
+        Scene<TypeParam> scene(2, channels, static_cast<std::uint32_t>(weight));
+        for (std::size_t i = 0; i < scene.kPixels; ++i) {
+          scene.weights[0][i] = static_cast<std::uint8_t>(i % 7 == 0 ? 255 : weight);
+          scene.weights[1][i] = static_cast<std::uint8_t>(i % 7 == 0 ? 1 : all - weight);
+        }
+        scene.merge();
+        for (std::size_t s = 0; s < scene.out.size(); ++s) {
+          const std::size_t i = s / channels;
+          const std::uint64_t sum = std::uint64_t{scene.weights[0][i]} * scene.pictures[0][s] +
+                                    std::uint64_t{scene.weights[1][i]} * scene.pictures[1][s];
+          const std::uint64_t total = scene.total(i);
+          ASSERT_EQ(scene.out[s], (sum + total / 2) / total) << weight << " of " << all;
+        }
+      }
+    }
+  }
+}
+
 TYPED_TEST(Merge, ASourceAlonePassesUnchangedWhateverItsWeight) {
   for (int weight = 1; weight < 256; ++weight) {
     Scene<TypeParam> scene(2, 3, static_cast<std::uint32_t>(weight));

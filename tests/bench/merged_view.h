@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "proc/remap/merge/merged_remap.h"
+#include "tests/bench/frame.h"
+
+namespace orbwatch::bench {
+
+/// A view that is merged from cameras, as the product makes it.
+struct MergedCase {
+  std::string_view name;
+  bool panorama;                       ///< else 1920x1080, 90 degrees wide
+  std::array<PixelFormat, 3> sources;  ///< of these, the first `count`
+  std::size_t count;
+  bool measured;  ///< the last source is
+};
+
+/// The cases of the instruction counts. Of two sources both see all of the view and count alike;
+/// the three of a panorama stand 120 degrees apart, so that limbs and blind cones are in it.
+inline constexpr std::array kMergedCases{
+    MergedCase{"nv12", false, {PixelFormat::Nv12}, 1, false},
+    MergedCase{"yuyv", false, {PixelFormat::Yuyv}, 1, false},
+    MergedCase{"rgb", false, {PixelFormat::Rgb}, 1, false},
+    MergedCase{"nv12_y16", false, {PixelFormat::Nv12, PixelFormat::Y16}, 2, true},
+    MergedCase{"rgb_y16", false, {PixelFormat::Rgb, PixelFormat::Y16}, 2, true},
+    MergedCase{"grey_y16", false, {PixelFormat::Grey, PixelFormat::Y16}, 2, true},
+    MergedCase{"panorama", true, {PixelFormat::Nv12, PixelFormat::Nv12, PixelFormat::Y16}, 3, true},
+    MergedCase{
+        "panorama_grey", true, {PixelFormat::Grey, PixelFormat::Grey, PixelFormat::Y16}, 3, true},
+};
+
+/// One case with white noise in all cameras: colour ones of 1920x1080, thermal ones of 640x512.
+class MergedView {
+ public:
+  explicit MergedView(const MergedCase& wanted);
+
+  void run();
+
+ private:
+  struct Camera {
+    Frame frame;
+    Picture picture;
+    optics::BallProjection ball;
+    remap::CoordinateGrid grid;
+  };
+
+  optics::ViewProjection view_;
+  std::deque<Camera> cameras_;
+  remap::ColourMap colours_;
+  std::optional<remap::BlendGrid> blend_;
+  std::optional<Frame> measured_;
+  Frame out_;
+  Frame unseen_;
+  Frame validity_;
+  std::vector<remap::MergedSource> sources_;
+};
+
+}  // namespace orbwatch::bench
