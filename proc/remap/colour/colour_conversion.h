@@ -2,23 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "proc/image/pixel_format.h"
+#include "proc/remap/colour/lanes.h"
 
 namespace orbwatch::remap {
-
-/// So many pixels side by side are converted together: their loops become vector code.
-inline constexpr std::size_t kRun = 16;
-
-/// One 8 bit sample of each pixel of a run.
-using SampleRun = std::array<std::uint8_t, kRun>;
 
 /// The colours of a run.
 struct RgbRun {
   SampleRun red, green, blue;
+};
+
+/// What a pair of pixels shares, in the colours of a run.
+struct SharedColour {
+  Lanes red, green, blue;
 };
 
 /// Y'CbCr to R'G'B' in Q14 integers, rounded and clipped. Coefficients from Kr, Kb of ITU-R BT.601
@@ -51,18 +50,20 @@ class YuvToRgb {
     rgb[2] = clip((luminance + blue_u_ * u + blue_) >> kBits);
   }
 
-  /// The same for a run of pixels, two side by side of which share a pair (U, V) of `chroma`.
+  /// The same for runs of pixels, two side by side of which share a pair (U, V) of `chroma`.
+  /// What the chroma adds to each colour comes first: two rows may share it.
+  [[gnu::always_inline]] SharedColour shared(const SampleRun& chroma) const {
+    const EvenOdd uv(chroma);
+    return {Lanes(red_).plus(uv.odd, red_v_),
+            Lanes(green_).minus(uv.even, green_u_).minus(uv.odd, green_v_),
+            Lanes(blue_).plus(uv.even, blue_u_)};
+  }
   [[gnu::always_inline]] RgbRun operator()(const SampleRun& luminance,
-                                           const SampleRun& chroma) const {
-    const EvenOdd y(luminance), uv(chroma);
-    const Lanes even = times(y.even, y_), odd = times(y.odd, y_);
-    const Lanes red_v = times(uv.odd, red_v_), blue_u = times(uv.even, blue_u_);
-    const Lanes green_u = times(uv.even, green_u_), green_v = times(uv.odd, green_v_);
-    Lanes red, green, blue;
-    for (std::size_t i = 0; i < kPairs; ++i) red[i] = red_v[i] + red_;
-    for (std::size_t i = 0; i < kPairs; ++i) green[i] = green_ - green_u[i] - green_v[i];
-    for (std::size_t i = 0; i < kPairs; ++i) blue[i] = blue_u[i] + blue_;
-    return {samples(even, odd, red), samples(even, odd, green), samples(even, odd, blue)};
+                                           const SharedColour& shared) const {
+    const EvenOdd y(luminance);
+    const Lanes even = Lanes(0).plus(y.even, y_), odd = Lanes(0).plus(y.odd, y_);
+    return {clipped_sums(even, odd, shared.red), clipped_sums(even, odd, shared.green),
+            clipped_sums(even, odd, shared.blue)};
   }
 
   /// Luma alone, 0..255: what a pixel without colour gets in all three.
@@ -70,20 +71,6 @@ class YuvToRgb {
 
  private:
   static constexpr int kBits = 14;
-  static constexpr std::size_t kPairs = kRun / 2;
-  using Lanes = std::array<std::int32_t, kPairs>;
-  using Words = std::array<std::uint16_t, kPairs>;
-
-  /// The even and the odd samples of a run.
-  struct EvenOdd {
-    [[gnu::always_inline]] explicit EvenOdd(const SampleRun& run) {
-      static_assert(std::endian::native == std::endian::little);
-      const auto words = std::bit_cast<Words>(run);
-      for (std::size_t i = 0; i < kPairs; ++i) even[i] = words[i] & 0xff;
-      for (std::size_t i = 0; i < kPairs; ++i) odd[i] = words[i] >> 8;
-    }
-    Words even, odd;
-  };
 
   static constexpr std::uint16_t fixed(double value) {
     const auto twice = static_cast<int>(value * (2 << kBits));
@@ -91,36 +78,6 @@ class YuvToRgb {
   }
   static constexpr std::uint8_t clip(int value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
-  }
-
-  [[gnu::always_inline]] static Lanes times(const Words& samples, std::uint16_t coefficient) {
-    Lanes products;
-    for (std::size_t i = 0; i < kPairs; ++i) {
-      products[i] = static_cast<std::int32_t>(std::uint32_t{samples[i]} * coefficient);
-    }
-    return products;
-  }
-
-  /// A colour from the luminance of every second pixel each, and what each pair shares.
-  [[gnu::always_inline]] static SampleRun samples(const Lanes& even, const Lanes& odd,
-                                                  const Lanes& shared) {
-    const Words low = clipped(even, shared), high = clipped(odd, shared);
-    Words words;
-    for (std::size_t i = 0; i < kPairs; ++i) {
-      words[i] = static_cast<std::uint16_t>(low[i] | high[i] << 8);
-    }
-    return std::bit_cast<SampleRun>(words);
-  }
-  [[gnu::always_inline]] static Words clipped(const Lanes& luminance, const Lanes& shared) {
-    std::array<std::int16_t, kPairs> values;
-    for (std::size_t i = 0; i < kPairs; ++i) {
-      values[i] = static_cast<std::int16_t>((luminance[i] + shared[i]) >> kBits);
-    }
-    Words words;
-    for (std::size_t i = 0; i < kPairs; ++i) {
-      words[i] = static_cast<std::uint16_t>(std::clamp<std::int16_t>(values[i], 0, 255));
-    }
-    return words;
   }
 
   std::uint16_t y_;

@@ -72,7 +72,7 @@ void ColourMap::apply(const ImageView<const std::uint8_t>& values,
   const Longs above = widened(clamped(values, low, high) - low);
   const Longs upper = above * widened(Words{} + static_cast<std::uint16_t>(scale >> 16));
   const Longs lower = above * widened(Words{} + static_cast<std::uint16_t>(scale & 0xffff));
-  return narrowed((upper + (lower >> 16) + (1U << 15)) >> 16);
+  return narrowed(narrowed((upper + (lower >> 16) + (1U << 15)) >> 16));
 }
 
 void ColourMap::apply(const ImageView<const std::uint16_t>& values,

@@ -38,8 +38,8 @@ template <class Vector, class T>
 [[gnu::always_inline]] inline Bytes narrowed(const Words& words) {
   return __builtin_convertvector(words, Bytes);
 }
-[[gnu::always_inline]] inline Bytes narrowed(const Longs& longs) {
-  return __builtin_convertvector(longs, Bytes);
+[[gnu::always_inline]] inline Words narrowed(const Longs& longs) {
+  return __builtin_convertvector(longs, Words);
 }
 
 /// Each within [low, high]. By halves: compilers compare only vectors that fit a register.
@@ -59,10 +59,11 @@ template <class Vector, class T>
 
 /// Whether all bits are zero.
 [[gnu::always_inline]] inline bool is_zero(const Words& words) {
-  using Parts = std::uint64_t __attribute__((vector_size(sizeof(Words))));
-  Parts parts;
-  std::memcpy(&parts, &words, sizeof parts);
-  return (parts[0] | parts[1] | parts[2] | parts[3]) == 0;
+  using Half = std::uint64_t __attribute__((vector_size(kRunPixels)));
+  std::array<Half, 2> halves;
+  std::memcpy(halves.data(), &words, sizeof words);
+  const Half any = halves[0] | halves[1];
+  return (any[0] | any[1]) == 0;
 }
 
 }  // namespace orbwatch::remap

@@ -121,10 +121,12 @@ const YuvToRgb& conversion_from(ColourSpace colour_space) {
 template <PixelFormat format, bool blue_first>
 void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
                 const TileArea& area) {
+  constexpr int kRowsOfChroma = 1 << shift(samplings(format).items[1].y);
   const YuvToRgb convert = conversion_from(colour_space);
+  SharedColour shared = convert.shared(chroma_of_row<format>(tile, 0));
   write_rows<3>(out, area, [&](int y, std::uint8_t* to) {
-    const RgbRun rgb =
-        convert(run_at<SampleRun>(tile, 0, y * kTile), chroma_of_row<format>(tile, y));
+    if (y > 0 && y % kRowsOfChroma == 0) shared = convert.shared(chroma_of_row<format>(tile, y));
+    const RgbRun rgb = convert(run_at<SampleRun>(tile, 0, y * kTile), shared);
     blue_first ? write_threes(rgb.blue, rgb.green, rgb.red, to)
                : write_threes(rgb.red, rgb.green, rgb.blue, to);
   });

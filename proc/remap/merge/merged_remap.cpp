@@ -16,13 +16,15 @@ ImageView<T> part(const ImageView<T>& picture, const TileArea& area) {
   return {picture.at(area.x, area.y), area.columns, area.rows, picture.channels, picture.stride};
 }
 
-// Most tiles are whole: then the length of their rows is known to the compiler.
+// Most tiles are whole: then the compiler knows their size.
 
 void fill(const ImageView<std::uint8_t>& out, std::uint8_t value) {
-  for (int y = 0; y < out.height; ++y) {
-    out.width == kTile ? std::fill_n(out.row(y), kTile, value)
-                       : std::fill_n(out.row(y), out.width, value);
+  if (out.width == kTile && out.height == kTile) {
+    std::uint8_t* row = out.data;
+    for (int y = 0; y < kTile; ++y, row += out.stride) std::fill_n(row, kTile, value);
+    return;
   }
+  for (int y = 0; y < out.height; ++y) std::fill_n(out.row(y), out.width, value);
 }
 
 void copy(const ImageView<const std::uint8_t>& from, const ImageView<std::uint8_t>& to) {

@@ -100,6 +100,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
     if (luminance == nullptr) return;
     write_luminance(sampled, colour_space_, luminance->out, luminance->area);
   };
+  if (in_place == nullptr && write_simple(tx, ty, targets)) return convert();
   const Reading reading = this->reading(tile);
   const bool smooth = interpolation_ != Interpolation::Nearest;
   if (smooth && is_patch(tile.kind)) {

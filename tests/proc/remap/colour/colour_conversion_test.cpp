@@ -97,7 +97,8 @@ TEST(YuvToRgb, ConvertsARunAsItsPixels) {
         const int shifted = (x % 2 == 0 ? u : v) + static_cast<int>(x / 2) * 37;
         chroma[x] = static_cast<std::uint8_t>(shifted);
       }
-      const RgbRun run = YuvToRgb(space)(luminance, chroma);
+      const YuvToRgb conversion(space);
+      const RgbRun run = conversion(luminance, conversion.shared(chroma));
       for (std::size_t x = 0; x < kRun; ++x) {
         const Rgb expected = convert(space, luminance[x], chroma[x & ~1U], chroma[x | 1U]);
         ASSERT_EQ((Rgb{run.red[x], run.green[x], run.blue[x]}), expected) << "pixel " << x;
