@@ -55,6 +55,7 @@ Result<> Camera::start(OnFrame on_frame, OnFault on_fault) {
   last_fault_ = Fault::None;
   withheld_ = 0;
   damage_.clear();
+  control_delay_.clear();
   damaged_ = 0;
   flawed_ = 0;
   thread_.start(thread_name(info_.id), [this] { run(thread_.stop_token()); });

@@ -34,6 +34,12 @@ TEST_F(ControlDelayTest, CountsExposuresThatBeginAfterTheSetting) {
   EXPECT_EQ(as_of(5), at(50));
 }
 
+TEST_F(ControlDelayTest, AStartHasWhatWasSetBefore) {
+  delay.set(at(15));
+  delay.clear();
+  EXPECT_EQ(as_of(2), at(20));
+}
+
 TEST_F(ControlDelayTest, LostFramesWereExposedToo) {
   delay.set(at(15));
   EXPECT_LT(as_of(2), at(15));

@@ -29,6 +29,11 @@ class SettableCamera : public HandCamera {
   explicit SettableCamera(std::size_t delay)
       : HandCamera("thermal", PixelFormat::Y16), delay_(delay) {}
 
+  /// Has at once what was set, as when a camera starts.
+  void take_on() {
+    const std::lock_guard lock(mutex_);
+    waiting_ = 0;
+  }
   /// A frame whose exposure begins now.
   void expose_as_set() {
     std::uint16_t bright = 0;
@@ -124,6 +129,7 @@ class MeasuredPipeline : public testing::Test {
     plan.formats.push_back(hand->configure({}).value());
     camera = hand.get();
     EXPECT_TRUE(camera->set("ExposureTime", exposure(1)));
+    camera->take_on();
     plan.cameras.push_back(std::move(hand));
     plan.deadline = seconds(20);
     plan.workers = 1;
@@ -184,6 +190,7 @@ TEST_F(MeasuredPipeline, NoStatusMixesRecipesWhileTheyAreSelectedAtRandom) {
         std::this_thread::sleep_for(std::chrono::microseconds(100));  // its frame period
       }
     });
+    sink.wait_for([](const Status& status) { return status.frame_set > 0; });
     std::mt19937 random(5);
     for (int n = 0; n < 90; ++n) {
       const std::size_t number = 1 + random() % 3;
