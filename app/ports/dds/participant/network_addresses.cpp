@@ -58,9 +58,10 @@ std::optional<std::vector<NetworkAddress>> network_addresses() {
 
 std::set<std::string> bound_addresses() {
   std::set<std::string> addresses;
-  std::error_code unreadable;  // no /proc: none are known
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", unreadable)) {
-    const std::string name = entry.path().filename();
+  std::error_code unreadable;  // as without /proc: then no more are known
+  std::filesystem::directory_iterator open_file("/proc/self/fd", unreadable);
+  for (; open_file != std::filesystem::directory_iterator(); open_file.increment(unreadable)) {
+    const std::string name = open_file->path().filename();
     int file = -1;
     std::from_chars(name.data(), name.data() + name.size(), file);
     if (auto address = bound_address(file)) addresses.insert(std::move(*address));
