@@ -42,7 +42,7 @@ CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const CameraSe
     if (member.trigger) member.camera->set_gate(stamp_with(member.trigger));
     if (member.trigger || members_.size() > 1) member.camera->require_stamps();
     member.camera->set_on_notice([id = member.camera->info().id](const std::string& text) {
-      log_line(LogLevel::Info, id + ": " + text);
+      log_line(LogLevel::Info, std::string(id).append(": ").append(text));
     });
     member.absent = absent[i];
     if (member.absent) miss(i, hal::Fault::Unplugged);
