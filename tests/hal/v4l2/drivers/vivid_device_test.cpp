@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "tests/hal/v4l2/drivers/camera_run.h"
 #include "tests/hal/v4l2/drivers/vivid_device.h"
@@ -10,6 +12,7 @@ namespace orbwatch::hal {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
@@ -84,16 +87,17 @@ TEST(VividControls, AreSetByAnySpellingAndRefusedOutsideTheirRange) {
 
 TEST(VividFrames, AreNumberedAndStampedAndSayWhatTheStampTells) {
   // Vivid's menu: 0 the end of the frame, 1 the start of its exposure. It says when the frame will
-  // end before it has; such a stamp is not believed.
-  for (const StampSource source : {StampSource::Arrival, StampSource::ExposureStart}) {
-    const double menu = source == StampSource::ExposureStart ? 1 : 0;
-    CameraRun run({kVivid, "grey", true}, {{"timestamp_source", menu}});
+  // end before it has; such a stamp is believed only when the frame is taken later than that.
+  const std::array sources{AnyOf(StampSource::Arrival, StampSource::FrameEnd),
+                           AnyOf(StampSource::ExposureStart, StampSource::ExposureStart)};
+  for (const std::size_t menu : {0U, 1U}) {
+    CameraRun run({kVivid, "grey", true}, {{"timestamp_source", static_cast<double>(menu)}});
     ASSERT_TRUE(run.start(kRequest));
     Frame last;
     for (int n = 0; n < 5; ++n) {
       const Frame frame = run.next_frame();
       ASSERT_TRUE(frame);
-      EXPECT_EQ(frame->metadata.stamp_source, source);
+      EXPECT_THAT(frame->metadata.stamp_source, sources[menu]);
       EXPECT_LE(frame->metadata.exposure_start, Clock::now());
       if (last) {
         EXPECT_GT(frame->metadata.sequence, last->metadata.sequence);
