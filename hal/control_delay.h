@@ -14,11 +14,14 @@ namespace orbwatch::hal {
 /// Tells which exposures have the controls that were set. Cameras do not: a control waits behind
 /// the frames that are queued, and a sensor takes it on some exposures later. So exposures are
 /// counted; and where a frame states its controls, they must be as set, too.
-/// Thread rule: clear while the camera stands, set on any thread, as_of on the camera's.
+/// Thread rule: clear and set on any thread, as_of on the camera's.
 class ControlDelay {
  public:
   /// The camera starts: from its first exposure on it has what was set while it stood.
-  void clear() { oldest_.reset(); }
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    oldest_.reset();
+  }
 
   /// A control was set; the call that did it is over at `moment`.
   void set(TimePoint moment) {
