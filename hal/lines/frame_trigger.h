@@ -46,8 +46,8 @@ struct TriggerCounts {
 /// Joins the edges of a trigger line with the frames of one camera.
 /// A frame belongs to the newest trigger (edge plus delay) at or before its exposure's start, or to
 /// the next one if that is nearer and less than kStampError after it; earlier triggers without a
-/// frame are missed. In mode Software the camera is triggered when the
-/// trigger is due, unless the frame before is outstanding: then the trigger is missed.
+/// frame are missed. In mode Software the camera is triggered when the trigger is due, unless the
+/// frame before is outstanding: then the trigger is missed.
 /// Bounded: of more than kMaxWaiting triggers the newest are missed, as the oldest may belong to
 /// frames that are on their way.
 /// Thread rule: on_edge on the line thread; due and run on a LineThread of its own in mode

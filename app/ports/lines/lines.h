@@ -20,7 +20,7 @@
 namespace orbwatch::app {
 
 /// The configured lines at run time. As a sink it reports the pipeline's state on the lines
-/// process_ok and alarm. Its thread runs from start to stop; edges before that are lost. Thread
+/// process_ok and alarm. Its threads run from start to stop; edges before that are lost. Thread
 /// rule: as Sink's; open and trigger before start.
 class Lines : public Sink {
  public:

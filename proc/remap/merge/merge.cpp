@@ -21,18 +21,18 @@ template <class T>
 constexpr std::uint32_t kLargestSum =
     kMaxSources* UINT8_MAX* std::uint32_t{std::numeric_limits<T>::max()} + kMaxSources * 128;
 
-/// floor(sum / total), exactly: the quotient in floating point is right to 2^-k of itself, with k
-/// the bits of its mantissa, which is less than half of what separates two multiples of 1 / total >
-/// 2^-10, and kHalfStep keeps it from falling below a whole number.
+/// floor(sum / total), exactly. The computed quotient errs by less than 2^-15. One that is no whole
+/// number lies at least 1 / total > 2^-10 below the next, so that the margin lifts over a whole
+/// number only what an error left below it.
 template <class T>
 T quotient(std::uint32_t sum, std::uint32_t total) {
   using Real = std::conditional_t<sizeof(T) == 1, float, double>;
   static_assert(kLargestSum<T> < (sizeof(T) == 1 ? 1U << 24 : 1U << 31));
-  constexpr Real kHalfStep = Real{1} / 4096;
+  constexpr Real kMargin = Real{1} / 4096;
   // Signed integers are what vector units convert.
   const Real reciprocal = Real{1} / static_cast<Real>(static_cast<std::int32_t>(total));
   return static_cast<T>(static_cast<std::int32_t>(
-      static_cast<Real>(static_cast<std::int32_t>(sum)) * reciprocal + kHalfStep));
+      static_cast<Real>(static_cast<std::int32_t>(sum)) * reciprocal + kMargin));
 }
 
 /// The weights of a run's pixels for each of their samples.
