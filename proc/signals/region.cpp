@@ -169,7 +169,9 @@ RegionGeometry::RegionGeometry(const optics::ViewProjection& view, const RegionS
                   static_cast<std::size_t>(mask.bottom() - mask.top()));
   for (int y = mask.top(); y < mask.bottom(); ++y) {
     for (int x = mask.left(); x < mask.right(); ++x) {
-      pixels_.push_back(geometry_of(view, scene, x, y));
+      const PixelGeometry& pixel = pixels_.emplace_back(geometry_of(view, scene, x, y));
+      largest_solid_angle_ = std::max<double>(largest_solid_angle_, pixel.solid_angle);
+      largest_area_ = std::max<double>(largest_area_, pixel.area);  // keeps what it has if unknown
     }
   }
 }

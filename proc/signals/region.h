@@ -109,6 +109,10 @@ class RegionGeometry {
   /// Of a pixel of the view, in the bounding box.
   const PixelGeometry& at(int x, int y) const { return row(y)[x - left_]; }
 
+  /// No pixel has more: steradian, and mm2 where that is known.
+  double largest_solid_angle() const { return largest_solid_angle_; }
+  double largest_area() const { return largest_area_; }
+
   /// From the bounding box' first pixel of row y.
   const PixelGeometry* row(int y) const {
     return pixels_.data() + static_cast<std::size_t>(y - top_) * static_cast<std::size_t>(width_);
@@ -119,6 +123,8 @@ class RegionGeometry {
   int top_;
   int width_;
   std::vector<PixelGeometry> pixels_;
+  double largest_solid_angle_ = 0;
+  double largest_area_ = 0;
 };
 
 }  // namespace orbwatch::signals

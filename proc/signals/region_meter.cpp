@@ -80,10 +80,11 @@ void write_angles(const HotSpot& spot, Signals& signals) {
 
 }  // namespace
 
-Result<RegionMeter> RegionMeter::make(const optics::ViewProjection& view, const RegionScene& scene,
-                                      const RegionSettings& settings,
-                                      const RegionMask::Sees& sees) {
-  if (auto checked = check(settings); !checked) return tl::unexpected(checked.error());
+Result<RegionMeter::Parts> RegionMeter::make_parts(const optics::ViewProjection& view,
+                                                   const RegionScene& scene,
+                                                   const RegionSettings& settings,
+                                                   const RegionMask::Sees& sees) {
+  if (auto checked = signals::check(settings); !checked) return tl::unexpected(checked.error());
   if (auto checked = optics::check_ball(scene.ball); !checked) {
     return tl::unexpected(checked.error());
   }
@@ -96,33 +97,35 @@ Result<RegionMeter> RegionMeter::make(const optics::ViewProjection& view, const 
   if (!radiometry) return tl::unexpected(radiometry.error());
   auto mask = RegionMask::make(view, settings.outline, sees);
   if (!mask) return tl::unexpected(mask.error());
-  return RegionMeter(view, scene, settings, std::move(*mask), std::move(*radiometry));
+  return Parts{std::move(*mask), std::move(*radiometry)};
+}
+
+Result<RegionMeter> RegionMeter::make(const optics::ViewProjection& view, const RegionScene& scene,
+                                      const RegionSettings& settings,
+                                      const RegionMask::Sees& sees) {
+  auto parts = make_parts(view, scene, settings, sees);
+  if (!parts) return tl::unexpected(parts.error());
+  return RegionMeter(view, scene, settings, std::move(*parts));
+}
+
+Result<> RegionMeter::check(const optics::ViewProjection& view, const RegionScene& scene,
+                            const RegionSettings& settings, const RegionMask::Sees& sees) {
+  return make_parts(view, scene, settings, sees).map([](const Parts&) {});
 }
 
 RegionMeter::RegionMeter(const optics::ViewProjection& view, const RegionScene& scene,
-                         const RegionSettings& settings, RegionMask mask, Radiometry radiometry)
+                         const RegionSettings& settings, Parts parts)
     : settings_(settings),
       ball_centre_(scene.ball.centre),
       knows_surface_(!scene.proxy.is_far()),
-      mask_(std::move(mask)),
-      radiometry_(std::move(radiometry)),
+      mask_(std::move(parts.mask)),
+      radiometry_(std::move(parts.radiometry)),
       geometry_(view, scene, mask_),
+      search_(mask_, settings),
       hot_pixels_(mask_),
       track_(settings.hot_spot_limits),
       plume_pixels_(mask_),
-      cooling_(mask_, settings.hot_spot_threshold) {
-  std::vector<double> thresholds{settings.hot_spot_threshold};
-  if (settings.plume_threshold) thresholds.push_back(*settings.plume_threshold);
-  if (settings.spatter_threshold) thresholds.push_back(*settings.spatter_threshold);
-  std::ranges::sort(thresholds);
-  for (const double threshold : thresholds) levels_.emplace_back(mask_, threshold);
-  const auto level_of = [&](double threshold) {
-    return static_cast<std::size_t>(std::ranges::find(thresholds, threshold) - thresholds.begin());
-  };
-  hot_ = level_of(settings.hot_spot_threshold);
-  if (settings.plume_threshold) plume_level_ = level_of(*settings.plume_threshold);
-  if (settings.spatter_threshold) spatter_level_ = level_of(*settings.spatter_threshold);
-}
+      cooling_(mask_, settings.hot_spot_threshold) {}
 
 Signals RegionMeter::measure(const ImageView<const std::uint8_t>& values,
                              const ImageView<const std::uint8_t>& validity, double seconds) {
@@ -149,57 +152,47 @@ Signals RegionMeter::measure_any(const ImageView<const T>& values,
   const double passed = seconds > last_ ? std::min(seconds - last_, kLongest) : 0;
   if (passed == 0) reset();
   last_ = seconds;
-  find_levels(values, validity);
+  const BlobSearch::Planes<T> planes{values, validity};
+  search_.begin(planes, mask_);
   Signals signals;
   signals.hot_spot_present = 0;
   signals.hot_spot_pixels = signals.hot_spot_solid_angle = 0;
   if (knows_surface_) signals.hot_spot_area = 0;
   if (settings_.plume_threshold) signals.plume_area = 0;
   hot_direction_.reset();
-  const LevelSet& hot = levels_[hot_];
-  const std::size_t chosen = track_.follow(hot, passed);
+  const auto blob = search_.follow(planes, geometry_, passed, track_);
   hot_pixels_.clear();
-  if (chosen != LevelSet::kNone) {
-    hot_pixels_.assign(hot, chosen);
-    const Blob& blob = hot.blob(chosen);
-    peak_x_ = blob.peak_x;
-    peak_y_ = blob.peak_y;
-    const HotSpot spot = measure_hot_spot(values, validity, hot_pixels_, hot.threshold(),
-                                          settings_.full_scale, geometry_, radiometry_);
-    if (spot.solid_angle > 0) {
-      write(spot, blob, signals);
-      hot_direction_ = spot.direction;
-      if (plume_level_) {
-        signals.plume_area = 1000 * plume(values, validity) - signals.hot_spot_solid_angle;
-      }
-    }
-  }
+  if (blob) measure(planes, *blob, signals);
   if (radiometry_.is_radiometric()) {
     signals.hot_spot_cooling_rate =
         cooling_.update(seconds, values, validity, hot_pixels_, geometry_, radiometry_);
   }
-  if (spatter_level_) find_sparks(signals, seconds);
+  if (settings_.spatter_threshold) {
+    search_.add_sparks(planes, geometry_, hot_pixels_, peak_x_, peak_y_, spatter_);
+    spatter_.update(seconds, hot_direction_);
+    spatter_.write(signals);
+  }
   add_statistics(signals, seconds);
   return signals;
 }
 
-/// One pass over the region for the lowest threshold; the others search its runs.
+/// The hot spot, and the plume around and with it.
 template <class T>
-void RegionMeter::find_levels(const ImageView<const T>& values,
-                              const ImageView<const std::uint8_t>& validity) {
-  levels_.front().find(values, validity, mask_, geometry_);
-  for (std::size_t i = 1; i < levels_.size(); ++i) {
-    levels_[i].find(values, levels_[i - 1], geometry_);
-  }
-}
-
-/// Steradian above the plume's threshold around and with the hot spot.
-template <class T>
-double RegionMeter::plume(const ImageView<const T>& values,
-                          const ImageView<const std::uint8_t>& validity) {
-  const LevelSet& level = levels_[*plume_level_];
-  plume_pixels_.assign(level, level.blob_at(peak_x_, peak_y_));
-  return measure_solid_angle(values, validity, plume_pixels_, level.threshold(), geometry_);
+void RegionMeter::measure(const BlobSearch::Planes<T>& planes, const Blob& blob, Signals& signals) {
+  peak_x_ = blob.peak_x;
+  peak_y_ = blob.peak_y;
+  search_.assign(planes, settings_.hot_spot_threshold, peak_x_, peak_y_, hot_pixels_);
+  const HotSpot spot =
+      measure_hot_spot(planes.values, planes.validity, hot_pixels_, settings_.hot_spot_threshold,
+                       settings_.full_scale, geometry_, radiometry_);
+  if (!(spot.solid_angle > 0)) return;
+  write(spot, blob, signals);
+  hot_direction_ = spot.direction;
+  if (!settings_.plume_threshold) return;
+  search_.assign(planes, *settings_.plume_threshold, peak_x_, peak_y_, plume_pixels_);
+  const double plume = measure_solid_angle(planes.values, planes.validity, plume_pixels_,
+                                           *settings_.plume_threshold, geometry_);
+  signals.plume_area = 1000 * plume - signals.hot_spot_solid_angle;
 }
 
 void RegionMeter::write(const HotSpot& spot, const Blob& blob, Signals& signals) const {
@@ -227,21 +220,6 @@ void RegionMeter::write(const HotSpot& spot, const Blob& blob, Signals& signals)
   signals.hot_spot_x = ball_centre_.x + spot.position.x;
   signals.hot_spot_y = ball_centre_.y + spot.position.y;
   signals.hot_spot_z = ball_centre_.z + spot.position.z;
-}
-
-/// Sparks are the blobs at their threshold other than the hot spot, or its afterglow at its last
-/// place.
-void RegionMeter::find_sparks(Signals& signals, double seconds) {
-  const LevelSet& level = levels_[*spatter_level_];
-  const std::size_t around_hot_spot = level.blob_at(peak_x_, peak_y_);
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    const Blob& blob = level.blob(i);
-    if (!level.is_whole(i) || i == around_hot_spot) continue;
-    if (hot_pixels_.contains(blob.peak_x, blob.peak_y)) continue;
-    spatter_.add(blob.moment);
-  }
-  spatter_.update(seconds, hot_direction_);
-  spatter_.write(signals);
 }
 
 void RegionMeter::add_statistics(Signals& signals, double seconds) {

@@ -11,10 +11,10 @@
 #include "proc/image/result.h"
 #include "proc/optics/view_projection.h"
 #include "proc/signals/hot_spot/blob_pixels.h"
+#include "proc/signals/hot_spot/blob_search.h"
 #include "proc/signals/hot_spot/cooling.h"
 #include "proc/signals/hot_spot/hot_spot.h"
 #include "proc/signals/hot_spot/hot_spot_track.h"
-#include "proc/signals/hot_spot/level_set.h"
 #include "proc/signals/radiometry.h"
 #include "proc/signals/region.h"
 #include "proc/signals/signals.h"
@@ -34,6 +34,9 @@ class RegionMeter {
   static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
                                   const RegionSettings& settings,
                                   const RegionMask::Sees& sees = nullptr);
+  /// The errors of make() without the memory that measuring needs.
+  static Result<> check(const optics::ViewProjection& view, const RegionScene& scene,
+                        const RegionSettings& settings, const RegionMask::Sees& sees = nullptr);
   RegionMeter(RegionMeter&&) = default;
   RegionMeter& operator=(RegionMeter&&) = default;
   RegionMeter(const RegionMeter&) = delete;  // a copy would lack the reserved memory
@@ -57,18 +60,23 @@ class RegionMeter {
   std::uint64_t untracked_sparks() const { return spatter_.untracked(); }
 
  private:
+  /// What can be refused.
+  struct Parts {
+    RegionMask mask;
+    Radiometry radiometry;
+  };
+
+  static Result<Parts> make_parts(const optics::ViewProjection& view, const RegionScene& scene,
+                                  const RegionSettings& settings, const RegionMask::Sees& sees);
   RegionMeter(const optics::ViewProjection& view, const RegionScene& scene,
-              const RegionSettings& settings, RegionMask mask, Radiometry radiometry);
+              const RegionSettings& settings, Parts parts);
 
   template <class T>
   Signals measure_any(const ImageView<const T>& values,
                       const ImageView<const std::uint8_t>& validity, double seconds);
   template <class T>
-  void find_levels(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity);
-  template <class T>
-  double plume(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity);
+  void measure(const BlobSearch::Planes<T>& planes, const Blob& blob, Signals& signals);
   void write(const HotSpot& spot, const Blob& blob, Signals& signals) const;
-  void find_sparks(Signals& signals, double seconds);
   void add_statistics(Signals& signals, double seconds);
 
   RegionSettings settings_;
@@ -77,10 +85,7 @@ class RegionMeter {
   RegionMask mask_;
   Radiometry radiometry_;
   RegionGeometry geometry_;
-  std::vector<LevelSet> levels_;  ///< by rising threshold
-  std::size_t hot_ = 0;           ///< of levels_
-  std::optional<std::size_t> plume_level_;
-  std::optional<std::size_t> spatter_level_;
+  BlobSearch search_;
   BlobPixels hot_pixels_;
   HotSpotTrack track_;
   BlobPixels plume_pixels_;

@@ -34,6 +34,9 @@ class SpatterTracker {
   /// are large, and edges of the machine's surfaces separate them in a view.
   void add(const optics::Vec3& moment);
 
+  /// Adds so many more of which only the number is known: beyond kMaxSparkParts nobody compares.
+  void add_beyond(std::size_t parts) { beyond_ += parts; }
+
   /// Continues the tracks with the detections since the last call. `now`: s; `hot_spot`: unit
   /// vector to it, if there is one.
   void update(double now, const std::optional<optics::Vec3>& hot_spot);

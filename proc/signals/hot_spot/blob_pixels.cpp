@@ -69,11 +69,10 @@ BlobPixels::BlobPixels(const RegionMask& mask)
   spans_.reserve(mask.most_runs());
 }
 
-void BlobPixels::assign(const LevelSet& level, std::size_t blob) {
+void BlobPixels::assign(const Components& components, std::size_t component) {
   clear();
-  for (const Run& run : level.runs()) {
-    if (run.blob == blob) add(run.span);
-  }
+  if (component == Components::kNone) return;
+  components.for_each_span(component, [&](const Span& span) { add(span); });
 }
 
 void BlobPixels::assign(const BlobPixels& other) {

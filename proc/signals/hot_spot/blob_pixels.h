@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "proc/image/image_view.h"
-#include "proc/signals/hot_spot/level_set.h"
+#include "proc/signals/hot_spot/components.h"
 #include "proc/signals/region.h"
 
 namespace orbwatch::signals {
@@ -66,8 +66,8 @@ class BlobPixels {
  public:
   explicit BlobPixels(const RegionMask& mask);
 
-  /// Holds the pixels of that blob instead of those before.
-  void assign(const LevelSet& level, std::size_t blob);
+  /// Holds the pixels of that component instead of those before; none for Components::kNone.
+  void assign(const Components& components, std::size_t component);
   /// The same as `other`, of the same region.
   void assign(const BlobPixels& other);
   void clear();

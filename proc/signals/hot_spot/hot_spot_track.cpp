@@ -25,52 +25,70 @@ double radius_of(double area) { return std::sqrt(area / std::numbers::pi); }
 
 }  // namespace
 
-std::size_t HotSpotTrack::follow(const LevelSet& hot, double passed) {
-  const bool is_lost = limits_.max_speed < HotSpotLimits::kAny && last_ && last_->ago > kBlink;
+bool HotSpotTrack::Candidate::is_blob_of(const Candidate& other) const {
+  const Span &a = blob.first, &b = other.blob.first;
+  return weight > 0 ? other.weight > 0 && a.y == b.y && a.begin == b.begin : !(other.weight > 0);
+}
+
+/// The upper one of two alike, the left one of these, in whatever order they came.
+bool HotSpotTrack::Candidate::is_heavier_than(const Candidate& other) const {
+  if (weight != other.weight) return weight > other.weight;
+  const Span &a = blob.first, &b = other.blob.first;
+  return weight > 0 && std::pair(a.y, a.begin) < std::pair(b.y, b.begin);
+}
+
+void HotSpotTrack::begin(double passed) {
+  passed_ = passed;
+  is_lost_ = limits_.max_speed < HotSpotLimits::kAny && last_ && last_->ago > kBlink;
   if (last_) last_->ago += passed;
-  const auto [largest, second, within_reach] = candidates(hot);
-  Candidate chosen = is_lost ? Candidate() : within_reach;
-  const Candidate newcomer =
-      is_lost && within_reach.blob != LevelSet::kNone ? within_reach : largest;
-  if (newcomer.blob == chosen.blob) {
-    newcomer_.reset();
-  } else if (is_believed(hot.blob(newcomer.blob), newcomer.blob == within_reach.blob, passed)) {
-    if (newcomer.blob != within_reach.blob) reset();
-    chosen = newcomer;
-  }
-  if (chosen.blob == LevelSet::kNone) {
-    lose(passed);
-    return chosen.blob;
-  }
-  const double other = chosen.blob == largest.blob ? second.weight : largest.weight;
-  keep(hot.blob(chosen.blob), chosen.weight / (chosen.weight + other), passed);
-  return chosen.blob;
+  candidates_ = {};
 }
 
 /// By size, weighted by the distance from the usual place, down to a ninth: a spark near the ball
 /// may look larger than the pool.
-HotSpotTrack::Candidates HotSpotTrack::candidates(const LevelSet& hot) const {
+void HotSpotTrack::consider(const Blob& blob) {
   constexpr double kNear = optics::radians(3);
   constexpr double kLeast = 1.0 / 9;
-  Candidates found;
-  for (std::size_t i = 0; i < hot.size(); ++i) {
-    const Blob& blob = hot.blob(i);
-    if (!hot.is_whole(i) || (limits_.min_area > 0 && !(blob.area >= limits_.min_area))) continue;
-    Candidate candidate{i, blob.solid_angle};
-    if (usual_) {
-      const Vec3 apart = optics::normalized(blob.moment) - *usual_;
-      candidate.weight *= std::max(kLeast, 1 / (1 + optics::dot(apart, apart) / (kNear * kNear)));
-    }
-    if (candidate.weight > found.within_reach.weight && reaches(last_, blob)) {
-      found.within_reach = candidate;
-    }
-    if (candidate.weight > found.largest.weight) {
-      found.second = std::exchange(found.largest, candidate);
-    } else if (candidate.weight > found.second.weight) {
-      found.second = candidate;
-    }
+  auto& [largest, second, within_reach] = candidates_;
+  if (blob.solid_angle < std::min(second.weight, within_reach.weight)) return;
+  if (limits_.min_area > 0 && !(blob.area >= limits_.min_area)) return;
+  Candidate candidate{blob.solid_angle, blob};
+  if (usual_) {
+    const Vec3 apart = optics::normalized(blob.moment) - *usual_;
+    candidate.weight *= std::max(kLeast, 1 / (1 + optics::dot(apart, apart) / (kNear * kNear)));
   }
-  return found;
+  if (candidate.is_heavier_than(within_reach) && reaches(last_, blob)) within_reach = candidate;
+  if (candidate.is_heavier_than(largest)) {
+    second = std::exchange(largest, candidate);
+  } else if (candidate.is_heavier_than(second)) {
+    second = candidate;
+  }
+}
+
+/// No blob's weight is above its solid angle.
+bool HotSpotTrack::is_settled(double solid_angle, double area) const {
+  if (area < limits_.min_area) return true;
+  return std::min(candidates_.second.weight, candidates_.within_reach.weight) >= solid_angle;
+}
+
+std::optional<Blob> HotSpotTrack::choose() {
+  const double passed = passed_;
+  const auto [largest, second, within_reach] = candidates_;
+  Candidate chosen = is_lost_ ? Candidate() : within_reach;
+  const Candidate& newcomer = is_lost_ && within_reach ? within_reach : largest;
+  if (newcomer.is_blob_of(chosen)) {
+    newcomer_.reset();
+  } else if (is_believed(newcomer.blob, newcomer.is_blob_of(within_reach), passed)) {
+    if (!newcomer.is_blob_of(within_reach)) reset();
+    chosen = newcomer;
+  }
+  if (!chosen) {
+    lose(passed);
+    return std::nullopt;
+  }
+  const double other = chosen.is_blob_of(largest) ? second.weight : largest.weight;
+  keep(chosen.blob, chosen.weight / (chosen.weight + other), passed);
+  return chosen.blob;
 }
 
 /// A centroid also moves when a border is hidden or a spark touches it, by up to a radius.

@@ -18,11 +18,20 @@ class HotSpotTrack {
  public:
   explicit HotSpotTrack(const HotSpotLimits& limits) : limits_(limits) {}
 
-  /// The blob that is the hot spot, or LevelSet::kNone. `passed`: s since the call before; any for
-  /// the first one.
-  std::size_t follow(const LevelSet& hot, double passed);
+  /// Begins a frame set, `passed` s after the one before; any for the first one.
+  void begin(double passed);
 
-  /// Of the blob that follow() returned, 0 to 1: a half when it is new, more for having been seen
+  /// Adds a blob of the frame set, in any order.
+  void consider(const Blob& blob);
+
+  /// Whether no blob below that solid angle, steradian, and that area, mm2, could change what
+  /// choose() returns and how it remembers that.
+  bool is_settled(double solid_angle, double area) const;
+
+  /// The blob that is the hot spot, if there is one. Ends the frame set.
+  std::optional<Blob> choose();
+
+  /// Of the blob that choose() returned, 0 to 1: a half when it is new, more for having been seen
   /// in the last frame sets; times how its size agrees with the usual one, and its share beside the
   /// largest other blob.
   double confidence() const { return confidence_; }
@@ -36,23 +45,31 @@ class HotSpotTrack {
     double radius = 0;      ///< mm, of a disc of its usual area
     double ago = 0;         ///< s
   };
-  /// A blob, and its size for the choice.
+  /// A blob, and its size for the choice: 0 for none.
   struct Candidate {
-    std::size_t blob = LevelSet::kNone;
     double weight = 0;
+    Blob blob{};
+
+    explicit operator bool() const { return weight > 0; }
+    bool is_blob_of(const Candidate& other) const;
+    bool is_heavier_than(const Candidate& other) const;
   };
   struct Candidates {
     Candidate largest, second;
     Candidate within_reach;  ///< the largest there
   };
 
-  Candidates candidates(const LevelSet& hot) const;
   bool reaches(const std::optional<Place>& from, const Blob& blob) const;
   bool is_believed(const Blob& blob, bool is_within_reach, double passed);
   void keep(const Blob& blob, double share, double passed);
   void lose(double passed);
 
   HotSpotLimits limits_;
+  // The frame set.
+  double passed_ = 0;
+  bool is_lost_ = false;
+  Candidates candidates_;
+  // What is remembered.
   std::optional<Place> last_;          ///< of the hot spot
   std::optional<optics::Vec3> usual_;  ///< unit vector to it in the last frame sets
   double usual_size_ = 0;              ///< steradian

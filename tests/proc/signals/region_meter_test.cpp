@@ -182,9 +182,10 @@ TEST(RegionMeter, FindsTheBlobsThatAFloodFillFinds) {
     for (auto& value : painted.values) value = static_cast<std::uint16_t>(random() % 100);
     const int low = 20 + static_cast<int>(random() % 40),
               high = low + 1 + static_cast<int>(random() % 30);
-    LevelSet lower(mask, low), upper(mask, high - 0.5);
-    lower.find(painted.plane(), painted.seen(), mask, geometry);
-    upper.find(painted.plane(), lower, geometry);
+    Components lower(mask), upper(mask);
+    lower.find(painted.plane(), painted.seen(), low, mask);
+    upper.find(painted.plane(), painted.seen(), high - 0.5, lower);
+    LevelSet blobs(mask);
     for (const auto& [level, threshold] : {std::pair{&lower, low}, {&upper, high}}) {
       std::vector<bool> done(painted.values.size());
       std::vector<double> expected, found;
@@ -205,8 +206,10 @@ TEST(RegionMeter, FindsTheBlobsThatAFloodFillFinds) {
         }
         if (area > 0) expected.push_back(area);
       }
-      for (std::size_t i = 0; i < level->size(); ++i) {
-        if (level->is_whole(i)) found.push_back(level->blob(i).solid_angle);
+      for (std::size_t i = 0; i < level->runs().size(); ++i) {
+        if (level->pixels(i) == 0) continue;
+        blobs.find(painted.plane(), painted.seen(), threshold, *level, i, geometry);
+        blobs.for_each_blob([&](const Blob& blob) { found.push_back(blob.solid_angle); });
       }
       std::ranges::sort(expected);
       std::ranges::sort(found);

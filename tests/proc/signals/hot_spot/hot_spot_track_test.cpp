@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "tests/proc/signals/hot_spot/scalar_level_set.h"
 #include "tests/proc/signals/painted_region.h"
 
 namespace orbwatch::signals {
@@ -42,11 +43,14 @@ class Floor {
       }
       return 0.0;
     });
-    hot_.find(painted_.plane(), painted_.seen(), mask_, geometry_);
-    const std::size_t chosen = track_.follow(hot_, passed);
-    if (chosen == LevelSet::kNone) return std::nullopt;
-    const Blob& blob = hot_.blob(chosen);
-    return scene_.ball.centre + blob.position * (1 / blob.solid_angle);
+    const ScalarLevelSet hot(painted_.plane(), painted_.seen(), kThreshold, mask_, geometry_);
+    track_.begin(passed);
+    for (std::size_t i = 0; i < hot.size(); ++i) {
+      if (hot.is_whole(i)) track_.consider(hot.blob(i));
+    }
+    const auto blob = track_.choose();
+    if (!blob) return std::nullopt;
+    return scene_.ball.centre + blob->position * (1 / blob->solid_angle);
   }
   /// The same several times: of the last one.
   std::optional<Vec3> follow(int times, const std::vector<Disc>& discs) {
@@ -62,7 +66,6 @@ class Floor {
   PaintedView painted_{{optics::ViewKind::Perspective, {40, -50, 0}, 70, {}, 320, 240}};
   RegionMask mask_ = RegionMask::make(painted_.view, {}).value();
   RegionGeometry geometry_{painted_.view, scene_, mask_};
-  LevelSet hot_{mask_, kThreshold};
   HotSpotTrack track_;
 };
 
@@ -180,6 +183,65 @@ TEST(HotSpotTrack, StartsAnewAfterAReset) {
   floor.track().reset();
   expect_at(floor.follow({kSpark}), kSpark);
   EXPECT_EQ(floor.track().confidence(), 0.5);
+}
+
+/// A disc of that area above (x, y) on a plane 400 mm below the ball's centre.
+Blob blob_at(double x, double y, double area, const Span& first) {
+  const Vec3 position{x, y, -400};
+  Blob blob;
+  blob.solid_angle = area * 1e-5;
+  blob.moment = optics::normalized(position) * blob.solid_angle;
+  blob.position = position * blob.solid_angle;
+  blob.area = area;
+  blob.first = first;
+  return blob;
+}
+
+std::optional<Span> first_of_chosen(HotSpotTrack& track, std::vector<Blob> blobs) {
+  track.begin(kFrame);
+  for (const Blob& blob : blobs) track.consider(blob);
+  const auto chosen = track.choose();
+  return chosen ? std::optional(chosen->first) : std::nullopt;
+}
+
+TEST(HotSpotTrack, OfTwoAlikeTheUpperOneIsChosenInWhateverOrderTheyCome) {
+  const Blob upper = blob_at(0, 100, 50, {3, 40, 50}), lower = blob_at(60, 100, 50, {4, 20, 30}),
+             right = blob_at(90, 100, 50, {3, 60, 70});
+  for (const auto& blobs : std::vector<std::vector<Blob>>{
+           {upper, lower, right}, {lower, right, upper}, {right, upper, lower}}) {
+    HotSpotTrack track{HotSpotLimits{}};
+    const auto first = first_of_chosen(track, blobs);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->y, 3);
+    EXPECT_EQ(first->begin, 40);
+    EXPECT_DOUBLE_EQ(track.confidence(), 0.25) << "a half of it is new, and another is as large";
+  }
+}
+
+TEST(HotSpotTrack, WhatIsInReachIsFoundBesideLargerOnes) {
+  HotSpotTrack track({0, 100});
+  const Blob pool = blob_at(0, 100, 50, {5, 10, 20});
+  ASSERT_TRUE(first_of_chosen(track, {pool}));
+  const Blob spark = blob_at(0, 3000, 90000, {1, 0, 99}),
+             other = blob_at(0, 4000, 80000, {2, 0, 9});
+  const auto first = first_of_chosen(track, {spark, other, pool});
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->y, 5);
+}
+
+TEST(HotSpotTrack, IsSettledWhenNothingSmallerCanMatter) {
+  HotSpotTrack any{HotSpotLimits{}};
+  any.begin(kFrame);
+  EXPECT_FALSE(any.is_settled(1e-9, 1));
+  any.consider(blob_at(0, 100, 50, {5, 10, 20}));
+  EXPECT_FALSE(any.is_settled(1e-9, 1)) << "its confidence depends on the largest other one";
+  any.consider(blob_at(50, 100, 30, {7, 10, 20}));
+  EXPECT_TRUE(any.is_settled(29e-5, 29));
+  EXPECT_FALSE(any.is_settled(31e-5, 31));
+  HotSpotTrack large({20});
+  large.begin(kFrame);
+  EXPECT_TRUE(large.is_settled(1, 19));
+  EXPECT_FALSE(large.is_settled(1, 21));
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+#include "proc/signals/hot_spot/blob_search.h"
+
+#include <algorithm>
+
+namespace orbwatch::signals {
+namespace {
+
+constexpr int kLarge = 4;  // pixels of a component whose place in the order is worth its cost
+
+/// Whether a pixel of the component reaches it.
+template <class T>
+bool reaches(const Components& components, std::size_t component, const ImageView<const T>& values,
+             double threshold) {
+  bool found = false;
+  components.for_each_span(component, [&](const Span& span) {
+    const T* const row = values.row(span.y);
+    for (int x = span.begin; x < span.end && !found; ++x) found = row[x] >= threshold;
+  });
+  return found;
+}
+
+}  // namespace
+
+BlobSearch::BlobSearch(const RegionMask& mask, const RegionSettings& settings)
+    : hot_spot_threshold_(settings.hot_spot_threshold),
+      spatter_threshold_(settings.spatter_threshold.value_or(hot_spot_threshold_)),
+      lowest_threshold_(std::min({hot_spot_threshold_, spatter_threshold_,
+                                  settings.plume_threshold.value_or(hot_spot_threshold_)})),
+      lowest_(mask),
+      around_(mask),
+      blobs_(mask) {
+  if (spatter_threshold_ > lowest_threshold_) sparks_.emplace(mask);
+  large_.reserve(mask.pixels() / kLarge);
+}
+
+template <class T>
+void BlobSearch::begin(const Planes<T>& planes, const RegionMask& mask) {
+  lowest_.find(planes.values, planes.validity, lowest_threshold_, mask);
+}
+
+/// Largest components first: they have at least the pixels of the blobs in them, so those of the
+/// many small ones mostly cannot matter any more.
+template <class T>
+std::optional<Blob> BlobSearch::follow(const Planes<T>& planes, const RegionGeometry& geometry,
+                                       double passed, HotSpotTrack& track) {
+  track.begin(passed);
+  const auto consider = [&](std::size_t component) {
+    if (!reaches(lowest_, component, planes.values, hot_spot_threshold_)) return;
+    blobs_.find(planes.values, planes.validity, hot_spot_threshold_, lowest_, component, geometry);
+    blobs_.for_each_blob([&](const Blob& blob) { track.consider(blob); });
+  };
+  const auto is_settled = [&](int pixels) {
+    constexpr double kRounding = 1 + 1e-9;
+    return track.is_settled(pixels * kRounding * geometry.largest_solid_angle(),
+                            pixels * kRounding * geometry.largest_area());
+  };
+  const auto pixels_of = [&](std::size_t component) { return lowest_.pixels(component); };
+  large_.clear();
+  const std::size_t runs = lowest_.runs().size();
+  for (std::size_t i = 0; i < runs; ++i) {
+    if (pixels_of(i) >= kLarge) large_.push_back(i);
+  }
+  std::ranges::make_heap(large_, {}, pixels_of);
+  while (!large_.empty() && !is_settled(pixels_of(large_.front()))) {
+    consider(large_.front());
+    std::ranges::pop_heap(large_, {}, pixels_of);
+    large_.pop_back();
+  }
+  if (large_.empty() && !is_settled(kLarge - 1)) {
+    for (std::size_t i = 0; i < runs; ++i) {
+      if (pixels_of(i) > 0 && pixels_of(i) < kLarge) consider(i);
+    }
+  }
+  return track.choose();
+}
+
+template <class T>
+void BlobSearch::assign(const Planes<T>& planes, double threshold, int x, int y,
+                        BlobPixels& pixels) {
+  pixels.clear();
+  const std::size_t component = lowest_.at(x, y);
+  if (component == Components::kNone) return;
+  around_.find(planes.values, planes.validity, threshold, lowest_, component);
+  pixels.assign(around_, around_.at(x, y));
+}
+
+/// Those that the tracker compares are measured, of the others the number is enough.
+template <class T>
+void BlobSearch::add_sparks(const Planes<T>& planes, const RegionGeometry& geometry,
+                            const BlobPixels& hot_spot, int x, int y, SpatterTracker& tracker) {
+  if (sparks_) sparks_->find(planes.values, planes.validity, spatter_threshold_, lowest_);
+  const Components& sparks = sparks_ ? *sparks_ : lowest_;
+  const std::size_t around = sparks.at(x, y);
+  const auto is_spark = [&](std::size_t run) {
+    const Span& first = sparks.runs()[run].span;
+    return sparks.pixels(run) > 0 && run != around && !hot_spot.contains(first.begin, first.y);
+  };
+  std::size_t others = sparks.count() - (around == Components::kNone ? 0 : 1);
+  if (spatter_threshold_ > hot_spot_threshold_ && !hot_spot.empty()) {  // it may hold several
+    others = 0;
+    for (std::size_t i = 0; i < sparks.runs().size(); ++i) others += is_spark(i) ? 1 : 0;
+  }
+  std::size_t measured = 0;
+  for (std::size_t i = 0; measured < std::min(others, kMaxSparkParts); ++i) {
+    if (!is_spark(i)) continue;
+    ++measured;
+    blobs_.find(planes.values, planes.validity, spatter_threshold_, sparks, i, geometry);
+    blobs_.for_each_blob([&](const Blob& blob) { tracker.add(blob.moment); });
+  }
+  tracker.add_beyond(others - measured);
+}
+
+#define ORBWATCH_SEARCH_BLOBS(T)                                                                   \
+  template void BlobSearch::begin(const Planes<T>&, const RegionMask&);                            \
+  template std::optional<Blob> BlobSearch::follow(const Planes<T>&, const RegionGeometry&, double, \
+                                                  HotSpotTrack&);                                  \
+  template void BlobSearch::assign(const Planes<T>&, double, int, int, BlobPixels&);               \
+  template void BlobSearch::add_sparks(const Planes<T>&, const RegionGeometry&, const BlobPixels&, \
+                                       int, int, SpatterTracker&)
+ORBWATCH_SEARCH_BLOBS(std::uint8_t);
+ORBWATCH_SEARCH_BLOBS(std::uint16_t);
+
+}  // namespace orbwatch::signals
