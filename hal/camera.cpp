@@ -36,6 +36,7 @@ Result<StreamFormat> Camera::configure(const StreamRequest& request) {
   if (thread_.is_running()) {
     return fail("camera " + info_.id + ": configure while it runs; stop it first");
   }
+  configured_ = false;
   if (auto sound = check(request); !sound) {
     return fail("camera " + info_.id + ": " + sound.error().message);
   }
@@ -58,7 +59,7 @@ Result<> Camera::start(OnFrame on_frame, OnFault on_fault) {
   control_delay_.clear();
   damaged_ = 0;
   flawed_ = 0;
-  thread_.start(thread_name(info_.id), [this] { run(thread_.stop_token()); });
+  thread_.start(thread_name(info_.id), role(), [this] { run(thread_.stop_token()); });
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -72,7 +73,7 @@ struct FrameQuality {
 /// while stopped. Frames and faults arrive on the camera's own thread, one at a time.
 /// A damaged frame costs itself and its trigger; many are a fault: see DamageWatch.
 /// Thread rule: configure, start and stop are thread-bound (one owner); stop may also be called
-/// inside a callback; trigger, set and quality are thread-safe.
+/// inside a callback; trigger, set and quality and capture_time are thread-safe.
 class Camera {
  public:
   using OnFrame = std::function<void(Frame)>;
@@ -119,6 +120,12 @@ class Camera {
 
   FrameQuality quality() const { return {damaged_, flawed_}; }
 
+  /// Processor time of capture since the start; 0 of a camera that computes its own pictures, whose
+  /// work no real one has.
+  std::chrono::nanoseconds capture_time() const {
+    return role() == ThreadRole::Capture ? thread_.cpu_time() : std::chrono::nanoseconds(0);
+  }
+
   /// Sets a control by name in its own unit. Frames say when it is in effect: see
   /// FrameMetadata::controls_as_of. Error: no such control, or out of range.
   Result<> set(std::string_view control, double value);
@@ -131,6 +138,9 @@ class Camera {
   virtual Result<> do_set(std::string_view control, double value);
   /// How many exposures that begin after do_set() may be without its control.
   virtual std::size_t control_delay() const { return 0; }
+
+  /// Of the camera's thread; of one that computes its pictures Service.
+  virtual ThreadRole role() const { return ThreadRole::Capture; }
 
   /// The camera's thread: delivers until `stop` is requested. Faults are reported, not thrown; the
   /// back-end reconnects by itself.

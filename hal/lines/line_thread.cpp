@@ -40,7 +40,7 @@ Result<> LineThread::start(std::string_view name) {
     return fail(std::string(name) + ": " + std::generic_category().message(errno));
   }
   for (Watched& watched : watched_) watched.registered = 0;
-  thread_.start(name, [this] { run(); });
+  thread_.start(name, ThreadRole::Lines, [this] { run(); });
   return {};
 }
 

@@ -25,6 +25,8 @@ class LineThread {
   Result<> start(std::string_view name = "lines");
   void stop() { thread_.stop(); }
 
+  bool has_work() const { return !watched_.empty() || !tasks_.empty(); }
+
   /// A task's due() changed on another thread.
   void wake() { woken_.signal(); }
 

@@ -28,6 +28,7 @@ class ReplayCamera : public Camera {
   /// Opens the recording. A requested rate precedes the settings'. Errors: no folder of pictures or
   /// video, empty, cannot be decoded; another size than requested; a rate above kMaxFrameRate.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
+  ThreadRole role() const override { return ThreadRole::Service; }
   void run(const std::stop_token& stop) override;
 
  private:

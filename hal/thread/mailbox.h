@@ -31,7 +31,7 @@ class Doorbell {
 /// A queue of depth one between two threads: the newest value wins, replaced ones are counted. A
 /// triple buffer: sender and receiver own one place each and swap it for the one between them, so
 /// neither waits for the other.
-/// Thread rule: put by one thread, take and try_take by one other; the rest by any.
+/// Thread rule: put and withdraw by one thread, take and try_take by one other; the rest by any.
 template <class T>
 class Mailbox {
  public:
@@ -45,6 +45,15 @@ class Mailbox {
     const bool replaced = between & kFull;
     drops_ += replaced ? 1 : 0;
     return !replaced;
+  }
+
+  /// Takes back a value that was not taken, which counts as replaced. By the sender.
+  void withdraw() {
+    if (!(between_.load(std::memory_order_relaxed) & kFull)) return;
+    const int between = between_.exchange(sender_, std::memory_order_acq_rel);
+    sender_ = between & kPlace;
+    drops_ += places_[sender_] ? 1 : 0;
+    places_[sender_].reset();
   }
 
   /// Waits for a value; nullopt while the mailbox is closed, which keeps its value.

@@ -5,16 +5,23 @@
 #include <string>
 #include <utility>
 
+#include "hal/thread/cpu_time.h"
+
 namespace orbwatch::hal {
 
-void Thread::start(std::string_view name, std::function<void()> body) {
+void Thread::start(std::string_view name, ThreadRole role, std::function<void()> body) {
   stop();
   stop_ = std::stop_source();
-  thread_ =
-      std::thread([this, name = std::string(name.substr(0, kMaxName)), body = std::move(body)] {
+  thread_ = std::thread(
+      [this, name = std::string(name.substr(0, kMaxName)), role, body = std::move(body)] {
         runner_ = std::this_thread::get_id();
         ::pthread_setname_np(::pthread_self(), name.c_str());
+        schedule_this_thread(role);
+        clockid_t clock = kNoClock;
+        if (::pthread_getcpuclockid(::pthread_self(), &clock) == 0) clock_ = clock;
         body();
+        clock_ = kNoClock;
+        spent_ += cpu_time_of_this_thread().count();
       });
 }
 
@@ -23,6 +30,12 @@ void Thread::stop() {
   if (std::this_thread::get_id() == runner_.load() || !thread_.joinable()) return;
   thread_.join();
   runner_ = std::thread::id();  // the system may reuse it for another thread
+}
+
+std::chrono::nanoseconds Thread::cpu_time() const {
+  const clockid_t clock = clock_;
+  const std::chrono::nanoseconds ended(spent_);
+  return clock == kNoClock ? ended : ended + hal::cpu_time(clock);
 }
 
 void Thread::wake() {

@@ -1,14 +1,19 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <cstdint>
+#include <ctime>
 #include <functional>
 #include <mutex>
 #include <stop_token>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "hal/clock.h"
+#include "hal/thread/scheduling.h"
 
 namespace orbwatch::hal {
 
@@ -21,9 +26,9 @@ namespace orbwatch::hal {
 ///
 /// A body with more to wait for passes stop_token() to a condition_variable_any, or to a
 /// stop_callback that signals an EventFd.
-/// Thread rule: wake on any thread, also before start; wait and wait_until on the thread itself;
-/// stop, stop_requested and stop_token on the owner's and the thread itself; the rest on the
-/// owner's.
+/// Thread rule: wake and cpu_time on any thread, also before start; wait and wait_until on the
+/// thread itself; stop, stop_requested and stop_token on the owner's and the thread itself; the
+/// rest on the owner's.
 class Thread {
  public:
   /// The kernel's limit; the rest of a name is cut.
@@ -38,7 +43,10 @@ class Thread {
 
   /// Runs `body`, which must not throw; a run before is stopped first. `name` is what `ps -L` and
   /// debuggers show.
-  void start(std::string_view name, std::function<void()> body);
+  void start(std::string_view name, ThreadRole role, std::function<void()> body);
+  void start(std::string_view name, std::function<void()> body) {
+    start(name, ThreadRole::Service, std::move(body));
+  }
 
   /// Requests the stop and waits for the end of the body; on the thread itself it only requests.
   /// Repeating it does nothing.
@@ -51,6 +59,9 @@ class Thread {
   bool stop_requested() const { return stop_.stop_requested(); }
   std::stop_token stop_token() const { return stop_.get_token(); }
 
+  /// Processor time of all runs. On any thread.
+  std::chrono::nanoseconds cpu_time() const;
+
   /// Ends a wait. Without one the next wait ends at once; several wakes count as one. Waits for no
   /// work.
   void wake();
@@ -62,6 +73,8 @@ class Thread {
   bool wait_until(TimePoint moment);
 
  private:
+  static constexpr clockid_t kNoClock = CLOCK_REALTIME;  ///< never a thread's
+
   std::mutex mutex_;
   std::condition_variable_any changed_;
   bool woken_ = false;
@@ -69,7 +82,10 @@ class Thread {
   // Not a jthread: its stop_source cannot be used on the new thread before the constructor's
   // return.
   std::thread thread_;
-  std::atomic<std::thread::id> runner_;  ///< set by the thread itself
+  // Set by the thread itself.
+  std::atomic<std::thread::id> runner_;
+  std::atomic<clockid_t> clock_{kNoClock};  ///< of its processor time
+  std::atomic<std::int64_t> spent_{0};      ///< ns, of the runs that have ended
 };
 
 }  // namespace orbwatch::hal

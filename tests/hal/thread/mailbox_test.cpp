@@ -18,6 +18,23 @@ TEST(Mailbox, TheNewestWinsAndTheReplacedAreCounted) {
   EXPECT_EQ(box.drops(), 2U);
 }
 
+TEST(Mailbox, TheSenderTakesBackWhatWasNotTaken) {
+  Mailbox<std::shared_ptr<int>> box;
+  const auto value = std::make_shared<int>(1);
+  box.put(value);
+  box.withdraw();
+  EXPECT_EQ(value.use_count(), 1);
+  EXPECT_EQ(box.drops(), 1U);
+  EXPECT_EQ(box.try_take(), std::nullopt);
+  box.withdraw();
+  EXPECT_EQ(box.drops(), 1U) << "there was nothing";
+  box.put(value);
+  const auto taken = box.try_take();
+  box.withdraw();
+  EXPECT_EQ(value.use_count(), 2) << "the receiver's stays";
+  EXPECT_EQ(box.drops(), 1U);
+}
+
 TEST(Mailbox, ClosingEndsAWait) {
   Mailbox<std::unique_ptr<int>> box;
   std::thread receiver([&] { EXPECT_FALSE(box.take().has_value()); });
@@ -37,7 +54,10 @@ TEST(Mailbox, EveryValueIsTakenOrCounted) {
       ++taken;
     }
   });
-  for (int i = 1; i <= kValues; ++i) box.put(i);
+  for (int i = 1; i <= kValues; ++i) {
+    if (i % 3 == 0) box.withdraw();
+    box.put(i);
+  }
   receiver.join();
   EXPECT_EQ(taken + static_cast<int>(box.drops()), kValues);
 }

@@ -192,5 +192,27 @@ TEST(Thread, ItsTokenEndsOtherWaits) {
   EXPECT_TRUE(ended);
 }
 
+TEST(Thread, CountsTheProcessorTimeOfAllItsRuns) {
+  Thread thread;
+  EXPECT_EQ(thread.cpu_time().count(), 0);
+  std::chrono::nanoseconds before{0};
+  for (int run = 0; run < 2; ++run) {
+    std::promise<void> worked;
+    thread.start("test", [&] {
+      volatile int work = 0;
+      while (work < 1'000'000) work = work + 1;
+      worked.set_value();
+      while (thread.wait()) {
+      }
+    });
+    worked.get_future().wait();
+    const auto during = thread.cpu_time();
+    EXPECT_GT(during, before);
+    thread.stop();
+    before = thread.cpu_time();
+    EXPECT_GE(before, during);
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::hal
