@@ -5,6 +5,8 @@
 #include "proc/image/picture.h"
 #include "proc/remap/colour/colour_conversion.h"
 #include "proc/remap/colour/colour_map.h"
+#include "proc/remap/colour/luma.h"
+#include "proc/remap/colour/yuv420.h"
 #include "proc/remap/grid/coordinate_grid.h"
 #include "proc/remap/kernel/kernel.h"
 #include "proc/remap/merge/blend_grid.h"
@@ -12,6 +14,7 @@
 #include "proc/remap/merge/merged_remap.h"
 #include "proc/remap/merge/photometric_match.h"
 #include "proc/remap/sampling/pyramid.h"
+#include "proc/remap/sampling/sharpened_picture.h"
 #include "proc/remap/sampling/tile_remap.h"
 
 // The public header of this folder: users include nothing below it.

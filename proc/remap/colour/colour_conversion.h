@@ -91,9 +91,4 @@ class YuvToRgb {
   std::int32_t blue_;
 };
 
-/// Luma of a pixel that the camera gave as R'G'B', by BT.601, 0..255.
-constexpr std::uint8_t luma(const std::uint8_t* rgb) {
-  return static_cast<std::uint8_t>((rgb[0] * 19595 + rgb[1] * 38470 + rgb[2] * 7471 + 32768) >> 16);
-}
-
 }  // namespace orbwatch::remap

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "proc/remap/colour/lanes.h"
+#include "proc/remap/colour/run.h"
 
 namespace orbwatch::remap {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "proc/remap/colour/lanes.h"
+#include "proc/remap/colour/run.h"
 
 namespace orbwatch::remap {
 

@@ -4,21 +4,19 @@
 #include <cstdint>
 #include <cstring>
 
-#include "proc/remap/grid/coordinate.h"
+#include "proc/remap/colour/run.h"
 
-/// So many pixels side by side as vectors, which compilers spread over the registers that there
+/// A run of pixels as vectors, which compilers spread over the registers that there
 /// are: for loops whose arithmetic they do not make vector code of by themselves.
 namespace orbwatch::remap {
 
-inline constexpr int kRunPixels = kTile;
-
-using Bytes = std::uint8_t __attribute__((vector_size(kRunPixels)));
-using Words = std::uint16_t __attribute__((vector_size(2 * kRunPixels)));
-using Longs = std::uint32_t __attribute__((vector_size(4 * kRunPixels)));
+using Bytes = std::uint8_t __attribute__((vector_size(kRun)));
+using Words = std::uint16_t __attribute__((vector_size(2 * kRun)));
+using Longs = std::uint32_t __attribute__((vector_size(4 * kRun)));
 
 template <class Vector, class T>
 [[gnu::always_inline]] inline Vector load(const T* from) {
-  static_assert(sizeof(Vector) == kRunPixels * sizeof(T));
+  static_assert(sizeof(Vector) == kRun * sizeof(T));
   Vector vector;
   std::memcpy(&vector, from, sizeof vector);
   return vector;
@@ -45,7 +43,7 @@ template <class Vector, class T>
 /// Each within [low, high]. By halves: compilers compare only vectors that fit a register.
 [[gnu::always_inline]] inline Words clamped(const Words& words, std::uint16_t low,
                                             std::uint16_t high) {
-  using Half = std::uint16_t __attribute__((vector_size(kRunPixels)));
+  using Half = std::uint16_t __attribute__((vector_size(kRun)));
   std::array<Half, 2> halves;
   std::memcpy(halves.data(), &words, sizeof words);
   for (Half& half : halves) {
@@ -57,9 +55,36 @@ template <class Vector, class T>
   return clamped;
 }
 
+/// One byte per pixel for each of the pixels' samples: part `part` of a run of them.
+template <int Channels>
+[[gnu::always_inline]] inline Bytes spread(const Bytes& bytes, int part) {
+  static_assert(Channels == 1 || Channels == 3);
+  if constexpr (Channels == 1) {
+    return bytes;
+  } else {
+    switch (part) {
+      case 0:
+        return __builtin_shufflevector(bytes, bytes, 0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4,
+                                       5);
+      case 1:
+        return __builtin_shufflevector(bytes, bytes, 5, 5, 6, 6, 6, 7, 7, 7, 8, 8, 8, 9, 9, 9, 10,
+                                       10);
+      default:
+        return __builtin_shufflevector(bytes, bytes, 10, 11, 11, 11, 12, 12, 12, 13, 13, 13, 14, 14,
+                                       14, 15, 15, 15);
+    }
+  }
+}
+
+/// Each, of up to 255 * 255, divided by 255 and rounded to nearest.
+[[gnu::always_inline]] inline Bytes rounded_255th(const Words& words) {
+  const Words rounded = words + 128;
+  return narrowed((rounded + (rounded >> 8)) >> 8);
+}
+
 /// Whether all bits are zero.
 [[gnu::always_inline]] inline bool is_zero(const Words& words) {
-  using Half = std::uint64_t __attribute__((vector_size(kRunPixels)));
+  using Half = std::uint64_t __attribute__((vector_size(kRun)));
   std::array<Half, 2> halves;
   std::memcpy(halves.data(), &words, sizeof words);
   const Half any = halves[0] | halves[1];

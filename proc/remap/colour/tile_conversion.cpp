@@ -49,8 +49,6 @@ template <int bytes, class Convert>
   }
 }
 
-static_assert(kRun == kTile);
-
 template <class Run>
 Run run_at(const SampledTile& tile, std::size_t plane, std::ptrdiff_t offset) {
   Run run;
@@ -111,11 +109,9 @@ SampleRun chroma_of_row(const SampledTile& tile, int y) {
 const YuvToRgb& conversion_from(ColourSpace colour_space) {
   using enum ColourMatrix;
   using enum ColourRange;
-  static constexpr std::array<std::array<YuvToRgb, 2>, 2> kConversions{{
-      {YuvToRgb({Bt601, Limited}), YuvToRgb({Bt601, Full})},
-      {YuvToRgb({Bt709, Limited}), YuvToRgb({Bt709, Full})},
-  }};
-  return kConversions[colour_space.matrix == Bt709][colour_space.range == Full];
+  static constexpr std::array kConversions{YuvToRgb({Bt601, Limited}), YuvToRgb({Bt601, Full}),
+                                           YuvToRgb({Bt709, Limited}), YuvToRgb({Bt709, Full})};
+  return kConversions[2 * (colour_space.matrix == Bt709) + (colour_space.range == Full)];
 }
 
 template <PixelFormat format, bool blue_first>
@@ -123,9 +119,9 @@ void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const Mutable
                 const TileArea& area) {
   constexpr int kRowsOfChroma = 1 << shift(samplings(format).items[1].y);
   const YuvToRgb convert = conversion_from(colour_space);
-  SharedColour shared = convert.shared(chroma_of_row<format>(tile, 0));
+  SharedColour shared{};
   write_rows<3>(out, area, [&](int y, std::uint8_t* to) {
-    if (y > 0 && y % kRowsOfChroma == 0) shared = convert.shared(chroma_of_row<format>(tile, y));
+    if (y % kRowsOfChroma == 0) shared = convert.shared(chroma_of_row<format>(tile, y));
     const RgbRun rgb = convert(run_at<SampleRun>(tile, 0, y * kTile), shared);
     blue_first ? write_threes(rgb.blue, rgb.green, rgb.red, to)
                : write_threes(rgb.red, rgb.green, rgb.blue, to);

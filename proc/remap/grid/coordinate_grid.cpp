@@ -5,6 +5,34 @@
 #include "proc/remap/compiler/grid_compiler.h"
 
 namespace orbwatch::remap {
+namespace {
+
+/// Around a map that stays between `low` and `high`. Bilinear interpolation reads one pixel
+/// further, of packed YUV the next two pairs; means of several places are up to a quarter of a step
+/// further, which on mip level n is below 2^n pixels.
+SourceArea area_around(const Coordinate& low, const Coordinate& high, int level) {
+  const int margin = 4 + (1 << level);
+  const auto pixel = [](std::int32_t q13) { return q13 >> kFractionBits; };
+  return {pixel(low.u) - margin, pixel(low.v) - margin, pixel(high.u) + margin + 1,
+          pixel(high.v) + margin + 1};
+}
+
+SourceArea area_around(const Patch& patch, int level) {
+  const auto [low, high] = patch.range();
+  return area_around(low, high, level);
+}
+
+SourceArea area_around(const CoordinateTile& pixels, int level) {
+  SourceArea area;
+  for (const CoordinateRow& row : pixels) {
+    for (const Coordinate& place : row) {
+      if (is_defined(place)) area = united(area, area_around(place, place, level));
+    }
+  }
+  return area;
+}
+
+}  // namespace
 
 CoordinateGrid::CoordinateGrid(const optics::ViewProjection& view,
                                const optics::BallProjection& ball, int source_width,
@@ -63,6 +91,21 @@ CoordinateTile CoordinateGrid::pixels(int tx, int ty) const {
   if (visit_cells(tile(tx, ty), write)) return pixels;
   for (int y = 0; y < kTile; ++y) pixels[y] = row(tx, ty, y);
   return pixels;
+}
+
+SourceArea CoordinateGrid::sampled_area() const {
+  SourceArea area;
+  for (int ty = 0; ty < tiles_y_; ++ty) {
+    for (int tx = 0; tx < tiles_x_; ++tx) area = united(area, sampled_area(tx, ty));
+  }
+  return common(area, {0, 0, source_width_, source_height_});
+}
+
+SourceArea CoordinateGrid::sampled_area(int tx, int ty) const {
+  const Tile t = tile(tx, ty);
+  if (is_empty(t.kind)) return {};
+  if (is_patch(t.kind)) return area_around(Patch(nodes(t, tx, ty)), t.level);
+  return area_around(pixels(tx, ty), t.level);
 }
 
 void CoordinateGrid::write_validity(const ImageView<std::uint8_t>& out) const {

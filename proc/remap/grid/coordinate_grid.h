@@ -10,6 +10,7 @@
 #include "proc/optics/view_projection.h"
 #include "proc/remap/grid/coordinate.h"
 #include "proc/remap/grid/patch.h"
+#include "proc/remap/grid/source_area.h"
 #include "proc/remap/grid/tile.h"
 #include "proc/remap/grid/tile_stores.h"
 
@@ -56,6 +57,10 @@ class CoordinateGrid {
   /// Row `y`, 0..15, of any tile.
   CoordinateRow row(int tx, int ty, int y) const;
 
+  /// The area of the source that holds every pixel that remap() reads for this view, neighbours for
+  /// interpolation and shared chroma included. Decodes tiles; not for the frame path.
+  SourceArea sampled_area() const;
+
   /// One Validity per pixel into `out`, which has the view's size.
   void write_validity(const ImageView<std::uint8_t>& out) const;
 
@@ -69,6 +74,7 @@ class CoordinateGrid {
     return nodes_[static_cast<std::size_t>(j + 1) * (tiles_x_ + 3) + (i + 1)];
   }
   Stencil stencil(int tx, int ty) const;
+  SourceArea sampled_area(int tx, int ty) const;
   void write_validity(int tx, int ty, const ImageView<std::uint8_t>& out) const;
   FineTile<8> curved(const Tile& tile) const;
 

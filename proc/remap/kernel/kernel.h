@@ -6,9 +6,11 @@
 #include <span>
 #include <string_view>
 
+#include "proc/image/image_view.h"
 #include "proc/image/result.h"
 #include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
+#include "proc/remap/kernel/mixed_tile.h"
 
 namespace orbwatch::remap {
 
@@ -33,6 +35,7 @@ struct Kernel {
   using Tile = void (*)(const TileJob&);
   using Locate = void (*)(const PointMap&, int columns, int rows, Places&);
   using Points = void (*)(const PointJob&);
+  using Mix = void (*)(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out);
 
   std::string_view name;
   /// By Layout. Fills all blocks of the job. Reads 8x8 source pixels from each block's origin, so
@@ -43,6 +46,11 @@ struct Kernel {
   /// By Layout. Fills the job's target: for any map, at borders too. The source is at least 2x2
   /// pixels large, but for the scalar kernel. Reentrant.
   std::array<Points, kLayouts> points;
+  /// Mixes whole tiles that 1 to kMaxSources sources see everywhere, and whose shares add up to 255
+  /// in each corner. Between the corners the sum of the shares of the first n sources runs straight
+  /// and is rounded, for each n, so that they add up to 255 in every pixel too; the mean by these
+  /// is rounded to nearest. `out` is one tile of 1 or 3 channels. Reentrant.
+  Mix mix;
 
   void sample_tile(Layout layout, const TileJob& job) const {
     tiles[static_cast<std::size_t>(layout)](job);

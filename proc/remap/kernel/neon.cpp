@@ -16,6 +16,7 @@
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/neon_memory.h"
 #include "proc/remap/kernel/point_walk.h"
+#include "proc/remap/kernel/tile_mix.h"
 
 namespace orbwatch::remap::neon {
 namespace {
@@ -364,6 +365,7 @@ constexpr Kernel kKernel{
      fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>, fill_tile<Layout::OddOfFour8>,
      fill_tile<Layout::One16>},
     walk_places<PointLanes>,
-    kPointWalks};
+    kPointWalks,
+    mix_tiles};
 
 }  // namespace orbwatch::remap::neon

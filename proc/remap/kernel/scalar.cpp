@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/kernel/tile_mix.h"
 
 namespace orbwatch::remap::scalar {
 namespace {
@@ -162,6 +163,7 @@ constexpr Kernel kKernel{
     {sample_points<Layout::One8>, sample_points<Layout::Two8>, sample_points<Layout::Three8>,
      sample_points<Layout::Four8>, sample_points<Layout::FirstOfTwo8>,
      sample_points<Layout::OddOfFour8>, sample_points<Layout::One16>,
-     sample_points<Layout::Three16>}};
+     sample_points<Layout::Three16>},
+    mix_tiles};
 
 }  // namespace orbwatch::remap::scalar

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "proc/optics/resolution.h"
 #include "proc/remap/colour/run_vector.h"
+#include "proc/remap/kernel/corner_weights.h"
 #include "proc/remap/sampling/tile_remap.h"
 
 namespace orbwatch::remap {
@@ -39,14 +41,19 @@ double merit(const BlendSource& source, const optics::Vec3& direction) {
   return source.weight * fourth_power(resolution) * feather(*pixel, source);
 }
 
-/// A row of weights between the sums of both its ends. 16 bits hold them, as unsigned numbers wrap.
-[[gnu::always_inline]] inline void write_weights(int left, int right, std::uint8_t* row) {
-  static_assert(UINT8_MAX * kTile * kTile + kTile * kTile / 2 <= UINT16_MAX);
-  const auto first = static_cast<std::uint16_t>(left * kTile + kTile * kTile / 2);
-  const auto step = static_cast<std::uint16_t>(right - left);
-  constexpr Words kSteps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const Bytes weights = narrowed((first + step * kSteps) >> 8);
-  store(weights == 0 ? Bytes{} + 1 : weights, row);
+/// Of 255, in the proportion of the merits; nothing where nobody has any.
+std::array<std::uint8_t, kMaxSources> shares_of(const std::array<double, kMaxSources>& merits) {
+  std::array<std::uint8_t, kMaxSources> shares{};
+  const double total = std::accumulate(merits.begin(), merits.end(), 0.0);
+  if (total <= 0) return shares;
+  int rest = UINT8_MAX;
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    shares[n] = static_cast<std::uint8_t>(std::lround(merits[n] / total * UINT8_MAX));
+    rest -= shares[n];
+  }
+  // What rounding left or took is the largest one's, where it shows least.
+  *std::ranges::max_element(shares) += static_cast<std::uint8_t>(rest);
+  return shares;
 }
 
 }  // namespace
@@ -57,10 +64,6 @@ BlendGrid::BlendGrid(const optics::ViewProjection& view, std::span<const BlendSo
   const int nodes_y = (view.height() + kTile - 1) / kTile + 1;
   shares_.resize(sources.size());
   const std::size_t nodes = static_cast<std::size_t>(nodes_x_) * nodes_y;
-  if (sources.size() == 1) {
-    shares_.front().assign(nodes, UINT8_MAX);
-    return;
-  }
   for (auto& shares : shares_) shares.reserve(nodes);
   for (int j = 0; j < nodes_y; ++j) {
     for (int i = 0; i < nodes_x_; ++i) {
@@ -68,27 +71,36 @@ BlendGrid::BlendGrid(const optics::ViewProjection& view, std::span<const BlendSo
       const auto direction = view.direction(std::min(i * kTile, view.width() - 1),
                                             std::min(j * kTile, view.height() - 1));
       std::array<double, kMaxSources> merits{};
-      double total = 0;
       for (std::size_t n = 0; direction && n < sources.size(); ++n) {
-        total += merits[n] = merit(sources[n], *direction);
+        merits[n] = merit(sources[n], *direction);
       }
-      for (std::size_t n = 0; n < sources.size(); ++n) {
-        const double share = total > 0 ? merits[n] / total : 0;
-        shares_[n].push_back(static_cast<std::uint8_t>(std::lround(share * UINT8_MAX)));
-      }
+      if (sources.size() == 1) merits.front() = 1;
+      const auto shares = shares_of(merits);
+      for (std::size_t n = 0; n < sources.size(); ++n) shares_[n].push_back(shares[n]);
     }
+  }
+  for (int ty = 0; ty < nodes_y - 1; ++ty) {
+    for (int tx = 0; tx < nodes_x_ - 1; ++tx) tiles_.push_back(tile_shares(tx, ty));
   }
 }
 
-std::array<std::uint8_t, 4> BlendGrid::corners(std::size_t n, int tx, int ty) const {
+CornerShares BlendGrid::corners(std::size_t n, int tx, int ty) const {
   const auto above = static_cast<std::size_t>(ty) * nodes_x_ + tx, below = above + nodes_x_;
   const auto& shares = shares_[n];
   return {shares[above], shares[above + 1], shares[below], shares[below + 1]};
 }
 
-bool BlendGrid::counts(std::size_t n, int tx, int ty) const {
-  const auto [a, b, c, d] = corners(n, tx, ty);
-  return (a | b | c | d) != 0;
+BlendGrid::TileShares BlendGrid::tile_shares(int tx, int ty) const {
+  TileShares tile;
+  std::array<int, 4> sums{};
+  for (std::size_t n = 0; n < shares_.size(); ++n) {
+    const CornerShares shares = corners(n, tx, ty);
+    for (std::size_t corner = 0; corner < sums.size(); ++corner) sums[corner] += shares[corner];
+    const bool has_share = shares != CornerShares{};
+    tile.sharing = static_cast<SourceSet>(tile.sharing | (has_share ? 1U << n : 0U));
+  }
+  for (const int sum : sums) tile.adds_up &= sum == UINT8_MAX;
+  return tile;
 }
 
 void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid, int tx, int ty,
@@ -96,9 +108,10 @@ void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid, int tx, int t
   const Tile tile = grid.tile(tx, ty);
   if (is_empty(tile.kind)) return out.fill(0);
   const auto [a, b, c, d] = corners(n, tx, ty);
+  CornerWeights rows(std::array<int, 4>{a, b, c, d});
   for (int y = 0; y < kTile; ++y) {
-    const int left = a * (kTile - y) + c * y, right = b * (kTile - y) + d * y;
-    write_weights(left, right, &out[y * kTile]);
+    const Bytes weights = rows.take_row();
+    store(weights == 0 ? Bytes{} + 1 : weights, &out[y * kTile]);
   }
   if (is_defined_throughout(tile.kind)) return;
   const CoordinateTile coordinates = grid.pixels(tx, ty);
@@ -124,7 +137,8 @@ void BlendGrid::weights(std::size_t n, const CoordinateGrid& grid,
 }
 
 std::size_t BlendGrid::bytes() const {
-  return shares_.empty() ? 0 : shares_.size() * shares_.front().size();
+  const std::size_t nodes = shares_.empty() ? 0 : shares_.front().size();
+  return shares_.size() * nodes + tiles_.size() * sizeof(TileShares);
 }
 
 }  // namespace orbwatch::remap

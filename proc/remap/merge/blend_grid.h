@@ -9,6 +9,7 @@
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
 #include "proc/remap/grid/coordinate_grid.h"
+#include "proc/remap/kernel/mixed_tile.h"
 #include "proc/remap/merge/merge.h"
 
 namespace orbwatch::remap {
@@ -33,16 +34,20 @@ using TileWeights = std::array<std::uint8_t, kTile * kTile>;
 /// A source has weight (pixels per degree there)^4, or weight min(1, pixels per degree / enough)^4,
 /// and fades out towards the border of its picture where that cuts the ball; towards the limb its
 /// resolution does so by itself. So the sharper camera dominates, or the user's shares hold, and no
-/// seam shows where one of them begins or ends. At each corner these are scaled to add up to 255
-/// and rounded; between corners they run straight, so they add up to less beside corners that none
-/// sees (merge() divides by the sum). Immutable; reentrant.
+/// seam shows where one of them begins or ends. At each corner that some source sees these are
+/// scaled to add up to 255, in whole numbers; between corners they run straight, so they add up to
+/// less beside corners that none sees (merge() divides by the sum). Immutable; reentrant.
 class BlendGrid {
  public:
   /// Allocates; not for the frame path.
   BlendGrid(const optics::ViewProjection& view, std::span<const BlendSource> sources);
 
-  /// Source `n` has a share in the tile; if not, it counts only where no other source sees.
-  bool counts(std::size_t n, int tx, int ty) const;
+  /// The shares of source `n` in a tile.
+  CornerShares corners(std::size_t n, int tx, int ty) const;
+  /// The sources that have a share in the tile; any other counts only where these see nothing.
+  SourceSet sharing(int tx, int ty) const { return tiles_[tile(tx, ty)].sharing; }
+  /// Whether some source sees each corner of the tile, so that the shares add up to 255 in all.
+  bool adds_up(int tx, int ty) const { return tiles_[tile(tx, ty)].adds_up; }
 
   /// The weights of source `n`, whose map is `grid`, in a tile: 0 where its pixels are undefined,
   /// else at least 1, so that a weak source alone is enough when others do not deliver.
@@ -55,10 +60,19 @@ class BlendGrid {
   std::size_t bytes() const;
 
  private:
-  std::array<std::uint8_t, 4> corners(std::size_t n, int tx, int ty) const;
+  struct TileShares {
+    SourceSet sharing = 0;
+    bool adds_up = true;
+  };
+
+  std::size_t tile(int tx, int ty) const {
+    return static_cast<std::size_t>(ty) * (nodes_x_ - 1) + tx;
+  }
+  TileShares tile_shares(int tx, int ty) const;
 
   int nodes_x_;
   std::vector<std::vector<std::uint8_t>> shares_;  ///< by source, rows of nodes_x_ corners
+  std::vector<TileShares> tiles_;
 };
 
 }  // namespace orbwatch::remap

@@ -5,11 +5,12 @@
 
 #include "proc/image/image_view.h"
 #include "proc/remap/grid/coordinate.h"
+#include "proc/remap/kernel/mixed_tile.h"
 
 namespace orbwatch::remap {
 
-/// Sources that one view can merge.
-inline constexpr std::size_t kMaxSources = 4;
+/// Some of a view's sources: bit n is the n-th.
+using SourceSet = std::uint8_t;
 
 /// How sources are merged where several see a pixel.
 enum class MergeRule : std::uint8_t {

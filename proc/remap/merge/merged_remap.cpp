@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <optional>
 
-#include "proc/remap/colour/colour_conversion.h"
-#include "proc/remap/sampling/tile_remap.h"
+#include "proc/remap/colour/yuv420.h"
+#include "proc/remap/merge/source_tiles.h"
 
 namespace orbwatch::remap {
 namespace {
-
-template <class T>
-ImageView<T> part(const ImageView<T>& picture, const TileArea& area) {
-  return {picture.at(area.x, area.y), area.columns, area.rows, picture.channels, picture.stride};
-}
 
 // Most tiles are whole: then the compiler knows their size.
 
@@ -34,81 +30,17 @@ void copy(const ImageView<const std::uint8_t>& from, const ImageView<std::uint8_
   }
 }
 
-bool is_measured(const MergedSource& source) { return source.measured.planes[0].data != nullptr; }
+constexpr bool is_one(SourceSet sources) { return (sources & (sources - 1)) == 0 && sources != 0; }
+constexpr std::size_t first_of(SourceSet sources) { return std::countr_zero(sources); }
+constexpr SourceSet set_of(std::size_t n) { return static_cast<SourceSet>(1U << n); }
 
-/// A tile with memory of its own.
-template <class T, int Channels>
-struct TilePicture {
-  alignas(64) std::array<T, kTile * kTile * Channels> samples;
-
-  ImageView<T> view() { return {samples.data(), kTile, kTile, Channels, kTile * Channels}; }
-};
-
-/// The tiles of one source in the view's format.
-class SourceTiles {
- public:
-  SourceTiles(const MergedSource& source, Interpolation interpolation, const Kernel& kernel)
-      : source_(source),
-        format_(source.pictures.front().format),
-        tiles_(*source.grid, source.pictures, interpolation, kernel) {}
-
-  /// Whether the source may show something there, and whether it shows all of the tile.
-  bool sees(int tx, int ty) const { return !is_empty(source_.grid->tile(tx, ty).kind); }
-  bool fills(int tx, int ty) const {
-    return is_defined_throughout(source_.grid->tile(tx, ty).kind);
+/// Calls `visit(n)` for each source of a set, in their order.
+template <class Visit>
+[[gnu::always_inline]] inline void for_each(SourceSet sources, const Visit& visit) {
+  for (unsigned rest = sources; rest != 0; rest &= rest - 1) {
+    visit(first_of(static_cast<SourceSet>(rest)));
   }
-
-  /// Writes a tile into `area` of `out`, and its measured plane.
-  void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
-    const ColourModel colour = info(format_).colour;
-    const bool is_wide = info(format_).bytes_per_sample() == 2;
-    if (colour == ColourModel::Luminance && out.format == PixelFormat::Rgb) {
-      const auto rgb = part(out.samples<std::uint8_t>(), area);
-      is_wide ? write_mapped<std::uint16_t>(tx, ty, rgb) : write_mapped<std::uint8_t>(tx, ty, rgb);
-      return;
-    }
-    if (!is_measured(source_)) {
-      tiles_.write(tx, ty, out, area);
-    } else if (colour == ColourModel::Yuv) {
-      const TileLuminance luminance{source_.measured, area_of(*source_.grid, tx, ty)};
-      tiles_.write(tx, ty, out, area, &luminance);
-    } else {
-      tiles_.write(tx, ty, out, area);
-      write_luma(tx, ty, part(out.samples<std::uint8_t>(), area));
-    }
-    if (!source_.match) return;
-    is_wide ? source_.match->apply(part(out.samples<std::uint16_t>(), area))
-            : source_.match->apply(part(out.samples<std::uint8_t>(), area));
-  }
-
- private:
-  template <class T>
-  void write_mapped(int tx, int ty, const ImageView<std::uint8_t>& rgb) const {
-    const TileArea place = area_of(*source_.grid, tx, ty);
-    TilePicture<T, 1> tile;
-    ImageView<T> values = tile.view();
-    if (is_measured(source_)) {
-      tiles_.write(tx, ty, source_.measured, place);
-      values = part(source_.measured.samples<T>(), place);
-    } else {
-      tiles_.write(tx, ty, picture_of(format_, values), {0, 0, place.columns, place.rows});
-      values = part(values, {0, 0, place.columns, place.rows});
-    }
-    source_.colours->apply(values, rgb, {0, 1});
-  }
-
-  void write_luma(int tx, int ty, const ImageView<std::uint8_t>& rgb) const {
-    const TileArea place = area_of(*source_.grid, tx, ty);
-    const auto out = part(source_.measured.samples<std::uint8_t>(), place);
-    for (int y = 0; y < place.rows; ++y) {
-      for (int x = 0; x < place.columns; ++x) *out.at(x, y) = luma(rgb.at(x, y));
-    }
-  }
-
-  const MergedSource& source_;
-  PixelFormat format_;
-  TileRemap tiles_;
-};
+}
 
 /// Of a view with `Channels` samples of type T per pixel.
 template <class T, int Channels>
@@ -116,86 +48,166 @@ class Merger {
  public:
   Merger(std::span<const MergedSource> sources, const MergePlan& plan, const MutablePicture& out,
          const ImageView<std::uint8_t>& validity, const Kernel& kernel)
-      : sources_(sources), plan_(plan), out_(out), validity_(validity) {
+      : sources_(sources), plan_(plan), kernel_(kernel), out_(out), validity_(validity) {
     assert(!sources.empty() && sources.size() <= kMaxSources);
     for (std::size_t n = 0; n < sources.size(); ++n) {
-      if (!sources[n].pictures.empty()) tiles_[n].emplace(sources[n], plan.interpolation, kernel);
+      if (SourceTiles::is_measured(sources[n])) measured_ |= set_of(n);
+      if (sources[n].pictures.empty()) continue;
+      delivering_ |= set_of(n);
+      tiles_[n].emplace(sources[n], out.format, plan.interpolation, kernel);
     }
   }
 
   void write(int tx, int ty) const {
     const TileArea area = area_of(*sources_.front().grid, tx, ty);
-    std::array<std::size_t, kMaxSources> list;
-    const Seeing seeing(list.data(), find_seeing(tx, ty, list));
-    const std::size_t alone = find_alone(tx, ty, seeing);
-    if (alone != kNobody) {
-      tiles_[alone]->write(tx, ty, out_, area);
-      fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
+    if (out_.planes[0].data == nullptr) return measure(tx, ty, area);
+    // The most common view first.
+    if (sources_.size() == 1 && delivering_ != 0 && tiles_[0]->fills(tx, ty)) {
+      return write_alone(tx, ty, 0, area);
+    }
+    SourceSet shown = find_seeing(tx, ty);
+    const SourceSet counting = find_counting(tx, ty, shown);
+    if (share_all(tx, ty, counting, area)) {
+      shown = counting;
+      is_one(shown) ? write_alone(tx, ty, first_of(shown), area) : mix(tx, ty, shown, area);
     } else {
       copy(part(plan_.unseen, area), part(validity_, area));
-      blend(tx, ty, seeing, area);
+      blend(tx, ty, shown, area);
     }
-    for (std::size_t n = 0; n < sources_.size(); ++n) {
-      const bool written = alone == kNobody
-                               ? std::find(seeing.begin(), seeing.end(), n) != seeing.end()
-                               : n == alone;
-      if (!written && is_measured(sources_[n])) measure_beside(n, tx, ty, area);
-    }
+    for_each(measured_ & ~shown, [&](std::size_t n) { measure_beside(n, tx, ty, area); });
   }
 
  private:
-  static constexpr std::size_t kNobody = kMaxSources;
-  using Seeing = std::span<const std::size_t>;
+  using Tile = TilePicture<T, Channels>;
 
-  std::size_t find_seeing(int tx, int ty, std::array<std::size_t, kMaxSources>& seeing) const {
-    std::size_t count = 0;
-    for (std::size_t n = 0; n < sources_.size(); ++n) {
-      if (tiles_[n] && tiles_[n]->sees(tx, ty)) seeing[count++] = n;
-    }
-    return count;
+  SourceSet find_seeing(int tx, int ty) const {
+    SourceSet seeing = 0;
+    for_each(delivering_, [&](std::size_t n) {
+      if (tiles_[n]->sees(tx, ty)) seeing |= set_of(n);
+    });
+    return seeing;
   }
 
-  /// The source that has all of a tile for itself, or kNobody.
-  std::size_t find_alone(int tx, int ty, Seeing seeing) const {
-    std::size_t alone = kNobody;
-    for (const std::size_t n : seeing) {
-      const bool first = plan_.rule == MergeRule::First || seeing.size() == 1;
-      if (!first && !plan_.blend->counts(n, tx, ty)) continue;
-      if (alone != kNobody) return kNobody;
-      alone = n;
-      if (first) break;
-    }
-    return alone != kNobody && tiles_[alone]->fills(tx, ty) ? alone : kNobody;
+  /// Those of `seeing` that the tile shows unless they leave a part of it to the others.
+  SourceSet find_counting(int tx, int ty, SourceSet seeing) const {
+    if (is_one(seeing)) return seeing;
+    if (plan_.rule == MergeRule::First) return seeing & -seeing;
+    return seeing & plan_.blend->sharing(tx, ty);
   }
 
-  void blend(int tx, int ty, Seeing seeing, const TileArea& area) const {
-    std::array<TilePicture<T, Channels>, kMaxSources> pictures;
+  /// Whether the sources show all of the tile: one alone, or each its share everywhere.
+  bool share_all(int tx, int ty, SourceSet sources, const TileArea& area) const {
+    bool all = sources != 0;
+    for_each(sources, [&](std::size_t n) { all &= tiles_[n]->fills(tx, ty); });
+    if (!all || is_one(sources)) return all;
+    return sizeof(T) == 1 && area.columns == kTile && area.rows == kTile &&
+           sources == plan_.blend->sharing(tx, ty) && plan_.blend->adds_up(tx, ty);
+  }
+
+  void write_alone(int tx, int ty, std::size_t n, const TileArea& area) const {
+    if (tiles_[n]->writes_yuv420()) {
+      tiles_[n]->write_yuv420(tx, ty, out_, area);
+    } else {
+      show(area, [&](const MutablePicture& out, const TileArea& place) {
+        tiles_[n]->write(tx, ty, out, place);
+      });
+    }
+    fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
+  }
+
+  /// Calls `write(out, place)` with where a tile's pixels go: into the view, or, of an I420 one,
+  /// into a tile of Rgb that is converted while it is in the cache.
+  template <class Write>
+  [[gnu::always_inline]] void show(const TileArea& area, const Write& write) const {
+    if constexpr (sizeof(T) == 1 && Channels == 3) {
+      if (out_.format == PixelFormat::I420) {
+        Tile tile;
+        write(picture_of(PixelFormat::Rgb, tile.view()), {0, 0, area.columns, area.rows});
+        return write_yuv420(tile.view(), out_, area);
+      }
+    }
+    write(out_, area);
+  }
+  PixelFormat tile_format() const {
+    return out_.format == PixelFormat::I420 ? PixelFormat::Rgb : out_.format;
+  }
+
+  void write(int tx, int ty, std::size_t n, const TileArea& area, Tile& tile) const {
+    tiles_[n]->write(tx, ty, picture_of(tile_format(), tile.view()),
+                     {0, 0, area.columns, area.rows});
+  }
+
+  [[gnu::noinline]] void mix(int tx, int ty, SourceSet sources, const TileArea& area) const {
+    if constexpr (sizeof(T) == 1) {
+      std::array<Tile, kMaxSources> pictures;
+      std::array<MixedTile, kMaxSources> mixed;
+      std::size_t count = 0;
+      for_each(sources, [&](std::size_t n) {
+        write(tx, ty, n, area, pictures[count]);
+        mixed[count] = {pictures[count].samples.data(), plan_.blend->corners(n, tx, ty)};
+        ++count;
+      });
+      show(area, [&](const MutablePicture& out, const TileArea& place) {
+        kernel_.mix({mixed.data(), count}, part(out.samples<T>(), place));
+      });
+      fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
+    }
+  }
+
+  [[gnu::noinline]] void blend(int tx, int ty, SourceSet sources, const TileArea& area) const {
+    std::array<Tile, kMaxSources> pictures;
     std::array<TileWeights, kMaxSources> weights;
     std::array<MergeSource<T>, kMaxSources> merged;
-    for (std::size_t k = 0; k < seeing.size(); ++k) {
-      const std::size_t n = seeing[k];
-      tiles_[n]->write(tx, ty, picture_of(out_.format, pictures[k].view()),
-                       {0, 0, area.columns, area.rows});
-      plan_.blend->weights(n, *sources_[n].grid, tx, ty, weights[k]);
-      merged[k] = {pictures[k].view(), {weights[k].data(), kTile, kTile, 1, kTile}};
+    std::size_t count = 0;
+    for_each(sources, [&](std::size_t n) {
+      write(tx, ty, n, area, pictures[count]);
+      plan_.blend->weights(n, *sources_[n].grid, tx, ty, weights[count]);
+      merged[count] = {pictures[count].view(), {weights[count].data(), kTile, kTile, 1, kTile}};
+      ++count;
+    });
+    const std::span<const MergeSource<T>> list(merged.data(), count);
+    show(area, [&](const MutablePicture& out, const TileArea& place) {
+      merge(plan_.rule, list, part(out.samples<T>(), place), part(validity_, area), {0, 1});
+    });
+  }
+
+  /// What is left of a view that nobody looks at: what is measured, and what is seen.
+  [[gnu::noinline]] void measure(int tx, int ty, const TileArea& area) const {
+    const auto validity = part(validity_, area);
+    const SourceSet seeing = find_seeing(tx, ty);
+    bool is_seen = false;
+    for_each(seeing, [&](std::size_t n) { is_seen |= tiles_[n]->fills(tx, ty); });
+    if (is_seen) {
+      fill(validity, static_cast<std::uint8_t>(Validity::Seen));
+    } else {
+      copy(part(plan_.unseen, area), validity);
+      for_each(seeing, [&](std::size_t n) {
+        TileWeights weights;
+        plan_.blend->weights(n, *sources_[n].grid, tx, ty, weights);
+        for (int y = 0; y < area.rows; ++y) mark_seen(&weights[y * kTile], validity.row(y), area);
+      });
     }
-    const std::span<const MergeSource<T>> list(merged.data(), seeing.size());
-    merge(plan_.rule, list, part(out_.samples<T>(), area), part(validity_, area), {0, 1});
+    for_each(measured_, [&](std::size_t n) { measure_beside(n, tx, ty, area); });
+  }
+
+  static void mark_seen(const std::uint8_t* weights, std::uint8_t* validity, const TileArea& area) {
+    constexpr auto kSeen = static_cast<std::uint8_t>(Validity::Seen);
+    for (int x = 0; x < area.columns; ++x) validity[x] = weights[x] != 0 ? kSeen : validity[x];
   }
 
   /// The measured plane of a source that does not count in a tile.
   void measure_beside(std::size_t n, int tx, int ty, const TileArea& area) const {
-    if (!tiles_[n]) return clear_area(sources_[n].measured, area);
-    TilePicture<T, Channels> unused;
-    tiles_[n]->write(tx, ty, picture_of(out_.format, unused.view()),
-                     {0, 0, area.columns, area.rows});
+    tiles_[n] ? tiles_[n]->measure(tx, ty) : clear_area(sources_[n].measured, area);
   }
 
   std::span<const MergedSource> sources_;
   const MergePlan& plan_;
+  const Kernel& kernel_;
   const MutablePicture& out_;
   const ImageView<std::uint8_t>& validity_;
-  std::array<std::optional<SourceTiles>, kMaxSources> tiles_;  ///< of those that delivered
+  SourceSet delivering_ = 0;
+  SourceSet measured_ = 0;
+  std::array<std::optional<SourceTiles>, kMaxSources> tiles_;  ///< of delivering_
 };
 
 template <class T, int Channels>
@@ -215,7 +227,7 @@ void merged_remap(std::span<const MergedSource> sources, const MergePlan& plan,
                   const MutablePicture& out, const ImageView<std::uint8_t>& validity, TileRows rows,
                   const Kernel& kernel) {
   const bool is_wide = info(out.format).bytes_per_sample() == 2;
-  const bool is_grey = info(out.format).channels() == 1;
+  const bool is_grey = info(out.format).colour == ColourModel::Luminance;
   const auto write = is_wide ? is_grey ? write_rows<std::uint16_t, 1> : write_rows<std::uint16_t, 3>
                      : is_grey ? write_rows<std::uint8_t, 1>
                                : write_rows<std::uint8_t, 3>;

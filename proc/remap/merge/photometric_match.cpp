@@ -192,23 +192,36 @@ std::vector<PhotometricMatch> match_photometry(std::span<const MergeSource<T>> s
 PhotometricTable::PhotometricTable(const PhotometricMatch& match, PixelFormat format) {
   const Transfer transfer = transfer_of(format);
   const int full_scale = (1 << 8 * info(format).bytes_per_sample()) - 1;
-  for (int k = 0; k < info(format).channels(); ++k) {
+  const auto table_of = [&](const PhotometricMatch::Channel& channel) {
+    Samples table;
     for (int code = 0; code <= full_scale; ++code) {
       const double light = to_light(transfer, static_cast<double>(code) / full_scale);
-      const double matched = match.channels[k].gain * light + match.channels[k].offset;
+      const double matched = channel.gain * light + channel.offset;
       const double sample = from_light(transfer, std::clamp(matched, 0.0, 1.0));
-      samples_[k].push_back(static_cast<std::uint16_t>(std::lround(sample * full_scale)));
+      table.push_back(static_cast<std::uint16_t>(std::lround(sample * full_scale)));
     }
-  }
+    return table;
+  };
+  for (int k = 0; k < info(format).channels(); ++k) samples_[k] = table_of(match.channels[k]);
+  if (format != PixelFormat::Rgb) return;
+  const auto weighed = [&match](double PhotometricMatch::Channel::*member) {
+    const auto& [red, green, blue] = match.channels;
+    return 0.299 * red.*member + 0.587 * green.*member + 0.114 * blue.*member;
+  };
+  luma_ = table_of(
+      {weighed(&PhotometricMatch::Channel::gain), weighed(&PhotometricMatch::Channel::offset)});
 }
 
 template <class T>
-void PhotometricTable::apply(const ImageView<T>& picture) const {
+void PhotometricTable::apply(const ImageView<T>& picture, PixelFormat format) const {
+  std::array<const Samples*, 3> tables{&samples_[0], &samples_[1], &samples_[2]};
+  if (format == PixelFormat::Bgr) std::swap(tables[0], tables[2]);
+  if (picture.channels == 1 && !luma_.empty()) tables[0] = &luma_;
   for (int y = 0; y < picture.height; ++y) {
     T* sample = picture.row(y);
     for (int x = 0; x < picture.width; ++x) {
       for (int k = 0; k < picture.channels; ++k, ++sample) {
-        *sample = static_cast<T>(samples_[k][*sample]);
+        *sample = static_cast<T>((*tables[k])[*sample]);
       }
     }
   }
@@ -218,7 +231,7 @@ template std::vector<PhotometricMatch> match_photometry(std::span<const MergeSou
                                                         Transfer);
 template std::vector<PhotometricMatch> match_photometry(std::span<const MergeSource<std::uint16_t>>,
                                                         Transfer);
-template void PhotometricTable::apply(const ImageView<std::uint8_t>&) const;
-template void PhotometricTable::apply(const ImageView<std::uint16_t>&) const;
+template void PhotometricTable::apply(const ImageView<std::uint8_t>&, PixelFormat) const;
+template void PhotometricTable::apply(const ImageView<std::uint16_t>&, PixelFormat) const;
 
 }  // namespace orbwatch::remap

@@ -63,12 +63,15 @@ class PhotometricTable {
   /// Grey, Y16, Rgb or Rgb16.
   PhotometricTable(const PhotometricMatch& match, PixelFormat format);
 
-  /// Replaces every sample; T as the format has it.
+  /// Replaces every sample of a picture of the table's format. A table of Rgb serves Bgr, too, and
+  /// Grey by the mean of its channels as luma weighs them. T as the format has it.
   template <class T>
-  void apply(const ImageView<T>& picture) const;
+  void apply(const ImageView<T>& picture, PixelFormat format) const;
 
  private:
-  std::array<std::vector<std::uint16_t>, 3> samples_;  ///< by channel and sample
+  using Samples = std::vector<std::uint16_t>;
+  std::array<Samples, 3> samples_;  ///< by channel and sample
+  Samples luma_;                    ///< by sample; of Rgb
 };
 
 }  // namespace orbwatch::remap

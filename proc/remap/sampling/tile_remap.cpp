@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "proc/remap/colour/yuv420.h"
 #include "proc/remap/sampling/plane_map.h"
 
 namespace orbwatch::remap {
@@ -32,14 +33,16 @@ void round_to_pixels(CoordinateTile& coordinates) {
 }  // namespace
 
 TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
-                     Interpolation interpolation, const Kernel& kernel)
+                     Interpolation interpolation, const Kernel& kernel, SampledPlanes sampled)
     : grid_(grid),
       last_level_(static_cast<int>(std::min<std::size_t>(source.size(), kMaxLevel)) - 1),
       format_(source.front().format),
       colour_space_(source.front().colour_space),
       interpolation_(interpolation),
+      sampled_(sampled),
       simple_levels_(simple_levels(interpolation)),
-      plane_count_(samplings(format_).count) {
+      plane_count_(sampled == SampledPlanes::Luminance ? 1 : samplings(format_).count) {
+  assert(sampled == SampledPlanes::All || info(format_).colour == ColourModel::Yuv);
   assert(source.front().width == grid.source_width());
   assert(source.front().height == grid.source_height());
   for (std::size_t n = 0; n < plane_count_; ++n) {
@@ -48,14 +51,12 @@ TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source
   }
 }
 
-void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area,
-                      const TileLuminance* luminance) const {
-  assert(luminance == nullptr ||
-         (info(format_).colour == ColourModel::Yuv && info(out.format).colour == ColourModel::Rgb));
-  const bool in_place = lies_as_sampled(format_, out.format) && is_whole(area);
+void TileRemap::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+  const bool in_place =
+      lies_as_sampled(format_, out.format) && is_whole(area) && sampled_ != SampledPlanes::Yuv420;
   const Targets targets = in_place ? targets_in(out, area.x, area.y) : Targets();
   if (!in_place || !write_simple(tx, ty, targets)) {
-    write_other(tx, ty, out, area, in_place ? &targets : nullptr, luminance);
+    write_other(tx, ty, out, area, in_place ? &targets : nullptr);
   }
 }
 
@@ -86,19 +87,21 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
 
 /// `in_place`: where the tile's samples go, if they lie in the view as they are sampled.
 [[gnu::noinline]] void TileRemap::write_other(int tx, int ty, const MutablePicture& out,
-                                              const TileArea& area, const Targets* in_place,
-                                              const TileLuminance* luminance) const {
+                                              const TileArea& area, const Targets* in_place) const {
   const Tile tile = grid_.tile(tx, ty);
-  if (is_empty(tile.kind)) {
-    if (luminance != nullptr) clear_area(luminance->out, luminance->area);
-    return clear_area(out, area);
-  }
+  if (is_empty(tile.kind)) return clear_area(out, area);
   SampledTile sampled;
   const Targets targets = in_place != nullptr ? *in_place : targets_in(sampled);
   const auto convert = [&] {
-    if (in_place == nullptr) write_tile(sampled, format_, colour_space_, out, area);
-    if (luminance == nullptr) return;
-    write_luminance(sampled, colour_space_, luminance->out, luminance->area);
+    if (in_place != nullptr) return;
+    switch (sampled_) {
+      case SampledPlanes::All:
+        return write_tile(sampled, format_, colour_space_, out, area);
+      case SampledPlanes::Yuv420:
+        return write_yuv420(sampled, format_, colour_space_, out, area);
+      case SampledPlanes::Luminance:
+        return write_luminance(sampled, colour_space_, out, area);
+    }
   };
   if (in_place == nullptr && write_simple(tx, ty, targets)) return convert();
   const Reading reading = this->reading(tile);
@@ -116,7 +119,8 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   if (!smooth) round_to_pixels(coordinates);
   sample(coordinates, reading, targets);
   convert();
-  if (format_ != out.format) clear_undefined(coordinates, out, area);
+  if (format_ != out.format && sampled_ == SampledPlanes::All)
+    clear_undefined(coordinates, out, area);
 }
 
 /// The last factor of two is averaged from samples, which keeps more detail than a mip level.

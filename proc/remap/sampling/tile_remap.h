@@ -29,23 +29,23 @@ constexpr bool uses_mip_levels(Interpolation interpolation) {
   return interpolation == Interpolation::Area;
 }
 
-/// Where the luminance of a tile goes, beside the tile.
-struct TileLuminance {
-  MutablePicture out;  ///< Grey
-  TileArea area;
+/// What is sampled of a source, and for what.
+enum class SampledPlanes {
+  All,
+  Yuv420,     ///< of a source that is_yuv420() all, for an I420 view in kJfif
+  Luminance,  ///< of a Yuv source its Y, see write_luminance()
 };
 
 /// Fills tiles of a view from one source. Refers to its arguments; reentrant.
 class TileRemap {
  public:
-  /// Preconditions as of remap().
+  /// Preconditions as of remap(); luminance is written to Grey.
   TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
-            Interpolation interpolation, const Kernel& kernel);
+            Interpolation interpolation, const Kernel& kernel,
+            SampledPlanes sampled = SampledPlanes::All);
 
-  /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`; of a Yuv source
-  /// whose `out` is Rgb or Bgr also its luminance, unless null (see write_luminance).
-  void write(int tx, int ty, const MutablePicture& out, const TileArea& area,
-             const TileLuminance* luminance = nullptr) const;
+  /// Writes the tile (tx, ty), as far as it lies in the view, into `area` of `out`.
+  void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
   /// Writes a row of tiles of the view `out`.
   void write_row(int ty, const MutablePicture& out) const;
 
@@ -57,7 +57,7 @@ class TileRemap {
   Targets targets_in(SampledTile& tile) const;
   bool write_simple(int tx, int ty, const Targets& targets) const;
   void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
-                   const Targets* in_place, const TileLuminance* luminance = nullptr) const;
+                   const Targets* in_place) const;
   Reading reading(const Tile& tile) const;
   void sample(const Patch& patch, Reading reading, const Targets& targets) const;
   template <int Cell>
@@ -69,6 +69,7 @@ class TileRemap {
   PixelFormat format_;
   ColourSpace colour_space_;
   Interpolation interpolation_;
+  SampledPlanes sampled_;
   int simple_levels_;  ///< tiles below this level may be sampled in blocks, without means
   std::array<PlaneSampler, 3> planes_;
   std::size_t plane_count_;

@@ -107,12 +107,5 @@ TEST(YuvToRgb, ConvertsARunAsItsPixels) {
   });
 }
 
-TEST(Luma, WeighsTheColoursAsBt601Says) {
-  EXPECT_EQ(luma(Rgb{255, 255, 255}.data()), 255);
-  EXPECT_EQ(luma(Rgb{255, 0, 0}.data()), 76);
-  EXPECT_EQ(luma(Rgb{0, 255, 0}.data()), 150);
-  EXPECT_EQ(luma(Rgb{0, 0, 255}.data()), 29);
-}
-
 }  // namespace
 }  // namespace orbwatch::remap

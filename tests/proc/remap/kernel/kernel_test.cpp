@@ -2,20 +2,21 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mman.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <ostream>
+#include <span>
 #include <vector>
 
 #include "proc/remap/kernel/bilinear.h"
 #include "tests/proc/remap/kernel/random_patch.h"
+#include "tests/support/guarded_memory.h"
 
 namespace orbwatch::remap {
 namespace {
 
+using tests::GuardedMemory;
 using tests::RandomPatch;
 
 struct NamedLayout {
@@ -32,30 +33,6 @@ constexpr std::array<NamedLayout, kKernelLayouts> kNamedLayouts{{
     {Layout::OddOfFour8, "OddOfFour8"},
     {Layout::One16, "One16"},
 }};
-
-/// Memory before and after which nothing can be read.
-class GuardedMemory {
- public:
-  explicit GuardedMemory(std::size_t most)
-      : bytes_((most / kGuard + 1) * kGuard),
-        all_(::mmap(nullptr, bytes_ + 2 * kGuard, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)),
-        begin_(static_cast<std::uint8_t*>(all_) + kGuard) {
-    if (all_ == MAP_FAILED || ::mprotect(begin_, bytes_, PROT_READ | PROT_WRITE) != 0) std::abort();
-  }
-  ~GuardedMemory() { ::munmap(all_, bytes_ + 2 * kGuard); }
-  GuardedMemory(const GuardedMemory&) = delete;
-  GuardedMemory& operator=(const GuardedMemory&) = delete;
-
-  std::span<std::uint8_t> first(std::size_t bytes) { return {begin_, bytes}; }
-  std::span<std::uint8_t> last(std::size_t bytes) { return {begin_ + bytes_ - bytes, bytes}; }
-
- private:
-  static constexpr std::size_t kGuard = 1 << 16;  ///< no machine has larger pages
-
-  std::size_t bytes_;
-  void* all_;
-  std::uint8_t* begin_;
-};
 
 /// Where the windows of a map lie, source pixels.
 struct Extent {

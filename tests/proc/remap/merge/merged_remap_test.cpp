@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -66,12 +67,15 @@ class MergedRemap : public testing::Test {
     for (const auto& c : cameras) {
       MergedSource source{&c->grid, {}, &colours, {}, nullptr};
       if (c->delivers) source.pictures = c->source.as_source();
-      if (c == cameras.front()) source.measured = measured;
+      if (c == cameras.front()) {
+        source.measured = measured;
+        if (unsharpened) source.measured_pictures = unsharpened->as_source();
+      }
       sources.push_back(source);
     }
     const MergePlan plan{&*blend, rule, Interpolation::Bilinear, view_of(unseen, 1)};
-    merged_remap(sources, plan, picture_of(PixelFormat::Rgb, view_of(rgb, 3)), view_of(validity, 1),
-                 rows.value_or(TileRows{0, cameras.front()->grid.tiles_y()}));
+    merged_remap(sources, plan, target.value_or(picture_of(PixelFormat::Rgb, view_of(rgb, 3))),
+                 view_of(validity, 1), rows.value_or(TileRows{0, cameras.front()->grid.tiles_y()}));
   }
 
   /// Source `n` alone, by remap().
@@ -127,12 +131,27 @@ class MergedRemap : public testing::Test {
   ColourMap colours{grey_table(), 0, 65535};
   std::vector<std::unique_ptr<Camera>> cameras;
   std::optional<BlendGrid> blend;
-  MutablePicture measured;
+  std::optional<MutablePicture> target;        ///< in place of `rgb`
+  MutablePicture measured;                     ///< of the first camera
+  std::unique_ptr<StoredPicture> unsharpened;  ///< its picture, if another one is shown
   std::vector<std::uint8_t> rgb = std::vector<std::uint8_t>(3 * kWidth * kHeight, 77);
   std::vector<std::uint8_t> validity = std::vector<std::uint8_t>(kWidth * kHeight, 3);
   std::vector<std::uint8_t> unseen =
       std::vector<std::uint8_t>(kWidth * kHeight, static_cast<std::uint8_t>(Validity::Blind));
 };
+
+/// The Y of a YUV picture as it lies there.
+std::unique_ptr<StoredPicture> luminance_plane(const StoredPicture& yuv) {
+  auto grey = std::make_unique<StoredPicture>(PixelFormat::Grey, kSide, kSide);
+  const PixelFormat format = yuv.picture.format;
+  const int step = info(format).channels(), first = format == PixelFormat::Uyvy ? 1 : 0;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      grey->picture.samples<std::uint8_t>().at(x, y)[0] = yuv.sample(0, y, step * x + first);
+    }
+  }
+  return grey;
+}
 
 TEST_F(MergedRemap, OneSourceIsRemappedAsItIs) {
   add(20);
@@ -149,6 +168,133 @@ TEST_F(MergedRemap, SeveralAreTheMeanByWeight) {
   compile();
   render();
   expect_mean();
+}
+
+TEST_F(MergedRemap, BgrIsRgbInTheOtherOrder) {
+  add(0);
+  add(120, PixelFormat::Nv12);
+  add(-120, PixelFormat::Y16);
+  compile();
+  render();
+  StoredPicture bgr(PixelFormat::Bgr, kWidth, kHeight);
+  target = bgr.picture;
+  render();
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_EQ(bgr.sample(0, i / kWidth, 3 * (i % kWidth) + 2 - k), rgb[3 * i + k]) << i;
+    }
+  }
+}
+
+/// What a source alone shows, all of it 8 bit, as Grey.
+std::vector<std::uint8_t> luma_of(const std::vector<std::uint8_t>& rgb) {
+  std::vector<std::uint8_t> grey(rgb.size() / 3);
+  luma(rgb.data(), grey.data(), static_cast<int>(grey.size()));
+  return grey;
+}
+
+TEST_F(MergedRemap, GreyIsTheMeanOfTheLuminances) {
+  add(0);
+  add(120, PixelFormat::Nv12);
+  add(-120, PixelFormat::Y16);
+  compile();
+  cameras[1]->source.source.colour_space.range = ColourRange::Full;
+  StoredPicture grey(PixelFormat::Grey, kWidth, kHeight), own(PixelFormat::Grey, kWidth, kHeight);
+  target = grey.picture;
+  render();
+  // Not by way of colours, which clip what lies outside RGB.
+  remap(cameras[1]->grid, luminance_plane(cameras[1]->source)->as_source(), Interpolation::Bilinear,
+        own.picture, {0, cameras[1]->grid.tiles_y()});
+  std::vector<std::vector<std::uint8_t>> pictures{luma_of(alone(0)), {}, luma_of(alone(2))};
+  for (const std::byte byte : own.bytes) pictures[1].push_back(static_cast<std::uint8_t>(byte));
+  const std::array shares{weights(0), weights(1), weights(2)};
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    double sum = 0, total = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+      sum += double{1} * shares[n][i] * pictures[n][i];
+      total += shares[n][i];
+    }
+    ASSERT_NEAR(grey.sample(0, i / kWidth, i % kWidth), total > 0 ? sum / total : 0, 2.6) << i;
+  }
+}
+
+TEST_F(MergedRemap, Yuv420IsTheMergedColoursAsJpegHasThem) {
+  add(0);
+  add(120, PixelFormat::Nv12);
+  add(-120, PixelFormat::Y16);
+  compile();
+  render();
+  StoredPicture yuv(PixelFormat::I420, kWidth, kHeight), truth(PixelFormat::I420, kWidth, kHeight);
+  yuv.picture.colour_space = kJfif;
+  target = yuv.picture;
+  render();
+  for (int y = 0; y < kHeight; y += kTile) {
+    for (int x = 0; x < kWidth; x += kTile) {
+      std::array<std::uint8_t, 3 * kTile * kTile> tile{};
+      const TileArea area{x, y, std::min(kTile, kWidth - x), std::min(kTile, kHeight - y)};
+      for (int row = 0; row < area.rows; ++row) {
+        std::copy_n(&rgb[3 * (kWidth * (y + row) + x)], 3 * area.columns, &tile[3 * kTile * row]);
+      }
+      write_yuv420({tile.data(), kTile, kTile, 3, 3 * kTile}, truth.picture, area);
+    }
+  }
+  // Where the NV12 camera is alone, its noise is not clipped to colours on the way.
+  const CoordinateGrid& grid = cameras[1]->grid;
+  int same = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (is_defined_throughout(grid.tile(x / kTile, y / kTile).kind)) continue;
+      ++same;
+      ASSERT_EQ(yuv.sample(0, y, x), truth.sample(0, y, x)) << x << ", " << y;
+      ASSERT_EQ(yuv.sample(1, y / 2, x / 2), truth.sample(1, y / 2, x / 2)) << x << ", " << y;
+      ASSERT_EQ(yuv.sample(2, y / 2, x / 2), truth.sample(2, y / 2, x / 2)) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(same, 1000);
+}
+
+TEST_F(MergedRemap, Yuv420OfASourceOfThatKindIsItsOwnPlanes) {
+  add(20, PixelFormat::Nv12);
+  compile();
+  cameras[0]->source.source.colour_space.range = ColourRange::Full;
+  StoredPicture yuv(PixelFormat::I420, kWidth, kHeight), own(PixelFormat::Grey, kWidth, kHeight);
+  yuv.picture.colour_space = kJfif;
+  target = yuv.picture;
+  render();
+  remap(cameras[0]->grid, luminance_plane(cameras[0]->source)->as_source(), Interpolation::Bilinear,
+        own.picture, {0, cameras[0]->grid.tiles_y()});
+  int compared = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (!is_defined_throughout(cameras[0]->grid.tile(x / kTile, y / kTile).kind)) continue;
+      ++compared;
+      ASSERT_EQ(yuv.sample(0, y, x), own.sample(0, y, x)) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST_F(MergedRemap, WithoutAPictureItMeasuresAndSeesTheSame) {
+  add(0, PixelFormat::Y16);
+  add(10, PixelFormat::Nv12);
+  add(180);
+  compile();
+  for (const bool delivers : {true, false}) {
+    cameras[2]->delivers = delivers;
+    StoredPicture beside(PixelFormat::Y16, kWidth, kHeight),
+        counts(PixelFormat::Y16, kWidth, kHeight);
+    measured = beside.picture;
+    target.reset();
+    render();
+    const auto seen = validity;
+    std::fill(validity.begin(), validity.end(), 77);
+    measured = counts.picture;
+    target = MutablePicture{};
+    render();
+    EXPECT_EQ(counts.bytes, beside.bytes);
+    EXPECT_EQ(validity, seen);
+    EXPECT_EQ(delivers, std::ranges::count(seen, static_cast<std::uint8_t>(Validity::Blind)) == 0);
+  }
 }
 
 TEST_F(MergedRemap, TheOthersStandInForOneThatDoesNotDeliver) {
@@ -215,17 +361,30 @@ TEST_F(MergedRemap, TheLuminanceOfColourIsMeasured) {
   }
 }
 
-/// The Y of a YUV picture as it lies there.
-std::unique_ptr<StoredPicture> luminance_plane(const StoredPicture& yuv) {
-  auto grey = std::make_unique<StoredPicture>(PixelFormat::Grey, kSide, kSide);
-  const PixelFormat format = yuv.picture.format;
-  const int step = info(format).channels(), first = format == PixelFormat::Uyvy ? 1 : 0;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      grey->picture.samples<std::uint8_t>().at(x, y)[0] = yuv.sample(0, y, step * x + first);
-    }
+TEST_F(MergedRemap, WhatIsMeasuredOfColourIsNotWhatWasSharpenedToBeShown) {
+  for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::Bgr, PixelFormat::Bgra,
+                                   PixelFormat::Nv12, PixelFormat::I420, PixelFormat::Uyvy}) {
+    SCOPED_TRACE(orbwatch::info(format).name);
+    cameras.clear();
+    add(0, format);
+    add(150);
+    compile();
+    StoredPicture from_own(PixelFormat::Grey, kWidth, kHeight),
+        from_other(PixelFormat::Grey, kWidth, kHeight);
+    measured = from_own.picture;
+    render();
+    unsharpened = std::make_unique<StoredPicture>(format, kSide, kSide);
+    unsharpened->bytes = cameras[0]->source.bytes;
+    cameras[0]->source.fill_with_noise(7);
+    measured = {};
+    render();
+    const auto shown = rgb;
+    measured = from_other.picture;
+    render();
+    EXPECT_EQ(from_other.bytes, from_own.bytes);
+    EXPECT_EQ(rgb, shown);
+    unsharpened.reset();
   }
-  return grey;
 }
 
 class MergedYuv : public MergedRemap,
@@ -304,8 +463,8 @@ TEST_F(MergedRemap, AViewMayHaveTheFormatOfItsSourcesWhichAreMatched) {
       sources.push_back({&c->grid, c->source.as_source(), nullptr, {}, nullptr});
     }
     sources[1].match = &table;
-    is_wide ? table.apply(own[1]->picture.samples<std::uint16_t>())
-            : table.apply(own[1]->picture.samples<std::uint8_t>());
+    is_wide ? table.apply(own[1]->picture.samples<std::uint16_t>(), format)
+            : table.apply(own[1]->picture.samples<std::uint8_t>(), format);
     StoredPicture out(format, kWidth, kHeight);
     merged_remap(sources, {&*blend, MergeRule::Mean, Interpolation::Bilinear, view_of(unseen, 1)},
                  out.picture, view_of(validity, 1), rows);

@@ -106,7 +106,7 @@ TYPED_TEST(PhotometricMatchOf, ApplyingItMakesThePicturesEqual) {
   Shot<TypeParam> a(3, Transfer::Srgb, {}), b(3, Transfer::Srgb, kDarkAndWarm);
   const auto matches =
       match_photometry<TypeParam>(std::array{a.source(), b.source()}, Transfer::Srgb);
-  PhotometricTable(matches[1], kColour<TypeParam>).apply(b.view());
+  PhotometricTable(matches[1], kColour<TypeParam>).apply(b.view(), kColour<TypeParam>);
   double worst = 0;
   for (std::size_t i = 0; i < a.picture.size(); ++i) {
     worst = std::max(worst, std::abs(double{0} + a.picture[i] - b.picture[i]) / a.kFull);
@@ -117,7 +117,7 @@ TYPED_TEST(PhotometricMatchOf, ApplyingItMakesThePicturesEqual) {
 TYPED_TEST(PhotometricMatchOf, TheIdentityChangesNothing) {
   Shot<TypeParam> a(3, Transfer::Srgb, {});
   const auto before = a.picture;
-  PhotometricTable({}, kColour<TypeParam>).apply(a.view());
+  PhotometricTable({}, kColour<TypeParam>).apply(a.view(), kColour<TypeParam>);
   EXPECT_EQ(a.picture, before);
 }
 

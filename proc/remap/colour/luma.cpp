@@ -1,0 +1,15 @@
+#include "proc/remap/colour/luma.h"
+
+#include "proc/remap/colour/run.h"
+
+namespace orbwatch::remap {
+
+void luma(const std::uint8_t* rgb, std::uint8_t* grey, int pixels) {
+  int x = 0;
+  for (; x + kRun <= pixels; x += kRun) {
+    for (int i = 0; i < kRun; ++i) grey[x + i] = luma(rgb + 3 * (x + i));
+  }
+  for (; x < pixels; ++x) grey[x] = luma(rgb + 3 * x);
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "proc/image/image_view.h"
+#include "proc/remap/colour/run_vector.h"
+#include "proc/remap/kernel/corner_weights.h"
+#include "proc/remap/kernel/mixed_tile.h"
+
+// How kernels mix tiles: in vectors of a row of a tile, which compilers spread over the registers
+// that there are.
+//
+// Included by each kernel and compiled for its instruction set, in an unnamed namespace for the
+// same reason as point_walk.h.
+
+namespace orbwatch::remap {
+namespace {
+
+template <int Channels, std::size_t Count>
+void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
+  std::array<CornerWeights, Count - 1> shared;  // of the first sources together
+  std::array<int, 4> sums{};
+  for (std::size_t n = 0; n + 1 < Count; ++n) {
+    for (std::size_t corner = 0; corner < 4; ++corner) sums[corner] += tiles[n].shares[corner];
+    shared[n] = CornerWeights(sums);
+  }
+  std::array<const std::uint8_t*, Count> from;
+  for (std::size_t n = 0; n < Count; ++n) from[n] = tiles[n].samples;
+  std::uint8_t* to = out.data;
+  for (int y = 0; y < kTile; ++y, to += out.stride) {
+    std::array<Words, Channels> means{};
+    Bytes before{};
+    for (std::size_t n = 0; n < Count; ++n) {
+      const Bytes until = n + 1 < Count ? shared[n].take_row() : Bytes{} + UINT8_MAX;
+      const Bytes weights = until - before;
+      before = until;
+      for (int part = 0; part < Channels; ++part) {
+        means[part] +=
+            widened(spread<Channels>(weights, part)) * widened(load<Bytes>(from[n] + kRun * part));
+      }
+      from[n] += kRun * Channels;
+    }
+    for (int part = 0; part < Channels; ++part) {
+      store(rounded_255th(means[part]), to + kRun * part);
+    }
+  }
+}
+
+template <int Channels>
+void mix_any(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
+  static_assert(kMaxSources == 4);
+  switch (tiles.size()) {
+    case 1:
+      return mix_so_many<Channels, 1>(tiles, out);
+    case 2:
+      return mix_so_many<Channels, 2>(tiles, out);
+    case 3:
+      return mix_so_many<Channels, 3>(tiles, out);
+    default:
+      return mix_so_many<Channels, 4>(tiles, out);
+  }
+}
+
+/// As Kernel::mix.
+inline void mix_tiles(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
+  out.channels == 1 ? mix_any<1>(tiles, out) : mix_any<3>(tiles, out);
+}
+
+}  // namespace
+}  // namespace orbwatch::remap

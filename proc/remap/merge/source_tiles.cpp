@@ -1,0 +1,86 @@
+#include "proc/remap/merge/source_tiles.h"
+
+#include "proc/remap/colour/luma.h"
+#include "proc/remap/colour/yuv420.h"
+
+namespace orbwatch::remap {
+namespace {
+
+/// The luma of an Rgb or Bgr source.
+void write_luma(const TileRemap& tiles, int tx, int ty, const MutablePicture& out,
+                const TileArea& area) {
+  TilePicture<std::uint8_t, 3> tile;
+  const TileArea whole{0, 0, area.columns, area.rows};
+  tiles.write(tx, ty, picture_of(PixelFormat::Rgb, tile.view()), whole);
+  const auto grey = part(out.samples<std::uint8_t>(), area);
+  for (int y = 0; y < grey.height; ++y) luma(tile.view().row(y), grey.row(y), grey.width);
+}
+
+}  // namespace
+
+SourceTiles::SourceTiles(const MergedSource& source, PixelFormat view, Interpolation interpolation,
+                         const Kernel& kernel)
+    : source_(source),
+      format_(source.pictures.front().format),
+      colour_(info(format_).colour),
+      is_wide_(info(format_).bytes_per_sample() == 2),
+      is_mapped_(colour_ == ColourModel::Luminance && source.colours != nullptr),
+      is_dimmed_(colour_ == ColourModel::Rgb && view == PixelFormat::Grey),
+      tiles_(*source.grid, source.pictures, interpolation, kernel,
+             view == PixelFormat::Grey ? luminance() : SampledPlanes::All) {
+  const ColourSpace colour_space = source.pictures.front().colour_space;
+  if (view == PixelFormat::I420 && is_yuv420(format_, colour_space) && source.match == nullptr) {
+    yuv420_tiles_.emplace(*source.grid, source.pictures, interpolation, kernel,
+                          SampledPlanes::Yuv420);
+  }
+  if (!is_measured(source)) return;
+  const auto from = source.measured_pictures.empty() ? source.pictures : source.measured_pictures;
+  measured_tiles_.emplace(*source.grid, from, interpolation, kernel, luminance());
+}
+
+SampledPlanes SourceTiles::luminance() const {
+  return colour_ == ColourModel::Yuv ? SampledPlanes::Luminance : SampledPlanes::All;
+}
+
+void SourceTiles::write_yuv420(int tx, int ty, const MutablePicture& out,
+                               const TileArea& area) const {
+  yuv420_tiles_->write(tx, ty, out, area);
+  if (is_measured(source_)) measure(tx, ty);
+}
+
+void SourceTiles::write(int tx, int ty, const MutablePicture& out, const TileArea& area) const {
+  if (is_mapped_) {
+    is_wide_ ? write_mapped<std::uint16_t>(tx, ty, out, area)
+             : write_mapped<std::uint8_t>(tx, ty, out, area);
+    return;
+  }
+  is_dimmed_ ? write_luma(tiles_, tx, ty, out, area) : tiles_.write(tx, ty, out, area);
+  if (is_measured(source_)) measure(tx, ty);
+  if (!source_.match) return;
+  is_wide_ ? source_.match->apply(part(out.samples<std::uint16_t>(), area), out.format)
+           : source_.match->apply(part(out.samples<std::uint8_t>(), area), out.format);
+}
+
+void SourceTiles::measure(int tx, int ty) const {
+  const TileArea place = area_of(*source_.grid, tx, ty);
+  colour_ == ColourModel::Rgb ? write_luma(*measured_tiles_, tx, ty, source_.measured, place)
+                              : measured_tiles_->write(tx, ty, source_.measured, place);
+}
+
+template <class T>
+void SourceTiles::write_mapped(int tx, int ty, const MutablePicture& out,
+                               const TileArea& area) const {
+  const TileArea place = area_of(*source_.grid, tx, ty);
+  TilePicture<T, 1> tile;
+  ImageView<T> values = tile.view();
+  if (is_measured(source_)) {
+    measure(tx, ty);
+    values = part(source_.measured.samples<T>(), place);
+  } else {
+    tiles_.write(tx, ty, picture_of(format_, values), {0, 0, place.columns, place.rows});
+    values = part(values, {0, 0, place.columns, place.rows});
+  }
+  source_.colours->apply(values, part(out.samples<std::uint8_t>(), area), {0, 1}, out.format);
+}
+
+}  // namespace orbwatch::remap

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "proc/image/image_view.h"
+#include "proc/image/picture.h"
+#include "proc/remap/grid/coordinate_grid.h"
+#include "proc/remap/merge/merged_remap.h"
+#include "proc/remap/sampling/tile_remap.h"
+
+namespace orbwatch::remap {
+
+template <class T>
+ImageView<T> part(const ImageView<T>& picture, const TileArea& area) {
+  return {picture.at(area.x, area.y), area.columns, area.rows, picture.channels, picture.stride};
+}
+
+/// A tile with memory of its own.
+template <class T, int Channels>
+struct TilePicture {
+  alignas(64) std::array<T, kTile * kTile * Channels> samples;
+
+  ImageView<T> view() { return {samples.data(), kTile, kTile, Channels, kTile * Channels}; }
+};
+
+/// The tiles of one source as a view shows them, and what is measured of it. Refers to its
+/// arguments; reentrant.
+class SourceTiles {
+ public:
+  /// `view`: the format of the merged view.
+  SourceTiles(const MergedSource& source, PixelFormat view, Interpolation interpolation,
+              const Kernel& kernel);
+
+  /// Whether the source may show something there, and whether it shows all of the tile.
+  bool sees(int tx, int ty) const { return !is_empty(source_.grid->tile(tx, ty).kind); }
+  bool fills(int tx, int ty) const {
+    return is_defined_throughout(source_.grid->tile(tx, ty).kind);
+  }
+
+  /// Whether write_yuv420() is possible, which writes a tile into an I420 view as it is sampled.
+  bool writes_yuv420() const { return yuv420_tiles_.has_value(); }
+  void write_yuv420(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+
+  /// Writes a tile into `area` of `out`, of the view's format, or Rgb for an I420 view; and its
+  /// measured plane.
+  void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+
+  /// Writes the measured plane of a tile alone.
+  void measure(int tx, int ty) const;
+
+  static bool is_measured(const MergedSource& source) {
+    return source.measured.planes[0].data != nullptr;
+  }
+
+ private:
+  SampledPlanes luminance() const;
+  template <class T>
+  void write_mapped(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
+
+  const MergedSource& source_;
+  PixelFormat format_;
+  ColourModel colour_;
+  bool is_wide_;    ///< 16 bit
+  bool is_mapped_;  ///< one channel becomes colours
+  bool is_dimmed_;  ///< colours become luma
+  TileRemap tiles_;
+  std::optional<TileRemap> yuv420_tiles_;    ///< if the view is I420 and the source fits
+  std::optional<TileRemap> measured_tiles_;  ///< if it is measured
+};
+
+}  // namespace orbwatch::remap
