@@ -27,6 +27,7 @@ Result<std::string> subscribe_command(const std::vector<std::string>& arguments)
 Result<std::string> state_command(const std::vector<std::string>& arguments);
 Result<std::string> command_command(const std::vector<std::string>& arguments);
 Result<std::string> dds_keys_command(const std::vector<std::string>& arguments);
+Result<std::string> bench_command(const std::vector<std::string>& arguments);
 Result<std::string> list_command(const std::vector<std::string>& arguments);
 
 // Subjects of describe_command; they write no file but that of -o.

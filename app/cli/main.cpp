@@ -20,6 +20,7 @@ constexpr std::array kCommandTable{
     Subcommand{"command", "send a command to a running orbwatchd", command_command},
     Subcommand{"dds-keys", "make the keys of a secured DDS domain", dds_keys_command},
     Subcommand{"list", "show the cameras and GPIO lines that are connected", list_command},
+    Subcommand{"bench", "whether this computer does the work of a configuration", bench_command},
     Subcommand{"describe", "print manuals, and what follows from a rig or a view",
                describe_command},
 };

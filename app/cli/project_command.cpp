@@ -40,6 +40,7 @@ struct ProjectOptions {
   bool match = true;
   bool transparent = false;
   remap::Interpolation interpolation = remap::Interpolation::Area;
+  double sharpness = kSharpness;
 };
 
 std::vector<Option> declare(ProjectOptions& o) {
@@ -59,6 +60,17 @@ std::vector<Option> declare(ProjectOptions& o) {
        word_option("undefined", kUndefined, o.transparent)},
       {"interpolation", 0, "area|bilinear|nearest", "between pixels (default area)",
        word_option("interpolation", remap::kInterpolations, o.interpolation)},
+      {"sharpness", 0, "S",
+       "of 8 bit colour, " + kSharpnesses.text() + " (default 0.8); 0: pixels as they are",
+       [&o](const std::string& value) {
+         return parse_number("sharpness", value).and_then([&o](double sharpness) -> Result<> {
+           if (!kSharpnesses.contains(sharpness)) {
+             return fail("--sharpness must be " + kSharpnesses.text());
+           }
+           o.sharpness = sharpness;
+           return {};
+         });
+       }},
       {"match", 0, "photometric|none",
        "bring the cameras to the first one's exposure and\nwhite balance (default photometric)",
        word_option("match", kMatches, o.match)},
@@ -156,17 +168,17 @@ void merge(const ProjectOptions& o, const optics::ViewProjection& projection,
     const auto frame = std::make_shared<hal::FrameBuffer>();
     frame->picture = pictures[n].picture;
     formats.push_back({frame->picture.format, {}, frame->picture.width, frame->picture.height, 0});
-    plan.sources.push_back({n, formats.back(), cameras[n].ball, 1, unused});
+    plan.sources.push_back({n, formats.back(), cameras[n].ball, 1, unused, o.sharpness});
     set.frames[n] = frame;
   }
   WorkerPool workers(0);
   ViewRenderer renderer(std::move(plan));
-  MipLevelCounts levels{};
-  renderer.require_levels(levels);
-  FramePyramids pyramids(formats);
-  pyramids.build(set, levels, workers);
+  PictureUses uses;
+  renderer.add_use(uses);
+  FramePyramids pyramids(formats, uses);
+  pyramids.build(set, uses, workers);
   if (o.match && cameras.size() > 1) report(renderer.match_photometry(pyramids), cameras);
-  renderer.render(pyramids, {merged.picture, merged.validity_plane(), {}}, workers);
+  renderer.render(pyramids, {merged.picture, merged.validity_plane(), {}, true}, workers);
 }
 
 Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {

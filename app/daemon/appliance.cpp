@@ -7,6 +7,7 @@
 #include "app/health/board_health.h"
 #include "app/log.h"
 #include "app/state/state_folder.h"
+#include "hal/thread/scheduling.h"
 #include "proc/remap/remap.h"
 
 namespace orbwatch::app {
@@ -37,22 +38,38 @@ std::unique_ptr<Lines> open_lines(const Configuration& site) {
 Appliance::Appliance(const Resolved& site)
     : site_(site),
       record_(std::make_shared<CommandRecord>(state_folder(site.site.state_folder))),
-      health_(health_of(site.site, record_)),
+      background_(std::make_shared<hal::SharedThreads>(
+          hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
+          static_cast<std::size_t>(site.site.threads.background))),
+      health_(health_of(site.site, record_), HealthSampler::kPeriod, background_),
       lines_(open_lines(site.site)) {
   if (site.site.snapshot) snapshots_.emplace(*site.site.snapshot);
 }
 
+Appliance::~Appliance() {
+  if (pipeline_) pipeline_->stop();
+  if (interfaces_) interfaces_->stop();
+  lines_->stop();
+}
+
 Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
                                                    std::function<void()> restart) {
+  if (auto checked = hal::check(site.site.threads); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  const hal::ThreadGrants grants = hal::schedule_threads(site.site.threads);
+  for (const std::string& refusal : grants.refusals) log_line(LogLevel::Warning, refusal);
   std::unique_ptr<Appliance> made(new Appliance(site));
   Appliance& all = *made;
   auto plan = open_cameras(site, *all.lines_);
   if (!plan) return tl::unexpected(plan.error());
+  plan->background = all.background_;
   all.interfaces_.emplace(
       site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
-      all.record_, all.snapshots());
-  plan->surroundings = [&all](hal::TimePoint now) {
-    return Surroundings{all.health_.latest(now), all.lines_->faults(), all.interfaces_->faults()};
+      all.record_, all.background_, all.snapshots());
+  plan->surroundings = [&all, grants](hal::TimePoint now) {
+    return Surroundings{all.health_.latest(now), all.lines_->faults(), all.interfaces_->faults(),
+                        grants.realtime, grants.memory_locked};
   };
   all.absent_ = plan->absent;
   for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
@@ -62,7 +79,7 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
   return made;
 }
 
-Result<> Appliance::start() {
+Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   const auto now = hal::Clock::now();
   attempts_.add(
       "lines", [this] { return lines_->start(); }, now);
@@ -70,6 +87,7 @@ Result<> Appliance::start() {
   health_.start();
   std::vector<Sink*> sinks = interfaces_->sinks();
   sinks.insert(sinks.begin(), lines_.get());
+  sinks.insert(sinks.end(), watchers.begin(), watchers.end());
   if (auto started = pipeline_->start(sinks); !started) return started;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!absent_[i]) continue;
@@ -84,12 +102,6 @@ Result<> Appliance::start() {
                                std::string(remap::default_kernel().name));
   log_line(LogLevel::Info, commanders_text(site_.site.sinks));
   return {};
-}
-
-void Appliance::stop() {
-  pipeline_->stop();
-  interfaces_->stop();
-  lines_->stop();
 }
 
 }  // namespace orbwatch::app

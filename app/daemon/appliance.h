@@ -14,6 +14,7 @@
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/state/command_record.h"
+#include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
 
@@ -25,12 +26,19 @@ class Appliance {
   /// on any thread and returns. Error: the files.
   static Result<std::unique_ptr<Appliance>> make(const Resolved& site,
                                                  std::function<void()> restart);
+  /// Stops what runs: first the pipeline, which calls the others.
+  ~Appliance();
   Appliance(const Appliance&) = delete;
   Appliance& operator=(const Appliance&) = delete;
 
-  /// Error: a camera that is there does not start.
-  Result<> start();
-  void stop();
+  /// `watchers` get what the sinks get; they are the caller's and outlive the run. Error: a camera
+  /// that is there does not start.
+  Result<> start(const std::vector<Sink*>& watchers = {});
+
+  /// What the cameras deliver, or are expected to.
+  const std::vector<hal::StreamFormat>& formats() const { return pipeline_->formats(); }
+  /// See Pipeline::pacing_camera().
+  std::size_t pacing_camera() const { return pipeline_->pacing_camera(); }
 
   /// What is missing, to be tried again by the owner when it is due.
   Attempts& attempts() { return attempts_; }
@@ -41,6 +49,7 @@ class Appliance {
 
   const Resolved& site_;
   const std::shared_ptr<CommandRecord> record_;
+  const std::shared_ptr<hal::SharedThreads> background_;
   HealthSampler health_;
   std::optional<Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
   const std::unique_ptr<Lines> lines_;

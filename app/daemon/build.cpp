@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/pictures/colour_maps.h"
+#include "hal/thread/scheduling.h"
 #include "proc/optics/rotation.h"
 
 namespace orbwatch::app {
@@ -38,20 +39,41 @@ class Builder {
       const std::size_t camera = source.camera.index;
       auto ball = optics::ball_projection(site_.rig, site_.rig_camera(camera));
       if (!ball) return tl::unexpected(ball.error());
-      sources.push_back(
-          {camera, formats_[camera], std::move(*ball), source.weight, colour_map(source)});
+      sources.push_back({camera, formats_[camera], std::move(*ball), source.weight,
+                         colour_map(source), source.sharpness});
     }
     auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
     if (!projection) return fail("view " + view.name + ": " + projection.error().message);
-    return ViewPlan{view.index,         view.name,    std::move(*projection),
-                    std::move(sources), view.combine, view.interpolation,
-                    std::nullopt};
+    return ViewPlan{view.index,   view.name,          std::move(*projection), std::move(sources),
+                    view.combine, view.interpolation, std::nullopt,           0,
+                    view.match};
   }
 
-  Result<std::unique_ptr<CompiledRecipe>> compile(const Recipe& recipe,
-                                                  std::uint16_t number) const {
+  /// Errors name the recipe's file.
+  Result<std::unique_ptr<CompiledRecipe>> compile(std::size_t recipe) const {
+    return named(recipe, plan_recipe(recipe).and_then([this](RecipePlan plan) {
+      return CompiledRecipe::make(std::move(plan), scene_);
+    }));
+  }
+
+  /// Errors: as compile().
+  Result<> check(std::size_t recipe) const {
+    return named(recipe, plan_recipe(recipe).and_then([this](const RecipePlan& plan) {
+      return CompiledRecipe::check(plan, scene_);
+    }));
+  }
+
+ private:
+  template <class T>
+  Result<T> named(std::size_t recipe, Result<T> result) const {
+    if (result) return result;
+    return fail(site_.site.recipes[recipe].file.path.string() + ": " + result.error().message);
+  }
+
+  Result<RecipePlan> plan_recipe(std::size_t index) const {
+    const Recipe& recipe = site_.recipes[index];
     RecipePlan plan;
-    plan.number = number;
+    plan.number = site_.site.recipes[index].number;
     for (const MeasuredViewSettings& view : recipe.views) {
       auto planned = plan_view(view);
       if (!planned) return tl::unexpected(planned.error());
@@ -69,10 +91,9 @@ class Builder {
     plan.settle_frames = recipe.settle_frames;
     plan.process_active = recipe.process_active;
     plan.process_input = recipe.process_input.index;
-    return CompiledRecipe::make(std::move(plan), scene_);
+    return plan;
   }
 
- private:
   remap::ColourMap colour_map(const SourceSettings& source) const {
     const auto& camera = site_.site.cameras[source.camera.index];
     const auto& format = formats_[source.camera.index];
@@ -176,11 +197,11 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
     plan.views.push_back(std::move(*view));
   }
   for (std::size_t i = 0; i < site.recipes.size(); ++i) {
-    const RecipeFile& file = site.site.recipes[i];
-    auto recipe = builder.compile(site.recipes[i], file.number);
-    if (!recipe) return fail(file.file.path.string() + ": " + recipe.error().message);
+    auto recipe = builder.compile(i);
+    if (!recipe) return tl::unexpected(recipe.error());
     plan.recipes.push_back(std::move(*recipe));
   }
+  plan.reserved_cores = site.site.threads.cores.size();
   plan.view_count = site.names.views.size();
   plan.configuration_checksum = site.checksum;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
@@ -204,7 +225,7 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
   recompiled.recipes.resize(site.recipes.size());
   for (std::size_t i = 0; i < site.recipes.size(); ++i) {
     if (!uses(site.recipes[i], camera)) continue;
-    auto recipe = builder.compile(site.recipes[i], site.site.recipes[i].number);
+    auto recipe = builder.compile(i);
     if (!recipe) return tl::unexpected(recipe.error());
     recompiled.recipes[i] = std::move(*recipe);
   }
@@ -223,9 +244,18 @@ Result<> check_site(const Resolved& site, Dates dates) {
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     formats.push_back(expected_format(site, i));
   }
-  return build(site, std::move(formats)).and_then([&](const PipelinePlan&) {
-    return check_keys(site, dates);
-  });
+  auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
+  if (!proxy) return tl::unexpected(proxy.error());
+  const Builder builder(site, formats, std::move(*proxy));
+  for (const ViewSettings& view : site.site.views) {
+    if (const auto planned = builder.plan_view(view); !planned) {
+      return tl::unexpected(planned.error());
+    }
+  }
+  for (std::size_t i = 0; i < site.recipes.size(); ++i) {
+    if (const auto checked = builder.check(i); !checked) return checked;
+  }
+  return hal::check(site.site.threads).and_then([&] { return check_keys(site, dates); });
 }
 
 }  // namespace orbwatch::app

@@ -27,8 +27,9 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
 /// Checks the keys for DDS; without security there are none.
 Result<> check_keys(const Resolved& site, Dates dates);
 
-/// Builds the site with the formats that are expected, and checks the keys. Opens no camera and no
-/// line.
+/// Checks what build() would refuse with the formats that are expected, and the keys. Opens no
+/// camera and no line; compiles no view and allocates no picture, so that it may run beside the
+/// site.
 Result<> check_site(const Resolved& site, Dates dates);
 
 }  // namespace orbwatch::app

@@ -10,8 +10,10 @@ namespace orbwatch::app {
 namespace {
 
 SinkContext make_context(const Resolved& site, CommandHandler handler,
-                         std::shared_ptr<CommandRecord> record) {
-  SinkContext context{site.names, {}, {}, std::move(handler), std::move(record)};
+                         std::shared_ptr<CommandRecord> record,
+                         std::shared_ptr<hal::SharedThreads> background) {
+  SinkContext context{site.names,           {}, {}, std::move(handler), std::move(record),
+                      std::move(background)};
   context.views.resize(site.names.views.size());
   const auto publish = [&context](const ViewSettings& view, bool measured) {
     const bool perspective = view.kind == optics::ViewKind::Perspective;
@@ -39,8 +41,10 @@ std::string commanders_text(const SinkSettings& sinks) {
 }
 
 Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
-                       std::shared_ptr<CommandRecord> record, SnapshotSink* snapshots) {
-  const SinkContext context = make_context(site, std::move(handler), std::move(record));
+                       std::shared_ptr<CommandRecord> record,
+                       std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots) {
+  const SinkContext context =
+      make_context(site, std::move(handler), std::move(record), std::move(background));
   std::size_t next = 0;
   std::apply(
       [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },

@@ -31,10 +31,11 @@ inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<S
 /// tried again while the others work. Thread rule: one owner, apart from faults().
 class Interfaces {
  public:
-  /// Makes the enabled ones. `handler` carries commands out, noted in `record`; `snapshots` is the
+  /// Makes the enabled ones. `handler` carries commands out, noted in `record`; `background`
+  /// encodes; `snapshots` is the
   /// caller's and outlives this; null: none.
   Interfaces(const Resolved& site, CommandHandler handler, std::shared_ptr<CommandRecord> record,
-             SnapshotSink* snapshots);
+             std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots);
 
   /// Starts them, with those that cannot be opened among the `attempts`.
   void start(Attempts& attempts, hal::TimePoint now);

@@ -116,9 +116,7 @@ Result<bool> run(const Resolved& site, const sigset_t& signals, const std::files
   auto appliance = Appliance::make(site, [] { ::kill(::getpid(), SIGHUP); });
   if (!appliance) return tl::unexpected(appliance.error());
   if (auto started = (*appliance)->start(); !started) return tl::unexpected(started.error());
-  const bool restarts = wait_for_end(signals, file, (*appliance)->attempts());
-  (*appliance)->stop();
-  return restarts;
+  return wait_for_end(signals, file, (*appliance)->attempts());
 }
 
 /// The same program with the same arguments; returns only when that fails.

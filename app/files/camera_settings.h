@@ -14,6 +14,7 @@
 #include "hal/lines/frame_trigger.h"
 #include "hal/replay/replay_settings.h"
 #include "hal/sync/frame_matcher.h"
+#include "hal/test_pattern/test_pattern_settings.h"
 #include "hal/v4l2/v4l2_settings.h"
 #include "proc/settings/settings.h"
 #include "proc/signals/radiometry.h"
@@ -26,7 +27,8 @@ namespace orbwatch::app {
 using BackEndSettings = std::variant<simulation::SimulatedCameraSettings,  //
                                      hal::ReplaySettings,                  //
                                      hal::V4l2Settings,                    //
-                                     hal::LibcameraSettings>;
+                                     hal::LibcameraSettings,               //
+                                     hal::TestPatternSettings>;
 
 /// A control of a camera and its value, applied when the camera is opened.
 struct ControlSettings {
@@ -120,6 +122,9 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.require(!std::holds_alternative<simulation::SimulatedCameraSettings>(camera.back_end) ||
                 (camera.stream.width && camera.stream.height),
             "back_end", "simulated needs width and height");
+  v.require(!std::holds_alternative<hal::TestPatternSettings>(camera.back_end) ||
+                (camera.stream.width && camera.stream.height),
+            "back_end", "test_pattern needs width and height");
 }
 
 }  // namespace orbwatch::app

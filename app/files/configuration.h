@@ -18,6 +18,7 @@
 #include "app/ports/modbus/modbus_settings.h"
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/simulation/machine.h"
+#include "hal/thread/thread_settings.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
@@ -39,6 +40,7 @@ struct RecipeFile {
 struct Configuration {
   NamedFile rig;
   PipelineSettings pipeline;
+  hal::ThreadSettings threads;
   simulation::MachineSettings simulation;
   std::vector<Located<CameraSettings>> cameras;
   std::vector<Located<LineSettings>> lines;
@@ -63,7 +65,8 @@ void visit(Visitor& v, Configuration& configuration) {
   v.optional("state_folder", configuration.state_folder,
              "Of the record of commands, 16 KiB; else systemd's STATE_DIRECTORY, or "
              "/var/lib/orbwatch");
-  v.table("pipeline", configuration.pipeline, "Frame budget and threads");
+  v.table("pipeline", configuration.pipeline, "Frame budget and workers");
+  v.table("threads", configuration.threads, "How the kernel treats the frame path");
   v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,
            "Cameras; the first without a fault sets the pace");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "app/files/plain_names.h"
@@ -10,6 +11,7 @@
 #include "app/files/rig_file.h"
 #include "app/files/text_file.h"
 #include "app/files/toml_reader.h"
+#include "app/pipeline/views/picture_use.h"
 
 namespace orbwatch::app {
 namespace {
@@ -122,7 +124,23 @@ class Resolver {
     }
     for (auto& source : view.sources) {
       resolve_camera(source.camera, source.line, "view.source.camera", finding);
+      check_sharpness(source, source.line, finding);
     }
+  }
+
+  void check_sharpness(const SourceSettings& source, int line, Finding& finding) {
+    PictureUse& use = sharpened_[source.camera.index];
+    if (use.add(source.sharpness, {})) return;
+    std::string known;
+    for (const auto& [sharpness, area] : use.sharpened()) {
+      std::ostringstream text;
+      text << (known.empty() ? "" : ", ") << sharpness;
+      known += text.str();
+    }
+    finding.refuse(
+        line, "view.source.sharpness",
+        "camera \"" + source.camera.name + "\" has " + std::to_string(kMaxSharpnesses) +
+            " others in views and recipes already, which is the most; use 0 or one of: " + known);
   }
 
   void resolve_display_views() {
@@ -209,6 +227,7 @@ class Resolver {
   Resolved& resolved_;
   Configuration& site_;
   Finding& finding_;
+  PictureUses sharpened_;  ///< by all views
 };
 
 Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const std::string& name,

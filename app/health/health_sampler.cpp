@@ -5,7 +5,14 @@
 namespace orbwatch::app {
 
 void HealthSampler::start() {
-  if (!thread_.is_running()) thread_.start("health", [this] { run(); });
+  if (std::exchange(is_running_, true)) return;
+  due_ = hal::Clock::now();
+  work_.request(due_);
+}
+
+void HealthSampler::stop() {
+  is_running_ = false;
+  work_.cancel();
 }
 
 Health HealthSampler::latest(hal::TimePoint now) const {
@@ -13,18 +20,16 @@ Health HealthSampler::latest(hal::TimePoint now) const {
   return now - read_at_ <= kLongestAge ? health_ : Health{};
 }
 
-void HealthSampler::run() {
-  auto due = hal::Clock::now();
-  do {
-    const auto began = hal::Clock::now();
-    const Health health = read_();
-    {
-      const std::lock_guard lock(mutex_);
-      health_ = health;
-      read_at_ = began;
-    }
-    due = std::max(due + period_, began);  // a missed period is skipped
-  } while (thread_.wait_until(due));
+void HealthSampler::sample() {
+  const auto began = hal::Clock::now();
+  const Health health = read_();
+  {
+    const std::lock_guard lock(mutex_);
+    health_ = health;
+    read_at_ = began;
+  }
+  due_ = std::max(due_ + period_, began);  // a missed period is skipped
+  work_.request(due_);
 }
 
 }  // namespace orbwatch::app

@@ -2,43 +2,48 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "app/model/health.h"
 #include "hal/clock.h"
-#include "hal/thread/thread.h"
+#include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
 
-/// Reads the health on a thread of its own: a slow board or disk delays no other. Thread rule:
-/// start and stop on the main thread, latest on any.
+/// Reads the health on a shared thread: a slow board or disk does not delay the frame path. Thread
+/// rule: start and stop on the main thread, latest on any.
 class HealthSampler {
  public:
   static constexpr hal::Clock::duration kPeriod = std::chrono::seconds(1);
   /// Older figures are invalid.
   static constexpr hal::Clock::duration kLongestAge = std::chrono::seconds(5);
 
-  /// `read` is called on the sampler's thread only, as BoardHealth::read.
-  explicit HealthSampler(std::function<Health()> read, hal::Clock::duration period = kPeriod)
-      : read_(std::move(read)), period_(period) {}
+  /// `read` is called on one of the `threads`, once at a time, as BoardHealth::read.
+  explicit HealthSampler(std::function<Health()> read, hal::Clock::duration period = kPeriod,
+                         std::shared_ptr<hal::SharedThreads> threads = hal::SharedThreads::alone())
+      : read_(std::move(read)), period_(period), work_(std::move(threads), [this] { sample(); }) {}
   /// Reads for the first time at once, on its thread. Repeating it does nothing.
   void start();
   /// Waits for a reading that is under way.
-  void stop() { thread_.stop(); }
+  void stop();
 
   /// The newest figures; none is valid before the first reading, or when it began more than
   /// kLongestAge before `now`. The lock is held for no longer than a copy.
   Health latest(hal::TimePoint now) const;
 
  private:
-  void run();
+  void sample();
 
   const std::function<Health()> read_;
   const hal::Clock::duration period_;
   mutable std::mutex mutex_;
   Health health_;
   hal::TimePoint read_at_;
-  hal::Thread thread_;
+  bool is_running_ = false;  ///< the main thread's
+  hal::TimePoint due_;       ///< of the next reading; the work's
+  hal::SharedThreads::Work work_;
 };
 
 }  // namespace orbwatch::app

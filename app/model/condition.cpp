@@ -85,6 +85,9 @@ Condition condition_of(const Health& health) {
   return {Severity::Warning, text};
 }
 
+/// It has figures only; what they add up to is the system's load.
+Condition condition_of(const StageStatus& /*stage*/) { return {Severity::None, "measured"}; }
+
 Severity standing_severity(const AlarmStatus& alarm) {
   if (!signals::is_active(alarm.alarm.state)) return Severity::None;
   return std::max(severity_of(alarm.alarm.level), severity_of(alarm.alarm.announced));

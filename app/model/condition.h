@@ -44,6 +44,7 @@ Condition condition_of(const ViewStatus& view);
 Condition condition_of(const RegionStatus& region);
 Condition condition_of(const AlarmStatus& alarm);
 Condition condition_of(const Health& health);
+Condition condition_of(const StageStatus& stage);
 
 /// How bad an alarm stands: by the level that was announced or the present one, whichever is worse;
 /// a latched alarm counts although its signal is within limits again. None unless it stands.

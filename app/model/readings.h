@@ -59,7 +59,7 @@ void for_each_reading(const Part& part, hal::TimePoint now, Visit&& visit) {
 
 /// Which part of the appliance a list of readings is about.
 struct Component {
-  std::string_view kind;  ///< "system", "region", "alarm", "camera", "view", "health"
+  std::string_view kind;  ///< "system", "region", "alarm", "camera", "view", "health", "stage"
   std::string name{};     ///< its number from 1 where it has none; empty where it is the only one
 
   bool operator==(const Component&) const = default;
@@ -94,6 +94,9 @@ void for_each_component(const StatusReport& report, Visit&& visit) {
     visit(Component{"view", name_or_number(report.names.view(i), i)}, s.views[i]);
   }
   visit(Component{"health"}, s.health);
+  for (std::size_t i = 0; i < s.stages.size(); ++i) {
+    visit(Component{"stage", std::string(name_of(static_cast<Stage>(i)))}, s.stages[i]);
+  }
 }
 
 /// A component with its readings. Their texts are views: of static lists, or of what the maker

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <vector>
 
 #include "app/model/command.h"
+#include "app/model/picture_needs.h"
 #include "app/model/status.h"
 #include "app/model/status_report.h"
 #include "app/model/view.h"
 #include "hal/sync/frame_set.h"
+#include "hal/thread/shared_threads.h"
 #include "proc/image/pixel_format.h"
 #include "proc/image/result.h"
 
@@ -28,7 +31,8 @@ struct SinkContext {
   std::vector<PublishedView> views;           ///< by place in names.views
   std::vector<PixelFormat> camera_encodings;  ///< Rgb, Bgr or Grey, by place in names.cameras
   CommandHandler handler;
-  std::shared_ptr<CommandRecord> record;  ///< of the commands that go to `handler`
+  std::shared_ptr<CommandRecord> record;           ///< of the commands that go to `handler`
+  std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses
@@ -44,12 +48,23 @@ class Sink {
   virtual Result<> start() = 0;
   /// False: what it serves is missing although it started, the network for example. On any thread.
   virtual bool works() const { return true; }
+  /// Processor time of its threads since the start. On any thread.
+  virtual std::chrono::nanoseconds cpu_time() const { return {}; }
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 
   /// The cameras' own pictures, before the views made of them. Their buffers are the cameras': all
-  /// sinks together keep hal::kFrameReaders of a camera, each for one conversion.
+  /// sinks together keep hal::kFrameReaders of a camera, each for one conversion and the wait for
+  /// it.
   virtual void accept_frames(const hal::FrameSet& /*set*/) {}
+  /// The forms in which the sink needs the next picture of a view, asked before it is made. The
+  /// picture that it accepts then serves these, and what other sinks need; if nobody needs one, the
+  /// view comes without. On the pipeline's thread, as accept.
+  virtual PictureNeeds needs(std::size_t /*view*/, hal::TimePoint /*stamp*/) { return {}; }
+  /// How many views it can hold besides the one that it is being given: there are buffers for
+  /// that many. A sink that holds more loses views, counted as skipped. On the main thread, before
+  /// the run.
+  virtual KeptViews keeps() const { return {}; }
   virtual void accept(const ViewPtr& view) = 0;
   /// Called after the views of the same frame set, and at least ten times a second without frames.
   virtual void accept(const Status& status) = 0;

@@ -73,6 +73,45 @@ constexpr std::string_view operator_text(Quality quality) {
   return {};
 }
 
+/// Where the processor time of a frame set goes. The numbers are places in Status::stages: append,
+/// never renumber.
+enum class Stage : std::uint8_t {
+  Capture = 0,
+  Halving = 1,
+  Views = 2,
+  Measurement = 3,
+  Publication = 4,
+  Sinks = 5,
+};
+
+/// The one place of the operator's text for each stage. Empty for a number that is none.
+constexpr std::string_view operator_text(Stage stage) {
+  switch (stage) {
+    case Stage::Capture:
+      return "capture: the cameras' threads, where JPEG is decoded";
+    case Stage::Halving:
+      return "halving: pictures made smaller for views that do not need all of their pixels, and "
+             "sharpened";
+    case Stage::Views:
+      return "views: remapped, merged and coloured";
+    case Stage::Measurement:
+      return "measurement: the signals of all regions";
+    case Stage::Publication:
+      return "publication: hand-over to the interfaces, figures and alarms";
+    case Stage::Sinks:
+      return "sinks: the interfaces' threads, where pictures are encoded";
+  }
+  return {};
+}
+
+inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::Sinks) + 1;
+
+/// Its first word.
+constexpr std::string_view name_of(Stage stage) {
+  const std::string_view text = operator_text(stage);
+  return text.substr(0, text.find(':'));
+}
+
 /// A signal's place in signals::kSignals, as a code whose text is the signal's name.
 enum class SignalNumber : std::uint16_t {};
 
@@ -113,9 +152,16 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(std::uint32_t, line_faults, kCount,                                                      \
         "Bit n: line n of the configuration is not there, or has a fault")                       \
   FIELD(std::uint32_t, interface_faults, kCount,                                                 \
-        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshots")
+        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshots")         \
+  FIELD(double, busy_ms, kProcessorTime,                                                         \
+        "Processor time of the pipeline's own thread for the newest frame set, which takes no "  \
+        "less")                                                                                  \
+  FIELD(bool, realtime, kFlag,                                                                   \
+        "The frame path has real-time priorities: other programs do not delay it")               \
+  FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")
 
 inline constexpr Quantity kShare{"", 0.001, 0, 1000};
+inline constexpr Quantity kProcessorTime{"ms", 0.001, 0, 100000};
 
 /// The appliance as a whole.
 struct SystemStatus {
@@ -172,6 +218,17 @@ struct RegionStatus {
   signals::Signals signals;
 };
 
+#define ORBWATCH_STAGE_FIGURES(FIELD)                                                   \
+  FIELD(double, cpu_ms, kProcessorTime,                                                 \
+        "Processor time for the newest frame set, of all threads together")             \
+  FIELD(double, cpu_p50_ms, kProcessorTime, "The same, median of the last full second") \
+  FIELD(double, cpu_p99_ms, kProcessorTime, "The same, 99 of 100 took less")
+
+/// One stage.
+struct StageStatus {
+  ORBWATCH_STAGE_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
 #define ORBWATCH_ALARM_FIGURES(FIELD, AGE)                                           \
   FIELD(std::uint16_t, region, kCode, "Index of the region that it watches, from 0") \
   FIELD(SignalNumber, signal, kCode, "Signal that it watches")                       \
@@ -209,6 +266,7 @@ struct Status : SystemStatus {
   std::array<AlarmStatus, signals::kMaxAlarms> alarms;
   std::array<RegionStatus, signals::kMaxRegions> regions;
   Health health;
+  std::array<StageStatus, kStages> stages;  ///< by Stage
 };
 
 /// Calls `visit(field)` for every field of a part, in the order in which interfaces number them. A
@@ -234,6 +292,12 @@ template <class Visit>
 constexpr void for_each_field(std::type_identity<ViewStatus>, Visit&& visit) {
   using Part = ViewStatus;
   ORBWATCH_VIEW_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<StageStatus>, Visit&& visit) {
+  using Part = StageStatus;
+  ORBWATCH_STAGE_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
 /// Reads one signal of a region.

@@ -1,22 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
-#include <vector>
 
+#include "app/model/untouched_memory.h"
 #include "hal/clock.h"
 #include "proc/image/image_view.h"
+#include "proc/image/picture.h"
 #include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
 
-/// Buffers of one view, shared with the sinks: one is rendered, one is the newest that all have,
-/// and five DDS topics and the snapshots may each be at work on an older one.
-inline constexpr std::size_t kViewBuffers = 8;
-
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
-/// memory comes from the view's pool and returns to it with the last ViewPtr.
+/// memory comes from the pipeline's ViewBuffers and returns to them with the last ViewPtr.
 struct View {
   View() = default;
   View(View&&) = default;
@@ -31,16 +29,31 @@ struct View {
   std::uint64_t pointing = 0;  ///< number of the request that it shows; 0: as configured
   optics::ViewSpec spec;       ///< where it looks
 
-  ImageView<std::uint8_t> colour;    ///< RGB, what people look at: blended, colour-mapped
-  ImageView<std::uint8_t> validity;  ///< one Validity per pixel
+  /// What people look at, blended and colour-mapped, in a format that serves those who read it (see
+  /// PictureNeeds): Rgb, Bgr, I420 as JPEG has it, or Grey. No data: nobody does.
+  MutablePicture picture;
+  /// One Validity per pixel; not defined without a picture, unless the view measures.
+  ImageView<std::uint8_t> validity;
   /// What is measured, one of the two, raw and never colour-mapped; empty unless the view measures.
   ImageView<std::uint8_t> luminance;     ///< 8 bit
   ImageView<std::uint16_t> radiometric;  ///< 16 bit counts as the camera gave them
 
-  std::vector<std::uint8_t> bytes;   ///< behind colour, validity and luminance
-  std::vector<std::uint16_t> words;  ///< behind radiometric
+  UntouchedVector<std::uint8_t> bytes;   ///< behind picture and validity
+  UntouchedVector<std::uint16_t> words;  ///< behind luminance or radiometric
 };
 
 using ViewPtr = std::shared_ptr<const View>;
+
+/// How many views readers can hold at once.
+struct KeptViews {
+  std::size_t of_each = 0;  ///< of every view
+  std::size_t besides = 0;  ///< of all views together, whichever they are
+
+  KeptViews& operator+=(const KeptViews& other) {
+    of_each += other.of_each;
+    besides += other.besides;
+    return *this;
+  }
+};
 
 }  // namespace orbwatch::app

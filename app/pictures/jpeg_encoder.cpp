@@ -2,9 +2,11 @@
 
 #include <turbojpeg.h>
 
+#include <array>
 #include <string>
 
 #include "app/pictures/picture_conversion.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 
@@ -12,28 +14,54 @@ JpegEncoder::JpegEncoder() : encoder_(tjInitCompress()) {}
 
 void JpegEncoder::Close::operator()(void* encoder) const { tjDestroy(encoder); }
 
+namespace {
+
+bool is_grey(PixelFormat format) { return info(format).colour == ColourModel::Luminance; }
+
+bool is_jfif(const Picture& picture) {
+  return picture.format == PixelFormat::I420 &&
+         picture.colour_space.matrix == remap::kJfif.matrix &&
+         picture.colour_space.range == remap::kJfif.range;
+}
+
+}  // namespace
+
+int JpegEncoder::compress(const Picture& picture, int quality, unsigned long& size) {
+  unsigned char* out = jpeg_.data();
+  if (is_jfif(picture)) {
+    std::array<const unsigned char*, 3> planes;
+    std::array<int, 3> strides;
+    for (std::size_t n = 0; n < planes.size(); ++n) {
+      planes[n] = reinterpret_cast<const unsigned char*>(picture.planes[n].data);
+      strides[n] = static_cast<int>(picture.planes[n].stride);
+    }
+    return tjCompressFromYUVPlanes(encoder_.get(), planes.data(), picture.width, strides.data(),
+                                   picture.height, TJSAMP_420, &out, &size, quality,
+                                   TJFLAG_NOREALLOC);
+  }
+  const bool grey = is_grey(picture.format);
+  const int layout = grey ? TJPF_GRAY : picture.format == PixelFormat::Bgr ? TJPF_BGR : TJPF_RGB;
+  return tjCompress2(encoder_.get(), reinterpret_cast<const unsigned char*>(picture.planes[0].data),
+                     picture.width, static_cast<int>(picture.planes[0].stride), picture.height,
+                     layout, &out, &size, grey ? TJSAMP_GRAY : TJSAMP_420, quality,
+                     TJFLAG_NOREALLOC);
+}
+
 Result<std::span<std::uint8_t>> JpegEncoder::encode(const Picture& picture, int quality) {
   if (!encoder_) return fail("JPEG encoder: out of memory");
-  const bool grey = info(picture.format).colour == ColourModel::Luminance;
-  const int layout = grey ? TJPF_GRAY : picture.format == PixelFormat::Bgr ? TJPF_BGR : TJPF_RGB;
-  const bool as_it_is = picture.format == PixelFormat::Grey || picture.format == PixelFormat::Rgb ||
-                        picture.format == PixelFormat::Bgr;
-  const std::byte* pixels = picture.planes[0].data;
-  auto stride = static_cast<int>(picture.planes[0].stride);
-  if (!as_it_is) {
+  const bool grey = is_grey(picture.format);
+  Picture packed = picture;
+  if (!is_jfif(picture) && picture.format != PixelFormat::Grey &&
+      picture.format != PixelFormat::Rgb && picture.format != PixelFormat::Bgr) {
     const PixelFormat to = grey ? PixelFormat::Grey : PixelFormat::Rgb;
     converted_.resize(packed_bytes(to, picture.width, picture.height));
     convert(picture, to, converted_.data());
-    pixels = converted_.data();
-    stride = row_bytes(to, picture.width);
+    packed = Picture::contiguous(to, picture.width, picture.height, converted_.data(),
+                                 row_bytes(to, picture.width));
   }
-  const int chroma = grey ? TJSAMP_GRAY : TJSAMP_420;
-  jpeg_.resize(tjBufSize(picture.width, picture.height, chroma));
-  unsigned char* out = jpeg_.data();
+  jpeg_.resize(tjBufSize(picture.width, picture.height, grey ? TJSAMP_GRAY : TJSAMP_420));
   auto size = static_cast<unsigned long>(jpeg_.size());
-  if (tjCompress2(encoder_.get(), reinterpret_cast<const unsigned char*>(pixels), picture.width,
-                  stride, picture.height, layout, &out, &size, chroma, quality,
-                  TJFLAG_NOREALLOC) != 0) {
+  if (compress(packed, quality, size) != 0) {
     return fail(std::string("JPEG encoder: ") + tjGetErrorStr2(encoder_.get()));
   }
   return std::span(jpeg_.data(), size);

@@ -11,8 +11,9 @@
 
 namespace orbwatch::app {
 
-/// Encodes JPEG by libjpeg-turbo: one-channel pictures as grey, others as Y'CbCr 4:2:0. Keeps its
-/// memory from picture to picture. Thread-bound.
+/// Encodes JPEG by libjpeg-turbo: one-channel pictures as grey, others as Y'CbCr 4:2:0, without a
+/// conversion if they are that (I420 in remap::kJfif). Keeps its memory from picture to picture.
+/// Thread-bound.
 class JpegEncoder {
  public:
   JpegEncoder();
@@ -25,6 +26,9 @@ class JpegEncoder {
   struct Close {
     void operator()(void* encoder) const;
   };
+
+  /// Returns what turbojpeg does: 0, or an error.
+  int compress(const Picture& picture, int quality, unsigned long& size);
 
   std::unique_ptr<void, Close> encoder_;
   std::vector<std::byte> converted_;

@@ -88,6 +88,12 @@ std::size_t CameraGroup::pacing_camera() const {
   return first == members_.size() ? 0 : first;
 }
 
+std::chrono::nanoseconds CameraGroup::capture_time() const {
+  std::chrono::nanoseconds time{0};
+  for (const Member& member : members_) time += member.camera->capture_time();
+  return time;
+}
+
 void CameraGroup::miss(std::size_t camera, hal::Fault fault) {
   members_[camera].fault = fault;
   sync_.clear(camera);

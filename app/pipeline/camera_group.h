@@ -55,6 +55,9 @@ class CameraGroup {
   /// its frames begin the sets, see FrameMatcher.
   std::size_t pacing_camera() const;
 
+  /// Processor time of all cameras' capture since the start.
+  std::chrono::nanoseconds capture_time() const;
+
   /// An absent camera's fault.
   void miss(std::size_t camera, hal::Fault fault);
   /// Starts an absent camera, configured to `format`, with the controls that were applied last. It

@@ -13,18 +13,39 @@ namespace {
 /// Without frames the status is still published this often: the PLC's heartbeat.
 constexpr std::chrono::milliseconds kHeartbeatPeriod{100};
 
-std::size_t worker_count(int asked) {
+/// With the pipeline's own thread they take the cores that are theirs alone, or leave one to
+/// sinks, drivers and other programs.
+std::size_t worker_count(int asked, std::size_t reserved_cores) {
   if (asked >= 0) return static_cast<std::size_t>(asked);
-  return std::max(1U, std::thread::hardware_concurrency()) - 1;
+  if (reserved_cores > 0) return reserved_cores - 1;
+  return std::max(2U, std::thread::hardware_concurrency()) - 2;
 }
 
 /// Of the frame sets as long as the pacing camera's rate is not known.
 constexpr std::chrono::seconds kUnknownPeriod{1};
 
-MipLevelCounts levels_of(std::span<const ViewChannel> views) {
-  MipLevelCounts levels{};
-  for (const ViewChannel& view : views) view.require_levels(levels);
-  return levels;
+/// Those of every view, without areas.
+PictureUses sharpenings_of(const std::vector<ViewPlan>& views) {
+  PictureUses uses;
+  for (const ViewPlan& view : views) {
+    for (const ViewSource& source : view.sources) uses[source.camera].add(source.sharpness, {});
+  }
+  return uses;
+}
+
+PictureUses uses_of(std::span<const ViewChannel> views) {
+  PictureUses uses;
+  for (const ViewChannel& view : views) view.add_use(uses);
+  return uses;
+}
+
+/// By index.
+std::vector<ViewPlan> all_views(const PipelinePlan& plan) {
+  std::vector<ViewPlan> views = plan.views;
+  for (const auto& recipe : plan.recipes) {
+    views.insert(views.end(), recipe->plan().views.begin(), recipe->plan().views.end());
+  }
+  return views;
 }
 
 }  // namespace
@@ -32,11 +53,14 @@ MipLevelCounts levels_of(std::span<const ViewChannel> views) {
 Pipeline::Pipeline(PipelinePlan plan)
     : plan_(std::move(plan)),
       formats_(plan_.formats),
+      views_(all_views(plan_)),
       cameras_(std::move(plan_.cameras), plan_.formats, plan_.absent, plan_.triggers, plan_.sync),
-      workers_(worker_count(plan_.workers)),
-      pyramids_(plan_.formats),
+      workers_(worker_count(plan_.workers, plan_.reserved_cores)),
+      sharpenings_(sharpenings_of(views_)),
+      pyramids_(plan_.formats, sharpenings_),
+      exposures_(std::make_unique<ExposureMatch>(views_, plan_.background)),
       displays_(plan_.views.begin(), plan_.views.end()),
-      pan_tilt_zoom_(plan_.views),
+      pan_tilt_zoom_(plan_.views, plan_.background),
       budget_(plan_.deadline.count() > 0 ? plan_.deadline : kUnknownPeriod),
       view_meters_(plan_.view_count) {
   status_.camera_count = cameras_.size();
@@ -66,8 +90,13 @@ Pipeline::~Pipeline() { stop(); }
 
 Result<> Pipeline::start(std::vector<Sink*> sinks) {
   sinks_ = std::move(sinks);
+  KeptViews kept;
+  for (const Sink* sink : sinks_) kept += sink->keeps();
+  std::vector<ViewBuffers::Views> measured;
+  if (measurement_) measured = measurement_->planned_views();
+  buffers_.emplace(plan_.views, measured, kept);
   last_roll_ = hal::Clock::now();
-  thread_.start("pipeline", [this] { run(); });
+  thread_.start("pipeline", hal::ThreadRole::Pipeline, [this] { run(); });
   auto started = cameras_.start();
   if (!started) stop();
   return started;
@@ -82,6 +111,7 @@ void Pipeline::stop() {
 
 void Pipeline::run() {
   const std::stop_callback end_wait(thread_.stop_token(), [this] { cameras_.close(); });
+  stages_.begin();
   while (true) {
     const auto set = cameras_.next(hal::Clock::now() + kHeartbeatPeriod);
     if (thread_.stop_requested()) return;
@@ -98,11 +128,17 @@ void Pipeline::run() {
 
 Result<> Pipeline::take_over(Recompiled recompiled) {
   for (auto& [view, sources] : recompiled.sources) {
+    views_[view].sources = sources;
     if (auto adopted = pan_tilt_zoom_.adopt(view, std::move(sources)); !adopted) return adopted;
   }
   formats_ = recompiled.formats;
-  FramePyramids pyramids(recompiled.formats);
-  Exchange exchange{std::move(pyramids), std::move(recompiled)};  // frees here what it replaces
+  for (const auto& recipe : recompiled.recipes) {
+    if (!recipe) continue;
+    for (const ViewPlan& view : recipe->plan().views) views_[view.index] = view;
+  }
+  FramePyramids pyramids(recompiled.formats, sharpenings_);
+  Exchange exchange{std::move(pyramids), std::make_unique<ExposureMatch>(views_, plan_.background),
+                    std::move(recompiled)};  // frees here what it replaces
   std::unique_lock lock(exchanging_);
   exchange_ = &exchange;
   exchanged_.wait(lock, [this] { return exchange_ == nullptr; });
@@ -114,6 +150,7 @@ void Pipeline::exchange() {
   const std::lock_guard lock(exchanging_);
   if (!exchange_) return;
   std::swap(pyramids_, exchange_->pyramids);
+  std::swap(exposures_, exchange_->exposures);
   std::swap(plan_.formats, exchange_->recompiled.formats);
   if (measurement_) measurement_->exchange(exchange_->recompiled.recipes);
   exchange_->is_in_use = true;
@@ -142,18 +179,54 @@ void Pipeline::process(const hal::FrameSet& set) {
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     pan_tilt_zoom_.exchange(i, displays_[i].renderer());
   }
-  const bool is_display_due = budget_.is_display_due(set.id);
+  ask_readers(measured, set.stamp);
+  stages_.end(Stage::Publication);  // with the status of the set before
 
-  // A camera's picture is halved once for all views that sample its mip levels.
-  pyramids_.build(set, levels_of(measured), workers_);
-  if (measurement_) measurement_->process(set, pyramids_, workers_);
+  // A camera's picture is halved and sharpened once for all views that sample that.
+  pyramids_.build(set, uses_of(measured), workers_);
+  match_exposures(set);
+  stages_.end(Stage::Halving, workers_.take_spent());
+  if (measurement_) {
+    measurement_->render(set, pyramids_, *buffers_, workers_);
+    stages_.end(Stage::Views, workers_.take_spent());
+    measurement_->measure(set);
+    stages_.end(Stage::Measurement);
+  }
   for (ViewChannel& view : measured) publish(view);
-  if (is_display_due) pyramids_.extend(levels_of(displays_), workers_);
+  display(set);
+  count(set, hal::Clock::now() - begin);
+}
+
+/// Renders the display views, unless they are not due, and publishes them.
+void Pipeline::display(const hal::FrameSet& set) {
+  const bool is_due = budget_.is_display_due(set.id);
+  if (is_due) {
+    ask_readers(displays_, set.stamp);
+    pyramids_.extend(uses_of(displays_), workers_);
+    stages_.end(Stage::Halving, workers_.take_spent());
+  }
   for (ViewChannel& view : displays_) {
-    if (is_display_due) view.render(set, pyramids_, workers_);
+    if (is_due) view.render(set, pyramids_, *buffers_, workers_);
+    stages_.end(Stage::Views, workers_.take_spent());
     publish(view);
   }
-  count(set, hal::Clock::now() - begin);
+}
+
+void Pipeline::match_exposures(const hal::FrameSet& set) {
+  exposures_->follow(set, pyramids_, workers_);
+  for (std::size_t i = 0; i < plan_.formats.size(); ++i) {
+    pyramids_.set_match(i, exposures_->table(i));
+  }
+}
+
+/// A view is made in the format in which it is read.
+void Pipeline::ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp) {
+  for (ViewChannel& view : views) {
+    PictureNeeds needs;
+    for (Sink* sink : sinks_) needs |= sink->needs(view.plan().index, stamp);
+    const optics::ViewProjection& projection = view.plan().projection;
+    view.set_format(format_for(needs, projection.width(), projection.height()));
+  }
 }
 
 /// Replaces process() while no set comes.
@@ -164,7 +237,7 @@ void Pipeline::idle() {
 }
 
 /// Forwards the view that was rendered last; without one, since it was not due or the sinks hold
-/// every buffer of it, it counts as skipped.
+/// every buffer of its size, it counts as skipped.
 void Pipeline::publish(ViewChannel& channel) {
   const std::size_t index = channel.plan().index;
   const ViewPtr view = channel.take();
@@ -175,6 +248,7 @@ void Pipeline::publish(ViewChannel& channel) {
   for (Sink* sink : sinks_) sink->accept(view);
   ++status_.views[index].published;
   view_meters_[index].add(hal::Clock::now() - view->stamp);
+  stages_.end(Stage::Publication);
 }
 
 void Pipeline::count(const hal::FrameSet& set, hal::Clock::duration spent) {
@@ -183,6 +257,9 @@ void Pipeline::count(const hal::FrameSet& set, hal::Clock::duration spent) {
   status_.trigger = set.trigger.value_or(0);
   status_.unmatched += set.matched ? 0 : 1;
   largest_skew_ = std::max(largest_skew_, set.skew);
+  std::chrono::nanoseconds sinks{0};
+  for (const Sink* sink : sinks_) sinks += sink->cpu_time();
+  stages_.end_set(cameras_.capture_time(), sinks);
   if (budget_.add(spent) && budget_.overruns() == 1) {
     log_line(LogLevel::Warning,
              "a frame set took longer than its deadline; display views slow down");
@@ -208,6 +285,8 @@ void Pipeline::publish_status() {
     status_.health = surroundings.health;
     status_.line_faults = surroundings.line_faults;
     status_.interface_faults = surroundings.interface_faults;
+    status_.realtime = surroundings.realtime;
+    status_.memory_locked = surroundings.memory_locked;
   }
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     status_.views[i].superseded = pan_tilt_zoom_.superseded(i);
@@ -217,6 +296,7 @@ void Pipeline::publish_status() {
   if (is_second_over) elapsed = now - std::exchange(last_roll_, now);
   cameras_.report(status_, elapsed);
   report_live_views();
+  stages_.report(status_);
   if (elapsed) roll_rates(*elapsed);
   for (Sink* sink : sinks_) sink->accept(status_);
 }
@@ -225,6 +305,7 @@ void Pipeline::roll_rates(hal::Clock::duration elapsed) {
   for (std::size_t i = 0; i < view_meters_.size(); ++i) {
     view_meters_[i].roll(elapsed, status_.views[i]);
   }
+  stages_.roll(elapsed, status_);
   status_.load = budget_.roll_load();
   follow_pace();
   const auto skew = std::exchange(largest_skew_, hal::Clock::duration::zero());

@@ -21,14 +21,18 @@
 #include "app/pipeline/pipeline_settings.h"
 #include "app/pipeline/recompiled.h"
 #include "app/pipeline/second_meter.h"
+#include "app/pipeline/stage_meter.h"
+#include "app/pipeline/views/exposure_match.h"
 #include "app/pipeline/views/frame_pyramids.h"
 #include "app/pipeline/views/pan_tilt_zoom.h"
+#include "app/pipeline/views/view_buffers.h"
 #include "app/pipeline/views/view_channel.h"
 #include "app/pipeline/worker_pool.h"
 #include "hal/camera.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/lines/process_input.h"
 #include "hal/sync/frame_sync.h"
+#include "hal/thread/shared_threads.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
@@ -38,6 +42,8 @@ struct Surroundings {
   Health health;
   std::uint32_t line_faults = 0;       ///< as SystemStatus
   std::uint32_t interface_faults = 0;  ///< as SystemStatus
+  bool realtime = false;               ///< as SystemStatus
+  bool memory_locked = false;          ///< as SystemStatus
 };
 
 /// Everything the pipeline needs; cameras are configured already, unless they are absent.
@@ -52,6 +58,9 @@ struct PipelinePlan : PipelineSettings {
   std::vector<std::unique_ptr<CompiledRecipe>> recipes;  ///< at most kMaxRecipes
   std::size_t view_count = 0;                            ///< those of the recipes included
   std::uint32_t configuration_checksum = 0;
+  /// For what is off the frame path, and may wait.
+  std::shared_ptr<hal::SharedThreads> background = hal::SharedThreads::alone();
+  std::size_t reserved_cores = 0;  ///< for the frame path alone; 0: it shares all
   /// The newest figures, without waiting; null: none are known.
   std::function<Surroundings(hal::TimePoint now)> surroundings;
 };
@@ -115,6 +124,7 @@ class Pipeline {
   /// What take_over() waits for.
   struct Exchange {
     FramePyramids pyramids;
+    std::unique_ptr<ExposureMatch> exposures;
     Recompiled recompiled;
     bool is_in_use = false;
   };
@@ -126,7 +136,10 @@ class Pipeline {
   void run();
   void process(const hal::FrameSet& set);
   void idle();
+  void match_exposures(const hal::FrameSet& set);
+  void ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp);
   void publish(ViewChannel& channel);
+  void display(const hal::FrameSet& set);
   void count(const hal::FrameSet& set, hal::Clock::duration spent);
   void publish_status();
   void roll_rates(hal::Clock::duration elapsed);
@@ -137,16 +150,21 @@ class Pipeline {
 
   PipelinePlan plan_;
   std::vector<hal::StreamFormat> formats_;  ///< the main thread's copy
+  std::vector<ViewPlan> views_;             ///< all, by index; the main thread's
   std::mutex exchanging_;
   std::condition_variable exchanged_;
   Exchange* exchange_ = nullptr;  ///< pending or in use; under exchanging_
   CameraGroup cameras_;
   WorkerPool workers_;
+  const PictureUses sharpenings_;  ///< that any view may ask for; no areas
   FramePyramids pyramids_;
+  std::unique_ptr<ExposureMatch> exposures_;
   std::vector<ViewChannel> displays_;
+  std::optional<ViewBuffers> buffers_;      ///< since start()
   std::optional<Measurement> measurement_;  ///< if there are recipes
   PanTiltZoom pan_tilt_zoom_;
   FrameBudget budget_;
+  StageMeter stages_;
   std::vector<SecondMeter> view_meters_;  ///< by index; recipes may share a view's name
   std::atomic<std::size_t> selected_view_{0};
   Status status_;

@@ -5,11 +5,11 @@
 
 namespace orbwatch::app {
 
-/// Frame budget and threads.
+/// Frame budget and workers.
 struct PipelineSettings {
   hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
   hal::SyncSettings sync;
-  int workers = -1;  ///< threads besides the pipeline's own; -1: one less than there are cores
+  int workers = -1;  ///< threads besides the pipeline's own; -1: by the cores, see visit()
 };
 
 template <class Visitor>
@@ -21,7 +21,8 @@ void visit(Visitor& v, PipelineSettings& pipeline) {
   v.optional("sync_max_wait_ms", pipeline.sync.max_wait, Milliseconds{Range::between(0, 10000)},
              "Longest wait of the first camera's frame for those of the others");
   v.optional("workers", pipeline.workers, Range::between(-1, 64),
-             "Threads besides the pipeline's own; -1: one less than there are cores");
+             "Threads besides the pipeline's own; -1: so many that both leave one core to the "
+             "rest, or take all of `threads.cores`");
 }
 
 }  // namespace orbwatch::app

@@ -1,44 +1,53 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
+#include <chrono>
 #include <cstddef>
-#include <mutex>
+#include <cstdint>
 #include <vector>
 
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
 
-/// Threads that share the bands of one picture with the caller. Thread-bound: one caller.
+/// Threads that share the bands of one picture with the caller. A band belongs to whoever claims it
+/// first, and run() waits for claimed bands only: a worker that the kernel did not let run in time
+/// delays nobody. Thread-bound: one caller.
 class WorkerPool {
  public:
   /// `threads` besides the caller's own; 0 makes run() a plain loop.
   explicit WorkerPool(std::size_t threads);
 
-  /// Calls work(band) for every band in [0, bands), each once, and returns when all are done. The
-  /// work must not throw. Does not allocate.
+  /// Calls work(band) for every band in [0, bands), each once, in any order, and returns when all
+  /// are done. `bands`: at most kMaxBands. The work must not throw. Does not allocate.
   template <class Work>
   void run(int bands, Work& work) {
     run_bands(
         bands, [](void* context, int band) { (*static_cast<Work*>(context))(band); }, &work);
   }
 
+  static constexpr int kBandBits = 20;
+  static constexpr int kMaxBands = (1 << kBandBits) - 1;
+
+  /// Processor time of the workers, without the caller's, for the runs since the last call.
+  std::chrono::nanoseconds take_spent();
+
  private:
   using Call = void (*)(void*, int);
 
   void run_bands(int bands, Call call, void* context);
+  int claim();
+  int work_on(int band);
   void serve(hal::Thread& thread);
-  void call_bands();
 
-  // Written by the caller while no worker is busy.
+  // Written by the caller while no band is claimed, read by those who claimed one.
   Call call_ = nullptr;
   void* context_ = nullptr;
-  int bands_ = 0;
-  std::atomic<int> next_{0};  ///< band that nobody has begun
-  std::mutex mutex_;
-  std::condition_variable done_;
-  std::size_t busy_ = 0;  ///< workers that share the current run
+  /// Number of the run, its bands, and the next one that nobody has claimed: one word, so that a
+  /// band can be claimed only in the run that it was seen in.
+  std::atomic<std::uint64_t> claims_{0};
+  std::atomic<int> unfinished_{0};  ///< bands; an int is what the kernel waits for without a lock
+  std::atomic<std::int64_t> spent_{0};  ///< ns
   std::vector<hal::Thread> threads_;
 };
 

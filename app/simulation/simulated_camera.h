@@ -42,6 +42,7 @@ class SimulatedCamera : public hal::Camera {
   /// Renders the static scene. Errors: a size, rate, angle or noise out of range, a position inside
   /// a body.
   Result<hal::StreamFormat> do_configure(const hal::StreamRequest& request) override;
+  hal::ThreadRole role() const override { return hal::ThreadRole::Service; }
   void run(const std::stop_token& stop) override;
 
  private:

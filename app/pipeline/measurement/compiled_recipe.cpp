@@ -25,28 +25,53 @@ bool is_of_trigger(const hal::FrameSet& set, const hal::Frame& frame) {
   return !set.trigger || !trigger || *trigger == *set.trigger;
 }
 
+/// Calls RegionMeter::make or RegionMeter::check for a region.
+template <class T>
+Result<T> for_region(const RecipePlan& plan, const RegionPlan& region,
+                     const signals::RegionScene& scene,
+                     Result<T> (*call)(const optics::ViewProjection&, const signals::RegionScene&,
+                                       const signals::RegionSettings&,
+                                       const signals::RegionMask::Sees&)) {
+  const ViewPlan& view = plan.views[region.view];
+  const ViewSource& measured = view.sources[*view.measured];
+  auto result = call(view.projection, scene, region.settings,
+                     [&measured](const auto& to) { return sees(measured, to); });
+  if (!result) return fail("region " + region.name + ": " + result.error().message);
+  return result;
+}
+
+Result<signals::AlarmBoard> make_board(const RecipePlan& plan) {
+  return signals::AlarmBoard::make(plan.alarms, plan.regions.size());
+}
+
 }  // namespace
 
 Result<std::unique_ptr<CompiledRecipe>> CompiledRecipe::make(RecipePlan plan,
                                                              const signals::RegionScene& scene) {
   std::unique_ptr<CompiledRecipe> recipe(new CompiledRecipe(std::move(plan)));
-  for (const ViewPlan& view : recipe->plan_.views) recipe->views_.emplace_back(view);
-  recipe->frames_.resize(recipe->views_.size());
   for (const RegionPlan& region : recipe->plan_.regions) {
-    const ViewPlan& view = recipe->plan_.views[region.view];
-    const ViewSource& measured = view.sources[*view.measured];
-    auto meter =
-        signals::RegionMeter::make(view.projection, scene, region.settings,
-                                   [&measured](const auto& to) { return sees(measured, to); });
-    if (!meter) return fail("region " + region.name + ": " + meter.error().message);
+    auto meter = for_region(recipe->plan_, region, scene, signals::RegionMeter::make);
+    if (!meter) return tl::unexpected(meter.error());
     const Quality quality = quality_of(meter->radiometry());
     recipe->meters_.push_back({std::move(*meter), region.view, quality});
   }
-  auto board = signals::AlarmBoard::make(recipe->plan_.alarms, recipe->plan_.regions.size());
+  auto board = make_board(recipe->plan_);
   if (!board) return tl::unexpected(board.error());
   recipe->fresh_board_ = *board;
+  for (const ViewPlan& view : recipe->plan_.views) recipe->views_.emplace_back(view);
+  recipe->frames_.resize(recipe->views_.size());
   recipe->begin();
   return recipe;
+}
+
+Result<> CompiledRecipe::check(const RecipePlan& plan, const signals::RegionScene& scene) {
+  for (const RegionPlan& region : plan.regions) {
+    if (const auto checked = for_region(plan, region, scene, signals::RegionMeter::check);
+        !checked) {
+      return checked;
+    }
+  }
+  return make_board(plan).map([](const signals::AlarmBoard&) {});
 }
 
 void CompiledRecipe::begin() {
@@ -64,9 +89,9 @@ void CompiledRecipe::begin() {
 }
 
 void CompiledRecipe::render(const hal::FrameSet& set, const FramePyramids& pyramids,
-                            WorkerPool& workers) {
+                            ViewBuffers& buffers, WorkerPool& workers) {
   for (std::size_t n = 0; n < views_.size(); ++n) {
-    const View* view = views_[n].render(set, pyramids, workers);
+    const View* view = views_[n].render(set, pyramids, buffers, workers);
     const ViewPlan& plan = plan_.views[n];
     const std::size_t camera = plan.sources[*plan.measured].camera;
     const bool is_measurable = is_of_trigger(set, set.frames[camera]);

@@ -18,14 +18,18 @@
 
 namespace orbwatch::app {
 
-/// A recipe with everything that its measurement needs. Recipes share nothing, so that no result
-/// mixes two. Made before the run; then it allocates nothing. Thread-bound: the pipeline's thread.
+/// A recipe with everything that its measurement needs. Recipes share nothing but the memory of
+/// views, so that no result mixes two. Made before the run; then it allocates nothing.
+/// Thread-bound: the pipeline's thread.
 class CompiledRecipe {
  public:
   /// Errors: a region that cannot be measured, or that the measured camera does not see; limits
   /// that contradict each other.
   static Result<std::unique_ptr<CompiledRecipe>> make(RecipePlan plan,
                                                       const signals::RegionScene& scene);
+
+  /// Errors: as make(). Compiles nothing.
+  static Result<> check(const RecipePlan& plan, const signals::RegionScene& scene);
 
   const RecipePlan& plan() const { return plan_; }
 
@@ -35,8 +39,9 @@ class CompiledRecipe {
   /// The measured views, in the plan's order.
   std::span<ViewChannel> views() { return views_; }
 
-  /// Renders every view of a set.
-  void render(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
+  /// Renders every view of a set, to be measured before they are taken from the channels.
+  void render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
+              WorkerPool& workers);
 
   /// Measures every region in the views that were rendered last, at the exposure of its camera.
   /// Not measured is a frame without all that was set until `set_since`, and in a triggered set the

@@ -59,6 +59,12 @@ CommandResult Measurement::acknowledge_alarm(std::size_t number) {
   return CommandResult::Done;
 }
 
+std::vector<std::span<const ViewPlan>> Measurement::planned_views() const {
+  std::vector<std::span<const ViewPlan>> views;
+  for (const auto& recipe : recipes_) views.emplace_back(recipe->plan().views);
+  return views;
+}
+
 void Measurement::apply_commands(hal::TimePoint stamp) {
   paused_ = pause_requested_;
   selection_ = switch_.selection_at(stamp);
@@ -86,11 +92,14 @@ void Measurement::change_to(CompiledRecipe& recipe) {
   alarm_count_ = recipe.plan().alarms.size();
 }
 
-void Measurement::process(const hal::FrameSet& set, const FramePyramids& pyramids,
-                          WorkerPool& workers) {
+void Measurement::render(const hal::FrameSet& set, const FramePyramids& pyramids,
+                         ViewBuffers& buffers, WorkerPool& workers) {
+  recipe_->render(set, pyramids, buffers, workers);
+}
+
+void Measurement::measure(const hal::FrameSet& set) {
   frame_set_ = set.id;
   stamp_ = set.stamp;
-  recipe_->render(set, pyramids, workers);
   const bool is_settling = selection_ && to_settle_ > 0;
   to_settle_ -= is_settling && recipe_->is_set(selection_->set_since) ? 1 : 0;
   if (selection_ && !is_settling && !paused_) {

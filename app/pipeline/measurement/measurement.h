@@ -53,15 +53,22 @@ class Measurement {
   /// keeps its own. The replaced ones are needed until the next watch() is over.
   void exchange(std::vector<std::unique_ptr<CompiledRecipe>>& recipes);
 
+  /// The planned views of each recipe.
+  std::vector<std::span<const ViewPlan>> planned_views() const;
+
   /// The views of the current recipe.
   std::span<ViewChannel> views() { return recipe_->views(); }
 
-  /// Renders and measures a set.
-  void process(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
-  /// Replaces process() while no set comes. `blind`: no camera delivers, or all are late.
+  /// Renders the views of a set.
+  void render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
+              WorkerPool& workers);
+  /// Measures in the views of the set that was rendered.
+  void measure(const hal::FrameSet& set);
+  /// Replaces render() and measure() while no set comes. `blind`: no camera delivers, or all are
+  /// late.
   void idle(bool blind);
 
-  /// Steps the alarms; called after each process() or idle(), and at least ten times a second.
+  /// Steps the alarms; called after each measure() or idle(), and at least ten times a second.
   void watch(hal::TimePoint now, const Notify& notify);
 
   /// Fills in the members of `status` that are known here.

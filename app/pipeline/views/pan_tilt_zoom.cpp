@@ -17,12 +17,14 @@ Result<optics::ViewProjection> pointed(const ViewPlan& view, const Pointing& poi
 
 }  // namespace
 
-PanTiltZoom::PanTiltZoom(std::span<const ViewPlan> views) : views_(views), slots_(views.size()) {
+PanTiltZoom::PanTiltZoom(std::span<const ViewPlan> views, Threads threads)
+    : views_(views),
+      slots_(views.size()),
+      compiler_(std::move(threads), [this] { compile_all(); }) {
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const optics::ViewSpec& spec = views_[i].projection.spec();
     slots_[i].aim = {{spec.orientation, spec.h_fov, spec.v_fov}, views_[i].sources};
   }
-  thread_.start("view compiler", [this] { run(); });
 }
 
 PanTiltZoom::~PanTiltZoom() { stop(); }
@@ -51,7 +53,7 @@ Result<std::uint64_t> PanTiltZoom::request(std::size_t view, const Change& chang
     slot.request = std::move(request);
   }
   slot.aim = std::move(aim);
-  thread_.wake();
+  compiler_.request();
   return ++slot.requests;
 }
 
@@ -98,7 +100,7 @@ void PanTiltZoom::exchange(std::size_t view, std::unique_ptr<ViewRenderer>& in_u
     if (!std::exchange(slots_[view].compiled, false)) return;
     std::swap(slots_[view].renderer, in_use);
   }
-  thread_.wake();
+  compiler_.request();
 }
 
 std::uint64_t PanTiltZoom::superseded(std::size_t view) const {
@@ -111,16 +113,13 @@ void PanTiltZoom::stop() {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
   }
-  thread_.stop();
+  compiler_.cancel();
 }
 
-void PanTiltZoom::run() {
-  std::size_t view = 0;
-  while (thread_.wait()) {
-    while (const auto work = next_work(view)) {
-      view = work->view;
-      if (work->request) compile(view, *work->request);
-    }
+void PanTiltZoom::compile_all() {
+  while (const auto work = next_work(last_)) {
+    last_ = work->view;
+    if (work->request) compile(last_, *work->request);
   }
 }
 

@@ -10,7 +10,7 @@
 
 #include "app/pipeline/views/view_plan.h"
 #include "app/pipeline/views/view_renderer.h"
-#include "hal/thread/thread.h"
+#include "hal/thread/shared_threads.h"
 #include "proc/image/result.h"
 #include "proc/optics/rotation.h"
 #include "proc/optics/view_projection.h"
@@ -24,15 +24,18 @@ struct Pointing {
   std::optional<double> v_fov;
 };
 
-/// Points display views elsewhere while frames run: compiles renderers on a thread of its own, off
-/// the frame path, which exchanges them between two frame sets. Queues per view: one request and
+/// Points display views elsewhere while frames run: compiles renderers on a shared thread, off the
+/// frame path, which exchanges them between two frame sets. Queues per view: one request and
 /// one compiled renderer; the newest wins, each one replaced before its use is counted.
 /// Thread rule: point, turn, mix, adopt and superseded on any thread, exchange on the pipeline's,
 /// stop on the main.
 class PanTiltZoom {
  public:
-  /// `views`, by index, outlive this. Starts the thread.
-  explicit PanTiltZoom(std::span<const ViewPlan> views);
+  using Threads = std::shared_ptr<hal::SharedThreads>;
+
+  /// `views`, by index, outlive this.
+  explicit PanTiltZoom(std::span<const ViewPlan> views,
+                       Threads threads = hal::SharedThreads::alone());
   ~PanTiltZoom();
   PanTiltZoom(const PanTiltZoom&) = delete;
   PanTiltZoom& operator=(const PanTiltZoom&) = delete;
@@ -61,8 +64,7 @@ class PanTiltZoom {
   /// How many requests of a view a newer one replaced before exchange().
   std::uint64_t superseded(std::size_t view) const;
 
-  /// Ends the thread, after the compilation under way, and drops waiting requests; repeating it
-  /// does nothing.
+  /// Waits for the compilation under way, and drops waiting requests; repeating it does nothing.
   void stop();
 
  private:
@@ -91,7 +93,7 @@ class PanTiltZoom {
 
   template <class Change>
   Result<std::uint64_t> request(std::size_t view, const Change& change);
-  void run();
+  void compile_all();
   std::optional<Work> next_work(std::size_t last);
   void compile(std::size_t view, const Request& request);
 
@@ -100,7 +102,8 @@ class PanTiltZoom {
   mutable std::mutex mutex_;  ///< the frame path locks it: never held across work
   std::vector<Slot> slots_;   ///< by view
   bool stopped_ = false;
-  hal::Thread thread_;
+  std::size_t last_ = 0;  ///< view that was compiled last; of the work
+  hal::SharedThreads::Work compiler_;
 };
 
 }  // namespace orbwatch::app

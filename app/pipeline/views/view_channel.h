@@ -2,37 +2,39 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 
 #include "app/model/view.h"
 #include "app/pipeline/views/frame_pyramids.h"
+#include "app/pipeline/views/view_buffers.h"
 #include "app/pipeline/views/view_plan.h"
 #include "app/pipeline/views/view_renderer.h"
 #include "app/pipeline/worker_pool.h"
-#include "hal/frame/buffer_pool.h"
 #include "hal/sync/frame_set.h"
 
 namespace orbwatch::app {
 
-/// A view on its way from frame sets to the sinks, measured or displayed: its renderer and its
-/// buffers, which the sinks share. While they hold every one, a display view is skipped; a measured
-/// one is rendered into a buffer of its own, so that no sink stops a measurement.
-/// Thread-bound: the pipeline's thread.
+/// A view on its way from frame sets to the sinks, measured or displayed. While they hold every
+/// buffer of its size, a display view is skipped; a measured one is rendered into one that no sink
+/// gets, so that none stops a measurement. Thread-bound: the pipeline's thread.
 class ViewChannel {
  public:
   /// `plan` outlives the channel and its views.
-  explicit ViewChannel(const ViewPlan& plan);
+  explicit ViewChannel(const ViewPlan& plan)
+      : plan_(&plan), renderer_(std::make_unique<ViewRenderer>(plan)) {}
 
   const ViewPlan& plan() const { return *plan_; }
 
-  /// Raises `counts` to the mip levels that render() samples.
-  void require_levels(MipLevelCounts& counts) const { renderer_->require_levels(counts); }
+  /// What render() makes of the picture from now on; nullopt: none.
+  void set_format(std::optional<PixelFormat> format) { format_ = format; }
+  /// Adds what render() samples.
+  void add_use(PictureUses& uses) const { renderer_->add_use(uses, format_.has_value()); }
 
-  /// The view of a set, valid until the next call; null: every buffer is held. Does not allocate.
-  const View* render(const hal::FrameSet& set, const FramePyramids& pyramids, WorkerPool& workers);
+  /// The view of a set, valid until take(); null: every buffer is held. Does not allocate.
+  const View* render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
+                     WorkerPool& workers);
 
   /// Hands over what was rendered last; null: every buffer was held.
-  ViewPtr take() { return std::move(rendered_); }
+  ViewPtr take();
 
   /// Of another projection or other weights, but of the plan's size and sources: see PanTiltZoom.
   std::unique_ptr<ViewRenderer>& renderer() { return renderer_; }
@@ -40,9 +42,9 @@ class ViewChannel {
  private:
   const ViewPlan* plan_;
   std::unique_ptr<ViewRenderer> renderer_;
-  hal::BufferPool<View> pool_;
-  std::optional<View> unshared_;  ///< of a measured view
+  std::optional<PixelFormat> format_;
   std::shared_ptr<View> rendered_;
+  bool is_shared_ = false;  ///< sinks get rendered_
 };
 
 }  // namespace orbwatch::app

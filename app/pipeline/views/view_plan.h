@@ -27,7 +27,14 @@ struct ViewSource {
   optics::BallProjection ball;
   double weight = 1;            ///< above 0; in a mixed view, beside its resolution
   remap::ColourMap colour_map;  ///< for one-channel formats
+  /// How much the picture is sharpened to be shown, 0..remap::kMaxSharpness, if its format is and
+  /// pixels are interpolated; 0: not at all.
+  double sharpness = 0;
 };
+
+inline bool is_colour(const ViewSource& source) {
+  return info(source.format.format).colour != ColourModel::Luminance;
+}
 
 /// A view, ready to be compiled into a ViewRenderer.
 struct ViewPlan {
@@ -40,6 +47,7 @@ struct ViewPlan {
   /// Which of `sources` is measured, raw; nullopt for a display view.
   std::optional<std::size_t> measured;
   std::uint64_t pointing = 0;  ///< see View::pointing
+  bool match = true;           ///< brings its colour cameras together: see ExposureMatch
 };
 
 }  // namespace orbwatch::app

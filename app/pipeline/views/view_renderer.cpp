@@ -10,25 +10,6 @@
 
 namespace orbwatch::app {
 
-View make_view(const ViewPlan& plan) {
-  const int width = plan.projection.width(), height = plan.projection.height();
-  const auto pixels = static_cast<std::size_t>(width) * height;
-  const bool is_measured = plan.measured.has_value();
-  const bool is_wide =
-      is_measured && info(plan.sources[*plan.measured].format.format).bytes_per_sample() == 2;
-  const bool has_luminance = is_measured && !is_wide;
-  View view;
-  view.index = plan.index;
-  view.name = plan.name;
-  view.bytes.resize(pixels * (has_luminance ? 5 : 4));
-  view.words.resize(is_wide ? pixels : 0);
-  view.colour = {view.bytes.data(), width, height, 3, 3 * width};
-  view.validity = {view.bytes.data() + 3 * pixels, width, height, 1, width};
-  if (has_luminance) view.luminance = {view.bytes.data() + 4 * pixels, width, height, 1, width};
-  if (is_wide) view.radiometric = {view.words.data(), width, height, 1, width};
-  return view;
-}
-
 bool ViewRenderer::is_supported(PixelFormat format) { return format != PixelFormat::Rgb16; }
 
 ViewRenderer::ViewRenderer(ViewPlan plan)
@@ -36,7 +17,9 @@ ViewRenderer::ViewRenderer(ViewPlan plan)
       plan_(std::move(plan)),
       grids_(make_grids()),
       blend_(make_blend()),
-      unseen_(make_unseen()) {}
+      sharpened_(find_sharpened()),
+      unseen_(make_unseen()),
+      is_matched_(plan_.match && std::ranges::count_if(plan_.sources, is_colour) > 1) {}
 
 std::vector<remap::CoordinateGrid> ViewRenderer::make_grids() const {
   std::vector<remap::CoordinateGrid> grids;
@@ -51,10 +34,10 @@ remap::BlendGrid ViewRenderer::make_blend() const {
   // A camera sees well up to about 150 degrees from its own direction.
   constexpr double kWell = 1.0 / 4;
   std::vector<remap::BlendSource> sources;
-  for (const auto& [camera, format, ball, weight, colours] : plan_.sources) {
-    sources.push_back({ball, format.width, format.height, weight, std::nullopt});
+  for (const ViewSource& from : plan_.sources) {
+    sources.push_back({from.ball, from.format.width, from.format.height, from.weight, {}});
     if (plan_.combine == Combine::Mix) {
-      sources.back().enough = kWell * optics::resolution(ball, ball.facing());
+      sources.back().enough = kWell * optics::resolution(from.ball, from.ball.facing());
     }
   }
   return {plan_.projection, sources};
@@ -80,10 +63,27 @@ int ViewRenderer::levels(std::size_t source) const {
   return remap::uses_mip_levels(plan_.interpolation) ? grids_[source].pyramid_levels() : 0;
 }
 
-void ViewRenderer::require_levels(MipLevelCounts& counts) const {
+/// Sharpening makes up for what interpolation blurs.
+double ViewRenderer::sharpness(std::size_t source) const {
+  const ViewSource& from = plan_.sources[source];
+  const bool is_blurred = plan_.interpolation != remap::Interpolation::Nearest;
+  return is_blurred && remap::can_sharpen(from.format.format) ? from.sharpness : 0;
+}
+
+std::vector<remap::SourceArea> ViewRenderer::find_sharpened() const {
+  std::vector<remap::SourceArea> areas(grids_.size());
+  for (std::size_t n = 0; n < areas.size(); ++n) {
+    if (sharpness(n) > 0) areas[n] = grids_[n].sampled_area();
+  }
+  return areas;
+}
+
+void ViewRenderer::add_use(PictureUses& uses, bool with_picture) const {
   for (std::size_t n = 0; n < grids_.size(); ++n) {
-    int& count = counts[plan_.sources[n].camera];
-    count = std::max(count, levels(n));
+    if (!with_picture && plan_.measured != n) continue;
+    PictureUse& use = uses[plan_.sources[n].camera];
+    use.mip_levels = std::max(use.mip_levels, levels(n));
+    if (with_picture) use.add(sharpness(n), sharpened_[n]);
   }
 }
 
@@ -99,14 +99,16 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   if (!view.radiometric.empty()) {
     measured = picture_of(plan_.sources[*plan_.measured].format.format, view.radiometric);
   }
-  render(pyramids, {picture_of(PixelFormat::Rgb, view.colour), view.validity, measured}, workers);
+  if (view.picture.planes[0].data == nullptr && !plan_.measured) return;
+  render(pyramids, {view.picture, view.validity, measured}, workers);
 }
 
 /// A camera that came after the start has another format until the view is compiled for it.
 std::span<const Picture> ViewRenderer::pictures_of(std::size_t source,
-                                                   const FramePyramids& pyramids) const {
+                                                   const FramePyramids& pyramids,
+                                                   double sharpness) const {
   const ViewSource& from = plan_.sources[source];
-  const auto pictures = pyramids.pictures(from.camera, levels(source));
+  const auto pictures = pyramids.pictures(from.camera, levels(source), sharpness);
   const bool fits = !pictures.empty() && pictures.front().format == from.format.format;
   return fits ? pictures : std::span<const Picture>();
 }
@@ -116,10 +118,17 @@ void ViewRenderer::render(const FramePyramids& pyramids, const RenderTarget& tar
   std::array<remap::MergedSource, remap::kMaxSources> sources;
   for (std::size_t n = 0; n < grids_.size(); ++n) {
     sources[n].grid = &grids_[n];
-    sources[n].colours = &plan_.sources[n].colour_map;
-    sources[n].pictures = pictures_of(n, pyramids);
-    if (plan_.measured == n) sources[n].measured = target.measured;
-    if (!matches_.empty()) sources[n].match = &matches_[n];
+    if (!target.is_raw) sources[n].colours = &plan_.sources[n].colour_map;
+    sources[n].pictures = pictures_of(n, pyramids, sharpness(n));
+    if (plan_.measured == n) {
+      sources[n].measured = target.measured;
+      sources[n].measured_pictures = pictures_of(n, pyramids, 0);
+    }
+    if (!matches_.empty()) {
+      sources[n].match = &matches_[n];
+    } else if (is_matched_) {
+      sources[n].match = pyramids.match(plan_.sources[n].camera);
+    }
   }
   const int width = plan_.projection.width();
   const remap::MergePlan plan{

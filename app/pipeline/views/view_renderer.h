@@ -14,16 +14,15 @@
 
 namespace orbwatch::app {
 
-/// A buffer of the view's size and planes, whose name is the plan's own.
-View make_view(const ViewPlan& plan);
-
 /// Where a view's pixels go; each of the view's size.
 struct RenderTarget {
-  MutablePicture picture;  ///< Rgb, or the one format of all sources: Grey, Y16, Rgb or Rgb16
+  /// Rgb, Bgr, Grey; or raw, the one format of all sources: Grey, Y16, Rgb or Rgb16. No data: none.
+  MutablePicture picture;
   ImageView<std::uint8_t> validity;  ///< one Validity per pixel
-  /// Where the measured source goes, raw, beside an Rgb picture: its luminance as Grey, or its
-  /// counts in its own 16 bit format. No data: nowhere.
+  /// Where the measured source goes, raw, beside the picture: its luminance as Grey, or its counts
+  /// in its own 16 bit format. No data: nowhere.
   MutablePicture measured;
+  bool is_raw = false;  ///< the picture: one-channel sources are not colour-mapped
 };
 
 /// Turns frame sets into one view. Everything that depends on calibration or view is compiled when
@@ -36,11 +35,12 @@ class ViewRenderer {
 
   static bool is_supported(PixelFormat format);
 
-  /// Raises `counts` to the mip levels that this view samples.
-  void require_levels(MipLevelCounts& counts) const;
+  /// Adds what this view samples; without a picture only what is measured.
+  void add_use(PictureUses& uses, bool with_picture = true) const;
 
-  /// Fills `view` from the frames of `set`, of which `pyramids` were built; a missing frame leaves
-  /// its part blind. Does not allocate.
+  /// Fills `view`, its picture in the format that it has, from the frames of `set`, of which
+  /// `pyramids` were built with add_use(); a missing frame leaves its part blind. Does not
+  /// allocate.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
               WorkerPool& workers) const;
   /// The same without a View.
@@ -57,8 +57,11 @@ class ViewRenderer {
   std::vector<remap::CoordinateGrid> make_grids() const;
   remap::BlendGrid make_blend() const;
   std::vector<std::uint8_t> make_unseen() const;
+  std::vector<remap::SourceArea> find_sharpened() const;
   int levels(std::size_t source) const;
-  std::span<const Picture> pictures_of(std::size_t source, const FramePyramids& pyramids) const;
+  double sharpness(std::size_t source) const;
+  std::span<const Picture> pictures_of(std::size_t source, const FramePyramids& pyramids,
+                                       double sharpness) const;
   template <class T>
   std::vector<remap::PhotometricMatch> compare_sources(const FramePyramids& pyramids) const;
 
@@ -66,8 +69,10 @@ class ViewRenderer {
   ViewPlan plan_;
   std::vector<remap::CoordinateGrid> grids_;  ///< by source
   remap::BlendGrid blend_;
-  std::vector<std::uint8_t> unseen_;  ///< per pixel the Validity when no camera delivers
-  std::vector<remap::PhotometricTable> matches_;  ///< by source; empty: all as they are
+  std::vector<remap::SourceArea> sharpened_;  ///< by source, what of it is sampled sharpened
+  std::vector<std::uint8_t> unseen_;          ///< per pixel the Validity when no camera delivers
+  bool is_matched_;                           ///< by what the pyramids have
+  std::vector<remap::PhotometricTable> matches_;  ///< by source, in place of that
 };
 
 }  // namespace orbwatch::app

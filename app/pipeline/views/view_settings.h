@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/pictures/colour_maps.h"
+#include "app/pipeline/views/picture_use.h"
 #include "app/pipeline/views/view_plan.h"
 #include "proc/image/picture.h"
 #include "proc/optics/view_projection.h"
@@ -14,11 +15,17 @@
 
 namespace orbwatch::app {
 
+/// What a camera's picture is sharpened by unless stated: about as sharp as bicubic interpolation
+/// would be.
+inline constexpr double kSharpness = 0.8;
+inline constexpr Range kSharpnesses = Range::between(0, remap::kMaxSharpness);
+
 /// One camera of a view.
 struct SourceSettings {
   Reference camera;
   double weight = 1;
   std::string colour_map = "grey";
+  double sharpness = kSharpness;
   std::optional<std::array<double, 2>> range;  ///< first and last colour; nullopt: 0 to 100
 };
 
@@ -37,6 +44,7 @@ struct ViewSettings {
   Combine combine = Combine::Mix;
   remap::Interpolation interpolation = remap::Interpolation::Area;
   PixelFormat encoding = PixelFormat::Rgb;
+  bool match = true;
   std::vector<Located<SourceSettings>> sources;
 
   optics::ViewSpec spec() const { return {kind, {yaw, pitch, roll}, h_fov, v_fov, width, height}; }
@@ -71,6 +79,10 @@ void visit(Visitor& v, SourceSettings& source) {
   v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
   v.optional("range", source.range, kAnyNumber,
              "First and last colour: degC for a radiometric camera, else percent of full scale");
+  v.optional("sharpness", source.sharpness, kSharpnesses,
+             "How much an 8 bit colour camera's picture is sharpened to be shown, never what is "
+             "measured; 0: not at all. At most 4 different values of one camera");
+  static_assert(kMaxSharpnesses == 4);
   v.require(!source.range || (*source.range)[0] < (*source.range)[1], "range",
             "the first number must be below the second");
 }
@@ -97,6 +109,10 @@ void visit(Visitor& v, ViewSettings& view) {
   v.optional("interpolation", view.interpolation, remap::kInterpolations,
              "Between source pixels; area averages where the view is smaller than the picture");
   v.optional("encoding", view.encoding, kEncodings, "Of its raw pictures over DDS");
+  v.optional(
+      "match", view.match,
+      "Brings colour cameras that are exposed apart together where they see the same; what is "
+      "measured stays as it is");
   v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
 }
 

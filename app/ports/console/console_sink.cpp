@@ -67,7 +67,7 @@ Result<> ConsoleSink::start() {
   const auto period = std::chrono::duration_cast<hal::Clock::duration>(
       std::chrono::duration<double>(settings_.period));
   started_ = hal::Clock::now();
-  thread_.start("console", [this, period] {
+  thread_.start("console", hal::ThreadRole::Background, [this, period] {
     for (auto due = started_ + period; thread_.wait_until(due); due += period) print(due);
   });
   return {};

@@ -33,6 +33,7 @@ class ConsoleSink final : public Sink {
 
   Result<> start() override;
   void stop() override;
+  std::chrono::nanoseconds cpu_time() const override { return thread_.cpu_time(); }
   void accept(const ViewPtr&) override {}
   void accept(const Status& status) override;
 

@@ -21,25 +21,30 @@ PixelFormat encoding(const DdsSettings& settings, const std::string& camera) {
 
 }  // namespace
 
-DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera)
+DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera,
+                                    const std::shared_ptr<hal::SharedThreads>& threads)
     : name(camera),
-      ball(ball_topic(settings.prefix, camera), encoding(settings, camera), settings.jpeg) {}
+      ball(ball_topic(settings.prefix, camera), encoding(settings, camera), settings.jpeg,
+           threads) {}
 
 DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
-                 Addresses addresses, std::shared_ptr<CommandRecord> record)
+                 Addresses addresses, std::shared_ptr<CommandRecord> record,
+                 const std::shared_ptr<hal::SharedThreads>& threads)
     : settings_(std::move(settings)),
       names_(std::move(names)),
+      threads_(threads),
       addresses_(std::move(addresses)),
-      selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg),
+      selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg,
+                threads),
       status_topics_(settings_.prefix, names_),
       takes_commands_(takes_commands(settings_) && handler),
       record_(std::move(record)),
-      commands_(settings_.prefix, std::move(handler), *record_) {
+      commands_(settings_.prefix, std::move(handler), *record_, [this] { thread_.wake(); }) {
   for (const auto& name : names_.views) {
-    views_.push_back(std::make_unique<ViewTopics>(settings_, name));
+    views_.push_back(std::make_unique<ViewTopics>(settings_, name, threads));
   }
   for (const auto& name : names_.cameras) {
-    cameras_.push_back(std::make_unique<CameraTopics>(settings_, name));
+    cameras_.push_back(std::make_unique<CameraTopics>(settings_, name, threads));
   }
 }
 
@@ -108,6 +113,13 @@ Result<> DdsSink::join() {
       .and_then([&] { return watch_types(); });
 }
 
+std::chrono::nanoseconds DdsSink::cpu_time() const {
+  std::chrono::nanoseconds time = thread_.cpu_time() + selected_.cpu_time();
+  for (const auto& view : views_) time += view->cpu_time();
+  for (const auto& camera : cameras_) time += camera->ball.cpu_time();
+  return time;
+}
+
 std::vector<const TopicWriter*> DdsSink::writers() const {
   std::vector<const TopicWriter*> all;
   const auto add = [&all](const std::vector<const TopicWriter*>& writers) {
@@ -141,7 +153,7 @@ void DdsSink::leave() {
   type_watch_.close();
   discovery_.close();
   commands_.close();
-  for (const auto& view : views_) view->close();
+  for (const auto& view : views_) view->close();  // before selected_, to which they write, too
   for (const auto& camera : cameras_) camera->ball.close();
   selected_.close();
   status_topics_.close();
@@ -196,8 +208,24 @@ void DdsSink::accept_frames(const hal::FrameSet& set) {
     CameraTopics& camera = *cameras_[i];
     // By the set's conversion, so that a frame exposed with the set has the stamp of its views.
     const auto exposed = utc_ + (frame->metadata.exposure_start - set.stamp);
-    camera.ball.accept({frame, frame->picture, to_message(exposed), &camera.name, true});
+    const TimeMessage stamp = to_message(exposed);
+    camera.ball.ask(stamp);
+    camera.ball.accept({frame, frame->picture, stamp, &camera.name, true});
   }
+}
+
+PictureNeeds DdsSink::needs(std::size_t view, hal::TimePoint stamp) {
+  if (!running_ || view >= views_.size()) return {};
+  PictureNeeds needs = views_[view]->ask(utc(stamp));
+  if (view == selected_view_) needs |= selected_.ask(utc(stamp));
+  return needs;
+}
+
+/// Those of all topics of a view are the same but for the rate. Those that wait to be written as
+/// the selected view may be of the one that was selected before.
+KeptViews DdsSink::keeps() const {
+  const std::size_t waiting = PictureTopics::waiting(settings_.jpeg);
+  return {waiting, waiting + threads_->count()};
 }
 
 void DdsSink::accept(const ViewPtr& view) {
@@ -207,10 +235,8 @@ void DdsSink::accept(const ViewPtr& view) {
     return;
   }
   ViewTopics& topics = *views_[view->index];
-  const StampedPicture picture{view, picture_of(PixelFormat::Rgb, view->colour), utc(view->stamp),
-                               &topics.name()};
-  topics.accept(view, picture);
-  if (view->index == selected_view_) selected_.accept(picture);
+  const StampedPicture picture{view, view->picture, utc(view->stamp), &topics.name()};
+  topics.accept(view, picture, view->index == selected_view_ ? &selected_ : nullptr);
 }
 
 void DdsSink::accept(const Status& status) {
@@ -230,6 +256,7 @@ void DdsSink::run() {
   while (thread_.wait()) {
     keep_joined();
     if (!joined_) continue;
+    commands_.serve();
     while (const auto notice = notices_.try_take()) status_topics_.publish(*notice);
     for (const auto& view : views_) view->publish_info();
     if (const auto status = status_.try_take()) {
@@ -274,7 +301,7 @@ std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context
     settings.cameras[names.cameras[i]] = context.camera_encodings[i];
   }
   return std::make_unique<DdsSink>(std::move(settings), names, context.handler, network_addresses,
-                                   context.record);
+                                   context.record, context.background);
 }
 
 }  // namespace orbwatch::app

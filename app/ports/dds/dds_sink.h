@@ -31,10 +31,10 @@ namespace orbwatch::app {
 /// Publishes views and cameras' pictures as sensor_msgs/Image and CompressedImage, the status as
 /// ProcessState and diagnostics, and events, under ROS 2 names as a ROS 2 node, and carries
 /// commands out; see topic_names.h. Everything of a frame set has the same UTC stamp, so that
-/// readers can pair images and state exactly. Each picture topic has a thread; the rest is
-/// published on the sink's, which also joins the domain, retries until it succeeds, and rejoins
-/// when the addresses of its interfaces change. Thread rule: as Sink; statistics() is thread-safe;
-/// start may run while views are passed to accept().
+/// readers can pair images and state exactly. Pictures are encoded and written on shared threads;
+/// the rest is published on the sink's, which also carries commands out, joins the domain, retries
+/// until it succeeds, and rejoins when the addresses of its interfaces change. Thread rule: as
+/// Sink; statistics() is thread-safe; start may run while views are passed to accept().
 class DdsSink final : public Sink {
  public:
   using Addresses = std::function<std::optional<std::vector<NetworkAddress>>()>;
@@ -44,7 +44,8 @@ class DdsSink final : public Sink {
   /// sink; without one there is no command topic. `addresses` are checked once a second.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
           Addresses addresses = network_addresses,
-          std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>());
+          std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
+          const std::shared_ptr<hal::SharedThreads>& threads = hal::SharedThreads::alone());
   ~DdsSink() override;
 
   /// Starts the sink's thread. Does nothing when disabled or running. Errors: a domain or name that
@@ -53,8 +54,11 @@ class DdsSink final : public Sink {
   void stop() override;
   /// Whether it is in the domain.
   bool works() const override { return joined_; }
+  std::chrono::nanoseconds cpu_time() const override;
 
   void accept_frames(const hal::FrameSet& set) override;
+  PictureNeeds needs(std::size_t view, hal::TimePoint stamp) override;
+  KeptViews keeps() const override;
   void accept(const ViewPtr& view) override;
   void accept(const Status& status) override;
   void accept_event(const AlarmNotice& notice) override;
@@ -63,7 +67,8 @@ class DdsSink final : public Sink {
 
  private:
   struct CameraTopics {
-    CameraTopics(const DdsSettings& settings, const std::string& camera);
+    CameraTopics(const DdsSettings& settings, const std::string& camera,
+                 const std::shared_ptr<hal::SharedThreads>& threads);
 
     const std::string name;
     PictureTopics ball;
@@ -85,6 +90,7 @@ class DdsSink final : public Sink {
 
   const DdsSettings settings_;
   const StatusNames names_;
+  const std::shared_ptr<hal::SharedThreads> threads_;
   const Addresses addresses_;
 
   // Between the pipeline's thread and others.

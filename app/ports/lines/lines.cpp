@@ -53,7 +53,7 @@ Result<> Lines::start() {
   for (const auto& asking : asking_) {
     if (auto started = asking->start("trigger"); !started) return started;
   }
-  return thread_.start();
+  return thread_.has_work() ? thread_.start() : Result<>();
 }
 
 void Lines::stop() {

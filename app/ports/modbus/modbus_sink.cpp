@@ -124,6 +124,10 @@ void ModbusSink::stop() {
   counters_.connections = 0;
 }
 
+std::chrono::nanoseconds ModbusSink::cpu_time() const {
+  return tcp_thread_.cpu_time() + serial_thread_.cpu_time() + command_thread_.cpu_time();
+}
+
 void ModbusSink::accept(const Status& status) {
   const auto now = hal::Clock::now();
   const auto utc = hal::to_utc(status.stamp).time_since_epoch();

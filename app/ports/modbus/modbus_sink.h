@@ -37,6 +37,7 @@ class ModbusSink final : public Sink {
   Result<> start() override;
   void stop() override;
   bool works() const override { return !serial_is_lost_; }
+  std::chrono::nanoseconds cpu_time() const override;
 
   void accept(const ViewPtr&) override {}  // registers show no pictures
   void accept(const Status& status) override;

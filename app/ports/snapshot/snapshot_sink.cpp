@@ -73,7 +73,7 @@ Result<> SnapshotSink::start() {
   if (auto removed = remove_unfinished(settings_.folder); !removed) {
     return fail("snapshot.folder: " + removed.error().message);
   }
-  thread_.start("snapshot", [this] { run(); });
+  thread_.start("snapshot", hal::ThreadRole::Background, [this] { run(); });
   return {};
 }
 
@@ -90,8 +90,13 @@ void SnapshotSink::accept(const Status& status) {
   }
 }
 
+PictureNeeds SnapshotSink::needs(std::size_t view, hal::TimePoint /*stamp*/) {
+  asked_[view] = wanted_[view];
+  return asked_[view] ? need_of(PixelFormat::Rgb) : PictureNeeds{};
+}
+
 void SnapshotSink::accept(const ViewPtr& view) {
-  if (!wanted_[view->index].exchange(false)) return;
+  if (!asked_[view->index] || !wanted_[view->index].exchange(false)) return;
   {
     const std::lock_guard lock(mutex_);
     accepted_[view->index] = view;
@@ -119,11 +124,14 @@ void SnapshotSink::log_dropped() {
 
 void SnapshotSink::write_all() {
   log_dropped();
-  while (const ViewPtr view = next()) {
+  while (ViewPtr view = next()) {
+    const std::size_t index = view->index;
     const std::string name = name_of(*view);
-    const auto done = write(*view, name).and_then([&] { return remove_oldest(name); });
+    const auto written = write(*view, name);
+    view.reset();
+    const auto done = written.and_then([&] { return remove_oldest(name); });
     if (!done) log_line(LogLevel::Error, "snapshot: " + done.error().message);
-    busy_[view->index] = false;
+    busy_[index] = false;
     if (done) ++written_;
   }
 }
@@ -137,7 +145,7 @@ ViewPtr SnapshotSink::next() {
 
 Result<> SnapshotSink::write(const View& view, const std::string& name) {
   const auto path = settings_.folder / (name + ".png");
-  if (auto done = write_picture(path, picture_of(PixelFormat::Rgb, view.colour)); !done) {
+  if (auto done = write_picture(path, view.picture); !done) {
     return done;
   }
   const auto measured = settings_.folder / (name + "_measured.png");

@@ -48,6 +48,10 @@ class SnapshotSink final : public Sink {
   Result<> start() override;
   /// Writes the accepted views first; a snapshot without one is never written.
   void stop() override { thread_.stop(); }
+  std::chrono::nanoseconds cpu_time() const override { return thread_.cpu_time(); }
+  PictureNeeds needs(std::size_t view, hal::TimePoint stamp) override;
+  /// One is written or waits for it.
+  KeptViews keeps() const override { return {1, 0}; }
   void accept(const ViewPtr& view) override;
   /// Drops the requests of views that are not live any more.
   void accept(const Status& status) override;
@@ -67,6 +71,7 @@ class SnapshotSink final : public Sink {
   std::array<std::atomic<bool>, kMaxViews> live_{};    ///< by view
   std::array<std::atomic<bool>, kMaxViews> busy_{};    ///< by view: requested or written
   std::array<std::atomic<bool>, kMaxViews> wanted_{};  ///< by view: request for its next picture
+  std::bitset<kMaxViews> asked_;  ///< by view: the next picture serves a request; accept's thread
   std::mutex mutex_;
   std::array<ViewPtr, kMaxViews> accepted_;  ///< by view: to be written; under mutex_
   std::bitset<kMaxViews> dropped_;           ///< by view: to be logged; under mutex_

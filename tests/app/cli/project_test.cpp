@@ -133,7 +133,9 @@ class ProjectModels : public Project {
               "--size",
               "160x120",
               "--interpolation",
-              "bilinear"};
+              "bilinear",
+              "--sharpness",
+              "0"};
           if (kind != BallModel::Kind::Classical) {
             arguments.insert(arguments.end(), {"--alpha", text(photo.alpha)});
           }
@@ -217,6 +219,46 @@ TEST_F(Project, DistanceAndAlphaAreTwoWordsForOneThing) {
             0);
 }
 
+// By the same filter in OpenCV, which rounds once.
+TEST_F(Project, ShowsColourSharpenedUnlessToldNotTo) {
+  const cv::Mat photo = cv::imread(kOwnPhoto.string());
+  cv::Mat mean, sharp;
+  const cv::Mat weights = (cv::Mat_<double>(3, 1) << 4.0 / 19, 11.0 / 19, 4.0 / 19);
+  cv::sepFilter2D(photo, mean, CV_64F, weights, weights, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  cv::Mat in_double;
+  photo.convertTo(in_double, CV_64F);
+  cv::Mat(in_double + 0.8 * (in_double - mean)).convertTo(sharp, CV_8U);
+  const auto of = [](const std::string& input, std::vector<std::string> more) {
+    std::vector<std::string> all{input,    "--ball",  "400,400,384", "--alpha", "346",
+                                 "--size", "200x150", "--h-fov",     "60",      "--interpolation"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const std::string colour = kOwnPhoto.string();
+  const cv::Mat shown = projected(of(colour, {"area"}), "a.png");
+  const cv::Mat plain = projected(of(colour, {"area", "--sharpness", "0"}), "b.png");
+  const cv::Mat truth =
+      projected(of(write("sharp.png", sharp), {"area", "--sharpness", "0"}), "c.png");
+  EXPECT_LE(cv::norm(shown, truth, cv::NORM_INF), 2);
+  EXPECT_GT(cv::norm(shown, plain, cv::NORM_INF), 20);
+  EXPECT_EQ(cv::norm(projected(of(colour, {"nearest"}), "d.png"),
+                     projected(of(colour, {"nearest", "--sharpness", "0"}), "e.png"), cv::NORM_INF),
+            0)
+      << "nothing is blurred there";
+}
+
+TEST_F(Project, NeverSharpensWhatMayBeMeasured) {
+  for (const int type : {CV_8UC1, CV_16UC1, CV_16UC3}) {
+    cv::Mat noise(80, 100, type);
+    cv::randu(noise, 0, CV_MAT_DEPTH(type) == CV_8U ? 256 : 65536);
+    const std::string input = write("noise.png", noise);
+    EXPECT_EQ(cv::norm(projected(with_input(input, {"--sharpness", "2"}), "a.png"),
+                       projected(with_input(input, {"--sharpness", "0"}), "b.png"), cv::NORM_INF),
+              0)
+        << type;
+  }
+}
+
 TEST_F(Project, WritesJpegByTheNamesEnding) {
   const std::string input = write("in.png", cv::Mat(80, 100, CV_8UC1, cv::Scalar(100)));
   EXPECT_EQ(projected(with_input(input), "out.JPG").size(), cv::Size(64, 48));
@@ -229,7 +271,7 @@ TEST_F(Project, HelpNamesEveryOption) {
   EXPECT_EQ(run({"--help"}), 0);
   for (const char* option :
        {"--ball", "--alpha", "--distance", "--model", "--view", "--yaw", "--pitch", "--roll",
-        "--h-fov", "--size", "--rotation", "--undefined", "--interpolation", "-o"}) {
+        "--h-fov", "--size", "--rotation", "--undefined", "--interpolation", "--sharpness", "-o"}) {
     EXPECT_NE(said.find(option), std::string::npos) << option;
   }
 }
@@ -272,6 +314,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"BallOutside",
                 call("good.png", "o.png", {"--ball", "500,40,30", "--alpha", "340"}),
                 {"outside of the picture", "100x80"}},
+        Mistake{"TooSharp",
+                call("good.png", "o.png",
+                     {"--ball", "50,40,30", "--alpha", "340", "--sharpness", "2.5"}),
+                {"--sharpness", "0 to 2"}},
         Mistake{"NoRadius",
                 call("good.png", "o.png", {"--ball", "50,40,0", "--alpha", "340"}),
                 {"radius"}},

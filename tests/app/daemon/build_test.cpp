@@ -64,11 +64,12 @@ std::vector<RegionStatus> measured(const Resolved& site) {
   CompiledRecipe& recipe = *plan->recipes.front();
   WorkerPool workers(0);
   const hal::FrameSet set = noisy_set(streams[kThermal]);
-  FramePyramids pyramids(streams);
-  MipLevelCounts levels{};
-  for (const ViewChannel& view : recipe.views()) view.require_levels(levels);
-  pyramids.build(set, levels, workers);
-  recipe.render(set, pyramids, workers);
+  PictureUses uses;
+  for (const ViewChannel& view : recipe.views()) view.add_use(uses);
+  FramePyramids pyramids(streams, uses);
+  pyramids.build(set, uses, workers);
+  ViewBuffers buffers({}, {recipe.plan().views}, {});
+  recipe.render(set, pyramids, buffers, workers);
   recipe.measure();
   return {recipe.regions().begin(), recipe.regions().end()};
 }

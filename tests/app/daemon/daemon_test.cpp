@@ -4,7 +4,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 #include <vector>
@@ -76,10 +78,40 @@ TEST_F(Daemon, NamesItsThreads) {
   Subprocess daemon = start(write_config(triggered_machine("line", "rate = 10")));
   ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
   const auto names = thread_names(daemon);
-  for (const char* name : {"cam colour", "cam thermal", "pipeline", "lines", "health", "modbus",
-                           "view compiler", "dds", "dds commands"}) {
+  for (const char* name : {"cam colour", "cam thermal", "pipeline", "lines", "modbus",
+                           "modbus commands", "background", "dds"}) {
     EXPECT_EQ(std::ranges::count(names, name), 1) << name;
   }
+}
+
+#ifdef __SANITIZE_THREAD__
+constexpr std::ptrdiff_t kSanitizerThreads = 1;  // with the program's name
+#else
+constexpr std::ptrdiff_t kSanitizerThreads = 0;
+#endif
+
+/// Threads that libraries make: Cyclone DDS, LTTng in libcamera.
+bool is_of_a_library(const std::string& name) {
+  return name.starts_with("recv") || name.starts_with("dq.") || name.ends_with("-ust") ||
+         std::ranges::count(std::array{"tev", "gc", "lease", "CameraManager"}, name) > 0;
+}
+
+TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndFourMore) {
+  constexpr std::ptrdiff_t kCameras = 2, kWorkers = 1, kInterfaces = 2;  // Modbus and DDS
+  std::string site = "[pipeline]\nworkers = 1\n" + small_machine();
+  for (const char* view : {"second", "third"}) {
+    site += "[[view]]\nname = \"" + std::string(view) +
+            "\"\nwidth = 64\nheight = 48\n[[view.source]]\ncamera = \"colour\"\n";
+  }
+  Subprocess daemon = start(write_config(site));
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
+  EXPECT_EQ(read("view_count"), 4);
+  const auto names = thread_names(daemon);
+  std::string own;
+  for (const std::string& name : names) own += is_of_a_library(name) ? "" : name + ", ";
+  EXPECT_LE(std::ranges::count_if(names, std::not_fn(is_of_a_library)),
+            kCameras + kWorkers + kInterfaces + 4 + kSanitizerThreads)
+      << own;
 }
 
 TEST_F(Daemon, TriggersFasterThanTheCameraAreFramesOrMissed) {

@@ -48,6 +48,13 @@ class ConfigurationWithRecipes : public ConfigurationFile {
     write("source.toml",
           replaced("camera = \"a\"", "camera = \"spare\"\n[[view.source]]\ncamera = \"a\"",
                    recipe("one")));
+    std::string sharp = recipe("one");
+    for (const char* sharpness : {"0.7", "0", "0.6"}) {
+      sharp += std::string("[[view.source]]\ncamera = \"a\"\nsharpness = ") + sharpness + "\n";
+    }
+    write("sharp.toml", sharp);
+    write("sharper.toml", replaced("sharpness = 0\n", "sharpness = 0.5\n", sharp));
+    write("sharpest.toml", replaced("sharpness = 0.6\n", "sharpness = 0.4\n", sharp));
     write("input.toml",
           recipe("one", "", "process_active = \"input\"\nprocess_input = \"laser\"\n"));
     write("output.toml",
@@ -64,6 +71,18 @@ class ConfigurationWithRecipes : public ConfigurationFile {
     std::ofstream(folder / name) << text;
   }
 };
+
+TEST_F(ConfigurationWithRecipes, ACameraMayBeSharpenedInAFewWays) {
+  for (const char* few : {"sharp.toml", "sharper.toml"}) {
+    const auto parsed = parse(with_recipes({few}));
+    EXPECT_TRUE(parsed) << parsed.error().message;
+  }
+  const auto refused = parse(with_recipes({"sharper.toml", "sharpest.toml"}));
+  ASSERT_FALSE(refused);
+  for (const char* part : {"/sharpest.toml:", "view.source.sharpness", "0.8, 0.7, 0.5, 0.6"}) {
+    EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+  }
+}
 
 TEST_F(ConfigurationWithRecipes, TheFirstIsMeasuredAndViewsOfOneNameAreOne) {
   const auto c = parse(with_recipes({"one.toml", "two.toml", "again.toml"}));

@@ -8,6 +8,7 @@
 
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/jpeg_quality.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 namespace {
@@ -66,6 +67,38 @@ TEST(JpegEncoder, LuminanceStaysOneChannel) {
     ASSERT_EQ(read.type(), CV_8UC1);
     EXPECT_LE(cv::norm(read, grey, cv::NORM_INF), 12);
   }
+}
+
+/// The planes that JPEG has, as a view is made for it.
+struct Planar {
+  explicit Planar(const cv::Mat& rgb) {
+    cv::cvtColor(rgb, samples, cv::COLOR_RGB2YUV_I420);  // of the limited range
+    picture = Picture::contiguous(PixelFormat::I420, rgb.cols, rgb.rows,
+                                  reinterpret_cast<const std::byte*>(samples.data), rgb.cols);
+    for (int y = 0; y < samples.rows; ++y) {
+      for (int x = 0; x < samples.cols; ++x) {
+        auto& sample = samples.at<std::uint8_t>(y, x);
+        sample = cv::saturate_cast<std::uint8_t>(y < rgb.rows ? (sample - 16) * 255.0 / 219
+                                                              : (sample - 128) * 255.0 / 224 + 128);
+      }
+    }
+    picture.colour_space = remap::kJfif;
+  }
+  cv::Mat samples;
+  Picture picture;
+};
+
+TEST(JpegEncoder, PlanesOfItsOwnKindAreCompressedAsTheyAre) {
+  const cv::Mat rgb = scene(160, 90);
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  const Planar planar(rgb);
+  JpegEncoder encoder;
+  const auto jpeg = encoder.encode(planar.picture, 95);
+  ASSERT_TRUE(jpeg) << jpeg.error().message;
+  const cv::Mat read = decoded(*jpeg);
+  ASSERT_EQ(read.size(), bgr.size());
+  EXPECT_LT(cv::norm(read, bgr, cv::NORM_L1) / (3.0 * static_cast<double>(bgr.total())), 3);
 }
 
 TEST(JpegEncoder, TakesOtherFormatsAndSizesOneAfterTheOther) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +43,10 @@ class HandCamera : public hal::Camera {
       deliver(buffer);
     });
   }
+  /// Scales what is not the square, from the next frame on.
+  void set_gain(double gain) {
+    act([this, gain] { gain_ = gain; });
+  }
   void expose_damaged(hal::TimePoint moment = hal::Clock::now()) {
     act([this, moment] {
       discard({.sequence = sequence_++, .exposure_start = moment}, "as asked for");
@@ -76,13 +81,15 @@ class HandCamera : public hal::Camera {
     for (int y = 0; y < kHandCameraSize; ++y) {
       for (int x = 0; x < kHandCameraSize; ++x) {
         const bool inside = x > 25 && x < 40 && y > 45 && y < 55;
-        const auto value = static_cast<std::uint16_t>(inside ? bright : (x * x + 3 * y * y) % 200);
+        const auto value =
+            static_cast<std::uint16_t>(inside ? bright : gain_ * ((x * x + 3 * y * y) % 200));
         const std::size_t at =
             static_cast<std::size_t>(y) * kHandCameraSize + static_cast<std::size_t>(x);
         if (format_ == PixelFormat::Y16) {
           reinterpret_cast<std::uint16_t*>(buffer.memory)[at] = value;
         } else {
-          buffer.memory[at] = static_cast<std::byte>(value);
+          const auto channels = static_cast<std::size_t>(orbwatch::info(format_).channels());
+          std::fill_n(buffer.memory + channels * at, channels, static_cast<std::byte>(value));
         }
       }
     }
@@ -91,6 +98,7 @@ class HandCamera : public hal::Camera {
   PixelFormat format_;
   hal::FramePool pool_;
   std::uint64_t sequence_ = 0;
+  double gain_ = 1;
   std::mutex mutex_;
   std::condition_variable_any work_, done_;
   std::function<void()> action_;

@@ -71,6 +71,7 @@ class ExaminingSink : public Sink {
  public:
   Result<> start() override { return {}; }
   void stop() override {}
+  PictureNeeds needs(std::size_t, hal::TimePoint) override { return need_of(PixelFormat::Rgb); }
   void accept(const ViewPtr& view) override {
     const std::lock_guard lock(mutex_);
     if (on_view) on_view(*view);
@@ -350,8 +351,8 @@ TEST_F(MeasuredPipeline, OnlyDisplayViewsArePointedAndMixed) {
 }
 
 TEST_F(MeasuredPipeline, WhatOperatorsPointNeverChangesAMeasurement) {
-  std::vector<std::uint8_t> bytes;
-  std::vector<std::uint16_t> words;
+  UntouchedVector<std::uint8_t> bytes;
+  UntouchedVector<std::uint16_t> words;
   std::uint64_t measured = 0, changed = 0, moved = 0, pointings = 0;
   double yaw = 0;
   sink.on_view = [&](const View& view) {

@@ -55,8 +55,12 @@ ViewPlan plan() {
   ViewPlan plan{0, "view", view, {}, Combine::Mix, remap::Interpolation::Area, 0};
   for (const std::size_t camera : {0, 1}) {
     const PixelFormat format = camera == 0 ? PixelFormat::Y16 : PixelFormat::Rgb;
-    plan.sources.push_back(
-        {camera, {format, {}, kSize, kSize, 30}, ball, 1, {colour_map_table("hot"), 0, 65535}});
+    plan.sources.push_back({camera,
+                            {format, {}, kSize, kSize, 30},
+                            ball,
+                            1,
+                            {colour_map_table("hot"), 0, 65535},
+                            0.8});
   }
   return plan;
 }
@@ -70,9 +74,15 @@ TEST(FramePath, DoesNotAllocate) {
   limits.high_alarm = 0.5;  // of hot_spot_present: passed all the time
   measured.alarms.push_back(limits);
   const auto recipe = compiled(std::move(measured));
-  FramePyramids pyramids(source_formats(plan()));
-  MipLevelCounts levels{};
-  levels.fill(remap::kMaxLevel);
+  ViewBuffers buffers = buffers_for(recipe->plan().views[0], {1, 0});
+  PictureUses uses;
+  for (ViewChannel& view : recipe->views()) {
+    view.set_format(PixelFormat::Rgb);
+    view.add_use(uses);
+  }
+  ASSERT_EQ(uses[1].sharpened().size(), 1U);
+  for (PictureUse& use : uses) use.mip_levels = remap::kMaxLevel;
+  FramePyramids pyramids(source_formats(plan()), uses);
   WorkerPool workers(1);
   hal::Mailbox<ViewPtr> mailbox;
 
@@ -87,11 +97,13 @@ TEST(FramePath, DoesNotAllocate) {
     }
     const auto set = sync.next(hal::Clock::now() + std::chrono::seconds(5));
     ASSERT_TRUE(set);
-    pyramids.build(*set, levels, workers);
-    recipe->render(*set, pyramids, workers);
+    pyramids.build(*set, uses, workers);
+    recipe->render(*set, pyramids, buffers, workers);
     recipe->measure();
     recipe->watch(set->stamp, true, {});
-    mailbox.put(recipe->views()[0].take());
+    ViewPtr view = recipe->views()[0].take();
+    ASSERT_TRUE(view);
+    mailbox.put(std::move(view));
   }
   EXPECT_EQ(allocations, before);
 }
@@ -108,6 +120,7 @@ class CountingSink : public Sink {
 
   Result<> start() override { return {}; }
   void stop() override {}
+  PictureNeeds needs(std::size_t, hal::TimePoint) override { return need_of(PixelFormat::Rgb); }
   void accept(const ViewPtr& view) override {
     const std::lock_guard lock(mutex_);
     reading_.pointing = view->pointing;

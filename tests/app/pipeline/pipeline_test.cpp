@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <condition_variable>
 #include <mutex>
+#include <numeric>
 
 #include "app/pictures/colour_maps.h"
 #include "proc/optics/rotation.h"
@@ -13,14 +15,30 @@
 namespace orbwatch::app {
 namespace {
 
+double mean_of(const View& view) {
+  const auto samples = view.picture.samples<std::uint8_t>();
+  const std::size_t count = std::size_t{3} * samples.width * samples.height;
+  return std::accumulate(samples.data, samples.data + count, 0.0) / static_cast<double>(count);
+}
+
+constexpr KeptViews kKept{2, 1};
+
 /// Records views and status; the test waits for the status that it expects.
 class RecordingSink : public Sink {
  public:
   Result<> start() override { return {}; }
   void stop() override {}
+  PictureNeeds needs(std::size_t view, hal::TimePoint) override {
+    const std::lock_guard lock(mutex_);
+    return needs_[view];
+  }
+  KeptViews keeps() const override { return kKept; }
   void accept(const ViewPtr& view) override {
     const std::lock_guard lock(mutex_);
     if (hold_) held_.push_back(view);
+    const bool has_picture = view->picture.planes[0].data != nullptr;
+    brightness_[view->index] = has_picture ? mean_of(*view) : 0;
+    formats_[view->index] = has_picture ? std::optional(view->picture.format) : std::nullopt;
     views_.push_back(std::string(view->name));
   }
   void accept(const Status& status) override {
@@ -39,6 +57,20 @@ class RecordingSink : public Sink {
         changed_.wait_for(lock, std::chrono::seconds(30), [&] { return condition(status_); }));
     return status_;
   }
+  void need(std::size_t view, const PictureNeeds& needs) {
+    const std::lock_guard lock(mutex_);
+    needs_[view] = needs;
+  }
+  /// Of a view's newest picture.
+  std::optional<PixelFormat> format(std::size_t view) {
+    const std::lock_guard lock(mutex_);
+    return formats_[view];
+  }
+  /// The mean sample of a view's newest picture.
+  double brightness(std::size_t view) {
+    const std::lock_guard lock(mutex_);
+    return brightness_[view];
+  }
   std::vector<std::string> views() {
     const std::lock_guard lock(mutex_);
     return views_;
@@ -51,6 +83,9 @@ class RecordingSink : public Sink {
   std::vector<std::string> views_;
   std::vector<ViewPtr> held_;
   bool hold_ = false;
+  std::array<PictureNeeds, 2> needs_{need_of(PixelFormat::Rgb), need_of(PixelFormat::Rgb)};
+  std::array<std::optional<PixelFormat>, 2> formats_;
+  std::array<double, 2> brightness_{};
 };
 
 class PipelineTest : public testing::Test {
@@ -117,6 +152,53 @@ TEST_F(PipelineTest, MakesViewsAndMeasuresThem) {
   EXPECT_EQ(status.cameras[0].frames, 1U);
 }
 
+TEST_F(PipelineTest, AViewIsMadeInTheFormatThatItsReadersNeedAndMeasuredWithoutAny) {
+  start();
+  std::uint64_t set = 0;
+  const PictureNeeds jpeg{false, false, false, true};
+  const std::vector<std::pair<PictureNeeds, std::optional<PixelFormat>>> cases{
+      {need_of(PixelFormat::Rgb), PixelFormat::Rgb},
+      {{}, std::nullopt},
+      {need_of(PixelFormat::Grey), PixelFormat::Grey},
+      {jpeg, PixelFormat::I420}};
+  for (const auto& [needs, format] : cases) {
+    sink.need(0, needs);
+    sink.need(1, needs);
+    expose_both(40000);
+    ++set;
+    const Status status = sink.wait_for([&](const Status& s) { return s.frame_set == set; });
+    EXPECT_EQ(sink.format(0), format);
+    EXPECT_EQ(sink.format(1), format);
+    EXPECT_EQ(status.views[0].published, set);
+    EXPECT_NEAR(status.regions[0].signals.hot_spot_peak_temperature, 40000 * 0.04 - 273.15, 0.1);
+  }
+}
+
+TEST_F(PipelineTest, ColourCamerasThatAreExposedApartAreBroughtTogether) {
+  plan = {};
+  cameras.clear();
+  add_camera("first", PixelFormat::Rgb);
+  add_camera("second", PixelFormat::Rgb);
+  plan.sync.window = plan.sync.max_wait = std::chrono::milliseconds(1);
+  plan.views.push_back(view("both", 0, {0, 1}));
+  plan.view_count = 1;
+  start();
+  cameras[1]->set_gain(0.4);
+  std::uint64_t set = 0;
+  const auto next_brightness = [&] {
+    expose_both(200);
+    ++set;
+    sink.wait_for([&](const Status& s) { return s.frame_set == set; });
+    return sink.brightness(0);
+  };
+  const double apart = next_brightness();
+  double together = apart;
+  const auto end = hal::Clock::now() + std::chrono::seconds(30);
+  while (together < 1.2 * apart && hal::Clock::now() < end) together = next_brightness();
+  // The mean of 1 and 0.4 becomes 1.
+  EXPECT_NEAR(together / apart, 1 / 0.7, 0.1);
+}
+
 TEST_F(PipelineTest, TheHeartbeatGoesOnWithoutFrames) {
   start();
   const Status status = sink.wait_for([](const Status& s) { return s.heartbeat >= 3; });
@@ -157,7 +239,8 @@ TEST_F(PipelineTest, AFrameOfAnotherSizeIsAFaultNotACrash) {
       [](const Status& s) { return s.cameras[0].fault == hal::Fault::None && s.frame_set > 0; });
 }
 
-TEST_F(PipelineTest, ASinkThatHoldsAllViewsLosesThemButNotTheMeasurement) {
+/// Both views are of one size: one is rendered, two of each are kept, and one more.
+TEST_F(PipelineTest, ASinkThatHoldsMoreThanItSaidLosesViewsButNotTheMeasurement) {
   sink.hold_views();
   start();
   for (std::uint64_t n = 1; n <= 10; ++n) {
@@ -167,8 +250,10 @@ TEST_F(PipelineTest, ASinkThatHoldsAllViewsLosesThemButNotTheMeasurement) {
                 0.021);
   }
   const Status status = sink.wait_for([](const Status& s) { return s.frame_set == 10; });
-  EXPECT_EQ(status.views[1].published, kViewBuffers);
-  EXPECT_EQ(status.views[1].skipped, 10 - kViewBuffers);
+  EXPECT_EQ(status.views[0].published, 3U);
+  EXPECT_EQ(status.views[1].published, 3U);
+  EXPECT_EQ(status.views[0].skipped, 7U);
+  EXPECT_EQ(status.views[1].skipped, 7U);
 }
 
 TEST_F(PipelineTest, OverrunsAreCountedAndSlowDisplayViewsOnly) {

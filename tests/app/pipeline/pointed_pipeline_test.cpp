@@ -22,7 +22,7 @@ struct Shown {
   std::string name;
   std::uint64_t frame_set = 0;
   std::uint64_t pointing = 0;
-  std::vector<std::uint8_t> bytes;  ///< of all planes
+  std::vector<std::uint8_t> bytes;  ///< of picture and validity
 };
 
 /// Keeps the newest of each view and of the status; the test waits for what it expects.
@@ -30,10 +30,15 @@ class WatchingSink : public Sink {
  public:
   Result<> start() override { return {}; }
   void stop() override {}
+  PictureNeeds needs(std::size_t, hal::TimePoint) override { return need_of(PixelFormat::Rgb); }
   void accept(const ViewPtr& view) override {
     const std::lock_guard lock(mutex_);
     Shown& shown = newest_[view->index];
-    shown = {view->index, std::string(view->name), view->frame_set, view->pointing, view->bytes};
+    shown = {view->index,
+             std::string(view->name),
+             view->frame_set,
+             view->pointing,
+             {view->bytes.begin(), view->bytes.end()}};
     if (on_view) on_view(shown);
     changed_.notify_all();
   }

@@ -5,8 +5,9 @@
 namespace orbwatch::app {
 
 CommandService::CommandService(const std::string& prefix, CommandHandler handler,
-                               CommandRecord& record)
+                               CommandRecord& record, std::function<void()> wake)
     : handler_(std::move(handler)),
+      wake_(std::move(wake)),
       record_(record),
       requests_(orbwatch_msgs_msg_dds__Command__desc, command_topic(prefix)),
       results_(orbwatch_msgs_msg_dds__CommandResult__desc, command_result_topic(prefix)) {
@@ -24,16 +25,13 @@ Result<> CommandService::open(const Entity& participant) {
   show_order_of_calls();
   const Listener listener(dds_create_listener(this));
   dds_lset_data_available(listener.get(), receive);
-  const auto opened = requests_.open(participant, command_qos(), listener.get());
-  if (!opened) return opened;
-  thread_.start("dds commands", [this] { run(); });
-  return {};
+  return requests_.open(participant, command_qos(), listener.get());
 }
 
 void CommandService::close() {
   requests_.close();
   show_order_of_calls();
-  thread_.stop();
+  serve();
   results_.close();
 }
 
@@ -47,16 +45,12 @@ void CommandService::receive(dds_entity_t reader, void* service) {
   for (auto taken = take_samples(reader, take); taken && *taken > 0;) {
     taken = take_samples(reader, take);
   }
-  self.thread_.wake();
+  self.wake_();
   show_order_of_calls();
 }
 
-void CommandService::run() {
-  // Requests received before close() are still carried out.
-  for (bool last = false; !last;) {
-    last = !thread_.wait();
-    while (const auto request = queue_.try_take()) serve(*request);
-  }
+void CommandService::serve() {
+  while (const auto request = queue_.try_take()) serve(*request);
 }
 
 void CommandService::serve(const CommandRequest& request) {

@@ -30,7 +30,10 @@ void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
     return;
   }
   const std::byte* pixels = picture.planes[0].data;
-  const bool is_as_sent = (picture.format == format || counts) && picture.planes[0].stride == step;
+  const bool is_grey_plane = format == PixelFormat::Grey &&
+                             info(picture.format).plane_count() > 1;  // luminance comes first
+  const bool is_as_sent =
+      (picture.format == format || counts || is_grey_plane) && picture.planes[0].stride == step;
   if (stamped.is_scarce || !is_as_sent) {
     converted_.resize(size);
     convert(picture, format, converted_.data());
@@ -48,6 +51,7 @@ void RawPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const auto length = static_cast<std::uint32_t>(size);
   message.data = {length, length, writable<std::uint8_t>(pixels), false};
   topic.write(&message);
+  if (stamped.also) stamped.also->write(&message);
 }
 
 void JpegPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
@@ -68,6 +72,7 @@ void JpegPictureWriter::write(StampedPicture stamped, TopicWriter& topic) {
   const auto length = static_cast<std::uint32_t>(jpeg->size());
   message.data = {length, length, jpeg->data(), false};
   topic.write(&message);
+  if (stamped.also) stamped.also->write(&message);
 }
 
 }  // namespace orbwatch::app

@@ -21,8 +21,11 @@ struct StampedPicture {
   Picture picture;
   TimeMessage stamp{};                    ///< UTC of the exposure's start
   const std::string* frame_id = nullptr;  ///< outlives the topics
-  /// Lies in one of a camera's few buffers: never waits for a write to end, nor lasts through one.
+  /// Lies in one of a camera's few buffers: never waits for the topic's own write to end, nor lasts
+  /// through it. It may wait for that of another topic where all shared threads are busy.
   bool is_scarce = false;
+  /// Gets the same sample after the topic itself, which is closed before it; null: none.
+  TopicWriter* also = nullptr;
 };
 
 /// Turns pictures into samples of a topic. Thread-bound; reuses its memory.
@@ -30,7 +33,6 @@ class PictureWriter {
  public:
   virtual ~PictureWriter() = default;
   virtual const dds_topic_descriptor_t& type() const = 0;
-  virtual std::string_view thread_name() const = 0;
   /// Writes one sample, or counts a failure. A converted or scarce picture is released before the
   /// write, which may block.
   virtual void write(StampedPicture picture, TopicWriter& topic) = 0;
@@ -45,7 +47,6 @@ class RawPictureWriter final : public PictureWriter {
   explicit RawPictureWriter(PixelFormat encoding) : encoding_(encoding) {}
 
   const dds_topic_descriptor_t& type() const override { return sensor_msgs_msg_dds__Image__desc; }
-  std::string_view thread_name() const override { return "dds raw"; }
   void write(StampedPicture picture, TopicWriter& topic) override;
 
  private:
@@ -61,7 +62,6 @@ class JpegPictureWriter final : public PictureWriter {
   const dds_topic_descriptor_t& type() const override {
     return sensor_msgs_msg_dds__CompressedImage__desc;
   }
-  std::string_view thread_name() const override { return "dds jpeg"; }
   void write(StampedPicture picture, TopicWriter& topic) override;
 
  private:

@@ -13,13 +13,14 @@ PublishedView published(const DdsSettings& settings, const std::string& view) {
 
 }  // namespace
 
-ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& view)
+ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& view,
+                       const std::shared_ptr<hal::SharedThreads>& threads)
     : name_(view),
       picture_(image_topic(settings.prefix, view), published(settings, view).encoding,
-               settings.jpeg) {
+               settings.jpeg, threads) {
   if (published(settings, view).measured) {
     measured_.emplace(radiometric_topic(settings.prefix, view),
-                      std::make_unique<RawPictureWriter>(PixelFormat::Grey));
+                      std::make_unique<RawPictureWriter>(PixelFormat::Grey), threads);
   }
   if (published(settings, view).perspective) {
     info_.emplace(sensor_msgs_msg_dds__CameraInfo__desc, camera_info_topic(settings.prefix, view));
@@ -39,8 +40,8 @@ void ViewTopics::close() {
   spec_.discard();
 }
 
-void ViewTopics::accept(const ViewPtr& view, const StampedPicture& picture) {
-  picture_.accept(picture);
+void ViewTopics::accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same) {
+  picture_.accept(picture, same);
   const bool narrow = view->radiometric.empty();
   if (measured_ && !(narrow && view->luminance.empty())) {
     measured_->accept({view,
@@ -65,6 +66,10 @@ void ViewTopics::publish_info() {
   } else {
     info_->count_failure(message.error().message);
   }
+}
+
+std::chrono::nanoseconds ViewTopics::cpu_time() const {
+  return picture_.cpu_time() + (measured_ ? measured_->cpu_time() : std::chrono::nanoseconds(0));
 }
 
 std::vector<const TopicWriter*> ViewTopics::writers() const {

@@ -16,16 +16,21 @@ namespace orbwatch::app {
 /// Thread rule: accept by one thread; publish_info, open and close by one owner; report by any.
 class ViewTopics {
  public:
-  ViewTopics(const DdsSettings& settings, const std::string& view);
+  ViewTopics(const DdsSettings& settings, const std::string& view,
+             const std::shared_ptr<hal::SharedThreads>& threads);
 
   Result<> open(const Entity& participant);
   void close();
 
-  /// Queues what has readers; returns at once. `picture` is the view's picture for people.
-  void accept(const ViewPtr& view, const StampedPicture& picture);
+  /// The forms in which readers need the next picture for people.
+  PictureNeeds ask(const TimeMessage& stamp) { return picture_.ask(stamp); }
+  /// Queues what has readers; returns at once. `picture` is the view's picture for people; `same`:
+  /// see PictureTopics.
+  void accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same);
   /// Writes the calibration of the newest view, if it has a reader.
   void publish_info();
 
+  std::chrono::nanoseconds cpu_time() const;
   const std::string& name() const { return name_; }
   std::vector<const TopicWriter*> writers() const;
   void report(std::vector<TopicStatistics>& topics) const;

@@ -23,7 +23,7 @@ struct TopicStatistics {
 };
 
 /// One topic and its writer, with statistics.
-/// Thread rule: one owner; has_reader(), the count_ functions and statistics() are thread-safe.
+/// Thread rule: one owner opens and closes; between, all else is thread-safe.
 class TopicWriter {
  public:
   TopicWriter(const dds_topic_descriptor_t& type, std::string name)

@@ -15,8 +15,9 @@ static_assert(registers_of<ServerStatus>() <= kServer.size());
 static_assert(registers_of<CameraStatus>() <= kCameras.stride);
 static_assert(registers_of<ViewStatus>() <= kViews.stride);
 static_assert(registers_of<AlarmStatus>() <= kAlarms.stride);
+static_assert(registers_of<StageStatus>() <= kStageParts.stride);
 static_assert(kCameras.has_room_for(kMaxCameras) && kViews.has_room_for(kMaxViews) &&
-              kAlarms.has_room_for(signals::kMaxAlarms));
+              kStageParts.has_room_for(kStages) && kAlarms.has_room_for(signals::kMaxAlarms));
 static_assert(signals::kMaxAlarms <= 32, "bits of a UDINT; the next 32 get one each beside them");
 
 /// Places between the words of alarms 1 to 32: those of 33 to 64 fit in.
@@ -132,6 +133,13 @@ void add_status_rows(std::vector<Row>& rows) {
       rows, kPlc, "plc_", [](I p) -> auto& { return p.plc; });
   add_part<ServerStatus>(
       rows, kServer, "modbus_", [](I p) -> auto& { return p.server; });
+  for (std::size_t i = 0; i < kStages; ++i) {
+    add_part<StageStatus>(
+        rows, kStageParts.entry(i),
+        "stage_" + std::string(name_of(static_cast<Stage>(i))) + "_", [i](I p) -> auto& {
+          return p.live.status.stages[i];
+        });
+  }
   add_parts(rows, kCameras, "camera", 0, &Status::cameras, &Status::camera_count);
   add_parts(rows, kViews, "view", 0, &Status::views);
   add_alarm_summary(rows);

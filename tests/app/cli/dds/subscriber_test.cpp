@@ -12,6 +12,7 @@
 
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/pictures/image_message.h"
+#include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/foreign_writer.h"
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
@@ -120,7 +121,7 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
        .each = true});
   const auto view = make_view(0, "front", 3, 64, 48, true);
   ASSERT_TRUE(eventually([&] {
-    sink.accept(view);
+    tests::hand_over(sink, view);
     sink.accept(tests::make_status());
     const auto& printed = subscriber.printed();
     const std::string figures =
@@ -153,7 +154,7 @@ TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
   ASSERT_EQ(counts.size(), cv::Size(64, 48));
   for (int y = 0; y < 48; ++y) {
     for (int x = 0; x < 64; ++x) {
-      const auto* rgb = view->colour.at(x, y);
+      const auto* rgb = view->picture.samples<std::uint8_t>().at(x, y);
       ASSERT_EQ(colour.at<cv::Vec3b>(y, x), cv::Vec3b(rgb[2], rgb[1], rgb[0])) << x << ' ' << y;
       ASSERT_EQ(counts.at<std::uint16_t>(y, x), *view->radiometric.at(x, y)) << x << ' ' << y;
     }

@@ -60,6 +60,7 @@ class MeasurementTest : public testing::Test {
     std::vector<std::unique_ptr<CompiledRecipe>> recipes;
     for (RecipePlan& plan : plans) recipes.push_back(compiled(std::move(plan)));
     measurement.emplace(std::move(recipes), inputs, std::move(apply));
+    buffers.emplace(ViewBuffers::Views(), measurement->planned_views(), KeptViews{});
   }
   void measure_by_two() { measure_by({plan(1), plan(2)}); }
 
@@ -81,10 +82,11 @@ class MeasurementTest : public testing::Test {
     set.frames[0] = frame;
     set.held[0] = held;
     measurement->apply_commands(stamp);
-    MipLevelCounts levels{};
-    for (const ViewChannel& view : measurement->views()) view.require_levels(levels);
-    pyramids.build(set, levels, workers);
-    measurement->process(set, pyramids, workers);
+    PictureUses uses;
+    for (const ViewChannel& view : measurement->views()) view.add_use(uses);
+    pyramids.build(set, uses, workers);
+    measurement->render(set, pyramids, *buffers, workers);
+    measurement->measure(set);
     for (ViewChannel& channel : measurement->views()) {
       const ViewPtr view = channel.take();
       published += view && view->frame_set == sets ? 1 : 0;
@@ -132,6 +134,7 @@ class MeasurementTest : public testing::Test {
   WorkerPool workers{0};
   FramePyramids pyramids{source_formats(thermal_view(0, "measured"))};
   std::optional<Measurement> measurement;
+  std::optional<ViewBuffers> buffers;
   std::uint64_t sets = 0;
   std::uint64_t published = 0;
   std::vector<AlarmNotice> notices;

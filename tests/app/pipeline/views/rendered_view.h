@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "app/pipeline/views/view_buffers.h"
 #include "app/pipeline/views/view_renderer.h"
 
 namespace orbwatch::app {
@@ -18,26 +20,50 @@ inline std::vector<hal::StreamFormat> source_formats(const ViewPlan& plan) {
   return formats;
 }
 
+/// A view of a plan, in memory of its own.
+inline View make_view(const ViewPlan& plan) {
+  View view = make_view(plan.projection.width(), plan.projection.height());
+  set_plan(view, plan);
+  return view;
+}
+
+/// Buffers for one view, beside which readers keep `kept`.
+inline ViewBuffers buffers_for(const ViewPlan& plan, const KeptViews& kept = {}) {
+  const ViewBuffers::Views view(&plan, 1);
+  return plan.measured ? ViewBuffers({}, {view}, kept) : ViewBuffers(view, {}, kept);
+}
+
+/// What a renderer samples.
+inline PictureUses use_of(const ViewRenderer& renderer) {
+  PictureUses uses;
+  renderer.add_use(uses);
+  return uses;
+}
+
 /// A view rendered from frame sets as the pipeline does it, into one buffer.
 class RenderedView {
  public:
   explicit RenderedView(ViewPlan plan)
       : renderer_(std::move(plan)),
-        pyramids_(source_formats(renderer_.plan())),
-        view_(make_view(renderer_.plan())) {}
+        uses_(use_of(renderer_)),
+        pyramids_(source_formats(renderer_.plan()), uses_),
+        view_(make_view(renderer_.plan())) {
+    set_format(PixelFormat::Rgb);
+  }
+
+  void set_format(std::optional<PixelFormat> format) { app::set_format(view_, format); }
 
   const ViewPlan& plan() const { return renderer_.plan(); }
 
   const View& render(const hal::FrameSet& set, WorkerPool& workers) {
-    MipLevelCounts levels{};
-    renderer_.require_levels(levels);
-    pyramids_.build(set, levels, workers);
+    pyramids_.build(set, uses_, workers);
     renderer_.render(set, pyramids_, view_, workers);
     return view_;
   }
 
  private:
   ViewRenderer renderer_;
+  PictureUses uses_;
   FramePyramids pyramids_;
   View view_;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "hal/frame/frame_pool.h"
@@ -22,7 +23,17 @@ class ViewChannelTest : public testing::Test {
   const View* render(ViewChannel& channel) {
     ++set.id;
     pyramids.build(set, {}, workers);
-    return channel.render(set, pyramids, workers);
+    return channel.render(set, pyramids, *buffers, workers);
+  }
+  /// Until the readers, who may keep two, hold every one.
+  std::vector<ViewPtr> hold_all(ViewChannel& channel) {
+    std::vector<ViewPtr> held;
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_TRUE(render(channel));
+      held.push_back(channel.take());
+      EXPECT_TRUE(held.back());
+    }
+    return held;
   }
 
   ViewPlan plan;
@@ -30,9 +41,11 @@ class ViewChannelTest : public testing::Test {
   std::shared_ptr<hal::FrameBuffer> buffer;
   hal::FrameSet set;
   WorkerPool workers{0};
+  std::optional<ViewBuffers> buffers;
 };
 
 TEST_F(ViewChannelTest, HandsOverEachViewOnce) {
+  buffers.emplace(buffers_for(plan));
   ViewChannel channel(plan);
   const View* const rendered = render(channel);
   const ViewPtr view = channel.take();
@@ -45,12 +58,9 @@ TEST_F(ViewChannelTest, HandsOverEachViewOnce) {
 }
 
 TEST_F(ViewChannelTest, ADisplayViewIsSkippedWhileEveryBufferIsHeld) {
+  buffers.emplace(buffers_for(plan, {2, 0}));
   ViewChannel channel(plan);
-  std::vector<ViewPtr> held;
-  for (std::size_t n = 0; n < kViewBuffers; ++n) {
-    EXPECT_TRUE(render(channel));
-    held.push_back(channel.take());
-  }
+  std::vector<ViewPtr> held = hold_all(channel);
   EXPECT_FALSE(render(channel));
   EXPECT_EQ(channel.take(), nullptr);
   held.pop_back();
@@ -60,17 +70,32 @@ TEST_F(ViewChannelTest, ADisplayViewIsSkippedWhileEveryBufferIsHeld) {
 
 TEST_F(ViewChannelTest, AMeasuredViewIsRenderedEvenThen) {
   plan.measured = 0;
+  buffers.emplace(buffers_for(plan, {2, 0}));
   ViewChannel channel(plan);
-  std::vector<ViewPtr> held;
-  for (std::size_t n = 0; n < kViewBuffers; ++n) {
-    render(channel);
-    held.push_back(channel.take());
+  std::vector<ViewPtr> held = hold_all(channel);
+  for (int n = 0; n < 2; ++n) {
+    const View* const unshared = render(channel);
+    ASSERT_TRUE(unshared);
+    EXPECT_EQ(unshared->frame_set, set.id);
+    EXPECT_EQ(*unshared->radiometric.at(48, 32), 0x0101);
+    EXPECT_EQ(channel.take(), nullptr) << "no sink gets it";
   }
-  const View* const unshared = render(channel);
-  ASSERT_TRUE(unshared);
-  EXPECT_EQ(unshared->frame_set, kViewBuffers + 1);
-  EXPECT_EQ(*unshared->radiometric.at(48, 32), 0x0101);
-  EXPECT_EQ(channel.take(), nullptr) << "no sink gets it";
+  held.pop_back();
+  EXPECT_TRUE(render(channel));
+  EXPECT_TRUE(channel.take());
+}
+
+/// Recipes of views of one size follow each other.
+TEST_F(ViewChannelTest, AChannelKeepsNothingOfWhatWasTaken) {
+  plan.measured = 0;
+  buffers.emplace(buffers_for(plan));
+  ViewChannel one(plan), other(plan);
+  std::vector<ViewPtr> held;
+  ASSERT_TRUE(render(one));
+  held.push_back(one.take());
+  ASSERT_TRUE(render(one)) << "not shared";
+  EXPECT_FALSE(one.take());
+  EXPECT_TRUE(render(other)) << "in the same buffer";
 }
 
 }  // namespace

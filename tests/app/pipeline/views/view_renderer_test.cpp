@@ -55,7 +55,9 @@ hal::Frame plain(PixelFormat format, std::uint16_t value) {
   return buffer;
 }
 
-int red(const View& view, int lon) { return view.colour.at(lon + 180, 90)[0]; }
+int red(const View& view, int lon) {
+  return view.picture.samples<std::uint8_t>().at(lon + 180, 90)[0];
+}
 Validity validity(const View& view, int lon) {
   return static_cast<Validity>(*view.validity.at(lon + 180, 90));
 }
@@ -134,6 +136,60 @@ TEST_F(ViewRendererTest, KeepsRawCountsBesideTheColours) {
   EXPECT_EQ(*view.radiometric.at(180, 90), 0) << "no stale counts";
 }
 
+TEST_F(ViewRendererTest, AViewIsMadeInTheFormatThatItHas) {
+  const ViewPlan plan =
+      panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Grey, 180)});
+  RenderedView rendered(plan);
+  set.frames = {plain(PixelFormat::Rgb, 100), plain(PixelFormat::Grey, 200)};
+  for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::Bgr, PixelFormat::Grey}) {
+    rendered.set_format(format);
+    const View& view = rendered.render(set, workers);
+    ASSERT_EQ(view.picture.format, format);
+    const auto samples = view.picture.samples<std::uint8_t>();
+    EXPECT_EQ(samples.channels, info(format).channels());
+    EXPECT_EQ(*samples.at(180, 90), 100);
+    EXPECT_EQ(*samples.at(359, 90), 200);
+  }
+}
+
+TEST_F(ViewRendererTest, WithoutAPictureOnlyWhatIsMeasuredIsMade) {
+  ViewPlan plan = panorama({source(0, PixelFormat::Grey, 0), source(1, PixelFormat::Y16, 90)});
+  plan.measured = 1;
+  RenderedView rendered(plan);
+  rendered.set_format(std::nullopt);
+  set.frames = {plain(PixelFormat::Grey, 50), plain(PixelFormat::Y16, 40000)};
+  const View& view = rendered.render(set, workers);
+  EXPECT_EQ(view.picture.planes[0].data, nullptr);
+  EXPECT_EQ(*view.radiometric.at(180, 90), 40000);
+  EXPECT_EQ(validity(view, 0), Validity::Seen);
+}
+
+TEST_F(ViewRendererTest, WithoutAPictureOnlyTheMeasuredSourceIsHalved) {
+  ViewPlan plan = panorama({source(0, PixelFormat::Grey, 0), source(1, PixelFormat::Y16, 90)});
+  plan.interpolation = remap::Interpolation::Area;
+  plan.projection = ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, 32, 16}).value();
+  plan.measured = 1;
+  const ViewRenderer renderer(plan);
+  PictureUses with, without;
+  renderer.add_use(with);
+  renderer.add_use(without, false);
+  EXPECT_GT(with[0].mip_levels, 0);
+  EXPECT_EQ(without[0].mip_levels, 0);
+  EXPECT_EQ(without[1].mip_levels, with[1].mip_levels);
+}
+
+TEST_F(ViewRendererTest, WithoutAPictureNothingIsSharpened) {
+  ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 0)});
+  plan.sources[0].sharpness = 0.8;
+  plan.measured = 0;
+  const ViewRenderer renderer(plan);
+  PictureUses with, without;
+  renderer.add_use(with);
+  renderer.add_use(without, false);
+  EXPECT_EQ(with[0].sharpened().size(), 1U);
+  EXPECT_TRUE(without[0].sharpened().empty());
+}
+
 TEST_F(ViewRendererTest, MeasuresTheLuminanceOfColour) {
   ViewPlan plan = panorama({source(0, PixelFormat::Rgb, 0)});
   plan.measured = 0;
@@ -147,7 +203,7 @@ TEST_F(ViewRendererTest, MeasuresTheLuminanceOfColour) {
 TEST_F(ViewRendererTest, GivesTheSameBytesForAnyNumberOfThreads) {
   const auto plan = panorama({source(0, PixelFormat::Rgb, 10), source(1, PixelFormat::Y16, 170)});
   set.frames = {plain(PixelFormat::Rgb, 90), plain(PixelFormat::Y16, 30000)};
-  std::vector<std::vector<std::uint8_t>> results;
+  std::vector<UntouchedVector<std::uint8_t>> results;
   for (const std::size_t threads : {0, 1, 3}) {
     WorkerPool pool(threads);
     RenderedView rendered(plan);
@@ -171,15 +227,88 @@ TEST_F(ViewRendererTest, SharedMipLevelsGiveTheSameBytesAsThoseOfOneView) {
         ViewProjection::make({ViewKind::Equirectangular, {}, {}, {}, width, width / 2}).value();
     plans.back().interpolation = remap::Interpolation::Area;
   }
-  FramePyramids shared(source_formats(plans[0]));
-  MipLevelCounts levels{};
-  for (const ViewPlan& plan : plans) ViewRenderer(plan).require_levels(levels);
-  EXPECT_GT(levels[0], 0);
-  shared.build(set, levels, workers);
+  PictureUses uses;
+  for (const ViewPlan& plan : plans) ViewRenderer(plan).add_use(uses);
+  EXPECT_GT(uses[0].mip_levels, 0);
+  FramePyramids shared(source_formats(plans[0]), uses);
+  shared.build(set, uses, workers);
   for (const ViewPlan& plan : plans) {
     View view = make_view(plan);
+    set_format(view, PixelFormat::Rgb);
     ViewRenderer(plan).render(set, shared, view, workers);
     EXPECT_EQ(view.bytes, RenderedView(plan).render(set, workers).bytes);
+  }
+}
+
+hal::Frame noise(PixelFormat format) {
+  auto frame = std::const_pointer_cast<hal::FrameBuffer>(plain(format, 0));
+  for (std::size_t i = 0; i < frame->capacity; ++i) {
+    frame->memory[i] = static_cast<std::byte>(i * 2654435761U >> 24);
+  }
+  return frame;
+}
+
+/// A panorama of one camera, sharpened that much, from noise.
+class SharpenedView : public ViewRendererTest, public testing::WithParamInterface<PixelFormat> {
+ protected:
+  struct Bytes {
+    std::vector<std::uint8_t> shown, measured;
+  };
+
+  Bytes rendered(double sharpness, bool is_measured, const hal::Frame& frame,
+                 remap::Interpolation interpolation = remap::Interpolation::Bilinear) {
+    ViewPlan plan = panorama({source(0, GetParam(), 0)});
+    plan.sources[0].sharpness = sharpness;
+    plan.interpolation = interpolation;
+    if (is_measured) plan.measured = 0;
+    set.frames[0] = frame;
+    RenderedView rendered(plan);
+    const View& view = rendered.render(set, workers);
+    const auto shown = view.picture.samples<std::uint8_t>();
+    Bytes bytes{{shown.data, shown.row(shown.height)}, {}};
+    if (is_measured) {
+      bytes.measured.assign(view.luminance.data, view.luminance.row(view.luminance.height));
+    }
+    return bytes;
+  }
+};
+
+TEST_P(SharpenedView, ShowsColourSharpenedAndMeasuresItAsItIs) {
+  const hal::Frame frame = noise(GetParam());
+  remap::SharpenedPicture sharpened(GetParam(), kSize, kSize, 0.8);
+  sharpened.set_source(frame->picture);
+  sharpened.fill({0, 0, kSize, kSize});
+  const auto sharp_frame = std::make_shared<hal::FrameBuffer>();
+  sharp_frame->picture = sharpened.picture();
+
+  const Bytes as_it_is = rendered(0, true, frame);
+  const Bytes both = rendered(0.8, true, frame);
+  EXPECT_EQ(both.shown, rendered(0, false, sharp_frame).shown);
+  EXPECT_NE(both.shown, as_it_is.shown);
+  EXPECT_EQ(both.measured, as_it_is.measured);
+  EXPECT_EQ(rendered(0.8, false, frame).shown, both.shown);
+}
+
+TEST_P(SharpenedView, ShowsTheNearestPixelsAsTheyAre) {
+  const hal::Frame frame = noise(GetParam());
+  constexpr auto kNearest = remap::Interpolation::Nearest;
+  EXPECT_EQ(rendered(0.8, false, frame, kNearest).shown, rendered(0, false, frame, kNearest).shown);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, SharpenedView,
+                         testing::Values(PixelFormat::Rgb, PixelFormat::Bgra, PixelFormat::Nv12,
+                                         PixelFormat::Yuyv, PixelFormat::I420),
+                         [](const auto& test) {
+                           return std::string(orbwatch::info(test.param).name);
+                         });
+
+TEST_F(ViewRendererTest, OneChannelIsNeverSharpened) {
+  for (const PixelFormat format : {PixelFormat::Grey, PixelFormat::Y16}) {
+    set.frames[0] = noise(format);
+    ViewPlan plan = panorama({source(0, format, 0)});
+    const auto as_it_is = RenderedView(plan).render(set, workers).bytes;
+    plan.sources[0].sharpness = 0.8;
+    EXPECT_EQ(RenderedView(plan).render(set, workers).bytes, as_it_is);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/sink_topics.h"
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
@@ -35,7 +36,7 @@ TEST_F(DdsSinkSettingsTest, EncodingIsThatOfTheView) {
   const auto take = [&](const ImageReader& reader, const ViewPtr& view, const auto& look) {
     return eventually([&] {
       bool seen = false;
-      sink.accept(view);
+      tests::hand_over(sink, view);
       reader.take([&](const ImageMessage& message) {
         look(message);
         seen = true;
@@ -47,15 +48,85 @@ TEST_F(DdsSinkSettingsTest, EncodingIsThatOfTheView) {
     EXPECT_STREQ(message.encoding, "bgr8");
     EXPECT_EQ(message.step, 3u * kWidth);
     for (int c = 0; c < 3; ++c) {
-      EXPECT_EQ(message.data._buffer[c], front_view->colour.data[2 - c]);
+      EXPECT_EQ(message.data._buffer[c], front_view->picture.samples<std::uint8_t>().data[2 - c]);
     }
   }));
   EXPECT_TRUE(take(wide, wide_view, [&](const ImageMessage& message) {
     EXPECT_STREQ(message.encoding, "mono8");
     EXPECT_EQ(message.step, static_cast<std::uint32_t>(kWidth));
-    const std::uint8_t* rgb = wide_view->colour.data;
+    const std::uint8_t* rgb = wide_view->picture.samples<std::uint8_t>().data;
     EXPECT_NEAR(message.data._buffer[0], 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2], 1);
   }));
+}
+
+TEST_F(DdsSinkSettingsTest, NeedsAPictureAsItsReadersDo) {
+  DdsSettings chosen = settings();
+  chosen.jpeg.rate = 10;
+  DdsSink sink(chosen, tests::make_names(), nullptr);
+  ASSERT_TRUE(sink.start());
+  auto moment = hal::Clock::now();
+  const auto needs = [&](std::size_t view) {
+    moment += std::chrono::seconds(1);
+    return sink.needs(view, moment);
+  };
+  EXPECT_FALSE(needs(kFront).rgb || needs(kFront).jpeg) << "nobody reads";
+  EXPECT_FALSE(needs(99).rgb) << "no such view";
+  const CompressedReader compressed("rt/orbwatch/front/image_raw/compressed");
+  ASSERT_TRUE(eventually([&] { return needs(kFront).jpeg; }));
+  EXPECT_FALSE(needs(kFront).rgb);
+  const ImageReader raw("rt/orbwatch/front/image_raw");
+  ASSERT_TRUE(eventually([&] { return needs(kFront).rgb; }));
+  EXPECT_FALSE(needs(kWide).rgb || needs(kWide).jpeg) << "of another view";
+  // A JPEG that is not due is not needed; whoever did not need the picture does not get it.
+  const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
+  view->stamp = moment;
+  tests::hand_over(sink, view);
+  EXPECT_FALSE(sink.needs(kFront, moment + std::chrono::milliseconds(30)).jpeg);
+  const auto unread = of_topic(sink, "rt/orbwatch/wide/image_raw").unread;
+  const ImageReader late("rt/orbwatch/wide/image_raw");
+  ASSERT_TRUE(eventually([&] {
+    const auto other = make_view(kWide, "wide", 1, kWidth, kHeight);
+    other->picture = {};
+    sink.accept(other);  // asked before the reader came
+    return of_topic(sink, "rt/orbwatch/wide/image_raw").unread > unread && needs(kWide).rgb;
+  }));
+}
+
+TEST_F(DdsSinkSettingsTest, TheSelectedViewsJpegGoesToBothTopics) {
+  DdsSink sink(settings(), tests::make_names(), nullptr);
+  ASSERT_TRUE(sink.start());
+  const std::string own = "rt/orbwatch/front/image_raw/compressed",
+                    selected = "rt/orbwatch/selected/image_raw/compressed";
+  const CompressedReader own_reader(own), selected_reader(selected);
+  Status status;
+  status.selected_view = kFront;
+  sink.accept(status);
+  const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
+  std::vector<std::uint8_t> from_own, from_selected;
+  const auto copy_to = [](std::vector<std::uint8_t>& bytes) {
+    return [&bytes](const CompressedImageMessage& message) {
+      bytes.assign(message.data._buffer, message.data._buffer + message.data._length);
+    };
+  };
+  ASSERT_TRUE(eventually([&] {
+    tests::hand_over(sink, view);
+    own_reader.take(copy_to(from_own));
+    selected_reader.take(copy_to(from_selected));
+    return !from_own.empty() && !from_selected.empty();
+  }));
+  EXPECT_EQ(from_own, from_selected);
+  // From now on both have readers, and no picture is replaced: what is let go of is written soon.
+  ASSERT_TRUE(eventually([&] { return view.use_count() == 1; }));
+  const auto written = [&](const std::string& topic) { return of_topic(sink, topic).written; };
+  const auto own_before = written(own), selected_before = written(selected);
+  for (int i = 0; i < 5; ++i) {
+    view->stamp += std::chrono::seconds(1);
+    tests::hand_over(sink, view);
+    ASSERT_TRUE(eventually([&] { return view.use_count() == 1; }));
+  }
+  ASSERT_TRUE(eventually([&] { return written(selected) >= selected_before + 5; }));
+  EXPECT_GE(written(own), own_before + 5);
+  EXPECT_EQ(of_topic(sink, selected).replaced, 0U);
 }
 
 TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
@@ -71,7 +142,7 @@ TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
   std::uint64_t handed_over = 0;
   ASSERT_TRUE(eventually([&] {
     view->stamp = first + handed_over++ * std::chrono::microseconds(33333);
-    sink.accept(view);
+    tests::hand_over(sink, view);
     return of_topic(sink, topic).limited >= 60;
   }));
   const TopicStatistics result = of_topic(sink, topic);
@@ -80,7 +151,7 @@ TEST_F(DdsSinkSettingsTest, JpegsKeepTheirRate) {
   // Also when the clock is set back.
   for (int i = 0; i < 60; ++i) {
     view->stamp = first - std::chrono::hours(1) + i * std::chrono::microseconds(33333);
-    sink.accept(view);
+    tests::hand_over(sink, view);
   }
   EXPECT_NEAR(static_cast<double>(of_topic(sink, topic).limited - result.limited), 40, 2);
 }
@@ -111,7 +182,7 @@ TEST_F(DdsSinkSettingsTest, JoinsAgainWhenTheAddressesChange) {
   const auto arrives = [&] {
     bool seen = false;
     return eventually([&] {
-      sink.accept(view);
+      tests::hand_over(sink, view);
       reader.take([&](const auto&) { seen = true; });
       return seen;
     });
@@ -137,7 +208,7 @@ TEST(DdsSinkStartTest, DisabledSinkDoesNothing) {
   DdsSink sink(off, {{}, {"front"}, {}}, nullptr);
   EXPECT_TRUE(sink.start());
   const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
-  sink.accept(view);
+  tests::hand_over(sink, view);
   EXPECT_EQ(view.use_count(), 1);
   EXPECT_EQ(sum(of_topic(sink, "rt/orbwatch/front/image_raw")), 0u);
 }

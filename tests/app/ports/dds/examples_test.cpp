@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/ports/dds/dds_sink.h"
+#include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/test_views.h"
 #include "tests/support/loopback_dds.h"
 #include "tests/support/temporary_folder.h"
@@ -42,7 +43,7 @@ TEST(Examples, ImageSubscriberBuildsByItselfAndReadsAView) {
   std::thread camera([&] {
     const auto view = tests::make_view(0, "front", 1, 160, 90);
     while (!done) {
-      sink.accept(view);
+      tests::hand_over(sink, view);
       sink.accept(Status{});
       std::this_thread::sleep_for(std::chrono::milliseconds(5));  // a camera's pace
     }

@@ -20,10 +20,11 @@ inline std::shared_ptr<View> make_view(std::size_t index, std::string_view name,
   view->stamp = hal::Clock::now();
   const int stride = width * 3 + padding;
   view->bytes.assign(static_cast<std::size_t>(stride) * height, 0xEE);
-  view->colour = {view->bytes.data(), width, height, 3, stride};
+  const ImageView<std::uint8_t> colour{view->bytes.data(), width, height, 3, stride};
+  view->picture = picture_of(PixelFormat::Rgb, colour);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width * 3; ++x) {
-      view->colour.row(y)[x] = static_cast<std::uint8_t>(x * 7 + y * 13 + frame_set * 29 + index);
+      colour.row(y)[x] = static_cast<std::uint8_t>(x * 7 + y * 13 + frame_set * 29 + index);
     }
   }
   if (!radiometric) return view;

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/app/hand_over.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -45,7 +46,8 @@ ViewPtr view(std::size_t index, std::uint64_t frame_set, Measured measured = Mea
   for (std::size_t i = 0; i < pixels; ++i) {
     made->words[i] = static_cast<std::uint16_t>(20000 + i * 31 + frame_set);
   }
-  made->colour = {made->bytes.data(), kWidth, kHeight, 3, 3 * kWidth};
+  made->picture = picture_of(PixelFormat::Rgb, ImageView<std::uint8_t>{made->bytes.data(), kWidth,
+                                                                       kHeight, 3, 3 * kWidth});
   if (measured == Measured::Luminance) {
     made->luminance = {made->bytes.data() + 3 * pixels, kWidth, kHeight, 1, kWidth};
   }
@@ -74,7 +76,7 @@ class SnapshotSinkTest : public testing::Test {
   void take(const ViewPtr& picture) {
     const std::uint64_t before = sink->written();
     ASSERT_EQ(ask(picture->index), CommandResult::Done);
-    sink->accept(picture);
+    tests::hand_over(*sink, picture);
     wait_for(before + 1);
   }
   void wait_for(std::uint64_t written) {
@@ -101,7 +103,7 @@ class SnapshotSinkTest : public testing::Test {
     return {};
   }
 
-  tests::TemporaryFolder folder;
+  orbwatch::tests::TemporaryFolder folder;
   std::optional<SnapshotSink> sink;
 };
 
@@ -122,17 +124,17 @@ bool are_equal(const cv::Mat& a, const cv::Mat& b) {
 
 TEST_F(SnapshotSinkTest, WritesTheNextPictureOfTheViewThatIsAskedFor) {
   start();
-  sink->accept(view(0, 1));
+  tests::hand_over(*sink, view(0, 1));
   ASSERT_EQ(ask(0), CommandResult::Done);
-  sink->accept(view(2, 2));
+  tests::hand_over(*sink, view(2, 2));
   const ViewPtr next = view(0, 2);
-  sink->accept(next);
-  sink->accept(view(0, 3));
+  tests::hand_over(*sink, next);
+  tests::hand_over(*sink, view(0, 3));
   wait_for(1);
   ASSERT_EQ(files().size(), 1U) << "nobody asked for the others";
   EXPECT_TRUE(std::regex_match(files()[0], std::regex(R"(room_\d{8}T\d{6}\.\d{3}Z_2\.png)")))
       << files()[0];
-  EXPECT_TRUE(are_equal(picture("room_"), as_matrix(next->colour)));
+  EXPECT_TRUE(are_equal(picture("room_"), as_matrix(next->picture.samples<std::uint8_t>())));
 }
 
 TEST_F(SnapshotSinkTest, TheRawMeasuredPlaneGoesBesideIt) {
@@ -141,7 +143,7 @@ TEST_F(SnapshotSinkTest, TheRawMeasuredPlaneGoesBesideIt) {
   take(thermal);
   take(grey);
   ASSERT_EQ(files().size(), 4U);
-  EXPECT_TRUE(are_equal(picture("_5.png"), as_matrix(thermal->colour)));
+  EXPECT_TRUE(are_equal(picture("_5.png"), as_matrix(thermal->picture.samples<std::uint8_t>())));
   EXPECT_TRUE(are_equal(picture("_5_measured.png"),
                         cv::Mat(kHeight, kWidth, CV_16U, thermal->radiometric.data)));
   EXPECT_TRUE(
@@ -166,14 +168,28 @@ TEST_F(SnapshotSinkTest, IsBusyWithAViewUntilItIsWritten) {
   ASSERT_EQ(ask(0), CommandResult::Done);
   EXPECT_EQ(ask(0), CommandResult::Busy);
   EXPECT_EQ(ask(1), CommandResult::Done) << "a view that does not come keeps no other waiting";
-  sink->accept(view(1, 1));
+  tests::hand_over(*sink, view(1, 1));
   wait_for(1);
   EXPECT_EQ(ask(0), CommandResult::Busy);
   EXPECT_EQ(ask(1), CommandResult::Done);
-  sink->accept(view(0, 2));
-  sink->accept(view(1, 2));
+  tests::hand_over(*sink, view(0, 2));
+  tests::hand_over(*sink, view(1, 2));
   wait_for(3);
   EXPECT_EQ(ask(0), CommandResult::Done);
+}
+
+TEST_F(SnapshotSinkTest, KeepsAsManyViewsAsItSays) {
+  start();
+  EXPECT_EQ(sink->keeps().besides, 0U);
+  std::vector<std::weak_ptr<const View>> views;
+  for (std::uint64_t n = 1; sink->written() < 20; ++n) {
+    const bool is_asked = ask(0) == CommandResult::Done;
+    const ViewPtr next = view(0, n);
+    if (is_asked) views.push_back(next);
+    tests::hand_over(*sink, next);
+    const auto kept = std::ranges::count_if(views, [](const auto& v) { return !v.expired(); });
+    ASSERT_LE(static_cast<std::size_t>(kept), sink->keeps().of_each);
+  }
 }
 
 TEST_F(SnapshotSinkTest, RefusesAViewOfWhichNoPictureCanCome) {
@@ -181,10 +197,10 @@ TEST_F(SnapshotSinkTest, RefusesAViewOfWhichNoPictureCanCome) {
   ASSERT_EQ(ask(0), CommandResult::Done);
   set_live(false);
   EXPECT_EQ(ask(0), CommandResult::NotPossible) << "not busy for ever";
-  sink->accept(view(0, 1));
+  tests::hand_over(*sink, view(0, 1));
   set_live(true);
   ASSERT_EQ(ask(0), CommandResult::Done);
-  sink->accept(view(0, 2));
+  tests::hand_over(*sink, view(0, 2));
   wait_for(1);
   EXPECT_EQ(files().size(), 1U) << "what was asked for before is dropped";
   EXPECT_FALSE(picture("_2.png").empty());
@@ -264,7 +280,7 @@ TEST_F(SnapshotSinkTest, AFailureEndsNothing) {
   const fs::path pictures = folder.path() / "pictures";
   fs::remove(pictures);
   ASSERT_EQ(ask(0), CommandResult::Done);
-  sink->accept(view(0, 1));
+  tests::hand_over(*sink, view(0, 1));
   const auto end = std::chrono::steady_clock::now() + seconds(30);
   CommandResult again = CommandResult::Busy;
   while (again == CommandResult::Busy && std::chrono::steady_clock::now() < end) {
@@ -274,7 +290,7 @@ TEST_F(SnapshotSinkTest, AFailureEndsNothing) {
   ASSERT_EQ(again, CommandResult::Done) << "it may be asked for again";
   EXPECT_EQ(sink->written(), 0U);
   fs::create_directory(pictures);
-  sink->accept(view(0, 2));
+  tests::hand_over(*sink, view(0, 2));
   wait_for(1);
   EXPECT_EQ(files().size(), 1U);
 }
@@ -284,7 +300,7 @@ TEST_F(SnapshotSinkTest, StopWritesWhatWasTaken) {
     start();
     for (const std::size_t index : {0U, 1U, 2U}) {
       ASSERT_EQ(ask(index), CommandResult::Done);
-      sink->accept(view(index, round));
+      tests::hand_over(*sink, view(index, round));
     }
     sink->stop();
     EXPECT_EQ(sink->written(), 3U);
@@ -308,7 +324,7 @@ TEST_F(SnapshotSinkTest, ManyAskWhileViewsCome) {
   {
     const std::jthread views([&](const std::stop_token& stop) {
       for (std::uint64_t n = 1; !stop.stop_requested(); ++n) {
-        for (const std::size_t index : {0U, 1U, 2U}) sink->accept(view(index, n));
+        for (const std::size_t index : {0U, 1U, 2U}) tests::hand_over(*sink, view(index, n));
       }
     });
     std::vector<std::jthread> asking;

@@ -28,7 +28,7 @@ std::shared_ptr<View> smooth_view() {
   auto view = tests::make_view(0, "front", 1, kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      std::uint8_t* pixel = view->colour.row(y) + 3 * x;
+      std::uint8_t* pixel = view->picture.samples<std::uint8_t>().row(y) + 3 * x;
       pixel[0] = static_cast<std::uint8_t>(x * 255 / kWidth);
       pixel[1] = static_cast<std::uint8_t>(y * 255 / kHeight);
       pixel[2] = 64;
@@ -109,7 +109,7 @@ TEST_F(EncodingOnTheWire, JpegShowsThePicture) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const auto pixel = bgr.at<cv::Vec3b>(y, x);
-      const std::uint8_t* rgb = view_->colour.row(y) + 3 * x;
+      const std::uint8_t* rgb = view_->picture.samples<std::uint8_t>().row(y) + 3 * x;
       for (int c = 0; c < 3; ++c) difference += std::abs(pixel[2 - c] - rgb[c]);
     }
   }

@@ -24,7 +24,7 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 180;
 
 template <class Number>
-std::string crc(const std::vector<Number>& data) {
+std::string crc(const UntouchedVector<Number>& data) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
   std::array<char, 9> text{};
   std::snprintf(text.data(), text.size(), "%08lx", crc32_z(0, bytes, data.size() * sizeof(Number)));

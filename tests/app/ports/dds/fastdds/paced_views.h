@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/model/sink.h"
+#include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/fastdds/pace.h"
 
 namespace orbwatch::app::tests {
@@ -25,7 +26,7 @@ class PacedViews final : public Pace {
   void hand_over_now(std::uint64_t number) override {
     const auto& view = views_[number % views_.size()];
     view->stamp = hal::Clock::now();
-    sink_.accept(view);
+    tests::hand_over(sink_, view);
     status_.frame_set = number;
     status_.stamp = view->stamp;
     sink_.accept(status_);

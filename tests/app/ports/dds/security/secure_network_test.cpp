@@ -16,6 +16,7 @@
 #include "app/ports/dds/status/diagnostics.h"
 #include "app/ports/dds/status/event_message.h"
 #include "app/ports/dds/topics/topic_names.h"
+#include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/foreign_writer.h"
 #include "tests/app/ports/dds/security/openssl_program.h"
 #include "tests/app/ports/dds/security/test_keystore.h"
@@ -76,7 +77,7 @@ class SecureNetwork : public testing::Test {
   void show_until_seen(const ImageReader& reader, const std::function<void()>& see) {
     int seen = 0;
     EXPECT_TRUE(eventually([&] {
-      sink_.accept(tests::make_view(0, "front", 3, 16, 12));
+      tests::hand_over(sink_, tests::make_view(0, "front", 3, 16, 12));
       see();
       reader.take([&](const ImageMessage& image) {
         EXPECT_STREQ(image.header.frame_id, "front");
@@ -107,7 +108,7 @@ TEST_F(SecureNetwork, WhoHasKeysSeesFramesAndStateAndCommands) {
   const auto view = tests::make_view(0, "front", 3, 64, 48);
   bool seen = false;
   ASSERT_TRUE(eventually([&] {
-    sink_.accept(view);
+    tests::hand_over(sink_, view);
     frames.take([&](const ImageMessage& image) {
       ASSERT_EQ(image.width * image.height, 64U * 48U);
       ASSERT_EQ(image.data._length, view->bytes.size());
@@ -318,7 +319,7 @@ std::string wire_text(const std::optional<SecuritySettings>& appliance,
     EXPECT_TRUE(eventually([&] {
       const auto view = tests::make_view(0, "secret_place", 3, 40, 1);
       std::ranges::copy(std::string_view("SECRET PIXELS"), view->bytes.begin());
-      sink.accept(view);
+      tests::hand_over(sink, view);
       reader.take([&](const ImageMessage&) { seen = true; });
       return seen;
     }));

@@ -59,7 +59,10 @@ TEST_F(Diagnostics, NameEveryPartOnce) {
                        "orbwatch: view front", "orbwatch: view wide", "orbwatch: region weld",
                        "orbwatch: region edge", "orbwatch: alarm 1, weld: " + first,
                        "orbwatch: alarm 2, edge: " + second, "orbwatch: alarm 3, weld: " + third,
-                       "orbwatch: health", "orbwatch: commands", "orbwatch: network"}));
+                       "orbwatch: health", "orbwatch: commands", "orbwatch: network",
+                       "orbwatch: stage capture", "orbwatch: stage halving",
+                       "orbwatch: stage views", "orbwatch: stage measurement",
+                       "orbwatch: stage publication", "orbwatch: stage sinks"}));
 }
 
 TEST_F(Diagnostics, WhatHasNoNameHasItsNumber) {

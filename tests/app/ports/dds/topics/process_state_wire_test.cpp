@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "app/ports/dds/dds_sink.h"
+#include "tests/app/hand_over.h"
 #include "tests/app/ports/dds/dds_network.h"
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
@@ -66,7 +67,7 @@ TEST_F(WireFormatTest, ImageIsPlainCdr) {
   const auto view = make_view(0, "front", 1, 7, 3);
   Sample sample;
   ASSERT_TRUE(eventually([&] {
-    sink_.accept(view);
+    tests::hand_over(sink_, view);
     return take_bytes(images_, sample);
   }));
   EXPECT_EQ(sample.header, (Bytes{0, 1})) << "CDR_LE";
@@ -79,7 +80,8 @@ TEST_F(WireFormatTest, ImageIsPlainCdr) {
   Cdr expected;
   expected.number(sec).number(nanosec).text("front");
   expected.number<std::uint32_t>(3).number<std::uint32_t>(7).text("rgb8");
-  expected.number<std::uint8_t>(0).number<std::uint32_t>(21).blob(view->bytes);
+  expected.number<std::uint8_t>(0).number<std::uint32_t>(21).blob(
+      {view->bytes.begin(), view->bytes.end()});
   EXPECT_EQ(sample.payload, expected.bytes());
 }
 
@@ -107,7 +109,7 @@ TEST_F(WireFormatTest, StateIsPlainCdr) {
   expected.number<std::int32_t>(0).number<std::uint32_t>(0).text("").number<std::uint64_t>(0);
   expected.number(status.trigger).number(status.result).number(tests::kRecipe);
   expected.number<std::uint32_t>(0xdeadbeef).number<std::uint8_t>(2).number(status.heartbeat);
-  expected.number<std::uint32_t>(7);
+  expected.number<std::uint32_t>(7 + kStages);
   const StatusNames names = tests::make_names();
   for (const auto& [part, readings] : status_readings({status, names, {}, {}})) {
     component(expected, part.kind, part.name, static_cast<std::uint32_t>(readings.size()));

@@ -243,6 +243,15 @@ void RegisterSources::expect_status() {
   expect([](S s) { ++s.live.status.process_inputs_known; }, {"system_process_inputs_known"});
   expect([](S s) { ++s.live.status.line_faults; }, {"system_line_faults"});
   expect([](S s) { ++s.live.status.interface_faults; }, {"system_interface_faults"});
+  expect([](S s) { s.live.status.busy_ms = 1.2; }, {"system_busy_ms"});
+  expect([](S s) { s.live.status.realtime = true; }, {"system_realtime"});
+  expect([](S s) { s.live.status.memory_locked = true; }, {"system_memory_locked"});
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const std::string name = "stage_" + std::string(name_of(static_cast<Stage>(i))) + "_";
+    expect([i](S s) { s.live.status.stages[i].cpu_ms = 1.2; }, {name + "cpu_ms"});
+    expect([i](S s) { s.live.status.stages[i].cpu_p50_ms = 1.2; }, {name + "cpu_p50_ms"});
+    expect([i](S s) { s.live.status.stages[i].cpu_p99_ms = 1.2; }, {name + "cpu_p99_ms"});
+  }
   for (std::size_t i = 0; i < 32; ++i) {
     expect([i](S s) { s.live.status.process_inputs = 1U << i; },
            {"system_process_inputs", "process_input_" + std::to_string(i) + "?"});

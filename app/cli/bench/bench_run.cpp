@@ -1,0 +1,125 @@
+#include "app/cli/bench/bench_run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <thread>
+
+#include "app/cli/bench/bench_sink.h"
+#include "app/daemon/appliance.h"
+#include "hal/thread/scheduling.h"
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPoll{20};
+constexpr milliseconds kWarmUp{1000};
+
+/// Polls until `done`; false at `end`, or when the user has no more patience.
+bool wait_until(const std::function<bool()>& done, hal::TimePoint end,
+                const std::atomic<bool>& cancelled) {
+  while (!cancelled && hal::Clock::now() < end) {
+    if (done()) return true;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return false;
+}
+
+std::string format_text(const hal::StreamFormat& format) {
+  char rate[32];
+  std::snprintf(rate, sizeof rate, "%.4g", format.frame_rate);
+  return std::string(info(format.format).name) + " " + std::to_string(format.width) + "x" +
+         std::to_string(format.height) + " at " + rate;
+}
+
+/// "camera front: camera is not connected", of those with a fault.
+std::string faults_of(const Resolved& site, const Status& status) {
+  std::string text;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    if (status.cameras[i].fault == hal::Fault::None) continue;
+    text += (text.empty() ? "camera " : ", camera ") + site.site.cameras[i].name + ": " +
+            std::string(operator_text(status.cameras[i].fault));
+  }
+  return text;
+}
+
+/// What is known before the run.
+BenchFigures described(const Resolved& site, const std::vector<std::string>& notes,
+                       const std::vector<hal::StreamFormat>& formats) {
+  BenchFigures figures;
+  figures.cores = hal::usable_cores().size();
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    std::string format = format_text(formats[i]);
+    if (i < notes.size()) format += ", " + notes[i];
+    figures.cameras.push_back({site.site.cameras[i].name, std::move(format), 0});
+  }
+  const auto add = [&figures](const ViewSettings& view) {
+    figures.views.resize(std::max(figures.views.size(), view.index + 1));
+    auto& added = figures.views[view.index];
+    added.name = view.name;
+    added.width = view.width;
+    added.height = view.height;
+  };
+  for (const ViewSettings& view : site.site.views) add(view);
+  for (const Recipe& recipe : site.recipes) {
+    for (const ViewSettings& view : recipe.views) add(view);
+  }
+  return figures;
+}
+
+/// Frame sets per second that the cameras or the configuration ask for.
+double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
+                   const CameraStatus& camera) {
+  const double deadline = std::chrono::duration<double>(site.site.pipeline.deadline).count();
+  if (deadline > 0) return 1 / deadline;
+  return pacing.frame_rate > 0 ? pacing.frame_rate : camera.frames_per_second;
+}
+
+}  // namespace
+
+Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
+                               const BenchSettings& settings, const std::atomic<bool>& cancelled) {
+  BenchSink sink(settings.seconds);
+  auto made = Appliance::make(site, [] {});
+  if (!made) return tl::unexpected(made.error());
+  Appliance& appliance = **made;
+  if (auto started = appliance.start({&sink}); !started) return tl::unexpected(started.error());
+
+  const auto has_news = [&sink] {
+    return sink.newest().frame_set > 0 || sink.newest().state == SystemState::Fault;
+  };
+  wait_until(has_news, hal::Clock::now() + settings.patience, cancelled);
+  if (cancelled) return fail("cancelled before there were figures");
+  if (sink.newest().frame_set == 0) {
+    const std::string faults = faults_of(site, sink.newest());
+    if (!faults.empty()) return fail("no frame: " + faults);
+    return fail("no frame within " + std::to_string(settings.patience.count() / 1000) +
+                " s, although no camera has a fault; does a trigger come?");
+  }
+  wait_until([] { return false; }, hal::Clock::now() + kWarmUp, cancelled);
+  const Status status = sink.newest();
+  if (const auto faults = faults_of(site, status); !faults.empty()) {
+    return fail(faults + "; the figures would be those of the others only");
+  }
+
+  BenchFigures figures = described(site, notes, appliance.formats());
+  const auto before = thread_loads();
+  const auto begin = hal::Clock::now();
+  sink.record();
+  const auto length = std::chrono::duration_cast<hal::Clock::duration>(
+      std::chrono::duration<double>(settings.seconds));
+  wait_until([] { return false; }, begin + length, cancelled);
+  sink.report(figures);
+  figures.seconds = std::chrono::duration<double>(hal::Clock::now() - begin).count();
+  figures.threads = since(before, thread_loads());
+  figures.memory = memory_figures();
+  if (figures.frame_sets == 0) return fail("no frame set in the time of the measurement");
+  const std::size_t pacing = appliance.pacing_camera();
+  figures.wanted_rate =
+      wanted_rate(site, appliance.formats()[pacing], sink.newest().cameras[pacing]);
+  return figures;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "app/cli/bench/bench_figures.h"
+#include "app/files/resolve.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+struct BenchSettings {
+  double seconds = 10;
+  std::chrono::milliseconds patience{10000};  ///< until the first frame set
+};
+
+/// Runs the appliance of a site, as orbwatchd does, and returns what it took. It warms up for a
+/// second first. `notes`, by camera, are for people. Errors: those of Appliance, a camera that
+/// cannot be opened, no frame within the patience, `cancelled` before a frame set was measured.
+Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
+                               const BenchSettings& settings, const std::atomic<bool>& cancelled);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,84 @@
+#include "app/cli/bench/bench_site.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "app/daemon/build.h"
+#include "app/daemon/cameras.h"
+#include "hal/v4l2/format/pixel_coding.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// Of cameras that state none and are not connected: what most of them have.
+constexpr PixelFormat kAssumed = PixelFormat::Nv12;
+
+std::optional<PixelFormat> stated_format(const simulation::SimulatedCameraSettings& camera) {
+  return camera.kind == simulation::CameraKind::Colour ? PixelFormat::Rgb : PixelFormat::Y16;
+}
+std::optional<PixelFormat> stated_format(const hal::V4l2Settings& camera) {
+  const auto coding =
+      std::ranges::find(hal::kPixelCodings, camera.pixel_format, &hal::PixelCoding::name);
+  if (coding == hal::kPixelCodings.end()) return std::nullopt;
+  return hal::frame_format(*coding, camera.colour);
+}
+std::optional<PixelFormat> stated_format(const hal::TestPatternSettings& camera) {
+  return camera.pixel_format;
+}
+template <class Other>
+std::optional<PixelFormat> stated_format(const Other&) {
+  return std::nullopt;
+}
+
+/// What the camera itself says; nullopt: it is not there. A simulated one needs no question, and
+/// would draw its machine first.
+std::optional<hal::StreamFormat> asked_format(const Resolved& site, std::size_t index) {
+  const CameraSettings& settings = site.site.cameras[index];
+  if (std::holds_alternative<simulation::SimulatedCameraSettings>(settings.back_end)) return {};
+  const auto camera = make_camera(settings, nullptr);
+  const auto format = open_camera(*camera, site, index);
+  return format ? std::optional(*format) : std::nullopt;
+}
+
+/// The camera's format, and how it is known.
+std::pair<hal::StreamFormat, std::string> format_of(const Resolved& site, std::size_t index) {
+  const CameraSettings& settings = site.site.cameras[index];
+  if (const auto asked = asked_format(site, index)) return {*asked, "as the camera says"};
+  hal::StreamFormat format = expected_format(site, index);
+  const auto stated =
+      std::visit([](const auto& camera) { return stated_format(camera); }, settings.back_end);
+  if (settings.radiometry.kelvin_per_count > 0) return {format, "as a radiometric camera"};
+  format.format = stated.value_or(kAssumed);
+  return {format, stated ? "as configured" : "assumed: it is not connected and states none"};
+}
+
+}  // namespace
+
+void silence_console(Resolved& site) { std::get<ConsoleSettings>(site.site.sinks).enabled = false; }
+
+std::vector<std::string> simulate_cameras(Resolved& site) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    auto [format, how] = format_of(site, i);
+    CameraSettings& camera = site.site.cameras[i];
+    camera.back_end = hal::TestPatternSettings{.name = {}, .pixel_format = format.format};
+    camera.stream.width = format.width;
+    camera.stream.height = format.height;
+    camera.stream.frame_rate = format.frame_rate;
+    camera.trigger = {.mode = hal::TriggerMode::Off};
+    camera.trigger_source.clear();
+    camera.controls.clear();
+    camera.faults.clear();
+    known.push_back(std::move(how));
+  }
+  for (Recipe& recipe : site.recipes) recipe.controls.clear();
+  for (LineSettings& line : site.site.lines) line.back_end = LineKind::Simulated;
+  std::get<ModbusSettings>(site.site.sinks).enabled = false;
+  std::get<DdsSettings>(site.site.sinks).prefix += "_bench";
+  return known;
+}
+
+}  // namespace orbwatch::app

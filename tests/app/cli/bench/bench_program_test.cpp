@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/app/daemon/daemon_program.h"
+
+/// `orbwatch bench` as its users call it.
+namespace orbwatch::tests {
+namespace {
+
+class BenchProgram : public Daemon {
+ protected:
+  std::pair<int, std::string> bench(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {ORBWATCH_PROGRAM, "bench"});
+    Subprocess program(arguments, folder.path() / "said");
+    const int code = program.wait();
+    return {code, program.output()};
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& said) {
+    const auto [code, output] = bench(arguments);
+    EXPECT_EQ(code, 1) << output;
+    EXPECT_NE(output.find(said), std::string::npos) << output;
+  }
+};
+
+nlohmann::json figures_in(const std::string& output) {
+  const auto begin = output.find("{\"fits\"");
+  if (begin == std::string::npos) return {};
+  return nlohmann::json::parse(output.substr(begin, output.find('\n', begin) - begin), nullptr,
+                               false);
+}
+
+TEST_F(BenchProgram, RunsTheConfigurationWithItsCamerasAndWithTestPatterns) {
+  const std::string config = write_config(small_machine());
+  for (const bool simulated : {false, true}) {
+    std::vector<std::string> arguments{"--config", config, "--seconds", "1", "--json"};
+    if (simulated) arguments.emplace_back("--simulated");
+    const auto [code, output] = bench(arguments);
+    const auto figures = figures_in(output);
+    ASSERT_TRUE(figures.is_object()) << output;
+    EXPECT_EQ(code, figures["fits"].get<bool>() ? 0 : 1) << output;
+    EXPECT_GT(figures["frame_sets"].get<int>(), 0);
+    EXPECT_EQ(figures["wanted_rate"], 20);
+    EXPECT_EQ(figures["stages"][0]["p99_ms"], 0) << "what drawing pictures costs is left out";
+    EXPECT_GT(figures["stages"][2]["p50_ms"].get<double>(), 0);
+    EXPECT_GT(figures["stages"][3]["p50_ms"].get<double>(), 0);
+    ASSERT_EQ(figures["views"].size(), 2U);
+    EXPECT_EQ(figures["views"][1]["name"], "process");
+    EXPECT_GT(figures["views"][1]["published"].get<int>(), 0);
+    EXPECT_GT(figures["memory_mib"]["resident"].get<double>(), 1);
+    const std::string format = figures["cameras"][0]["format"];
+    EXPECT_EQ(format.find("rgb 200x200 at 20"), 0U) << format;
+  }
+}
+
+TEST_F(BenchProgram, SaysWhatIsWrong) {
+  const std::string config = write_config(small_machine());
+  expect_refused({}, "--config FILE is missing");
+  expect_refused({"--config", (folder.path() / "none.toml").string()}, "none.toml");
+  expect_refused({"--config", config, "--seconds", "0"}, "it must be from 1 to 3600");
+  expect_refused({"--config", config, "--seconds", "3601"}, "it must be from 1 to 3600");
+}
+
+TEST_F(BenchProgram, SaysWhichCameraIsNotThere) {
+  std::string machine = small_machine();
+  machine += "[simulation]\nconnected = \"" + (folder.path() / "connected").string() + "\"\n";
+  std::filesystem::create_directories(folder.path() / "connected");
+  const std::string config = write_config(machine);
+  expect_refused({"--config", config, "--seconds", "1"},
+                 "no frame: camera colour: camera is not connected");
+  std::ofstream(folder.path() / "connected/thermal") << "";
+  expect_refused({"--config", config, "--seconds", "1"},
+                 "or cannot be opened; the figures would be those of the others only");
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
