@@ -16,14 +16,14 @@ using app::tests::Pace;
 constexpr int kWidth = 1920;
 constexpr int kHeight = 1080;
 constexpr std::size_t kJpegBytes = 340'000;
+constexpr std::size_t kPictures = 8;  // more than the sink keeps of a view
 constexpr const char* kPrefix = "orbwatch";
 constexpr const char* kView = "front";
 constexpr const char* kCamera = "colour";
 
-/// As many as the pipeline has buffers of one view.
 std::vector<std::shared_ptr<app::View>> make_views(int width, int height) {
   std::vector<std::shared_ptr<app::View>> views;
-  for (std::uint64_t set = 1; set <= app::kViewBuffers; ++set) {
+  for (std::uint64_t set = 1; set <= kPictures; ++set) {
     views.push_back(app::tests::make_view(0, kView, set, width, height));
   }
   return views;
@@ -34,7 +34,8 @@ std::vector<std::shared_ptr<app::View>> make_grainy_views() {
   auto views = make_views(kWidth, kHeight);
   cv::RNG grain(1);
   for (const auto& view : views) {
-    cv::Mat pixels(kHeight, kWidth, CV_8UC3, view->colour.row(0), view->colour.stride);
+    cv::Mat pixels(kHeight, kWidth, CV_8UC3, view->picture.samples<std::uint8_t>().row(0),
+                   view->picture.samples<std::uint8_t>().stride);
     cv::Mat noise(pixels.size(), pixels.type());
     grain.fill(noise, cv::RNG::NORMAL, 128, 40);
     cv::GaussianBlur(noise, pixels, {5, 5}, 0);
@@ -68,7 +69,7 @@ class PacedFrames final : public Pace {
   }
 
   app::Sink& sink_;
-  std::array<std::shared_ptr<hal::FrameBuffer>, app::kViewBuffers> frames_;
+  std::array<std::shared_ptr<hal::FrameBuffer>, kPictures> frames_;
   hal::FrameSet set_;
   app::Status status_;
 };

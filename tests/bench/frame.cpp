@@ -1,7 +1,9 @@
 #include "tests/bench/frame.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 #include <random>
 
 namespace orbwatch::bench {
@@ -28,6 +30,26 @@ void Plane::fill_with_noise(unsigned seed) {
   for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() & 0xff);
 }
 
+void Plane::fill_with_waves(unsigned seed) {
+  const auto wave = [&](int length) {
+    std::vector<double> values(static_cast<std::size_t>(length));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = std::sin(static_cast<double>(i) * (2 * std::numbers::pi / 60) + seed);
+    }
+    return values;
+  };
+  const std::vector<double> across = wave(width), down = wave(height);
+  const double middle = (std::exp2(8 * sample_bytes) - 1) / 2;
+  for (int y = 0; y < height; ++y) {
+    std::byte* to = bytes.data() + y * stride;
+    for (int i = 0; i < width * samples; ++i, to += sample_bytes) {
+      const auto value =
+          static_cast<std::uint16_t>(middle * (1 + 0.9 * across[i / samples] * down[y]));
+      std::memcpy(to, &value, static_cast<std::size_t>(sample_bytes));
+    }
+  }
+}
+
 int Plane::sample(int x, int y, int k) const {
   const std::byte* at =
       bytes.data() + y * stride + (std::ptrdiff_t{x} * samples + k) * sample_bytes;
@@ -50,6 +72,10 @@ Frame Frame::blank(PixelFormat format, int width, int height) {
 
 void Frame::fill_with_noise(unsigned seed) {
   for (Plane& plane : planes) plane.fill_with_noise(seed++);
+}
+
+void Frame::fill_with_waves(unsigned seed) {
+  for (Plane& plane : planes) plane.fill_with_waves(seed++);
 }
 
 MutablePicture Frame::picture() {

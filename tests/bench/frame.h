@@ -16,6 +16,10 @@ struct Plane {
   /// White noise, the same for the same seed.
   void fill_with_noise(unsigned seed);
 
+  /// Waves of 60 pixels, others for another seed: smooth, so that the order in which they are
+  /// sampled and converted hardly matters.
+  void fill_with_waves(unsigned seed);
+
   /// Sample `k` of pixel (x, y).
   int sample(int x, int y, int k) const;
 
@@ -33,6 +37,7 @@ struct Frame {
   static Frame blank(PixelFormat format, int width, int height);
 
   void fill_with_noise(unsigned seed);
+  void fill_with_waves(unsigned seed);
   MutablePicture picture();
   Picture picture() const;
 

@@ -26,6 +26,8 @@ inline constexpr std::array kMergedCases{
     MergedCase{"nv12", false, {PixelFormat::Nv12}, 1, false},
     MergedCase{"yuyv", false, {PixelFormat::Yuyv}, 1, false},
     MergedCase{"rgb", false, {PixelFormat::Rgb}, 1, false},
+    MergedCase{"nv12_measured", false, {PixelFormat::Nv12}, 1, true},
+    MergedCase{"rgb_measured", false, {PixelFormat::Rgb}, 1, true},
     MergedCase{"nv12_y16", false, {PixelFormat::Nv12, PixelFormat::Y16}, 2, true},
     MergedCase{"rgb_y16", false, {PixelFormat::Rgb, PixelFormat::Y16}, 2, true},
     MergedCase{"grey_y16", false, {PixelFormat::Grey, PixelFormat::Y16}, 2, true},
@@ -34,24 +36,48 @@ inline constexpr std::array kMergedCases{
         "panorama_grey", true, {PixelFormat::Grey, PixelFormat::Grey, PixelFormat::Y16}, 3, true},
 };
 
-/// One case with white noise in all cameras: colour ones of 1920x1080, thermal ones of 640x512.
+/// One camera of a merged view.
+struct MergedCamera {
+  /// Shows waves.
+  MergedCamera(PixelFormat format, const optics::ViewProjection& view, double yaw, unsigned seed);
+
+  Frame frame;
+  Picture picture;
+  optics::BallProjection ball;
+  remap::CoordinateGrid grid;
+};
+
+/// Colours and the counts of the first and the last of them.
+struct ColourScale {
+  remap::ColourMap::Table table;
+  double low;
+  double high;
+};
+
+/// Of a one-channel camera.
+ColourScale scale_of(PixelFormat format);
+
+/// One case with waves in all cameras: colour ones of 1920x1080, thermal ones of 640x512.
 class MergedView {
  public:
-  explicit MergedView(const MergedCase& wanted);
+  explicit MergedView(const MergedCase& wanted,
+                      const remap::Kernel& kernel = remap::default_kernel());
 
   void run();
 
- private:
-  struct Camera {
-    Frame frame;
-    Picture picture;
-    optics::BallProjection ball;
-    remap::CoordinateGrid grid;
-  };
+  const optics::ViewProjection& view() const { return view_; }
+  const std::deque<MergedCamera>& cameras() const { return cameras_; }
+  const remap::BlendGrid& blend() const { return *blend_; }
 
+  // What run() made.
+  const Frame& output() const { return out_; }
+  const std::optional<Frame>& measured() const { return measured_; }
+
+ private:
+  const remap::Kernel& kernel_;
   optics::ViewProjection view_;
-  std::deque<Camera> cameras_;
-  remap::ColourMap colours_;
+  std::deque<MergedCamera> cameras_;
+  std::deque<remap::ColourMap> colours_;  ///< by camera
   std::optional<remap::BlendGrid> blend_;
   std::optional<Frame> measured_;
   Frame out_;

@@ -67,19 +67,20 @@ def inner_loops(body):
                        for a, b in with_tables)]
 
 
-def cycles(loop, processor, turns=200):
+def modelled(loop, processor, turns=200):
+    """Cycles and instructions per turn."""
     # GCC writes bytes of movi with their sign, which LLVM does not read.
     instructions = [re.sub(r"0xf{14}(\w\w)$", r"0x\1", line) for line in loop
                     if re.match(r"\s+[a-z]", line)]
     report = json.loads(output_of(
         [LLVM_MCA, "--json", "-mtriple=aarch64", f"-mcpu={processor}", f"-iterations={turns}"],
         "\n".join(instructions) + "\n"))
-    return report["CodeRegions"][0]["SummaryView"]["TotalCycles"] / turns
+    return (report["CodeRegions"][0]["SummaryView"]["TotalCycles"] / turns, len(instructions))
 
 
 def layouts():
     """The names of remap::Layout."""
-    header = pathlib.Path("proc/remap/kernel/kernel.h").read_text()
+    header = pathlib.Path("proc/remap/kernel/layout.h").read_text()
     members = re.search(r"enum class Layout\b.*?\{(.*?)\};", header, re.DOTALL)[1]
     return re.findall(r"^\s*(\w+),", members, re.MULTILINE)
 
@@ -93,11 +94,10 @@ def readable(name):
 
 
 def blocks_per_turn(name):
-    """The kernels go through a row of blocks in a turn; their last template argument counts it."""
+    """The kernels go through a row of blocks in a turn; their last template argument counts it.
+    None of another function that looks up in tables."""
     count = re.search(r", (\d+)>$", name)
-    if not count:
-        sys.exit(f"model_cycles: {name} does not tell how many blocks it does in a turn")
-    return int(count[1])
+    return int(count[1]) if count else None
 
 
 def main(build):
@@ -105,13 +105,16 @@ def main(build):
     for name, body in functions(assembler(build)):
         for loop in inner_loops(body):
             shown = readable(name)
-            pixels = BLOCK_PIXELS * blocks_per_turn(shown)
+            blocks = blocks_per_turn(shown)
+            if blocks is None:
+                continue
+            pixels = BLOCK_PIXELS * blocks
             for label, processor in PROCESSORS.items():
-                per_turn = cycles(loop, processor)
-                found.append({"loop": shown, "cpu": label, "cycles": per_turn,
-                              "per_pixel": per_turn / pixels})
+                cycles, instructions = modelled(loop, processor)
+                found.append({"loop": shown, "cpu": label, "cycles": cycles,
+                              "instructions": instructions, "per_pixel": cycles / pixels})
     if not found:
-        sys.exit("model_cycles: no loop with table look-ups in kernel/neon.cpp")
+        sys.exit("model_cycles: no loop through blocks in kernel/neon.cpp")
     print(json.dumps(sorted(found, key=lambda entry: (entry["loop"], entry["cpu"])), indent=1))
 
 

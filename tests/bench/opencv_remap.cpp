@@ -2,16 +2,10 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/bench/opencv_header.h"
+
 namespace orbwatch::bench {
 namespace {
-
-cv::Mat header_of(const Plane& plane) {
-  const int depth = plane.sample_bytes == 1 ? CV_8U : CV_16U;
-  // OpenCV has no matrix of constant samples; sources are only read.
-  auto* data = const_cast<std::byte*>(plane.bytes.data());
-  return {plane.height, plane.width, CV_MAKETYPE(depth, plane.samples), data,
-          static_cast<std::size_t>(plane.stride)};
-}
 
 /// cv::remap's fast form of the map; a place outside of the picture where there is none.
 OpencvRemap::Maps maps_of(const Rig& rig, int divisor) {

@@ -6,6 +6,9 @@
 
 namespace orbwatch::bench {
 
+/// How often each of the bench's contestants does its work; main() sets it.
+inline int pairs = 31;
+
 /// Who takes part in a paired run, and how long each of its repetitions took.
 struct Contestant {
   std::string name;

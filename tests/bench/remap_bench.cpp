@@ -24,9 +24,6 @@
 namespace orbwatch::bench {
 namespace {
 
-/// How often each of the contestants does its work; main() sets it.
-int pairs = 31;
-
 /// The contestants of one case.
 struct Field {
   Field(const Rig& rig, const Frame& source) : opencv(rig, source), v360(rig, source.format) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "app/pipeline/pipeline.h"
+#include "tests/bench/prepared_camera.h"
+
+namespace orbwatch::bench {
+
+/// The machine that the frame budget is stated for, as the product runs it, on one thread: a colour
+/// camera of 1920x1080 in NV12 and a thermal one of 640x512 in Y16 see a ball from opposite sides.
+/// Both are mixed in a measured view of 1920x1080, with a region of interest and an alarm on the
+/// thermal counts, and in a panorama of 1024x512, both read as RGB; a display view of 640x480 of
+/// the colour camera is read as JPEG, which nobody compresses here. Everything else is as
+/// configuration and recipe have it unless stated.
+class ReferenceMachine {
+ public:
+  /// `on_set` is called on the pipeline's thread, which does all the work of frame sets, at the
+  /// beginning of each set.
+  explicit ReferenceMachine(std::function<void()> on_set);
+  ~ReferenceMachine();
+
+  /// Exposes one frame set and waits for its end. False: a camera, a view or the hot spot is missing
+  /// in it.
+  bool run();
+
+  /// What the pipeline does between two readings of its thread's clock in Pipeline::process(), in
+  /// their order from on_set on; "rest": what is neither views nor their input.
+  static constexpr std::string_view kStretches =
+      "rest halving measured_view measurement rest halving panorama rest jpeg_view rest";
+
+ private:
+  class Reader;
+
+  std::unique_ptr<Reader> reader_;
+  PreparedCamera* colour_ = nullptr;   ///< the pipeline's
+  PreparedCamera* thermal_ = nullptr;  ///< the pipeline's
+  std::optional<app::Pipeline> pipeline_;
+  std::uint64_t sets_ = 0;
+};
+
+}  // namespace orbwatch::bench
