@@ -11,7 +11,8 @@ namespace {
 cv::Mat share_of(const MergedView& ours, std::size_t camera) {
   const int width = ours.view().width(), height = ours.view().height();
   cv::Mat weights(height, width, CV_8U), share;
-  ours.blend().weights(camera, ours.cameras()[camera].grid, {weights.data, width, height, 1, width});
+  ours.blend().weights(camera, ours.cameras()[camera].grid,
+                       {weights.data, width, height, 1, width});
   weights.convertTo(share, CV_32F, 1.0 / 255);
   return share;
 }
@@ -29,9 +30,9 @@ OpencvMerge::Source OpencvMerge::source_of(const MergedView& ours, std::size_t c
     for (int x = 0; x < map.cols; ++x) {
       const auto direction = view.direction(x, y);
       const auto place = direction ? ball.pixel(*direction) : std::nullopt;
-      map.at<cv::Vec2f>(y, x) = place ? cv::Vec2f(static_cast<float>(place->u),
-                                                  static_cast<float>(place->v))
-                                      : cv::Vec2f(-1, -1);
+      map.at<cv::Vec2f>(y, x) =
+          place ? cv::Vec2f(static_cast<float>(place->u), static_cast<float>(place->v))
+                : cv::Vec2f(-1, -1);
     }
   }
   cv::convertMaps(map, cv::Mat(), source.places, source.map_weights, CV_16SC2);

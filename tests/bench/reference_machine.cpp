@@ -14,11 +14,12 @@
 namespace orbwatch::bench {
 namespace {
 
-constexpr std::size_t kColour = 0, kThermal = 1;  // cameras
+constexpr std::size_t kColour = 0, kThermal = 1;               // cameras
 constexpr std::size_t kPanorama = 0, kDoor = 1, kProcess = 2;  // views; those of recipes are last
 constexpr double kThermalYaw = 180;
 constexpr double kKelvinPerCount = 0.04;
 constexpr double kRate = 30;
+
 /// Emulated, a set takes longer than the product allows.
 constexpr std::chrono::seconds kPatience{300};
 
@@ -34,7 +35,7 @@ app::ViewSource colour_source() {
   return {kColour, colour_format(), colour_ball(), 1, {ramp(), 0, 255}, app::kSharpness};
 }
 app::ViewSource thermal_source() {
-  return {kThermal, thermal_format(), thermal_ball(), 0.6, {ramp(), counts(20), counts(800)},
+  return {kThermal,       thermal_format(), thermal_ball(), 0.6, {ramp(), counts(20), counts(800)},
           app::kSharpness};
 }
 
@@ -104,9 +105,8 @@ std::unique_ptr<app::CompiledRecipe> recipe() {
 /// White noise.
 void paint_colour(const MutablePicture& picture, unsigned seed) {
   std::uint32_t random = seed + 1;
-  const std::size_t size =
-      picture_bytes(picture.format, static_cast<std::size_t>(picture.planes[0].stride),
-                    picture.height);
+  const std::size_t size = picture_bytes(
+      picture.format, static_cast<std::size_t>(picture.planes[0].stride), picture.height);
   for (std::size_t i = 0; i < size; ++i) {
     random = random * 1664525 + 1013904223;
     picture.planes[0].data[i] = static_cast<std::byte>(random >> 24);
@@ -126,8 +126,7 @@ void paint_thermal(const MutablePicture& picture, unsigned seed) {
       random = random * 1664525 + 1013904223;
       const double dx = x - centre.u, dy = y - centre.v;
       const bool is_pool = dx * dx + dy * dy < kRadius * kRadius;
-      *samples.at(x, y) =
-          static_cast<std::uint16_t>(counts(is_pool ? 1700 : 20) + (random >> 25));
+      *samples.at(x, y) = static_cast<std::uint16_t>(counts(is_pool ? 1700 : 20) + (random >> 25));
     }
   }
 }
@@ -209,7 +208,8 @@ ReferenceMachine::ReferenceMachine(std::function<void()> on_set)
 ReferenceMachine::~ReferenceMachine() { pipeline_->stop(); }
 
 bool ReferenceMachine::run() {
-  const auto moment = hal::Clock::now();
+  // As regular as those of a camera: else the next frame would be expected at another time.
+  const auto moment = begin_ + sets_ * hal::period_of(kRate);
   colour_->expose(moment);
   thermal_->expose(moment);
   return reader_->wait_for(++sets_);

@@ -25,8 +25,8 @@ class ReferenceMachine {
   explicit ReferenceMachine(std::function<void()> on_set);
   ~ReferenceMachine();
 
-  /// Exposes one frame set and waits for its end. False: a camera, a view or the hot spot is missing
-  /// in it.
+  /// Exposes one frame set and waits for its end. False: a camera, a view or the hot spot is
+  /// missing in it.
   bool run();
 
   /// What the pipeline does between two readings of its thread's clock in Pipeline::process(), in
@@ -41,6 +41,7 @@ class ReferenceMachine {
   PreparedCamera* colour_ = nullptr;   ///< the pipeline's
   PreparedCamera* thermal_ = nullptr;  ///< the pipeline's
   std::optional<app::Pipeline> pipeline_;
+  const hal::TimePoint begin_ = hal::Clock::now();
   std::uint64_t sets_ = 0;
 };
 

@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "proc/remap/colour/luma.h"
-#include "proc/remap/colour/run_vector.h"
 
 namespace orbwatch::remap {
 namespace {
@@ -25,48 +24,6 @@ template <class Block>
   }
 }
 
-using Colours = std::array<std::uint32_t, 256>;
-using Greys = std::array<std::uint8_t, 256>;
-
-/// Writes whole words, each over the unused byte of the one before; the last one by bytes.
-[[gnu::always_inline]] inline void write_entries(const Colours& colours,
-                                                 const std::uint8_t* indices, int columns,
-                                                 std::uint8_t* out) {
-  for (int x = 0; x < columns - 1; ++x) std::memcpy(out + 3 * x, &colours[indices[x]], 4);
-  std::memcpy(out + 3 * (columns - 1), &colours[indices[columns - 1]], 3);
-}
-
-[[gnu::always_inline]] inline void write_entries(const Greys& greys, const std::uint8_t* indices,
-                                                 int columns, std::uint8_t* out) {
-  for (int x = 0; x < columns; ++x) out[x] = greys[indices[x]];
-}
-
-/// A run before others that follow without a gap: the last word's unused byte is theirs.
-[[gnu::always_inline]] inline void write_run_before(const Colours& colours,
-                                                    const std::uint8_t* indices,
-                                                    std::uint8_t* out) {
-  for (int x = 0; x < kRun; ++x) std::memcpy(out + 3 * x, &colours[indices[x]], 4);
-}
-[[gnu::always_inline]] inline void write_run_before(const Greys& greys, const std::uint8_t* indices,
-                                                    std::uint8_t* out) {
-  write_entries(greys, indices, kRun, out);
-}
-
-/// Rows of whole runs, `index_stride` and `out_stride` apart.
-template <class Table>
-[[gnu::always_inline]] inline void write_runs(const Table& table, const std::uint8_t* indices,
-                                              std::ptrdiff_t index_stride, int rows,
-                                              std::uint8_t* out, std::ptrdiff_t out_stride) {
-  if (out_stride == 3 * kRun) {
-    for (; rows > 1; --rows, indices += index_stride, out += out_stride) {
-      write_run_before(table, indices, out);
-    }
-  }
-  for (; rows > 0; --rows, indices += index_stride, out += out_stride) {
-    write_entries(table, indices, kRun, out);
-  }
-}
-
 /// Calls `write` with the table for the target.
 template <class Entries, class Write>
 void with_table(const Entries& entries, const ImageView<std::uint8_t>& out, PixelFormat order,
@@ -76,22 +33,20 @@ void with_table(const Entries& entries, const ImageView<std::uint8_t>& out, Pixe
   order == PixelFormat::Bgr ? write(entries.bgr) : write(entries.rgb);
 }
 
-std::uint32_t word_of(std::uint8_t first, std::uint8_t second, std::uint8_t third) {
-  return std::bit_cast<std::uint32_t>(std::array<std::uint8_t, 4>{first, second, third, 0});
-}
-
 }  // namespace
 
 ColourMap::ColourMap(const Table& table, double low, double high)
     : low_(static_cast<std::int32_t>(std::lround(low))),
       high_(std::max(low_ + 1, static_cast<std::int32_t>(std::lround(high)))),
-      scale_((std::int64_t{255} << 32) / (high_ - low_)) {
+      shift_(16 - std::bit_width(static_cast<std::uint32_t>(high_ - low_))),
+      scale_(static_cast<std::uint16_t>(
+          std::lround(255 * std::ldexp(1, 16 + kEntryBits - shift_) / (high_ - low_)))) {
   assert(low < high);
   const auto set = [&table](Entries& entries, std::size_t i, std::size_t entry) {
     const auto& [red, green, blue] = table[entry];
-    entries.rgb[i] = word_of(red, green, blue);
-    entries.bgr[i] = word_of(blue, green, red);
-    entries.grey[i] = luma(table[entry].data());
+    entries.rgb.set(i, {red, green, blue});
+    entries.bgr.set(i, {blue, green, red});
+    entries.grey.set(i, luma(table[entry].data()));
   };
   for (std::size_t i = 0; i < table.size(); ++i) {
     set(entries_, i, i);
@@ -100,8 +55,9 @@ ColourMap::ColourMap(const Table& table, double low, double high)
 }
 
 std::size_t ColourMap::entry_of(std::int32_t value) const {
-  const std::int64_t above = std::clamp(value, low_, high_) - low_;
-  return static_cast<std::size_t>((above * scale_ + (std::int64_t{1} << 31)) >> 32);
+  const auto above = static_cast<std::uint32_t>(std::clamp(value, low_, high_) - low_);
+  const std::uint32_t upper = shift_ < 0 ? above >> -shift_ : above << shift_;
+  return ((upper * scale_ >> 16) + kHalfEntry) >> kEntryBits;
 }
 
 void ColourMap::apply(const ImageView<const std::uint8_t>& values,
@@ -109,45 +65,48 @@ void ColourMap::apply(const ImageView<const std::uint8_t>& values,
   with_table(of_bytes_, out, order, [&](const auto& table) {
     for_each_block(out, rows, [&](int x, int y, int columns, int height) {
       if (columns == kRun) {
-        return write_runs(table, values.at(x, y), values.stride, height, out.at(x, y), out.stride);
+        return table.look_up_runs(values.at(x, y), values.stride, height, out.at(x, y), out.stride);
       }
       for (int row = y; row < y + height; ++row) {
-        write_entries(table, values.at(x, row), columns, out.at(x, row));
+        table.look_up(values.at(x, row), columns, out.at(x, row));
       }
     });
   });
 }
 
-/// The entries of a run of 16 bit values, as entry_of(): `scale` has 32 bits, [low, high] 16. The
-/// product is made of halves: nothing is lost by cutting the lower one.
-[[gnu::always_inline]] inline Bytes entries_of(const Words& values, std::uint16_t low,
-                                               std::uint16_t high, std::uint32_t scale) {
-  const Longs above = widened(clamped(values, low, high) - low);
-  const Longs upper = above * widened(Words{} + static_cast<std::uint16_t>(scale >> 16));
-  const Longs lower = above * widened(Words{} + static_cast<std::uint16_t>(scale & 0xffff));
-  return narrowed(narrowed((upper + (lower >> 16) + (1U << 15)) >> 16));
+/// entry_of() for a run, where the range lies within 16 bits.
+[[gnu::always_inline]] inline void ColourMap::find_entries(const std::uint16_t* values,
+                                                           std::uint8_t* entries) const {
+  const auto low = static_cast<std::uint16_t>(low_), high = static_cast<std::uint16_t>(high_);
+  const std::uint16_t scale = scale_;
+  // Compilers find the narrow multiplication, but not the narrow shift.
+  const auto unit = static_cast<std::uint16_t>(1U << shift_);
+  SampleRun run;
+  for (std::size_t x = 0; x < kRun; ++x) {
+    const auto above = static_cast<std::uint16_t>(std::clamp(values[x], low, high) - low);
+    const auto upper = static_cast<std::uint16_t>(above * unit);
+    const auto entry = static_cast<std::uint16_t>(std::uint32_t{upper} * scale >> 16);
+    run[x] = static_cast<std::uint8_t>((entry + kHalfEntry) >> kEntryBits);
+  }
+  std::memcpy(entries, run.data(), kRun);
 }
 
 void ColourMap::apply(const ImageView<const std::uint16_t>& values,
                       const ImageView<std::uint8_t>& out, TileRows rows, PixelFormat order) const {
-  const bool is_simple = scale_ <= UINT32_MAX && low_ >= 0 && low_ < UINT16_MAX;
-  const auto low = static_cast<std::uint16_t>(low_);
-  const auto high = static_cast<std::uint16_t>(std::min<std::int32_t>(high_, UINT16_MAX));
-  const auto scale = static_cast<std::uint32_t>(scale_);
+  const bool is_within = low_ >= 0 && high_ <= UINT16_MAX;
   with_table(entries_, out, order, [&](const auto& table) {
     for_each_block(out, rows, [&](int x, int y, int columns, int height) {
       alignas(kRun) std::array<std::uint8_t, kRun * kTile> entries;
-      if (columns == kRun && is_simple) {
+      if (columns == kRun && is_within) {
         for (int row = 0; row < height; ++row) {
-          const auto run = load<Words>(values.at(x, y + row));
-          store(entries_of(run, low, high, scale), &entries[kRun * row]);
+          find_entries(values.at(x, y + row), &entries[kRun * row]);
         }
-        return write_runs(table, entries.data(), kRun, height, out.at(x, y), out.stride);
+        return table.look_up_runs(entries.data(), kRun, height, out.at(x, y), out.stride);
       }
       for (int row = y; row < y + height; ++row) {
         const std::uint16_t* const from = values.at(x, row);
         for (int i = 0; i < columns; ++i) entries[i] = static_cast<std::uint8_t>(entry_of(from[i]));
-        write_entries(table, entries.data(), columns, out.at(x, row));
+        table.look_up(entries.data(), columns, out.at(x, row));
       }
     });
   });

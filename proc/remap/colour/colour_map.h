@@ -5,6 +5,7 @@
 
 #include "proc/image/image_view.h"
 #include "proc/image/pixel_format.h"
+#include "proc/remap/colour/colour_table.h"
 #include "proc/remap/grid/coordinate.h"
 
 namespace orbwatch::remap {
@@ -26,20 +27,22 @@ class ColourMap {
              TileRows rows, PixelFormat order = PixelFormat::Rgb) const;
 
  private:
-  /// Three channels as bytes in memory, and 0.
-  using Colours = std::array<std::uint32_t, 256>;
-  using Greys = std::array<std::uint8_t, 256>;
   /// By place in the table, or by the value of an 8 bit picture.
   struct Entries {
-    Colours rgb, bgr;
-    Greys grey;
+    ColourTable rgb, bgr;
+    GreyTable grey;
   };
 
+  static constexpr int kEntryBits = 7;  ///< fraction bits of an entry before it is rounded
+  static constexpr std::uint16_t kHalfEntry = 1 << (kEntryBits - 1);
+
   std::size_t entry_of(std::int32_t value) const;
+  void find_entries(const std::uint16_t* values, std::uint8_t* entries) const;
 
   std::int32_t low_;
   std::int32_t high_;
-  std::int64_t scale_;  ///< table steps per count, Q32
+  int shift_;            ///< brings high_ - low_ to 16 bits; what is below them is cut
+  std::uint16_t scale_;  ///< entries per count that is shifted, with 16 + kEntryBits fraction bits
   Entries entries_;
   Entries of_bytes_;
 };

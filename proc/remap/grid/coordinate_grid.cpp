@@ -86,6 +86,7 @@ CoordinateRow CoordinateGrid::row(int tx, int ty, int y) const {
 }
 
 CoordinateTile CoordinateGrid::pixels(int tx, int ty) const {
+  if (const Tile t = tile(tx, ty); t.kind == TileKind::Pixels) return pixel_tiles_.pixels(t.index);
   CoordinateTile pixels;
   const auto write = [&pixels](const auto& cells) { pixels = cells.pixels(); };
   if (visit_cells(tile(tx, ty), write)) return pixels;

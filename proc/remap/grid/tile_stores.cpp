@@ -171,15 +171,22 @@ std::optional<PackedTile> PackedTile::pack(const CoordinateTile& tile) {
 
 CoordinateRow PackedTile::row(int y) const {
   CoordinateRow row;
+  const Coordinate least = least_;
+  const int shift = shift_;
   for (int x = 0; x < kTile; ++x) {
     const Offset& offset = offsets_[y][x];
-    if (offset.u <= kLargestOffset) {
-      row[x] = {least_.u + (offset.u << shift_), least_.v + (offset.v << shift_)};
-    } else {
-      row[x] = {offset.u == kBlindOffset ? kBlind : kOutside, 0};
-    }
+    const bool is_marker = offset.u > kLargestOffset;
+    const std::int32_t marker = offset.u == kBlindOffset ? kBlind : kOutside;
+    row[x] = {is_marker ? marker : least.u + (offset.u << shift),
+              is_marker ? 0 : least.v + (offset.v << shift)};
   }
   return row;
+}
+
+CoordinateTile PackedTile::pixels() const {
+  CoordinateTile pixels;
+  for (int y = 0; y < kTile; ++y) pixels[y] = row(y);
+  return pixels;
 }
 
 std::uint32_t PixelTiles::add(const CoordinateTile& tile) {
@@ -193,6 +200,10 @@ std::uint32_t PixelTiles::add(const CoordinateTile& tile) {
 
 CoordinateRow PixelTiles::row(std::uint32_t index, int y) const {
   return (index & kWhole) != 0 ? whole_[index & ~kWhole][y] : packed_[index].row(y);
+}
+
+CoordinateTile PixelTiles::pixels(std::uint32_t index) const {
+  return (index & kWhole) != 0 ? whole_[index & ~kWhole] : packed_[index].pixels();
 }
 
 void PixelTiles::shrink_to_fit() {

@@ -54,6 +54,7 @@ class PackedTile {
   static std::optional<PackedTile> pack(const CoordinateTile& tile);
 
   CoordinateRow row(int y) const;
+  CoordinateTile pixels() const;
 
  private:
   struct Offset {
@@ -71,6 +72,7 @@ class PixelTiles {
   /// Adds a tile and returns its index.
   std::uint32_t add(const CoordinateTile& tile);
   CoordinateRow row(std::uint32_t index, int y) const;
+  CoordinateTile pixels(std::uint32_t index) const;
 
   void shrink_to_fit();
   std::size_t bytes() const;

@@ -1,16 +1,18 @@
 #include "proc/remap/sampling/plane_sampler.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/sampling/downsampling.h"
+#include "proc/remap/sampling/half_steps.h"
 
 namespace orbwatch::remap {
 namespace {
 
 /// Only the scalar kernel samples planes that are one pixel wide or high.
-void sample(const Kernel& kernel, Layout layout, const PointJob& job) {
+void sample_job(const Kernel& kernel, Layout layout, const PointJob& job) {
   const bool has_neighbours = job.source.width > 1 && job.source.height > 1;
   (has_neighbours ? kernel : scalar_kernel()).sample_points(layout, job);
 }
@@ -18,9 +20,13 @@ void sample(const Kernel& kernel, Layout layout, const PointJob& job) {
 void make_black(const CoordinateTile& coordinates, std::uint8_t black, int pixel_bytes,
                 const TargetPlane& target) {
   for (int y = 0; y < target.rows; ++y) {
+    const CoordinateRow& places = coordinates[y];
+    bool all_defined = true;
+    for (int x = 0; x < target.columns; ++x) all_defined &= is_defined(places[x]);
+    if (all_defined) continue;
     std::uint8_t* const row = target.data + y * target.stride;
     for (int x = 0; x < target.columns; ++x) {
-      if (!is_defined(coordinates[y][x])) std::fill_n(row + x * pixel_bytes, pixel_bytes, black);
+      if (!is_defined(places[x])) std::fill_n(row + x * pixel_bytes, pixel_bytes, black);
     }
   }
 }
@@ -42,14 +48,6 @@ struct FineSamples {
   }
 };
 
-/// Where a quarter of an oversampled tile lies, from its pixel (left, top) on.
-TargetPlane quarter_of(OversampledTile& tile, Layout layout, const TargetPlane& whole, int left,
-                       int top) {
-  const std::ptrdiff_t stride = OversampledTile::stride(layout);
-  return {tile.samples.data() + top * stride + left * info(layout).out_bytes(), stride,
-          std::min(kTile, 2 * whole.columns - left), std::min(kTile, 2 * whole.rows - top)};
-}
-
 /// Brings what a target of that width has to its right into the cache. What is sampled at half
 /// steps is read back as soon as it is written, behind all stores before it: they must not wait for
 /// memory.
@@ -61,14 +59,23 @@ void prefetch_beside(const TargetPlane& target, int row_bytes) {
   }
 }
 
-/// Fills a target with means of four: `sample(left, top, plane)` samples each quarter of the
-/// oversampled tile, that from its pixel (left, top) on, into its plane.
+/// Fills a target with means of four: `sample(left, top, plane)` samples each part of the
+/// oversampled tile that is as large as a tile, that from its pixel (left, top) on, into its plane.
 template <class Sample>
-void oversample(Layout layout, const TargetPlane& target, const Sample& sample) {
+[[gnu::always_inline]] inline void oversample(Layout layout, const TargetPlane& target,
+                                              const Sample& sample) {
   OversampledTile tile;
-  for (int top = 0; top < 2 * target.rows; top += kTile) {
-    for (int left = 0; left < 2 * target.columns; left += kTile) {
-      sample(left, top, quarter_of(tile, layout, target, left, top));
+  const int columns = 2 * target.columns, rows = 2 * target.rows;
+  const std::ptrdiff_t stride = OversampledTile::stride(layout);
+  if (columns <= kTile && rows <= kTile) {
+    sample(0, 0, TargetPlane{tile.samples.data(), stride, columns, rows});
+    return average(tile, layout, target);
+  }
+  for (int top = 0; top < rows; top += kTile) {
+    for (int left = 0; left < columns; left += kTile) {
+      std::uint8_t* const part =
+          tile.samples.data() + top * stride + left * info(layout).out_bytes();
+      sample(left, top, TargetPlane{part, stride, std::min(kTile, columns - left), kTile});
     }
   }
   average(tile, layout, target);
@@ -80,21 +87,21 @@ void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
                    const SourcePlane& source, const TargetPlane& target) {
   Places places;
   kernel.locate(PointMap(patch), target.columns, target.rows, places);
-  sample(kernel, layout, {places, source, target});
+  sample_job(kernel, layout, {places, source, target});
 }
 
 void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
                    std::uint8_t black, const SourcePlane& source, const TargetPlane& target) {
+  assert(target.columns * target.rows % kPointRun == 0);
   Places places;
-  std::size_t count = 0;
   for (int y = 0; y < target.rows; ++y) {
-    for (int x = 0; x < target.columns; ++x, ++count) {
-      places.u[count] = coordinates[y][x].u;
-      places.v[count] = coordinates[y][x].v;
+    std::int32_t *const u = places.u + y * target.columns, *const v = places.v + y * target.columns;
+    for (int x = 0; x < target.columns; ++x) {
+      u[x] = coordinates[y][x].u;
+      v[x] = coordinates[y][x].v;
     }
   }
-  for (; count % kPointRun != 0; ++count) places.u[count] = places.v[count] = 0;
-  sample(kernel, layout, {places, source, target});
+  sample_job(kernel, layout, {places, source, target});
   make_black(coordinates, black, info(layout).out_bytes(), target);
 }
 
@@ -121,16 +128,16 @@ void PlaneSampler::sample(const CoordinateTile& coordinates, Reading reading, st
   const bool full = sampling_.x == Siting::Full;
   if (!full) on_plane(coordinates, sampling_, shared);
   const CoordinateTile& places = full ? coordinates : shared;
-  const auto sample = [&](const CoordinateTile& from, const SourcePlane& source,
-                          const TargetPlane& to) {
-    sample_points(*kernel_, sampling_.layout, from, black, source, to);
-  };
-  if (!reading.averaged) return sample(places, sources_[0], target);
-  CoordinateTile quarter;
+  if (!reading.averaged) {
+    return sample_points(*kernel_, sampling_.layout, places, black, sources_[0], target);
+  }
+  const HalfSteps steps(places, target.columns, target.rows);
   oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& plane) {
-    at_half_steps(places, target.columns, target.rows, left, top, quarter);
-    sample(quarter, sources_[reading.mip_level], plane);
+    Places quarter;
+    steps.locate(left, top, quarter);
+    sample_job(*kernel_, sampling_.layout, {quarter, sources_[reading.mip_level], plane});
   });
+  make_black(places, black, pixel_bytes_, target);
 }
 
 void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane& target) const {
@@ -145,7 +152,8 @@ void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane
   if (!reading.averaged) return sample(map, sources_[0], target);
   const Patch fine = at_half_steps(map);
   oversample(sampling_.layout, target, [&](int left, int top, const TargetPlane& quarter) {
-    sample(moved(fine, left, top), sources_[reading.mip_level], quarter);
+    const Patch part = left == 0 && top == 0 ? fine : moved(fine, left, top);
+    sample(part, sources_[reading.mip_level], quarter);
   });
 }
 

@@ -76,11 +76,14 @@ TEST(PixelTiles, KeepNarrowAndWideTiles) {
     indices.push_back(tiles.add(given.back()));
   }
   for (std::size_t n = 0; n < given.size(); ++n) {
+    const CoordinateTile pixels = tiles.pixels(indices[n]);
     for (int y = 0; y < kTile; ++y) {
       const CoordinateRow row = tiles.row(indices[n], y);
       for (int x = 0; x < kTile; ++x) {
         EXPECT_EQ(row[x].u, given[n][y][x].u);
         EXPECT_EQ(row[x].v, given[n][y][x].v);
+        EXPECT_EQ(pixels[y][x].u, given[n][y][x].u);
+        EXPECT_EQ(pixels[y][x].v, given[n][y][x].v);
       }
     }
   }

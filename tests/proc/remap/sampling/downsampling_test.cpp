@@ -12,7 +12,7 @@
 namespace orbwatch::remap {
 namespace {
 
-constexpr std::byte kUntouched{0xa5};
+constexpr std::uint8_t kUntouched = 0xa5;
 
 /// Where a layout's samples stand in a pixel, bytes: written down once more, by hand.
 std::vector<int> sample_places(Layout layout) {
@@ -53,7 +53,7 @@ TEST_P(BoxFilterOf, WritesMeansRoundedToNearestAndNothingElse) {
       for (std::byte& b : *row)
         b = static_cast<std::byte>(extreme ? (random() % 2) * 255 : random());
     }
-    std::vector<std::byte> out(width * pixel, kUntouched), expected = out;
+    std::vector<std::byte> out(width * pixel, std::byte{kUntouched}), expected = out;
     box_filter(GetParam())(reinterpret_cast<const std::uint8_t*>(upper.data()),
                            reinterpret_cast<const std::uint8_t*>(lower.data()),
                            reinterpret_cast<std::uint8_t*>(out.data()), width);
@@ -112,6 +112,44 @@ TEST(KeepEven, RowIsCopiedWholeAndNothingElse) {
         const auto from = static_cast<std::size_t>(2 * y * fine_stride + x);
         ASSERT_EQ(out[static_cast<std::size_t>(y * stride + x)],
                   x < bytes ? fine[from] : kUnwritten);
+      }
+    }
+  }
+}
+
+/// A sample of a packed row.
+unsigned sample_of(const std::uint8_t* row, int sample, int bytes) {
+  std::uint16_t value = 0;
+  std::memcpy(&value, row + sample * bytes, static_cast<std::size_t>(bytes));
+  return value;
+}
+
+TEST(Average, IsTheMeanOfFourInEveryLayout) {
+  std::mt19937 random(3);
+  OversampledTile tile;
+  for (std::uint8_t& byte : tile.samples) byte = static_cast<std::uint8_t>(random());
+  for (std::size_t n = 0; n < kLayouts; ++n) {
+    const auto layout = static_cast<Layout>(n);
+    const LayoutInfo& facts = info(layout);
+    const std::ptrdiff_t from = OversampledTile::stride(layout);
+    for (const auto& [columns, rows] : {std::pair{16, 16}, {8, 16}, {8, 8}}) {
+      SCOPED_TRACE(testing::Message() << "layout " << n << ' ' << columns << 'x' << rows);
+      const std::ptrdiff_t used = columns * facts.out_bytes(), stride = used + 5;
+      std::vector<std::uint8_t> out(rows * stride, kUntouched);
+      average(tile, layout, {out.data(), stride, columns, rows});
+      for (int y = 0; y < rows; ++y) {
+        const std::uint8_t* const upper = tile.samples.data() + 2 * y * from;
+        for (int k = 0; k < columns * facts.samples; ++k) {
+          const int left = k / facts.samples * 2 * facts.samples + k % facts.samples;
+          double sum = 0;
+          for (const int sample : {left, left + facts.samples}) {
+            sum += sample_of(upper, sample, facts.sample_bytes) +
+                   sample_of(upper + from, sample, facts.sample_bytes);
+          }
+          ASSERT_EQ(sample_of(&out[y * stride], k, facts.sample_bytes), std::floor(sum / 4 + 0.5))
+              << k << ' ' << y;
+        }
+        for (std::ptrdiff_t k = used; k < stride; ++k) ASSERT_EQ(out[y * stride + k], kUntouched);
       }
     }
   }
