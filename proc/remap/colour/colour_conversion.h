@@ -7,6 +7,7 @@
 
 #include "proc/image/pixel_format.h"
 #include "proc/remap/colour/lanes.h"
+#include "proc/remap/colour/yuv_rows.h"
 
 namespace orbwatch::remap {
 
@@ -68,6 +69,10 @@ class YuvToRgb {
 
   /// Luma alone, 0..255: what a pixel without colour gets in all three.
   constexpr std::uint8_t luma(int y) const { return clip((y * y_ + black_) >> kBits); }
+
+  constexpr YuvCoefficients coefficients() const {
+    return {y_, red_v_, green_u_, green_v_, blue_u_, red_, green_, blue_};
+  }
 
  private:
   static constexpr int kBits = 14;

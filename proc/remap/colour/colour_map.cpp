@@ -7,31 +7,33 @@
 #include <cstring>
 
 #include "proc/remap/colour/luma.h"
+#include "proc/remap/colour/run.h"
 
 namespace orbwatch::remap {
 namespace {
 
-/// Calls `block(x, y, columns, rows)` for each block of up to a tile's size in the tile rows
-/// `rows`.
-template <class Block>
-[[gnu::always_inline]] inline void for_each_block(const ImageView<std::uint8_t>& out, TileRows rows,
-                                                  const Block& block) {
-  const int last = std::min(rows.last * kTile, out.height);
-  for (int y = rows.first * kTile; y < last; y += kTile) {
-    for (int x = 0; x < out.width; x += kRun) {
-      block(x, y, std::min(kRun, out.width - x), std::min(kTile, last - y));
-    }
-  }
-}
+constexpr int kEntryBits = 7;  // fraction bits of an entry before it is rounded
+constexpr std::uint16_t kHalfEntry = 1 << (kEntryBits - 1);
 
-/// Calls `write` with the table for the target.
-template <class Entries, class Write>
-void with_table(const Entries& entries, const ImageView<std::uint8_t>& out, PixelFormat order,
-                const Write& write) {
-  assert(out.channels == 1 || order == PixelFormat::Rgb || order == PixelFormat::Bgr);
-  if (out.channels == 1) return write(entries.grey);
-  order == PixelFormat::Bgr ? write(entries.bgr) : write(entries.rgb);
-}
+/// ColourMap::entry_of() for runs, where the range lies within 16 bits.
+struct RunScale {
+  std::uint16_t low, high;
+  std::uint16_t unit;  ///< 1 shifted: compilers find the narrow product, but not the narrow shift
+  std::uint16_t scale;
+
+  [[gnu::always_inline]] void find_entries(const std::uint16_t* values,
+                                           std::uint8_t* entries) const {
+    const RunScale s = *this;
+    SampleRun run;
+    for (std::size_t x = 0; x < kRun; ++x) {
+      const auto above = static_cast<std::uint16_t>(std::clamp(values[x], s.low, s.high) - s.low);
+      const auto upper = static_cast<std::uint16_t>(above * s.unit);
+      const auto entry = static_cast<std::uint16_t>(std::uint32_t{upper} * s.scale >> 16);
+      run[x] = static_cast<std::uint8_t>((entry + kHalfEntry) >> kEntryBits);
+    }
+    std::memcpy(entries, run.data(), kRun);
+  }
+};
 
 }  // namespace
 
@@ -46,7 +48,8 @@ ColourMap::ColourMap(const Table& table, double low, double high)
     const auto& [red, green, blue] = table[entry];
     entries.rgb.set(i, {red, green, blue});
     entries.bgr.set(i, {blue, green, red});
-    entries.grey.set(i, luma(table[entry].data()));
+    const std::uint8_t grey = luma(table[entry].data());
+    entries.grey.set(i, {grey, grey, grey});
   };
   for (std::size_t i = 0; i < table.size(); ++i) {
     set(entries_, i, i);
@@ -60,56 +63,41 @@ std::size_t ColourMap::entry_of(std::int32_t value) const {
   return ((upper * scale_ >> 16) + kHalfEntry) >> kEntryBits;
 }
 
-void ColourMap::apply(const ImageView<const std::uint8_t>& values,
-                      const ImageView<std::uint8_t>& out, TileRows rows, PixelFormat order) const {
-  with_table(of_bytes_, out, order, [&](const auto& table) {
-    for_each_block(out, rows, [&](int x, int y, int columns, int height) {
-      if (columns == kRun) {
-        return table.look_up_runs(values.at(x, y), values.stride, height, out.at(x, y), out.stride);
-      }
-      for (int row = y; row < y + height; ++row) {
-        table.look_up(values.at(x, row), columns, out.at(x, row));
-      }
-    });
-  });
+const ColourTable& ColourMap::table(const Entries& entries, int channels, PixelFormat order) {
+  assert(channels == 1 || order == PixelFormat::Rgb || order == PixelFormat::Bgr);
+  if (channels == 1) return entries.grey;
+  return order == PixelFormat::Bgr ? entries.bgr : entries.rgb;
 }
 
-/// entry_of() for a run, where the range lies within 16 bits.
-[[gnu::always_inline]] inline void ColourMap::find_entries(const std::uint16_t* values,
-                                                           std::uint8_t* entries) const {
-  const auto low = static_cast<std::uint16_t>(low_), high = static_cast<std::uint16_t>(high_);
-  const std::uint16_t scale = scale_;
-  // Compilers find the narrow multiplication, but not the narrow shift.
-  const auto unit = static_cast<std::uint16_t>(1U << shift_);
-  SampleRun run;
-  for (std::size_t x = 0; x < kRun; ++x) {
-    const auto above = static_cast<std::uint16_t>(std::clamp(values[x], low, high) - low);
-    const auto upper = static_cast<std::uint16_t>(above * unit);
-    const auto entry = static_cast<std::uint16_t>(std::uint32_t{upper} * scale >> 16);
-    run[x] = static_cast<std::uint8_t>((entry + kHalfEntry) >> kEntryBits);
+void ColourMap::apply(const ImageView<const std::uint8_t>& values,
+                      const ImageView<std::uint8_t>& out, const Kernel& kernel,
+                      PixelFormat order) const {
+  const ColourTable& table = ColourMap::table(of_bytes_, out.channels, order);
+  if (values.width == kRun) {
+    return kernel.look_up(table, {values.data, values.stride, values.height}, out);
   }
-  std::memcpy(entries, run.data(), kRun);
+  for (int y = 0; y < values.height; ++y) table.look_up(values.row(y), values.width, out.row(y));
 }
 
 void ColourMap::apply(const ImageView<const std::uint16_t>& values,
-                      const ImageView<std::uint8_t>& out, TileRows rows, PixelFormat order) const {
+                      const ImageView<std::uint8_t>& out, const Kernel& kernel,
+                      PixelFormat order) const {
   const bool is_within = low_ >= 0 && high_ <= UINT16_MAX;
-  with_table(entries_, out, order, [&](const auto& table) {
-    for_each_block(out, rows, [&](int x, int y, int columns, int height) {
-      alignas(kRun) std::array<std::uint8_t, kRun * kTile> entries;
-      if (columns == kRun && is_within) {
-        for (int row = 0; row < height; ++row) {
-          find_entries(values.at(x, y + row), &entries[kRun * row]);
-        }
-        return table.look_up_runs(entries.data(), kRun, height, out.at(x, y), out.stride);
-      }
-      for (int row = y; row < y + height; ++row) {
-        const std::uint16_t* const from = values.at(x, row);
-        for (int i = 0; i < columns; ++i) entries[i] = static_cast<std::uint8_t>(entry_of(from[i]));
-        table.look_up(entries.data(), columns, out.at(x, row));
-      }
-    });
-  });
+  const ColourTable& table = ColourMap::table(entries_, out.channels, order);
+  alignas(64) std::array<std::uint8_t, kRun * kTile> entries;
+  if (values.width == kRun && is_within) {
+    const RunScale scale{static_cast<std::uint16_t>(low_), static_cast<std::uint16_t>(high_),
+                         static_cast<std::uint16_t>(1U << shift_), scale_};
+    for (int y = 0; y < values.height; ++y) {
+      scale.find_entries(values.row(y), &entries[kRun * y]);
+    }
+    return kernel.look_up(table, {entries.data(), kRun, values.height}, out);
+  }
+  for (int y = 0; y < values.height; ++y) {
+    const std::uint16_t* const row = values.row(y);
+    for (int x = 0; x < values.width; ++x) entries[x] = static_cast<std::uint8_t>(entry_of(row[x]));
+    table.look_up(entries.data(), values.width, out.row(y));
+  }
 }
 
 }  // namespace orbwatch::remap

@@ -7,6 +7,7 @@
 #include "proc/image/pixel_format.h"
 #include "proc/remap/colour/colour_table.h"
 #include "proc/remap/grid/coordinate.h"
+#include "proc/remap/kernel/kernel.h"
 
 namespace orbwatch::remap {
 
@@ -19,30 +20,26 @@ class ColourMap {
   /// low < high, in the picture's counts.
   ColourMap(const Table& table, double low, double high);
 
-  /// Fills the tile rows `rows` of `out`, the size of `values`: 3 channels in the order of `order`,
+  /// Fills `out`, the size of `values`, at most kTile each way: 3 channels in the order of `order`,
   /// Rgb or Bgr, or 1 channel, the luma of the colours.
   void apply(const ImageView<const std::uint8_t>& values, const ImageView<std::uint8_t>& out,
-             TileRows rows, PixelFormat order = PixelFormat::Rgb) const;
+             const Kernel& kernel, PixelFormat order = PixelFormat::Rgb) const;
   void apply(const ImageView<const std::uint16_t>& values, const ImageView<std::uint8_t>& out,
-             TileRows rows, PixelFormat order = PixelFormat::Rgb) const;
+             const Kernel& kernel, PixelFormat order = PixelFormat::Rgb) const;
 
  private:
   /// By place in the table, or by the value of an 8 bit picture.
   struct Entries {
-    ColourTable rgb, bgr;
-    GreyTable grey;
+    ColourTable rgb, bgr, grey{1};
   };
 
-  static constexpr int kEntryBits = 7;  ///< fraction bits of an entry before it is rounded
-  static constexpr std::uint16_t kHalfEntry = 1 << (kEntryBits - 1);
-
+  static const ColourTable& table(const Entries& entries, int channels, PixelFormat order);
   std::size_t entry_of(std::int32_t value) const;
-  void find_entries(const std::uint16_t* values, std::uint8_t* entries) const;
 
   std::int32_t low_;
   std::int32_t high_;
   int shift_;            ///< brings high_ - low_ to 16 bits; what is below them is cut
-  std::uint16_t scale_;  ///< entries per count that is shifted, with 16 + kEntryBits fraction bits
+  std::uint16_t scale_;  ///< entries per count that is shifted, with 23 fraction bits
   Entries entries_;
   Entries of_bytes_;
 };

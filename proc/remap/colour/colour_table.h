@@ -1,10 +1,46 @@
 #pragma once
 
-/// A table of 256 colours that runs of pixels are looked up in: `ColourTable` and `GreyTable`.
-/// `colour_table_neon.h` where a table fits the processor's registers, else `colour_table_any.h`.
-/// Both give the same.
-#ifdef __aarch64__
-#include "proc/remap/colour/colour_table_neon.h"
-#else
-#include "proc/remap/colour/colour_table_any.h"
-#endif
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace orbwatch::remap {
+
+/// A table of 256 colours of one or three channels that pixels are looked up in, as each processor
+/// reads it best.
+struct ColourTable {
+  int channels = 3;
+  /// By channel: what fits registers.
+  alignas(64) std::array<std::array<std::uint8_t, 256>, 3> planes{};
+  /// Three channels as bytes in memory, and 0.
+  std::array<std::uint32_t, 256> words{};
+
+  void set(std::size_t entry, const std::array<std::uint8_t, 3>& colour) {
+    for (std::size_t k = 0; k < planes.size(); ++k) planes[k][entry] = colour[k];
+    words[entry] =
+        std::bit_cast<std::uint32_t>(std::array<std::uint8_t, 4>{colour[0], colour[1], colour[2]});
+  }
+
+  /// Writes at least one pixel.
+  [[gnu::always_inline]] void look_up(const std::uint8_t* indices, int columns,
+                                      std::uint8_t* out) const {
+    if (channels == 1) {
+      for (int x = 0; x < columns; ++x) out[x] = planes[0][indices[x]];
+      return;
+    }
+    // Whole words, each over the unused byte of the one before.
+    for (int x = 0; x < columns - 1; ++x) std::memcpy(out + 3 * x, &words[indices[x]], 4);
+    std::memcpy(out + 3 * (columns - 1), &words[indices[columns - 1]], 3);
+  }
+};
+
+/// Runs of indices into a table, at most kTile of them, `stride` bytes apart.
+struct IndexRuns {
+  const std::uint8_t* first;
+  std::ptrdiff_t stride;
+  int rows;
+};
+
+}  // namespace orbwatch::remap

@@ -114,10 +114,33 @@ const YuvToRgb& conversion_from(ColourSpace colour_space) {
   return kConversions[2 * (colour_space.matrix == Bt709) + (colour_space.range == Full)];
 }
 
+/// A whole tile, by a kernel that does it better.
+template <PixelFormat format>
+[[gnu::noinline]] void convert_whole(const SampledTile& tile, ColourSpace colour_space,
+                                     const MutablePicture& out, const TileArea& area,
+                                     const Kernel& kernel) {
+  constexpr int kRowsOfChroma = 1 << shift(samplings(format).items[1].y);
+  YuvRows rows{tile.planes[0].data(), tile.planes[1].data(), 2 * kTile, kRowsOfChroma,
+               out.format == PixelFormat::Bgr};
+  std::array<SampleRun, kTile> pairs;
+  if constexpr (format == PixelFormat::I420 || format == PixelFormat::Nv21) {
+    for (int y = 0; y < kTile; y += kRowsOfChroma) {
+      pairs[y / kRowsOfChroma] = chroma_of_row<format>(tile, y);
+    }
+    rows.chroma = pairs[0].data();
+    rows.chroma_stride = kRun;
+  }
+  kernel.write_rgb(rows, conversion_from(colour_space).coefficients(),
+                   at(out, 0, 3 * area.x, area.y), out.planes[0].stride);
+}
+
 template <PixelFormat format, bool blue_first>
 void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
-                const TileArea& area) {
+                const TileArea& area, const Kernel& kernel) {
   constexpr int kRowsOfChroma = 1 << shift(samplings(format).items[1].y);
+  if (kernel.write_rgb && area.columns == kTile && area.rows == kTile) {
+    return convert_whole<format>(tile, colour_space, out, area, kernel);
+  }
   const YuvToRgb convert = conversion_from(colour_space);
   SharedColour shared{};
   write_rows<3>(out, area, [&](int y, std::uint8_t* to) {
@@ -130,9 +153,9 @@ void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const Mutable
 
 template <PixelFormat format>
 void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
-                const TileArea& area) {
-  out.format == PixelFormat::Bgr ? yuv_to_rgb<format, true>(tile, colour_space, out, area)
-                                 : yuv_to_rgb<format, false>(tile, colour_space, out, area);
+                const TileArea& area, const Kernel& kernel) {
+  out.format == PixelFormat::Bgr ? yuv_to_rgb<format, true>(tile, colour_space, out, area, kernel)
+                                 : yuv_to_rgb<format, false>(tile, colour_space, out, area, kernel);
 }
 
 /// Rgb to Bgr or back.
@@ -164,17 +187,17 @@ void leave_alpha_out(const SampledTile& tile, const MutablePicture& out, const T
 
 /// To Rgb or Bgr.
 void convert(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
-             const MutablePicture& out, const TileArea& area) {
+             const MutablePicture& out, const TileArea& area, const Kernel& kernel) {
   switch (format) {
     case PixelFormat::Yuyv:
     case PixelFormat::Uyvy:
-      return yuv_to_rgb<PixelFormat::Yuyv>(tile, colour_space, out, area);
+      return yuv_to_rgb<PixelFormat::Yuyv>(tile, colour_space, out, area, kernel);
     case PixelFormat::Nv12:
-      return yuv_to_rgb<PixelFormat::Nv12>(tile, colour_space, out, area);
+      return yuv_to_rgb<PixelFormat::Nv12>(tile, colour_space, out, area, kernel);
     case PixelFormat::Nv21:
-      return yuv_to_rgb<PixelFormat::Nv21>(tile, colour_space, out, area);
+      return yuv_to_rgb<PixelFormat::Nv21>(tile, colour_space, out, area, kernel);
     case PixelFormat::I420:
-      return yuv_to_rgb<PixelFormat::I420>(tile, colour_space, out, area);
+      return yuv_to_rgb<PixelFormat::I420>(tile, colour_space, out, area, kernel);
     case PixelFormat::Bgra:
       return out.format == PixelFormat::Bgr ? leave_alpha_out<true>(tile, out, area)
                                             : leave_alpha_out<false>(tile, out, area);
@@ -186,8 +209,8 @@ void convert(const SampledTile& tile, PixelFormat format, ColourSpace colour_spa
 }  // namespace
 
 void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
-                const MutablePicture& out, const TileArea& area) {
-  if (format != out.format) return convert(tile, format, colour_space, out, area);
+                const MutablePicture& out, const TileArea& area, const Kernel& kernel) {
+  if (format != out.format) return convert(tile, format, colour_space, out, area, kernel);
   switch (format) {
     case PixelFormat::Yuyv:
       return interleave<true>(tile, out, area);
@@ -214,7 +237,7 @@ void clear_area(const MutablePicture& out, const TileArea& area) {
     std::fill_n(tile.planes[n++].begin(), kTile * SampledTile::stride(sampling),
                 black(sampling, out.format, out.colour_space));
   }
-  write_tile(tile, out.format, out.colour_space, out, area);
+  write_tile(tile, out.format, out.colour_space, out, area, scalar_kernel());
 }
 
 void clear_undefined(const CoordinateTile& coordinates, const MutablePicture& out,

@@ -33,9 +33,9 @@ constexpr std::uint8_t black(const PlaneSampling& sampling, PixelFormat format,
 }
 
 /// Writes a tile that was sampled from `format` into its area of `out`, in the format of `out` (see
-/// can_remap). Reentrant.
+/// can_remap). Every kernel gives the same bytes. Reentrant.
 void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
-                const MutablePicture& out, const TileArea& area);
+                const MutablePicture& out, const TileArea& area, const Kernel& kernel);
 
 /// Writes the luminance of a tile that was sampled from a Yuv format into its area of `out`, Grey:
 /// the source's own Y, brought to the full range. Reentrant.

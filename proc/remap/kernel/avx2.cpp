@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/kernel/look_up.h"
 #include "proc/remap/kernel/point_walk.h"
 #include "proc/remap/kernel/tile_mix.h"
 
@@ -376,6 +377,7 @@ constexpr Kernel kKernel{
      fill_tile<Layout::One16>},
     walk_places<PointLanes>,
     kPointWalks,
-    mix_tiles};
+    mix_tiles,
+    look_up_words};
 
 }  // namespace orbwatch::remap::avx2

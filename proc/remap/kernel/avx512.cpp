@@ -18,8 +18,10 @@
 #include <cstring>
 
 #include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/kernel/look_up_avx512.h"
 #include "proc/remap/kernel/point_walk.h"
 #include "proc/remap/kernel/tile_mix.h"
+#include "proc/remap/kernel/yuv_avx512.h"
 
 namespace orbwatch::remap::avx512 {
 namespace {
@@ -392,6 +394,8 @@ constexpr Kernel kKernel{
      fill_tile<Layout::One16>},
     walk_places<PointLanes>,
     kPointWalks,
-    mix_tiles};
+    mix_tiles,
+    look_up_colours,
+    write_rgb};
 
 }  // namespace orbwatch::remap::avx512

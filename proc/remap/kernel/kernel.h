@@ -8,6 +8,8 @@
 
 #include "proc/image/image_view.h"
 #include "proc/image/result.h"
+#include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/yuv_rows.h"
 #include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
 #include "proc/remap/kernel/mixed_tile.h"
@@ -35,6 +37,10 @@ struct Kernel {
   using Tile = void (*)(const TileJob&);
   using Locate = void (*)(const PointMap&, int columns, int rows, Places&);
   using Points = void (*)(const PointJob&);
+  using LookUp = void (*)(const ColourTable& table, const IndexRuns& runs,
+                          const ImageView<std::uint8_t>& out);
+  using WriteRgb = void (*)(const YuvRows& yuv, const YuvCoefficients& coefficients,
+                            std::uint8_t* out, std::ptrdiff_t stride);
   using Mix = void (*)(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out);
 
   std::string_view name;
@@ -51,6 +57,12 @@ struct Kernel {
   /// and is rounded, for each n, so that they add up to 255 in every pixel too; the mean by these
   /// is rounded to nearest. `out` is one tile of 1 or 3 channels. Reentrant.
   Mix mix;
+  /// Writes the colours of runs of kRun indices into rows of `out`, of the table's channels.
+  /// Reentrant.
+  LookUp look_up;
+  /// Converts a whole tile as YuvToRgb does. Null where that becomes as good code by itself.
+  /// Reentrant.
+  WriteRgb write_rgb = nullptr;
 
   void sample_tile(Layout layout, const TileJob& job) const {
     tiles[static_cast<std::size_t>(layout)](job);

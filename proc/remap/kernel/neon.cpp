@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/kernel/look_up_neon.h"
 #include "proc/remap/kernel/neon_memory.h"
 #include "proc/remap/kernel/point_walk.h"
 #include "proc/remap/kernel/tile_mix.h"
@@ -366,6 +367,7 @@ constexpr Kernel kKernel{
      fill_tile<Layout::One16>},
     walk_places<PointLanes>,
     kPointWalks,
-    mix_tiles};
+    mix_tiles,
+    look_up_colours};
 
 }  // namespace orbwatch::remap::neon

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "proc/remap/kernel/bilinear.h"
+#include "proc/remap/kernel/look_up.h"
 #include "proc/remap/kernel/tile_mix.h"
 
 namespace orbwatch::remap::scalar {
@@ -164,6 +165,7 @@ constexpr Kernel kKernel{
      sample_points<Layout::Four8>, sample_points<Layout::FirstOfTwo8>,
      sample_points<Layout::OddOfFour8>, sample_points<Layout::One16>,
      sample_points<Layout::Three16>},
-    mix_tiles};
+    mix_tiles,
+    look_up_words};
 
 }  // namespace orbwatch::remap::scalar

@@ -21,6 +21,7 @@ void write_luma(const TileRemap& tiles, int tx, int ty, const MutablePicture& ou
 SourceTiles::SourceTiles(const MergedSource& source, PixelFormat view, Interpolation interpolation,
                          const Kernel& kernel)
     : source_(source),
+      kernel_(kernel),
       format_(source.pictures.front().format),
       colour_(info(format_).colour),
       is_wide_(info(format_).bytes_per_sample() == 2),
@@ -80,7 +81,7 @@ void SourceTiles::write_mapped(int tx, int ty, const MutablePicture& out,
     tiles_.write(tx, ty, picture_of(format_, values), {0, 0, place.columns, place.rows});
     values = part(values, {0, 0, place.columns, place.rows});
   }
-  source_.colours->apply(values, part(out.samples<std::uint8_t>(), area), {0, 1}, out.format);
+  source_.colours->apply(values, part(out.samples<std::uint8_t>(), area), kernel_, out.format);
 }
 
 }  // namespace orbwatch::remap

@@ -59,6 +59,7 @@ class SourceTiles {
   void write_mapped(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
 
   const MergedSource& source_;
+  const Kernel& kernel_;
   PixelFormat format_;
   ColourModel colour_;
   bool is_wide_;    ///< 16 bit

@@ -35,6 +35,7 @@ void round_to_pixels(CoordinateTile& coordinates) {
 TileRemap::TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
                      Interpolation interpolation, const Kernel& kernel, SampledPlanes sampled)
     : grid_(grid),
+      kernel_(kernel),
       last_level_(static_cast<int>(std::min<std::size_t>(source.size(), kMaxLevel)) - 1),
       format_(source.front().format),
       colour_space_(source.front().colour_space),
@@ -96,7 +97,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
     if (in_place != nullptr) return;
     switch (sampled_) {
       case SampledPlanes::All:
-        return write_tile(sampled, format_, colour_space_, out, area);
+        return write_tile(sampled, format_, colour_space_, out, area, kernel_);
       case SampledPlanes::Yuv420:
         return write_yuv420(sampled, format_, colour_space_, out, area);
       case SampledPlanes::Luminance:

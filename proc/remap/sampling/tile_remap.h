@@ -65,6 +65,7 @@ class TileRemap {
   void sample(const CoordinateTile& coordinates, Reading reading, const Targets& targets) const;
 
   const CoordinateGrid& grid_;
+  const Kernel& kernel_;
   int last_level_;  ///< highest mip level of the source
   PixelFormat format_;
   ColourSpace colour_space_;

@@ -25,7 +25,7 @@ TEST(ColourMap, SpreadsItsEntriesOverTheRange) {
   std::vector<std::uint8_t> rgb(values.size() * 3);
   const int width = static_cast<int>(values.size());
   map.apply(ImageView<const std::uint16_t>{values.data(), width, 1, 1, width},
-            ImageView<std::uint8_t>{rgb.data(), width, 1, 3, 3 * width}, {0, 1});
+            ImageView<std::uint8_t>{rgb.data(), width, 1, 3, 3 * width}, scalar_kernel());
   std::vector<int> red;
   for (std::size_t i = 0; i < values.size(); ++i) red.push_back(rgb[3 * i]);
   EXPECT_EQ(red, (std::vector<int>{0, 0, 0, 1, 128, 255, 255, 255}));
@@ -33,29 +33,47 @@ TEST(ColourMap, SpreadsItsEntriesOverTheRange) {
   EXPECT_EQ(rgb[2], 7);
 }
 
-TEST(ColourMap, ShowsEightBitPicturesAndOnlyTheRowsAskedFor) {
+TEST(ColourMap, ShowsEightBitPicturesInEitherOrderAndAsLuma) {
   const ColourMap map(ramp(), 0, 255);
-  std::vector<std::uint8_t> values(20 * 40, 200), rgb(20 * 40 * 3, 1);
-  map.apply(ImageView<const std::uint8_t>{values.data(), 20, 40, 1, 20},
-            ImageView<std::uint8_t>{rgb.data(), 20, 40, 3, 60}, {1, 2});
-  EXPECT_EQ(rgb[15 * 60], 1);
-  EXPECT_EQ(rgb[16 * 60], 200);
-  EXPECT_EQ(rgb[31 * 60], 200);
-  EXPECT_EQ(rgb[32 * 60], 1);
+  constexpr int kRows = 5;
+  for (const int width : {kTile, 7}) {
+    const std::vector<std::uint8_t> values(width * kRows, 200);
+    const ImageView<const std::uint8_t> view{values.data(), width, kRows, 1, width};
+    std::vector<std::uint8_t> rgb(3 * values.size()), bgr(rgb), grey(values.size());
+    for (const Kernel* kernel : kernels()) {
+      map.apply(view, {rgb.data(), width, kRows, 3, 3 * width}, *kernel);
+      map.apply(view, {bgr.data(), width, kRows, 3, 3 * width}, *kernel, PixelFormat::Bgr);
+      map.apply(view, {grey.data(), width, kRows, 1, width}, *kernel);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        ASSERT_EQ(rgb[3 * i], 200);
+        ASSERT_EQ(bgr[3 * i + 2], 200);
+        ASSERT_EQ(rgb[3 * i + 2], 7);
+        ASSERT_EQ(bgr[3 * i], 7);
+        ASSERT_NEAR(grey[i], 0.299 * 200 + 0.587 * 55 + 0.114 * 7, 1);
+      }
+    }
+  }
 }
 
 TEST(ColourMap, EveryValueTakesTheEntryOfItsPlaceInTheRange) {
   const std::vector<std::pair<std::int64_t, std::int64_t>> ranges{
       {0, 65535}, {5000, 60000}, {1000, 1255}, {1000, 1256}, {-500, 70000}, {65000, 90000}, {3, 4}};
-  constexpr double kRounding = 0.02;          // entries
-  constexpr int kWidth = 1027, kHeight = 64;  // more than all values, and a last run that is cut
-  std::vector<std::uint16_t> values(kWidth * kHeight);
+  constexpr double kRounding = 0.02;  // entries
+  constexpr int kValues = 65536, kRows = kValues / kTile;
+  std::vector<std::uint16_t> values(kValues);
   std::iota(values.begin(), values.end(), std::uint16_t{0});
   for (const auto& [low, high] : ranges) {
     const ColourMap map(ramp(), static_cast<double>(low), static_cast<double>(high));
     std::vector<std::uint8_t> rgb(values.size() * 3);
-    map.apply(ImageView<const std::uint16_t>{values.data(), kWidth, kHeight, 1, kWidth},
-              ImageView<std::uint8_t>{rgb.data(), kWidth, kHeight, 3, 3 * kWidth}, {0, 4});
+    for (int y = 0; y < kRows; y += kTile) {
+      // What is as wide as a tile takes another way than what is narrower.
+      const int width = y % (2 * kTile) == 0 ? kTile : 5;
+      for (int x = 0; x < kTile; x += width) {
+        const int columns = std::min(width, kTile - x), at = y * kTile + x;
+        map.apply(ImageView<const std::uint16_t>{&values[at], columns, kTile, 1, kTile},
+                  {&rgb[3 * at], columns, kTile, 3, 3 * kTile}, scalar_kernel());
+      }
+    }
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto above = static_cast<double>(std::clamp<std::int64_t>(values[i], low, high) - low);
       const double entry = 255 * above / static_cast<double>(high - low);
@@ -71,7 +89,7 @@ TEST(ColourMap, BearsTheSmallestRange) {
   const std::vector<std::uint16_t> values{5, 6};
   std::vector<std::uint8_t> rgb(6);
   map.apply(ImageView<const std::uint16_t>{values.data(), 2, 1, 1, 2},
-            ImageView<std::uint8_t>{rgb.data(), 2, 1, 3, 6}, {0, 1});
+            ImageView<std::uint8_t>{rgb.data(), 2, 1, 3, 6}, scalar_kernel());
   EXPECT_EQ(rgb[0], 0);
   EXPECT_EQ(rgb[3], 255);
 }

@@ -73,7 +73,7 @@ TEST(WriteTile, CopiesPlanesInTheirOwnFormat) {
     for_each_place(!is_yuv(facts.format), [&](const Place& place) {
       View found(facts.format, place.width, place.height);
       View expected(facts.format, place.width, place.height);
-      write_tile(tile, facts.format, {}, found.picture, place.area);
+      write_tile(tile, facts.format, {}, found.picture, place.area, scalar_kernel());
       for (std::size_t n = 0; n < facts.plane_count(); ++n) {
         const PlaneInfo& plane = facts.planes[n];
         const int pixel = plane.samples * facts.bytes_per_sample();
@@ -120,7 +120,7 @@ TEST(WriteTile, LetsLuminanceAndChromaTakeTurns) {
   for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Uyvy}) {
     for_each_place(false, [&](const Place& place) {
       View found(format, place.width, place.height), expected(format, place.width, place.height);
-      write_tile(tile, format, {}, found.picture, place.area);
+      write_tile(tile, format, {}, found.picture, place.area, scalar_kernel());
       for (int y = 0; y < place.area.rows; ++y) {
         for (int x = 0; x < place.area.columns; ++x) {
           const Yuv pixel = yuv_at(tile, format, x, y);
@@ -158,7 +158,12 @@ template <class Expected>
 void expect_colours(const SampledTile& tile, PixelFormat from, ColourSpace space, PixelFormat to,
                     const Place& place, double tolerance, const Expected& expected) {
   View view(to, place.width, place.height);
-  write_tile(tile, from, space, view.picture, place.area);
+  write_tile(tile, from, space, view.picture, place.area, scalar_kernel());
+  for (const Kernel* kernel : kernels()) {
+    View same(to, place.width, place.height);
+    write_tile(tile, from, space, same.picture, place.area, *kernel);
+    ASSERT_EQ(same.bytes, view.bytes) << kernel->name;
+  }
   for (int y = 0; y < place.area.rows; ++y) {
     for (int x = 0; x < place.area.columns; ++x) {
       const std::array<double, 3> rgb = expected(x, y);

@@ -1,4 +1,5 @@
 #include "proc/remap/merge/merged_remap.h"
+#include "proc/remap/merge/source_tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +93,12 @@ class MergedRemap : public testing::Test {
     const ImageView<std::uint16_t> values{counts.data(), kWidth, kHeight, 1, kWidth};
     remap(grid, cameras[n]->source.as_source(), Interpolation::Bilinear,
           picture_of(PixelFormat::Y16, values), {0, grid.tiles_y()});
-    colours.apply(values, view_of(out, 3), {0, grid.tiles_y()});
+    for (int ty = 0; ty < grid.tiles_y(); ++ty) {
+      for (int tx = 0; tx < grid.tiles_x(); ++tx) {
+        const TileArea area = area_of(grid, tx, ty);
+        colours.apply(part(values, area), part(view_of(out, 3), area), scalar_kernel());
+      }
+    }
     return out;
   }
   std::vector<std::uint8_t> weights(std::size_t n) {

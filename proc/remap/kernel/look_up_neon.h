@@ -1,0 +1,51 @@
+#pragma once
+
+#include <arm_neon.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "proc/image/image_view.h"
+#include "proc/remap/colour/colour_table.h"
+#include "proc/remap/colour/run.h"
+
+// How the kernel for NEON looks up colours: the table of a channel fills half of the registers.
+
+namespace orbwatch::remap::neon {
+namespace {
+
+/// One channel of all runs.
+[[gnu::always_inline]] inline void look_up_plane(const std::array<std::uint8_t, 256>& plane,
+                                                 const IndexRuns& runs, std::uint8_t* out,
+                                                 std::ptrdiff_t out_stride) {
+  const uint8x16x4_t first = vld1q_u8_x4(&plane[0]), second = vld1q_u8_x4(&plane[64]),
+                     third = vld1q_u8_x4(&plane[128]), fourth = vld1q_u8_x4(&plane[192]);
+  const std::uint8_t* indices = runs.first;
+#pragma GCC unroll 4
+  for (int rows = runs.rows; rows > 0; --rows, indices += runs.stride, out += out_stride) {
+    const uint8x16_t index = vld1q_u8(indices);
+    // An index beyond its part of the table leaves what was found.
+    uint8x16_t found = vqtbl4q_u8(first, index);
+    found = vqtbx4q_u8(found, second, vsubq_u8(index, vdupq_n_u8(64)));
+    found = vqtbx4q_u8(found, third, vsubq_u8(index, vdupq_n_u8(128)));
+    found = vqtbx4q_u8(found, fourth, vsubq_u8(index, vdupq_n_u8(192)));
+    vst1q_u8(out, found);
+  }
+}
+
+/// As Kernel::look_up: one channel after the other, since the registers do not hold three tables.
+inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
+                            const ImageView<std::uint8_t>& out) {
+  if (table.channels == 1) return look_up_plane(table.planes[0], runs, out.data, out.stride);
+  alignas(kRun) std::uint8_t found[3][kTile * kRun];
+  for (std::size_t k = 0; k < 3; ++k) look_up_plane(table.planes[k], runs, found[k], kRun);
+  std::uint8_t* to = out.data;
+#pragma GCC unroll 4
+  for (int at = 0; at < runs.rows * kRun; at += kRun, to += out.stride) {
+    vst3q_u8(to, {vld1q_u8(found[0] + at), vld1q_u8(found[1] + at), vld1q_u8(found[2] + at)});
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::remap::neon

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "proc/remap/colour/run.h"
+#include "proc/remap/kernel/kernel.h"
+#include "tests/support/guarded_memory.h"
+
+namespace orbwatch::remap {
+namespace {
+
+class LookUp : public testing::TestWithParam<const Kernel*> {};
+
+ColourTable noise(std::mt19937& random, int channels) {
+  ColourTable table{channels};
+  for (std::size_t i = 0; i < 256; ++i) {
+    const auto byte = [&] { return static_cast<std::uint8_t>(random()); };
+    table.set(i, {byte(), byte(), byte()});
+  }
+  return table;
+}
+
+// Indices end where memory does, and so do the pixels: nothing beyond either is touched.
+TEST_P(LookUp, WritesTheColoursOfEveryRunAndNothingElse) {
+  constexpr std::uint8_t kUntouched = 0xa5;
+  std::mt19937 random(11);
+  tests::GuardedMemory index_memory(kTile * 40), out_memory(kTile * 3 * 60);
+  for (const int channels : {1, 3}) {
+    const ColourTable table = noise(random, channels);
+    for (int rows = 1; rows <= kTile; ++rows) {
+      for (const std::ptrdiff_t apart : {0, 24}) {
+        for (const std::ptrdiff_t gap : {0, 7}) {
+          SCOPED_TRACE(testing::Message() << channels << " channels, " << rows << " rows, " << apart
+                                          << " and " << gap << " bytes between them");
+          const std::ptrdiff_t stride = kRun + apart, out_stride = kRun * channels + gap;
+          const std::span indices = index_memory.last((rows - 1) * stride + kRun);
+          const std::span out = out_memory.last((rows - 1) * out_stride + kRun * channels);
+          std::ranges::generate(indices, [&] { return static_cast<std::uint8_t>(random()); });
+          std::ranges::fill(out, kUntouched);
+          GetParam()->look_up(table, {indices.data(), stride, rows},
+                              {out.data(), kRun, rows, channels, out_stride});
+          for (std::ptrdiff_t k = 0; k < std::ssize(out); ++k) {
+            const std::ptrdiff_t row = k / out_stride, sample = k % out_stride;
+            const bool is_gap = sample >= kRun * channels;
+            const std::size_t index = is_gap ? 0 : indices[row * stride + sample / channels];
+            ASSERT_EQ(out[k], is_gap ? kUntouched : table.planes[sample % channels][index]) << k;
+          }
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, LookUp, testing::ValuesIn(kernels().begin(), kernels().end()),
+                         [](const auto& kernel) { return std::string(kernel.param->name); });
+
+}  // namespace
+}  // namespace orbwatch::remap
