@@ -61,6 +61,20 @@ class CoordinateGrid {
   /// interpolation and shared chroma included. Decodes tiles; not for the frame path.
   SourceArea sampled_area() const;
 
+  /// About where a tile lies in the source: what is between its corners. Empty when the map has no
+  /// place for one of them, or beyond the last tile. For the frame path.
+  SourceArea extent(int tx, int ty) const {
+    if (tx >= tiles_x_ || ty >= tiles_y_) return {};
+    const Coordinate &a = node(tx, ty), &b = node(tx + 1, ty), &c = node(tx, ty + 1),
+                     &d = node(tx + 1, ty + 1);
+    const auto [left, right] = std::minmax({a.u, b.u, c.u, d.u});
+    const auto [top, bottom] = std::minmax({a.v, b.v, c.v, d.v});
+    if (left <= kOutside) return {};
+    const SourceArea area{left >> kFractionBits, top >> kFractionBits, (right >> kFractionBits) + 2,
+                          (bottom >> kFractionBits) + 2};
+    return common(area, {0, 0, source_width_, source_height_});
+  }
+
   /// One Validity per pixel into `out`, which has the view's size.
   void write_validity(const ImageView<std::uint8_t>& out) const;
 

@@ -13,9 +13,11 @@
 
 #include <immintrin.h>
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/look_up_avx512.h"
@@ -251,24 +253,48 @@ __m512i channel(const Window<pixel_bytes>& window) {
   return samples;
 }
 
-/// One byte of each pixel's sample, times the unit weights of u and v.
-__m512i weighed(__m512i samples, const Places& places) {
-  const __m512i neighbours = _mm512_permutexvar_epi8(places.index, samples);
+/// One byte of each pixel's neighbours, times the unit weights of u and v.
+__m512i weighed(__m512i neighbours, const Places& places) {
   return _mm512_madd_epi16(_mm512_maddubs_epi16(neighbours, places.across), places.down);
 }
 
-/// The block's pixels, each from the lowest byte of its lane on. Inlined, so that what all blocks
-/// need stays in registers.
-template <Layout layout>
-[[gnu::always_inline]] inline __m512i sample(const std::uint8_t* from, std::ptrdiff_t stride,
-                                             __m512i lanes) {
+/// Which pixels of two blocks at half steps along an axis make one: the even columns, or the even
+/// rows. The second half of them comes from the second block, whose bytes of it are `second`.
+enum class Kept { All, EvenColumns, EvenRows };
+
+template <Kept kept>
+__m512i merged_lanes(__m512i first, __m512i second) {
+  static constexpr auto kOrder = Doublewords::of([](int k) {
+    const int i = k % kBlock, j = k / kBlock;
+    const int along = 2 * (kept == Kept::EvenColumns ? i : j);
+    const int lane =
+        kept == Kept::EvenColumns ? kBlock * j + along % kBlock : kBlock * (along % kBlock) + i;
+    return along >= kBlock ? 16 + lane : lane;
+  });
+  return _mm512_permutex2var_epi32(first, kOrder.load(), second);
+}
+template <Kept kept>
+constexpr __mmask64 kSecond = kept == Kept::EvenColumns ? 0xff00ff00ff00ff00 : 0xffffffff00000000;
+
+/// The block's pixels, each from the lowest byte of its lane on; of a window each for those of two
+/// blocks that are kept. Inlined, so that what all blocks need stays in registers.
+template <Layout layout, Kept kept>
+[[gnu::always_inline]] inline __m512i sample(const std::uint8_t* from, const std::uint8_t* beside,
+                                             std::ptrdiff_t stride, __m512i lanes) {
   constexpr LayoutInfo kInfo = info(layout);
   constexpr int kDownBits = kInfo.sample_bytes == 2 ? kWeightBits : kRowFractionBits;
   constexpr int kShift = kWeightBits + kDownBits;
   const Window<kInfo.pixel_bytes> window(from, stride);
   const Places places = Places::of<kDownBits>(lanes);
   const auto sum = [&]<int byte>() {
-    return weighed(channel<kInfo.pixel_bytes, byte>(window), places);
+    __m512i neighbours =
+        _mm512_permutexvar_epi8(places.index, channel<kInfo.pixel_bytes, byte>(window));
+    if constexpr (kept != Kept::All) {
+      const Window<kInfo.pixel_bytes> other(beside, stride);
+      neighbours = _mm512_mask_permutexvar_epi8(neighbours, kSecond<kept>, places.index,
+                                                channel<kInfo.pixel_bytes, byte>(other));
+    }
+    return weighed(neighbours, places);
   };
   if constexpr (kInfo.sample_bytes == 2) {
     const __m512i both = _mm512_add_epi32(sum.template operator()<0>(),
@@ -327,24 +353,48 @@ void store_row(__m512i rows, std::uint8_t* out) {
   }
 }
 
-/// One row of blocks, of which block (0, y) has `lanes`.
-template <Layout layout, int blocks_x>
-void fill_row(const TileJob& job, const BlockRow& row, __m512i lanes, __m512i along_x,
-              std::uint8_t* out) {
-  constexpr int kPixelBytes = info(layout).pixel_bytes, kOutBytes = info(layout).out_bytes();
-  constexpr int kGroup = group_of(kOutBytes), kCount = kGroup < blocks_x ? kGroup : blocks_x;
+/// Where a block's window lies in the source.
+template <Layout layout>
+[[gnu::always_inline]] inline const std::uint8_t* window_of(const TileJob& job, const BlockRow& row,
+                                                            int x) {
+  const AxisPair<std::int64_t>& window = row.windows[x];
+  return job.source.data + (window.v >> 32) * job.source.stride +
+         (window.u >> 32) * info(layout).pixel_bytes;
+}
+[[gnu::always_inline]] inline __m512i place_of(const BlockRow& row, int x) {
+  std::int32_t place = 0;
+  std::memcpy(&place, &row.places[x], sizeof(place));
+  return _mm512_set1_epi32(place);
+}
+
+/// One row of blocks, of which block (0, y) has `shape.start`, or what is kept of a row of pairs of
+/// them: of two side by side, or of this row and the next one.
+template <Layout layout, int blocks_x, Kept kept>
+void fill_row(const TileJob& job, const BlockRow* row, const Shape& shape, std::uint8_t* out) {
+  constexpr int kOutBytes = info(layout).out_bytes(), kStep = kept == Kept::EvenColumns ? 2 : 1;
+  constexpr int kGroup = group_of(kOutBytes), kMade = blocks_x / kStep;
+  constexpr int kCount = kGroup < kMade ? kGroup : kMade;
+  __m512i lanes = shape.start;
 #pragma GCC unroll 1
-  for (int x = 0; x < blocks_x; x += kCount) {
+  for (int x = 0; x < kMade; x += kCount) {
     __m512i blocks[kGroup]{};
 #pragma GCC unroll 4
     for (int k = 0; k < kCount; ++k) {
-      const AxisPair<std::int64_t>& window = row.windows[x + k];
-      std::int32_t place = 0;
-      std::memcpy(&place, &row.places[x + k], sizeof(place));
-      blocks[k] = sample<layout>(
-          job.source.data + (window.v >> 32) * job.source.stride + (window.u >> 32) * kPixelBytes,
-          job.source.stride, _mm512_add_epi16(lanes, _mm512_set1_epi32(place)));
-      lanes = _mm512_add_epi16(lanes, along_x);
+      const int block = kStep * (x + k);
+      const std::uint8_t* const window = window_of<layout>(job, row[0], block);
+      __m512i here = _mm512_add_epi16(lanes, place_of(row[0], block));
+      const std::uint8_t* second = nullptr;
+      if constexpr (kept == Kept::EvenColumns) {
+        lanes = _mm512_add_epi16(lanes, shape.along_x);
+        second = window_of<layout>(job, row[0], block + 1);
+        here = merged_lanes<kept>(here, _mm512_add_epi16(lanes, place_of(row[0], block + 1)));
+      } else if constexpr (kept == Kept::EvenRows) {
+        const __m512i below = _mm512_add_epi16(lanes, shape.along_y);
+        second = window_of<layout>(job, row[1], block);
+        here = merged_lanes<kept>(here, _mm512_add_epi16(below, place_of(row[1], block)));
+      }
+      blocks[k] = sample<layout, kept>(window, second, job.source.stride, here);
+      lanes = _mm512_add_epi16(lanes, shape.along_x);
     }
     const __m512i rows = rows_of<kOutBytes>(blocks);
     constexpr int kBytes = kCount * kBlock * kOutBytes;
@@ -356,7 +406,7 @@ void fill_row(const TileJob& job, const BlockRow& row, __m512i lanes, __m512i al
   }
 }
 
-template <Layout layout, int blocks_x>
+template <Layout layout, int blocks_x, Kept kept>
 void fill_rows(const TileJob& job) {
   // All rows first: else the compiler takes places out of the vectors on the port that vpermb
   // needs.
@@ -369,18 +419,26 @@ void fill_rows(const TileJob& job) {
   }
   Shape shape(job.map.lanes);
   std::uint8_t* out = job.target.data;
-  for (int y = 0; y < blocks_y; ++y) {
-    fill_row<layout, blocks_x>(job, rows[y], shape.start, shape.along_x, out);
-    shape.start = _mm512_add_epi16(shape.start, shape.along_y);
+  constexpr int kStep = kept == Kept::EvenRows ? 2 : 1;
+  for (int y = 0; y < blocks_y; y += kStep) {
+    fill_row<layout, blocks_x, kept>(job, &rows[y], shape, out);
+    for (int n = 0; n < kStep; ++n) shape.start = _mm512_add_epi16(shape.start, shape.along_y);
     out += kBlock * job.target.stride;
   }
 }
 
-template <Layout layout>
+template <Layout layout, Kept kept = Kept::All>
 void fill_tile(const TileJob& job) {
-  if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks>(job);
-  fill_rows<layout, kMostBlocks / 2>(job);
+  if (job.map.blocks_x == kMostBlocks) return fill_rows<layout, kMostBlocks, kept>(job);
+  fill_rows<layout, kMostBlocks / 2, kept>(job);
 }
+
+template <Kept kept, std::size_t... n>
+constexpr std::array<Kernel::Tile, kKernelLayouts> tiles_of(std::index_sequence<n...>) {
+  return {fill_tile<Layout{n}, kept>...};
+}
+template <Kept kept>
+constexpr auto kTiles = tiles_of<kept>(std::make_index_sequence<kKernelLayouts>());
 
 using PointLanes [[gnu::vector_size(64)]] = std::uint32_t;
 
@@ -388,14 +446,16 @@ using PointLanes [[gnu::vector_size(64)]] = std::uint32_t;
 
 extern const Kernel kKernel;
 constexpr Kernel kKernel{
-    "avx512",
-    {fill_tile<Layout::One8>, fill_tile<Layout::Two8>, fill_tile<Layout::Three8>,
-     fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>, fill_tile<Layout::OddOfFour8>,
-     fill_tile<Layout::One16>},
-    walk_places<PointLanes>,
-    kPointWalks,
-    mix_tiles,
-    look_up_colours,
-    write_rgb};
+    .name = "avx512",
+    .tiles = kTiles<Kept::All>,
+    .locate = walk_places<PointLanes>,
+    .points = kPointWalks,
+    .mix = mix_tiles,
+    .look_up = look_up_colours,
+    .write_rgb = write_rgb,
+    .even_columns = kTiles<Kept::EvenColumns>,
+    .even_rows = kTiles<Kept::EvenRows>,
+    .fetches_ahead = true,
+};
 
 }  // namespace orbwatch::remap::avx512

@@ -63,6 +63,13 @@ struct Kernel {
   /// Converts a whole tile as YuvToRgb does. Null where that becomes as good code by itself.
   /// Reentrant.
   WriteRgb write_rgb = nullptr;
+  /// As `tiles`, of a map at half steps along an axis: columns, or rows, 0, 2, 4 .. of what that
+  /// gives become the target's. `blocks_x`, or `blocks_y`, is even. Null: to be made by `tiles`.
+  /// Reentrant.
+  std::array<Tile, kKernelLayouts> even_columns{};
+  std::array<Tile, kKernelLayouts> even_rows{};
+  /// Whether to ask for what tiles will read before they do, where they read much.
+  bool fetches_ahead = false;
 
   void sample_tile(Layout layout, const TileJob& job) const {
     tiles[static_cast<std::size_t>(layout)](job);

@@ -361,13 +361,14 @@ using PointLanes [[gnu::vector_size(16)]] = std::uint32_t;
 
 extern const Kernel kKernel;
 constexpr Kernel kKernel{
-    "neon",
-    {fill_tile<Layout::One8>, fill_tile<Layout::Two8>, fill_tile<Layout::Three8>,
-     fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>, fill_tile<Layout::OddOfFour8>,
-     fill_tile<Layout::One16>},
-    walk_places<PointLanes>,
-    kPointWalks,
-    mix_tiles,
-    look_up_colours};
+    .name = "neon",
+    .tiles = {fill_tile<Layout::One8>, fill_tile<Layout::Two8>, fill_tile<Layout::Three8>,
+              fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>,
+              fill_tile<Layout::OddOfFour8>, fill_tile<Layout::One16>},
+    .locate = walk_places<PointLanes>,
+    .points = kPointWalks,
+    .mix = mix_tiles,
+    .look_up = look_up_colours,
+};
 
 }  // namespace orbwatch::remap::neon

@@ -156,16 +156,17 @@ void sample_points(const PointJob& job) {
 
 extern const Kernel kKernel;
 constexpr Kernel kKernel{
-    "scalar",
-    {sample_tile<Layout::One8>, sample_tile<Layout::Two8>, sample_tile<Layout::Three8>,
-     sample_tile<Layout::Four8>, sample_tile<Layout::FirstOfTwo8>, sample_tile<Layout::OddOfFour8>,
-     sample_tile<Layout::One16>},
-    locate,
-    {sample_points<Layout::One8>, sample_points<Layout::Two8>, sample_points<Layout::Three8>,
-     sample_points<Layout::Four8>, sample_points<Layout::FirstOfTwo8>,
-     sample_points<Layout::OddOfFour8>, sample_points<Layout::One16>,
-     sample_points<Layout::Three16>},
-    mix_tiles,
-    look_up_words};
+    .name = "scalar",
+    .tiles = {sample_tile<Layout::One8>, sample_tile<Layout::Two8>, sample_tile<Layout::Three8>,
+              sample_tile<Layout::Four8>, sample_tile<Layout::FirstOfTwo8>,
+              sample_tile<Layout::OddOfFour8>, sample_tile<Layout::One16>},
+    .locate = locate,
+    .points = {sample_points<Layout::One8>, sample_points<Layout::Two8>,
+               sample_points<Layout::Three8>, sample_points<Layout::Four8>,
+               sample_points<Layout::FirstOfTwo8>, sample_points<Layout::OddOfFour8>,
+               sample_points<Layout::One16>, sample_points<Layout::Three16>},
+    .mix = mix_tiles,
+    .look_up = look_up_words,
+};
 
 }  // namespace orbwatch::remap::scalar

@@ -116,9 +116,24 @@ PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Pictur
       tile_bytes_(columns_ * pixel_bytes_) {
   if (number(sampling.layout) < kKernelLayouts) {
     block_kernel_ = kernel.tiles[number(sampling.layout)];
+    even_columns_ = kernel.even_columns[number(sampling.layout)];
+    even_rows_ = kernel.even_rows[number(sampling.layout)];
   }
   for (std::size_t level = 0; level < std::min(pictures.size(), sources_.size()); ++level) {
     sources_[level] = plane_of_source(pictures[level], sampling);
+  }
+}
+
+void PlaneSampler::fetch(const SourceArea& area) const {
+  constexpr std::ptrdiff_t kLine = 64;  // bytes
+  const SourcePlane& source = sources_[0];
+  const int bytes = info(sampling_.layout).pixel_bytes;
+  const std::ptrdiff_t first = (area.left >> shift(sampling_.x)) * bytes;
+  const std::ptrdiff_t last = (((area.right - 1) >> shift(sampling_.x)) + 1) * bytes - 1;
+  for (int y = area.top >> shift(sampling_.y); y <= (area.bottom - 1) >> shift(sampling_.y); ++y) {
+    const std::uint8_t* const row = source.data + y * source.stride;
+    for (std::ptrdiff_t at = first; at < last; at += kLine) __builtin_prefetch(row + at);
+    __builtin_prefetch(row + last);
   }
 }
 
@@ -166,16 +181,27 @@ void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
   }
 }
 
+/// By a kernel that keeps half of the pixels of a `fine` target, if there is one.
+bool PlaneSampler::keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
+                             const TargetPlane& fine, const TargetPlane& kept) const {
+  BlockMap map;
+  if (kernel == nullptr || !map.fit(patch, fine.columns, fine.rows, rounding_)) return false;
+  kernel({map, source, kept});
+  return true;
+}
+
 bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& source,
                                     const TargetPlane& target) const {
-  const Patch fine = at_half_rows(patch);
+  const Patch half = at_half_rows(patch);
   FineSamples samples;
   for (int top = 0; top < 2 * target.rows; top += kTile) {
-    const TargetPlane part = samples.plane(pixel_bytes_, target.columns, kTile);
-    if (!sample_blocks(top == 0 ? fine : moved(fine, 0, top), source, part)) return false;
-    keep_even_rows(
-        part, target.columns * pixel_bytes_,
-        {target.data + top / 2 * target.stride, target.stride, target.columns, kTile / 2});
+    const Patch from_top = top == 0 ? half : moved(half, 0, top);
+    const TargetPlane fine = samples.plane(pixel_bytes_, target.columns, kTile);
+    const TargetPlane kept{target.data + top / 2 * target.stride, target.stride, target.columns,
+                           kTile / 2};
+    if (keep_half(even_rows_, from_top, source, fine, kept)) continue;
+    if (!sample_blocks(from_top, source, fine)) return false;
+    keep_even_rows(fine, target.columns * pixel_bytes_, kept);
   }
   return true;
 }
@@ -183,17 +209,18 @@ bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& sourc
 /// A subsampled plane may be steep along x only. What is steep along both axes takes both.
 bool PlaneSampler::sample_half_columns(const Patch& patch, const SourcePlane& source,
                                        const TargetPlane& target) const {
-  const Patch fine = at_half_columns(patch);
+  const Patch half = at_half_columns(patch);
   FineSamples samples;
   for (int left = 0; left < 2 * target.columns; left += kTile) {
-    const Patch from_left = left == 0 ? fine : moved(fine, left, 0);
-    const TargetPlane part = samples.plane(pixel_bytes_, kTile, target.rows);
-    if (!sample_blocks(from_left, source, part) && !sample_half_rows(from_left, source, part)) {
+    const Patch from_left = left == 0 ? half : moved(half, left, 0);
+    const TargetPlane fine = samples.plane(pixel_bytes_, kTile, target.rows);
+    const TargetPlane kept{target.data + left / 2 * pixel_bytes_, target.stride, kTile / 2,
+                           target.rows};
+    if (keep_half(even_columns_, from_left, source, fine, kept)) continue;
+    if (!sample_blocks(from_left, source, fine) && !sample_half_rows(from_left, source, fine)) {
       return false;
     }
-    keep_even_columns(
-        part, pixel_bytes_,
-        {target.data + left / 2 * pixel_bytes_, target.stride, kTile / 2, target.rows});
+    keep_even_columns(fine, pixel_bytes_, kept);
   }
   return true;
 }

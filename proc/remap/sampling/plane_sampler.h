@@ -7,6 +7,7 @@
 #include "proc/image/picture.h"
 #include "proc/remap/grid/coordinate.h"
 #include "proc/remap/grid/patch.h"
+#include "proc/remap/grid/source_area.h"
 #include "proc/remap/grid/tile.h"
 #include "proc/remap/kernel/kernel.h"
 #include "proc/remap/kernel/kernel_map.h"
@@ -48,6 +49,9 @@ class PlaneSampler {
   int tile_bytes() const { return tile_bytes_; }    ///< of a row of a tile
   bool has_blocks() const { return block_kernel_ != nullptr; }
 
+  /// Asks for the samples of an area of the picture to be brought into the cache.
+  void fetch(const SourceArea& area) const;
+
   /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip level that is read.
   void sample(const Patch& patch, Reading reading, const TargetPlane& target) const;
 
@@ -73,6 +77,8 @@ class PlaneSampler {
     block_kernel_({map, source, target});
     return true;
   }
+  bool keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
+                 const TargetPlane& fine, const TargetPlane& kept) const;
   void sample_steep(const Patch& patch, const SourcePlane& source, const TargetPlane& target) const;
   bool sample_half_rows(const Patch& patch, const SourcePlane& source,
                         const TargetPlane& target) const;
@@ -81,8 +87,9 @@ class PlaneSampler {
 
   PlaneSampling sampling_{};
   const Kernel* kernel_ = nullptr;
-  Kernel::Tile block_kernel_ = nullptr;  ///< its one for the layout, if there is one
-  Uv64 rounding_{};                      ///< see BlockMap
+  /// Its ones for the layout, if there are such.
+  Kernel::Tile block_kernel_ = nullptr, even_columns_ = nullptr, even_rows_ = nullptr;
+  Uv64 rounding_{};  ///< see BlockMap
   int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;
   std::array<SourcePlane, kMaxLevel> sources_;  ///< by mip level
 };

@@ -19,6 +19,9 @@ int simple_levels(Interpolation interpolation) {
   return interpolation == Interpolation::Bilinear ? kMaxLevel + 1 : 1;
 }
 
+/// How far ahead sources are fetched.
+constexpr int kTilesAhead = 2;
+
 bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
 
 void round_to_pixels(CoordinateTile& coordinates) {
@@ -65,6 +68,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   const bool as_sampled = lies_as_sampled(format_, out.format);
   Targets targets = as_sampled ? targets_in(out, 0, ty * kTile) : Targets();
   for (int tx = 0; tx < grid_.tiles_x(); ++tx) {
+    if (kernel_.fetches_ahead) fetch(tx + kTilesAhead, ty);
     const TileArea area = area_of(grid_, tx, ty);
     const bool in_place = as_sampled && is_whole(area);
     if (!in_place || !write_simple(tx, ty, targets)) {
@@ -74,6 +78,16 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
       targets[n].data += planes_[n].tile_bytes();
     }
   }
+}
+
+/// Asks for what a tile will read, if it spans so much of the source that the processor does not
+/// ask for it in time by itself, but not more than caches hold.
+[[gnu::noinline]] void TileRemap::fetch(int tx, int ty) const {
+  constexpr int kLeast = 5 * kTile / 2, kMost = 4 * kTile;
+  const SourceArea area = grid_.extent(tx, ty);
+  const int columns = area.right - area.left, rows = area.bottom - area.top;
+  if (area.is_empty() || columns + rows < kLeast || columns > kMost || rows > kMost) return;
+  for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].fetch(area);
 }
 
 /// Writes the most common kind of tile in place; false for another tile.

@@ -58,6 +58,7 @@ class TileRemap {
   bool write_simple(int tx, int ty, const Targets& targets) const;
   void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
                    const Targets* in_place) const;
+  void fetch(int tx, int ty) const;
   Reading reading(const Tile& tile) const;
   void sample(const Patch& patch, Reading reading, const Targets& targets) const;
   template <int Cell>

@@ -303,6 +303,32 @@ TEST(CoordinateGrid, GivesATileAtOnceAsRowByRow) {
   });
 }
 
+TEST(CoordinateGrid, KnowsWhereATileLiesInTheSource) {
+  const auto ball = centred_ball(BallModel::make(BallModel::Kind::Exact, 348.5).value(), 1000, 480);
+  const auto view =
+      ViewProjection::make({ViewKind::Perspective, {20, 10, 20}, 90, {}, 640, 360}).value();
+  const CoordinateGrid grid(view, ball, 900, 1000);
+  constexpr int kBulge = 2;  // px, of a patch beyond its corners
+  int looked_at = 0;
+  for_each_tile(grid, [&](const Tile& tile, int tx, int ty) {
+    if (!is_patch(tile.kind)) return;
+    const SourceArea extent = grid.extent(tx, ty);
+    ASSERT_EQ(extent, common(extent, {0, 0, 900, 1000}));
+    for (const CoordinateRow& row : grid.pixels(tx, ty)) {
+      for (const Coordinate& c : row) {
+        const int u = c.u >> kFractionBits, v = c.v >> kFractionBits;
+        if (u < 0 || v < 0 || u >= 900 || v >= 1000) continue;
+        ASSERT_TRUE(u >= extent.left - kBulge && u < extent.right + kBulge) << tx << ' ' << ty;
+        ASSERT_TRUE(v >= extent.top - kBulge && v < extent.bottom + kBulge) << tx << ' ' << ty;
+      }
+    }
+    ++looked_at;
+  });
+  EXPECT_GT(looked_at, 500);
+  EXPECT_TRUE(grid.extent(grid.tiles_x(), 0).is_empty());
+  EXPECT_TRUE(grid.extent(0, grid.tiles_y()).is_empty());
+}
+
 TEST(CoordinateGrid, InteriorTilesKeepTheirDistanceToTheBorder) {
   const auto ball = centred_ball(BallModel::make(BallModel::Kind::Exact, 348.5).value(), 1000, 600);
   std::map<bool, int> count;

@@ -101,11 +101,28 @@ class Trial {
   bool fits() const { return fits_; }
 
   std::vector<std::uint8_t> out_of(const Kernel& kernel) const {
+    return out_of(kernel.tiles[static_cast<std::size_t>(layout_)]);
+  }
+  std::vector<std::uint8_t> out_of(Kernel::Tile tile) const {
     std::vector<std::uint8_t> out(2 * margin_ + rows_ * out_stride_, kCanary);
-    kernel.sample_tile(layout_, {map_,
-                                 {source_.data(), source_stride_, 0, 0},
-                                 {out.data() + margin_, out_stride_, columns_, rows_}});
+    tile({map_,
+          {source_.data(), source_stride_, 0, 0},
+          {out.data() + margin_, out_stride_, columns_, rows_}});
     return out;
+  }
+
+  /// The pixels of `out`, of which every `step_x`-th and `step_y`-th are kept.
+  std::vector<std::uint8_t> kept(const std::vector<std::uint8_t>& out, int step_x,
+                                 int step_y) const {
+    std::vector<std::uint8_t> kept(out.size(), kCanary);
+    const std::ptrdiff_t pixel = info(layout_).out_bytes();
+    for (int y = 0; y < rows_; y += step_y) {
+      for (int x = 0; x < columns_; x += step_x) {
+        std::copy_n(out.begin() + margin_ + y * out_stride_ + x * pixel, pixel,
+                    kept.begin() + margin_ + y / step_y * out_stride_ + x / step_x * pixel);
+      }
+    }
+    return kept;
   }
 
   void expect_canaries(const std::vector<std::uint8_t>& out) const {
@@ -154,6 +171,31 @@ TEST_P(KernelOfLayout, EqualsTheScalarOne) {
   }
   EXPECT_GT(steepest, 500);
   EXPECT_GT(gentle, 500);
+}
+
+TEST_P(KernelOfLayout, KeepsEverySecondColumnOrRow) {
+  std::mt19937 random(7);
+  int fitting = 0;
+  for (int round = 0; round < 500; ++round) {
+    const int blocks_x = round % 2 ? 4 : 2, blocks_y = round % 4 < 2 ? 4 : 2;
+    const RandomPatch shape(random, {round % 5 ? 1.0 : 0.3, round % 7 ? 0.01 : 0});
+    const Trial trial(random, GetParam().layout,
+                      round % 3 ? shape.patch() : shape.steepest(blocks_x, blocks_y), blocks_x,
+                      blocks_y);
+    if (!trial.fits()) continue;
+    ++fitting;
+    const std::vector<std::uint8_t> all = trial.out_of(scalar_kernel());
+    for (const Kernel* kernel : kernels()) {
+      const auto number = static_cast<std::size_t>(GetParam().layout);
+      if (kernel->even_columns[number]) {
+        ASSERT_EQ(trial.out_of(kernel->even_columns[number]), trial.kept(all, 2, 1)) << round;
+      }
+      if (kernel->even_rows[number]) {
+        ASSERT_EQ(trial.out_of(kernel->even_rows[number]), trial.kept(all, 1, 2)) << round;
+      }
+    }
+  }
+  EXPECT_GT(fitting, 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, KernelOfLayout, testing::ValuesIn(kNamedLayouts),
