@@ -5,10 +5,10 @@
 #include <memory>
 #include <string_view>
 
-#include "app/model/untouched_memory.h"
 #include "hal/clock.h"
 #include "proc/image/image_view.h"
 #include "proc/image/picture.h"
+#include "proc/image/untouched_memory.h"
 #include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "proc/image/image_view.h"
+#include "proc/image/untouched_memory.h"
 #include "proc/signals/hot_spot/edges.h"
 #include "proc/signals/region.h"
 
@@ -82,9 +82,10 @@ class Components {
 
   void finish(std::size_t size);
 
-  std::vector<Run> runs_;            ///< the first `size_` of them
-  std::vector<std::uint32_t> next_;  ///< by run: the component's next one; of the last one itself
-  std::vector<Total> totals_;        ///< by run
+  // There is room for the worst noise, nearly all of which stays untouched.
+  UntouchedVector<Run> runs_;            ///< the first `size_` of them
+  UntouchedVector<std::uint32_t> next_;  ///< by run: the component's next one; of the last itself
+  UntouchedVector<Total> totals_;        ///< by run
   EdgeFinder edges_;
   std::size_t size_ = 0;
   std::size_t count_ = 0;
@@ -94,7 +95,7 @@ class Components {
 /// count: runs touch when they overlap by one pixel more on either side.
 class Components::Joiner {
  public:
-  explicit Joiner(std::vector<Run>& runs)
+  explicit Joiner(UntouchedVector<Run>& runs)
       : runs_(runs.data()), end_(runs_), row_begin_(runs_), above_(runs_) {}
 
   std::size_t size() const { return size_; }

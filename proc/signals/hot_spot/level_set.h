@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "proc/image/image_view.h"
+#include "proc/image/untouched_memory.h"
 #include "proc/optics/vec.h"
 #include "proc/signals/hot_spot/components.h"
 #include "proc/signals/region.h"
@@ -49,7 +49,7 @@ class LevelSet {
   struct Sums;
 
   Components components_;
-  std::vector<Blob> blobs_;  ///< by run; of components
+  UntouchedVector<Blob> blobs_;  ///< by run; of components
 };
 
 }  // namespace orbwatch::signals

@@ -3,10 +3,11 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-namespace orbwatch::app {
+namespace orbwatch {
 
 /// Leaves new elements as the memory is: what is never written to never becomes resident.
 template <class T>
@@ -21,9 +22,10 @@ struct UntouchedAllocator : std::allocator<T> {
   // NOLINTNEXTLINE(google-explicit-constructor): rebinding
   UntouchedAllocator(const UntouchedAllocator<U>&) noexcept {}
 
+  /// Allocation makes such elements, whatever they are.
   template <class U>
-  void construct(U* place) noexcept {
-    ::new (static_cast<void*>(place)) U;
+  void construct(U*) noexcept {
+    static_assert(std::is_trivially_copyable_v<U>);
   }
   template <class U, class... Arguments>
   void construct(U* place, Arguments&&... arguments) {
@@ -31,8 +33,8 @@ struct UntouchedAllocator : std::allocator<T> {
   }
 };
 
-/// Elements of resize() are not initialised.
+/// Elements of resize() are not initialised, not even by their own initialisers.
 template <class T>
 using UntouchedVector = std::vector<T, UntouchedAllocator<T>>;
 
-}  // namespace orbwatch::app
+}  // namespace orbwatch
