@@ -9,6 +9,9 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "app/simulation/scene/appearance.h"
 #include "app/simulation/scene/static_scene.h"
@@ -131,6 +134,10 @@ class SimulatedView : public orbwatch::tests::Daemon {
     return static_cast<double>(count) / (view.width * view.height);
   }
 
+  static bool is_black(const std::vector<std::uint8_t>& pixels) {
+    return std::ranges::all_of(pixels, [](std::uint8_t sample) { return sample == 0; });
+  }
+
   /// Whether a pixel of the front view, rgb with `step` bytes a row, has the machine's colour.
   static std::function<bool(int, int)> like_the_machine(const std::uint8_t* pixels,
                                                         std::size_t step) {
@@ -149,7 +156,11 @@ class SimulatedView : public orbwatch::tests::Daemon {
 };
 
 TEST_F(SimulatedView, ColoursAreThoseOfTheMachine) {
-  const auto [image, pixels] = read("rt/orbwatch/front/image_raw");
+  // Where the colour camera is late, as on a busy machine, the view is black.
+  auto [image, pixels] = read("rt/orbwatch/front/image_raw");
+  for (int again = 0; again < 5 && is_black(pixels); ++again) {
+    std::tie(image, pixels) = read("rt/orbwatch/front/image_raw");
+  }
   ASSERT_EQ(image["encoding"].string(), "rgb8");
   ASSERT_EQ(static_cast<int>(image["width"]), kFront.width);
   ASSERT_EQ(static_cast<int>(image["height"]), kFront.height);
