@@ -12,28 +12,20 @@
 namespace orbwatch::remap {
 namespace {
 
-constexpr int kEntryBits = 7;  // fraction bits of an entry before it is rounded
-constexpr std::uint16_t kHalfEntry = 1 << (kEntryBits - 1);
-
-/// ColourMap::entry_of() for runs, where the range lies within 16 bits.
-struct RunScale {
-  std::uint16_t low, high;
-  std::uint16_t unit;  ///< 1 shifted: compilers find the narrow product, but not the narrow shift
-  std::uint16_t scale;
-
-  [[gnu::always_inline]] void find_entries(const std::uint16_t* values,
-                                           std::uint8_t* entries) const {
-    const RunScale s = *this;
-    SampleRun run;
-    for (std::size_t x = 0; x < kRun; ++x) {
-      const auto above = static_cast<std::uint16_t>(std::clamp(values[x], s.low, s.high) - s.low);
-      const auto upper = static_cast<std::uint16_t>(above * s.unit);
-      const auto entry = static_cast<std::uint16_t>(std::uint32_t{upper} * s.scale >> 16);
-      run[x] = static_cast<std::uint8_t>((entry + kHalfEntry) >> kEntryBits);
-    }
-    std::memcpy(entries, run.data(), kRun);
+/// ColourMap::entry_of() for a run.
+[[gnu::always_inline]] inline void find_entries(const ValueScale& scale,
+                                                const std::uint16_t* values,
+                                                std::uint8_t* entries) {
+  const ValueScale s = scale;
+  SampleRun run;
+  for (std::size_t x = 0; x < kRun; ++x) {
+    const auto above = static_cast<std::uint16_t>(std::clamp(values[x], s.low, s.high) - s.low);
+    const auto upper = static_cast<std::uint16_t>(above * s.unit);
+    const auto entry = static_cast<std::uint16_t>(std::uint32_t{upper} * s.scale >> 16);
+    run[x] = static_cast<std::uint8_t>((entry + kHalfEntry) >> kEntryBits);
   }
-};
+  std::memcpy(entries, run.data(), kRun);
+}
 
 }  // namespace
 
@@ -86,10 +78,14 @@ void ColourMap::apply(const ImageView<const std::uint16_t>& values,
   const ColourTable& table = ColourMap::table(entries_, out.channels, order);
   alignas(64) std::array<std::uint8_t, kRun * kTile> entries;
   if (values.width == kRun && is_within) {
-    const RunScale scale{static_cast<std::uint16_t>(low_), static_cast<std::uint16_t>(high_),
-                         static_cast<std::uint16_t>(1U << shift_), scale_};
-    for (int y = 0; y < values.height; ++y) {
-      scale.find_entries(values.row(y), &entries[kRun * y]);
+    const ValueScale scale{static_cast<std::uint16_t>(low_), static_cast<std::uint16_t>(high_),
+                           static_cast<std::uint16_t>(1U << shift_), scale_};
+    if (kernel.find_entries) {
+      kernel.find_entries(scale, values, entries.data());
+    } else {
+      for (int y = 0; y < values.height; ++y) {
+        find_entries(scale, values.row(y), &entries[kRun * y]);
+      }
     }
     return kernel.look_up(table, {entries.data(), kRun, values.height}, out);
   }

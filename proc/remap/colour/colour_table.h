@@ -36,6 +36,18 @@ struct ColourTable {
   }
 };
 
+/// Fraction bits of an entry's number before it is rounded.
+inline constexpr int kEntryBits = 7;
+inline constexpr std::uint16_t kHalfEntry = 1 << (kEntryBits - 1);
+
+/// Where values of 16 bit lie in a table: entry (((value in [low, high]) - low) unit scale >> 16 +
+/// kHalfEntry) >> kEntryBits.
+struct ValueScale {
+  std::uint16_t low, high;
+  std::uint16_t unit;   ///< brings high - low to 16 bits
+  std::uint16_t scale;  ///< entries per unit, with 16 + kEntryBits fraction bits
+};
+
 /// Runs of indices into a table, at most kTile of them, `stride` bytes apart.
 struct IndexRuns {
   const std::uint8_t* first;

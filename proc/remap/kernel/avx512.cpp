@@ -21,8 +21,8 @@
 
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/look_up_avx512.h"
+#include "proc/remap/kernel/mix_avx512.h"
 #include "proc/remap/kernel/point_walk.h"
-#include "proc/remap/kernel/tile_mix.h"
 #include "proc/remap/kernel/yuv_avx512.h"
 
 namespace orbwatch::remap::avx512 {
@@ -452,6 +452,7 @@ constexpr Kernel kKernel{
     .points = kPointWalks,
     .mix = mix_tiles,
     .look_up = look_up_colours,
+    .find_entries = find_entries,
     .write_rgb = write_rgb,
     .even_columns = kTiles<Kept::EvenColumns>,
     .even_rows = kTiles<Kept::EvenRows>,

@@ -37,6 +37,8 @@ struct Kernel {
   using Tile = void (*)(const TileJob&);
   using Locate = void (*)(const PointMap&, int columns, int rows, Places&);
   using Points = void (*)(const PointJob&);
+  using FindEntries = void (*)(const ValueScale& scale,
+                               const ImageView<const std::uint16_t>& values, std::uint8_t* entries);
   using LookUp = void (*)(const ColourTable& table, const IndexRuns& runs,
                           const ImageView<std::uint8_t>& out);
   using WriteRgb = void (*)(const YuvRows& yuv, const YuvCoefficients& coefficients,
@@ -60,6 +62,9 @@ struct Kernel {
   /// Writes the colours of runs of kRun indices into rows of `out`, of the table's channels.
   /// Reentrant.
   LookUp look_up;
+  /// Writes where runs of values lie in a table, at most kTile of them, run after run. Null where
+  /// that becomes as good code by itself. Reentrant.
+  FindEntries find_entries = nullptr;
   /// Converts a whole tile as YuvToRgb does. Null where that becomes as good code by itself.
   /// Reentrant.
   WriteRgb write_rgb = nullptr;

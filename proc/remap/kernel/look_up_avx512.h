@@ -44,6 +44,36 @@ inline __m512i indices_at(const std::uint8_t* first, std::ptrdiff_t stride) {
   return _mm512_inserti64x4(_mm512_castsi256_si512(lower), upper, 1);
 }
 
+/// As Kernel::find_entries, two runs at a time; the last one may be alone.
+inline void find_entries(const ValueScale& scale, const ImageView<const std::uint16_t>& values,
+                         std::uint8_t* entries) {
+  const auto each = [](std::uint16_t value) {
+    return _mm512_set1_epi16(static_cast<std::int16_t>(value));
+  };
+  const __m512i low = each(scale.low), high = each(scale.high);
+  // In parts as they were written just before: larger ones would wait until that is in the cache.
+  const auto run = [&](int y) {
+    const auto* const row = reinterpret_cast<const __m128i*>(values.row(y));
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(row)),
+                                   _mm_loadu_si128(row + 1), 1);
+  };
+  for (int y = 0; y < values.height; y += 2, entries += 2 * kRun) {
+    const bool is_alone = y + 1 == values.height;
+    const __m512i both =
+        _mm512_inserti64x4(_mm512_castsi256_si512(run(y)), run(is_alone ? y : y + 1), 1);
+    const __m512i above =
+        _mm512_sub_epi16(_mm512_min_epu16(_mm512_max_epu16(both, low), high), low);
+    const __m512i entry =
+        _mm512_mulhi_epu16(_mm512_mullo_epi16(above, each(scale.unit)), each(scale.scale));
+    const __m256i rounded = _mm512_cvtepi16_epi8(
+        _mm512_srli_epi16(_mm512_add_epi16(entry, each(kHalfEntry)), kEntryBits));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(entries), _mm256_castsi256_si128(rounded));
+    if (is_alone) return;
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(entries + kRun),
+                     _mm256_extracti128_si256(rounded, 1));
+  }
+}
+
 /// As Kernel::look_up.
 inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
                             const ImageView<std::uint8_t>& out) {

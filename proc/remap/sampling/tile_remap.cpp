@@ -20,7 +20,7 @@ int simple_levels(Interpolation interpolation) {
 }
 
 /// How far ahead sources are fetched.
-constexpr int kTilesAhead = 2;
+constexpr int kTilesAhead = 4;
 
 bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
 
@@ -83,7 +83,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
 /// Asks for what a tile will read, if it spans so much of the source that the processor does not
 /// ask for it in time by itself, but not more than caches hold.
 [[gnu::noinline]] void TileRemap::fetch(int tx, int ty) const {
-  constexpr int kLeast = 5 * kTile / 2, kMost = 4 * kTile;
+  constexpr int kLeast = 2 * kTile, kMost = 4 * kTile;
   const SourceArea area = grid_.extent(tx, ty);
   const int columns = area.right - area.left, rows = area.bottom - area.top;
   if (area.is_empty() || columns + rows < kLeast || columns > kMost || rows > kMost) return;

@@ -223,8 +223,9 @@ TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
   EXPECT_EQ(plan->recipes[0]->plan().process_input, 1U);
 }
 
-TEST(Check, WhatIsShippedCanRun) {
-  for (const char* file : {"demo.toml", "usb-camera.toml"}) {
+TEST(Check, WhatIsShippedCanRunAndTheReferenceMachine) {
+  for (const char* file :
+       {"demo.toml", "usb-camera.toml", "../../tests/bench/reference/site.toml"}) {
     const auto checked = resolve(kShipped / file).and_then([](const Resolved& site) {
       return check_site(site, Dates::Checked);
     });

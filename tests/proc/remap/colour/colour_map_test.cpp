@@ -63,23 +63,27 @@ TEST(ColourMap, EveryValueTakesTheEntryOfItsPlaceInTheRange) {
   std::vector<std::uint16_t> values(kValues);
   std::iota(values.begin(), values.end(), std::uint16_t{0});
   for (const auto& [low, high] : ranges) {
-    const ColourMap map(ramp(), static_cast<double>(low), static_cast<double>(high));
-    std::vector<std::uint8_t> rgb(values.size() * 3);
-    for (int y = 0; y < kRows; y += kTile) {
-      // What is as wide as a tile takes another way than what is narrower.
-      const int width = y % (2 * kTile) == 0 ? kTile : 5;
-      for (int x = 0; x < kTile; x += width) {
-        const int columns = std::min(width, kTile - x), at = y * kTile + x;
-        map.apply(ImageView<const std::uint16_t>{&values[at], columns, kTile, 1, kTile},
-                  {&rgb[3 * at], columns, kTile, 3, 3 * kTile}, scalar_kernel());
+    for (const Kernel* kernel : kernels()) {
+      const ColourMap map(ramp(), static_cast<double>(low), static_cast<double>(high));
+      std::vector<std::uint8_t> rgb(values.size() * 3);
+      for (int y = 0; y < kRows; y += kTile) {
+        // What is as wide as a tile takes another way than what is narrower.
+        const int width = y % (2 * kTile) == 0 ? kTile : 5;
+        for (int x = 0; x < kTile; x += width) {
+          const int columns = std::min(width, kTile - x), at = y * kTile + x;
+          map.apply(ImageView<const std::uint16_t>{&values[at], columns, kTile, 1, kTile},
+                    {&rgb[3 * at], columns, kTile, 3, 3 * kTile}, *kernel);
+        }
       }
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto above = static_cast<double>(std::clamp<std::int64_t>(values[i], low, high) - low);
-      const double entry = 255 * above / static_cast<double>(high - low);
-      ASSERT_NEAR(rgb[3 * i], entry, 0.5 + kRounding) << values[i] << " in " << low << ".." << high;
-      ASSERT_EQ(rgb[3 * i + 1], 255 - rgb[3 * i]);
-      ASSERT_EQ(rgb[3 * i + 2], 7);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto above =
+            static_cast<double>(std::clamp<std::int64_t>(values[i], low, high) - low);
+        const double entry = 255 * above / static_cast<double>(high - low);
+        ASSERT_NEAR(rgb[3 * i], entry, 0.5 + kRounding)
+            << values[i] << " in " << low << ".." << high;
+        ASSERT_EQ(rgb[3 * i + 1], 255 - rgb[3 * i]);
+        ASSERT_EQ(rgb[3 * i + 2], 7);
+      }
     }
   }
 }
