@@ -80,7 +80,7 @@ void ColourMap::apply(const ImageView<const std::uint16_t>& values,
   if (values.width == kRun && is_within) {
     const ValueScale scale{static_cast<std::uint16_t>(low_), static_cast<std::uint16_t>(high_),
                            static_cast<std::uint16_t>(1U << shift_), scale_};
-    if (kernel.find_entries) {
+    if (kKernelsConvert && kernel.find_entries) {
       kernel.find_entries(scale, values, entries.data());
     } else {
       for (int y = 0; y < values.height; ++y) {

@@ -138,7 +138,7 @@ template <PixelFormat format, bool blue_first>
 void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
                 const TileArea& area, const Kernel& kernel) {
   constexpr int kRowsOfChroma = 1 << shift(samplings(format).items[1].y);
-  if (kernel.write_rgb && area.columns == kTile && area.rows == kTile) {
+  if (kKernelsConvert && kernel.write_rgb && area.columns == kTile && area.rows == kTile) {
     return convert_whole<format>(tile, colour_space, out, area, kernel);
   }
   const YuvToRgb convert = conversion_from(colour_space);

@@ -31,6 +31,14 @@ struct PointJob {
   const TargetPlane& target;
 };
 
+/// Whether a kernel of this processor has `find_entries` and `write_rgb`: elsewhere nothing is
+/// asked.
+#ifdef __x86_64__
+inline constexpr bool kKernelsConvert = true;
+#else
+inline constexpr bool kKernelsConvert = false;
+#endif
+
 /// One implementation of the remap for one instruction set. Every kernel gives the same bytes as
 /// the scalar one, their specification.
 struct Kernel {

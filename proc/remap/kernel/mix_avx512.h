@@ -89,11 +89,8 @@ void store_lane(__m512i samples, int part, std::uint8_t* out, std::ptrdiff_t str
 template <int Channels, std::size_t Count>
 void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
   std::array<FourRows, Count - 1> shared;  // of the first sources together
-  std::array<int, 4> sums{};
-  for (std::size_t n = 0; n + 1 < Count; ++n) {
-    for (std::size_t corner = 0; corner < 4; ++corner) sums[corner] += tiles[n].shares[corner];
-    shared[n] = FourRows(CornerWeights(sums));
-  }
+  const auto corners = shared_corners<Count>(tiles);
+  for (std::size_t n = 0; n + 1 < Count; ++n) shared[n] = FourRows(CornerWeights(corners[n]));
   std::uint8_t* to = out.data;
   for (int y = 0; y < kTile; y += 4, to += 4 * out.stride) {
     std::array<Products64, Channels> means;
@@ -117,24 +114,11 @@ void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>
   }
 }
 
-template <int Channels>
-void mix_any(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
-  static_assert(kMaxSources == 4);
-  switch (tiles.size()) {
-    case 1:
-      return mix_so_many<Channels, 1>(tiles, out);
-    case 2:
-      return mix_so_many<Channels, 2>(tiles, out);
-    case 3:
-      return mix_so_many<Channels, 3>(tiles, out);
-    default:
-      return mix_so_many<Channels, 4>(tiles, out);
-  }
-}
-
 /// As Kernel::mix.
 inline void mix_tiles(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
-  out.channels == 1 ? mix_any<1>(tiles, out) : mix_any<3>(tiles, out);
+  with_constants(out.channels, tiles.size(), [&]<int Channels, std::size_t Count>() {
+    mix_so_many<Channels, Count>(tiles, out);
+  });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace orbwatch::remap {
 
@@ -17,5 +18,37 @@ struct MixedTile {
   const std::uint8_t* samples = nullptr;  ///< rows of kTile pixels
   CornerShares shares{};
 };
+
+/// The shares of the first 1, 2 .. Count - 1 sources together.
+template <std::size_t Count>
+[[gnu::always_inline]] inline std::array<std::array<int, 4>, Count - 1> shared_corners(
+    std::span<const MixedTile> tiles) {
+  std::array<std::array<int, 4>, Count - 1> shared;
+  std::array<int, 4> sums{};
+  for (std::size_t n = 0; n + 1 < Count; ++n) {
+    for (std::size_t corner = 0; corner < 4; ++corner) sums[corner] += tiles[n].shares[corner];
+    shared[n] = sums;
+  }
+  return shared;
+}
+
+/// Calls `mix<Channels, Count>()` for pictures of 1 or 3 channels and 1 to kMaxSources sources.
+template <class Mix>
+[[gnu::always_inline]] inline void with_constants(int channels, std::size_t count, const Mix& mix) {
+  static_assert(kMaxSources == 4);
+  const auto of_channels = [&]<int Channels>() __attribute__((always_inline)) {
+    switch (count) {
+      case 1:
+        return mix.template operator()<Channels, 1>();
+      case 2:
+        return mix.template operator()<Channels, 2>();
+      case 3:
+        return mix.template operator()<Channels, 3>();
+      default:
+        return mix.template operator()<Channels, 4>();
+    }
+  };
+  channels == 1 ? of_channels.template operator()<1>() : of_channels.template operator()<3>();
+}
 
 }  // namespace orbwatch::remap

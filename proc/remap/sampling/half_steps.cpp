@@ -14,9 +14,16 @@ constexpr std::int32_t kFar = 64 << kFractionBits;
 /// Beyond a tile's pixels are markers: at least one before, and one behind a whole vector.
 constexpr int kBefore = 4, kWide = kBefore + kTile + 8;
 
-/// A row of coordinates, or of quarters of steps.
+/// Coordinates side by side, or quarters of steps.
+struct Line {
+  const std::int32_t *u, *v;
+};
+
+/// The same with memory of its own.
 struct Row {
   alignas(16) std::int32_t u[kWide], v[kWide];
+
+  Line from(int x) const { return {u + x, v + x}; }
 };
 
 constexpr Row marker_row() {
@@ -43,12 +50,10 @@ constexpr Row marker_row() {
 /// Quarters of the `count` steps from `from` to `to`; 0 where one is a marker or on another
 /// surface.
 template <int count>
-[[gnu::always_inline]] inline void find_steps(const std::int32_t* from_u,
-                                              const std::int32_t* from_v, const std::int32_t* to_u,
-                                              const std::int32_t* to_v, Row& steps) {
+[[gnu::always_inline]] inline void find_steps(Line from, Line to, Row& steps) {
   for (int x = 0; x < count; ++x) {
-    const std::int32_t u = difference(to_u[x], from_u[x]), v = difference(to_v[x], from_v[x]);
-    const bool leads_away = (from_u[x] <= kOutside) | (to_u[x] <= kOutside) | is_far(u) | is_far(v);
+    const std::int32_t u = difference(to.u[x], from.u[x]), v = difference(to.v[x], from.v[x]);
+    const bool leads_away = (from.u[x] <= kOutside) | (to.u[x] <= kOutside) | is_far(u) | is_far(v);
     steps.u[x] = leads_away ? 0 : quarter(u);
     steps.v[x] = leads_away ? 0 : quarter(v);
   }
@@ -56,42 +61,39 @@ template <int count>
 
 /// Of the steps before and behind each pixel.
 template <int columns>
-[[gnu::always_inline]] inline void find_means(const std::int32_t* before_u,
-                                              const std::int32_t* before_v,
-                                              const std::int32_t* behind_u,
-                                              const std::int32_t* behind_v, std::int32_t* mean_u,
+[[gnu::always_inline]] inline void find_means(Line before, Line behind, std::int32_t* mean_u,
                                               std::int32_t* mean_v) {
   for (int x = 0; x < columns; ++x) {
-    const bool is_one = ((before_u[x] | before_v[x]) == 0) | ((behind_u[x] | behind_v[x]) == 0);
-    const std::int32_t u = before_u[x] + behind_u[x], v = before_v[x] + behind_v[x];
+    const bool is_one = ((before.u[x] | before.v[x]) == 0) | ((behind.u[x] | behind.v[x]) == 0);
+    const std::int32_t u = before.u[x] + behind.u[x], v = before.v[x] + behind.v[x];
     mean_u[x] = is_one ? u : half(u);
     mean_v[x] = is_one ? v : half(v);
   }
 }
 
-/// Row by row, `columns` wide.
+/// Takes a tile's rows apart into u and v, and finds the steps within them.
 template <int columns, class Pixels>
-void find(const CoordinateTile& tile, int rows, Pixels& here, Pixels& along_x, Pixels& along_y) {
-  Row markers = marker_row(), row = markers, steps, above, below;
-  find_steps<columns>(markers.u, markers.v, markers.u, markers.v, above);
+void find_along_x(const CoordinateTile& tile, int rows, Pixels& here, Pixels& along_x) {
+  Row row = marker_row(), steps;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       row.u[kBefore + x] = here.u[y][x] = tile[y][x].u;
       row.v[kBefore + x] = here.v[y][x] = tile[y][x].v;
     }
-    constexpr int kFirst = kBefore - 1;
-    find_steps<columns + 4>(row.u + kFirst, row.v + kFirst, row.u + kBefore, row.v + kBefore,
-                            steps);
-    find_means<columns>(steps.u, steps.v, steps.u + 1, steps.v + 1, along_x.u[y].data(),
-                        along_x.v[y].data());
+    find_steps<columns + 4>(row.from(kBefore - 1), row.from(kBefore), steps);
+    find_means<columns>(steps.from(0), steps.from(1), along_x.u[y].data(), along_x.v[y].data());
   }
+}
+
+template <int columns, class Pixels>
+void find_along_y(int rows, const Pixels& here, Pixels& along_y) {
+  const Row markers = marker_row();
+  Row above{}, below;
   for (int y = 0; y < rows; ++y) {
-    const int next = y + 1;
-    const std::int32_t* const next_u = next < rows ? here.u[next].data() : markers.u;
-    const std::int32_t* const next_v = next < rows ? here.v[next].data() : markers.v;
-    find_steps<columns>(here.u[y].data(), here.v[y].data(), next_u, next_v, below);
-    find_means<columns>(above.u, above.v, below.u, below.v, along_y.u[y].data(),
-                        along_y.v[y].data());
+    const Line next =
+        y + 1 < rows ? Line{here.u[y + 1].data(), here.v[y + 1].data()} : markers.from(0);
+    find_steps<columns>({here.u[y].data(), here.v[y].data()}, next, below);
+    find_means<columns>(above.from(0), below.from(0), along_y.u[y].data(), along_y.v[y].data());
     above = below;
   }
 }
@@ -116,8 +118,13 @@ void find(const CoordinateTile& tile, int rows, Pixels& here, Pixels& along_x, P
 
 HalfSteps::HalfSteps(const CoordinateTile& tile, int columns, int rows) {
   assert((columns == kTile || columns == kTile / 2) && rows % (kTile / 2) == 0);
-  columns == kTile ? find<kTile>(tile, rows, here_, along_x_, along_y_)
-                   : find<kTile / 2>(tile, rows, here_, along_x_, along_y_);
+  if (columns == kTile) {
+    find_along_x<kTile>(tile, rows, here_, along_x_);
+    find_along_y<kTile>(rows, here_, along_y_);
+  } else {
+    find_along_x<kTile / 2>(tile, rows, here_, along_x_);
+    find_along_y<kTile / 2>(rows, here_, along_y_);
+  }
 }
 
 void HalfSteps::locate(int left, int top, Places& quarter) const {
