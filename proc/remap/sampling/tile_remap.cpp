@@ -19,8 +19,9 @@ int simple_levels(Interpolation interpolation) {
   return interpolation == Interpolation::Bilinear ? kMaxLevel + 1 : 1;
 }
 
-/// How far ahead sources are fetched.
+/// How far ahead sources and targets are fetched.
 constexpr int kTilesAhead = 4;
+constexpr int kCacheLine = 64;  // bytes
 
 bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
 
@@ -68,7 +69,10 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   const bool as_sampled = lies_as_sampled(format_, out.format);
   Targets targets = as_sampled ? targets_in(out, 0, ty * kTile) : Targets();
   for (int tx = 0; tx < grid_.tiles_x(); ++tx) {
-    if (kernel_.fetches_ahead) fetch(tx + kTilesAhead, ty);
+    if (kernel_.fetches_ahead) {
+      fetch(tx + kTilesAhead, ty);
+      if (as_sampled && tx % kTilesAhead == 0) fetch_targets(targets, tx);
+    }
     const TileArea area = area_of(grid_, tx, ty);
     const bool in_place = as_sampled && is_whole(area);
     if (!in_place || !write_simple(tx, ty, targets)) {
@@ -83,11 +87,24 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
 /// Asks for what a tile will read, if it spans so much of the source that the processor does not
 /// ask for it in time by itself, but not more than caches hold.
 [[gnu::noinline]] void TileRemap::fetch(int tx, int ty) const {
-  constexpr int kLeast = 2 * kTile, kMost = 4 * kTile;
+  constexpr int kLeast = 2 * kTile, kMost = 8 * kTile;
   const SourceArea area = grid_.extent(tx, ty);
   const int columns = area.right - area.left, rows = area.bottom - area.top;
   if (area.is_empty() || columns + rows < kLeast || columns > kMost || rows > kMost) return;
   for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].fetch(area);
+}
+
+/// Asks for where the next tiles but kTilesAhead will be written, `targets` being those of tile tx:
+/// together they fill whole lines of the cache.
+[[gnu::noinline]] void TileRemap::fetch_targets(const Targets& targets, int tx) const {
+  if (tx + 2 * kTilesAhead > grid_.tiles_x()) return;
+  for (std::size_t n = 0; n < plane_count_; ++n) {
+    const int bytes = kTilesAhead * planes_[n].tile_bytes();
+    const std::uint8_t* row = targets[n].data + bytes;
+    for (int y = 0; y < targets[n].rows; ++y, row += targets[n].stride) {
+      for (int at = 0; at < bytes; at += kCacheLine) __builtin_prefetch(row + at, 1);
+    }
+  }
 }
 
 /// Writes the most common kind of tile in place; false for another tile.

@@ -59,6 +59,7 @@ class TileRemap {
   void write_other(int tx, int ty, const MutablePicture& out, const TileArea& area,
                    const Targets* in_place) const;
   void fetch(int tx, int ty) const;
+  void fetch_targets(const Targets& targets, int tx) const;
   Reading reading(const Tile& tile) const;
   void sample(const Patch& patch, Reading reading, const Targets& targets) const;
   template <int Cell>
