@@ -39,7 +39,7 @@ class ColourMap {
   std::int32_t low_;
   std::int32_t high_;
   int shift_;            ///< brings high_ - low_ to 16 bits; what is below them is cut
-  std::uint16_t scale_;  ///< entries per count that is shifted, with 23 fraction bits
+  std::uint16_t scale_;  ///< entries per count that is shifted, with 16 + kEntryBits fraction bits
   Entries entries_;
   Entries of_bytes_;
 };

@@ -31,8 +31,8 @@ struct PointJob {
   const TargetPlane& target;
 };
 
-/// Whether a kernel of this processor has `find_entries` and `write_rgb`: elsewhere nothing is
-/// asked.
+/// Whether a kernel of this processor may have `find_entries` and `write_rgb`: where none has, tiles
+/// save the question.
 #ifdef __x86_64__
 inline constexpr bool kKernelsConvert = true;
 #else
@@ -71,9 +71,9 @@ struct Kernel {
   /// Reentrant.
   LookUp look_up;
   /// Writes where runs of values lie in a table, at most kTile of them, run after run. Null where
-  /// that becomes as good code by itself. Reentrant.
+  /// compilers make as good code of ColourMap's own loop. Reentrant.
   FindEntries find_entries = nullptr;
-  /// Converts a whole tile as YuvToRgb does. Null where that becomes as good code by itself.
+  /// Converts a whole tile as YuvToRgb does. Null where compilers make as good code of that.
   /// Reentrant.
   WriteRgb write_rgb = nullptr;
   /// As `tiles`, of a map at half steps along an axis: columns, or rows, 0, 2, 4 .. of what that

@@ -125,14 +125,13 @@ PlaneSampler::PlaneSampler(const PlaneSampling& sampling, std::span<const Pictur
 }
 
 void PlaneSampler::fetch(const SourceArea& area) const {
-  constexpr std::ptrdiff_t kLine = 64;  // bytes
   const SourcePlane& source = sources_[0];
   const int bytes = info(sampling_.layout).pixel_bytes;
   const std::ptrdiff_t first = (area.left >> shift(sampling_.x)) * bytes;
   const std::ptrdiff_t last = (((area.right - 1) >> shift(sampling_.x)) + 1) * bytes - 1;
   for (int y = area.top >> shift(sampling_.y); y <= (area.bottom - 1) >> shift(sampling_.y); ++y) {
     const std::uint8_t* const row = source.data + y * source.stride;
-    for (std::ptrdiff_t at = first; at < last; at += kLine) __builtin_prefetch(row + at);
+    for (std::ptrdiff_t at = first; at < last; at += kCacheLine) __builtin_prefetch(row + at);
     __builtin_prefetch(row + last);
   }
 }

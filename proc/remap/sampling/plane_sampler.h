@@ -26,6 +26,9 @@ void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
 void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
                    std::uint8_t black, const SourcePlane& source, const TargetPlane& target);
 
+/// What one request brings into the cache, bytes.
+inline constexpr int kCacheLine = 64;
+
 /// How a tile's source is read.
 struct Reading {
   bool averaged = false;  ///< pixels are means of four samples: the view is smaller than the source
@@ -87,7 +90,7 @@ class PlaneSampler {
 
   PlaneSampling sampling_{};
   const Kernel* kernel_ = nullptr;
-  /// Its ones for the layout, if there are such.
+  /// The kernel's functions for the layout; null: it has none.
   Kernel::Tile block_kernel_ = nullptr, even_columns_ = nullptr, even_rows_ = nullptr;
   Uv64 rounding_{};  ///< see BlockMap
   int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;

@@ -21,7 +21,6 @@ int simple_levels(Interpolation interpolation) {
 
 /// How far ahead sources and targets are fetched.
 constexpr int kTilesAhead = 4;
-constexpr int kCacheLine = 64;  // bytes
 
 bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
 
@@ -84,8 +83,8 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   }
 }
 
-/// Asks for what a tile will read, if it spans so much of the source that the processor does not
-/// ask for it in time by itself, but not more than caches hold.
+/// Asks for what a tile will read, where its part of the source is so large that the processor
+/// would ask too late by itself, and still fits the cache.
 [[gnu::noinline]] void TileRemap::fetch(int tx, int ty) const {
   constexpr int kLeast = 2 * kTile, kMost = 8 * kTile;
   const SourceArea area = grid_.extent(tx, ty);
@@ -94,8 +93,8 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].fetch(area);
 }
 
-/// Asks for where the next tiles but kTilesAhead will be written, `targets` being those of tile tx:
-/// together they fill whole lines of the cache.
+/// Asks for the places of kTilesAhead tiles, the first of which is so many behind tile tx; together
+/// these tiles fill whole lines of the cache. `targets`: those of tile tx.
 [[gnu::noinline]] void TileRemap::fetch_targets(const Targets& targets, int tx) const {
   if (tx + 2 * kTilesAhead > grid_.tiles_x()) return;
   for (std::size_t n = 0; n < plane_count_; ++n) {
