@@ -372,9 +372,8 @@ using PointLanes [[gnu::vector_size(32)]] = std::uint32_t;
 extern const Kernel kKernel;
 constexpr Kernel kKernel{
     .name = "avx2",
-    .tiles = {fill_tile<Layout::One8>, fill_tile<Layout::Two8>, fill_tile<Layout::Three8>,
-              fill_tile<Layout::Four8>, fill_tile<Layout::FirstOfTwo8>,
-              fill_tile<Layout::OddOfFour8>, fill_tile<Layout::One16>},
+    .tiles = by_layout<kKernelLayouts>(
+        []<Layout layout>() -> Kernel::Tile { return fill_tile<layout>; }),
     .locate = walk_places<PointLanes>,
     .points = kPointWalks,
     .mix = mix_tiles,

@@ -433,12 +433,10 @@ void fill_tile(const TileJob& job) {
   fill_rows<layout, kMostBlocks / 2, kept>(job);
 }
 
-template <Kept kept, std::size_t... n>
-constexpr std::array<Kernel::Tile, kKernelLayouts> tiles_of(std::index_sequence<n...>) {
-  return {fill_tile<Layout{n}, kept>...};
-}
 template <Kept kept>
-constexpr auto kTiles = tiles_of<kept>(std::make_index_sequence<kKernelLayouts>());
+constexpr auto kTiles = by_layout<kKernelLayouts>([]<Layout layout>() -> Kernel::Tile {
+  return fill_tile<layout, kept>;
+});
 
 using PointLanes [[gnu::vector_size(64)]] = std::uint32_t;
 

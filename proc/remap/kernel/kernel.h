@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "proc/image/image_view.h"
 #include "proc/image/result.h"
@@ -31,8 +32,8 @@ struct PointJob {
   const TargetPlane& target;
 };
 
-/// Whether a kernel of this processor may have `find_entries` and `write_rgb`: where none has, tiles
-/// save the question.
+/// Whether a kernel of this processor may have `find_entries` and `write_rgb`: where none has,
+/// tiles save the question.
 #ifdef __x86_64__
 inline constexpr bool kKernelsConvert = true;
 #else
@@ -91,6 +92,15 @@ struct Kernel {
     points[static_cast<std::size_t>(layout)](job);
   }
 };
+
+/// What `of` gives for each of the first `count` layouts, which is its template argument.
+template <std::size_t count, class Of>
+constexpr auto by_layout(const Of& of) {
+  return [&]<std::size_t... n>(std::index_sequence<n...>) {
+    return std::array{of.template operator()<Layout{n}>()...};
+  }
+  (std::make_index_sequence<count>());
+}
 
 /// The kernels that this machine can run, slowest first.
 std::span<const Kernel* const> kernels();

@@ -256,10 +256,8 @@ void walk_places(const PointMap& map, int columns, int rows, Places& places) {
 }
 
 /// By layout.
-constexpr std::array<Kernel::Points, kLayouts> kPointWalks{
-    walk_points<Layout::One8>,  walk_points<Layout::Two8>,        walk_points<Layout::Three8>,
-    walk_points<Layout::Four8>, walk_points<Layout::FirstOfTwo8>, walk_points<Layout::OddOfFour8>,
-    walk_points<Layout::One16>, walk_points<Layout::Three16>};
+constexpr auto kPointWalks =
+    by_layout<kLayouts>([]<Layout layout>() -> Kernel::Points { return walk_points<layout>; });
 
 }  // namespace
 }  // namespace orbwatch::remap

@@ -157,14 +157,11 @@ void sample_points(const PointJob& job) {
 extern const Kernel kKernel;
 constexpr Kernel kKernel{
     .name = "scalar",
-    .tiles = {sample_tile<Layout::One8>, sample_tile<Layout::Two8>, sample_tile<Layout::Three8>,
-              sample_tile<Layout::Four8>, sample_tile<Layout::FirstOfTwo8>,
-              sample_tile<Layout::OddOfFour8>, sample_tile<Layout::One16>},
+    .tiles = by_layout<kKernelLayouts>(
+        []<Layout layout>() -> Kernel::Tile { return sample_tile<layout>; }),
     .locate = locate,
-    .points = {sample_points<Layout::One8>, sample_points<Layout::Two8>,
-               sample_points<Layout::Three8>, sample_points<Layout::Four8>,
-               sample_points<Layout::FirstOfTwo8>, sample_points<Layout::OddOfFour8>,
-               sample_points<Layout::One16>, sample_points<Layout::Three16>},
+    .points = by_layout<kLayouts>(
+        []<Layout layout>() -> Kernel::Points { return sample_points<layout>; }),
     .mix = mix_tiles,
     .look_up = look_up_words,
 };
