@@ -17,11 +17,12 @@ constexpr std::size_t kKernelQueue = 16;
 
 std::optional<EdgeEvent> EdgeFilter::take(const EdgeEvent& edge) {
   const bool kept = due_ != TimePoint::max() && edge.stamp - last_.stamp >= period_;
-  const EdgeEvent before = std::exchange(last_, edge);
   due_ = edge.stamp + wait();
   doubted_ = false;
-  if (edge.lost_before > 0) doubt();
   lost_ += edge.lost_before;
+  if (edge.stamp < made_up_) return std::nullopt;
+  const EdgeEvent before = std::exchange(last_, edge);
+  if (edge.lost_before > 0) doubt();
   if (period_.count() <= 0) {
     if (edge.lost_before % 2 == 0) level_ = !level_;  // else the lost ones led to the other level
     return last_ = {edge_to(level_), edge.stamp};
@@ -56,6 +57,7 @@ std::optional<EdgeEvent> EdgeFilter::confirm(bool level, TimePoint now) {
 
 std::optional<EdgeEvent> EdgeFilter::make_up(bool level, TimePoint now) {
   ++lost_;
+  made_up_ = now;
   last_ = {edge_to(level), std::max(now, last_.stamp)};  // edges may be newer than `now`
   return change_to(level, last_.stamp);
 }

@@ -38,7 +38,8 @@ class EdgeFilter {
       : period_(period), level_(level), last_{edge_to(level), {}} {}
 
   /// The next edge of the line, in order. Returns the edge that counts now: this one, or an earlier
-  /// one that was kept for long enough.
+  /// one that was kept for long enough. One that is older than a level that made up for it came
+  /// late (a busy kernel may take more than 10 ms): it changes nothing.
   std::optional<EdgeEvent> take(const EdgeEvent& edge);
 
   /// When settle() is to be called; TimePoint::max(): not before another edge.
@@ -59,7 +60,7 @@ class EdgeFilter {
   /// once the level contradicts them.
   std::optional<EdgeEvent> confirm(bool level, TimePoint now);
 
-  /// Lost edges: by their numbers, and one for each that the level told.
+  /// Lost edges: by their numbers, and one for each that the level told, late or not at all.
   std::uint64_t lost() const { return lost_; }
 
  private:
@@ -71,9 +72,10 @@ class EdgeFilter {
   bool level_;  ///< of the newest returned edge
   EdgeEvent last_;
   TimePoint due_ = TimePoint::max();
-  bool doubted_ = false;   ///< by settle()
-  bool in_doubt_ = false;  ///< since a loss
-  int readings_ = 0;       ///< since then: those that agreed less those that did not
+  bool doubted_ = false;                  ///< by settle()
+  bool in_doubt_ = false;                 ///< since a loss
+  int readings_ = 0;                      ///< since then: those that agreed less those that did not
+  TimePoint made_up_ = TimePoint::min();  ///< when the level last told of a lost edge
   std::uint64_t lost_ = 0;
 };
 

@@ -108,6 +108,23 @@ TEST(EdgeFilter, ALostLastEdgeIsFoundByTheLevel) {
   }
 }
 
+TEST(EdgeFilter, AnEdgeThatComesAfterItsLevelToldOfItChangesNothing) {
+  for (const auto period : {Clock::duration(0), Clock::duration(milliseconds(5))}) {
+    EdgeFilter filter(period, false);
+    filter.take({Edge::Rising, at(10)});
+    filter.settle(true, at(15));
+    filter.take({Edge::Falling, at(20)});
+    filter.settle(true, at(25));
+    EXPECT_EQ(filter.settle(true, at(30)),
+              period.count() > 0 ? std::nullopt : std::optional(EdgeEvent{Edge::Rising, at(30)}));
+    EXPECT_EQ(filter.take({Edge::Rising, at(24)}), std::nullopt) << "it was on its way for 6 ms";
+    EXPECT_EQ(filter.settle(true, filter.due()), std::nullopt);
+    EXPECT_EQ(filter.take({Edge::Falling, at(40)}),
+              period.count() > 0 ? std::nullopt : std::optional(EdgeEvent{Edge::Falling, at(40)}));
+    EXPECT_EQ(filter.lost(), 1U);
+  }
+}
+
 TEST(EdgeFilter, AShortPulseIsOneHoweverItsEdgesAreNamed) {
   EdgeFilter filter(Clock::duration(0), false);
   EXPECT_EQ(filter.take({Edge::Falling, at(1)}), (EdgeEvent{Edge::Rising, at(1)}));
