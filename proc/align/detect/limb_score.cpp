@@ -1,0 +1,82 @@
+#include "proc/align/detect/limb_score.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "proc/align/detect/limb_strip.h"
+
+namespace orbwatch::align {
+namespace {
+
+constexpr std::size_t kSectors = 64;
+constexpr double kBeyondEdge = 1.5;      // px: outside, past the limb's own edge
+constexpr double kUnknownOutside = 0.2;  // agreement where the picture ends at the limb
+constexpr double kNearby = 8;            // px
+
+/// The mean of slopes' agreement with the normal, cos 2a; what may be noise counts as 0.
+struct Agreement {
+  double sum = 0;
+  int count = 0;
+
+  void add(const LimbStrip::Slope& slope, float floor2) {
+    sum += (2 * slope.share() - 1) * slope.energy() / (slope.energy() + floor2);
+    ++count;
+  }
+  double mean(double otherwise) const { return count > 0 ? sum / count : otherwise; }
+};
+
+double drop(const cv::Mat& luminance, const optics::Outline& outline) {
+  const double radius = (outline.rx + outline.ry) / 2;
+  const LimbStrip strip(luminance, outline, std::max(5.0, 0.2 * radius));
+  std::array<Agreement, kSectors> inside, outside;
+  for (int ray = 0; ray < strip.rays(); ++ray) {
+    const std::size_t sector = strip.sector(ray, kSectors);
+    for (int k = 0; k < strip.columns(); ++k) {
+      const auto slope = strip.slope(ray, k);
+      if (!slope) continue;
+      if (strip.distance(k) < 0) inside[sector].add(*slope, strip.floor2());
+      if (strip.distance(k) > kBeyondEdge) outside[sector].add(*slope, strip.floor2());
+    }
+  }
+  double sum = 0, seen = 0;
+  for (std::size_t s = 0; s < kSectors; ++s) {
+    if (inside[s].count == 0) continue;
+    const double out = std::max(0.0, outside[s].mean(kUnknownOutside));
+    sum += std::clamp(inside[s].mean(0) - out, -0.5, 1.0);
+    seen += 1;
+  }
+  return sum / (seen + 0.5 * (kSectors - seen));
+}
+
+double contour(const cv::Mat& luminance, const optics::Outline& outline) {
+  const LimbStrip strip(luminance, outline, kNearby);
+  double sum = 0;
+  int seen = 0;
+  for (int ray = 0; ray < strip.rays(); ++ray) {
+    float here = 0, strongest = 0;
+    bool limb_seen = true;
+    for (int k = 0; k < strip.columns(); ++k) {
+      const auto slope = strip.slope(ray, k);
+      const bool on_limb = std::abs(k - strip.limb()) <= LimbStrip::kPerPixel;
+      if (!slope) {
+        limb_seen &= !on_limb;
+        continue;
+      }
+      strongest = std::max(strongest, std::abs(slope->along));
+      if (on_limb) here = std::max(here, std::abs(slope->along));
+    }
+    if (!limb_seen) continue;
+    ++seen;
+    if (strongest * strongest > strip.floor2()) sum += here / strongest;
+  }
+  return seen > 0 ? sum / seen : 0;
+}
+
+}  // namespace
+
+LimbScore limb_score(const cv::Mat& luminance, const optics::Outline& outline) {
+  return {drop(luminance, outline), contour(luminance, outline)};
+}
+
+}  // namespace orbwatch::align

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+
+#include "proc/align/detect/ball_detector.h"
+#include "tests/support/error_distribution.h"
+#include "tests/support/mirror_room.h"
+#include "tests/support/picture_of_mat.h"
+#include "tests/support/reference_data.h"
+#include "tests/support/rendered_scene.h"
+#include "tests/support/share.h"
+
+/// How well balls are found: simulated rooms, rendered machines, photographs.
+namespace orbwatch::tests {
+namespace {
+
+using align::BallDetection;
+using align::detect_ball;
+using optics::Outline;
+
+/// The larger of the errors of centre and mean radius, pixels.
+double error(const Outline& found, const Outline& truth) {
+  const double apart = std::hypot(found.centre.u - truth.centre.u, found.centre.v - truth.centre.v);
+  return std::max(apart, std::abs(found.rx + found.ry - truth.rx - truth.ry) / 2);
+}
+
+/// Anything that is in the rooms of real machines, and more.
+MirrorRoomSettings any_room(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  MirrorRoomSettings s;
+  s.seed = seed;
+  s.thermal = in(0, 1) < 0.2;
+  s.width = s.thermal ? 320 : in(0, 1) < 0.5 ? 800 : 1280;
+  s.height = s.thermal ? 256 : s.width * 3 / 4;
+  s.distance = std::exp(in(std::log(4), std::log(40)));
+  s.radius = s.thermal ? in(50, 115) : in(60, 0.48 * s.height);
+  const double off = in(0, 0.6), way = in(0, 2 * std::numbers::pi);
+  s.off_axis = {off * std::cos(way), off * std::sin(way)};
+  while (share_outside(s) > 0.2) s.off_axis = {0.9 * s.off_axis.u, 0.9 * s.off_axis.v};
+  s.limb_hidden = in(0, 1) < 0.7 ? in(0, 0.3) : 0;
+  s.exposure = in(-2, 2);
+  s.noise = s.thermal ? in(1, 4) : in(0.5, 5);
+  s.blur = in(0.3, 2);
+  return s;
+}
+
+/// The most of `cases` that are an accident if each is one with that probability.
+int at_most(double probability, int cases) {
+  const double sigma = std::sqrt(probability * (1 - probability) * cases);
+  return static_cast<int>(std::ceil(probability * cases + 3 * sigma));
+}
+
+TEST(DetectionGate, SimulatedRooms) {
+  const int cases = share_of(300);
+  ErrorDistribution relative("detection, share of the radius"), pixels("detection, px");
+  int far_off = 0, confident = 0, confident_and_far_off = 0;
+  for (int n = 0; n < cases; ++n) {
+    const MirrorRoomPicture room = mirror_room(any_room(90'000 + static_cast<std::uint64_t>(n)));
+    const Outline truth{room.limb.centre, room.limb.rx, room.limb.ry, 0};
+    const auto found = detect_ball(picture_of_mat(room.pixels));
+    ASSERT_TRUE(found) << n << ": " << found.error().message;
+    const double off = error(found->outline, truth);
+    relative.add(off / truth.rx);
+    pixels.add(off);
+    const bool is_far_off = off > std::max(0.02 * truth.rx, 3.0);
+    far_off += is_far_off ? 1 : 0;
+    confident += found->is_confident() ? 1 : 0;
+    if (is_far_off && found->is_confident()) {
+      ++confident_and_far_off;
+      std::printf("room %d: %.1f px off, confidence %.2f\n", n, off, found->confidence);
+    }
+  }
+  relative.report();
+  pixels.report();
+  std::printf("%d of %d far off, %d confident, %d both\n", far_off, cases, confident,
+              confident_and_far_off);
+  RecordProperty("far_off", far_off);
+  RecordProperty("confident", confident);
+  RecordProperty("confident_and_far_off", confident_and_far_off);
+  EXPECT_LE(far_off, at_most(0.15, cases));
+  EXPECT_LE(confident_and_far_off, at_most(0.01, cases));
+  EXPECT_GE(confident, cases / 8);
+  EXPECT_LT(relative.p50(), 0.008);
+}
+
+TEST(DetectionGate, RoomsWithoutABall) {
+  const int cases = share_of(100);
+  for (int n = 0; n < cases; ++n) {
+    MirrorRoomSettings settings = any_room(95'000 + static_cast<std::uint64_t>(n));
+    settings.ball = false;
+    const auto found = detect_ball(picture_of_mat(mirror_room(settings).pixels));
+    if (found) {
+      EXPECT_FALSE(found->is_confident()) << n << ": " << found->confidence;
+    }
+  }
+}
+
+TEST(DetectionGate, RenderedMachines) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures());
+  const cv::FileStorage scene = open_rendered_scene();
+  for (const cv::FileNode& cameras : scene["scenes"]) {
+    for (const cv::FileNode& camera : cameras["cameras"]) {
+      const cv::FileNode limb = camera["outline"];
+      const Outline truth{{limb["cx"].real() - 0.5, limb["cy"].real() - 0.5},
+                          limb["semi_major"].real(),
+                          limb["semi_minor"].real(),
+                          limb["major_axis_angle_deg"].real()};
+      const std::string file = (rendered_pictures() / camera["image"].string()).string();
+      const cv::Mat pixels = cv::imread(file, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+      ASSERT_FALSE(pixels.empty()) << file;
+      const auto found = detect_ball(picture_of_mat(pixels));
+      ASSERT_TRUE(found) << found.error().message;
+      const double off = error(found->outline, truth) / truth.rx;
+      std::printf("%s %s: %.2f %%, confidence %.2f\n", cameras.name().c_str(),
+                  camera.name().c_str(), 100 * off, found->confidence);
+      // The narrow camera, the one off its axis with clutter around, the thermal one.
+      const double limit = camera.name() == "A" ? 0.004 : camera.name() == "B" ? 0.025 : 0.01;
+      EXPECT_LT(off, limit) << file;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::tests

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "proc/optics/outline.h"
+
+namespace orbwatch::align {
+
+/// What a far-away camera sees of a ball in a room of random spots, by the law of reflection, with
+/// the same spots behind the ball: 8 bit grey, 4x4 samples to a pixel.
+inline cv::Mat painted_ball(const cv::Size& size, const optics::Outline& limb) {
+  std::mt19937 random(7);
+  cv::Mat spots(256, 512, CV_8U, cv::Scalar(90));
+  for (int i = 0; i < 600; ++i) {
+    const cv::Point place(static_cast<int>(random() % 512), static_cast<int>(random() % 256));
+    cv::circle(spots, place, 2 + static_cast<int>(random() % 7),
+               cv::Scalar(static_cast<double>(random() % 256)), cv::FILLED);
+  }
+  const auto light = [&](double u, double v) -> double {
+    const double x = (u - limb.centre.u) / limb.rx, y = (v - limb.centre.v) / limb.ry;
+    const double rho2 = x * x + y * y;
+    if (rho2 >= 1) {
+      return spots.at<std::uint8_t>((static_cast<int>(v / 2) & 255),
+                                    (static_cast<int>(u / 2) & 511));
+    }
+    // The reflected direction as longitude and latitude.
+    const double z = std::sqrt(1 - rho2);
+    const double longitude = std::atan2(2 * x * z, 2 * z * z - 1);
+    const double latitude = std::asin(std::clamp(2 * y * z, -1.0, 1.0));
+    return spots.at<std::uint8_t>((static_cast<int>((latitude + 1.6) * 80) & 255),
+                                  (static_cast<int>((longitude + 3.2) * 80) & 511));
+  };
+  cv::Mat picture(size, CV_8U);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      double sum = 0;
+      for (int i = 0; i < 16; ++i) sum += light(u + (i % 4 - 1.5) / 4, v + (i / 4 - 1.5) / 4);
+      picture.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(sum / 16);
+    }
+  }
+  return picture;
+}
+
+}  // namespace orbwatch::align

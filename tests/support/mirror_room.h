@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "proc/optics/vec.h"
+
+namespace orbwatch::tests {
+
+/// A random room with a mirror ball, or without one, and a camera in front of it. Rays are
+/// reflected by plain vectors; nothing of the product's ball models is used. Lengths in ball
+/// radii, the ball in the origin.
+///
+/// The room is a box that is full of boxes, tubes and matt spheres, with patterned surfaces and
+/// lamps; a camera outside looks through its walls. The ball hangs on a rod.
+struct MirrorRoomSettings {
+  std::uint64_t seed = 1;
+  int width = 640;
+  int height = 480;
+  double distance = 12;    ///< of the camera from the ball's centre
+  double radius = 150;     ///< px, of the ball's picture about
+  optics::Vec2 off_axis;   ///< of the ball's centre, as a share of the half field
+  double limb_hidden = 0;  ///< share of the limb that the rod hides
+  double exposure = 0;     ///< EV
+  double noise = 1;        ///< counts of 255; thermal: of 25 mK
+  double blur = 0.5;       ///< sigma, px
+  bool thermal = false;    ///< 16 bit grey, 25 counts per K, else 8 bit BGR
+  bool ball = true;        ///< without: the room alone
+};
+
+/// An ellipse in a picture: pixels with centres at integers.
+struct TrueLimb {
+  optics::Vec2 centre;
+  double rx = 0, ry = 0;
+};
+
+struct MirrorRoomPicture {
+  cv::Mat pixels;
+  TrueLimb limb;
+  double focal_length = 0;  ///< px; the principal point is the middle
+  optics::Vec3 ball;        ///< camera frame, ball radii
+};
+
+/// The share of the limb, about, that lies outside of the picture.
+double share_outside(const MirrorRoomSettings& settings);
+
+/// Traces it; pixels near the limb by 4x4 rays. Reentrant.
+MirrorRoomPicture mirror_room(const MirrorRoomSettings& settings);
+
+}  // namespace orbwatch::tests
