@@ -22,6 +22,7 @@ struct Subcommand {
 std::string subcommands_help(std::span<const Subcommand> subcommands);
 
 Result<std::string> project_command(const std::vector<std::string>& arguments);
+Result<std::string> advise_command(const std::vector<std::string>& arguments);
 Result<std::string> detect_command(const std::vector<std::string>& arguments);
 Result<std::string> describe_command(const std::vector<std::string>& arguments);
 Result<std::string> subscribe_command(const std::vector<std::string>& arguments);

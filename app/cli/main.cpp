@@ -14,6 +14,8 @@ namespace {
 constexpr std::array kCommandTable{
     Subcommand{"project", "turn pictures of a mirror ball into an undistorted view",
                project_command},
+    Subcommand{"advise", "what a camera, a lens and a ball would show, before you buy them",
+               advise_command},
     Subcommand{"detect", "find the mirror ball in a picture", detect_command},
     Subcommand{"subscribe", "read views and process state of a running orbwatchd over DDS",
                subscribe_command},

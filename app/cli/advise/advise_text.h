@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "proc/align/advise/advice.h"
+
+namespace orbwatch::app {
+
+/// For people, with what to change.
+std::string advise_text(const align::Arrangement& arrangement, const align::Advice& advice);
+
+/// One JSON object (RFC 8259) with the members of align::Advice under their names.
+std::string advise_json(const align::Advice& advice);
+
+}  // namespace orbwatch::app
