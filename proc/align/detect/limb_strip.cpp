@@ -19,7 +19,7 @@ struct Maps {
 };
 
 Maps maps_of(const optics::Outline& outline, double reach, int rays, int columns) {
-  Maps maps{{rays, columns, CV_32F}, {rays, columns, CV_32F}};
+  Maps maps{cv::Mat(rays, columns, CV_32F), cv::Mat(rays, columns, CV_32F)};
   const double turn = optics::radians(outline.angle), ct = std::cos(turn), st = std::sin(turn);
   for (int ray = 0; ray < rays; ++ray) {
     const double angle = 2 * std::numbers::pi * ray / rays;
