@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "tests/compliance/compliance.h"
+#include "tests/support/comes_true.h"
 
 /// A camera releases its resources.
 namespace orbwatch::tests {
@@ -12,6 +13,8 @@ std::size_t entries(const char* folder) {
 }
 
 std::size_t open_files() { return entries("/proc/self/fd"); }
+
+/// The kernel still lists a thread for a moment after it was joined.
 std::size_t threads() { return entries("/proc/self/task"); }
 
 TEST_F(Compliance, TwentyStreamsLeaveNoFileAndNoThread) {
@@ -26,7 +29,8 @@ TEST_F(Compliance, TwentyStreamsLeaveNoFileAndNoThread) {
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
   EXPECT_EQ(open_files(), files_before);
-  EXPECT_EQ(threads(), threads_before);
+  EXPECT_TRUE(comes_true([&] { return threads() <= threads_before; }))
+      << threads() << ", before " << threads_before;
 }
 
 TEST_F(Compliance, TwentyCamerasLeaveNoFileAndNoThread) {
@@ -42,7 +46,8 @@ TEST_F(Compliance, TwentyCamerasLeaveNoFileAndNoThread) {
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
   EXPECT_EQ(open_files(), files_before);
-  EXPECT_EQ(threads(), threads_before);
+  EXPECT_TRUE(comes_true([&] { return threads() <= threads_before; }))
+      << threads() << ", before " << threads_before;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hal/lines/gpio/gpio_lines.h"
+#include "tests/support/comes_true.h"
 
 namespace orbwatch::hal {
 
@@ -63,16 +64,7 @@ class SimulatedChip : public testing::Test {
   GpioLines lines;
 };
 
-/// Polls a thing that has no event of its own; emulated machines take their time.
-template <class Condition>
-bool comes_true(const Condition& condition) {
-  const auto deadline = Clock::now() + std::chrono::seconds(60);
-  while (!condition()) {
-    if (Clock::now() > deadline) return false;
-    std::this_thread::yield();
-  }
-  return true;
-}
+using tests::comes_true;
 
 /// What was heard on the line thread.
 template <class T>
