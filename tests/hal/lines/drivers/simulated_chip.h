@@ -8,7 +8,6 @@
 #include <fstream>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "hal/lines/gpio/gpio_lines.h"
