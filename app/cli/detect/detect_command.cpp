@@ -21,15 +21,15 @@ constexpr const char* kUsage =
 
 constexpr const char* kNotes =
     "\n"
-    "Pixels have their centres at integers. From a confidence of 0.5 on the outline can be used "
-    "as\n"
-    "it is; below, the reason is said, and --overlay shows whether it is right. A dome or another\n"
-    "bulging mirror looks like a ball.\n"
+    "Pixels have their centres at integers. A confidence of 0.5 or more is seldom wrong; below, "
+    "the\n"
+    "reason is said, and --overlay shows whether the outline is right. Domes and other bulging\n"
+    "mirrors look like a ball.\n"
     "\n"
     "--json prints one object: picture {width, height}, outline {centre [u, v], radii [rx, ry] in\n"
     "pixels, angle of rx from u towards v in degrees}, confidence [0, 1], confident, reason "
     "(empty\n"
-    "if confident), and with --calibration ball {centre [x, y, z] in the camera frame and "
+    "when confident), and with --calibration ball {centre [x, y, z] in the camera frame, "
     "distance,\n"
     "both in ball radii, alpha in degrees}.\n";
 

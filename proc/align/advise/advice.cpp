@@ -16,9 +16,9 @@ namespace {
 using optics::Vec3;
 
 constexpr std::array kAngles{0.0, 60.0, 90.0, 120.0, 150.0};
-constexpr double kGoodFill = 0.9;
-constexpr double kPoorFill = 0.7;
-constexpr double kAiryPixels = 2;
+/// The ball's diameter, of the picture's short side: as it should be, and when it is too small.
+constexpr double kGoodFill = 0.9, kPoorFill = 0.7;
+constexpr double kAiryPixels = 2;       // across the Airy disc
 constexpr double kWavelength = 550e-6;  // mm
 /// From here on a lens has to be stopped down so far that little light is left.
 constexpr double kDarkFNumber = 16;
@@ -53,7 +53,7 @@ Result<> check(const Arrangement& s) {
   return {};
 }
 
-/// A text with one number; both literals of this file.
+/// `format` with its numbers, as printf.
 template <class... Numbers>
 std::string text(const char* format, Numbers... numbers) {
   std::array<char, 200> line;

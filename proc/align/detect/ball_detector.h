@@ -12,8 +12,7 @@ namespace orbwatch::align {
 struct BallDetection {
   /// The limb, full also where the picture cuts it. Pixels (OpenCV convention).
   optics::Outline outline;
-  /// 0 to 1. From kConfident on, no picture of our tests without a ball had one, and no outline was
-  /// far off; see the figures in proc/align/README.md.
+  /// 0 to 1. proc/align/README.md says how often outlines from kConfident on were right.
   double confidence = 0;
   /// What speaks against it when it is below kConfident; else empty.
   std::string reason;
