@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "proc/align/first_plane.h"
 #include "proc/image/image_view.h"
 
 namespace orbwatch::app {
@@ -48,13 +49,8 @@ tl::unexpected<Error> cannot_write(const std::filesystem::path& path) {
 
 /// In OpenCV's order of channels.
 cv::Mat to_bgr(const Picture& picture) {
-  const PixelFormatInfo& format = info(picture.format);
-  const int type = CV_MAKETYPE(format.bytes_per_sample() == 2 ? CV_16U : CV_8U, format.channels());
-  // OpenCV has no view of constant data; the matrix is only read.
-  const cv::Mat rgb(picture.height, picture.width, type,
-                    const_cast<std::byte*>(picture.planes[0].data),
-                    static_cast<std::size_t>(picture.planes[0].stride));
-  if (format.channels() == 1) return rgb;
+  const cv::Mat rgb = align::first_plane(picture);
+  if (rgb.channels() == 1) return rgb;
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   return bgr;

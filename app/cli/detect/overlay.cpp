@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/pictures/picture_file.h"
+#include "proc/align/first_plane.h"
 
 namespace orbwatch::app {
 namespace {
@@ -12,13 +13,8 @@ const cv::Scalar kColour(0, 255, 0);
 constexpr int kShift = 4;  // of OpenCV's fixed-point coordinates
 
 cv::Mat as_rgb(const Picture& picture) {
-  const PixelFormatInfo& facts = info(picture.format);
-  const int depth = facts.bytes_per_sample() == 2 ? CV_16U : CV_8U;
-  cv::Mat rgb(picture.height, picture.width, CV_MAKETYPE(depth, facts.channels()),
-              const_cast<std::byte*>(picture.planes[0].data),  // NOLINT: OpenCV has no const view
-              static_cast<std::size_t>(picture.planes[0].stride));
-  rgb = rgb.clone();
-  if (depth == CV_16U) cv::normalize(rgb, rgb, 0, 255, cv::NORM_MINMAX, CV_8U);
+  cv::Mat rgb = align::first_plane(picture).clone();
+  if (rgb.depth() == CV_16U) cv::normalize(rgb, rgb, 0, 255, cv::NORM_MINMAX, CV_8U);
   if (rgb.channels() == 1) cv::cvtColor(rgb, rgb, cv::COLOR_GRAY2RGB);
   return rgb;
 }

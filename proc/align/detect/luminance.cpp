@@ -2,17 +2,10 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "proc/align/first_plane.h"
+
 namespace orbwatch::align {
 namespace {
-
-/// The picture's first plane as OpenCV sees it, not to be written.
-cv::Mat first_plane(const Picture& picture) {
-  const PixelFormatInfo& facts = info(picture.format);
-  const int depth = facts.bytes_per_sample() == 2 ? CV_16U : CV_8U;
-  return {picture.height, picture.width, CV_MAKETYPE(depth, facts.channels()),
-          const_cast<std::byte*>(picture.planes[0].data),  // NOLINT: OpenCV has no const view
-          static_cast<std::size_t>(picture.planes[0].stride)};
-}
 
 cv::Mat channel(const cv::Mat& samples, int n) {
   cv::Mat one;
