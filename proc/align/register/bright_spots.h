@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "proc/image/picture.h"
+#include "proc/image/result.h"
+#include "proc/optics/vec.h"
+
+namespace orbwatch::align {
+
+/// What is brighter in a picture than there at most other times: a spark, a melt pool.
+struct BrightSpot {
+  optics::Vec2 centre;  ///< px
+  double light = 0;     ///< its counts above the background, summed
+};
+
+/// The brightest spots of every picture of a fixed camera, against the median of all, at most
+/// kMostSpots each, the brightest first. Reentrant. Error: fewer than kLeastPictures, or of
+/// different size.
+Result<std::vector<std::vector<BrightSpot>>> bright_spots(std::span<const Picture> pictures);
+
+inline constexpr std::size_t kMostSpots = 12;
+inline constexpr std::size_t kLeastPictures = 5;
+
+}  // namespace orbwatch::align

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "proc/align/register/sphere_view.h"
+#include "proc/optics/vec.h"
+
+namespace orbwatch::align {
+
+/// The same thing in the pictures of two cameras.
+struct Match {
+  optics::Vec2 reference;  ///< px
+  optics::Vec2 camera;     ///< px
+};
+
+/// Points of one camera's picture that look like nothing around them.
+struct Features {
+  std::vector<optics::Vec2> pixels;      ///< in the camera's picture
+  std::vector<optics::Vec3> directions;  ///< in the faces' frame
+  cv::Mat descriptors;                   ///< SIFT's, one row each
+};
+
+/// SIFT features (Lowe 2004) of all faces, without duplicates. `ball`: what the faces were made of.
+/// Reentrant.
+Features find_features(const std::vector<SphereFace>& faces, const optics::BallProjection& ball);
+
+/// Pairs of features that are each other's nearest, and much nearer than the second. Reentrant.
+std::vector<Match> match_features(const Features& reference, const Features& camera);
+
+/// The same among features whose directions differ by `angle` radians at most. Reentrant.
+std::vector<Match> match_features(const Features& reference, const Features& camera, double angle);
+
+}  // namespace orbwatch::align

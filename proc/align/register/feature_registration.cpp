@@ -1,0 +1,101 @@
+#include "proc/align/register/feature_registration.h"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "proc/align/detect/luminance.h"
+#include "proc/align/register/feature_matches.h"
+#include "proc/align/register/refinement.h"
+#include "proc/align/register/rotation_consensus.h"
+#include "proc/align/register/sphere_view.h"
+
+namespace orbwatch::align {
+namespace {
+
+using optics::BallProjection;
+using optics::Mat3;
+using optics::Outline;
+
+constexpr int kLeastInliers = 15;
+constexpr double kRivalry = 0.5;   // a rival has that share of the best one's inliers
+constexpr double kFinestView = 4;  // pixels per degree; more costs time and gains little
+const double kNeighbourhood = optics::radians(2.5);  // of features after the first estimate
+
+/// Both pictures as the search wants them.
+struct Pictures {
+  cv::Mat reference;
+  cv::Mat camera;
+  double pixels_per_degree;
+};
+
+Result<Features> features(const cv::Mat& picture, const BallProjection& ball, double resolution) {
+  return sphere_faces(picture, ball, resolution).map([&](const std::vector<SphereFace>& faces) {
+    return find_features(faces, ball);
+  });
+}
+
+/// The sought camera in its own frame, in a room far away.
+Result<BallProjection> far_and_unturned(SoughtCamera sought) {
+  sought.rig.scene = {};
+  return turned(sought, Mat3{}, *sought.camera.outline);
+}
+
+Result<RotationConsensus> first_estimate(const Pictures& pictures, const Features& seen,
+                                         const BallProjection& reference,
+                                         const SoughtCamera& sought) {
+  const auto ball = far_and_unturned(sought);
+  if (!ball) return tl::unexpected(ball.error());
+  const auto other = features(pictures.camera, *ball, pictures.pixels_per_degree);
+  if (!other) return tl::unexpected(other.error());
+  const auto found = agree_on_rotation(match_features(seen, *other), reference, sought);
+  if (!found) return found;
+  if (static_cast<double>(found->rival) > kRivalry * static_cast<double>(found->inliers.size())) {
+    return fail("two different rotations fit nearly as well, " +
+                std::to_string(found->inliers.size()) + " and " + std::to_string(found->rival) +
+                " features agree: put something with patterns where both cameras see it");
+  }
+  return found;
+}
+
+/// Again with views of the same frame, in which features look alike and stand near each other.
+Result<RotationRefinement> refined(const Pictures& pictures, const Features& seen,
+                                   const BallProjection& reference, const SoughtCamera& sought,
+                                   const Mat3& rotation, const Outline& outline) {
+  const auto ball = turned(sought, rotation, outline);
+  if (!ball) return tl::unexpected(ball.error());
+  const auto other = features(pictures.camera, *ball, pictures.pixels_per_degree);
+  if (!other) return tl::unexpected(other.error());
+  const auto matches = match_features(seen, *other, kNeighbourhood);
+  return refine_rotation(matches, reference, sought, rotation, outline);
+}
+
+}  // namespace
+
+Result<Registration> register_by_features(const ReferenceCamera& reference,
+                                          const SoughtCamera& sought) {
+  const auto unturned = turned(sought, Mat3{}, *sought.camera.outline);
+  if (!unturned) return tl::unexpected(unturned.error());
+  const Pictures pictures{
+      stretched(luminance_of(reference.picture)), stretched(luminance_of(sought.picture)),
+      std::min({kFinestView, best_resolution(reference.ball), 1.3 * best_resolution(*unturned)})};
+  const auto seen = features(pictures.reference, reference.ball, pictures.pixels_per_degree);
+  if (!seen) return tl::unexpected(seen.error());
+  const auto first = first_estimate(pictures, *seen, reference.ball, sought);
+  if (!first) return tl::unexpected(first.error());
+  const auto rough = refine_rotation(first->inliers, reference.ball, sought, first->rotation,
+                                     *sought.camera.outline);
+  if (!rough) return tl::unexpected(rough.error());
+  const auto fine =
+      refined(pictures, *seen, reference.ball, sought, rough->rotation, rough->outline);
+  if (!fine) return tl::unexpected(fine.error());
+  const auto ball = turned(sought, fine->rotation, fine->outline);
+  if (!ball) return tl::unexpected(ball.error());
+  const double share = overlap(reference.ball, reference.picture.width, reference.picture.height,
+                               *ball, sought.picture.width, sought.picture.height);
+  return trusted(
+      {fine->rotation, fine->outline, fine->residual, share, fine->inliers, fine->covariance},
+      kLeastInliers);
+}
+
+}  // namespace orbwatch::align

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "proc/image/result.h"
+#include "proc/optics/ball_projection.h"
+#include "proc/optics/view_projection.h"
+
+namespace orbwatch::align {
+
+/// A sixth of what a ball shows and its surroundings, seen from the ball's centre: stereographic,
+/// which keeps small shapes, and un-mirrored.
+struct SphereFace {
+  optics::ViewProjection view;
+  cv::Mat pixels;  ///< as the source's type
+  cv::Mat shown;   ///< 8 bit, 255 where the ball shows it well enough
+};
+
+/// Which of the six faces a direction belongs to: its index among sphere_faces(). Reentrant.
+std::size_t face_of(const optics::Vec3& direction);
+
+/// All around a ball, in the ball projection's reference frame, at `pixels_per_degree` in the
+/// middle of each face. `luminance`: the camera's picture, one channel. What is nearer than some
+/// degrees to the limb, outside of the picture or behind the ball is not shown. Reentrant.
+/// Error: a resolution that is too large for a picture.
+Result<std::vector<SphereFace>> sphere_faces(const cv::Mat& luminance,
+                                             const optics::BallProjection& ball,
+                                             double pixels_per_degree);
+
+/// A camera's pixels per degree where its ball shows most. Reentrant.
+double best_resolution(const optics::BallProjection& ball);
+
+/// A picture's luminance as 8 bit, from its darkest to its brightest percent. Reentrant.
+cv::Mat stretched(const cv::Mat& luminance);
+
+}  // namespace orbwatch::align

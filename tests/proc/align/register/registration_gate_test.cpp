@@ -1,0 +1,223 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/files/rig_file.h"
+#include "proc/align/detect/ball_detector.h"
+#include "proc/align/register/feature_registration.h"
+#include "proc/align/register/gradient_registration.h"
+#include "proc/align/register/light_registration.h"
+#include "proc/align/register/rotation_fit.h"
+#include "tests/proc/align/register/camera_pair.h"
+#include "tests/support/error_distribution.h"
+#include "tests/support/reference_data.h"
+#include "tests/support/rendered_scene.h"
+#include "tests/support/share.h"
+
+/// How well cameras are registered: simulated pairs and rendered machines.
+namespace orbwatch::tests {
+namespace {
+
+using align::Registration;
+using optics::degrees;
+using optics::Mat3;
+using optics::radians;
+
+constexpr double kWrong = 2;  // degrees
+
+/// `truth` turned by so many degrees about a random axis.
+Mat3 turned_away(const Mat3& truth, double angle, std::mt19937_64& random) {
+  std::normal_distribution<double> any;
+  const optics::Vec3 axis = optics::normalized({any(random), any(random), any(random)});
+  return align::rotation_about(axis * radians(angle)) * truth;
+}
+
+/// What became of many registrations.
+struct Tally {
+  explicit Tally(const std::string& name) : errors(name) {}
+
+  void add(const Result<Registration>& found, const Mat3& truth) {
+    if (!found) {
+      ++refused;
+      std::printf("refused: %s\n", found.error().message.c_str());
+      return;
+    }
+    const double error = degrees(align::angle_between(found->rotation, truth));
+    errors.add(error);
+    wrong += error > kWrong ? 1 : 0;
+  }
+  void report() const {
+    errors.report();
+    std::printf("%d refused, %d wrong\n", refused, wrong);
+    testing::Test::RecordProperty("refused", refused);
+    testing::Test::RecordProperty("wrong", wrong);
+  }
+
+  ErrorDistribution errors;
+  int refused = 0;
+  int wrong = 0;
+};
+
+TEST(RegistrationGate, ColourOnColour) {
+  const int cases = share_of(100);
+  Tally tally("colour on colour, deg");
+  for (int n = 0; n < cases; ++n) {
+    const CameraPair pair = camera_pair(70'000 + static_cast<std::uint64_t>(n), false);
+    tally.add(align::register_by_features(pair.reference(), pair.unknown()), pair.truth);
+  }
+  tally.report();
+  EXPECT_LE(tally.errors.p50(), 0.1);
+  EXPECT_LE(tally.errors.p95(), 0.3);
+  EXPECT_LE(tally.refused, cases / 20);
+  EXPECT_EQ(tally.wrong, 0);
+}
+
+TEST(RegistrationGate, ThermalOnColour) {
+  const int cases = share_of(100);
+  Tally tally("thermal on colour, deg");
+  for (int n = 0; n < cases; ++n) {
+    const auto seed = 75'000 + static_cast<std::uint64_t>(n);
+    const CameraPair pair = camera_pair(seed, true);
+    std::mt19937_64 random(seed);
+    align::SoughtCamera sought = pair.unknown();
+    sought.camera.registration = turned_away(pair.truth, 8.0 * (n % 9) / 8, random);
+    tally.add(align::register_by_gradients(pair.reference(), sought), pair.truth);
+  }
+  tally.report();
+  EXPECT_LE(tally.errors.p50(), 0.3);
+  EXPECT_LE(tally.errors.p95(), 0.8);
+  EXPECT_LE(tally.refused, cases / 20);
+  EXPECT_EQ(tally.wrong, 0);
+}
+
+TEST(RegistrationGate, WrongStartsAndOtherRoomsAreRefusedOrFoundAllTheSame) {
+  const int cases = share_of(40);
+  Tally far_off("thermal, start 20 to 60 degrees off"), elsewhere("colour, two rooms");
+  for (int n = 0; n < cases; ++n) {
+    const auto seed = 78'000 + static_cast<std::uint64_t>(n);
+    const CameraPair pair = camera_pair(seed, true), colour = camera_pair(seed, false);
+    std::mt19937_64 random(seed);
+    align::SoughtCamera sought = pair.unknown();
+    sought.camera.registration = turned_away(pair.truth, 20 + n % 41, random);
+    far_off.add(align::register_by_gradients(pair.reference(), sought), pair.truth);
+    const CameraPair other = camera_pair(seed + 500, false);
+    elsewhere.add(align::register_by_features(other.reference(), colour.unknown()), colour.truth);
+  }
+  far_off.report();
+  elsewhere.report();
+  EXPECT_EQ(far_off.wrong, 0);
+  EXPECT_EQ(elsewhere.refused, cases);
+}
+
+/// Two cameras of a rendered machine; A is known.
+struct RenderedPair {
+  cv::Mat reference, picture;
+  std::optional<optics::BallProjection> known;
+  align::SoughtCamera sought;
+  Mat3 truth;
+
+  Result<Registration> by(Result<Registration> (*method)(const align::ReferenceCamera&,
+                                                         const align::SoughtCamera&)) const {
+    return method({picture_of_mat(reference), *known}, sought);
+  }
+};
+
+RenderedPair rendered_pair(const std::string& name, const std::string& camera) {
+  const RenderedScene scene(name);
+  RenderedPair pair;
+  pair.sought.rig =
+      app::parse_rig(scene.rig(RenderedScene::Known::BoxAndTable), "rig.toml", "").value();
+  for (std::size_t n = 0; n < scene.cameras().size(); ++n) {
+    const RenderedCamera& seen = scene.cameras()[n];
+    const cv::Mat pixels =
+        cv::imread(seen.picture.string(), cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    const optics::RigCamera& stated = pair.sought.rig.cameras[n];
+    if (seen.name == "A") {
+      pair.reference = pixels;
+      pair.known = optics::ball_projection(pair.sought.rig, stated).value();
+    } else if (seen.name == camera) {
+      pair.picture = pixels;
+      pair.sought.camera = align::by_outline(pair.sought.rig, stated).value();
+      pair.truth = registration_of_axes(stated.pose->rotation);
+    }
+  }
+  pair.sought.picture = picture_of_mat(pair.picture);
+  pair.sought.camera.registration = {};
+  return pair;
+}
+
+void expect_within(const Result<Registration>& found, const Mat3& truth, double limit,
+                   const std::string& what) {
+  ASSERT_TRUE(found) << what << ": " << found.error().message;
+  const double error = degrees(align::angle_between(found->rotation, truth));
+  std::printf("%s: %.3f deg\n", what.c_str(), error);
+  testing::Test::RecordProperty(what, std::to_string(error));
+  EXPECT_LE(error, limit) << what;
+}
+
+TEST(RegistrationGate, RenderedMachinesOfTwoColourCameras) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures());
+  for (const std::string scene : {"near", "far"}) {
+    RenderedPair pair = rendered_pair(scene, "B");
+    expect_within(pair.by(align::register_by_features), pair.truth, scene == "near" ? 0.2 : 0.12,
+                  scene + " B on A, true outline");
+    const auto found = align::detect_ball(pair.sought.picture);
+    ASSERT_TRUE(found) << found.error().message;
+    pair.sought.camera.outline = found->outline;
+    pair.sought.outline_sigma = 0.02;
+    expect_within(pair.by(align::register_by_features), pair.truth, 0.3,
+                  scene + " B on A, detected outline");
+  }
+}
+
+TEST(RegistrationGate, RenderedMachinesOfAColourAndAThermalCamera) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures());
+  std::mt19937_64 random(79'000);
+  for (const std::string scene : {"near", "far"}) {
+    RenderedPair pair = rendered_pair(scene, "C");
+    for (const double angle : {3.0, 5.5, 8.0}) {
+      pair.sought.camera.registration = turned_away(pair.truth, angle, random);
+      expect_within(pair.by(align::register_by_gradients), pair.truth, 0.4,
+                    scene + " C on A, start off by " + std::to_string(angle));
+    }
+  }
+}
+
+/// The pictures of a sequence, kept.
+struct Sequence {
+  explicit Sequence(const std::string& name) {
+    const cv::FileStorage scene = open_rendered_scene();
+    for (const cv::FileNode& frame : scene["sequences"][name]["frames"]) {
+      const std::string file = (rendered_pictures() / frame["file"].string()).string();
+      pixels.push_back(cv::imread(file, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR));
+      pictures.push_back(picture_of_mat(pixels.back()));
+    }
+  }
+  std::vector<cv::Mat> pixels;
+  std::vector<Picture> pictures;
+};
+
+TEST(RegistrationGate, ProcessLightNeedsNoStart) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures());
+  RenderedPair pair = rendered_pair("near", "C");
+  const cv::FileStorage file = open_rendered_scene();
+  const cv::FileNode seen = file["sequences"]["seq_spark"]["camera"];
+  optics::RigCamera known = pair.sought.rig.cameras.front();
+  ASSERT_EQ(known.name, "A");
+  known.width = known.height = known.intrinsics->width = known.intrinsics->height = seen["width"];
+  known.intrinsics->fx = known.intrinsics->fy = seen["fx"].real();
+  known.intrinsics->cx = known.intrinsics->cy = seen["cx"].real() - 0.5;
+  const Sequence colour("seq_spark"), thermal("seq_thermal");
+  const optics::BallProjection ball = optics::ball_projection(pair.sought.rig, known).value();
+  const auto rough =
+      align::register_by_light({colour.pictures, thermal.pictures}, ball, pair.sought);
+  expect_within(rough, pair.truth, 4, "near C on A, from light");
+  pair.sought.camera.registration = rough->rotation;
+  pair.sought.picture = thermal.pictures.front();
+  const auto fine = align::register_by_gradients({colour.pictures.front(), ball}, pair.sought);
+  expect_within(fine, pair.truth, 0.6, "near C on A, from light, refined");
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
