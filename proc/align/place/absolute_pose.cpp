@@ -1,0 +1,152 @@
+#include "proc/align/place/absolute_pose.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace orbwatch::align {
+namespace {
+
+using optics::Mat3;
+using optics::Ray;
+using optics::Vec3;
+
+/// A point further off than this says no more than that it is off: 0.05 rad, a slip of the hand.
+constexpr double kLimit = 0.05;
+
+Eigen::Vector3d eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
+Vec3 vec3(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Mat3 mat3(const Eigen::Matrix3d& m) {
+  return {vec3(m.row(0).transpose()), vec3(m.row(1).transpose()), vec3(m.row(2).transpose())};
+}
+
+/// Directions from the ball's centre to one point, in both frames.
+struct Pair {
+  Vec3 machine;
+  Vec3 camera;
+};
+
+/// Where the ray is at that distance from the ball's centre, on which it begins at distance 1.
+Vec3 at_distance(const Ray& ray, double distance) {
+  const double along = dot(ray.origin, ray.direction);
+  const double way = -along + std::sqrt(along * along + distance * distance - 1);
+  return normalized(ray.origin + ray.direction * way);
+}
+
+std::vector<Pair> pairs_around(const std::vector<PointSight>& sights, const Vec3& centre) {
+  std::vector<Pair> pairs;
+  for (const PointSight& sight : sights) {
+    const Vec3 offset = sight.point - centre;
+    const double distance = norm(offset);
+    if (!(distance > 1)) continue;
+    pairs.push_back({offset * (1 / distance), at_distance(sight.ray, distance)});
+  }
+  return pairs;
+}
+
+/// Wahba's problem by singular values (Markley 1988): the rotation that turns the machine's
+/// directions into the camera's, with weights.
+Mat3 wahba(const std::vector<Pair>& pairs, const std::vector<double>& weights) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    sum += weights[n] * eigen(pairs[n].camera) * eigen(pairs[n].machine).transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d handed = Eigen::Matrix3d::Identity();
+  handed(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1;
+  return mat3(svd.matrixU() * handed * svd.matrixV().transpose());
+}
+
+double angle2(const Pair& pair, const Mat3& rotation) {
+  const Vec3 off = rotation * pair.machine - pair.camera;
+  return dot(off, off);
+}
+
+double badness(const std::vector<Pair>& pairs, const Mat3& rotation) {
+  double sum = 0;
+  for (const Pair& pair : pairs) sum += std::min(angle2(pair, rotation), kLimit * kLimit);
+  return sum;
+}
+
+/// Near 1 for small angles, near 0 for large ones (Geman and McClure).
+double trust(double squared_angle) {
+  const double share = 1 / (1 + squared_angle / (kLimit * kLimit));
+  return share * share;
+}
+
+Mat3 improved(const std::vector<Pair>& pairs, Mat3 rotation) {
+  std::vector<double> weights(pairs.size());
+  for (int round = 0; round < 5; ++round) {
+    for (std::size_t n = 0; n < pairs.size(); ++n) weights[n] = trust(angle2(pairs[n], rotation));
+    rotation = wahba(pairs, weights);
+  }
+  return rotation;
+}
+
+/// The ball's centre in camera axes, R C, such that the points, turned by `rotation`, lie on their
+/// rays; each weighs by the angle that it subtends and, if wanted, by its trust at `last`.
+std::optional<Vec3> turned_centre(const std::vector<PointSight>& sights, const Mat3& rotation,
+                                  const Vec3& last, bool by_trust) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  for (const PointSight& sight : sights) {
+    const Eigen::Vector3d d = eigen(sight.ray.direction);
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - d * d.transpose();
+    const Eigen::Vector3d from_origin = eigen(rotation * sight.point - sight.ray.origin);
+    const Eigen::Vector3d left = from_origin - eigen(last);
+    const double distance2 = std::max(left.squaredNorm(), 1.0);
+    const double off2 = (across * left).squaredNorm() / distance2;
+    const double weight = (by_trust ? trust(off2) : 1) / distance2;
+    normal += weight * across;
+    right_side += weight * (across * from_origin);
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+  if (!(solver.rcond() > 1e-9)) return std::nullopt;
+  return vec3(solver.solve(right_side));
+}
+
+}  // namespace
+
+std::optional<Attitude> attitude_around(const std::vector<PointSight>& sights, const Vec3& centre) {
+  const std::vector<Pair> pairs = pairs_around(sights, centre);
+  if (pairs.size() < 2) return std::nullopt;
+  // A few hundred pairs are plenty to find one without a mistake.
+  const std::size_t stride = 1 + pairs.size() / 24;
+  std::optional<Attitude> best;
+  for (std::size_t a = 0; a < pairs.size(); a += stride) {
+    for (std::size_t b = a + 1; b < pairs.size(); b += stride) {
+      const Mat3 rotation = wahba({pairs[a], pairs[b]}, {1, 1});
+      const double bad = badness(pairs, rotation);
+      if (!best || bad < best->badness) best = Attitude{rotation, bad};
+    }
+  }
+  const Mat3 rotation = improved(pairs, best->rotation);
+  const double bad = badness(pairs, rotation);
+  if (bad < best->badness) best = Attitude{rotation, bad};
+  // Points within the ball fit nothing.
+  best->badness += double(sights.size() - pairs.size()) * kLimit * kLimit;
+  return best;
+}
+
+std::optional<FreePose> free_pose(const std::vector<PointSight>& sights, const Vec3& guess) {
+  constexpr int kRounds = 40;
+  Vec3 centre = guess;
+  Mat3 rotation;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Pair> pairs = pairs_around(sights, centre);
+    if (pairs.size() < 3) return std::nullopt;
+    // All points equally at first: a guess is far off for each of them.
+    const bool by_trust = round >= kRounds / 2;
+    rotation =
+        by_trust ? improved(pairs, rotation) : wahba(pairs, std::vector<double>(pairs.size(), 1));
+    const auto next = turned_centre(sights, rotation, rotation * centre, by_trust);
+    if (!next) return std::nullopt;
+    centre = transposed(rotation) * *next;
+  }
+  const std::vector<Pair> pairs = pairs_around(sights, centre);
+  if (pairs.size() < 3) return std::nullopt;
+  const double inside = double(sights.size() - pairs.size()) * kLimit * kLimit;
+  return FreePose{centre, badness(pairs, rotation) + inside};
+}
+
+}  // namespace orbwatch::align

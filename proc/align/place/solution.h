@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "proc/align/place/adjustment.h"
+#include "proc/align/place/placement.h"
+
+namespace orbwatch::align {
+
+/// The solution of a request, how well it is known, and the marks that it follows from.
+struct Solution {
+  PlaceState state;
+  Equations equations;         ///< at that state
+  Eigen::MatrixXd covariance;  ///< of the equations' columns
+  std::vector<UsedMark> used;
+};
+
+/// The solution of least squares without the marks that contradict it. `request`: checked, with a
+/// lens for each camera. Errors: those of place() that need a solution.
+Result<Solution> solve(const PlaceRequest& request);
+
+/// A camera's picture of the ball in that state, in ball radii; nullopt if there is none.
+std::optional<optics::BallProjection> ball_picture(const PlaceRequest& request,
+                                                   const PlaceState& state, std::size_t camera);
+
+}  // namespace orbwatch::align

@@ -1,0 +1,115 @@
+#include "proc/align/place/tags/tag_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <opencv2/aruco.hpp>
+#include <opencv2/imgproc.hpp>
+#include <type_traits>
+
+#include "proc/align/detect/luminance.h"
+#include "proc/align/place/tags/mirror_view.h"
+
+namespace orbwatch::align {
+namespace {
+
+using Dictionary = cv::aruco::Dictionary;
+
+/// OpenCV gives dictionaries as pointers up to 4.6, as values from 4.7 on.
+template <class Given>
+cv::Ptr<Dictionary> shared(const Given& dictionary) {
+  if constexpr (std::is_same_v<Given, cv::Ptr<Dictionary>>) {
+    return dictionary;
+  } else {
+    return cv::makePtr<Dictionary>(dictionary);
+  }
+}
+
+cv::Ptr<cv::aruco::DetectorParameters> parameters() {
+  auto p = cv::makePtr<cv::aruco::DetectorParameters>();
+  p->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
+  p->cornerRefinementMinAccuracy = 0.01;
+  // The white margin's outer edge is a square, too, and must not be taken for the same one.
+  p->minMarkerDistanceRate = 0.01;
+  // Wider than two cells: a narrower window turns the black border into a frame with an inside.
+  p->adaptiveThreshWinSizeMin = 45;
+  p->adaptiveThreshWinSizeMax = 85;
+  p->adaptiveThreshWinSizeStep = 40;
+  // Straight edges are a little bent in a view that takes them for far away.
+  p->polygonalApproxAccuracyRate = 0.05;
+  return p;
+}
+
+cv::Mat eight_bit(const cv::Mat& luminance) {
+  if (luminance.depth() == CV_8U) return luminance;
+  cv::Mat out;
+  cv::normalize(luminance, out, 0, 255, cv::NORM_MINMAX, CV_8U);
+  return out;
+}
+
+/// A tag in a view; the nearer to the view's middle, the less it is distorted.
+struct Seen {
+  FoundTag tag;
+  double off_middle;
+};
+
+/// The tag as the ball's picture shows it; nullopt if a corner is beyond the view or the ball.
+std::optional<Seen> seen(int id, const std::vector<cv::Point2f>& corners,
+                         const optics::BallProjection& ball, const optics::ViewProjection& view) {
+  Seen out{{id, {}}, 0};
+  cv::Point2d middle;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto direction = view.direction(double(corners[k].x), double(corners[k].y));
+    const auto pixel = direction ? ball.pixel(*direction, 0) : std::nullopt;
+    if (!pixel) return std::nullopt;
+    out.tag.corners[k] = *pixel;
+    middle += cv::Point2d(corners[k]) / 4;
+  }
+  out.off_middle = std::hypot(middle.x - view.width() / 2.0, middle.y - view.height() / 2.0);
+  return out;
+}
+
+/// Views of about one and a half times the picture's best resolution: half the limb's radius per
+/// rad.
+int view_side(const optics::Outline& outline) {
+  constexpr double kSides = 1.8;  // of a view of 100 degrees, per radius
+  constexpr int kLeast = 300, kMost = 1600;
+  return std::clamp(int(kSides * (outline.rx + outline.ry) / 2), kLeast, kMost);
+}
+
+}  // namespace
+
+Result<std::vector<FoundTag>> find_tags(const Picture& picture, const optics::Outline& outline,
+                                        const std::optional<optics::Lens>& lens) {
+  if (auto ellipse = optics::check_ellipse(outline); !ellipse) {
+    return tl::unexpected(ellipse.error());
+  }
+  if (lens &&
+      (lens->intrinsics().width != picture.width || lens->intrinsics().height != picture.height)) {
+    return fail("the picture is not of the size for which the lens is calibrated");
+  }
+  const auto ball = unplaced_projection(outline, lens);
+  if (!ball) return tl::unexpected(ball.error());
+  const cv::Mat luminance = eight_bit(luminance_of(picture));
+  const auto dictionary =
+      shared(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11));
+  std::map<int, Seen> found;
+  for (const optics::ViewProjection& view : views_all_around(view_side(outline))) {
+    std::vector<std::vector<cv::Point2f>> corners;
+    std::vector<int> ids;
+    cv::aruco::detectMarkers(mirror_view(luminance, *ball, view), dictionary, corners, ids,
+                             parameters());
+    for (std::size_t n = 0; n < ids.size(); ++n) {
+      const auto tag = seen(ids[n], corners[n], *ball, view);
+      if (!tag) continue;
+      const auto [known, is_new] = found.try_emplace(ids[n], *tag);
+      if (!is_new && tag->off_middle < known->second.off_middle) known->second = *tag;
+    }
+  }
+  std::vector<FoundTag> tags;
+  tags.reserve(found.size());
+  for (const auto& [id, one] : found) tags.push_back(one.tag);
+  return tags;
+}
+
+}  // namespace orbwatch::align
