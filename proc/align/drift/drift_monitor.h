@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "proc/align/drift/picture_motion.h"
+#include "proc/image/picture.h"
+#include "proc/image/result.h"
+#include "proc/optics/rig.h"
+
+namespace orbwatch::align {
+
+/// The stored alignment of one camera that is watched.
+struct DriftSubject {
+  int width = 0;  ///< px, of the camera's pictures
+  int height = 0;
+  optics::Outline outline;  ///< of the ball, px
+  optics::BallProjection projection;
+  /// With a known lens a turn of the camera is known, too.
+  std::optional<optics::Lens> lens;
+};
+
+/// What a rig states of one of its cameras. Error: that of optics::ball_projection; a ball whose
+/// limb the lens does not show as a whole.
+Result<DriftSubject> drift_subject(const optics::Rig& rig, const optics::RigCamera& camera);
+
+/// Limits of the error of view directions, degrees rms.
+struct DriftLimits {
+  double warning = 0.3;
+  double alarm = 0.6;
+};
+
+/// Whether the alignment still holds.
+enum class DriftLevel { NotMeasured, Good, Warning, Alarm };
+inline constexpr int kDriftLevels = 4;
+
+std::string_view text(DriftLevel level);
+
+/// What seems to have moved.
+enum class DriftCause { Unknown, CameraTurned, BallMoved };
+
+std::string_view text(DriftCause cause);
+
+/// What has become of the alignment.
+struct DriftState {
+  DriftLevel level = DriftLevel::NotMeasured;
+  std::string_view reason;  ///< for an operator, if it is not measured; static text
+  /// Of the ball's picture, mean over the last frames; when not measured, the last that was.
+  PictureMotion motion;
+  double direction_error = 0;  ///< degrees rms, see ViewError
+  double direction_sigma = 0;  ///< its standard deviation, degrees
+  DriftCause cause = DriftCause::Unknown;
+  optics::Outline outline;           ///< corrected, px
+  std::optional<optics::Mat3> turn;  ///< of a turned camera with a known lens: its axes' rotation
+                                     ///< R_corrected = turn R_stored (R: world to camera)
+};
+
+/// Watches whether a camera or the ball has moved against the stored alignment.
+///
+/// The reference is what the first five usable pictures show and where the ball was on average in
+/// the first 2.4 s, or the picture on which the alignment was made.
+/// observe() costs some tenths of a millisecond whatever the picture's size; tens of milliseconds
+/// for the first pictures, a few for one in which the ball has jumped, and for one in 30 while the
+/// ball is not where it was. Not reentrant: one thread at a time.
+class DriftMonitor {
+ public:
+  using Time = std::chrono::nanoseconds;
+
+  /// Errors: an outline outside of the picture or smaller than 24 px, limits that are not above 0
+  /// or the alarm's below the warning's.
+  static Result<DriftMonitor> make(const DriftSubject& subject, const DriftLimits& limits);
+
+  DriftMonitor(DriftMonitor&&) noexcept;
+  DriftMonitor& operator=(DriftMonitor&&) noexcept;
+  ~DriftMonitor();
+
+  /// The picture on which the alignment was made; before the first observe(). Errors: another size,
+  /// the reason why it is of no use.
+  Result<> refer_to(const Picture& picture);
+
+  /// A frame, taken at `time` of any clock that does not jump. Error: another size.
+  Result<DriftState> observe(const Picture& picture, Time time);
+
+ private:
+  class Impl;
+  explicit DriftMonitor(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace orbwatch::align

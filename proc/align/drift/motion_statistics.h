@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "proc/align/drift/picture_motion.h"
+#include "proc/align/drift/view_error.h"
+
+namespace orbwatch::align {
+
+/// Motions of the last frames: their mean, without what vibration adds, and how sure it is. Not
+/// reentrant.
+class MotionStatistics {
+ public:
+  using Time = std::chrono::nanoseconds;
+
+  /// `view_error` outlives it. Keeps `window`, and at least kFewest motions.
+  MotionStatistics(const ViewError& view_error, Time window)
+      : view_error_(view_error), window_(window) {}
+
+  static constexpr std::size_t kFewest = 8;
+
+  /// `time` of any clock that does not jump; a time before the last one starts afresh.
+  void add(Time time, const PictureMotion& motion);
+
+  /// Forgets the motions, not how much they vary.
+  void restart() { motions_.clear(); }
+
+  bool empty() const { return motions_.empty(); }
+
+  /// Of each component, without its lowest and highest fifth.
+  PictureMotion mean() const { return mean_; }
+  /// How far single motions are from the mean, rms degrees of view direction.
+  double spread() const { return spread_; }
+  /// Standard deviation of the mean, degrees; vibration makes neighbours alike.
+  double sigma() const { return sigma_of(static_cast<double>(motions_.size())); }
+  /// The same for the mean of so many frames.
+  double sigma_of(double frames) const;
+
+ private:
+  struct Timed {
+    Time time;
+    PictureMotion motion;
+  };
+
+  double trimmed_mean(double PictureMotion::*component);
+
+  const ViewError& view_error_;
+  Time window_;
+  std::vector<Timed> motions_;
+  std::vector<double> sorted_;
+  PictureMotion mean_;
+  double spread_ = 0;
+};
+
+}  // namespace orbwatch::align

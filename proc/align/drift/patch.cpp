@@ -1,0 +1,125 @@
+#include "proc/align/drift/patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orbwatch::align {
+namespace {
+
+using optics::Vec2;
+
+constexpr int kIterations = 8;
+/// px: a step that ends the search.
+constexpr double kStill = 0.003;
+/// px: a shift across the strongest edges that noise alone must not make.
+constexpr double kLargestNoise = 0.15;
+/// Of the slopes' energy: what holds a patch that is an edge where it is along that.
+constexpr double kHold = 0.002;
+/// Share of the brightness' variance that the patch explains where it is found again.
+constexpr double kExplained = 0.6;
+/// Light may become weaker or stronger by that.
+constexpr double kGainRange = 8;
+/// Smoothing leaves that many pixels per independent one.
+constexpr double kCorrelated = 4;
+
+}  // namespace
+
+std::optional<Patch> Patch::make(const cv::Mat& picture, cv::Point corner, const Mask& mask,
+                                 double noise) {
+  Patch patch;
+  patch.mask_ = mask;
+  double sum = 0;
+  for (int i = 0; i < kPixels; ++i) {
+    const int v = corner.y + i / kSide, u = corner.x + i % kSide;
+    const auto n = static_cast<std::size_t>(i);
+    const float w = mask[n];
+    patch.bases_[0][n] = w * (picture.at<float>(v, u + 1) - picture.at<float>(v, u - 1)) / 2;
+    patch.bases_[1][n] = w * (picture.at<float>(v + 1, u) - picture.at<float>(v - 1, u)) / 2;
+    patch.bases_[2][n] = w * picture.at<float>(v, u);
+    patch.bases_[3][n] = w;
+    sum += patch.bases_[2][n];
+    patch.pixels_ += w;
+  }
+  if (patch.pixels_ < kPixels / 3.0) return std::nullopt;
+  const auto mean = static_cast<float>(sum / patch.pixels_);
+  for (std::size_t n = 0; n < kPixels; ++n) patch.bases_[2][n] -= mean * mask[n];
+  cv::Matx44d normal;
+  for (std::size_t i = 0; i < kBases; ++i) {
+    for (std::size_t j = 0; j < kBases; ++j) {
+      double product = 0;
+      for (std::size_t n = 0; n < kPixels; ++n) product += patch.bases_[i][n] * patch.bases_[j][n];
+      normal(static_cast<int>(i), static_cast<int>(j)) = product;
+    }
+  }
+  patch.contrast_ = std::sqrt(normal(2, 2) / patch.pixels_);
+  const double energy = normal(0, 0) + normal(1, 1);
+  if (energy < noise * noise * kCorrelated / (kLargestNoise * kLargestNoise)) return std::nullopt;
+  if (normal(2, 2) <= 0) return std::nullopt;
+  normal(0, 0) += kHold * energy;
+  normal(1, 1) += kHold * energy;
+  bool solved = false;
+  patch.inverse_ = normal.inv(cv::DECOMP_CHOLESKY, &solved);
+  if (!solved) return std::nullopt;
+  const cv::Matx22d covariance(patch.inverse_(0, 0), patch.inverse_(0, 1), patch.inverse_(1, 0),
+                               patch.inverse_(1, 1));
+  patch.slopes_ = covariance.inv() - cv::Matx22d::eye() * (kHold * energy);
+  return patch;
+}
+
+std::optional<PatchShift> Patch::find(const PatchWindow& window, const Vec2& start) const {
+  Vec2 shift = start;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const double u = shift.u + PatchWindow::kReach, v = shift.v + PatchWindow::kReach;
+    if (!(u >= 0 && v >= 0 && u < 2 * PatchWindow::kReach && v < 2 * PatchWindow::kReach)) {
+      return std::nullopt;
+    }
+    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
+    const auto fu = static_cast<float>(u - u0), fv = static_cast<float>(v - v0);
+    const float a = (1 - fu) * (1 - fv), b = fu * (1 - fv), c = (1 - fu) * fv, d = fu * fv;
+    std::array<float, kPixels> seen;
+    for (int y = 0; y < kSide; ++y) {
+      const float* const top = window.row(v0 + y) + u0;
+      const float* const bottom = top + PatchWindow::kSide;
+      float* const out = seen.data() + y * kSide;
+      for (int x = 0; x < kSide; ++x) {
+        out[x] = a * top[x] + b * top[x + 1] + c * bottom[x] + d * bottom[x + 1];
+      }
+    }
+    cv::Vec4d right;
+    std::array<float, kSide> square{}, total{};
+    for (int k = 0; k < kBases; ++k) {
+      std::array<float, kSide> sums{};
+      const auto& basis = bases_[static_cast<std::size_t>(k)];
+      for (std::size_t n = 0; n < kPixels; n += kSide) {
+        for (std::size_t x = 0; x < kSide; ++x) sums[x] += basis[n + x] * seen[n + x];
+      }
+      for (const float s : sums) right[k] += s;
+    }
+    const auto mean = static_cast<float>(right[3] / pixels_);
+    for (std::size_t n = 0; n < kPixels; n += kSide) {
+      for (std::size_t x = 0; x < kSide; ++x) {
+        const float offset = mask_[n + x] * (seen[n + x] - mean);
+        square[x] += offset * offset;
+        total[x] += offset;
+      }
+    }
+    double variation = 0;
+    for (const float s : square) variation += s;
+    const cv::Vec4d found = inverse_ * right;
+    const double gain = found[2];
+    if (!(gain > 1 / kGainRange && gain < kGainRange)) return std::nullopt;
+    const Vec2 step{found[0] / gain, found[1] / gain};
+    shift = {shift.u - step.u, shift.v - step.v};
+    if (std::hypot(step.u, step.v) > kStill && iteration + 1 < kIterations) continue;
+    // The squares that the bases leave; without the offset's share, for precision.
+    const double explained = found[0] * right[0] + found[1] * right[1] + found[2] * right[2] +
+                             (found[3] - right[3] / pixels_) * right[3];
+    const double left = std::max(variation - explained, 1e-6 * variation);
+    if (!(variation > 0 && left < (1 - kExplained) * variation)) return std::nullopt;
+    const double variance = left / pixels_ * kCorrelated;
+    return PatchShift{shift, slopes_ * (gain * gain / variance)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace orbwatch::align

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "proc/optics/vec.h"
+
+namespace orbwatch::align {
+
+/// What a camera shows around a patch: smoothed brightness, row by row.
+struct PatchWindow {
+  /// px: how far a patch may have moved from the middle.
+  static constexpr int kReach = 4;
+  static constexpr int kSide = 16 + 2 * kReach + 1;
+
+  std::array<float, kSide * kSide> values{};
+  bool is_saturated = false;  ///< more than a tenth of it
+
+  const float* row(int v) const { return values.data() + v * kSide; }
+};
+
+/// Where a patch went.
+struct PatchShift {
+  optics::Vec2 shift;  ///< px
+  /// Inverse covariance of the shift by the patch's own residual, 1/px^2; small along an edge.
+  cv::Matx22d information;
+};
+
+/// A piece of a reference picture that is found again to a fraction of a pixel, also when its light
+/// has another strength and offset: inverse-compositional Lucas-Kanade (Baker and Matthews, 2004)
+/// with gain and offset as unknowns. Reentrant, immutable.
+class Patch {
+ public:
+  static constexpr int kSide = 16;
+  static constexpr int kPixels = kSide * kSide;
+  using Mask = std::array<float, kPixels>;  ///< weights 0 or 1
+
+  /// From a smoothed picture (32F); `corner` with a pixel around it inside. nullopt without
+  /// texture: brightness of the same standard deviation `noise` at every pixel would leave the
+  /// shift unknown.
+  static std::optional<Patch> make(const cv::Mat& picture, cv::Point corner, const Mask& mask,
+                                   double noise);
+
+  /// How it moved in a window whose middle is where it stood, from a first guess. nullopt when the
+  /// window shows something else or the way is too far. Costs about 2 us.
+  std::optional<PatchShift> find(const PatchWindow& window, const optics::Vec2& start) const;
+
+  /// Standard deviation of its brightness.
+  double contrast() const { return contrast_; }
+
+ private:
+  /// Slope along u, slope along v, brightness, 1.
+  static constexpr int kBases = 4;
+
+  Patch() = default;
+
+  std::array<std::array<float, kPixels>, kBases> bases_{};  ///< 0 outside of the mask
+  cv::Matx44d inverse_;  ///< of the normal matrix, held along edges
+  cv::Matx22d slopes_;   ///< what the normal matrix says of the shift alone
+  std::array<float, kPixels> mask_{};
+  double pixels_ = 0;
+  double contrast_ = 0;
+};
+
+}  // namespace orbwatch::align

@@ -1,0 +1,110 @@
+#include "proc/align/drift/patch_window.h"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "proc/align/detect/luminance.h"
+
+namespace orbwatch::align {
+namespace {
+
+constexpr int kSide = PatchWindow::kSide;
+/// With the pixel around that smoothing needs.
+constexpr int kRawSide = kSide + 2;
+/// Of the range of a format.
+constexpr double kSaturated = 0.98;
+/// Saturated pixels that make a window useless.
+constexpr int kMostSaturated = kSide * kSide / 10;
+
+cv::Mat smoothed(const cv::Mat& picture) {
+  const cv::Matx13f binomial(0.25F, 0.5F, 0.25F);
+  cv::Mat out;
+  cv::sepFilter2D(picture, out, CV_32F, binomial, binomial, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  return out;
+}
+
+/// Samples of a square of `scale` pixels, along a side: more would cost without telling more.
+constexpr int kDense = 2;
+
+/// The brightness of a part of a picture, of which only the first plane is read, at the scale.
+cv::Mat reduced_luminance(const Picture& picture, const cv::Rect& part, int scale) {
+  const PixelFormatInfo& facts = info(picture.format);
+  const cv::Size size(part.width / scale, part.height / scale);
+  const int skip = std::max(1, scale / kDense);
+  Picture sparse = picture;
+  sparse.width = part.width;
+  sparse.height = part.height / skip;
+  sparse.planes[0].data += part.y * picture.planes[0].stride + static_cast<std::ptrdiff_t>(part.x) *
+                                                                   facts.channels() *
+                                                                   facts.bytes_per_sample();
+  sparse.planes[0].stride *= skip;
+  cv::Mat luminance = luminance_of(sparse), reduced;
+  if (scale == 1) return luminance;
+  if (skip > 1) {
+    cv::resize(luminance, reduced, size * kDense, 0, 0, cv::INTER_NEAREST);
+    std::swap(luminance, reduced);
+  }
+  cv::resize(luminance, reduced, size, 0, 0, cv::INTER_AREA);
+  return reduced;
+}
+
+void mark_saturation(float saturated, PatchWindow& window) {
+  const auto count = std::count_if(window.values.begin(), window.values.end(),
+                                   [&](float value) { return value >= saturated; });
+  window.is_saturated = count > kMostSaturated;
+}
+
+}  // namespace
+
+float saturation(PixelFormat format) {
+  return static_cast<float>(kSaturated * ((1 << info(format).bits) - 1));
+}
+
+cv::Mat smoothed_luminance(const Picture& picture, int scale) {
+  const cv::Rect whole(0, 0, picture.width / scale * scale, picture.height / scale * scale);
+  return smoothed(reduced_luminance(picture, whole, scale));
+}
+
+cv::Mat halved(const cv::Mat& picture) {
+  const cv::Size half(picture.cols / 2, picture.rows / 2);
+  cv::Mat reduced;
+  cv::resize(picture({0, 0, 2 * half.width, 2 * half.height}), reduced, half, 0, 0, cv::INTER_AREA);
+  return smoothed(reduced);
+}
+
+bool WindowReader::read(const Picture& picture, cv::Point corner, PatchWindow& window) {
+  const cv::Rect part(scale_ * (corner.x - 1), scale_ * (corner.y - 1), scale_ * kRawSide,
+                      scale_ * kRawSide);
+  if ((part & cv::Rect(0, 0, picture.width, picture.height)) != part) return false;
+  reduced_luminance(picture, part, scale_).convertTo(samples_, CV_32F);
+  std::array<float, kRawSide> column;
+  for (int v = 0; v < kSide; ++v) {
+    const float* const above = samples_.ptr<float>(v);
+    const float* const middle = samples_.ptr<float>(v + 1);
+    const float* const below = samples_.ptr<float>(v + 2);
+    for (std::size_t u = 0; u < kRawSide; ++u) {
+      column[u] = 0.25F * (above[u] + below[u]) + 0.5F * middle[u];
+    }
+    float* const out = window.values.data() + v * kSide;
+    for (std::size_t u = 0; u < kSide; ++u) {
+      out[u] = 0.25F * (column[u] + column[u + 2]) + 0.5F * column[u + 1];
+    }
+  }
+  mark_saturation(saturation(picture.format), window);
+  return true;
+}
+
+bool read_window(const cv::Mat& picture, cv::Point corner, float saturated, PatchWindow& window) {
+  const cv::Rect part(corner.x, corner.y, kSide, kSide);
+  if ((part & cv::Rect(0, 0, picture.cols, picture.rows)) != part) return false;
+  for (int v = 0; v < kSide; ++v) {
+    std::copy_n(picture.ptr<float>(corner.y + v) + corner.x, kSide,
+                window.values.begin() + v * kSide);
+  }
+  mark_saturation(saturated, window);
+  return true;
+}
+
+}  // namespace orbwatch::align

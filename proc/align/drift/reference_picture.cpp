@@ -1,0 +1,47 @@
+#include "proc/align/drift/reference_picture.h"
+
+#include <algorithm>
+
+#include "proc/align/drift/fault.h"
+#include "proc/align/drift/patch_window.h"
+
+namespace orbwatch::align {
+namespace {
+
+/// Share of the range: the mean of a picture that is too dark.
+constexpr double kDarkest = 0.02;
+
+}  // namespace
+
+void ReferencePicture::add(const Picture& picture) {
+  pictures_.push_back(smoothed_luminance(picture, scale_));
+}
+
+cv::Mat ReferencePicture::median() const {
+  cv::Mat median = pictures_.front().clone();
+  std::vector<float> samples(pictures_.size());
+  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
+  for (int v = 0; v < median.rows; ++v) {
+    for (int u = 0; u < median.cols; ++u) {
+      for (std::size_t n = 0; n < samples.size(); ++n) samples[n] = pictures_[n].at<float>(v, u);
+      std::nth_element(samples.begin(), middle, samples.end());
+      median.at<float>(v, u) = *middle;
+    }
+  }
+  return median;
+}
+
+std::string_view exposure_fault(const Picture& picture, const optics::Outline& outline) {
+  constexpr double kRadius = 200;  // px: enough to judge
+  const int half = static_cast<int>((outline.rx + outline.ry) / 4 / kRadius);
+  const int scale = std::max(1, 2 * half);
+  const cv::Mat luminance = smoothed_luminance(picture, scale);
+  const double range = saturation(picture.format);
+  const double bright = cv::countNonZero(luminance >= range);
+  if (2 * bright > static_cast<double>(luminance.total())) return fault::kOverexposed;
+  const bool is_light = picture.format != PixelFormat::Y16;  // that may be temperatures
+  const bool is_dark = is_light && cv::mean(luminance)[0] < kDarkest * range;
+  return is_dark ? fault::kDark : std::string_view{};
+}
+
+}  // namespace orbwatch::align
