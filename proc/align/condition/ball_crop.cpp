@@ -1,0 +1,108 @@
+#include "proc/align/condition/ball_crop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "proc/align/detect/luminance.h"
+
+namespace orbwatch::align {
+namespace {
+
+constexpr int kMargin = 16;           // px around the ball that edges on the limb need
+constexpr double kDarkShare = 0.02;   // of full scale, that a tenth of the pixels must reach
+constexpr double kDarkNoise = 6;      // noise that they must reach
+constexpr double kOverexposed = 0.5;  // share of pixels at full scale
+constexpr int kSampledRows = 256;
+
+cv::Rect bounds(const optics::Outline& outline) {
+  const double turn = optics::radians(outline.angle), c = std::cos(turn), s = std::sin(turn);
+  const double half_u = std::hypot(outline.rx * c, outline.ry * s) + kMargin;
+  const double half_v = std::hypot(outline.rx * s, outline.ry * c) + kMargin;
+  const cv::Point low(cvFloor(outline.centre.u - half_u), cvFloor(outline.centre.v - half_v));
+  const cv::Point high(cvCeil(outline.centre.u + half_u), cvCeil(outline.centre.v + half_v));
+  return {low, high};
+}
+
+double quantile(std::vector<float>& values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return static_cast<double>(*place);
+}
+
+/// J. Immerkaer, Fast noise variance estimation, 1996: what is left of a picture without its planes
+/// and edges; by the median, because reflections are full of edges.
+double noise_of(const cv::Mat& brightness) {
+  const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
+  std::vector<float> magnitudes;
+  const int step = std::max(1, brightness.rows / kSampledRows);
+  for (int v = 1; v + 2 < brightness.rows; v += 3 * step) {
+    cv::Mat left;
+    cv::filter2D(brightness.rowRange(v - 1, v + 2), left, CV_32F, kernel);
+    for (int u = 1; u + 1 < left.cols; ++u) magnitudes.push_back(std::abs(left.at<float>(1, u)));
+  }
+  if (magnitudes.empty()) return 0;
+  return quantile(magnitudes, 0.5) / 0.6745 / 6;
+}
+
+/// Why a ball that is lit like that cannot be judged; else empty.
+std::string bad_light(const BallCrop& crop) {
+  std::vector<float> inside;
+  const int step = std::max(1, crop.brightness.rows / kSampledRows);
+  for (int v = 0; v < crop.brightness.rows; v += step) {
+    for (int u = 0; u < crop.brightness.cols; u += step) {
+      if (crop.rho(u, v) < 0.95) inside.push_back(crop.brightness.at<float>(v, u));
+    }
+  }
+  if (inside.empty()) return "the picture shows nothing of the ball";
+  const double bright = quantile(inside, 0.9);
+  if (bright < std::max(kDarkShare * crop.full_scale, kDarkNoise * crop.noise)) {
+    return "the ball's picture is dark; light or a longer exposure is needed";
+  }
+  if (quantile(inside, 1 - kOverexposed) >= 0.98 * crop.full_scale) {
+    return "the ball's picture is overexposed; a shorter exposure is needed";
+  }
+  return "";
+}
+
+}  // namespace
+
+double BallCrop::rho(double u, double v) const {
+  const double turn = optics::radians(outline.angle), c = std::cos(turn), s = std::sin(turn);
+  const double du = u - outline.centre.u, dv = v - outline.centre.v;
+  return std::hypot((du * c + dv * s) / outline.rx, (dv * c - du * s) / outline.ry);
+}
+
+Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline) {
+  const bool is_larger = std::max(outline.rx, outline.ry) > picture.width + picture.height;
+  const cv::Rect wanted = is_larger ? cv::Rect() : bounds(outline);
+  const cv::Rect seen = wanted & cv::Rect(0, 0, picture.width, picture.height);
+  if (seen.empty() || seen.area() < wanted.area() / 2) {
+    return fail("the picture shows less than half of the ball; it must show most of it");
+  }
+  BallCrop crop;
+  luminance_of(picture)(seen).convertTo(crop.brightness, CV_32F);
+  crop.outline = outline;
+  crop.outline.centre = {outline.centre.u - seen.x, outline.centre.v - seen.y};
+  crop.full_scale = std::exp2(info(picture.format).bits) - 1;
+  crop.noise = noise_of(crop.brightness);
+  const std::string reason = bad_light(crop);
+  if (!reason.empty()) return fail(reason);
+  return crop;
+}
+
+BallCrop halved(const BallCrop& crop) {
+  BallCrop half = crop;
+  const cv::Rect even(0, 0, crop.brightness.cols / 2 * 2, crop.brightness.rows / 2 * 2);
+  cv::resize(crop.brightness(even), half.brightness, {}, 0.5, 0.5, cv::INTER_AREA);
+  half.outline.centre = {(crop.outline.centre.u - 0.5) / 2, (crop.outline.centre.v - 0.5) / 2};
+  half.outline.rx = crop.outline.rx / 2;
+  half.outline.ry = crop.outline.ry / 2;
+  half.noise = crop.noise / 2;
+  return half;
+}
+
+}  // namespace orbwatch::align
