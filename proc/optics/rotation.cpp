@@ -15,6 +15,16 @@ Mat3 rotation(const YawPitchRoll& angles) {
   return yaw * pitch * roll;
 }
 
+YawPitchRoll yaw_pitch_roll(const Mat3& rotation) {
+  const Vec3 right = rotation.column0(), forward = rotation.column1(), up = rotation.column2();
+  const double pitch = std::asin(std::clamp(forward.z, -1.0, 1.0));
+  if (std::hypot(forward.x, forward.y) < 1e-12) {
+    return {degrees(std::atan2(-right.y, right.x)), degrees(pitch), 0};
+  }
+  return {degrees(std::atan2(forward.x, forward.y)), degrees(pitch),
+          degrees(std::atan2(-right.z, up.z))};
+}
+
 Result<Mat3> checked_rotation(const Mat3& matrix) {
   constexpr double kTolerance = 1e-6;
   const Mat3 product = matrix * transposed(matrix);

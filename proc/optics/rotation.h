@@ -16,6 +16,10 @@ struct YawPitchRoll {
 /// The rotation R = yaw pitch roll. Its columns are the rotated axes: right, forward, up.
 Mat3 rotation(const YawPitchRoll& angles);
 
+/// The angles of a rotation, pitch in [-90, 90]; at pitch +-90 roll is taken as 0. The inverse of
+/// rotation().
+YawPitchRoll yaw_pitch_roll(const Mat3& rotation);
+
 /// `matrix` itself if it is a rotation: orthonormal and right-handed to 1e-6. Error otherwise.
 Result<Mat3> checked_rotation(const Mat3& matrix);
 

@@ -32,16 +32,28 @@ class ErrorDistribution {
   double p95() const { return quantile(0.95); }
   double max() const { return quantile(1); }
 
-  /// Prints them, and notes them in the test's report.
+  /// Prints them, and notes them in the test's report; there also each fiftieth of them, which
+  /// tests/acceptance/plot draws.
   void report() const {
     char line[160];
     std::snprintf(line, sizeof line, "%-34s n %4zu  p50 %9.4g  p95 %9.4g  max %9.4g", name_.c_str(),
                   size(), p50(), p95(), max());
     std::puts(line);
     testing::Test::RecordProperty(name_, line);
+    testing::Test::RecordProperty("quantiles of " + name_, quantiles());
   }
 
  private:
+  std::string quantiles() const {
+    std::string text;
+    for (int n = 0; n <= 50; ++n) {
+      char number[32];
+      std::snprintf(number, sizeof number, "%s%.4g", n == 0 ? "" : " ", quantile(n / 50.0));
+      text += number;
+    }
+    return text;
+  }
+
   std::string name_;
   std::vector<double> errors_;
 };

@@ -38,6 +38,17 @@ struct Paint {
   double strength = 0;  ///< of patches
   double stripes = 0;   ///< period; 0: none
   double stains = 0;    ///< amplitude of smooth noise
+  bool warm = false;    ///< seen by its temperature: the same shapes, other values
+
+  /// What a thermal camera sees of the same surface.
+  Paint warmed() const {
+    Paint paint = *this;
+    paint.warm = true;
+    const double warmth = 0.05 + 0.6 * uniform(seed, 0, 20);
+    paint.base = {warmth, warmth, warmth};
+    paint.stains = 0.3 * stains * uniform(seed, 0, 21);
+    return paint;
+  }
 
   Light at(double x, double y) const {
     Light light = base;
@@ -47,11 +58,17 @@ struct Paint {
       return uniform(seed, mix(static_cast<std::uint64_t>(i)) ^ static_cast<std::uint64_t>(j),
                      channel);
     };
-    if (cell(x / patch, y / patch, 0) < strength) {
+    const bool patched = cell(x / patch, y / patch, 0) < strength;
+    if (patched && warm) {
+      if (cell(x / patch, y / patch, 22) < 0.5)
+        light = light * (2 * cell(x / patch, y / patch, 23));
+    } else if (patched) {
       light = {cell(x / patch, y / patch, 1), cell(x / patch, y / patch, 2),
                cell(x / patch, y / patch, 3)};
     }
-    if (stripes > 0 && x / stripes - std::floor(x / stripes) < 0.2) light = light * 0.3;
+    if (stripes > 0 && x / stripes - std::floor(x / stripes) < 0.2) {
+      light = light * (warm ? 0.9 : 0.3);
+    }
     double stain = 0;
     for (int octave = 0; octave < 4 && stains > 0; ++octave) {
       const double scale = patch * std::ldexp(0.7, -octave);
@@ -164,6 +181,28 @@ class Room {
       std::erase_if(tubes_, [&](const Tube& t) { return entry(ray, t) < limit; });
       std::erase_if(marbles_, [&](const Marble& m) { return entry(ray, m.sphere) < limit; });
     }
+  }
+
+  /// Shows temperatures from now on.
+  void warm() {
+    for (auto& side : walls_) {
+      for (Paint& paint : side) paint = paint.warmed();
+    }
+    for (Block& block : blocks_) {
+      for (Paint& paint : block.paints) paint = paint.warmed();
+    }
+    for (Tube& tube : tubes_) tube.paint = tube.paint.warmed();
+    for (Marble& marble : marbles_) marble.paint = marble.paint.warmed();
+    if (rod_) rod_->paint = rod_->paint.warmed();
+  }
+
+  /// The walls and boxes.
+  optics::Scene scene() const {
+    optics::Scene scene;
+    scene.room = optics::Scene::Room::Box;
+    scene.walls = {room_.lo, room_.hi};
+    for (const Block& block : blocks_) scene.obstacles.push_back({block.box.lo, block.box.hi});
+    return scene;
   }
 
   /// What arrives along a ray from outside of everything.
@@ -353,34 +392,21 @@ cv::Mat encode(const cv::Mat& light, const MirrorRoomSettings& s, std::mt19937_6
   return samples;
 }
 
-}  // namespace
-
-double share_outside(const MirrorRoomSettings& s) {
-  constexpr int kPoints = 360;
-  int outside = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kPoints;
-    const double u = s.off_axis.u * s.width / 2 + s.radius * std::cos(angle);
-    const double v = s.off_axis.v * s.height / 2 + s.radius * std::sin(angle);
-    outside += std::abs(u) > s.width / 2.0 || std::abs(v) > s.height / 2.0 ? 1 : 0;
-  }
-  return static_cast<double>(outside) / kPoints;
+/// The rod that the ball hangs on, across the line of sight, so that it hides a share of the limb's
+/// angles.
+void hang(Room& room, const Camera& camera, const MirrorRoomSettings& settings,
+          std::mt19937_64& random) {
+  if (!(settings.limb_hidden > 0)) return;
+  const double angle = std::uniform_real_distribution<double>(0, 6.28)(random);
+  const Vec3 towards = normalized(camera.position);
+  const Vec3 side = normalized(cross(towards, {0.1, 0.3, 1})), other = cross(towards, side);
+  room.hang(side * std::cos(angle) + other * std::sin(angle),
+            std::sin(std::numbers::pi * std::min(settings.limb_hidden, 0.45)));
 }
 
-MirrorRoomPicture mirror_room(const MirrorRoomSettings& settings) {
-  std::mt19937_64 random(mix(settings.seed ^ 0x5eed));
-  Room room(settings);
-  const Camera camera = camera_of(settings, random);
-  const Vec3 ball = camera.axes * -camera.position;
-  room.clear_sight(camera.position);
-  if (settings.limb_hidden > 0) {
-    // Across the line of sight, so that it hides that share of the limb's angles.
-    const double angle = std::uniform_real_distribution<double>(0, 6.28)(random);
-    const Vec3 towards = normalized(camera.position);
-    const Vec3 side = normalized(cross(towards, {0.1, 0.3, 1})), other = cross(towards, side);
-    room.hang(side * std::cos(angle) + other * std::sin(angle),
-              std::sin(std::numbers::pi * std::min(settings.limb_hidden, 0.45)));
-  }
+/// Traces what the camera sees; pixels near the limb by 4x4 rays.
+MirrorRoomPicture picture(const Room& room, const Camera& camera,
+                          const MirrorRoomSettings& settings, std::mt19937_64& random) {
   const cv::Size size(settings.width, settings.height);
   cv::Mat light(size, CV_32FC3);
   const double limb = std::sqrt(1 - 1 / (settings.distance * settings.distance));
@@ -406,8 +432,57 @@ MirrorRoomPicture mirror_room(const MirrorRoomSettings& settings) {
                                    static_cast<float>(std::min(sum.z, 20.0))};
     }
   }
-  return {encode(light, settings, random), limb_of(ball, camera.focal_length, size),
-          camera.focal_length, ball};
+  const Vec3 ball = camera.axes * -camera.position;
+  return {encode(light, settings, random),
+          limb_of(ball, camera.focal_length, size),
+          camera.focal_length,
+          ball,
+          camera.axes,
+          camera.position};
+}
+
+}  // namespace
+
+double share_outside(const MirrorRoomSettings& s) {
+  constexpr int kPoints = 360;
+  int outside = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kPoints;
+    const double u = s.off_axis.u * s.width / 2 + s.radius * std::cos(angle);
+    const double v = s.off_axis.v * s.height / 2 + s.radius * std::sin(angle);
+    outside += std::abs(u) > s.width / 2.0 || std::abs(v) > s.height / 2.0 ? 1 : 0;
+  }
+  return static_cast<double>(outside) / kPoints;
+}
+
+MirrorRoomPicture mirror_room(const MirrorRoomSettings& settings) {
+  std::mt19937_64 random(mix(settings.seed ^ 0x5eed));
+  Room room(settings);
+  const Camera camera = camera_of(settings, random);
+  room.clear_sight(camera.position);
+  hang(room, camera, settings, random);
+  return picture(room, camera, settings, random);
+}
+
+MirrorRoomPair mirror_room_pair(const MirrorRoomSettings& first, const MirrorRoomSettings& second) {
+  std::mt19937_64 random(mix(first.seed ^ 0x5eed));
+  Room room(first);
+  const Camera a = camera_of(first, random);
+  Camera b = camera_of(second, random);
+  const auto apart = [&] { return angle_between(a.position, b.position); };
+  while (apart() < optics::radians(30) || apart() > optics::radians(150)) {
+    b = camera_of(second, random);
+  }
+  room.clear_sight(a.position);
+  room.clear_sight(b.position);
+  hang(room, a, first, random);
+  const auto seen = [&](const Camera& camera, const MirrorRoomSettings& settings) {
+    Room shown = room;
+    if (settings.thermal) shown.warm();
+    return picture(shown, camera, settings, random);
+  };
+  const MirrorRoomPicture from_a = seen(a, first), from_b = seen(b, second);
+  return {from_a, from_b, room.scene()};
 }
 
 }  // namespace orbwatch::tests

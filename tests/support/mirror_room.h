@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "proc/optics/scene_proxy.h"
 #include "proc/optics/vec.h"
 
 namespace orbwatch::tests {
@@ -41,6 +42,8 @@ struct MirrorRoomPicture {
   TrueLimb limb;
   double focal_length = 0;  ///< px; the principal point is the middle
   optics::Vec3 ball;        ///< camera frame, ball radii
+  optics::Mat3 axes;        ///< of the camera in the room: right, down, forward
+  optics::Vec3 position;    ///< of the camera in the room, ball radii
 };
 
 /// The share of the limb, about, that lies outside of the picture.
@@ -48,5 +51,17 @@ double share_outside(const MirrorRoomSettings& settings);
 
 /// Traces it; pixels near the limb by 4x4 rays. Reentrant.
 MirrorRoomPicture mirror_room(const MirrorRoomSettings& settings);
+
+/// The same room seen by two cameras from different sides.
+struct MirrorRoomPair {
+  MirrorRoomPicture first;
+  MirrorRoomPicture second;
+  optics::Scene scene;  ///< the room's walls and boxes; its tubes and spheres are left out
+};
+
+/// The room of `first.seed`, and what hides the limb of the first camera. A thermal camera sees the
+/// same surfaces, but patterns of temperature that do not follow those of the colours: other
+/// values, half of the patches missing, faint stripes and stains. The ball is there. Reentrant.
+MirrorRoomPair mirror_room_pair(const MirrorRoomSettings& first, const MirrorRoomSettings& second);
 
 }  // namespace orbwatch::tests

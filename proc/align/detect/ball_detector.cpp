@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "proc/align/detect/centre_votes.h"
+#include "proc/align/detect/certainty.h"
 #include "proc/align/detect/circle_search.h"
 #include "proc/align/detect/limb_fit.h"
+#include "proc/align/detect/limb_likelihood.h"
 #include "proc/align/detect/limb_score.h"
 #include "proc/align/detect/luminance.h"
 #include "proc/align/detect/pyramid.h"
@@ -19,14 +21,16 @@ using optics::Outline;
 
 constexpr int kSmallestSide = 64;
 /// Scales that are searched; the coarsest for balls of any size, the others for small ones.
-constexpr std::size_t kScales = 4;
+constexpr std::size_t kScales = 3;
 constexpr double kNearest = 18, kNearestCoarse = 12, kFarthest = 80;  // radii, px
 constexpr double kLargest = 0.62;  // radius, of the picture's short side
 /// A difference() from which on two outlines are different places.
 constexpr double kElsewhere = 0.5;
-constexpr std::size_t kVotes = 8, kClimbed = 20, kFitted = 5, kRefined = 3;
+constexpr std::size_t kVotes = 8, kClimbed = 6, kFitted = 4, kRefined = 3;
 /// px: the radius at which a limb is judged.
 constexpr double kJudged = 90;
+/// px: that of the last fit, and what it sees on both sides.
+constexpr double kFine = 400, kAround = 8;
 /// px: a blurred edge looks like the ball's inside until there.
 constexpr double kBlur = 1;
 
@@ -37,16 +41,14 @@ struct Candidate {
   double rank = 0;    ///< Circle::rank()
   double radius = 0;  ///< px, at the scale at which it was judged
 
-  /// The logarithm of the odds that the outline is a ball's and right to 3 %, among candidates: a
-  /// logistic regression over 6000 of them in 240 simulated rooms with a ball and 180 without.
+  /// By which candidates of one picture are compared: the logarithm of the odds that the outline is
+  /// a ball's and right to 3 %, a logistic regression over 6000 in 420 simulated rooms.
   double odds() const {
     return 16 * score.drop + 11.5 * score.contour + 107 * rank +
            3.1 * std::log(std::min(radius, kJudged) / 60) - 15.7;
   }
 };
 
-/// Odds at which the confidence is kConfident.
-constexpr double kConfidentOdds = 4;
 /// Another place whose odds are less than that lower makes the best one doubtful.
 constexpr double kRivalOdds = 2;
 
@@ -75,14 +77,46 @@ class Search {
     }
     keep_best(candidates);
     for (Candidate& candidate : candidates) {
-      const Outline limb = fitted(fitted(candidate.outline, 180, 4), 400, 3);
+      const Outline limb = fitted(fitted(candidate.outline, 2 * kJudged, 6), kFine, kAround);
       candidate = judged(limb).value_or(candidate);
     }
     keep_best(candidates);
     return candidates;
   }
 
+  LimbEvidence evidence(const Candidate& best) const {
+    const std::size_t level = pyramid_.level_for(best.outline, kJudged);
+    const Outline here = Pyramid::between(best.outline, 0, level);
+    return {best.rank,
+            best.radius,
+            near_drop(pyramid_.level(level), here),
+            best.score.contour,
+            likelihood(best.outline),
+            shift(best.outline, level)};
+  }
+
  private:
+  /// LimbEvidence::likelihood
+  double likelihood(const Outline& outline) const {
+    const std::size_t level = pyramid_.level_for(outline, kFine);
+    const Outline here = Pyramid::between(outline, 0, level);
+    const cv::Mat& luminance = pyramid_.level(level);
+    return LimbLikelihood(LimbStrip(luminance, here, kAround), here, luminance.size())
+        .above_random({});
+  }
+
+  /// LimbEvidence::shift
+  double shift(const Outline& outline, std::size_t level) const {
+    const double right = std::max(0.02 * mean_radius(outline), 3.0);
+    const double reach = std::max(5.0, 3 * std::ldexp(right, -static_cast<int>(level)));
+    const Outline here = Pyramid::between(outline, 0, level);
+    const Outline there = Pyramid::between(fit_limb(pyramid_.level(level), here, reach), level, 0);
+    const double apart =
+        std::hypot(there.centre.u - outline.centre.u, there.centre.v - outline.centre.v);
+    const double wider = std::abs(mean_radius(there) - mean_radius(outline));
+    return std::max(apart, wider) / right;
+  }
+
   struct Found {
     std::size_t level;
     Circle circle;
@@ -199,10 +233,11 @@ bool has_rival(const std::vector<Candidate>& candidates) {
 }
 
 /// What speaks against the best candidate, for an operator.
-std::string doubt(const Candidate& best, bool rival) {
+std::string doubt(const Candidate& best, const LimbEvidence& evidence, bool rival) {
   if (rival) return "two places look nearly alike; hide what is no ball, or cut the picture";
-  if (mean_radius(best.outline) < kJudged / 2) return "it is small; a ball needs a larger picture";
+  if (evidence.radius < kLeastRadius) return "it is small; a ball needs a larger picture";
   if (best.score.drop < 0.25) return "what is inside is hardly compressed towards the limb";
+  if (evidence.likelihood < kLeastLikelihood) return "it does not end as a ball does: a dome?";
   if (best.score.contour < 0.6) return "its limb is no clear edge: blurred, or much is hidden";
   return "too little of the picture tells whether it is a ball";
 }
@@ -215,13 +250,15 @@ Result<BallDetection> detect_ball(const Picture& picture) {
                 std::to_string(picture.height) + "; a ball is found in at least " +
                 std::to_string(kSmallestSide) + "x" + std::to_string(kSmallestSide) + " pixels");
   }
-  const std::vector<Candidate> limbs = Search(luminance_of(picture)).run();
+  Search search(luminance_of(picture));
+  const std::vector<Candidate> limbs = search.run();
   if (limbs.empty()) return fail("the picture shows no edges that could be a ball's");
   const Candidate& best = limbs.front();
   const bool rival = has_rival(limbs);
-  const double odds = best.odds() - kConfidentOdds;
+  const LimbEvidence evidence = search.evidence(best);
+  const double odds = certainty(evidence) - kCertain;
   BallDetection ball{best.outline, 1 / (1 + std::exp(-(rival ? std::min(odds, -0.1) : odds))), ""};
-  if (!ball.is_confident()) ball.reason = doubt(best, rival);
+  if (!ball.is_confident()) ball.reason = doubt(best, evidence, rival);
   return ball;
 }
 

@@ -23,7 +23,7 @@ struct BallDetection {
 
 /// The most likely mirror ball in a picture of any format, colour, grey or thermal, fully or for
 /// the most part within it. Needs no calibration: it goes by how a ball compresses what it
-/// reflects towards its limb, and ends there. Takes some tenths of a second. Reentrant.
+/// reflects towards its limb, and ends there. Takes about a tenth of a second. Reentrant.
 /// Error: a picture with a side below 64 pixels, or one that shows nothing at all.
 Result<BallDetection> detect_ball(const Picture& picture);
 

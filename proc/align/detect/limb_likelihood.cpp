@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "proc/align/detect/limb_profile.h"
 #include "proc/align/detect/reflection_law.h"
 
 namespace orbwatch::align {
@@ -17,11 +18,25 @@ constexpr std::array kBlurred{1.0, 0.8, 0.45, 0.15};
 /// The compression within the strip.
 constexpr double kCompression = 8;
 /// Share of the sectors that say nothing.
-constexpr double kStray = 0.3;
-/// Of the axes' difference from what perspective makes of a sphere, shares of the radius.
-constexpr double kShapeSigma = 0.003;
+constexpr double kStray = 0.3, kProfileStray = 0.1;
+/// What an axis costs that differs from what perspective makes of a sphere, nats per share of the
+/// radius. Not by the square: some lenses and pixels do stretch balls.
+constexpr double kShape = 3000;
 /// The shortest focal length to be expected, in long sides of the picture.
 constexpr double kShortestFocalLength = 0.55;
+
+/// To `logarithms` those of the probabilities of the columns, if `nats` speak for them and a
+/// `stray` share of the sectors is wrong.
+template <class Number>
+void add_logarithms(const Number* nats, std::size_t columns, double stray, double* logarithms) {
+  const double most = *std::max_element(nats, nats + columns);
+  double total = 0;
+  for (std::size_t k = 0; k < columns; ++k) total += std::exp(nats[k] - most);
+  for (std::size_t k = 0; k < columns; ++k) {
+    const double p = std::exp(nats[k] - most) / total;
+    logarithms[k] += std::log(stray / static_cast<double>(columns) + (1 - stray) * p);
+  }
+}
 
 }  // namespace
 
@@ -32,13 +47,21 @@ LimbLikelihood::LimbLikelihood(const LimbStrip& strip, const optics::Outline& ou
       sectors_(kSectors * columns_),
       radius_((outline.rx + outline.ry) / 2),
       half_((outline.rx - outline.ry) / 2) {
+  std::vector<double> steps(sectors_.size());
+  // Profiles reach beyond both ends.
+  const std::size_t wide = columns_ + limb_profile::kColumns - 1;
+  std::vector<float> profiles(kSectors * wide);
   for (int ray = 0; ray < strip.rays(); ++ray) {
-    double* sums = &sectors_[strip.sector(ray, kSectors) * columns_];
-    add_slopes(strip, ray, sums);
-    add_edges(strip, ray, sums);
+    const std::size_t sector = strip.sector(ray, kSectors);
+    add_slopes(strip, ray, &steps[sector * columns_]);
+    add_edges(strip, ray, &steps[sector * columns_]);
+    add_profile(strip, ray, &profiles[sector * wide]);
   }
   for (std::size_t s = 0; s < kSectors; ++s) {
-    take_logarithms(&sectors_[s * columns_]);
+    double* logarithms = &sectors_[s * columns_];
+    add_logarithms(&steps[s * columns_], columns_, kStray, logarithms);
+    add_logarithms(&profiles[s * wide + limb_profile::kFarthest], columns_, kProfileStray,
+                   logarithms);
     const double a = 2 * std::numbers::pi * (static_cast<double>(s) + 0.5) / kSectors;
     basis_[s] = {1, std::cos(a), std::sin(a), std::cos(2 * a), std::sin(2 * a)};
   }
@@ -87,13 +110,16 @@ void LimbLikelihood::add_edges(const LimbStrip& strip, int ray, double* sums) co
   }
 }
 
-void LimbLikelihood::take_logarithms(double* sums) const {
-  const double most = *std::max_element(sums, sums + columns_);
-  double total = 0;
-  for (std::size_t k = 0; k < columns_; ++k) total += std::exp(sums[k] - most);
+/// A slope speaks for limbs on both sides of it.
+void LimbLikelihood::add_profile(const LimbStrip& strip, int ray, float* sums) const {
   for (std::size_t k = 0; k < columns_; ++k) {
-    const double p = std::exp(sums[k] - most) / total;
-    sums[k] = std::log(kStray / static_cast<double>(columns_) + (1 - kStray) * p);
+    const auto here = strip.slope(ray, static_cast<int>(k));
+    if (!here) continue;
+    const auto& profile = limb_profile::at(limb_profile::kind(*here, strip.floor2()));
+    constexpr auto kShare = static_cast<float>(1 / kCorrelated);
+    for (std::size_t j = 0; j < limb_profile::kColumns; ++j) {
+      sums[k + j] += kShare * profile[limb_profile::kColumns - 1 - j];
+    }
   }
 }
 
@@ -102,7 +128,7 @@ double LimbLikelihood::shape(const Offset& offset) const {
   const double along = p * cos_middle_ + q * sin_middle_;
   const double across = q * cos_middle_ - p * sin_middle_;
   const double beyond = std::max({0.0, -along, along - longest_});
-  return -(beyond * beyond + across * across) / (2 * kShapeSigma * kShapeSigma);
+  return -kShape * std::hypot(beyond, across);
 }
 
 double LimbLikelihood::operator()(const Offset& offset) const {
@@ -117,6 +143,11 @@ double LimbLikelihood::operator()(const Offset& offset) const {
     sum += std::lerp(row[k], row[k + 1], place - static_cast<double>(k));
   }
   return sum;
+}
+
+double LimbLikelihood::above_random(const Offset& offset) const {
+  constexpr int kTerms = 2;  // steps and profiles
+  return (*this)(offset) / kSectors + kTerms * std::log(static_cast<double>(columns_));
 }
 
 }  // namespace orbwatch::align

@@ -14,8 +14,9 @@ namespace orbwatch::align {
 using Offset = std::array<double, 5>;
 
 /// How likely the ball's limb lies there, by what a strip shows, in nats: at each sector's limb an
-/// edge should stand, with slopes along the normal inside of it and random ones outside. Some
-/// sectors may be wrong: a mount hides the limb, a reflection looks like it.
+/// edge should stand, with slopes along the normal inside of it and random ones outside, and slopes
+/// should fade outward by the limb_profile. Some sectors may be wrong: a mount hides the limb, a
+/// reflection looks like it.
 class LimbLikelihood {
  public:
   /// Of offsets from `outline` within `strip`, which was made of it, in a picture of that size.
@@ -23,12 +24,16 @@ class LimbLikelihood {
 
   double operator()(const Offset& offset) const;
 
+  /// By how much that is above a limb's anywhere in a strip that tells nothing, nats per sector: 2
+  /// to 4 for what ends as a ball does, below 1 for most other round things.
+  double above_random(const Offset& offset) const;
+
  private:
   static constexpr std::size_t kSectors = 64;
 
   void add_slopes(const LimbStrip& strip, int ray, double* sums) const;
   void add_edges(const LimbStrip& strip, int ray, double* sums) const;
-  void take_logarithms(double* sums) const;
+  void add_profile(const LimbStrip& strip, int ray, float* sums) const;
   double shape(const Offset& offset) const;
 
   std::size_t columns_;

@@ -75,6 +75,33 @@ double contour(const cv::Mat& luminance, const optics::Outline& outline) {
 
 }  // namespace
 
+double near_drop(const cv::Mat& luminance, const optics::Outline& outline) {
+  constexpr std::size_t kNearSectors = 32;
+  const double radius = (outline.rx + outline.ry) / 2;
+  const double near = std::max(3.0, 0.08 * radius);
+  const LimbStrip strip(luminance, outline, std::max(5.0, 0.2 * radius));
+  std::array<Agreement, kNearSectors> inside, outside;
+  for (int ray = 0; ray < strip.rays(); ++ray) {
+    const std::size_t sector = strip.sector(ray, kNearSectors);
+    for (int k = 0; k < strip.columns(); ++k) {
+      const double at = strip.distance(k);
+      const auto slope = strip.slope(ray, k);
+      if (!slope) continue;
+      if (at > -near && at < 0) inside[sector].add(*slope, strip.floor2());
+      if (at > kBeyondEdge && at < near + kBeyondEdge) outside[sector].add(*slope, strip.floor2());
+    }
+  }
+  double sum = 0;
+  int seen = 0;
+  for (std::size_t s = 0; s < kNearSectors; ++s) {
+    if (inside[s].count == 0) continue;
+    const double out = std::max(0.0, outside[s].mean(kUnknownOutside));
+    sum += std::clamp(inside[s].mean(0) - out, -0.5, 1.0);
+    ++seen;
+  }
+  return seen > 0 ? sum / seen : 0;
+}
+
 LimbScore limb_score(const cv::Mat& luminance, const optics::Outline& outline) {
   return {drop(luminance, outline), contour(luminance, outline)};
 }

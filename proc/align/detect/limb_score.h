@@ -17,4 +17,8 @@ struct LimbScore {
 /// Of an outline with axes above 10 pixels in `luminance`: one channel, 8 or 16 bit. Reentrant.
 LimbScore limb_score(const cv::Mat& luminance, const optics::Outline& outline);
 
+/// LimbScore::drop, but only close to the limb: a limb that is off by little has less of it there.
+/// -0.5 to 1. Reentrant.
+double near_drop(const cv::Mat& luminance, const optics::Outline& outline);
+
 }  // namespace orbwatch::align

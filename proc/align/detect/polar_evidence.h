@@ -27,7 +27,7 @@ class PolarEvidence {
 
  private:
   static constexpr std::size_t kSectors = 32;
-  static constexpr std::size_t kAnglesPerSector = 3;
+  static constexpr std::size_t kAnglesPerSector = 2;
   static constexpr std::size_t kAngles = kSectors * kAnglesPerSector;
 
   /// Of one radius, or summed up from the innermost one on.

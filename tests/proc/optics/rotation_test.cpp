@@ -15,17 +15,6 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
   EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// The angles of a rotation, pitch in [-90, 90]; at pitch +-90 roll is taken as 0.
-YawPitchRoll yaw_pitch_roll(const Mat3& rotation) {
-  const Vec3 right = rotation.column0(), forward = rotation.column1(), up = rotation.column2();
-  const double pitch = std::asin(std::clamp(forward.z, -1.0, 1.0));
-  if (std::hypot(forward.x, forward.y) < 1e-12) {
-    return {degrees(std::atan2(-right.y, right.x)), degrees(pitch), 0};
-  }
-  return {degrees(std::atan2(forward.x, forward.y)), degrees(pitch),
-          degrees(std::atan2(-right.z, up.z))};
-}
-
 TEST(Rotation, FollowsTheConventions) {
   const double c = std::cos(radians(10)), s = std::sin(radians(10));
   expect_near(rotation({0, 0, 10}).column0(), {c, 0, -s});  // the right side dips

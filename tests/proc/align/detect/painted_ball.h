@@ -13,10 +13,11 @@ namespace orbwatch::align {
 inline cv::Mat painted_ball(const cv::Size& size, const optics::Outline& limb) {
   std::mt19937 random(7);
   cv::Mat spots(256, 512, CV_8U, cv::Scalar(90));
+  const auto below = [&](unsigned end) { return static_cast<int>(random() % end); };
   for (int i = 0; i < 600; ++i) {
-    const cv::Point place(static_cast<int>(random() % 512), static_cast<int>(random() % 256));
-    cv::circle(spots, place, 2 + static_cast<int>(random() % 7),
-               cv::Scalar(static_cast<double>(random() % 256)), cv::FILLED);
+    // One after the other: the order of arguments is the compiler's.
+    const int y = below(256), x = below(512), grey = below(256), radius = 2 + below(7);
+    cv::circle(spots, {x, y}, radius, cv::Scalar(grey), cv::FILLED);
   }
   const auto light = [&](double u, double v) -> double {
     const double x = (u - limb.centre.u) / limb.rx, y = (v - limb.centre.v) / limb.ry;
