@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/model/status.h"
+#include "app/watch/watch_settings.h"
+#include "hal/clock.h"
+#include "proc/align/drift/drift_monitor.h"
+#include "proc/image/picture.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// Watches whether one camera still sees the ball where it was aligned. The first good picture
+/// after an alignment is kept as a file: what moves while the appliance is off is seen, too.
+/// Thread-bound.
+class AlignmentWatch {
+ public:
+  /// `name`: the camera's. `folder`: of what must outlast a restart. Error: an alignment that
+  /// cannot be watched.
+  static Result<AlignmentWatch> make(const std::string& name, const align::DriftSubject& subject,
+                                     const WatchSettings& settings,
+                                     const std::filesystem::path& folder);
+
+  /// Sets the figures of the alignment. Logs when the level changes.
+  void observe(const Picture& picture, hal::TimePoint stamp, CameraWatchStatus& figures);
+
+  /// What the newest picture said.
+  const align::DriftState& drift() const { return drift_; }
+
+ private:
+  AlignmentWatch(std::string name, align::DriftMonitor monitor, std::filesystem::path reference);
+
+  void refer();
+  void keep(const Picture& picture);
+  void log_level(WatchLevel level);
+
+  std::string name_;
+  align::DriftMonitor monitor_;
+  std::filesystem::path reference_;  ///< the file
+  bool is_referred_ = false;         ///< there is a reference, or none could be kept
+  align::DriftState drift_;
+  WatchLevel level_ = WatchLevel::NotMeasured;  ///< logged last
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,152 @@
+#include "app/watch/camera_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/log.h"
+#include "app/state/state_folder.h"
+
+namespace orbwatch::app {
+
+CameraWatch::Watched::Watched(AlignmentWatch alignment_watch, BallWatch ball_watch,
+                              Records& all_records, std::shared_ptr<hal::SharedThreads> threads)
+    : alignment(std::move(alignment_watch)),
+      ball(std::move(ball_watch)),
+      records(all_records),
+      work(std::move(threads), [this] { look(); }) {}
+
+void CameraWatch::Watched::look() {
+  CameraWatchStatus seen;
+  const hal::TimePoint taken = frame->metadata.exposure_start;
+  alignment.observe(frame->picture, taken, seen);
+  if (cleaned.exchange(false)) ball.learn_anew();
+  ball.observe(frame->picture, taken, seen);
+  {
+    const std::lock_guard lock(mutex);
+    figures = seen;
+    drift = alignment.drift();
+  }
+  record();
+  frame.reset();
+  looking.store(false, std::memory_order_release);
+}
+
+void CameraWatch::Watched::record() {
+  {
+    const std::lock_guard lock(records.mutex);
+    if (recorded.size() >= wanted) return;
+  }
+  RecordedPicture copy = copied(frame->picture, stamp.time_since_epoch());
+  const std::lock_guard lock(records.mutex);
+  if (recorded.size() < wanted) recorded.push_back(std::move(copy));
+  records.added.notify_all();
+}
+
+CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::SharedThreads>& threads) {
+  const auto folder = state_folder(site.site.state_folder);
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    const CameraSettings& settings = site.site.cameras[i];
+    cameras_.emplace_back();
+    if (!settings.watch.enabled) continue;
+    auto watched = make(settings, site, i, folder, threads);
+    if (watched) {
+      cameras_.back() = std::move(*watched);
+    } else {
+      log_line(LogLevel::Warning, settings.name + ": is not watched: " + watched.error().message);
+    }
+  }
+}
+
+Result<std::unique_ptr<CameraWatch::Watched>> CameraWatch::make(
+    const CameraSettings& settings, const Resolved& site, std::size_t camera,
+    const std::filesystem::path& folder, const std::shared_ptr<hal::SharedThreads>& threads) {
+  const auto subject = align::drift_subject(site.rig, site.rig_camera(camera));
+  if (!subject) return tl::unexpected(subject.error());
+  auto alignment = AlignmentWatch::make(settings.name, *subject, settings.watch, folder);
+  if (!alignment) return tl::unexpected(alignment.error());
+  auto ball = BallWatch::make(settings.name, subject->width, subject->height, subject->outline,
+                              settings.watch, folder);
+  if (!ball) return tl::unexpected(ball.error());
+  return std::make_unique<Watched>(std::move(*alignment), std::move(*ball), records_, threads);
+}
+
+CameraWatch::~CameraWatch() {
+  cancel_records();
+  stop();
+}
+
+void CameraWatch::stop() {
+  for (const auto& camera : cameras_) {
+    if (camera) camera->work.cancel();
+  }
+}
+
+std::chrono::nanoseconds CameraWatch::cpu_time() const {
+  std::chrono::nanoseconds time{0};
+  for (const auto& camera : cameras_) {
+    if (camera) time += camera->work.cpu_time();
+  }
+  return time;
+}
+
+void CameraWatch::accept_frames(const hal::FrameSet& set) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    Watched* const camera = cameras_[i].get();
+    if (!camera || !set.frames[i] || set.held[i]) continue;
+    if (camera->looking.load(std::memory_order_acquire)) continue;
+    camera->frame = set.frames[i];
+    camera->stamp = set.stamp;
+    camera->looking.store(true, std::memory_order_release);
+    camera->work.request();
+  }
+}
+
+std::array<CameraWatchStatus, kMaxCameras> CameraWatch::figures() const {
+  std::array<CameraWatchStatus, kMaxCameras> all;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (!cameras_[i]) continue;
+    const std::lock_guard lock(cameras_[i]->mutex);
+    all[i] = cameras_[i]->figures;
+  }
+  return all;
+}
+
+std::optional<align::DriftState> CameraWatch::drift(std::size_t camera) const {
+  if (camera >= cameras_.size() || !cameras_[camera]) return std::nullopt;
+  const std::lock_guard lock(cameras_[camera]->mutex);
+  return cameras_[camera]->drift;
+}
+
+Result<std::vector<std::vector<RecordedPicture>>> CameraWatch::record(
+    const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds patience) {
+  const auto set_wanted = [&](std::size_t wanted) {
+    for (const std::size_t camera : cameras) cameras_[camera]->wanted = wanted;
+  };
+  const auto is_complete = [&] {
+    return records_.is_cancelled || std::ranges::all_of(cameras, [&](std::size_t camera) {
+             return cameras_[camera]->recorded.size() >= count;
+           });
+  };
+  std::unique_lock lock(records_.mutex);
+  set_wanted(count);
+  records_.added.wait_for(lock, patience, is_complete);
+  set_wanted(0);
+  std::vector<std::vector<RecordedPicture>> records;
+  records.reserve(cameras.size());
+  for (const std::size_t camera : cameras) {
+    records.push_back(std::exchange(cameras_[camera]->recorded, {}));
+  }
+  if (records_.is_cancelled) return fail("orbwatchd ends");
+  for (const auto& record : records) {
+    if (record.empty()) return fail("a camera delivers no pictures");
+  }
+  return records;
+}
+
+void CameraWatch::cancel_records() {
+  const std::lock_guard lock(records_.mutex);
+  records_.is_cancelled = true;
+  records_.added.notify_all();
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,33 @@
+#include "app/watch/drift_correction.h"
+
+#include "proc/align/register/registration.h"
+
+namespace orbwatch::app {
+
+Result<CameraAlignment> with_outline(const optics::Rig& rig, const optics::RigCamera& camera,
+                                     const optics::Outline& outline) {
+  return align::by_outline(rig, camera).map([&](const optics::RigCamera& seen) {
+    return CameraAlignment{
+        .camera = camera.name, .outline = outline, .registration = seen.registration};
+  });
+}
+
+Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamera& camera,
+                                  const align::DriftState& drift) {
+  if (drift.level == align::DriftLevel::NotMeasured) {
+    return fail("its drift is not measured: " + std::string(drift.reason));
+  }
+  if (!drift.turn) return with_outline(rig, camera, drift.outline);
+  if (camera.pose) {
+    const optics::Pose turned{*drift.turn * camera.pose->rotation, camera.pose->position};
+    return CameraAlignment{.camera = camera.name, .pose = turned};
+  }
+  // The turn is about x right, y down, z forward; a registration is applied to X = -right,
+  // Y = -forward, Z = -down.
+  const optics::Mat3 axes = align::registration_of({});
+  const optics::Mat3 turn = axes * align::registration_of(*drift.turn);
+  return CameraAlignment{
+      .camera = camera.name, .outline = drift.outline, .registration = camera.registration * turn};
+}
+
+}  // namespace orbwatch::app

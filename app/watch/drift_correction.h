@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/files/rig_alignment.h"
+#include "proc/align/drift/drift_monitor.h"
+#include "proc/image/result.h"
+#include "proc/optics/rig.h"
+
+namespace orbwatch::app {
+
+/// The alignment that a camera has after its drift: one that turned about its own centre looks
+/// elsewhere, else the ball is elsewhere in its picture. Reentrant. Error: nothing was measured;
+/// those of align::by_outline.
+Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamera& camera,
+                                  const align::DriftState& drift);
+
+/// The alignment of a camera that sees the ball elsewhere and is turned as before. Reentrant.
+/// Error: those of align::by_outline.
+Result<CameraAlignment> with_outline(const optics::Rig& rig, const optics::RigCamera& camera,
+                                     const optics::Outline& outline);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,48 @@
+#include "app/watch/kept_file.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <system_error>
+
+#include "app/files/text_file.h"
+#include "app/files/toml_text.h"
+#include "app/pictures/picture_file.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// The folder, without the files of other alignments of the camera; as far as that is possible.
+void make_room(const std::filesystem::path& kept) {
+  const std::string name = kept.filename().string();
+  const std::string prefix = name.substr(0, name.rfind('-') + 1);
+  std::error_code error;
+  std::filesystem::create_directories(kept.parent_path(), error);
+  for (std::filesystem::directory_iterator it(kept.parent_path(), error), end; !error && it != end;
+       it.increment(error)) {
+    if (it->path() != kept && it->path().filename().string().starts_with(prefix)) {
+      std::filesystem::remove(it->path(), error);
+    }
+  }
+}
+
+}  // namespace
+
+std::filesystem::path kept_file(const std::filesystem::path& folder, const std::string& what,
+                                const std::string& camera, const optics::Outline& outline) {
+  TextFiles alignment;
+  alignment.add(
+      toml_list({outline.centre.u, outline.centre.v, outline.rx, outline.ry, outline.angle}));
+  char number[16];
+  std::snprintf(number, sizeof number, "%08x", alignment.checksum());
+  return folder / (what + "-" + camera + "-" + number + ".png");
+}
+
+Result<> keep_file(const std::filesystem::path& kept, const cv::Mat& pixels) {
+  make_room(kept);
+  const PixelFormat format = pixels.depth() == CV_16U ? PixelFormat::Y16 : PixelFormat::Grey;
+  return write_picture(kept, Picture::contiguous(format, pixels.cols, pixels.rows,
+                                                 reinterpret_cast<const std::byte*>(pixels.data),
+                                                 static_cast<std::ptrdiff_t>(pixels.step)));
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "proc/align/place/tags/printed_tag.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// A printed tag as a site states it.
+struct TagSettings {
+  int id = 0;
+  double size = 0;                   ///< mm
+  optics::Vec3 centre, right, down;  ///< machine frame, mm
+
+  align::PrintedTag tag() const { return {id, align::tag_corners(size, centre, right, down)}; }
+};
+
+/// What the command place_camera goes by, beside the points that were marked by command.
+struct PlaceSettings {
+  double sigma_px = 1;
+  double sigma_mm = 1;
+  double outline_sigma = 1;
+  std::vector<Located<TagSettings>> tags;
+};
+
+inline constexpr std::size_t kMaxTags = 64;
+
+template <class Visitor>
+void visit(Visitor& v, TagSettings& tag) {
+  v.required("id", tag.id, Range::between(0, align::kTagIds - 1), "Of the family 36h11");
+  v.required("size", tag.size, Range::above(0, 100000), "Side of its black border, mm");
+  v.required("centre", tag.centre, kAnyNumber, "mm, machine frame");
+  v.required("right", tag.right, kAnyNumber,
+             "Direction to its right as one reads it, machine frame, any length");
+  v.required("down", tag.down, kAnyNumber, "Direction to its lower side, likewise");
+  v.require(align::is_square(tag.tag().corners), "down", "must be at right angles to right");
+}
+
+template <class Visitor>
+void visit(Visitor& v, PlaceSettings& place) {
+  v.optional("sigma_px", place.sigma_px, Range::above(0, 1000),
+             "How exactly points are seen in the picture, one sigma, px");
+  v.optional("sigma_mm", place.sigma_mm, Range::between(0, 1000),
+             "How exactly their coordinates are known, one sigma, mm");
+  v.optional("outline_sigma", place.outline_sigma, Range::above(0, 1000),
+             "How exactly the outline of the ball that is in force is known, one sigma, px");
+  v.tables("tag", place.tags, 0, kMaxTags, "Printed AprilTags that the ball shows");
+  for (std::size_t i = 0; i < place.tags.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      v.require(place.tags[i].id != place.tags[k].id, "tag",
+                "id " + std::to_string(place.tags[i].id) + " is there twice");
+    }
+  }
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,55 @@
+#include "app/watch/point_marks.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace orbwatch::app {
+
+Result<optics::Vec2> PointMarks::place_of(std::span<const SeenPoint> points, std::size_t index,
+                                          const optics::Outline& outline) {
+  std::vector<std::vector<align::SmallLight>> elsewhere;
+  elsewhere.reserve(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (n != index) elsewhere.push_back(points[n].lights);
+  }
+  if (const auto moved = align::moved_light(points[index].lights, elsewhere, outline)) {
+    return *moved;
+  }
+  const optics::Vec3& p = points[index].point;
+  std::ostringstream text;
+  text << "no light has moved to (" << p.x << ", " << p.y << ", " << p.z
+       << " mm): every one is seen at another point, too; switch the tool's light on and mark the "
+          "points anew";
+  return fail(text.str());
+}
+
+Result<> PointMarks::add(const optics::Vec3& point, std::span<const Picture> pictures,
+                         const optics::Outline& outline) {
+  auto lights = align::small_lights(pictures, outline);
+  if (!lights) return tl::unexpected(lights.error());
+  std::vector<SeenPoint> points = points_;
+  std::erase_if(points, [&](const SeenPoint& seen) {
+    return seen.point.x == point.x && seen.point.y == point.y && seen.point.z == point.z;
+  });
+  if (points.size() >= kMost) {
+    return fail(std::to_string(kMost) + " points are marked already, which is the most");
+  }
+  points.push_back({point, std::move(*lights)});
+  const auto own = place_of(points, points.size() - 1, outline);
+  if (!own) return tl::unexpected(own.error());
+  points_ = std::move(points);
+  return {};
+}
+
+Result<> PointMarks::mark(align::UnplacedCamera& camera, align::PlaceRequest& request) const {
+  for (std::size_t n = 0; n < points_.size(); ++n) {
+    const auto pixel = place_of(points_, n, camera.outline);
+    if (!pixel) return tl::unexpected(pixel.error());
+    camera.marks.push_back({align::add_point(request, points_[n].point), *pixel});
+  }
+  return {};
+}
+
+}  // namespace orbwatch::app

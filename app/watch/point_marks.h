@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "proc/align/place/placement.h"
+#include "proc/align/place/small_lights.h"
+#include "proc/image/picture.h"
+#include "proc/image/result.h"
+#include "proc/optics/outline.h"
+
+namespace orbwatch::app {
+
+/// Points to place one camera by, one after the other: the machine moves a light to known
+/// coordinates. Of all the lights that the ball shows it is the one that has moved. Thread-bound.
+class PointMarks {
+ public:
+  static constexpr std::size_t kMost = 64;
+
+  /// Adds a point; one with the same coordinates is replaced. `pictures` were taken while the light
+  /// stood there. Error, and nothing is added: those of align::small_lights(), no light that moved
+  /// since the other points, kMost points.
+  Result<> add(const optics::Vec3& point, std::span<const Picture> pictures,
+               const optics::Outline& outline);
+
+  void clear() { points_.clear(); }
+  std::size_t size() const { return points_.size(); }
+
+  /// Marks the points in a camera that is to be placed; it has its outline. Error: one at which no
+  /// light of its own is seen.
+  Result<> mark(align::UnplacedCamera& camera, align::PlaceRequest& request) const;
+
+ private:
+  struct SeenPoint {
+    optics::Vec3 point;
+    std::vector<align::SmallLight> lights;
+  };
+  static Result<optics::Vec2> place_of(std::span<const SeenPoint> points, std::size_t index,
+                                       const optics::Outline& outline);
+
+  std::vector<SeenPoint> points_;
+};
+
+}  // namespace orbwatch::app

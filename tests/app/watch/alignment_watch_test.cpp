@@ -1,0 +1,120 @@
+#include "app/watch/alignment_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/proc/align/detect/painted_ball.h"
+#include "tests/support/picture_of_mat.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
+
+align::DriftSubject subject(const optics::Outline& outline = kLimb) {
+  optics::Rig rig;
+  optics::RigCamera camera;
+  camera.name = "a";
+  camera.width = 400;
+  camera.height = 320;
+  camera.outline = outline;
+  camera.distance = 12;
+  rig.cameras.push_back(camera);
+  const auto subject = align::drift_subject(rig, rig.cameras.front());
+  EXPECT_TRUE(subject) << subject.error().message;
+  return *subject;
+}
+
+/// The ball, moved to the right.
+cv::Mat picture(double shift) {
+  optics::Outline limb = kLimb;
+  limb.centre.u += shift;
+  return align::painted_ball({400, 320}, limb);
+}
+
+class AlignmentWatchTest : public testing::Test {
+ protected:
+  AlignmentWatch watch(const optics::Outline& outline = kLimb) {
+    auto made = AlignmentWatch::make("a", subject(outline), {}, folder_.path());
+    EXPECT_TRUE(made) << made.error().message;
+    return std::move(*made);
+  }
+
+  /// What a watch says after a second of a picture at 10 per second.
+  CameraWatchStatus after_a_second(AlignmentWatch& watch, const cv::Mat& pixels) {
+    CameraWatchStatus figures;
+    for (int n = 0; n < 10; ++n) {
+      now_ += std::chrono::milliseconds(100);
+      watch.observe(tests::picture_of_mat(pixels), now_, figures);
+    }
+    return figures;
+  }
+
+  tests::TemporaryFolder folder_;
+  hal::TimePoint now_{std::chrono::hours(1)};
+};
+
+TEST_F(AlignmentWatchTest, SaysThatTheBallIsWhereItWas) {
+  AlignmentWatch watch = this->watch();
+  const CameraWatchStatus seen = after_a_second(watch, picture(0));
+  EXPECT_EQ(seen.alignment, WatchLevel::Good);
+  EXPECT_LT(seen.drift_error, 0.05);
+  EXPECT_LT(seen.drift_shift, 0.05);
+}
+
+TEST_F(AlignmentWatchTest, RaisesAnAlarmWhenItMoved) {
+  AlignmentWatch watch = this->watch();
+  after_a_second(watch, picture(0));
+  const CameraWatchStatus seen = after_a_second(watch, picture(2.3));
+  EXPECT_EQ(seen.alignment, WatchLevel::Alarm);
+  EXPECT_NEAR(seen.drift_shift, 2, 0.2) << "2.3 of 115 px";
+  EXPECT_GT(seen.drift_error, 1);
+}
+
+TEST_F(AlignmentWatchTest, KnowsAfterARestartWhereTheBallWas) {
+  {
+    AlignmentWatch watch = this->watch();
+    after_a_second(watch, picture(0));
+  }
+  ASSERT_EQ(folder_.files(), 1);
+  AlignmentWatch watch = this->watch();
+  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, WatchLevel::Alarm);
+}
+
+TEST_F(AlignmentWatchTest, BeginsAnewWithAnotherAlignment) {
+  {
+    AlignmentWatch watch = this->watch();
+    after_a_second(watch, picture(0));
+  }
+  optics::Outline moved = kLimb;
+  moved.centre.u += 2.3;
+  AlignmentWatch watch = this->watch(moved);
+  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, WatchLevel::Good);
+  EXPECT_EQ(folder_.files(), 1) << "the earlier one is gone";
+}
+
+TEST_F(AlignmentWatchTest, DoesNotMeasureInTheDark) {
+  AlignmentWatch watch = this->watch();
+  after_a_second(watch, picture(0));
+  const CameraWatchStatus seen = after_a_second(watch, cv::Mat(320, 400, CV_8U, cv::Scalar(0)));
+  EXPECT_EQ(seen.alignment, WatchLevel::NotMeasured);
+  EXPECT_TRUE(std::isnan(seen.drift_error));
+}
+
+TEST_F(AlignmentWatchTest, WorksWithoutAUsableFile) {
+  {
+    AlignmentWatch watch = this->watch();
+    after_a_second(watch, picture(0));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    std::ofstream(entry.path()) << "no picture";
+  }
+  AlignmentWatch watch = this->watch();
+  EXPECT_EQ(after_a_second(watch, picture(0)).alignment, WatchLevel::Good);
+}
+
+}  // namespace
+}  // namespace orbwatch::app

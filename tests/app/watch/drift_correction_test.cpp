@@ -1,0 +1,101 @@
+#include "app/watch/drift_correction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/files/rig_alignment.h"
+#include "proc/align/register/registration.h"
+
+namespace orbwatch::app {
+namespace {
+
+const optics::Vec3 kSeen = optics::normalized(optics::Vec3{-0.4, -0.8, 0.3});
+
+optics::Rig rig_with_pose() {
+  optics::Rig rig;
+  rig.ball = {{120, 60, 430}, 50};
+  optics::RigCamera camera;
+  camera.name = "a";
+  camera.width = camera.height = 800;
+  camera.intrinsics = optics::Intrinsics{800, 800, 4200, 4200, 399.5, 399.5, {}, {}};
+  camera.pose = optics::Pose{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {100, -540, 440}};
+  rig.cameras.push_back(camera);
+  return rig;
+}
+
+/// A small turn about the camera's x axis, then its z axis.
+optics::Mat3 turn() {
+  const double a = 0.01, b = 0.02;
+  const optics::Mat3 about_x{
+      {1, 0, 0}, {0, std::cos(a), -std::sin(a)}, {0, std::sin(a), std::cos(a)}};
+  const optics::Mat3 about_z{
+      {std::cos(b), -std::sin(b), 0}, {std::sin(b), std::cos(b), 0}, {0, 0, 1}};
+  return about_z * about_x;
+}
+
+/// The pixel that shows a direction.
+optics::Vec2 pixel(const optics::Rig& rig) {
+  const auto ball = optics::ball_projection(rig, rig.cameras.front());
+  EXPECT_TRUE(ball) << ball.error().message;
+  const auto pixel = ball->pixel(kSeen);
+  EXPECT_TRUE(pixel);
+  return pixel.value_or(optics::Vec2{});
+}
+
+/// What the rig's camera sees after it was turned, and that drift.
+struct Turned {
+  optics::Rig rig = rig_with_pose();
+  align::DriftState drift;
+
+  Turned() {
+    rig.cameras[0].pose->rotation = turn() * rig.cameras[0].pose->rotation;
+    drift.level = align::DriftLevel::Alarm;
+    drift.turn = turn();
+    drift.outline = *optics::ball_projection(rig, rig.cameras[0])->outline();
+  }
+};
+
+void expect_corrects(optics::Rig rig, const Turned& truth) {
+  const auto alignment = corrected(rig, rig.cameras[0], truth.drift);
+  ASSERT_TRUE(alignment) << alignment.error().message;
+  ASSERT_TRUE(apply({std::nullopt, {*alignment}}, rig));
+  EXPECT_NEAR(pixel(rig).u, pixel(truth.rig).u, 0.01);
+  EXPECT_NEAR(pixel(rig).v, pixel(truth.rig).v, 0.01);
+}
+
+TEST(DriftCorrection, TurnsACameraThatHasAPose) {
+  const Turned truth;
+  EXPECT_GT(std::abs(pixel(rig_with_pose()).v - pixel(truth.rig).v), 10);
+  expect_corrects(rig_with_pose(), truth);
+}
+
+TEST(DriftCorrection, TurnsACameraThatHasAnOutline) {
+  optics::Rig rig = rig_with_pose();
+  rig.cameras[0] = *align::by_outline(rig, rig.cameras[0]);
+  expect_corrects(rig, Turned());
+}
+
+TEST(DriftCorrection, MovesTheOutlineWhenTheBallMoved) {
+  optics::Rig rig = rig_with_pose();
+  align::DriftState drift;
+  drift.level = align::DriftLevel::Warning;
+  drift.outline = *optics::ball_projection(rig, rig.cameras[0])->outline();
+  drift.outline.centre.u += 3;
+  const auto alignment = corrected(rig, rig.cameras[0], drift);
+  ASSERT_TRUE(alignment);
+  EXPECT_EQ(alignment->outline->centre.u, drift.outline.centre.u);
+  EXPECT_TRUE(alignment->registration);
+}
+
+TEST(DriftCorrection, RefusesWhatWasNotMeasured) {
+  const optics::Rig rig = rig_with_pose();
+  align::DriftState drift;
+  drift.reason = "too dark";
+  const auto alignment = corrected(rig, rig.cameras[0], drift);
+  ASSERT_FALSE(alignment);
+  EXPECT_NE(alignment.error().message.find("too dark"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace orbwatch::app
