@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/model/sink.h"
+#include "hal/clock.h"
+#include "hal/thread/mailbox.h"
+#include "hal/thread/thread.h"
+
+namespace orbwatch::app {
+
+/// Forwards the pipeline's progress to the service manager: its first status makes the service
+/// ready, later ones feed the watchdog, four times in its period. Nothing else feeds it.
+class ProgressNotice : public Sink {
+ public:
+  /// `remark` follows the state in the service's status; empty: none.
+  explicit ProgressNotice(std::string remark = {});
+  ~ProgressNotice() override { stop(); }
+
+  Result<> start() override;
+  void stop() override;
+  void accept(const ViewPtr& /*view*/) override {}
+  void accept(const Status& status) override;
+
+ private:
+  std::string text(SystemState state) const;
+  void send();
+
+  const std::string remark_;
+  const hal::Clock::duration pause_;  ///< between two messages of the same state
+  // The pipeline's thread.
+  std::optional<SystemState> state_;
+  hal::TimePoint sent_{};
+
+  hal::Mailbox<SystemState> progress_;
+  hal::Thread thread_;  ///< messages may wait for their reader
+};
+
+}  // namespace orbwatch::app
