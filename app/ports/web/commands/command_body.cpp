@@ -1,0 +1,42 @@
+#include "app/ports/web/commands/command_body.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace orbwatch::app::web {
+namespace {
+
+/// {"view": 0 to 65535, "yaw": ...}
+std::string form(const CommandInfo& info) {
+  std::string text = "{";
+  for (std::size_t i = 0; i < info.argument_count(); ++i) {
+    text += (i == 0 ? "\"" : ", \"") + std::string(info.arguments[i].name) +
+            "\": " + range_text(info.arguments[i]);
+  }
+  return text + "}";
+}
+
+}  // namespace
+
+Result<Command> parse_command(const CommandInfo& info, std::string_view body) {
+  const auto sent = nlohmann::json::parse(body.empty() ? "{}" : body, nullptr, false);
+  const std::size_t count = info.argument_count();
+  if (!sent.is_object()) return fail("the body is no JSON object; it must be " + form(info));
+  if (sent.size() != count) {
+    return fail("the body has " + std::to_string(sent.size()) + " members; it must be " +
+                form(info));
+  }
+  Command command{info.code, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name(info.arguments[i].name);
+    const auto value = sent.find(name);
+    if (value == sent.end() || !value->is_number()) {
+      return fail(name + " is no number; the body must be " + form(info));
+    }
+    command.arguments[i] = value->get<double>();
+  }
+  if (check(command) != CommandResult::Done) return fail(refusal_text(command));
+  return command;
+}
+
+}  // namespace orbwatch::app::web

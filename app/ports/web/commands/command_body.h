@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+#include "app/model/command.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::web {
+
+/// A command from the body of its request: a JSON object with each argument by its name, in its
+/// unit; an empty body stands for no arguments. Errors: not such an object; an argument is missing,
+/// unknown, not a number or out of range. Reentrant.
+Result<Command> parse_command(const CommandInfo& info, std::string_view body);
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,80 @@
+#include "app/ports/web/commands/command_runner.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace orbwatch::app::web {
+namespace {
+
+int http_status(CommandResult result) {
+  switch (result) {
+    case CommandResult::Done:
+      return 200;
+    case CommandResult::UnknownCommand:
+      return 404;
+    case CommandResult::ArgumentOutOfRange:
+      return 400;
+    case CommandResult::Busy:
+      return 503;
+    case CommandResult::NotPossible:
+      return 409;
+    case CommandResult::Interrupted:
+    case CommandResult::NotCarriedOut:
+      break;
+  }
+  return 500;
+}
+
+}  // namespace
+
+CommandRunner::CommandRunner(CommandHandler handler, std::shared_ptr<CommandRecord> record)
+    : handler_(std::move(handler)), record_(std::move(record)) {
+  for (const CommandRecord::Entry& entry : record_->entries()) {
+    if (entry.id.client == kClient) number_ = entry.id.number;
+  }
+}
+
+void CommandRunner::start() {
+  thread_.start("web commands", [this] {
+    // What was accepted before stop() is still carried out.
+    for (bool last = false; !last;) {
+      last = !thread_.wait();
+      carry_out_all();
+    }
+  });
+}
+
+void CommandRunner::run(const Command& command, const ExchangePtr& exchange) {
+  if (!handler_) return answer(*exchange, CommandResult::NotPossible);
+  bool is_full = false;
+  {
+    const std::lock_guard lock(mutex_);
+    is_full = waiting_.size() == kMostWaiting;
+    if (!is_full) waiting_.push_back({command, exchange});
+  }
+  if (is_full) return answer(*exchange, CommandResult::Busy);
+  thread_.wake();
+}
+
+void CommandRunner::carry_out_all() {
+  while (true) {
+    Waiting next;
+    {
+      const std::lock_guard lock(mutex_);
+      if (waiting_.empty()) return;
+      next = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
+    if (next.exchange->is_answered()) continue;
+    answer(*next.exchange, record_->carry_out({kClient, ++number_}, next.command, handler_));
+  }
+}
+
+void CommandRunner::answer(Exchange& exchange, CommandResult result) {
+  ++(result == CommandResult::Done ? done_ : refused_);
+  const nlohmann::ordered_json answer{{"result", static_cast<int>(result)},
+                                      {"result_text", operator_text(result)}};
+  exchange.answer(json_response(answer.dump(), http_status(result)));
+}
+
+}  // namespace orbwatch::app::web

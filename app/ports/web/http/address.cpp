@@ -1,0 +1,94 @@
+#include "app/ports/web/http/address.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+
+namespace orbwatch::app::web {
+namespace {
+
+bool equal_in_any_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+bool is_port(std::string_view text) {
+  return !text.empty() && text.size() <= 5 &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// The host of a Host header; nullopt: it is malformed.
+std::optional<std::string_view> host_of(std::string_view header) {
+  const bool is_bracketed = header.starts_with('[');
+  const std::size_t end = is_bracketed ? header.find(']') : header.find(':');
+  if (is_bracketed && end == std::string_view::npos) return std::nullopt;
+  const std::string_view host = is_bracketed ? header.substr(1, end - 1) : header.substr(0, end);
+  std::string_view rest = end == std::string_view::npos ? "" : header.substr(end);
+  if (is_bracketed) rest.remove_prefix(1);
+  if (!rest.empty() && (rest.front() != ':' || !is_port(rest.substr(1)))) return std::nullopt;
+  return host;
+}
+
+}  // namespace
+
+std::optional<SocketAddress> parse_address(const std::string& text, int port) {
+  addrinfo hints{};
+  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (text.empty() ||
+      ::getaddrinfo(text.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
+    return std::nullopt;
+  }
+  SocketAddress address;
+  std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
+  address.length = found->ai_addrlen;
+  ::freeaddrinfo(found);
+  return address;
+}
+
+std::string host_text(const sockaddr* address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (address->sa_family == AF_INET) {
+    sockaddr_in v4;
+    std::memcpy(&v4, address, sizeof v4);
+    ::inet_ntop(AF_INET, &v4.sin_addr, text.data(), text.size());
+  } else if (address->sa_family == AF_INET6) {
+    sockaddr_in6 v6;
+    std::memcpy(&v6, address, sizeof v6);
+    constexpr std::size_t kMappedPrefix = 12;
+    if (IN6_IS_ADDR_V4MAPPED(&v6.sin6_addr)) {
+      ::inet_ntop(AF_INET, v6.sin6_addr.s6_addr + kMappedPrefix, text.data(), text.size());
+    } else {
+      ::inet_ntop(AF_INET6, &v6.sin6_addr, text.data(), text.size());
+    }
+  }
+  return text.data();
+}
+
+bool is_loopback(const std::string& host) {
+  const auto address = parse_address(host, 0);
+  if (!address) return false;
+  const std::string plain = host_text(address->get());
+  return plain.starts_with("127.") || plain == "::1";
+}
+
+bool is_own_host(std::string_view header, const std::vector<std::string>& names) {
+  const auto host = host_of(header);
+  if (!host || host->empty()) return false;
+  std::array<std::byte, sizeof(in6_addr)> number;
+  const std::string text(*host);
+  if (::inet_pton(header.front() == '[' ? AF_INET6 : AF_INET, text.c_str(), number.data()) == 1) {
+    return true;
+  }
+  return equal_in_any_case(*host, "localhost") || std::ranges::any_of(names, [&](const auto& name) {
+           return equal_in_any_case(*host, name);
+         });
+}
+
+}  // namespace orbwatch::app::web

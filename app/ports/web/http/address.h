@@ -1,0 +1,36 @@
+#pragma once
+
+#include <sys/socket.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Addresses and names of hosts. All reentrant; none waits for a name server.
+namespace orbwatch::app::web {
+
+/// An address of a socket in the form of system calls.
+struct SocketAddress {
+  sockaddr_storage storage{};
+  socklen_t length = sizeof(sockaddr_storage);
+
+  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
+};
+
+/// Parses a numeric IPv4 or IPv6 address.
+std::optional<SocketAddress> parse_address(const std::string& text, int port);
+
+/// As numbers are written, an IPv4 address mapped into IPv6 (::ffff:a.b.c.d) as IPv4: 10.0.0.7,
+/// fd00::1. Empty for other families.
+std::string host_text(const sockaddr* address);
+
+/// A numeric address of this computer alone: 127.0.0.0/8 or ::1.
+bool is_loopback(const std::string& host);
+
+/// Whether a Host header (RFC 9110, 7.2) names this appliance: a numeric address, localhost or one
+/// of `names`, in any case, with or without a port.
+bool is_own_host(std::string_view header, const std::vector<std::string>& names);
+
+}  // namespace orbwatch::app::web

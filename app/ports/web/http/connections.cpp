@@ -1,0 +1,103 @@
+#include "app/ports/web/http/connections.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+
+namespace orbwatch::app::web {
+namespace {
+
+bool has_gone(int socket) {
+  pollfd poll{socket, POLLRDHUP, 0};
+  return ::poll(&poll, 1, 0) > 0;
+}
+
+/// What is to be ended once no lock is held.
+struct Ends {
+  std::vector<ExchangePtr> exchanges;
+  std::vector<std::shared_ptr<StreamSender>> streams;
+
+  void add(const Connections::Connection& connection) {
+    if (auto exchange = connection.exchange.lock()) exchanges.push_back(std::move(exchange));
+    if (auto stream = connection.stream.lock()) streams.push_back(std::move(stream));
+  }
+  void end() {
+    for (const auto& exchange : exchanges) {
+      exchange->answer(error_response(503, "there was no answer in time"));
+    }
+    for (const auto& stream : streams) stream->end();
+  }
+};
+
+}  // namespace
+
+Connections::Connection* Connections::add(int socket, std::string peer) {
+  const std::lock_guard lock(mutex_);
+  all_.push_back({socket, std::move(peer), hal::Clock::now() + timeout_, {}, {}});
+  return &all_.back();
+}
+
+void Connections::remove(Connection* connection) {
+  const std::lock_guard lock(mutex_);
+  all_.remove_if([connection](const Connection& one) { return &one == connection; });
+}
+
+bool Connections::begin_answer(Connection* connection, const ExchangePtr& exchange) {
+  const std::lock_guard lock(mutex_);
+  connection->deadline = hal::Clock::now() + timeout_;
+  connection->exchange = exchange;
+  return !is_closing_;
+}
+
+void Connections::begin_sending(Connection* connection) {
+  const std::lock_guard lock(mutex_);
+  connection->exchange.reset();
+  connection->deadline = hal::Clock::now() + timeout_;
+}
+
+bool Connections::begin_stream(Connection* connection,
+                               const std::shared_ptr<StreamSender>& stream) {
+  const std::lock_guard lock(mutex_);
+  connection->exchange.reset();
+  connection->stream = stream;
+  connection->deadline = hal::TimePoint::max();
+  return !is_closing_;
+}
+
+void Connections::end_answer(Connection* connection) {
+  const std::lock_guard lock(mutex_);
+  connection->exchange.reset();
+  connection->stream.reset();
+  connection->deadline = hal::Clock::now() + timeout_;
+}
+
+std::size_t Connections::end_overdue(hal::TimePoint now) {
+  Ends ends;
+  std::size_t overdue = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    for (Connection& connection : all_) {
+      const bool is_overdue = now >= connection.deadline;
+      if (!is_overdue && !has_gone(connection.socket)) continue;
+      overdue += is_overdue ? 1 : 0;
+      const bool waits_for_answer = !connection.exchange.expired();
+      ends.add(connection);
+      if (is_overdue && !waits_for_answer) ::shutdown(connection.socket, SHUT_RDWR);
+    }
+  }
+  ends.end();
+  return overdue;
+}
+
+void Connections::end_all() {
+  Ends ends;
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+    for (const Connection& connection : all_) ends.add(connection);
+  }
+  ends.end();
+}
+
+}  // namespace orbwatch::app::web

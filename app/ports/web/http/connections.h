@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "app/ports/web/http/exchange.h"
+#include "app/ports/web/http/stream_sender.h"
+#include "hal/clock.h"
+
+namespace orbwatch::app::web {
+
+/// The open connections with a deadline each: what a client sends or reads a byte at a time would
+/// otherwise stay for ever, and the library has no timeout for suspended ones. Thread-safe.
+class Connections {
+ public:
+  struct Connection {
+    int socket = -1;
+    std::string peer;
+    hal::TimePoint deadline;  ///< max(): none
+    std::weak_ptr<Exchange> exchange;
+    std::weak_ptr<StreamSender> stream;
+  };
+
+  explicit Connections(std::chrono::milliseconds timeout) : timeout_(timeout) {}
+
+  Connection* add(int socket, std::string peer);
+  void remove(Connection* connection);
+
+  /// Its request has arrived whole, and the answer has as long. False: the server is closing, and
+  /// the exchange will not be ended by end_all().
+  bool begin_answer(Connection* connection, const ExchangePtr& exchange);
+  /// Its answer is being sent.
+  void begin_sending(Connection* connection);
+  /// Its answer is a stream: it has no deadline. False: the server is closing.
+  bool begin_stream(Connection* connection, const std::shared_ptr<StreamSender>& stream);
+  /// Its answer was sent; the next request has as long.
+  void end_answer(Connection* connection);
+
+  /// Ends connections that are overdue or whose client has gone; returns how many were overdue.
+  std::size_t end_overdue(hal::TimePoint now);
+  /// Ends them all, and refuses more work.
+  void end_all();
+
+ private:
+  const std::chrono::milliseconds timeout_;
+  std::mutex mutex_;
+  std::list<Connection> all_;
+  bool is_closing_ = false;
+};
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,29 @@
+#include "app/ports/web/http/exchange.h"
+
+#include <microhttpd.h>
+
+namespace orbwatch::app::web {
+
+bool Exchange::answer(Response response) {
+  const std::lock_guard lock(mutex_);
+  if (is_answered_) return false;
+  is_answered_ = true;
+  response_ = std::move(response);
+  if (suspended_) ::MHD_resume_connection(std::exchange(suspended_, nullptr));
+  return true;
+}
+
+bool Exchange::is_answered() const {
+  const std::lock_guard lock(mutex_);
+  return is_answered_;
+}
+
+std::optional<Response> Exchange::response_or_suspend(MHD_Connection* connection) {
+  const std::lock_guard lock(mutex_);
+  if (is_answered_) return std::exchange(response_, std::nullopt);
+  suspended_ = connection;
+  ::MHD_suspend_connection(connection);
+  return std::nullopt;
+}
+
+}  // namespace orbwatch::app::web

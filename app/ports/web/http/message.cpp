@@ -1,0 +1,47 @@
+#include "app/ports/web/http/message.h"
+
+#include <strings.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace orbwatch::app::web {
+namespace {
+
+template <class Matches>
+const std::string* first(const Values& values, Matches&& matches) {
+  const auto found = std::ranges::find_if(values, matches, &Values::value_type::first);
+  return found == values.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+const std::string* Request::argument(std::string_view name) const {
+  return first(query, [name](const std::string& sent) { return sent == name; });
+}
+
+const std::string* Request::cookie(std::string_view name) const {
+  return first(cookies, [name](const std::string& sent) { return sent == name; });
+}
+
+const std::string* Request::header(std::string_view name) const {
+  return first(headers, [name](const std::string& sent) {
+    return sent.size() == name.size() && ::strncasecmp(sent.data(), name.data(), name.size()) == 0;
+  });
+}
+
+Response json_response(std::string text, int status) {
+  Response response;
+  response.status = status;
+  response.body = std::make_shared<const std::string>(std::move(text) + "\n");
+  return response;
+}
+
+Response error_response(int status, const std::string& what) {
+  // What a client sent is quoted only where it is text.
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  return json_response(nlohmann::ordered_json{{"error", what}}.dump(-1, ' ', false, kReplace),
+                       status);
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace orbwatch::app::web {
+
+/// Names and values in the order in which they were sent.
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+/// A request as it arrived, whole.
+struct Request {
+  std::string method;
+  std::string path;  ///< decoded, without the query
+  Values query;      ///< decoded
+  Values headers;
+  Values cookies;
+  std::string body;
+  std::string peer;  ///< the client's numeric address
+
+  /// The first value of that name, compared exactly; null: none.
+  const std::string* argument(std::string_view name) const;
+  const std::string* cookie(std::string_view name) const;
+  /// The first value of a header, whose name is compared in any case; null: none.
+  const std::string* header(std::string_view name) const;
+};
+
+/// Bytes that several answers may share.
+using Bytes = std::shared_ptr<const std::string>;
+
+/// A body without an end. Thread rule: read and on_data by one thread at a time.
+class Stream {
+ public:
+  virtual ~Stream() = default;
+  /// `wake` is to be called when there is something to read again; any thread may call it.
+  virtual void on_data(std::function<void()> wake) = 0;
+  /// Writes what there is to `out`, as much as fits; returns how much, 0: nothing yet. Never waits.
+  virtual std::size_t read(std::span<char> out) = 0;
+};
+
+inline constexpr std::string_view kJson = "application/json";
+inline constexpr std::string_view kText = "text/plain; charset=utf-8";
+
+/// An answer; with a stream it has no other body.
+struct Response {
+  int status = 200;
+  std::string type{kJson};
+  Bytes body;
+  std::shared_ptr<Stream> stream;
+  Values headers;  ///< besides those that every answer has
+};
+
+Response json_response(std::string text, int status = 200);
+/// {"error": what}.
+Response error_response(int status, const std::string& what);
+
+}  // namespace orbwatch::app::web

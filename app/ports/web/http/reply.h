@@ -1,0 +1,24 @@
+#pragma once
+
+#include <microhttpd.h>
+
+#include <memory>
+
+#include "app/ports/web/http/message.h"
+#include "app/ports/web/http/stream_sender.h"
+
+/// Answers as libmicrohttpd wants them. Reentrant.
+namespace orbwatch::app::web {
+
+struct ReplyDeleter {
+  void operator()(MHD_Response* reply) const { ::MHD_destroy_response(reply); }
+};
+using Reply = std::unique_ptr<MHD_Response, ReplyDeleter>;
+
+/// An answer with its headers and those that every answer has. Null: out of memory.
+Reply make_reply(const Response& response);
+/// The same whose body is what `sender` passes on, until `on_end` is called.
+Reply make_reply(const Response& response, std::shared_ptr<StreamSender> sender,
+                 std::function<void()> on_end);
+
+}  // namespace orbwatch::app::web

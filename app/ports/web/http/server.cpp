@@ -1,0 +1,259 @@
+#include "app/ports/web/http/server.h"
+
+#include <microhttpd.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdarg>
+#include <cstdio>
+
+#include "app/ports/web/http/reply.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr unsigned kThreads = 2;
+/// Of a connection: request line, headers and query.
+constexpr std::size_t kHeadBytes = 32 * 1024;
+/// Not sent yet by the kernel for a client: what is beyond it would only age (measured: at 2 MB/s
+/// a picture of 200 kB arrives 0.2 s old instead of 1.9 s).
+constexpr int kUnsentBytes = 128 * 1024;
+
+/// Of the thread that opens a server: why libmicrohttpd refuses. Later complaints are about
+/// clients, who could flood the log with them.
+thread_local std::string complaint;
+
+void keep_complaint(void* /*server*/, const char* format, va_list arguments) {
+  std::array<char, 256> text{};
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  complaint = text.data();
+  std::erase(complaint, '\n');
+}
+
+MHD_Result add_value(void* values, MHD_ValueKind /*kind*/, const char* name, std::size_t name_size,
+                     const char* value, std::size_t value_size) {
+  static_cast<Values*>(values)->emplace_back(
+      std::string(name, name_size), value ? std::string(value, value_size) : std::string());
+  return MHD_YES;
+}
+
+Values values_of(MHD_Connection* connection, MHD_ValueKind kind) {
+  Values values;
+  ::MHD_get_connection_values_n(connection, kind, add_value, &values);
+  return values;
+}
+
+Connections::Connection* connection_of(MHD_Connection* connection) {
+  const MHD_ConnectionInfo* info =
+      ::MHD_get_connection_info(connection, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
+  return static_cast<Connections::Connection*>(info->socket_context);
+}
+
+/// A request whose body may still be on its way.
+struct Arriving {
+  bool has_zero = false;  ///< encoded in its target, which the library's C strings would cut there
+  ExchangePtr exchange;   ///< null: its head is still on its way
+  bool is_too_large = false;
+  bool was_handled = false;
+};
+
+void set_option(int socket, int level, int option, int value) {
+  // One that the kernel does not know costs speed only.
+  static_cast<void>(::setsockopt(socket, level, option, &value, sizeof value));
+}
+
+}  // namespace
+
+/// What libmicrohttpd calls, on its threads; `self` is the server.
+struct Server::Callbacks {
+  static void connection(void* self, MHD_Connection* connection, void** context,
+                         MHD_ConnectionNotificationCode code);
+  static void* target(void* self, const char* target, MHD_Connection* connection);
+  static void completed(void* self, MHD_Connection* connection, void** state,
+                        MHD_RequestTerminationCode code);
+  static MHD_Result request(void* self, MHD_Connection* connection, const char* url,
+                            const char* method, const char* version, const char* upload,
+                            std::size_t* upload_size, void** state);
+
+  static void begin(const Server& server, MHD_Connection* connection, const char* url,
+                    const char* method, Arriving& arriving);
+  static void handle(Server& server, Connections::Connection& connection, Arriving& arriving);
+  static MHD_Result send(Server& server, MHD_Connection* connection, Arriving& arriving);
+  static MHD_Result send_stream(Server& server, MHD_Connection* connection,
+                                const Response& response);
+};
+
+void Server::Callbacks::connection(void* self, MHD_Connection* connection, void** context,
+                                   MHD_ConnectionNotificationCode code) {
+  auto& server = *static_cast<Server*>(self);
+  if (code == MHD_CONNECTION_NOTIFY_CLOSED) {
+    server.connections_.remove(static_cast<Connections::Connection*>(*context));
+    --server.counts_.connections;
+    return;
+  }
+  const int socket =
+      ::MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD)->connect_fd;
+  const sockaddr* peer =
+      ::MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS)->client_addr;
+  set_option(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsentBytes);
+  set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
+  *context = server.connections_.add(socket, host_text(peer));
+  ++server.counts_.connections;
+}
+
+void Server::Callbacks::completed(void* self, MHD_Connection* connection, void** state,
+                                  MHD_RequestTerminationCode /*code*/) {
+  const std::unique_ptr<Arriving> ended(static_cast<Arriving*>(*state));
+  *state = nullptr;
+  static_cast<Server*>(self)->connections_.end_answer(connection_of(connection));
+}
+
+MHD_Result Server::Callbacks::request(void* self, MHD_Connection* connection, const char* url,
+                                      const char* method, const char* /*version*/,
+                                      const char* upload, std::size_t* upload_size, void** state) {
+  auto& server = *static_cast<Server*>(self);
+  auto& arriving = *static_cast<Arriving*>(*state);
+  if (!arriving.exchange) {
+    begin(server, connection, url, method, arriving);
+    // Refused before it is sent.
+    return arriving.is_too_large ? send(server, connection, arriving) : MHD_YES;
+  }
+  if (*upload_size == 0) return send(server, connection, arriving);
+  std::string& body = arriving.exchange->body();
+  arriving.is_too_large |= body.size() + *upload_size > server.settings_.max_body_bytes;
+  if (!arriving.is_too_large) body.append(upload, *upload_size);
+  *upload_size = 0;
+  return MHD_YES;
+}
+
+void* Server::Callbacks::target(void* /*self*/, const char* target,
+                                MHD_Connection* /*connection*/) {
+  auto arriving = std::make_unique<Arriving>();
+  arriving->has_zero = std::string_view(target).find("%00") != std::string_view::npos;
+  return arriving.release();
+}
+
+void Server::Callbacks::begin(const Server& server, MHD_Connection* connection, const char* url,
+                              const char* method, Arriving& arriving) {
+  Request request;
+  request.method = method;
+  request.path = url;
+  request.query = values_of(connection, MHD_GET_ARGUMENT_KIND);
+  request.headers = values_of(connection, MHD_HEADER_KIND);
+  request.cookies = values_of(connection, MHD_COOKIE_KIND);
+  request.peer = connection_of(connection)->peer;
+  if (const std::string* length = request.header(MHD_HTTP_HEADER_CONTENT_LENGTH)) {
+    std::size_t bytes = 0;
+    const auto parsed = std::from_chars(length->data(), length->data() + length->size(), bytes);
+    arriving.is_too_large = parsed.ec != std::errc() || bytes > server.settings_.max_body_bytes;
+  }
+  arriving.exchange = std::make_shared<Exchange>(std::move(request));
+}
+
+void Server::Callbacks::handle(Server& server, Connections::Connection& connection,
+                               Arriving& arriving) {
+  arriving.was_handled = true;
+  ++server.counts_.requests;
+  Exchange& exchange = *arriving.exchange;
+  const std::string* host = exchange.request().header(MHD_HTTP_HEADER_HOST);
+  if (!server.connections_.begin_answer(&connection, arriving.exchange)) {
+    exchange.answer(error_response(503, "shuts down"));
+  } else if (arriving.has_zero) {
+    ++server.counts_.refused;
+    exchange.answer(error_response(400, "a zero byte has no place in a path or a query"));
+  } else if (arriving.is_too_large) {
+    ++server.counts_.refused;
+    exchange.answer(error_response(
+        413,
+        "the body is larger than " + std::to_string(server.settings_.max_body_bytes) + " bytes"));
+  } else if (!host || !is_own_host(*host, server.settings_.names)) {
+    ++server.counts_.refused;
+    exchange.answer(error_response(
+        421, "the Host header names another host; names of this one belong into names of [web]"));
+  } else {
+    server.handler_(arriving.exchange);
+  }
+}
+
+MHD_Result Server::Callbacks::send(Server& server, MHD_Connection* connection, Arriving& arriving) {
+  Connections::Connection& own = *connection_of(connection);
+  if (!arriving.was_handled) handle(server, own, arriving);
+  const auto response = arriving.exchange->response_or_suspend(connection);
+  if (!response) return MHD_YES;
+  if (response->stream) return send_stream(server, connection, *response);
+  server.connections_.begin_sending(&own);
+  const Reply reply = make_reply(*response);
+  if (!reply) return MHD_NO;
+  return ::MHD_queue_response(connection, static_cast<unsigned>(response->status), reply.get());
+}
+
+MHD_Result Server::Callbacks::send_stream(Server& server, MHD_Connection* connection,
+                                          const Response& response) {
+  auto sender = std::make_shared<StreamSender>(response.stream, connection);
+  response.stream->on_data([weak = std::weak_ptr(sender)] {
+    if (const auto alive = weak.lock()) alive->wake();
+  });
+  if (!server.connections_.begin_stream(connection_of(connection), sender)) return MHD_NO;
+  ++server.counts_.streams;
+  const Reply reply =
+      make_reply(response, std::move(sender), [&counts = server.counts_] { --counts.streams; });
+  if (!reply) return MHD_NO;
+  return ::MHD_queue_response(connection, static_cast<unsigned>(response.status), reply.get());
+}
+
+Server::Server(const WebSettings& settings, Handler handler, ServerCounts& counts)
+    : settings_(settings),
+      handler_(std::move(handler)),
+      counts_(counts),
+      connections_(settings.request_timeout) {}
+
+Result<std::unique_ptr<Server>> Server::open(const WebSettings& settings, Handler handler,
+                                             ServerCounts& counts) {
+  std::unique_ptr<Server> server(new Server(settings, std::move(handler), counts));
+  if (auto listens = server->listen(); !listens) return tl::unexpected(listens.error());
+  return server;
+}
+
+Result<> Server::listen() {
+  auto address = parse_address(settings_.address, settings_.port);
+  const std::string where = settings_.address + " port " + std::to_string(settings_.port);
+  if (!address) return fail("web: " + where + ": is no numeric address");
+  const bool is_v6 = address->get()->sa_family == AF_INET6;
+  const unsigned flags =
+      static_cast<unsigned>(MHD_USE_EPOLL_INTERNAL_THREAD) | static_cast<unsigned>(MHD_USE_ITC) |
+      static_cast<unsigned>(MHD_ALLOW_SUSPEND_RESUME) | static_cast<unsigned>(MHD_USE_ERROR_LOG) |
+      (is_v6 ? static_cast<unsigned>(MHD_USE_DUAL_STACK) : 0U);
+  // Of silence: what arrives too slowly is for end_overdue().
+  const auto silence = std::chrono::ceil<std::chrono::seconds>(settings_.request_timeout);
+  complaint.clear();
+  daemon_ = ::MHD_start_daemon(
+      flags, 0, nullptr, nullptr, Callbacks::request, this, MHD_OPTION_EXTERNAL_LOGGER,
+      keep_complaint, this, MHD_OPTION_SOCK_ADDR, address->get(), MHD_OPTION_THREAD_POOL_SIZE,
+      kThreads, MHD_OPTION_CONNECTION_LIMIT, static_cast<unsigned>(settings_.max_connections),
+      MHD_OPTION_PER_IP_CONNECTION_LIMIT,
+      static_cast<unsigned>(settings_.max_connections_per_address),
+      MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeadBytes, MHD_OPTION_CONNECTION_TIMEOUT,
+      static_cast<unsigned>(silence.count()), MHD_OPTION_STRICT_FOR_CLIENT, 1,
+      MHD_OPTION_NOTIFY_CONNECTION, Callbacks::connection, this, MHD_OPTION_URI_LOG_CALLBACK,
+      Callbacks::target, this, MHD_OPTION_NOTIFY_COMPLETED, Callbacks::completed, this,
+      MHD_OPTION_END);
+  if (!daemon_) return fail("web: cannot listen on " + where + ": " + complaint);
+  port_ = ::MHD_get_daemon_info(daemon_, MHD_DAEMON_INFO_BIND_PORT)->port;
+  return {};
+}
+
+Server::~Server() {
+  if (!daemon_) return;
+  const int listening = ::MHD_quiesce_daemon(daemon_);
+  connections_.end_all();
+  ::MHD_stop_daemon(daemon_);
+  if (listening >= 0) ::close(listening);
+}
+
+void Server::end_overdue() { counts_.overdue += connections_.end_overdue(hal::Clock::now()); }
+
+}  // namespace orbwatch::app::web

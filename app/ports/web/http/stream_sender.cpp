@@ -1,0 +1,41 @@
+#include "app/ports/web/http/stream_sender.h"
+
+#include <microhttpd.h>
+
+namespace orbwatch::app::web {
+
+ssize_t StreamSender::read(char* out, std::size_t most) {
+  // Under the lock, so that no wake() is lost between the empty read and the suspension.
+  const std::lock_guard lock(mutex_);
+  if (has_ended_) return MHD_CONTENT_READER_END_OF_STREAM;
+  const std::size_t count = stream_->read({out, most});
+  if (count == 0) {
+    is_suspended_ = true;
+    ::MHD_suspend_connection(connection_);
+  }
+  return static_cast<ssize_t>(count);
+}
+
+void StreamSender::wake() {
+  const std::lock_guard lock(mutex_);
+  resume();
+}
+
+void StreamSender::end() {
+  const std::lock_guard lock(mutex_);
+  has_ended_ = true;
+  resume();
+}
+
+bool StreamSender::is_suspended() const {
+  const std::lock_guard lock(mutex_);
+  return is_suspended_;
+}
+
+void StreamSender::resume() {
+  if (!is_suspended_) return;
+  is_suspended_ = false;
+  ::MHD_resume_connection(connection_);
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+
+#include "app/ports/web/http/message.h"
+
+struct MHD_Connection;
+
+namespace orbwatch::app::web {
+
+/// Passes a stream to its connection, which is suspended while there is nothing to read. Thread
+/// rule: read by the connection's thread; the rest on any.
+class StreamSender {
+ public:
+  StreamSender(std::shared_ptr<Stream> stream, MHD_Connection* connection)
+      : stream_(std::move(stream)), connection_(connection) {}
+
+  /// As libmicrohttpd's callback wants it: how much was written to `out`, 0 when suspended, or the
+  /// end.
+  ssize_t read(char* out, std::size_t most);
+  /// There is something to read again.
+  void wake();
+  /// Ends the stream: nobody reads it any more.
+  void end();
+  bool is_suspended() const;
+
+ private:
+  void resume();
+
+  const std::shared_ptr<Stream> stream_;
+  MHD_Connection* const connection_;
+  mutable std::mutex mutex_;
+  bool is_suspended_ = false;
+  bool has_ended_ = false;
+};
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,45 @@
+#include "app/ports/web/pictures/mjpeg_stream.h"
+
+#include <algorithm>
+
+#include "app/model/utc_text.h"
+
+namespace orbwatch::app::web {
+
+namespace {
+
+/// Behind each picture, so that players show it without waiting for the next.
+constexpr std::string_view kBoundary = "\r\n--orbwatch\r\n";
+
+}  // namespace
+
+bool MjpegStream::begin_next() {
+  const std::uint64_t skipped = reader_->skipped();
+  const auto next = reader_->next();
+  if (!next) return false;
+  counts_.skipped += reader_->skipped() - skipped;
+  ++counts_.sent;
+  const std::string_view before = picture_ ? "" : kBoundary;
+  picture_ = next->bytes;
+  head_ = std::string(before) +
+          "Content-Type: image/jpeg\r\nContent-Length: " + std::to_string(picture_->size()) +
+          "\r\nX-Timestamp: " + utc_text(hal::to_utc(next->stamp)).value_or("") + "\r\n\r\n";
+  parts_ = {head_, *picture_, kBoundary};
+  return true;
+}
+
+std::size_t MjpegStream::read(std::span<char> out) {
+  const auto is_sent = [](std::string_view part) { return part.empty(); };
+  if (std::ranges::all_of(parts_, is_sent) && !begin_next()) return 0;
+  std::size_t written = 0;
+  for (std::string_view& part : parts_) {
+    const std::size_t count = std::min(part.size(), out.size() - written);
+    std::copy_n(part.data(), count, out.data() + written);
+    part.remove_prefix(count);
+    written += count;
+  }
+  // The picture after this one is the newest when the client has room for it.
+  return written;
+}
+
+}  // namespace orbwatch::app::web

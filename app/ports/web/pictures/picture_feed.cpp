@@ -1,0 +1,60 @@
+#include "app/ports/web/pictures/picture_feed.h"
+
+#include <utility>
+
+namespace orbwatch::app::web {
+
+PictureFeed::Reader::Reader(std::shared_ptr<PictureFeed> feed, std::function<void()> wake)
+    : feed_(std::move(feed)),
+      wake_(std::make_shared<const std::function<void()>>(std::move(wake))) {
+  const std::lock_guard lock(feed_->mutex_);
+  newest_ = feed_->newest_.number;
+  feed_->readers_.push_back(wake_);
+  feed_->count_wanted();
+}
+
+PictureFeed::Reader::~Reader() {
+  const std::lock_guard lock(feed_->mutex_);
+  std::erase(feed_->readers_, wake_);
+  feed_->count_wanted();
+}
+
+std::optional<Jpeg> PictureFeed::Reader::next() {
+  const std::lock_guard lock(feed_->mutex_);
+  const Jpeg& newest = feed_->newest_;
+  if (newest.number == newest_) return std::nullopt;
+  skipped_ += newest.number - newest_ - 1;
+  newest_ = newest.number;
+  return newest;
+}
+
+void PictureFeed::answer_next(ExchangePtr exchange) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [](const ExchangePtr& other) { return other->is_answered(); });
+  waiting_.push_back(std::move(exchange));
+  count_wanted();
+}
+
+void PictureFeed::publish(Bytes bytes, hal::TimePoint stamp) {
+  std::vector<Wake> readers;
+  std::vector<ExchangePtr> waiting;
+  {
+    const std::lock_guard lock(mutex_);
+    newest_ = {std::move(bytes), newest_.number + 1, stamp};
+    readers = readers_;
+    waiting = std::exchange(waiting_, {});
+    count_wanted();
+    bytes = newest_.bytes;
+  }
+  for (const ExchangePtr& exchange : waiting) {
+    Response response;
+    response.type = "image/jpeg";
+    response.body = bytes;
+    exchange->answer(std::move(response));
+  }
+  for (const Wake& wake : readers) (*wake)();
+}
+
+void PictureFeed::count_wanted() { wanted_ = readers_.size() + waiting_.size(); }
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,47 @@
+#include "app/ports/web/pictures/view_encoder.h"
+
+#include <utility>
+
+#include "app/log.h"
+
+namespace orbwatch::app::web {
+
+ViewEncoder::ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads)
+    : period_(hal::period_of(jpeg.rate)),
+      quality_(jpeg),
+      work_(std::move(threads), [this] { encode(); }) {}
+
+/// Tolerates jitter of a quarter period.
+bool ViewEncoder::wants(hal::TimePoint stamp) const {
+  return feed_->is_wanted() && stamp >= due_ - period_ / 4;
+}
+
+void ViewEncoder::accept(const ViewPtr& view) {
+  // A late picture does not delay the next, a pause gives no burst.
+  due_ = (view->stamp - due_ > period_ ? view->stamp : due_) + period_;
+  mailbox_.put(view);
+  work_.request();
+}
+
+void ViewEncoder::stop() {
+  work_.cancel();
+  mailbox_.discard();
+}
+
+void ViewEncoder::encode() {
+  auto view = mailbox_.try_take();
+  if (!view) return;
+  auto jpeg = encoder_.encode((*view)->picture, quality_.current());
+  while (jpeg && quality_.adapt(jpeg->size())) {
+    jpeg = encoder_.encode((*view)->picture, quality_.current());
+  }
+  const hal::TimePoint stamp = (*view)->stamp;
+  view.reset();
+  if (!jpeg) {
+    log_line(LogLevel::Error, "web: " + jpeg.error().message);
+    return;
+  }
+  feed_->publish(std::make_shared<const std::string>(jpeg->begin(), jpeg->end()), stamp);
+}
+
+}  // namespace orbwatch::app::web

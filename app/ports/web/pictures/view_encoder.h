@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+
+#include "app/model/view.h"
+#include "app/pictures/jpeg_encoder.h"
+#include "app/pictures/jpeg_quality.h"
+#include "app/ports/web/pictures/picture_feed.h"
+#include "hal/thread/mailbox.h"
+#include "hal/thread/shared_threads.h"
+
+namespace orbwatch::app::web {
+
+/// Compresses the newest picture of a view for its feed on shared threads, only while it is read.
+/// Thread rule: wants and accept by the pipeline's thread; the rest by the owner.
+class ViewEncoder {
+ public:
+  ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads);
+
+  /// Whether the picture of this moment is read.
+  bool wants(hal::TimePoint stamp) const;
+  /// Queues the picture and returns at once; the newest wins.
+  void accept(const ViewPtr& view);
+  /// Waits for the present picture and keeps none.
+  void stop();
+
+  const std::shared_ptr<PictureFeed>& feed() const { return feed_; }
+  std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
+  /// Pictures that were replaced before they were compressed.
+  std::uint64_t replaced() const { return mailbox_.drops(); }
+
+ private:
+  void encode();
+
+  const hal::Clock::duration period_;  ///< between two pictures; 0: none
+  hal::TimePoint due_;                 ///< of the next one; the accepting thread's
+  hal::Mailbox<ViewPtr> mailbox_;
+  JpegQuality quality_;
+  JpegEncoder encoder_;
+  const std::shared_ptr<PictureFeed> feed_ = std::make_shared<PictureFeed>();
+  hal::SharedThreads::Work work_;
+};
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,139 @@
+#include "app/ports/web/status/openapi.h"
+
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "app/model/readings.h"
+#include "app/ports/web/status/web_statistics.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string with_unit(std::string_view description, std::string_view unit) {
+  return std::string(description) + (unit.empty() ? "" : ", " + std::string(unit));
+}
+
+/// As app/model/json.cpp writes a field.
+template <class Value>
+void add_figure(Json& properties, const FieldInfo& field) {
+  const std::string name(field.name);
+  Json& figure = properties[name];
+  figure["description"] = with_unit(field.description, field.unit);
+  if constexpr (std::is_same_v<Value, bool>) {
+    figure["type"] = "boolean";
+  } else {
+    figure["type"] = "number";
+    figure["nullable"] = true;
+  }
+  if constexpr (std::is_enum_v<Value>) {
+    properties[name + "_text"] = {{"type", "string"}, {"description", "The same in words"}};
+  }
+}
+
+template <class Part>
+Json schema_of(const Part& part, bool is_named) {
+  Json properties = Json::object();
+  if (is_named) properties["name"] = {{"type", "string"}};
+  for_each_field(std::type_identity<Part>{}, [&](const auto& field) {
+    add_figure<std::decay_t<decltype(std::invoke(field.get, part))>>(properties, field);
+  });
+  return {{"type", "object"}, {"properties", std::move(properties)}};
+}
+
+/// Of a status with one component of each kind.
+Json status_schema() {
+  Status one_of_each;
+  one_of_each.region_count = one_of_each.alarm_count = 1;
+  one_of_each.camera_count = one_of_each.view_count = 1;
+  const StatusNames no_names;
+  Json properties{{"stamp", {{"type", "string"}, {"format", "date-time"}, {"nullable", true}}},
+                  {"age",
+                   {{"type", "number"},
+                    {"nullable", true},
+                    {"description", "Since the pipeline's report, s"}}}};
+  for_each_component(StatusReport{one_of_each, no_names, hal::TimePoint{}, {}},
+                     [&](const Component& component, const auto& part) {
+                       const std::string kind(component.kind);
+                       const bool is_named = !component.name.empty();
+                       Json schema = schema_of(part, is_named);
+                       if (!is_named) {
+                         properties[kind] = std::move(schema);
+                       } else {
+                         Json& list = properties[kind + "s"];
+                         list["type"] = "array";
+                         list["items"] = std::move(schema);
+                       }
+                     });
+  properties["web"] = schema_of(WebStatistics{}, false);
+  return {{"type", "object"}, {"properties", std::move(properties)}};
+}
+
+Json command_schema(const CommandInfo& info) {
+  Json properties = Json::object(), names = Json::array();
+  for (std::size_t i = 0; i < info.argument_count(); ++i) {
+    const ArgumentInfo& argument = info.arguments[i];
+    const std::string name(argument.name);
+    properties[name] = {{"type", argument.scale == 1 ? "integer" : "number"},
+                        {"minimum", argument.minimum},
+                        {"maximum", argument.maximum},
+                        {"description", with_unit(argument.description, argument.unit)}};
+    names.push_back(name);
+  }
+  Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!names.empty()) schema["required"] = names;
+  return schema;
+}
+
+Json operation_of(const Route& route) {
+  Json schema{{"type", "string"}};
+  if (route.type == kJson) schema = {{"type", "object"}};
+  if (route.path == "/api/v1/status") schema = {{"$ref", "#/components/schemas/Status"}};
+  if (route.command) schema = {{"$ref", "#/components/schemas/CommandAnswer"}};
+  const Json error{
+      {"description", "Refused"},
+      {"content", {{std::string(kJson), {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
+  Json operation{
+      {"summary", route.description},
+      {"responses",
+       {{"200", {{"description", "As asked"}, {"content", {{route.type, {{"schema", schema}}}}}}},
+        {"default", error}}}};
+  if (route.names_view) {
+    operation["parameters"] = {{{"name", "view"},
+                                {"in", "query"},
+                                {"required", true},
+                                {"description", "Name of the view"},
+                                {"schema", {{"type", "string"}}}}};
+  }
+  if (route.command) {
+    operation["operationId"] = std::string(route.command->name);
+    operation["requestBody"] = {
+        {"required", route.command->argument_count() > 0},
+        {"content", {{std::string(kJson), {{"schema", command_schema(*route.command)}}}}}};
+  }
+  return operation;
+}
+
+}  // namespace
+
+std::string openapi_json(const std::vector<Route>& routes) {
+  Json paths = Json::object();
+  for (const Route& route : routes) {
+    paths[route.path][route.method == "GET" ? "get" : "post"] = operation_of(route);
+  }
+  const Json text{{"type", "string"}};
+  const Json all{{"openapi", "3.0.3"},
+                 {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
+                 {"paths", std::move(paths)},
+                 {"components",
+                  {{"schemas",
+                    {{"Status", status_schema()},
+                     {"CommandAnswer",
+                      {{"type", "object"},
+                       {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
+                     {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
+  return all.dump();
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "app/model/field.h"
+
+namespace orbwatch::app::web {
+
+#define ORBWATCH_WEB_FIGURES(FIELD)                                                                \
+  FIELD(std::uint64_t, connections, kCount, "Connections that are open")                           \
+  FIELD(std::uint64_t, streams, kCount, "Streams of pictures that are open")                       \
+  FIELD(std::uint64_t, requests, kCount, "Requests that arrived whole")                            \
+  FIELD(std::uint64_t, refused, kCount, "Of them refused for their form, size or host name")       \
+  FIELD(std::uint64_t, overdue, kCount, "Connections ended because the client was too slow")       \
+  FIELD(std::uint64_t, pictures_sent, kCount, "Pictures whose sending in a stream was begun")      \
+  FIELD(std::uint64_t, pictures_skipped, kCount,                                                   \
+        "Pictures not sent to readers of streams that were slower")                                \
+  FIELD(std::uint64_t, pictures_replaced, kCount, "Pictures replaced before they were compressed") \
+  FIELD(std::uint64_t, commands_done, kCount, "Commands carried out")                              \
+  FIELD(std::uint64_t, commands_refused, kCount, "Commands answered with another result than done")
+
+/// Of the web interface itself, since start. Reported as a component of kind "web".
+struct WebStatistics {
+  ORBWATCH_WEB_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<WebStatistics>, Visit&& visit) {
+  using Part = WebStatistics;
+  ORBWATCH_WEB_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+}  // namespace orbwatch::app::web

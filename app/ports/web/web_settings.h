@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/model/sink.h"
+#include "app/pictures/jpeg_quality.h"
+#include "app/ports/web/http/address.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// The [web] part of the site file.
+struct WebSettings {
+  static constexpr std::string_view kName = "web", kText = "The page and its HTTP interface";
+
+  bool enabled = false;
+  /// The numeric IPv4 or IPv6 address to listen on; only this computer by default.
+  std::string address = "127.0.0.1";
+  int port = 8080;  ///< 0: any free port
+  /// Host names of this appliance. A request under any other name is refused, so that no foreign
+  /// page reaches it by a name of its own (DNS rebinding). Numeric addresses and localhost are
+  /// always right.
+  std::vector<std::string> names;
+
+  int max_connections = 128;
+  int max_connections_per_address = 16;
+  int max_streams = 32;
+  std::size_t max_body_bytes = 65536;
+  /// From the connection, or from the answer before, to the end of a request; and again for its
+  /// answer.
+  std::chrono::milliseconds request_timeout{10000};
+  JpegSettings jpeg;
+
+  /// Without word from the pipeline, which promises ten a second; then it is not healthy.
+  std::chrono::milliseconds status_timeout{2000};
+};
+
+template <class Visitor>
+void visit(Visitor& v, WebSettings& web) {
+  v.optional("enabled", web.enabled, "Serve HTTP");
+  v.optional("address", web.address, "Numeric address to listen on; it must be one of loopback");
+  v.require(web::is_loopback(web.address), "address",
+            "is no address of loopback, as 127.0.0.1 or ::1: there are no passwords yet");
+  v.optional("port", web.port, Range::between(0, 65535), "0: any free port");
+  v.optional("names", web.names,
+             "Host names under which browsers reach it, besides addresses and localhost");
+  v.optional("max_connections", web.max_connections, Range::between(4, 1000),
+             "One more waits until another ends");
+  v.optional("max_connections_per_address", web.max_connections_per_address,
+             Range::between(1, 1000), "One more from the same host is closed at once");
+  v.optional("max_streams", web.max_streams, Range::between(1, 1000),
+             "Streams of pictures; one more is refused");
+  v.optional("max_body_bytes", web.max_body_bytes, Range::between(1024, 1e7),
+             "Of a request; a larger one is refused");
+  v.optional("request_timeout_ms", web.request_timeout, Milliseconds{Range::between(100, 60000)},
+             "For a request to arrive as a whole, and for its answer to be read");
+  v.table("jpeg", web.jpeg, "Of snapshots and streams");
+}
+
+/// Who may command over HTTP, in words; empty: nobody. Reentrant.
+inline std::string commanders(const WebSettings& settings) {
+  return settings.enabled ? "over HTTP from this host only" : "";
+}
+
+std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context);
+
+}  // namespace orbwatch::app

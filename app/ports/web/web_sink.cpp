@@ -1,0 +1,236 @@
+#include "app/ports/web/web_sink.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "app/log.h"
+#include "app/model/condition.h"
+#include "app/ports/web/commands/command_body.h"
+#include "app/ports/web/status/openapi.h"
+#include "app/ports/web/status/status_text.h"
+
+namespace orbwatch::app {
+
+using web::ExchangePtr;
+
+namespace {
+
+constexpr std::string_view kMetrics = "text/plain; version=0.0.4; charset=utf-8";
+constexpr auto kWatchPeriod = std::chrono::milliseconds(250);
+
+double seconds_between(hal::TimePoint from, hal::TimePoint to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+WebSink::WebSink(WebSettings settings, const SinkContext& context)
+    : settings_(std::move(settings)),
+      names_(context.names),
+      threads_(context.background),
+      asked_(names_.views.size()),
+      commands_(context.handler, context.record),
+      routes_(make_routes()) {
+  views_.reserve(names_.views.size());
+  for (std::size_t i = 0; i < names_.views.size(); ++i) {
+    views_.push_back(std::make_unique<web::ViewEncoder>(settings_.jpeg, threads_));
+  }
+}
+
+WebSink::~WebSink() { stop(); }
+
+Result<> WebSink::start() {
+  if (!settings_.enabled || server_) return {};
+  commands_.start();
+  auto server = web::Server::open(
+      settings_, [this](const ExchangePtr& exchange) { web::serve(routes_, exchange); },
+      server_counts_);
+  if (!server) return tl::unexpected(server.error());
+  server_ = std::move(*server);
+  is_running_ = true;
+  thread_.start("web", [this] {
+    while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) server_->end_overdue();
+  });
+  log_line(LogLevel::Info,
+           "web: serves " + settings_.address + " port " + std::to_string(server_->port()));
+  return {};
+}
+
+void WebSink::stop() {
+  is_running_ = false;
+  thread_.stop();
+  server_.reset();
+  commands_.stop();
+  for (const auto& view : views_) view->stop();
+}
+
+std::chrono::nanoseconds WebSink::cpu_time() const {
+  std::chrono::nanoseconds time = thread_.cpu_time() + commands_.cpu_time();
+  for (const auto& view : views_) time += view->cpu_time();
+  return time;
+}
+
+PictureNeeds WebSink::needs(std::size_t view, hal::TimePoint stamp) {
+  if (view >= views_.size()) return {};
+  asked_[view] = is_running_ && views_[view]->wants(stamp);
+  PictureNeeds needs;
+  needs.jpeg = asked_[view];
+  return needs;
+}
+
+/// One of each view waits, and as many as there are threads are being compressed.
+KeptViews WebSink::keeps() const { return {1, threads_->count()}; }
+
+void WebSink::accept(const ViewPtr& view) {
+  if (view->index < views_.size() && asked_[view->index]) views_[view->index]->accept(view);
+}
+
+void WebSink::accept(const Status& status) {
+  const auto now = hal::Clock::now();
+  const auto utc = hal::to_utc(status.stamp);
+  const std::lock_guard lock(mutex_);
+  // Once per frame set: each conversion of the clocks differs by a microsecond or so.
+  if (status.frame_set != newest_.status.frame_set) newest_.utc = utc;
+  newest_.status = status;
+  newest_.received = now;
+}
+
+WebSink::NewestStatus WebSink::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+web::WebStatistics WebSink::statistics() const {
+  web::WebStatistics all;
+  all.connections = server_counts_.connections;
+  all.streams = server_counts_.streams;
+  all.requests = server_counts_.requests;
+  all.refused = server_counts_.refused;
+  all.overdue = server_counts_.overdue;
+  all.pictures_sent = stream_counts_.sent;
+  all.pictures_skipped = stream_counts_.skipped;
+  all.commands_done = commands_.done();
+  all.commands_refused = commands_.refused();
+  for (const auto& view : views_) all.pictures_replaced += view->replaced();
+  return all;
+}
+
+std::vector<web::Route> WebSink::make_routes() {
+  const std::string text(web::kText), json(web::kJson);
+  const auto by = [this](auto serve) {
+    return [this, serve](const ExchangePtr& exchange) { (this->*serve)(exchange); };
+  };
+  std::vector<web::Route> routes{
+      {"GET", "/healthz", "200 while the pipeline reports, else 503; in words its state", text,
+       by(&WebSink::serve_health)},
+      {"GET", "/api/v1/status", "Everything that is known at present", json,
+       by(&WebSink::serve_status)},
+      {"GET", "/api/v1/openapi.json", "This description", json, by(&WebSink::serve_description)},
+      {"GET", "/metrics", "The status for Prometheus", std::string(kMetrics),
+       by(&WebSink::serve_metrics)},
+      {"GET", "/snapshot.jpg", "The view's next picture", "image/jpeg",
+       by(&WebSink::serve_snapshot), true},
+      {"GET", "/stream.mjpg", "The view's pictures as MJPEG, for players and recorders",
+       std::string(web::MjpegStream::kType), by(&WebSink::serve_stream), true},
+  };
+  std::ranges::move(make_command_routes(), std::back_inserter(routes));
+  return routes;
+}
+
+/// One for each of kCommands.
+std::vector<web::Route> WebSink::make_command_routes() {
+  std::vector<web::Route> routes;
+  routes.reserve(kCommands.size());
+  for (const CommandInfo& info : kCommands) {
+    const auto serve = [this, &info](const ExchangePtr& exchange) {
+      const auto command = web::parse_command(info, exchange->request().body);
+      if (command) return commands_.run(*command, exchange);
+      exchange->answer(web::error_response(400, command.error().message));
+    };
+    routes.push_back({"POST", "/api/v1/command/" + std::string(info.name),
+                      std::string(info.description), std::string(web::kJson), serve, false, &info});
+  }
+  return routes;
+}
+
+void WebSink::serve_description(const ExchangePtr& exchange) const {
+  exchange->answer(web::json_response(web::openapi_json(routes_)));
+}
+
+void WebSink::serve_health(const ExchangePtr& exchange) const {
+  const NewestStatus newest = this->newest();
+  const bool is_stale = hal::Clock::now() - newest.received > settings_.status_timeout;
+  web::Response response;
+  response.status = is_stale ? 503 : 200;
+  response.type = web::kText;
+  const Condition condition = condition_of(static_cast<const SystemStatus&>(newest.status));
+  response.body = std::make_shared<const std::string>(
+      (is_stale ? "the pipeline does not report" : condition.text) + "\n");
+  exchange->answer(std::move(response));
+}
+
+void WebSink::serve_status(const ExchangePtr& exchange) const {
+  const NewestStatus newest = this->newest();
+  const auto now = hal::Clock::now();
+  const bool has_status = newest.received != hal::TimePoint{};
+  const double age = has_status ? seconds_between(newest.received, now) : signals::kNotValid;
+  exchange->answer(web::json_response(
+      web::status_json({newest.status, names_, now, newest.utc}, statistics(), age)));
+}
+
+void WebSink::serve_metrics(const ExchangePtr& exchange) const {
+  const NewestStatus newest = this->newest();
+  web::Response response;
+  response.type = kMetrics;
+  response.body = std::make_shared<const std::string>(
+      web::metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, statistics()));
+  exchange->answer(std::move(response));
+}
+
+/// Null: `refusal` says what would be right.
+const web::ViewEncoder* WebSink::find_view(const web::Exchange& exchange,
+                                           std::string& refusal) const {
+  const std::string* name = exchange.request().argument("view");
+  refusal = name ? "there is no such view" : "say which view, as ?view=NAME";
+  refusal += "; there are:";
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    if (name && *name == names_.views[i]) return views_[i].get();
+    refusal += (i == 0 ? " " : ", ") + names_.views[i];
+  }
+  return nullptr;
+}
+
+void WebSink::serve_snapshot(const ExchangePtr& exchange) const {
+  std::string refusal;
+  const web::ViewEncoder* view = find_view(*exchange, refusal);
+  if (!view) {
+    exchange->answer(web::error_response(404, refusal));
+    return;
+  }
+  view->feed()->answer_next(exchange);
+}
+
+void WebSink::serve_stream(const ExchangePtr& exchange) {
+  std::string refusal;
+  const web::ViewEncoder* view = find_view(*exchange, refusal);
+  if (!view) {
+    exchange->answer(web::error_response(404, refusal));
+    return;
+  }
+  if (server_counts_.streams >= static_cast<std::uint64_t>(settings_.max_streams)) {
+    exchange->answer(web::error_response(503, "all streams are taken: max_streams of [web]"));
+    return;
+  }
+  web::Response response;
+  response.type = web::MjpegStream::kType;
+  response.stream = std::make_shared<web::MjpegStream>(view->feed(), stream_counts_);
+  exchange->answer(std::move(response));
+}
+
+std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context) {
+  if (!settings.enabled) return nullptr;
+  return std::make_unique<WebSink>(settings, context);
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "app/model/sink.h"
+#include "app/ports/web/commands/command_runner.h"
+#include "app/ports/web/http/server.h"
+#include "app/ports/web/pictures/mjpeg_stream.h"
+#include "app/ports/web/pictures/view_encoder.h"
+#include "app/ports/web/routes.h"
+#include "app/ports/web/status/web_statistics.h"
+#include "app/ports/web/web_settings.h"
+#include "hal/thread/thread.h"
+
+namespace orbwatch::app {
+
+/// Serves status, pictures and commands over HTTP: see README.md for the paths. Requests are
+/// answered on the server's threads, pictures compressed on shared ones; the pipeline only leaves a
+/// status and a picture behind. Thread rule: as Sink; port and statistics while it is started, on
+/// any thread.
+class WebSink final : public Sink {
+ public:
+  WebSink(WebSettings settings, const SinkContext& context);
+  ~WebSink() override;
+
+  /// Does nothing when disabled or running. Error: the address cannot be listened on.
+  Result<> start() override;
+  void stop() override;
+  std::chrono::nanoseconds cpu_time() const override;
+
+  PictureNeeds needs(std::size_t view, hal::TimePoint stamp) override;
+  KeptViews keeps() const override;
+  void accept(const ViewPtr& view) override;
+  void accept(const Status& status) override;
+
+  int port() const { return server_ ? server_->port() : 0; }
+  web::WebStatistics statistics() const;
+
+ private:
+  struct NewestStatus {
+    Status status;
+    std::chrono::system_clock::time_point utc{};
+    hal::TimePoint received;
+  };
+
+  std::vector<web::Route> make_routes();
+  std::vector<web::Route> make_command_routes();
+  NewestStatus newest() const;
+  void serve_health(const web::ExchangePtr& exchange) const;
+  void serve_status(const web::ExchangePtr& exchange) const;
+  void serve_description(const web::ExchangePtr& exchange) const;
+  void serve_metrics(const web::ExchangePtr& exchange) const;
+  void serve_snapshot(const web::ExchangePtr& exchange) const;
+  void serve_stream(const web::ExchangePtr& exchange);
+  const web::ViewEncoder* find_view(const web::Exchange& exchange, std::string& refusal) const;
+
+  const WebSettings settings_;
+  const StatusNames names_;
+  const std::shared_ptr<hal::SharedThreads> threads_;
+  std::atomic<bool> is_running_{false};
+
+  std::vector<std::unique_ptr<web::ViewEncoder>> views_;  ///< by View::index
+  std::vector<bool> asked_;  ///< by view: the next picture is read; accept's thread
+
+  mutable std::mutex mutex_;
+  NewestStatus newest_;  ///< under mutex_
+
+  web::ServerCounts server_counts_;
+  web::StreamCounts stream_counts_;
+  web::CommandRunner commands_;
+  const std::vector<web::Route> routes_;
+  std::unique_ptr<web::Server> server_;
+  hal::Thread thread_;  ///< ends what is overdue
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,40 @@
+#include "app/ports/web/http/address.h"
+
+#include <gtest/gtest.h>
+
+namespace orbwatch::app::web {
+namespace {
+
+TEST(OwnHost, IsAnAddressLocalhostOrAName) {
+  const std::vector<std::string> names{"ball.plant.example"};
+  for (const char* own : {"127.0.0.1", "10.0.0.7:8080", "[fd00::1]", "[fd00::1]:8080", "localhost",
+                          "LocalHost:1", "ball.plant.example", "BALL.plant.example:443"}) {
+    EXPECT_TRUE(is_own_host(own, names)) << own;
+  }
+  for (const char* other :
+       {"", ":80", "evil.example", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil",
+        "127.0.0.1:", "127.0.0.1:http", "127.0.0.1:123456", "[fd00::1", "[fd00::1]x", "[127.0.0.1]",
+        "fd00::1", "ball.plant.example.", "ball", "127.0.0.1@evil.example"}) {
+    EXPECT_FALSE(is_own_host(other, names)) << other;
+  }
+}
+
+TEST(Loopback, IsThisComputerOnly) {
+  for (const char* own : {"127.0.0.1", "127.8.8.8", "::1", "::ffff:127.0.0.1"}) {
+    EXPECT_TRUE(is_loopback(own)) << own;
+  }
+  for (const char* other : {"", "0.0.0.0", "::", "10.0.0.1", "localhost", "::ffff:10.0.0.1"}) {
+    EXPECT_FALSE(is_loopback(other)) << other;
+  }
+}
+
+TEST(HostText, IsAsNumbersAreWritten) {
+  for (const char* text : {"10.0.0.7", "fd00::1"}) {
+    EXPECT_EQ(host_text(parse_address(text, 80)->get()), text);
+  }
+  EXPECT_EQ(host_text(parse_address("::ffff:10.0.0.7", 80)->get()), "10.0.0.7");
+  EXPECT_FALSE(parse_address("ball.example", 80));
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web

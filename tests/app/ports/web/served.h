@@ -1,0 +1,68 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "app/ports/web/web_sink.h"
+#include "app/state/command_record.h"
+#include "tests/app/hand_over.h"
+#include "tests/app/ports/dds/test_status.h"
+#include "tests/app/ports/dds/test_views.h"
+#include "tests/app/ports/web/http_client.h"
+
+namespace orbwatch::app::web::tests {
+
+using app::tests::hand_over;
+using app::tests::make_view;
+
+inline SinkContext make_context() {
+  SinkContext context;
+  context.names = app::tests::make_names();
+  context.views.resize(context.names.views.size());
+  context.record = std::make_shared<CommandRecord>();
+  context.background = hal::SharedThreads::alone();
+  return context;
+}
+
+inline WebSettings on_a_free_port(WebSettings settings = {}) {
+  settings.enabled = true;
+  settings.port = 0;
+  return settings;
+}
+
+/// A sink that serves on a free port, with the names and the status of test_status.h.
+class Served : public testing::Test {
+ protected:
+  void start(const WebSettings& settings = {}) {
+    sink = std::make_unique<WebSink>(on_a_free_port(settings), make_context());
+    const auto started = sink->start();
+    ASSERT_TRUE(started) << started.error().message;
+    sink->accept(app::tests::make_status());
+  }
+  int port() const { return sink->port(); }
+
+  static bool eventually(const std::function<bool()>& condition) {
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > give_up) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // polls a real server
+    }
+    return true;
+  }
+
+  /// Waits until the view is read, and passes a picture on as the pipeline does.
+  void show(std::uint64_t frame_set, int width = 64, int height = 48, std::size_t index = 0) const {
+    const auto view = make_view(index, index == 0 ? "front" : "wide", frame_set, width, height);
+    ASSERT_TRUE(eventually([&] { return sink->needs(index, view->stamp).jpeg; }));
+    sink->accept(view);
+  }
+
+  std::unique_ptr<WebSink> sink;
+};
+
+}  // namespace orbwatch::app::web::tests

@@ -1,0 +1,30 @@
+#include <strings.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "app/ports/web/commands/command_body.h"
+#include "app/ports/web/http/address.h"
+
+/// Any bytes as the body of a command over HTTP and as a Host header: the first byte says which
+/// command. What is taken for a command must be an allowed one of that name, what is refused must
+/// say why, and only numbers and localhost are names of this host.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace orbwatch::app;
+  if (size == 0) return 0;
+  const CommandInfo& info = kCommands[data[0] % kCommands.size()];
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const auto command = web::parse_command(info, text);
+  if (command && (command->code != info.code || check(*command) != CommandResult::Done)) {
+    std::abort();
+  }
+  if (!command && command.error().message.empty()) std::abort();
+  const bool is_number =
+      text.find_first_not_of("0123456789abcdefABCDEF.:[]") == std::string_view::npos;
+  const bool is_localhost = text.size() >= 9 && ::strncasecmp(text.data(), "localhost", 9) == 0 &&
+                            (text.size() == 9 || text[9] == ':');
+  if (web::is_own_host(text, {}) && !is_number && !is_localhost) std::abort();
+  return 0;
+}
