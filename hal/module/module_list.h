@@ -1,0 +1,14 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "hal/libcamera/libcamera_settings.h"
+
+namespace orbwatch::hal {
+
+/// The back-ends that are modules: one line each. The module of NAME is the file camera-NAME.so in
+/// the package orbwatch-camera-NAME.
+inline constexpr std::array kModuleBackEnds{LibcameraSettings::kName};
+
+}  // namespace orbwatch::hal
