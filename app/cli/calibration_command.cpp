@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "app/cli/command.h"
+#include "app/cli/options/options.h"
+#include "app/cli/text_table.h"
+#include "app/files/calibration_file.h"
+#include "app/files/resolve.h"
+#include "app/files/site_file.h"
+#include "app/state/state_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr const char* kUsage =
+    "Usage: orbwatch calibration history [--config SITE]\n"
+    "       orbwatch calibration restore NUMBER [--config SITE]\n"
+    "       orbwatch calibration reset CAMERA [--config SITE]\n"
+    "\n"
+    "Alignments that orbwatchd accepted by command or corrected by itself are kept in its state\n"
+    "folder and are in force instead of what the rig file says, until that is changed. `history`\n"
+    "lists them; `restore` puts an earlier one in force again; `reset` goes back to the rig file.\n"
+    "A running orbwatchd takes it up by the command restart, or SIGHUP.\n"
+    "\n";
+
+/// The alignments of a site.
+struct Calibrations {
+  std::filesystem::path file;
+  std::uint32_t rig = 0;
+  std::vector<CalibrationEntry> entries;
+};
+
+Result<Calibrations> read(const std::filesystem::path& config) {
+  const auto site = read_site(config);
+  if (!site) return tl::unexpected(site.error());
+  Calibrations calibrations{calibration_file(state_folder(site->state_folder)), 0, {}};
+  const auto rig = rig_checksum(site->rig.path);
+  if (!rig) return tl::unexpected(rig.error());
+  calibrations.rig = *rig;
+  TextFiles files;
+  auto entries = load_calibrations(calibrations.file, files);
+  if (!entries) return tl::unexpected(entries.error());
+  calibrations.entries = std::move(*entries);
+  return calibrations;
+}
+
+std::string history(const Calibrations& all) {
+  if (all.entries.empty()) return "no alignment was accepted: the rig file counts\n";
+  const auto current = in_force(all.entries, all.rig);
+  std::vector<Fields> records;
+  for (const CalibrationEntry& entry : all.entries) {
+    const bool counts = std::ranges::count(current, entry.number, &CalibrationEntry::number) > 0;
+    const char* const before = entry.rig == all.rig ? "earlier" : "for another rig file";
+    records.push_back({{"number", std::to_string(entry.number)},
+                       {"time", entry.time},
+                       {"camera", camera_of(entry).camera},
+                       {"state", counts ? "in force" : before},
+                       {"method", entry.method},
+                       {"quality", entry.quality}});
+  }
+  return record_lines(records);
+}
+
+Result<std::string> accepted(Calibrations& all, CalibrationEntry entry) {
+  const std::string camera = camera_of(entry).camera;
+  accept(all.entries, std::move(entry));
+  const auto saved = save_calibrations(all.file, all.entries);
+  if (!saved) return tl::unexpected(saved.error());
+  return "alignment " + std::to_string(all.entries.back().number) + " of " + camera +
+         " counts from the next start or restart of orbwatchd on\n";
+}
+
+Result<std::string> restore(Calibrations& all, const std::string& word) {
+  const auto number = parse_whole("restore", word);
+  if (!number) return tl::unexpected(number.error());
+  const auto found = std::ranges::find(all.entries, *number, &CalibrationEntry::number);
+  if (found == all.entries.end()) {
+    return fail("there is no alignment " + word + "; see orbwatch calibration history");
+  }
+  if (found->rig != all.rig) {
+    return fail("alignment " + word + " is for another rig file; the rig was changed since");
+  }
+  CalibrationEntry entry = *found;
+  entry.method = "restored " + word + ": " + entry.method;
+  return accepted(all, std::move(entry));
+}
+
+Result<std::string> reset(Calibrations& all, const std::string& camera) {
+  const auto of_camera = [&](const CalibrationEntry& entry) {
+    return camera_of(entry).camera == camera;
+  };
+  if (std::ranges::none_of(all.entries, of_camera)) {
+    return fail("no alignment of a camera " + camera + " was accepted: the rig file counts");
+  }
+  CalibrationEntry entry;
+  entry.method = "reset to the rig file";
+  entry.rig = all.rig;
+  entry.alignment.cameras.push_back({.camera = camera});
+  return accepted(all, std::move(entry));
+}
+
+Result<std::string> run(const std::filesystem::path& config,
+                        const std::vector<std::string>& words) {
+  const std::string what = words.empty() ? "" : words.front();
+  const bool is_right = (what == "history" && words.size() == 1) ||
+                        ((what == "restore" || what == "reset") && words.size() == 2);
+  if (!is_right) return fail("say history, restore NUMBER or reset CAMERA; see --help");
+  auto all = read(config);
+  if (!all) return tl::unexpected(all.error());
+  if (what == "history") return history(*all);
+  return what == "restore" ? restore(*all, words[1]) : reset(*all, words[1]);
+}
+
+}  // namespace
+
+Result<std::string> calibration_command(const std::vector<std::string>& arguments) {
+  std::filesystem::path config;
+  return run_command(
+      arguments,
+      {.usage = kUsage,
+       .options = {{"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
+                    text_option(config)}},
+       .takes_words = true},
+      [&](const auto& words) { return run(site_file(config), words); });
+}
+
+}  // namespace orbwatch::app

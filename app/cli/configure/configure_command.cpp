@@ -1,0 +1,163 @@
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/cli/command.h"
+#include "app/cli/configure/text_difference.h"
+#include "app/cli/options/options.h"
+#include "app/daemon/build.h"
+#include "app/files/resolve.h"
+#include "app/files/site_file.h"
+#include "app/files/trial.h"
+#include "app/pictures/picture_file.h"
+#include "app/state/state_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kShortest = 10, kLongest = 3600;  // s
+
+constexpr const char* kUsage =
+    "Usage: orbwatch configure FILE [--seconds N] [--dry-run]\n"
+    "       orbwatch configure --confirm | --cancel\n"
+    "\n"
+    "Checks a new configuration file and all files that it names, shows what they change, and has\n"
+    "the running orbwatchd run them. The installed files stay as they are until --confirm, which\n"
+    "writes them. Without it orbwatchd goes back to them after N seconds, and after any end: a\n"
+    "crash, a power cut. The files that FILE names stand in its folder, as they are to stand in "
+    "the\n"
+    "folder of the installed one.\n"
+    "\n";
+
+struct Options {
+  fs::path config;
+  int seconds = 120;
+  bool dry_run = false;
+  bool confirm = false;
+  bool cancel = false;
+};
+
+/// The texts by their places beside the installed file. Error: one is not in the new one's folder.
+Result<FileTexts> placed(const FileTexts& texts, const fs::path& from, const fs::path& to) {
+  FileTexts moved;
+  for (const auto& [path, text] : texts) {
+    const fs::path inside = path.lexically_relative(from);
+    if (path.is_absolute() && (inside.empty() || *inside.begin() == "..")) continue;  // stays there
+    if (inside.empty() || *inside.begin() == "..") {
+      return fail(path.string() + ": is not in the folder of the configuration, " + from.string());
+    }
+    moved[(to / inside).lexically_normal()] = text;
+  }
+  return moved;
+}
+
+std::string differences(const FileTexts& texts) {
+  std::string all;
+  for (const auto& [path, text] : texts) {
+    TextFiles files;
+    const auto old = files.read(path, "a text file");
+    all += text_difference(old.value_or(""), text, path.string());
+  }
+  return all;
+}
+
+Result<Trial> make_trial(const Options& o, const fs::path& file) {
+  fs::path folder = file.parent_path();
+  if (folder.empty()) folder = ".";
+  const auto site = resolve(folder / file.filename());
+  if (!site) return tl::unexpected(site.error());
+  Trial trial{o.config, {}, o.seconds};
+  auto texts = placed(site->texts, folder, o.config.parent_path());
+  if (!texts) return tl::unexpected(texts.error());
+  trial.texts = std::move(*texts);
+  // The file's own name may differ.
+  const auto own =
+      trial.texts.extract((o.config.parent_path() / file.filename()).lexically_normal());
+  trial.texts[o.config] = own.mapped();
+  // As it will stand there.
+  const auto checked = resolve(o.config, trial.texts).and_then([](const Resolved& there) {
+    return check_site(there, Dates::Checked);
+  });
+  if (!checked) return tl::unexpected(checked.error());
+  return trial;
+}
+
+Result<std::string> try_out(const Options& o, const fs::path& file) {
+  const auto trial = make_trial(o, file);
+  if (!trial) return tl::unexpected(trial.error());
+  const std::string difference = differences(trial->texts);
+  if (difference.empty()) return "changes nothing\n";
+  if (o.dry_run) return difference;
+  if (auto asked = request_trial(state_folder({}), *trial); !asked) {
+    return tl::unexpected(asked.error());
+  }
+  return difference + "runs for " + std::to_string(o.seconds) +
+         " seconds from now on; keep it with: orbwatch configure --confirm\n";
+}
+
+/// Writes the files, the configuration file last, and only then ends the trial: a confirmation that
+/// was interrupted may be repeated.
+Result<std::string> confirm(const fs::path& folder) {
+  const auto trial = running_trial(folder);
+  if (!trial) return tl::unexpected(trial.error());
+  if (!*trial)
+    return fail("no configuration waits for its confirmation: it was not taken up, or went back");
+  std::string text;
+  const auto write = [&text](const fs::path& path, const std::string& content) {
+    text += path.string() + ": written\n";
+    return write_file(path, content);
+  };
+  for (const auto& [path, content] : (*trial)->texts) {
+    if (path == (*trial)->site) continue;
+    if (auto written = write(path, content); !written) return tl::unexpected(written.error());
+  }
+  const auto written = write((*trial)->site, (*trial)->texts.at((*trial)->site));
+  if (!written) return tl::unexpected(written.error());
+  if (!end_trial(folder))
+    return fail("it went back meanwhile; the files are the new ones: send the command restart");
+  return text;
+}
+
+Result<std::string> run(Options o, const std::vector<std::string>& words) {
+  o.config = fs::absolute(site_file(o.config)).lexically_normal();
+  const std::size_t ways = words.size() + (o.confirm ? 1 : 0) + (o.cancel ? 1 : 0);
+  if (ways != 1) return fail("say FILE, --confirm or --cancel; see --help");
+  const fs::path folder = state_folder({});
+  if (o.confirm) return confirm(folder);
+  if (o.cancel) {
+    if (end_trial(folder)) return "goes back\n";
+    return fail("no configuration waits for its confirmation");
+  }
+  if (o.seconds < kShortest || o.seconds > kLongest) {
+    return fail("--seconds is " + std::to_string(o.seconds) + "; it must be from 10 to 3600");
+  }
+  return try_out(o, words.front());
+}
+
+std::function<Result<>(const std::string&)> seconds_option(int& target) {
+  return [&target](const std::string& value) {
+    return parse_whole("seconds", value).map([&target](int seconds) { target = seconds; });
+  };
+}
+
+}  // namespace
+
+Result<std::string> configure_command(const std::vector<std::string>& arguments) {
+  Options o;
+  return run_command(
+      arguments,
+      {.usage = kUsage,
+       .options = {{"config", 'c', "FILE", "the installed file (default: as orbwatchd)",
+                    text_option(o.config)},
+                   {"seconds", 0, "N", "until it goes back, 10 to 3600 (default 120)",
+                    seconds_option(o.seconds)},
+                   {"dry-run", 0, "", "check and show the difference only", flag_option(o.dry_run)},
+                   {"confirm", 0, "", "keep what runs: write the files", flag_option(o.confirm)},
+                   {"cancel", 0, "", "go back now", flag_option(o.cancel)}},
+       .takes_words = true},
+      [&](const auto& words) { return run(o, words); });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,158 @@
+#include "app/cli/describe/describe_programs.h"
+
+#include "app/cli/options/declaration.h"
+#include "app/model/command.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// As man(7) reads it: no line is a request, no hyphen a dash.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if ((out.empty() || out.back() == '\n') && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\') {
+      out += "\\e";
+    } else if (c == '-') {
+      out += "\\-";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string trimmed(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+/// Its lines as they are.
+std::string verbatim(const std::string& text) {
+  return ".nf\n" + escaped(trimmed(text)) + "\n.fi\n";
+}
+
+std::string option_entry(const Option& option) {
+  std::string entry = ".TP\n\\fB";
+  if (option.letter != '\0') entry += "\\-" + std::string(1, option.letter) + "\\fR, \\fB";
+  entry += escaped("--" + option.name) + "\\fR";
+  if (!option.argument.empty()) entry += " \\fI" + escaped(option.argument) + "\\fR";
+  return entry + "\n" + escaped(trimmed(option.text)) + "\n";
+}
+
+std::string section(const std::string& before, const Subcommand& command) {
+  std::string text = ".SS \"" + before + std::string(command.name) + "\"\n" +
+                     escaped(std::string(command.text)) + ".\n";
+  const auto declared = declaration_of(command);
+  if (!declared) return text;
+  text += ".PP\n" + verbatim(declared->usage);
+  for (const Option& option : declared->options) text += option_entry(option);
+  if (!declared->notes.empty()) text += ".PP\n" + verbatim(declared->notes);
+  return text;
+}
+
+constexpr const char* kHead =
+    R"(.\" Made by: orbwatch describe man
+.TH ORBWATCH 1 "" "orbwatch" "User Commands"
+.SH NAME
+orbwatch \- tools around mirror balls and the orbwatchd service
+.SH SYNOPSIS
+.B orbwatch
+.I COMMAND
+.RI [ options ]
+.SH COMMANDS
+)";
+
+constexpr const char* kTail = R"(.SH EXIT STATUS
+.TP
+0
+The command did what was asked; what it found is on standard output.
+.TP
+1
+It did not, or what it judges is not good enough; the reason is on standard error.
+.SH ENVIRONMENT
+.TP
+.B ORBWATCH_CONFIG
+The configuration file, where none is given.
+.TP
+.B STATE_DIRECTORY
+The folder of what must outlast a restart, where the configuration names none.
+.SH FILES
+.TP
+.I /etc/orbwatch/site.toml
+The configuration, which names the files of rig and recipes.
+.TP
+.I /var/lib/orbwatch
+What must outlast a restart: commands, alignments, the last good configuration.
+.SH SEE ALSO
+.BR systemctl (1),
+.BR journalctl (1)
+)";
+
+void add_word(std::string& words, std::string_view word) {
+  if (!words.empty()) words += ' ';
+  words += word;
+}
+
+std::string names(std::span<const Subcommand> subcommands) {
+  std::string words;
+  for (const Subcommand& subcommand : subcommands) add_word(words, subcommand.name);
+  return words;
+}
+
+std::string option_words(const Subcommand& command) {
+  std::string words;
+  if (const auto declared = declaration_of(command)) {
+    for (const Option& option : declared->options) add_word(words, "--" + option.name);
+  }
+  return words;
+}
+
+std::string branch(const std::string& pattern, const std::string& words) {
+  return words.empty() ? "" : "    " + pattern + ") words=\"" + words + "\" ;;\n";
+}
+
+}  // namespace
+
+std::string man_page(std::span<const Subcommand> commands, std::span<const Subcommand> subjects) {
+  std::string text = kHead;
+  for (const Subcommand& command : commands) {
+    text += section("", command);
+    if (command.name != "describe") continue;
+    for (const Subcommand& subject : subjects) text += section("describe ", subject);
+  }
+  return text + kTail;
+}
+
+std::string bash_completion(std::span<const Subcommand> commands,
+                            std::span<const Subcommand> subjects) {
+  std::string branches;
+  for (const Subcommand& command : commands) {
+    const std::string name(command.name);
+    if (name == "describe") {
+      for (const Subcommand& subject : subjects) {
+        branches +=
+            branch("\"describe " + std::string(subject.name) + "\"*", option_words(subject));
+      }
+      branches += branch("\"describe \"*", names(subjects));
+      continue;
+    }
+    std::string words = option_words(command);
+    if (name == "command") {
+      for (const CommandInfo& info : kCommands) add_word(words, info.name);
+    }
+    branches += branch("\"" + name + " \"*", words);
+  }
+  return "# Made by: orbwatch describe completion\n"
+         "_orbwatch() {\n"
+         "  local words=\"\" line=\"${COMP_WORDS[*]:1:COMP_CWORD-1} \"\n"
+         "  case $line in\n"
+         "    \" \") words=\"" +
+         names(commands) + " --help --version\" ;;\n" + branches +
+         "  esac\n"
+         "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\")\n"
+         "}\n"
+         "complete -o bashdefault -o default -F _orbwatch orbwatch\n";
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,34 @@
+# Made by: orbwatch describe completion
+_orbwatch() {
+  local words="" line="${COMP_WORDS[*]:1:COMP_CWORD-1} "
+  case $line in
+    " ") words="project advise setup detect register place drift calibration subscribe state command dds-keys list configure lines bench describe --help --version" ;;
+    "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
+    "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
+    "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --force --help" ;;
+    "detect "*) words="--json --overlay --calibration --help" ;;
+    "register "*) words="--rig --method --detect --refine-outline --json --output --help" ;;
+    "place "*) words="--rig --camera --point --view-point --image --tag --tags --focal --ball-centre --sigma-px --sigma-mm --outline-sigma --json --output --view --yaw --pitch --roll --h-fov --v-fov --size --help" ;;
+    "drift "*) words="--rig --rate --reference --warning --alarm --json --help" ;;
+    "calibration "*) words="--config --help" ;;
+    "subscribe "*) words="--topic --domain --prefix --security --save --seconds --stats --each --help" ;;
+    "state "*) words="--json --follow --domain --prefix --security --timeout --help" ;;
+    "command "*) words="--domain --prefix --security --timeout --help select_view pulse start stop select_recipe point_view mix_sources trigger acknowledge_alarm snapshot set_process_active restart detect_ball register_camera correct_alignment accept_alignment discard_alignment learn_clean_ball mark_point forget_points place_camera" ;;
+    "dds-keys "*) words="--subscriber --read-only --domain --prefix --days --replace --help" ;;
+    "list "*) words="--json --help" ;;
+    "configure "*) words="--config --seconds --dry-run --confirm --cancel --help" ;;
+    "lines "*) words="--safe --config --help" ;;
+    "bench "*) words="--config --seconds --simulated --json --help" ;;
+    "describe config"*) words="--help" ;;
+    "describe rig"*) words="--help" ;;
+    "describe recipe"*) words="--help" ;;
+    "describe registers"*) words="--format --help" ;;
+    "describe view"*) words="--rig --camera --ball --alpha --distance --rotation --model --size-of-picture --view --yaw --pitch --roll --h-fov --v-fov --size --format --output --help" ;;
+    "describe camera"*) words="--rig --camera --format --help" ;;
+    "describe man"*) words="--help" ;;
+    "describe completion"*) words="--help" ;;
+    "describe "*) words="config rig recipe registers view camera man completion" ;;
+  esac
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}")
+}
+complete -o bashdefault -o default -F _orbwatch orbwatch

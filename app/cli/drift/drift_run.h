@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "proc/align/drift/drift_monitor.h"
+
+namespace orbwatch::app {
+
+/// Pictures of one camera in the order in which they were taken.
+struct DriftSequence {
+  std::filesystem::path folder;
+  double rate = 30;                 ///< pictures per second
+  std::filesystem::path reference;  ///< on which the alignment was made; empty: the first pictures
+};
+
+/// What became of an alignment over a sequence.
+struct DriftRun {
+  std::size_t frames = 0;
+  std::size_t measured = 0;
+  /// Why the others were not, and how many.
+  std::map<std::string, std::size_t> not_measured;
+  /// Numbers from 0; with its file's name.
+  struct Event {
+    std::size_t frame = 0;
+    std::string file;
+  };
+  std::optional<Event> first_warning;  ///< or alarm
+  std::optional<Event> first_alarm;
+  align::DriftState last;  ///< of the last picture; its motion of the last that was measured
+};
+
+/// Watches the whole sequence: every JPEG and PNG of the folder, in natural order of their names.
+/// Errors: no pictures, one that cannot be read, another size, those of DriftMonitor.
+Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLimits& limits,
+                       const DriftSequence& sequence);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,60 @@
+#include <filesystem>
+
+#include "app/cli/command.h"
+#include "app/cli/options/options.h"
+#include "app/files/resolve.h"
+#include "app/files/site_file.h"
+#include "app/ports/lines/safe_state.h"
+#include "app/state/state_folder.h"
+#include "hal/lines/gpio/gpio_lines.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// The lines that orbwatchd used: of the file, or of what ran last if it is wrong.
+Result<std::vector<LineSettings>> lines_of(const std::filesystem::path& file) {
+  const auto read = read_site(file);
+  if (read) return std::vector<LineSettings>(read->lines.begin(), read->lines.end());
+  const auto last_good = resolve_last_good(state_folder({}), file);
+  if (!last_good) return fail(read.error().message + "; " + last_good.error().message);
+  const auto& lines = last_good->site.lines;
+  return std::vector<LineSettings>(lines.begin(), lines.end());
+}
+
+Result<std::string> set_safe(const std::filesystem::path& file) {
+  const auto lines = lines_of(file);
+  if (!lines) return tl::unexpected(lines.error());
+  hal::GpioLines gpio;
+  std::string text;
+  std::string errors;
+  for (const SafeOutput& output : make_safe(*lines, gpio)) {
+    if (output.error.empty()) {
+      text += output.name + ": inactive\n";
+    } else {
+      errors += (errors.empty() ? "" : "; ") + output.name + ": " + output.error;
+    }
+  }
+  if (!errors.empty()) return fail(errors);
+  return text.empty() ? "the configuration has no output\n" : text;
+}
+
+}  // namespace
+
+Result<std::string> lines_command(const std::vector<std::string>& arguments) {
+  std::filesystem::path config;
+  bool safe = false;
+  return run_command(
+      arguments,
+      {.usage = "Usage: orbwatch lines --safe [--config FILE]\n\n"
+                "Sets the GPIO outputs of a configuration inactive and releases them, after an\n"
+                "orbwatchd that was killed. The service runs it at its end.\n\n",
+       .options = {{"safe", 0, "", "set all outputs inactive", flag_option(safe)},
+                   {"config", 'c', "FILE", "that of orbwatchd (default: as orbwatchd)",
+                    text_option(config)}}},
+      [&](const auto&) -> Result<std::string> {
+        if (!safe) return fail("say --safe; see --help");
+        return set_safe(site_file(config));
+      });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+
+#include "app/cli/command.h"
+#include "app/cli/options/options.h"
+
+namespace orbwatch::app {
+
+/// What a command declares to run_command(), without running it; its options are not to be set.
+/// Nullopt: it takes no options. Thread-bound.
+std::optional<CommandLine> declaration_of(const Subcommand& command);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,172 @@
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "app/cli/command.h"
+#include "app/cli/options/camera_options.h"
+#include "app/cli/options/options.h"
+#include "app/cli/register/named_pictures.h"
+#include "app/cli/register/register_text.h"
+#include "app/files/rig_edit.h"
+#include "app/files/rig_file.h"
+#include "proc/align/detect/ball_detector.h"
+#include "proc/align/register/camera_registration.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr const char* kUsage =
+    "Usage: orbwatch register --rig RIG A=PATH B=PATH [options]\n"
+    "\n"
+    "Finds the rotation of camera B to camera A from what both see in the ball. A's alignment in\n"
+    "the rig stands, B's is found. PATH is a JPEG or PNG picture, or a folder of them: a sequence\n"
+    "whose n-th pictures of both cameras are of the same moment. The rig's scene corrects "
+    "parallax;\n"
+    "without one, near rooms are registered badly or not at all.\n"
+    "\n";
+
+constexpr const char* kNotes =
+    "\n"
+    "Methods: features (SIFT; cameras of the same kind, no start), gradients (edges; also thermal\n"
+    "on colour; B's rotation in the rig is right to 9 degrees), light (sparks and melt pool of a\n"
+    "sequence of at least 5 pictures, no start; then gradients). auto: features for cameras of "
+    "the\n"
+    "same kind, else light for folders, gradients for pictures. A rotation that is not sure is\n"
+    "refused with the reason.\n"
+    "\n"
+    "A camera that the rig places by a pose is turned about the ball, which stays where its "
+    "picture\n"
+    "shows it: with -o its pose is replaced, rotation and position. Else outline and\n"
+    "rotation_matrix are written. The rest of the rig file stays as it is.\n"
+    "\n"
+    "--json prints one object: method (the last one used), reference, camera, rotation_matrix "
+    "[9],\n"
+    "by rows: v_reference = R v_camera, rotation {yaw, pitch, roll} in degrees, outline {centre\n"
+    "[u, v], radii [rx, ry] in pixels with centres at integers, angle}, residual_deg (rms of what\n"
+    "both see), overlap (share of all directions that both show), inliers, sigma_deg [3] about "
+    "the\n"
+    "machine's X, Y, Z, covariance [9] in square radians. Sigmas are of what was matched; errors "
+    "of\n"
+    "outlines, lenses and scene come on top.\n";
+
+struct RegisterOptions {
+  std::filesystem::path rig;
+  std::filesystem::path out;
+  align::RegistrationMethod method = align::RegistrationMethod::Auto;
+  bool json = false;
+  bool detect = false;
+  bool refine_outline = false;
+};
+
+constexpr double kOutlineSigma = 0.02;  // of a detected outline, shares of the radius
+
+std::vector<Option> declare(RegisterOptions& o) {
+  return {
+      {"rig", 0, "FILE", "with both cameras, the ball and the scene", text_option(o.rig)},
+      {"method", 0, "METHOD", "auto (default), features, gradients or light",
+       word_option("method", align::kRegistrationMethods, o.method)},
+      {"detect", 0, "", "B's outline from its first picture instead of the rig,\nrefined",
+       flag_option(o.detect)},
+      {"refine-outline", 0, "", "find B's outline, too: from some percent off, by features",
+       flag_option(o.refine_outline)},
+      {"json", 0, "", "for programs", flag_option(o.json)},
+      {"output", 'o', "FILE", "rig file to write: RIG with what was found; may be RIG",
+       text_option(o.out)},
+  };
+}
+
+Result<> check_size(const optics::RigCamera& camera, const NamedPictures& named) {
+  const Picture& picture = named.pictures.front().picture;
+  if (picture.width == camera.width && picture.height == camera.height) return {};
+  return fail("camera " + camera.name + " has pictures of " + std::to_string(camera.width) + "x" +
+              std::to_string(camera.height) + " in the rig, these have " +
+              std::to_string(picture.width) + "x" + std::to_string(picture.height));
+}
+
+/// The outline as the picture shows it.
+Result<optics::Outline> detected(const NamedPictures& named) {
+  const auto ball = align::detect_ball(named.pictures.front().picture);
+  if (!ball) return fail("camera " + named.name + ": " + ball.error().message);
+  if (ball->is_confident()) return ball->outline;
+  return fail("camera " + named.name + ": the ball is not found for sure, " + ball->reason +
+              "; look at it by orbwatch detect --overlay, and state the outline in the rig");
+}
+
+Result<align::SoughtCamera> sought_camera(const RegisterOptions& o, const optics::Rig& rig,
+                                          const NamedPictures& named) {
+  const auto stated = find_camera(rig, named.name);
+  if (!stated) return tl::unexpected(stated.error());
+  if (auto same = check_size(*stated, named); !same) return tl::unexpected(same.error());
+  const auto camera = align::by_outline(rig, *stated);
+  if (!camera) return tl::unexpected(camera.error());
+  const double sigma = o.detect || o.refine_outline ? kOutlineSigma : 0;
+  align::SoughtCamera sought{named.pictures.front().picture, rig, *camera, sigma};
+  if (!o.detect) return sought;
+  return detected(named).map([&](const optics::Outline& outline) {
+    sought.camera.outline = outline;
+    return sought;
+  });
+}
+
+/// What the rig file is to say: the pose, turned about the ball, where it states one.
+Result<CameraAlignment> alignment(const optics::Rig& rig, const std::string& name,
+                                  const align::SoughtCamera& sought,
+                                  const align::Registration& found) {
+  CameraAlignment aligned{.camera = name};
+  const auto stated = find_camera(rig, name);
+  if (!stated) return tl::unexpected(stated.error());
+  if (!stated->pose) {
+    aligned.outline = found.outline;
+    aligned.registration = found.rotation;
+    return aligned;
+  }
+  return align::pose_of(sought, found).map([&](const optics::Pose& pose) {
+    aligned.pose = pose;
+    return aligned;
+  });
+}
+
+Result<std::string> register_cameras(const RegisterOptions& o, const std::string& first,
+                                     const std::string& second) {
+  if (o.rig.empty()) return fail("say which rig: --rig FILE");
+  const auto rig = load_rig(o.rig);
+  if (!rig) return tl::unexpected(rig.error());
+  const auto a = read_named_pictures(first);
+  if (!a) return tl::unexpected(a.error());
+  const auto b = read_named_pictures(second);
+  if (!b) return tl::unexpected(b.error());
+  if (a->name == b->name) return fail("camera " + a->name + " is given twice");
+  const auto reference = find_camera(*rig, a->name);
+  if (!reference) return tl::unexpected(reference.error());
+  if (auto same = check_size(*reference, *a); !same) return tl::unexpected(same.error());
+  const auto ball = optics::ball_projection(*rig, *reference);
+  if (!ball) return tl::unexpected(ball.error());
+  const auto sought = sought_camera(o, *rig, *b);
+  if (!sought) return tl::unexpected(sought.error());
+  const auto found = align::register_camera(
+      {a->views(), b->views()}, *ball, *sought, o.method,
+      [](const std::string& doing) { std::fprintf(stderr, "%s\n", doing.c_str()); });
+  if (!found) return fail(b->name + " on " + a->name + ": " + found.error().message);
+  if (!o.out.empty()) {
+    const auto aligned = alignment(*rig, b->name, *sought, found->registration);
+    if (!aligned) return tl::unexpected(aligned.error());
+    const auto written = write_aligned_rig(o.rig, {.cameras = {*aligned}}, o.out);
+    if (!written) return tl::unexpected(written.error());
+  }
+  const RegisteredCamera registered{a->name, b->name, *found};
+  return o.json ? register_json(registered) : register_text(registered);
+}
+
+}  // namespace
+
+Result<std::string> register_command(const std::vector<std::string>& arguments) {
+  RegisterOptions o;
+  return run_command(arguments,
+                     {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
+                     [&](const auto& words) -> Result<std::string> {
+                       if (words.size() == 2) return register_cameras(o, words[0], words[1]);
+                       return fail("name two cameras with their pictures, A=PATH B=PATH");
+                     });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/pictures/picture_copy.h"
+#include "hal/camera.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// What a camera delivered. The pictures' time is, of a replayed recording, since its first one,
+/// else on the steady clock.
+struct CameraRecord {
+  hal::StreamFormat format;
+  std::vector<RecordedPicture> pictures;  ///< at least one
+};
+
+/// Opens and starts all cameras, and records the first `count` pictures of each; fewer when it
+/// delivers no more within `patience`. Error, by camera: it cannot be opened, or shows nothing.
+std::vector<Result<CameraRecord>> record(std::span<const std::unique_ptr<hal::Camera>> cameras,
+                                         std::size_t count, std::chrono::seconds patience);
+
+/// The pictures of two cameras that were taken at the same moment, to half of the slower one's
+/// period, as places in their records; each at most once, ascending.
+std::vector<std::pair<std::size_t, std::size_t>> simultaneous(const CameraRecord& a,
+                                                              const CameraRecord& b);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,182 @@
+#include "app/cli/setup/setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "app/cli/setup/site_files.h"
+#include "proc/align/register/camera_registration.h"
+#include "proc/optics/lens.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// A ball centre by tape and one by a pose differ by no more than that, ball radii.
+constexpr double kContradiction = 0.5;
+
+/// The surest of a few pictures of a record.
+Result<align::BallDetection> detect(const CameraRecord& record) {
+  const std::size_t last = record.pictures.size() - 1;
+  auto best = align::detect_ball(record.pictures[0].picture);
+  for (const std::size_t n : {last / 2, last}) {
+    if (n == 0 || (best && best->is_confident())) continue;
+    const auto other = align::detect_ball(record.pictures[n].picture);
+    if (other && (!best || other->confidence > best->confidence)) best = other;
+  }
+  return best;
+}
+
+std::string in_rig(const std::filesystem::path& folder) { return (folder / kRigFile).string(); }
+
+/// Detects in every camera, and drops those without a ball.
+Result<> detect_balls(Setup& setup, const std::filesystem::path& folder) {
+  std::vector<SetupCamera> seeing;
+  for (SetupCamera& camera : setup.cameras) {
+    const auto ball = detect(camera.record);
+    if (!ball) {
+      setup.missing.push_back(camera.name + " is left out: " + ball.error().message);
+      continue;
+    }
+    camera.ball = *ball;
+    if (!ball->is_confident()) {
+      setup.missing.push_back("whether " + camera.name + "'s outline is right: " + ball->reason +
+                              ". Look at " + (folder / (camera.name + ".png")).string());
+    }
+    seeing.push_back(std::move(camera));
+  }
+  setup.cameras = std::move(seeing);
+  if (!setup.cameras.empty()) return {};
+  return fail("no camera shows a ball: " + setup.missing.front());
+}
+
+/// Where the ball is, by a camera whose place is known.
+Result<optics::Vec3> ball_centre(const SetupCamera& camera, double ball_radius) {
+  if (!camera.lens) {
+    return fail(camera.name + ": a pose needs the lens; give --calibration " + camera.name +
+                "=FILE");
+  }
+  const auto lens = optics::Lens::make(*camera.lens);
+  if (!lens) return tl::unexpected(lens.error());
+  const auto sight = optics::sight_from_outline(camera.ball.outline, *lens);
+  if (!sight) return fail(camera.name + ": " + sight.error().message);
+  const optics::Vec3 offset = sight->axis * (sight->distance * ball_radius);
+  return camera.pose->position + optics::transposed(camera.pose->rotation) * offset;
+}
+
+Result<> find_ball(Setup& setup, const std::filesystem::path& folder) {
+  const auto placed =
+      std::ranges::find_if(setup.cameras, [](const auto& c) { return c.pose.has_value(); });
+  if (placed == setup.cameras.end()) {
+    setup.missing.push_back("where the cameras stand in the machine; until then views count from " +
+                            setup.cameras.front().name + ". orbwatch place --rig " +
+                            in_rig(folder) + " --camera " + setup.cameras.front().name +
+                            " --point U,V=X,Y,Z ... -o " + in_rig(folder));
+    return {};
+  }
+  const auto centre = ball_centre(*placed, setup.ball_radius);
+  if (!centre) return tl::unexpected(centre.error());
+  if (!setup.ball_centre) setup.ball_centre = *centre;
+  const double apart = optics::norm(*setup.ball_centre - *centre);
+  if (apart <= kContradiction * setup.ball_radius) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%s sees the ball at %.1f, %.1f, %.1f mm, %.1f mm from --ball-centre; one of "
+                "pose, centre and diameter is wrong",
+                placed->name.c_str(), centre->x, centre->y, centre->z, apart);
+  return fail(text);
+}
+
+void say_what_lenses_lack(Setup& setup) {
+  for (const SetupCamera& camera : setup.cameras) {
+    if (camera.lens || camera.distance) continue;
+    setup.missing.push_back("how far " + camera.name + " is from the ball; " +
+                            std::to_string(static_cast<int>(kAssumedDistance)) +
+                            " ball radii are assumed. Give --calibration " + camera.name +
+                            "=FILE, or --distance " + camera.name + "=MM by tape");
+  }
+}
+
+optics::RigCamera rig_camera(const SetupCamera& camera, double ball_radius) {
+  optics::RigCamera rig;
+  rig.name = camera.name;
+  rig.width = camera.record.format.width;
+  rig.height = camera.record.format.height;
+  rig.intrinsics = camera.lens;
+  rig.pose = camera.pose;
+  if (camera.pose) return rig;
+  rig.outline = camera.ball.outline;
+  rig.registration = camera.registration;
+  if (!camera.lens) {
+    rig.distance = camera.distance ? *camera.distance / ball_radius : kAssumedDistance;
+  }
+  return rig;
+}
+
+align::SimultaneousPictures together(const CameraRecord& reference, const CameraRecord& camera) {
+  align::SimultaneousPictures pictures;
+  for (const auto& [n, m] : simultaneous(reference, camera)) {
+    pictures.reference.push_back(reference.pictures[n].picture);
+    pictures.camera.push_back(camera.pictures[m].picture);
+  }
+  return pictures;
+}
+
+/// How a camera stands to the first one.
+Result<optics::Mat3> registration(const Setup& setup, std::size_t camera) {
+  const optics::Rig rig = rig_of(setup);
+  const auto reference = optics::ball_projection(rig, rig.cameras.front());
+  if (!reference) return tl::unexpected(reference.error());
+  const auto pictures = together(setup.cameras.front().record, setup.cameras[camera].record);
+  if (pictures.camera.empty()) return fail("no pictures of the same moment");
+  const align::SoughtCamera sought{pictures.camera.front(), rig, rig.cameras[camera]};
+  return align::register_camera(pictures, *reference, sought, align::RegistrationMethod::Auto,
+                                [](const auto&) {})
+      .map([](const align::CameraRegistration& found) { return found.registration.rotation; });
+}
+
+void register_cameras(Setup& setup, const std::filesystem::path& folder) {
+  const std::string first = setup.cameras.front().name;
+  for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
+    SetupCamera& camera = setup.cameras[n];
+    if (camera.pose) continue;
+    const auto found = registration(setup, n);
+    camera.is_registered = found.has_value();
+    if (found) {
+      camera.registration = *found;
+    } else {
+      const std::string rig = in_rig(folder);
+      std::string& missing = setup.missing.emplace_back("how ");
+      missing.append(camera.name).append(" stands to ").append(first).append(": ");
+      missing.append(found.error().message).append(". orbwatch register --rig ").append(rig);
+      missing.append(" ").append(first).append("=PATH ").append(camera.name).append("=PATH -o ");
+      missing.append(rig);
+    }
+  }
+}
+
+}  // namespace
+
+optics::Rig rig_of(const Setup& setup) {
+  optics::Rig rig;
+  rig.ball = {setup.ball_centre.value_or(optics::Vec3{}), setup.ball_radius};
+  if (setup.walls && setup.ball_centre) {
+    rig.scene.room = optics::Scene::Room::Box;
+    rig.scene.walls = *setup.walls;
+  }
+  for (const NamedBox& obstacle : setup.obstacles) rig.scene.obstacles.push_back(obstacle.box);
+  for (const SetupCamera& camera : setup.cameras) {
+    rig.cameras.push_back(rig_camera(camera, setup.ball_radius));
+  }
+  return rig;
+}
+
+Result<> align_cameras(Setup& setup, const std::filesystem::path& folder) {
+  if (auto found = detect_balls(setup, folder); !found) return found;
+  if (auto found = find_ball(setup, folder); !found) return found;
+  say_what_lenses_lack(setup);
+  register_cameras(setup, folder);
+  return {};
+}
+
+}  // namespace orbwatch::app

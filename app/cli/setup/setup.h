@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/setup/connected_camera.h"
+#include "app/cli/setup/recording.h"
+#include "proc/align/detect/ball_detector.h"
+#include "proc/image/result.h"
+#include "proc/optics/rig.h"
+
+namespace orbwatch::app {
+
+/// A camera on its way into a rig.
+struct SetupCamera {
+  std::string name;
+  BackEndSettings back_end;
+  std::filesystem::path calibration;  ///< empty: none
+  std::optional<optics::Intrinsics> lens;
+  std::optional<optics::Pose> pose;
+  std::optional<double> distance;  ///< camera to the ball's centre, mm
+  CameraRecord record;
+
+  // Found out.
+  align::BallDetection ball;
+  optics::Mat3 registration;
+  bool is_registered = false;
+};
+
+/// Boxes within the machine, by name.
+struct NamedBox {
+  std::string name;
+  optics::Box box;
+};
+
+/// A site in the making: what is known, what was found out, and what is still missing.
+struct Setup {
+  double ball_radius = 0;  ///< mm
+  std::optional<optics::Vec3> ball_centre;
+  std::optional<optics::Box> walls;
+  std::vector<NamedBox> obstacles;
+  std::vector<SetupCamera> cameras;  ///< the first one is what others are registered to
+  std::vector<std::string> missing;  ///< sentences for people, each with the command that adds it
+};
+
+/// What a camera without lens and distance is taken to have, ball radii.
+inline constexpr double kAssumedDistance = 12;
+
+/// The rig as far as it is known.
+optics::Rig rig_of(const Setup& setup);
+
+/// Finds the ball in every camera's pictures, the ball in the machine by the first camera's pose,
+/// and registers the others to the first one. Cameras without a ball are left out. `folder`: the
+/// site's, for the commands in `missing`. Error: no camera shows a ball, or what is known
+/// contradicts itself.
+Result<> align_cameras(Setup& setup, const std::filesystem::path& folder);
+
+}  // namespace orbwatch::app

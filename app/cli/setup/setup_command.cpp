@@ -1,0 +1,128 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "app/cli/command.h"
+#include "app/cli/options/options.h"
+#include "app/cli/setup/setup.h"
+#include "app/cli/setup/setup_options.h"
+#include "app/cli/setup/site_files.h"
+#include "app/daemon/cameras.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr const char* kUsage =
+    "Usage: orbwatch setup -o DIR --ball-diameter MM [options]\n"
+    "\n"
+    "Writes a site, a rig and a recipe for the cameras that are connected, or for pictures: finds\n"
+    "the ball in each, registers the cameras to the first one, and checks what it wrote. Says "
+    "what\n"
+    "it could not find out, and which command adds it.\n"
+    "\n";
+
+constexpr const char* kNotes =
+    "\n"
+    "SOURCE is a device, a camera's id of `orbwatch list`, a folder of pictures, a picture or a\n"
+    "video. NAME= may be left out where there is one camera. A process that runs while several\n"
+    "cameras are recorded registers them by its light: sparks and melt pool.\n"
+    "\n"
+    "DIR gets site.toml, rig.toml, recipe.toml, and for each camera NAME.png, in which the "
+    "outline\n"
+    "is drawn, and NAME.yaml, its calibration. Run it by `orbwatchd --config DIR/site.toml`.\n";
+
+/// Enough light of a process to register by, at any usual rate within the patience.
+constexpr std::size_t kPictures = 24;
+constexpr std::chrono::seconds kPatience{10};
+
+Result<std::vector<CameraSource>> sources(const SetupOptions& o) {
+  if (o.cameras.empty()) return connected_cameras();
+  std::vector<CameraSource> sources;
+  for (const std::string& word : o.cameras) {
+    auto source = camera_source(word);
+    if (!source) return tl::unexpected(source.error());
+    sources.push_back(std::move(*source));
+  }
+  return sources;
+}
+
+/// A camera's name by what it sees, unless it has one.
+std::string name_of(const CameraSource& source, const CameraRecord& record, const Setup& setup) {
+  if (!source.name.empty()) return source.name;
+  const PixelFormatInfo& facts = info(record.format.format);
+  const std::string kind = record.format.format == PixelFormat::Y16 ? "thermal"
+                           : facts.colour == ColourModel::Luminance ? "grey"
+                                                                    : "colour";
+  std::string name = kind;
+  for (int n = 2; std::ranges::count(setup.cameras, name, &SetupCamera::name) > 0; ++n) {
+    name = kind + std::to_string(n);
+  }
+  return name;
+}
+
+Result<> record_cameras(const SetupOptions& o, Setup& setup) {
+  auto found = sources(o);
+  if (!found) return tl::unexpected(found.error());
+  std::vector<std::unique_ptr<hal::Camera>> cameras;
+  for (const CameraSource& source : *found) {
+    CameraSettings settings;
+    settings.name = source.name.empty() ? "camera" : source.name;
+    settings.back_end = source.back_end;
+    cameras.push_back(make_camera(settings, nullptr));
+  }
+  if (::isatty(STDERR_FILENO) != 0) std::cerr << "records, and looks for the ball ...\n";
+  auto records = record(cameras, kPictures, kPatience);
+  for (std::size_t n = 0; n < records.size(); ++n) {
+    if (!records[n]) return tl::unexpected(records[n].error());
+    SetupCamera camera;
+    camera.name = name_of((*found)[n], *records[n], setup);
+    camera.back_end = (*found)[n].back_end;
+    camera.record = std::move(*records[n]);
+    if (std::ranges::count(setup.cameras, camera.name, &SetupCamera::name) > 0) {
+      return fail("two cameras are named " + camera.name);
+    }
+    setup.cameras.push_back(std::move(camera));
+  }
+  return {};
+}
+
+std::string report(const Setup& setup, const SetupOptions& o) {
+  std::string text;
+  for (const SetupCamera& camera : setup.cameras) {
+    char line[200];
+    const optics::Outline& limb = camera.ball.outline;
+    std::snprintf(line, sizeof line,
+                  "%-12s ball at %.1f, %.1f px, radius %.1f px, confidence %.2f%s\n",
+                  camera.name.c_str(), limb.centre.u, limb.centre.v, (limb.rx + limb.ry) / 2,
+                  camera.ball.confidence, camera.is_registered ? ", registered" : "");
+    text += line;
+  }
+  for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
+  return text + "written and checked: run orbwatchd --config " + (o.folder / kSiteFile).string() +
+         "\n";
+}
+
+Result<std::string> set_up(const SetupOptions& o) {
+  if (o.folder.empty()) return fail("give the site's folder, -o DIR; see --help");
+  Setup setup;
+  return check_place(o.folder, o.force)
+      .and_then([&] { return read_machine(o, setup); })
+      .and_then([&] { return record_cameras(o, setup); })
+      .and_then([&] { return read_cameras(o, setup); })
+      .and_then([&] { return align_cameras(setup, o.folder); })
+      .and_then([&] { return place_site(setup, o.folder); })
+      .map([&] { return report(setup, o); });
+}
+
+}  // namespace
+
+Result<std::string> setup_command(const std::vector<std::string>& arguments) {
+  SetupOptions o;
+  return run_command(arguments, {.usage = kUsage, .options = setup_options(o), .notes = kNotes},
+                     [&](const auto&) { return set_up(o); });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,89 @@
+#include "app/cli/setup/recording.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "hal/replay/replay_camera.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+CameraRecord taken_at(double frame_rate, const std::vector<int>& milliseconds_of) {
+  CameraRecord record;
+  record.format.frame_rate = frame_rate;
+  for (const int time : milliseconds_of) {
+    record.pictures.emplace_back().time = milliseconds(time);
+  }
+  return record;
+}
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+TEST(Simultaneous, PairsWhatWasTakenTogether) {
+  const CameraRecord a = taken_at(50, {0, 20, 40, 60}), b = taken_at(50, {3, 22, 61});
+  EXPECT_EQ(simultaneous(a, b), (Pairs{{0, 0}, {1, 1}, {3, 2}}));
+  EXPECT_EQ(simultaneous(b, a), (Pairs{{0, 0}, {1, 1}, {2, 3}}));
+}
+
+TEST(Simultaneous, UsesEachPictureOnce) {
+  const CameraRecord fast = taken_at(100, {0, 10, 20, 30, 40}), slow = taken_at(25, {0, 40});
+  for (const auto& pairs : {simultaneous(fast, slow), simultaneous(slow, fast)}) {
+    ASSERT_EQ(pairs.size(), 2U);
+    EXPECT_NE(pairs[0].first, pairs[1].first);
+    EXPECT_NE(pairs[0].second, pairs[1].second);
+  }
+}
+
+TEST(Simultaneous, IsNothingOfWhatWasTakenAtOtherTimes) {
+  EXPECT_TRUE(simultaneous(taken_at(50, {0, 20}), taken_at(50, {500, 520})).empty());
+}
+
+class Recording : public testing::Test {
+ protected:
+  std::unique_ptr<hal::Camera> camera(const std::string& source) {
+    hal::ReplaySettings settings;
+    settings.name = source;
+    settings.source = folder_ / source;
+    settings.frame_rate = 200;
+    settings.loop = false;
+    return std::make_unique<hal::ReplayCamera>(settings);
+  }
+
+  void SetUp() override {
+    std::filesystem::create_directory(folder_ / "three");
+    for (int n = 0; n < 3; ++n) {
+      const cv::Mat picture(48, 64, CV_8UC1, cv::Scalar(10 * (n + 1)));
+      cv::imwrite(folder_ / "three" / (std::to_string(n) + ".png"), picture);
+    }
+    cv::imwrite(folder_ / "one.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(7000)));
+  }
+
+  tests::TemporaryFolder folder_;
+};
+
+TEST_F(Recording, KeepsWhatEveryCameraDelivers) {
+  std::vector<std::unique_ptr<hal::Camera>> cameras;
+  for (const char* source : {"three", "one.png", "missing"}) cameras.push_back(camera(source));
+  const auto records = record(cameras, 24, std::chrono::seconds(30));
+  ASSERT_EQ(records.size(), 3U);
+  ASSERT_TRUE(records[0]) << records[0].error().message;
+  // A picture may be skipped on a busy computer, never shown as another.
+  ASSERT_FALSE(records[0]->pictures.empty());
+  for (const RecordedPicture& recorded : records[0]->pictures) {
+    const auto number = recorded.time / milliseconds(5);
+    EXPECT_EQ(static_cast<int>(recorded.picture.planes[0].data[0]), 10 * (number + 1));
+  }
+  ASSERT_TRUE(records[1]) << records[1].error().message;
+  ASSERT_EQ(records[1]->pictures.size(), 1U);
+  EXPECT_EQ(records[1]->format.format, PixelFormat::Y16);
+  EXPECT_EQ(records[1]->pictures[0].picture.samples<std::uint16_t>().data[0], 7000);
+  ASSERT_FALSE(records[2]);
+  EXPECT_NE(records[2].error().message.find("missing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "app/files/rig_file.h"
+#include "tests/app/cli/command_line.h"
+#include "tests/proc/align/detect/painted_ball.h"
+
+/// `orbwatch setup` as an installer runs it, on recorded pictures.
+namespace orbwatch::tests {
+namespace {
+
+const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
+
+const char* const kCalibration =
+    "image_width: 400\nimage_height: 320\ncamera_name: a\ndistortion_model: plumb_bob\n"
+    "camera_matrix: {rows: 3, cols: 3, data: [900, 0, 199.5, 0, 900, 159.5, 0, 0, 1]}\n"
+    "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n";
+
+class Setup : public CommandLine {
+ protected:
+  std::string picture() { return write("ball.png", align::painted_ball({400, 320}, kLimb)); }
+
+  int set_up(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"setup", "-o", path("site"), "--ball-diameter", "80"});
+    return run(arguments);
+  }
+
+  optics::Rig rig() {
+    const auto rig = app::load_rig(path("site/rig.toml"));
+    EXPECT_TRUE(rig) << rig.error().message;
+    return rig.value_or(optics::Rig{});
+  }
+
+  /// What the daemon thinks of the site.
+  void expect_runs() {
+    Subprocess daemon({ORBWATCHD_PROGRAM, "--config", path("site/site.toml"), "--check"},
+                      folder.path() / "checked");
+    EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+  }
+};
+
+TEST_F(Setup, WritesASiteThatTheDaemonAccepts) {
+  ASSERT_EQ(set_up({"--camera", picture()}), 0) << said;
+  expect_runs();
+  const optics::Rig rig = this->rig();
+  ASSERT_EQ(rig.cameras.size(), 1U);
+  EXPECT_EQ(rig.cameras[0].name, "grey");
+  EXPECT_NEAR(rig.cameras[0].outline->rx, kLimb.rx, 1.2);
+  EXPECT_EQ(rig.ball.radius, 40);
+  EXPECT_TRUE(std::filesystem::exists(path("site/grey.png")));
+}
+
+TEST_F(Setup, SaysWhatIsMissingAndWhatAddsIt) {
+  ASSERT_EQ(set_up({"--camera", "colour=" + picture()}), 0) << said;
+  EXPECT_NE(said.find("--distance colour=MM"), std::string::npos) << said;
+  EXPECT_NE(said.find("orbwatch place --rig " + path("site/rig.toml") + " --camera colour"),
+            std::string::npos)
+      << said;
+}
+
+TEST_F(Setup, WithAPoseItKnowsWhereTheBallIs) {
+  write("a.yaml", kCalibration);
+  ASSERT_EQ(set_up({"--camera", picture(), "--calibration", path("a.yaml"), "--pose",
+                    "10,-300,400,1,0,0,0,0,-1,0,1,0", "--box=-600,-500,0,600,500,800"}),
+            0)
+      << said;
+  expect_runs();
+  EXPECT_EQ(said.find("missing: where"), std::string::npos) << said;
+  // Radius 115 px at 900 px focal length: 7.9 ball radii away, 2.4 mm off the axis per px.
+  const optics::Rig rig = this->rig();
+  EXPECT_NEAR(rig.ball.centre.y, -300 + 7.9 * 40, 4);
+  EXPECT_NEAR(rig.ball.centre.x, 10 + 316.0 * (202.3 - 199.5) / 900, 0.6);
+  EXPECT_NEAR(rig.ball.centre.z, 400 - 316.0 * (161.7 - 159.5) / 900, 0.6);
+  EXPECT_TRUE(rig.cameras[0].pose);
+}
+
+TEST_F(Setup, OverwritesOnlyWhenItIsTold) {
+  ASSERT_EQ(set_up({"--camera", picture()}), 0) << said;
+  write("site/rig.toml", std::string("by hand"));
+  EXPECT_EQ(set_up({"--camera", picture()}), 1);
+  EXPECT_NE(said.find("--force"), std::string::npos) << said;
+  std::stringstream text;
+  text << std::ifstream(path("site/rig.toml")).rdbuf();
+  EXPECT_EQ(text.str(), "by hand");
+  EXPECT_EQ(set_up({"--camera", picture(), "--force"}), 0) << said;
+  expect_runs();
+}
+
+TEST_F(Setup, RefusesMistakesInOneLine) {
+  write("a.yaml", kCalibration);
+  picture();
+  const std::vector<std::string> camera{"-o", "DIR/site", "--camera", "DIR/ball.png",
+                                        "--ball-diameter"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), camera.begin(), camera.end());
+    return more;
+  };
+  for (const Mistake& mistake : std::vector<Mistake>{
+           {"no folder", {"--ball-diameter", "80"}, {"-o DIR"}},
+           {"no diameter", with({"0"}), {"--ball-diameter"}},
+           {"no such camera", with({"80", "--distance", "thermal=300"}), {"thermal", "grey"}},
+           {"box in no axes", with({"80", "--box=0,0,0,1,1,1"}), {"--pose"}},
+           {"short pose", with({"80", "--pose", "1,2,3"}), {"3 numbers", "12"}},
+           {"no lens", with({"80", "--pose", "1,2,3,1,0,0,0,0,-1,0,1,0"}), {"--calibration"}},
+           {"negative distance", with({"80", "--distance=-4"}), {"distance", "above"}},
+           {"contradiction",
+            with({"80", "--pose", "10,-300,400,1,0,0,0,0,-1,0,1,0", "--calibration", "DIR/a.yaml",
+                  "--ball-centre", "10,500,400"}),
+            {"ball-centre", "wrong"}}}) {
+    SCOPED_TRACE(mistake.name);
+    expect_refused("setup", mistake);
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
