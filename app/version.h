@@ -4,7 +4,7 @@
 
 namespace orbwatch::app {
 
-/// "PROGRAM 1.2.3" and a line with the device libraries it talks to.
+/// "PROGRAM 1.2.3" and a line for each device library, those of modules, too.
 std::string version_text(const std::string& program);
 
 }  // namespace orbwatch::app

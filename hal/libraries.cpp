@@ -1,7 +1,6 @@
 #include "hal/libraries.h"
 
 #include <gpiod.h>
-#include <libcamera/camera_manager.h>
 
 namespace orbwatch::hal {
 
@@ -11,9 +10,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
 #else
   const char* const gpiod = gpiod_version_string();
 #endif
-  return {{"libcamera", libcamera::CameraManager::version()},
-          {"libgpiod", gpiod},
-          {"libjpeg-turbo", ORBWATCH_LIBJPEG_TURBO_VERSION}};
+  return {{"libgpiod", gpiod}, {"libjpeg-turbo", ORBWATCH_LIBJPEG_TURBO_VERSION}};
 }
 
 }  // namespace orbwatch::hal

@@ -18,18 +18,28 @@ struct Subcommand {
   Result<std::string> (*run)(const std::vector<std::string>& arguments);
 };
 
+/// All commands of `orbwatch`.
+std::span<const Subcommand> all_commands();
+
 /// A line of --help for each.
 std::string subcommands_help(std::span<const Subcommand> subcommands);
 
 Result<std::string> project_command(const std::vector<std::string>& arguments);
 Result<std::string> advise_command(const std::vector<std::string>& arguments);
 Result<std::string> detect_command(const std::vector<std::string>& arguments);
+Result<std::string> register_command(const std::vector<std::string>& arguments);
+Result<std::string> drift_command(const std::vector<std::string>& arguments);
+Result<std::string> place_command(const std::vector<std::string>& arguments);
+Result<std::string> setup_command(const std::vector<std::string>& arguments);
+Result<std::string> calibration_command(const std::vector<std::string>& arguments);
 Result<std::string> describe_command(const std::vector<std::string>& arguments);
 Result<std::string> subscribe_command(const std::vector<std::string>& arguments);
 Result<std::string> state_command(const std::vector<std::string>& arguments);
 Result<std::string> command_command(const std::vector<std::string>& arguments);
 Result<std::string> dds_keys_command(const std::vector<std::string>& arguments);
 Result<std::string> bench_command(const std::vector<std::string>& arguments);
+Result<std::string> configure_command(const std::vector<std::string>& arguments);
+Result<std::string> lines_command(const std::vector<std::string>& arguments);
 Result<std::string> list_command(const std::vector<std::string>& arguments);
 
 // Subjects of describe_command; they write no file but that of -o.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <opencv2/core/utility.hpp>
 
 #include "app/cli/command.h"
 #include "app/version.h"
@@ -16,13 +17,22 @@ constexpr std::array kCommandTable{
                project_command},
     Subcommand{"advise", "what a camera, a lens and a ball would show, before you buy them",
                advise_command},
+    Subcommand{"setup", "write a site for the cameras that are connected", setup_command},
     Subcommand{"detect", "find the mirror ball in a picture", detect_command},
+    Subcommand{"register", "find how one camera of a rig stands to another", register_command},
+    Subcommand{"place", "find out where cameras stand, by points that the ball shows",
+               place_command},
+    Subcommand{"drift", "whether a camera or the ball has moved against the rig", drift_command},
+    Subcommand{"calibration", "show and restore the alignments that orbwatchd accepted",
+               calibration_command},
     Subcommand{"subscribe", "read views and process state of a running orbwatchd over DDS",
                subscribe_command},
     Subcommand{"state", "show the process state of a running orbwatchd", state_command},
     Subcommand{"command", "send a command to a running orbwatchd", command_command},
     Subcommand{"dds-keys", "make the keys of a secured DDS domain", dds_keys_command},
     Subcommand{"list", "show the cameras and GPIO lines that are connected", list_command},
+    Subcommand{"configure", "check, try and keep a new configuration", configure_command},
+    Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},
     Subcommand{"bench", "whether this computer does the work of a configuration", bench_command},
     Subcommand{"describe", "print manuals, and what follows from a rig or a view",
                describe_command},
@@ -52,6 +62,8 @@ void cancel(int) { cancelled = true; }
 
 }  // namespace
 
+std::span<const Subcommand> all_commands() { return kCommandTable; }
+
 std::string subcommands_help(std::span<const Subcommand> subcommands) {
   constexpr std::size_t kColumn = 12;
   std::string help;
@@ -72,6 +84,8 @@ const std::atomic<bool>& cancelled_by_signal() {
 }  // namespace orbwatch::app
 
 int main(int argc, char** argv) try {
+  // A command may run beside orbwatchd, whose cores OpenCV would take.
+  cv::setNumThreads(1);
   const auto text = orbwatch::app::dispatch({argv + 1, argv + argc});
   if (text) {
     std::cout << *text;

@@ -49,6 +49,8 @@ Appliance::Appliance(const Resolved& site)
 Appliance::~Appliance() {
   if (pipeline_) pipeline_->stop();
   if (interfaces_) interfaces_->stop();
+  if (alignment_) alignment_->stop();
+  if (watch_) watch_->stop();
   lines_->stop();
 }
 
@@ -67,16 +69,25 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
   all.interfaces_.emplace(
       site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
       all.record_, all.background_, all.snapshots());
+  all.watch_.emplace(site, all.background_);
+  all.alignment_.emplace(site, *all.watch_, restart);
   plan->surroundings = [&all, grants](hal::TimePoint now) {
-    return Surroundings{all.health_.latest(now), all.lines_->faults(), all.interfaces_->faults(),
-                        grants.realtime, grants.memory_locked};
+    return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),
+                        grants.realtime,           grants.memory_locked, all.watched(),
+                        all.configuration_refused_};
   };
   all.absent_ = plan->absent;
   for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
   all.pipeline_.emplace(std::move(*plan));
-  all.receivers_.emplace(
-      Receivers{*all.pipeline_, *all.lines_, all.snapshots(), std::move(restart)});
+  all.receivers_.emplace(Receivers{*all.pipeline_, *all.lines_, all.snapshots(), *all.watch_,
+                                   *all.alignment_, std::move(restart)});
   return made;
+}
+
+std::array<CameraWatchStatus, kMaxCameras> Appliance::watched() const {
+  auto figures = watch_->figures();
+  alignment_->report(figures);
+  return figures;
 }
 
 Result<> Appliance::start(const std::vector<Sink*>& watchers) {
@@ -85,8 +96,10 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
       "lines", [this] { return lines_->start(); }, now);
   interfaces_->start(attempts_, now);
   health_.start();
+  alignment_->start();
   std::vector<Sink*> sinks = interfaces_->sinks();
   sinks.insert(sinks.begin(), lines_.get());
+  sinks.push_back(&*watch_);
   sinks.insert(sinks.end(), watchers.begin(), watchers.end());
   if (auto started = pipeline_->start(sinks); !started) return started;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
@@ -100,6 +113,11 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
                                " views and " + std::to_string(site_.recipes.size()) +
                                " recipes, remap kernel " +
                                std::string(remap::default_kernel().name));
+  for (const CalibrationEntry& entry : site_.alignments) {
+    log_line(LogLevel::Info, "camera " + camera_of(entry).camera + ": alignment " +
+                                 std::to_string(entry.number) + " of " + entry.time +
+                                 " counts, not the rig file's: " + entry.method);
+  }
   log_line(LogLevel::Info, commanders_text(site_.site.sinks));
   return {};
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,6 +16,8 @@
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/state/command_record.h"
+#include "app/watch/alignment_desk.h"
+#include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -40,11 +44,15 @@ class Appliance {
   /// See Pipeline::pacing_camera().
   std::size_t pacing_camera() const { return pipeline_->pacing_camera(); }
 
+  /// Every interface says from now on that the files are wrong and the last good ones run.
+  void report_refused_configuration() { configuration_refused_ = true; }
+
   /// What is missing, to be tried again by the owner when it is due.
   Attempts& attempts() { return attempts_; }
 
  private:
   explicit Appliance(const Resolved& site);
+  std::array<CameraWatchStatus, kMaxCameras> watched() const;
   SnapshotSink* snapshots() { return snapshots_ ? &*snapshots_ : nullptr; }
 
   const Resolved& site_;
@@ -56,9 +64,12 @@ class Appliance {
   std::vector<hal::Camera*> cameras_;  ///< the pipeline's
   CameraSet absent_;
   std::optional<SnapshotSink> snapshots_;
+  std::optional<CameraWatch> watch_;
+  std::optional<AlignmentDesk> alignment_;
   std::optional<Receivers> receivers_;
   std::optional<Interfaces> interfaces_;
   Attempts attempts_;
+  std::atomic<bool> configuration_refused_{false};  ///< read by the pipeline
 };
 
 }  // namespace orbwatch::app

@@ -17,6 +17,12 @@ CommandResult snapshot(const Receivers& receivers, std::size_t view) {
   return receivers.snapshots->request(view);
 }
 
+CommandResult learn_clean_ball(CameraWatch& watch, std::size_t camera) {
+  if (!watch.is_watched(camera)) return CommandResult::ArgumentOutOfRange;
+  watch.learn_clean_ball(camera);
+  return CommandResult::Done;
+}
+
 CommandResult restart(const Receivers& receivers) {
   receivers.restart();
   return CommandResult::Done;
@@ -53,6 +59,25 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
       return pipeline.set_process_active(command.integer(0) == 1);
     case CommandCode::Restart:
       return restart(receivers);
+    case CommandCode::DetectBall:
+      return receivers.alignment.detect(command.integer(0));
+    case CommandCode::RegisterCamera:
+      return receivers.alignment.register_to_first(command.integer(0));
+    case CommandCode::CorrectAlignment:
+      return receivers.alignment.correct(command.integer(0));
+    case CommandCode::AcceptAlignment:
+      return receivers.alignment.accept(command.integer(0));
+    case CommandCode::DiscardAlignment:
+      return receivers.alignment.discard(command.integer(0));
+    case CommandCode::LearnCleanBall:
+      return learn_clean_ball(receivers.watch, command.integer(0));
+    case CommandCode::MarkPoint:
+      return receivers.alignment.mark(command.integer(0),
+                                      {arguments[1], arguments[2], arguments[3]});
+    case CommandCode::ForgetPoints:
+      return receivers.alignment.forget_points(command.integer(0));
+    case CommandCode::PlaceCamera:
+      return receivers.alignment.place(command.integer(0));
   }
   return CommandResult::UnknownCommand;
 }

@@ -6,6 +6,8 @@
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
+#include "app/watch/alignment_desk.h"
+#include "app/watch/camera_watch.h"
 
 namespace orbwatch::app {
 
@@ -13,7 +15,9 @@ namespace orbwatch::app {
 struct Receivers {
   Pipeline& pipeline;
   Lines& lines;
-  SnapshotSink* snapshots;        ///< null: no folder for them is configured
+  SnapshotSink* snapshots;  ///< null: no folder for them is configured
+  CameraWatch& watch;
+  AlignmentDesk& alignment;
   std::function<void()> restart;  ///< requests it and returns
 };
 

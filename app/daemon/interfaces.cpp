@@ -49,8 +49,8 @@ Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
   std::apply(
       [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },
       site.site.sinks);
-  for (std::size_t i = 0; i < kMade; ++i) all_[i] = made_[i].get();
-  all_.back() = snapshots;
+  for (std::size_t i = 0; i < kMade; ++i) all_[i < kSnapshotBit ? i : i + 1] = made_[i].get();
+  all_[kSnapshotBit] = snapshots;
 }
 
 void Interfaces::start(Attempts& attempts, hal::TimePoint now) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -22,9 +23,15 @@ namespace orbwatch::app {
 /// Who may command this appliance, in one line. Reentrant.
 std::string commanders_text(const SinkSettings& sinks);
 
+/// The bit of snapshots in Interfaces::faults(); sinks behind it in the list have one more than
+/// their place there.
+inline constexpr std::size_t kSnapshotBit = 3;
+
 /// By bit of Interfaces::faults().
 inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<Settings...>*) {
-  return std::array{Settings::kName..., std::string_view("snapshots")};
+  std::array names{Settings::kName..., std::string_view("snapshots")};
+  std::rotate(names.begin() + kSnapshotBit, names.end() - 1, names.end());
+  return names;
 }(static_cast<const SinkSettings*>(nullptr));
 
 /// The interfaces of a site to the outside, each started by itself: one that cannot be opened is
@@ -51,7 +58,7 @@ class Interfaces {
   static constexpr std::size_t kMade = std::tuple_size_v<SinkSettings>;
 
   std::array<std::unique_ptr<Sink>, kMade> made_;  ///< null: not enabled
-  std::array<Sink*, kMade + 1> all_{};             ///< by bit of faults(): made_, then snapshots
+  std::array<Sink*, kMade + 1> all_{};             ///< by bit of faults()
   std::atomic<std::uint32_t> started_{0};          ///< bit n: all_[n]
 };
 

@@ -6,18 +6,25 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <string>
 
 #include "app/daemon/appliance.h"
 #include "app/daemon/attempts.h"
 #include "app/daemon/build.h"
+#include "app/daemon/configuration_choice.h"
 #include "app/daemon/interfaces.h"
 #include "app/files/resolve.h"
+#include "app/files/site_file.h"
+#include "app/files/trial.h"
 #include "app/log.h"
+#include "app/service/progress_notice.h"
+#include "app/service/service_manager.h"
 #include "app/version.h"
 #include "proc/remap/remap.h"
 
@@ -25,20 +32,22 @@ namespace orbwatch::app {
 namespace {
 
 constexpr const char* kHelp =
-    "Usage: orbwatchd --config FILE [--check]\n"
+    "Usage: orbwatchd [--config FILE] [--check]\n"
     "\n"
     "Turns pictures of a mirror ball into views, measures the process in them and reports over\n"
     "DDS and Modbus. Runs until SIGTERM or Ctrl-C; SIGHUP starts it again with its files read\n"
-    "anew, unless they are wrong.\n"
+    "anew, unless they are wrong. As a service, with STATE_DIRECTORY set, it keeps there what ran\n"
+    "last and runs that if the files are wrong at the start.\n"
     "\n"
-    "  --config FILE  cameras, views and interfaces (TOML); names the files of rig and recipes.\n"
+    "  --config FILE  cameras, views and interfaces (TOML); names the files of rig and recipes;\n"
+    "                 else that of the environment's ORBWATCH_CONFIG, or /etc/orbwatch/site.toml.\n"
     "                 `orbwatch describe config`, `... rig` and `... recipe` print the manuals\n"
     "  --check        read and check all these files and all that follows from them, say who may\n"
     "                 command, then exit\n"
     "  --help, --version\n";
 
 struct Arguments {
-  std::optional<std::filesystem::path> config;
+  std::filesystem::path config;
   bool check = false;
 };
 
@@ -59,12 +68,11 @@ std::optional<Arguments> parse(int argc, char** argv, int& exit_code) {
     if (option == 'h' || option == 'v') return std::nullopt;
     if (option == '?') exit_code = 2;
   }
-  if (exit_code == 0 && (!arguments.config || optind < argc)) {
-    log_line(LogLevel::Error, !arguments.config
-                                  ? "--config FILE is missing; see --help"
-                                  : std::string("unexpected argument ") + argv[optind]);
+  if (exit_code == 0 && optind < argc) {
+    log_line(LogLevel::Error, std::string("unexpected argument ") + argv[optind]);
     exit_code = 2;
   }
+  arguments.config = site_file(arguments.config);
   return exit_code == 0 ? std::optional(arguments) : std::nullopt;
 }
 
@@ -77,9 +85,24 @@ sigset_t block_signals() {
   return signals;
 }
 
-/// Waits for a signal, and makes attempts meanwhile. 0: none came until they were due.
-int wait_for_signal(const sigset_t& signals, const Attempts& attempts) {
-  const hal::TimePoint due = attempts.due();
+/// How often a service looks for the request of a trial, which comes as a file.
+constexpr std::chrono::seconds kTrialPause{1};
+
+/// What the main thread waits for besides signals.
+struct Waiting {
+  const std::filesystem::path file;
+  const std::optional<std::filesystem::path> folder = service_folder();
+  hal::TimePoint trial_ends = hal::TimePoint::max();  ///< max: no trial runs
+  std::uint32_t checksum = 0;                         ///< of what runs
+
+  hal::TimePoint due(const Attempts& attempts) const {
+    const auto next = std::min(attempts.due(), trial_ends);
+    return folder ? std::min(next, hal::Clock::now() + kTrialPause) : next;
+  }
+};
+
+/// 0: none came until `due`.
+int wait_for_signal(const sigset_t& signals, hal::TimePoint due) {
   if (due == hal::TimePoint::max()) {
     int signal = 0;
     return sigwait(&signals, &signal) == 0 ? signal : 0;
@@ -90,33 +113,74 @@ int wait_for_signal(const sigset_t& signals, const Attempts& attempts) {
   return std::max(0, sigtimedwait(&signals, nullptr, &timeout));
 }
 
+/// A trial is requested, or the one that runs has ended: by its time, or cancelled. A confirmed one
+/// goes on, it is what the files say.
+bool asks_for_restart(Waiting& waiting) {
+  if (!waiting.folder) return false;
+  if (is_trial_requested(*waiting.folder)) return true;
+  if (waiting.trial_ends == hal::TimePoint::max()) return false;
+  const auto running = running_trial(*waiting.folder);
+  if (running && !*running) {
+    waiting.trial_ends = hal::TimePoint::max();
+    const auto files = resolve(waiting.file);
+    return !files || files->checksum != waiting.checksum;
+  }
+  return hal::Clock::now() >= waiting.trial_ends;
+}
+
 /// Waits for the end, and takes up what is missing. A restart with wrong files is refused here, and
 /// the daemon keeps running. True: start again.
-bool wait_for_end(const sigset_t& signals, const std::filesystem::path& file, Attempts& attempts) {
+bool wait_for_end(const sigset_t& signals, Waiting waiting, Appliance& appliance) {
   while (true) {
-    const int signal = wait_for_signal(signals, attempts);
-    attempts.run(hal::Clock::now());
+    const int signal = wait_for_signal(signals, waiting.due(appliance.attempts()));
+    appliance.attempts().run(hal::Clock::now());
+    if (asks_for_restart(waiting)) {
+      log_line(LogLevel::Info, "restarts for another configuration");
+      return true;
+    }
     if (signal == 0) continue;
     if (signal != SIGHUP) {
       log_line(LogLevel::Info, "ended by signal " + std::to_string(signal));
       return false;
     }
-    const auto checked = resolve(file).and_then(
-        [](const Resolved& site) { return check_site(site, Dates::Ignored); });
+    const auto checked = check_restart(waiting.file);
     if (checked) {
       log_line(LogLevel::Info, "restarts with its files read again");
       return true;
     }
     log_line(LogLevel::Error, "does not restart: " + checked.error().message);
+    appliance.report_refused_configuration();
   }
 }
 
+/// The notice is one of its watchers if someone reads it.
+Result<> start(Appliance& appliance, ProgressNotice& notice) {
+  if (!has_service_manager()) return appliance.start();
+  return notice.start().and_then([&] { return appliance.start({&notice}); });
+}
+
 /// Runs until a signal. True: to be started again.
-Result<bool> run(const Resolved& site, const sigset_t& signals, const std::filesystem::path& file) {
-  auto appliance = Appliance::make(site, [] { ::kill(::getpid(), SIGHUP); });
+Result<bool> run(const Chosen& chosen, const sigset_t& signals, const std::filesystem::path& file) {
+  ProgressNotice notice(chosen.refusal);  // outlives the run
+  auto appliance = Appliance::make(chosen.site, [] { ::kill(::getpid(), SIGHUP); });
   if (!appliance) return tl::unexpected(appliance.error());
-  if (auto started = (*appliance)->start(); !started) return tl::unexpected(started.error());
-  return wait_for_end(signals, file, (*appliance)->attempts());
+  if (!chosen.refusal.empty()) (*appliance)->report_refused_configuration();
+  if (auto started = start(**appliance, notice); !started) return tl::unexpected(started.error());
+  keep(chosen);
+  Waiting waiting{.file = file, .checksum = chosen.site.checksum};
+  if (chosen.trial)
+    waiting.trial_ends = hal::Clock::now() + std::chrono::seconds(chosen.trial->seconds);
+  const bool restarts = wait_for_end(signals, waiting, **appliance);
+  restarts ? notify_restart() : notify_end();
+  return restarts;
+}
+
+Result<> check(const std::filesystem::path& file) {
+  const auto site = resolve(file);
+  if (!site) return tl::unexpected(site.error());
+  return check_site(*site, Dates::Checked).map([&] {
+    log_line(LogLevel::Info, commanders_text(site->site.sinks));
+  });
 }
 
 /// The same program with the same arguments; returns only when that fails.
@@ -130,22 +194,17 @@ int main(int argc, char** argv) {
   const auto arguments = parse(argc, argv, exit_code);
   if (!arguments) return exit_code;
   const sigset_t signals = block_signals();
-  const auto site = resolve(*arguments->config);
   const auto kernel = remap::requested_kernel();
   Result<> result;
-  if (!site) {
-    result = tl::unexpected(site.error());
-  } else if (!kernel) {
+  if (!kernel) {
     result = tl::unexpected(kernel.error());
   } else if (arguments->check) {
-    result = check_site(*site, Dates::Checked);
-    if (result) log_line(LogLevel::Info, commanders_text(site->site.sinks));
-  } else if (const auto keys = check_keys(*site, Dates::Ignored); !keys) {
-    result = keys;
+    result = check(arguments->config);
   } else {
-    result = run(*site, signals, *arguments->config).and_then([&](bool restarts) {
-      return restarts ? start_again(argv) : Result<>();
-    });
+    result =
+        choose(arguments->config)
+            .and_then([&](const Chosen& chosen) { return run(chosen, signals, arguments->config); })
+            .and_then([&](bool restarts) { return restarts ? start_again(argv) : Result<>(); });
   }
   if (result) return 0;
   log_line(LogLevel::Error, result.error().message);
@@ -155,4 +214,8 @@ int main(int argc, char** argv) {
 }  // namespace
 }  // namespace orbwatch::app
 
-int main(int argc, char** argv) { return orbwatch::app::main(argc, argv); }
+int main(int argc, char** argv) {
+  // OpenCV would share every call among all cores, the frame path's too.
+  cv::setNumThreads(1);
+  return orbwatch::app::main(argc, argv);
+}

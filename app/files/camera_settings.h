@@ -8,6 +8,7 @@
 #include "app/pipeline/views/view_settings.h"
 #include "app/ports/lines/line_settings.h"
 #include "app/simulation/simulated_camera_settings.h"
+#include "app/watch/watch_settings.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
 #include "hal/libcamera/libcamera_settings.h"
@@ -49,6 +50,7 @@ struct CameraSettings {
   PixelFormat encoding = PixelFormat::Rgb;
   std::vector<ControlSettings> controls;
   std::vector<hal::ScriptedFault> faults;
+  WatchSettings watch;
 };
 
 inline constexpr std::array kSyncPolicies{Word{"hold", hal::SyncPolicy::Hold},
@@ -116,6 +118,7 @@ void visit(Visitor& v, CameraSettings& camera) {
              "How much later its time stamps are than they should be, as measured, us");
   v.optional("encoding", camera.encoding, kEncodings,
              "Of its own pictures over DDS; 16-bit ones go out as mono16");
+  v.table("watch", camera.watch, "Whether it still sees the ball where it was aligned");
   v.tables("control", camera.controls, 0, 64,
            "Settings of the camera, applied in this order, for v4l2 and libcamera");
   v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");

@@ -17,7 +17,9 @@
 #include "app/ports/lines/line_settings.h"
 #include "app/ports/modbus/modbus_settings.h"
 #include "app/ports/snapshot/snapshot_sink.h"
+#include "app/ports/web/web_settings.h"
 #include "app/simulation/machine.h"
+#include "app/watch/place_settings.h"
 #include "hal/thread/thread_settings.h"
 #include "proc/settings/settings.h"
 
@@ -28,7 +30,8 @@ namespace orbwatch::app {
 /// if it is not enabled, and commanders() says who may command by it.
 using SinkSettings = std::tuple<ConsoleSettings,  //
                                 ModbusSettings,   //
-                                DdsSettings>;
+                                DdsSettings,      //
+                                WebSettings>;
 
 /// A recipe's file and the number that selects it.
 struct RecipeFile {
@@ -46,6 +49,7 @@ struct Configuration {
   std::vector<Located<LineSettings>> lines;
   std::vector<Located<ViewSettings>> views;
   std::vector<Located<RecipeFile>> recipes;  ///< the first one is measured from the start
+  PlaceSettings place;
   std::optional<SnapshotSettings> snapshot;
   /// Of what must outlast a restart; empty: see state_folder().
   std::filesystem::path state_folder;
@@ -75,6 +79,9 @@ void visit(Visitor& v, Configuration& configuration) {
            "Display views: virtual cameras in the ball's centre, which can be pointed");
   v.tables("recipe", configuration.recipes, 0, kMaxRecipes,
            "What is measured; the first one from the start");
+  v.table("place", configuration.place,
+          "For the command place_camera. The ball's centre is taken as the rig has it, the outline "
+          "as it is in force; `orbwatch place` finds the centre, too");
   v.table("snapshot", configuration.snapshot, "Pictures on command");
   std::apply(
       [&v]<class... Sinks>(Sinks&... sinks) {

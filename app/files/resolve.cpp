@@ -6,12 +6,14 @@
 #include <sstream>
 #include <utility>
 
+#include "app/files/calibration_file.h"
 #include "app/files/plain_names.h"
 #include "app/files/recipe_file.h"
 #include "app/files/rig_file.h"
 #include "app/files/text_file.h"
 #include "app/files/toml_reader.h"
 #include "app/pipeline/views/picture_use.h"
+#include "app/state/state_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -230,6 +232,24 @@ class Resolver {
   PictureUses sharpened_;  ///< by all views
 };
 
+/// Puts the alignments that were accepted for this rig in the place of what its file says.
+Result<> calibrate(Resolved& resolved, TextFiles& files) {
+  const auto file = calibration_file(state_folder(resolved.site.state_folder));
+  const auto entries = load_calibrations(file, files);
+  if (!entries) return tl::unexpected(entries.error());
+  if (entries->empty()) return {};
+  const auto rig = rig_checksum(resolved.site.rig.path, files.instead());
+  if (!rig) return tl::unexpected(rig.error());
+  resolved.alignments = in_force(*entries, *rig);
+  for (const CalibrationEntry& entry : resolved.alignments) {
+    if (auto applied = apply(entry.alignment, resolved.rig); !applied) {
+      return fail(file.string() + ": entry " + std::to_string(entry.number) +
+                  " does not fit the rig: " + applied.error().message);
+    }
+  }
+  return {};
+}
+
 Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const std::string& name,
                               const std::filesystem::path& folder) {
   Finding finding{name, folder};
@@ -245,8 +265,11 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   }
   if (finding.message) return fail(*finding.message);
   resolved.rig = std::move(*rig);
+  if (auto done = calibrate(resolved, files); !done) return tl::unexpected(done.error());
   if (auto done = resolve_references(resolved, name); !done) return tl::unexpected(done.error());
   resolved.checksum = files.checksum();
+  resolved.texts = files.texts();
+  resolved.texts.erase(calibration_file(state_folder(resolved.site.state_folder)));
   return resolved;
 }
 
@@ -259,8 +282,19 @@ Result<> resolve_references(Resolved& resolved, const std::string& name) {
   return {};
 }
 
-Result<Resolved> resolve(const std::filesystem::path& file) {
+Result<Configuration> read_site(const std::filesystem::path& file) {
   TextFiles files;
+  const auto text = files.read(file, "a TOML file");
+  if (!text) return tl::unexpected(text.error());
+  Finding finding{file.string(), file.parent_path()};
+  Configuration site;
+  read_toml(*text, site, finding);
+  if (finding.message) return fail(*finding.message);
+  return site;
+}
+
+Result<Resolved> resolve(const std::filesystem::path& file, const FileTexts& instead) {
+  TextFiles files(instead);
   return files.read(file, "a TOML file").and_then([&](const std::string& text) {
     return resolve_with(files, text, file.string(), file.parent_path());
   });

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "app/files/calibration_file.h"
 #include "app/files/configuration.h"
+#include "app/files/text_file.h"
 #include "app/model/status_report.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "proc/image/result.h"
@@ -18,21 +20,27 @@ namespace orbwatch::app {
 /// index.
 struct Resolved {
   Configuration site;
-  optics::Rig rig;
+  optics::Rig rig;  ///< with the alignments that are in force
+  std::vector<CalibrationEntry> alignments;
   std::vector<std::size_t> rig_cameras;  ///< by camera: its place in the rig
   std::vector<Recipe> recipes;           ///< by place in site.recipes
   /// Views: those of the configuration, then those of the recipes, where one name is one view.
   StatusNames names;
-  std::uint32_t checksum = 0;  ///< CRC-32 of the files of configuration, rig, lenses and recipes
+  std::uint32_t checksum = 0;  ///< CRC-32 of all the files
+  FileTexts texts;             ///< of all hand-written files
 
   const optics::RigCamera& rig_camera(std::size_t camera) const {
     return rig.cameras[rig_cameras[camera]];
   }
 };
 
+/// The configuration file by itself, as it stands. Errors as resolve().
+Result<Configuration> read_site(const std::filesystem::path& file);
+
 /// Reads a configuration file and all files that it names. Relative paths count from the folder of
 /// the file that states them. The error says file, line, key, what is wrong and what is allowed.
-Result<Resolved> resolve(const std::filesystem::path& file);
+/// `instead`: texts that count in place of files.
+Result<Resolved> resolve(const std::filesystem::path& file, const FileTexts& instead = {});
 
 /// The same for text that stands in for a file named `name`, with paths relative to `folder`.
 Result<Resolved> resolve_text(const std::string& text, const std::string& name,

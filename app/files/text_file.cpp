@@ -5,8 +5,9 @@
 #include <fstream>
 
 namespace orbwatch::app {
+namespace {
 
-Result<std::string> TextFiles::read(const std::filesystem::path& file, const std::string& kind) {
+Result<std::string> read_text(const std::filesystem::path& file, const std::string& kind) {
   constexpr std::size_t kMost = 1 << 20;
   std::ifstream in(file, std::ios::binary);
   std::string text(kMost + 1, '\0');
@@ -20,7 +21,17 @@ Result<std::string> TextFiles::read(const std::filesystem::path& file, const std
   if (text.size() > kMost) {
     return fail(file.string() + ": is larger than 1 MiB; it must be " + kind);
   }
-  add(text);
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> TextFiles::read(const std::filesystem::path& file, const std::string& kind) {
+  const auto known = instead_.find(file);
+  auto text = known == instead_.end() ? read_text(file, kind) : known->second;
+  if (!text) return text;
+  add(*text);
+  texts_[file] = *text;
   return text;
 }
 

@@ -2,15 +2,23 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
 
+/// Texts by the path of their file.
+using FileTexts = std::map<std::filesystem::path, std::string>;
+
 /// Reads hand-written files, at most 1 MiB each, and keeps a CRC-32 of all that was read, in order.
 class TextFiles {
  public:
+  /// A file that is among `instead` is not read: that is its text.
+  explicit TextFiles(FileTexts instead = {}) : instead_(std::move(instead)) {}
+
   /// `kind` names for the error what the file must be, as in "a TOML file". Errors: it cannot be
   /// read, or is larger than 1 MiB.
   Result<std::string> read(const std::filesystem::path& file, const std::string& kind);
@@ -20,7 +28,13 @@ class TextFiles {
 
   std::uint32_t checksum() const { return checksum_; }
 
+  /// What was read.
+  const FileTexts& texts() const { return texts_; }
+  const FileTexts& instead() const { return instead_; }
+
  private:
+  FileTexts instead_;
+  FileTexts texts_;
   std::uint32_t checksum_ = 0;
 };
 

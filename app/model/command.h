@@ -23,6 +23,10 @@ struct ArgumentInfo {
 
 inline constexpr double kAnyIndex = std::numeric_limits<std::uint16_t>::max();
 inline constexpr ArgumentInfo kNoArgument{};
+inline constexpr ArgumentInfo kCameraArgument{"camera", "",        1,
+                                              0,        kAnyIndex, "index of the camera, from 0"};
+/// Machine frame. 100 m are more than any machine has.
+inline constexpr double kMaxCoordinate = 100000;
 inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
                                             0,      kAnyIndex, "index of the view, from 0"};
 
@@ -57,7 +61,31 @@ inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
     "Sets whether the process is active, for a recipe with process_active = \"command\"",        \
     ArgumentInfo{"active", "", 1, 0, 1, "1: active"})                                            \
   X(Restart, 12, "restart", "Shuts orbwatchd down and starts it again with its files read anew", \
-    kNoArgument)
+    kNoArgument)                                                                                 \
+  X(DetectBall, 13, "detect_ball", "Finds the ball in a camera's next picture: a proposal",      \
+    kCameraArgument)                                                                             \
+  X(RegisterCamera, 14, "register_camera",                                                       \
+    "Finds how a camera stands to the first one, by what both see: a proposal", kCameraArgument) \
+  X(CorrectAlignment, 15, "correct_alignment",                                                   \
+    "Proposes an alignment that a camera's drift asks for", kCameraArgument)                     \
+  X(AcceptAlignment, 16, "accept_alignment",                                                     \
+    "Puts the proposed alignment of a camera in force, with a restart", kCameraArgument)         \
+  X(DiscardAlignment, 17, "discard_alignment", "Forgets the proposed alignment of a camera",     \
+    kCameraArgument)                                                                             \
+  X(LearnCleanBall, 18, "learn_clean_ball",                                                      \
+    "The ball was cleaned: what a camera sees of it from now on is clean", kCameraArgument)      \
+  X(MarkPoint, 19, "mark_point",                                                                 \
+    "The tool's light is at these coordinates, machine frame: its place in a camera's picture "  \
+    "is a point for place_camera, until the next restart",                                       \
+    kCameraArgument,                                                                             \
+    ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},             \
+    ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                  \
+    ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})                       \
+  X(ForgetPoints, 20, "forget_points", "Forgets the points that were marked for a camera",       \
+    kCameraArgument)                                                                             \
+  X(PlaceCamera, 21, "place_camera",                                                             \
+    "Finds where a camera stands, by its marked points and the site's tags: a proposal",         \
+    kCameraArgument)
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

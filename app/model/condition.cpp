@@ -9,6 +9,12 @@ Severity severity_of(signals::AlarmLevel level) {
   return static_cast<Severity>(signals::severity(level));
 }
 
+/// What is not watched is no complaint.
+Severity severity_of(WatchLevel level) {
+  if (level == WatchLevel::Alarm) return Severity::Alarm;
+  return level == WatchLevel::Warning ? Severity::Warning : Severity::None;
+}
+
 Severity severity_of(SystemState state) {
   switch (state) {
     case SystemState::Starting:
@@ -32,6 +38,10 @@ Condition condition_of(const SystemStatus& system) {
     if (condition.severity == Severity::None) condition.severity = Severity::Warning;
     condition.text += "; a camera refused the recipe's settings";
   }
+  if (system.configuration_refused) {
+    if (condition.severity == Severity::None) condition.severity = Severity::Warning;
+    condition.text += "; the configuration is wrong, the last good one runs: see the log";
+  }
   if (system.line_faults != 0 || system.interface_faults != 0) {
     if (condition.severity == Severity::None) condition.severity = Severity::Warning;
     if (system.line_faults != 0) condition.text += "; a line has a fault: see line_faults";
@@ -46,8 +56,18 @@ Condition condition_of(const CameraStatus& camera) {
   if (camera.fault == hal::Fault::None && camera.last_frame == hal::TimePoint{}) {
     return {Severity::Unknown, "no frame yet"};
   }
-  return {camera.fault == hal::Fault::None ? Severity::None : Severity::Alarm,
-          std::string(operator_text(camera.fault))};
+  Condition condition{camera.fault == hal::Fault::None ? Severity::None : Severity::Alarm,
+                      std::string(operator_text(camera.fault))};
+  const auto add = [&](const char* what, WatchLevel level) {
+    condition.severity = std::max(condition.severity, severity_of(level));
+    if (level >= WatchLevel::Warning) {
+      condition.text += std::string("; its ") + what + " is " + std::string(operator_text(level));
+    }
+  };
+  add("alignment", camera.alignment);
+  add("focus", camera.focus);
+  add("ball's dirt", camera.cleanliness);
+  return condition;
 }
 
 Condition condition_of(const ViewStatus& view) {
@@ -103,9 +123,9 @@ Severity worst_severity(const Status& status, std::optional<std::size_t> region)
 }
 
 bool is_throttled(const Health& health) {
-  constexpr unsigned kNow = (1U << kSincePowerOn) - 1;
+  constexpr unsigned kNow = (1U << kSincePowerOn) - 1, kAll = 255;
   return signals::is_valid(health.throttling) &&
-         (static_cast<unsigned>(health.throttling) & kNow) != 0;
+         (static_cast<unsigned>(std::clamp(health.throttling, 0.0, double{kAll})) & kNow) != 0;
 }
 
 }  // namespace orbwatch::app

@@ -152,13 +152,15 @@ constexpr std::string_view operator_text(SignalNumber number) {
   FIELD(std::uint32_t, line_faults, kCount,                                                      \
         "Bit n: line n of the configuration is not there, or has a fault")                       \
   FIELD(std::uint32_t, interface_faults, kCount,                                                 \
-        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshots")         \
+        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshots, 4 web")  \
   FIELD(double, busy_ms, kProcessorTime,                                                         \
         "Processor time of the pipeline's own thread for the newest frame set, which takes no "  \
         "less")                                                                                  \
   FIELD(bool, realtime, kFlag,                                                                   \
         "The frame path has real-time priorities: other programs do not delay it")               \
-  FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")
+  FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")            \
+  FIELD(bool, configuration_refused, kFlag,                                                      \
+        "The files of the configuration are wrong: the last good one runs, the log says why")
 
 inline constexpr Quantity kShare{"", 0.001, 0, 1000};
 inline constexpr Quantity kProcessorTime{"ms", 0.001, 0, 100000};
@@ -166,6 +168,89 @@ inline constexpr Quantity kProcessorTime{"ms", 0.001, 0, 100000};
 /// The appliance as a whole.
 struct SystemStatus {
   ORBWATCH_SYSTEM_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
+};
+
+/// How what is watched of a camera stands to its limits. The numbers go to the PLC: append, never
+/// renumber.
+enum class WatchLevel : std::uint8_t {
+  NotMeasured = 0,  ///< not watched, no picture, darkness, or nothing learnt yet
+  Good = 1,
+  Warning = 2,
+  Alarm = 3,
+};
+
+/// The one place of the operator's text for each level. Empty for a number that is none.
+constexpr std::string_view operator_text(WatchLevel level) {
+  switch (level) {
+    case WatchLevel::NotMeasured:
+      return "not measured";
+    case WatchLevel::Good:
+      return "good";
+    case WatchLevel::Warning:
+      return "beyond its warning limit";
+    case WatchLevel::Alarm:
+      return "beyond its alarm limit";
+  }
+  return {};
+}
+
+/// What has become of the alignment that was asked for last. The numbers go to the PLC: append,
+/// never renumber.
+enum class ProposalState : std::uint8_t {
+  None = 0,
+  Working = 1,
+  Ready = 2,
+  Refused = 3,
+};
+
+/// The one place of the operator's text for each state. Empty for a number that is none.
+constexpr std::string_view operator_text(ProposalState state) {
+  switch (state) {
+    case ProposalState::None:
+      return "nothing is proposed";
+    case ProposalState::Working:
+      return "an alignment or a point is being found";
+    case ProposalState::Ready:
+      return "an alignment is proposed: accept or discard it";
+    case ProposalState::Refused:
+      return "none was found; the log says why";
+  }
+  return {};
+}
+
+#define ORBWATCH_WATCH_FIGURES(FIELD)                                                              \
+  FIELD(WatchLevel, alignment, kCode, "Whether the camera sees the ball where it was aligned")     \
+  FIELD(double, drift_error, kAngle,                                                               \
+        "Error of the directions that views show, rms, since it was aligned")                      \
+  FIELD(double, drift_shift, kPercent, "Shift of the ball's picture, of its radius")               \
+  FIELD(WatchLevel, focus, kCode, "Whether what the ball reflects is sharp")                       \
+  FIELD(double, blur, kBlur, "Of what the ball reflects: sigma of a Gaussian, the pixel included") \
+  FIELD(WatchLevel, cleanliness, kCode, "Whether the ball is clean")                               \
+  FIELD(double, contamination, kPercent,                                                           \
+        "Share of the ball's picture under spots and scratches that were not there when it was "   \
+        "learnt")                                                                                  \
+  FIELD(ProposalState, proposal, kCode, "Of the alignment that was asked for last")                \
+  FIELD(double, proposal_error, kAngle,                                                            \
+        "One sigma of the directions of the proposed alignment, as far as its residuals show it; " \
+        "not valid without one, and for detect_ball")                                              \
+  FIELD(std::uint64_t, marked_points, kCount,                                                      \
+        "Points that mark_point added for place_camera since the start")
+
+inline constexpr Quantity kAngle{"deg", 0.001, 0, 180};
+inline constexpr Quantity kPercent{"%", 0.01, 0, 10000};
+inline constexpr Quantity kBlur{"px", 0.01, 0, 1000};
+
+/// What a figure is until it is measured.
+template <class T>
+inline constexpr T kNotMeasured{};
+template <>
+inline constexpr double kNotMeasured<double> = signals::kNotValid;
+#define ORBWATCH_WATCH_MEMBER(type, name, quantity, description) type name = kNotMeasured<type>;
+
+/// What is watched of a camera beside the frame path; numbers are not valid where their level is
+/// not measured.
+struct CameraWatchStatus {
+  ORBWATCH_WATCH_FIGURES(ORBWATCH_WATCH_MEMBER)
 };
 
 #define ORBWATCH_CAMERA_FIGURES(FIELD, AGE)                                                      \
@@ -190,7 +275,7 @@ struct SystemStatus {
         "Frames used although their JPEG data has padding before a marker, or no end marker")
 
 /// One camera.
-struct CameraStatus {
+struct CameraStatus : CameraWatchStatus {
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
 };
 
@@ -286,6 +371,7 @@ template <class Visit>
 constexpr void for_each_field(std::type_identity<CameraStatus>, Visit&& visit) {
   using Part = CameraStatus;
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
+  ORBWATCH_WATCH_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
 template <class Visit>

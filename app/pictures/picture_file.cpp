@@ -90,6 +90,11 @@ Result<> write_file(const std::filesystem::path& path, std::span<const std::uint
   return error;
 }
 
+Result<> write_file(const std::filesystem::path& path, std::string_view text) {
+  return write_file(path,
+                    std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
 Result<> remove_unfinished(const std::filesystem::path& folder) {
   std::error_code error;
   for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
@@ -12,6 +13,7 @@ namespace orbwatch::app {
 /// Writes a file atomically: readers find the old one or the new one, and a failure leaves neither
 /// a part nor a temporary file. Errors: folder missing or not writable, disk full.
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+Result<> write_file(const std::filesystem::path& path, std::string_view text);
 
 /// Removes the temporary files of write_file() that a power cut or a killed process left in a
 /// folder; one that is being written stays. Error: the folder cannot be read or written.

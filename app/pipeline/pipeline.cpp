@@ -287,6 +287,10 @@ void Pipeline::publish_status() {
     status_.interface_faults = surroundings.interface_faults;
     status_.realtime = surroundings.realtime;
     status_.memory_locked = surroundings.memory_locked;
+    status_.configuration_refused = surroundings.configuration_refused;
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      static_cast<CameraWatchStatus&>(status_.cameras[i]) = surroundings.watched[i];
+    }
   }
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     status_.views[i].superseded = pan_tilt_zoom_.superseded(i);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -44,6 +45,8 @@ struct Surroundings {
   std::uint32_t interface_faults = 0;  ///< as SystemStatus
   bool realtime = false;               ///< as SystemStatus
   bool memory_locked = false;          ///< as SystemStatus
+  std::array<CameraWatchStatus, kMaxCameras> watched{};
+  bool configuration_refused = false;  ///< as SystemStatus
 };
 
 /// Everything the pipeline needs; cameras are configured already, unless they are absent.

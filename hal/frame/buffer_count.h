@@ -17,6 +17,8 @@ inline constexpr std::size_t kHeldFrames = 1;
 inline constexpr std::size_t kFramesInSet = 1;
 /// Readers of the camera's own pictures, each of which converts one at a time.
 inline constexpr std::size_t kFrameReaders = 2;
+/// Looked at by whoever watches the camera, beside the frame path.
+inline constexpr std::size_t kWatchedFrames = 1;
 /// On the camera's thread, between device and matcher.
 inline constexpr std::size_t kArrivingFrames = 1;
 /// Left to the device: the one that it fills, and the next.
@@ -24,7 +26,8 @@ inline constexpr std::size_t kDeviceBuffers = 2;
 
 /// Buffers of a camera whose frames queue up to `depth`.
 constexpr std::size_t buffers_for(std::size_t depth) {
-  return depth + kHeldFrames + kFramesInSet + kFrameReaders + kArrivingFrames + kDeviceBuffers;
+  return depth + kHeldFrames + kFramesInSet + kFrameReaders + kWatchedFrames + kArrivingFrames +
+         kDeviceBuffers;
 }
 inline constexpr std::size_t kFreeRunningBuffers = buffers_for(kFreeRunningDepth);
 inline constexpr std::size_t kTriggeredBuffers = buffers_for(kTriggeredDepth);

@@ -177,8 +177,4 @@ Result<> LibcameraCamera::check_intact(const LibcameraStream::Captured& captured
   return fail("a frame of " + std::to_string(used) + " bytes; it takes " + std::to_string(needed));
 }
 
-std::unique_ptr<Camera> make_camera(const LibcameraSettings& settings, const CameraContext&) {
-  return std::make_unique<LibcameraCamera>(settings);
-}
-
 }  // namespace orbwatch::hal

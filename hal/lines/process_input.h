@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 
 namespace orbwatch::hal {
@@ -9,13 +10,21 @@ namespace orbwatch::hal {
 class ProcessInput {
  public:
   /// Nullopt: not known, as its line has a fault.
-  explicit ProcessInput(std::optional<bool> active = {}) : active_(active) {}
+  explicit ProcessInput(std::optional<bool> active = {}) { set(active); }
 
-  void set(std::optional<bool> active) { active_ = active; }
-  std::optional<bool> active() const { return active_; }
+  void set(std::optional<bool> active) {
+    state_ = !active ? State::Unknown : *active ? State::Active : State::Inactive;
+  }
+  std::optional<bool> active() const {
+    const State state = state_;
+    if (state == State::Unknown) return std::nullopt;
+    return state == State::Active;
+  }
 
  private:
-  std::atomic<std::optional<bool>> active_;
+  /// Not an optional: not every compiler reads one without a lock.
+  enum class State : std::uint8_t { Unknown, Inactive, Active };
+  std::atomic<State> state_;
 };
 
 }  // namespace orbwatch::hal

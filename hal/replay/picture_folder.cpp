@@ -21,25 +21,6 @@ std::string_view take_number(std::string_view& text) {
   return number;
 }
 
-Result<std::vector<std::filesystem::path>> pictures_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  std::filesystem::directory_iterator entry(folder, error);
-  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-    const auto& path = entry->path();
-    const bool hidden = path.filename().string().starts_with('.');
-    if (!hidden && has_picture_name(path)) files.push_back(path);
-  }
-  if (error) return fail(folder.string() + ": cannot be read: " + error.message());
-  if (files.empty()) {
-    return fail(folder.string() + ": no pictures in it; looked for *.jpg, *.jpeg and *.png");
-  }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return natural_order(a.filename().string(), b.filename().string());
-  });
-  return files;
-}
-
 std::string describe(PixelFormat format, int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height) + " " +
          std::string(info(format).name);
@@ -68,6 +49,26 @@ bool natural_order(std::string_view a, std::string_view b) {
   }
   if (a.empty() != b.empty()) return a.empty();
   return whole.first < whole.second;  // "f1" and "f01"
+}
+
+Result<std::vector<std::filesystem::path>> pictures_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(folder, error)) return std::vector{folder};
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const auto& path = entry->path();
+    const bool hidden = path.filename().string().starts_with('.');
+    if (!hidden && has_picture_name(path)) files.push_back(path);
+  }
+  if (error) return fail(folder.string() + ": cannot be read: " + error.message());
+  if (files.empty()) {
+    return fail(folder.string() + ": no pictures in it; looked for *.jpg, *.jpeg and *.png");
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return natural_order(a.filename().string(), b.filename().string());
+  });
+  return files;
 }
 
 Result<std::unique_ptr<Recording>> PictureFolder::open(const std::filesystem::path& folder,

@@ -28,12 +28,14 @@ std::string to_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// Opens a folder of pictures or a video file.
+/// Opens a folder of pictures, one picture or a video file.
 Result<std::unique_ptr<Recording>> open_recording(const std::filesystem::path& source, bool loop) {
   std::error_code error;
   const auto status = std::filesystem::status(source, error);
   if (error) return fail(source.string() + ": " + error.message());
-  if (std::filesystem::is_directory(status)) return PictureFolder::open(source, loop);
+  if (std::filesystem::is_directory(status) || has_picture_name(source)) {
+    return PictureFolder::open(source, loop);
+  }
   if (std::filesystem::is_regular_file(status)) return VideoFile::open(source, loop);
   return fail(source.string() + ": is neither a folder of pictures nor a video file");
 }

@@ -17,7 +17,7 @@ struct ReplaySettings {
   static constexpr std::string_view kName = "replay";
 
   std::string name;              ///< becomes CameraInfo::id
-  std::filesystem::path source;  ///< a folder of JPEG or PNG pictures, or a video file
+  std::filesystem::path source;  ///< a folder of JPEG or PNG pictures, one, or a video file
   double frame_rate = 0;         ///< per second; 0: the video's own, 30 for a folder
   bool loop = true;              ///< false: after the last picture the camera is unplugged
   std::vector<ScriptedFault> faults = {};
@@ -26,7 +26,8 @@ struct ReplaySettings {
 /// All but what the context of a camera states.
 template <class Visitor>
 void visit(Visitor& v, ReplaySettings& settings) {
-  v.required("source", settings.source, "Folder of numbered JPEG or PNG pictures, or a video");
+  v.required("source", settings.source,
+             "Folder of numbered JPEG or PNG pictures, one picture, or a video");
   v.optional("loop", settings.loop, "Begin again at the end");
 }
 

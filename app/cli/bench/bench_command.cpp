@@ -6,6 +6,7 @@
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/daemon/build.h"
+#include "app/files/site_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -32,16 +33,16 @@ std::function<Result<>(const std::string&)> seconds_option(double& target) {
 }
 
 std::vector<Option> declare(BenchOptions& o) {
-  return {{"config", 'c', "FILE", "that of orbwatchd", text_option(o.config)},
-          {"seconds", 0, "N", "to measure, 1 to 3600 (default 10)", seconds_option(o.run.seconds)},
-          {"simulated", 0, "", "test patterns instead of the cameras, in their formats",
-           flag_option(o.simulated)},
-          {"json", 0, "", "for programs", flag_option(o.json)}};
+  return {
+      {"config", 'c', "FILE", "that of orbwatchd (default: as orbwatchd)", text_option(o.config)},
+      {"seconds", 0, "N", "to measure, 1 to 3600 (default 10)", seconds_option(o.run.seconds)},
+      {"simulated", 0, "", "test patterns instead of the cameras, in their formats",
+       flag_option(o.simulated)},
+      {"json", 0, "", "for programs", flag_option(o.json)}};
 }
 
 Result<std::string> bench(const BenchOptions& o) {
-  if (o.config.empty()) return fail("--config FILE is missing; see --help");
-  auto site = resolve(o.config);
+  auto site = resolve(site_file(o.config));
   if (!site) return tl::unexpected(site.error());
   if (auto keys = check_keys(*site, Dates::Ignored); !keys) return tl::unexpected(keys.error());
   silence_console(*site);

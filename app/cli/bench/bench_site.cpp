@@ -77,6 +77,7 @@ std::vector<std::string> simulate_cameras(Resolved& site) {
   for (Recipe& recipe : site.recipes) recipe.controls.clear();
   for (LineSettings& line : site.site.lines) line.back_end = LineKind::Simulated;
   std::get<ModbusSettings>(site.site.sinks).enabled = false;
+  std::get<WebSettings>(site.site.sinks).enabled = false;
   std::get<DdsSettings>(site.site.sinks).prefix += "_bench";
   return known;
 }

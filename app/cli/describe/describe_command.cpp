@@ -2,6 +2,7 @@
 #include <array>
 
 #include "app/cli/command.h"
+#include "app/cli/describe/describe_programs.h"
 #include "app/cli/options/options.h"
 #include "app/files/configuration.h"
 #include "app/files/recipe_file.h"
@@ -14,8 +15,9 @@ namespace {
 /// A subject that takes no options.
 template <std::string (*manual)()>
 Result<std::string> describe_manual(const std::vector<std::string>& arguments) {
-  if (arguments.size() == 1) return manual();
-  return fail("unexpected argument " + arguments[1] + "; see orbwatch describe --help");
+  return run_command(
+      arguments, {.usage = "Usage: orbwatch describe " + arguments.front() + "\n\n", .options = {}},
+      [](const auto&) { return manual(); });
 }
 
 Result<std::string> describe_registers(const std::vector<std::string>& arguments) {
@@ -28,6 +30,9 @@ Result<std::string> describe_registers(const std::vector<std::string>& arguments
                      [&](const auto&) { return csv ? registers_csv() : registers_markdown(); });
 }
 
+std::string man();
+std::string completion();
+
 constexpr std::array kSubjects{
     Subcommand{"config", "manual of the configuration file", describe_manual<configuration_manual>},
     Subcommand{"rig", "manual of the rig file: cameras, ball and machine",
@@ -38,7 +43,13 @@ constexpr std::array kSubjects{
     Subcommand{"view", "what cameras resolve in a view", describe_view},
     Subcommand{"camera", "what follows from a rig for one camera; its calibration",
                describe_camera},
+    Subcommand{"man", "manual page of orbwatch", describe_manual<man>},
+    Subcommand{"completion", "completion of orbwatch's command line by bash",
+               describe_manual<completion>},
 };
+
+std::string man() { return man_page(all_commands(), kSubjects); }
+std::string completion() { return bash_completion(all_commands(), kSubjects); }
 
 }  // namespace
 

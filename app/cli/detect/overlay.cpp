@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/pictures/picture_file.h"
+#include "proc/align/detect/luminance.h"
 #include "proc/align/first_plane.h"
 
 namespace orbwatch::app {
@@ -13,7 +14,8 @@ const cv::Scalar kColour(0, 255, 0);
 constexpr int kShift = 4;  // of OpenCV's fixed-point coordinates
 
 cv::Mat as_rgb(const Picture& picture) {
-  cv::Mat rgb = align::first_plane(picture).clone();
+  const bool is_rgb = picture.format == PixelFormat::Rgb || picture.format == PixelFormat::Rgb16;
+  cv::Mat rgb = (is_rgb ? align::first_plane(picture) : align::luminance_of(picture)).clone();
   if (rgb.depth() == CV_16U) cv::normalize(rgb, rgb, 0, 255, cv::NORM_MINMAX, CV_8U);
   if (rgb.channels() == 1) cv::cvtColor(rgb, rgb, cv::COLOR_GRAY2RGB);
   return rgb;

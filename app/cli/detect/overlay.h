@@ -8,8 +8,9 @@
 
 namespace orbwatch::app {
 
-/// Writes `picture` (Grey, Y16, Rgb or Rgb16) as 8 bit colour with the outline and its centre drawn
-/// into it; 16 bit from the darkest sample to the brightest. Errors: those of write_picture.
+/// Writes `picture`, RGB or the luminance of any other format, as 8 bit colour with the outline and
+/// its centre drawn into it; 16 bit from the darkest sample to the brightest. Errors: those of
+/// write_picture.
 Result<> write_overlay(const std::filesystem::path& path, const Picture& picture,
                        const optics::Outline& outline);
 

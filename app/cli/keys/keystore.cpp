@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/cli/keys/staged_folder.h"
+#include "app/cli/staged_folder.h"
 #include "app/ports/dds/security/enclave.h"
 #include "app/ports/dds/security/key_file.h"
 #include "app/ports/dds/topics/topic_names.h"

@@ -4,8 +4,8 @@
 #include "app/cli/command.h"
 #include "app/cli/list/list_text.h"
 #include "app/cli/options/options.h"
-#include "hal/libcamera/libcamera_list.h"
 #include "hal/lines/gpio/gpio_lines.h"
+#include "hal/module/module_camera.h"
 #include "hal/v4l2/device/v4l2_list.h"
 
 namespace orbwatch::app {
@@ -15,7 +15,7 @@ namespace {
 /// streaming cameras.
 hal::Inventory take_inventory() {
   hal::Inventory inventory{hal::list_v4l2_cameras(), hal::GpioLines().chips()};
-  std::ranges::move(hal::list_libcamera_cameras(), std::back_inserter(inventory.cameras));
+  std::ranges::move(hal::list_module_cameras(), std::back_inserter(inventory.cameras));
   return inventory;
 }
 

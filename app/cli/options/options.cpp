@@ -5,11 +5,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
+
+#include "app/cli/options/declaration.h"
 
 namespace orbwatch::app {
 namespace {
 
 constexpr int kFirstLong = 1000;
+
+/// Where a command line goes instead of being run, while declaration_of() asks for it.
+std::optional<CommandLine>* asked_declaration = nullptr;
 
 tl::unexpected<Error> refuse(const std::string& what) { return fail(what + "; see --help"); }
 
@@ -68,6 +74,10 @@ Result<std::string> run_command(
     const std::function<Result<std::string>(const std::vector<std::string>& words)>& run) {
   bool asks_help = false;
   line.options.push_back({"help", 'h', "", "this text", flag_option(asks_help)});
+  if (asked_declaration != nullptr) {
+    *asked_declaration = std::move(line);
+    return std::string();
+  }
   const auto words = parse(std::move(arguments), line.options, line.order);
   if (!words) return tl::unexpected(words.error());
   if (asks_help) return line.usage + options_help(line.options) + line.notes;
@@ -75,6 +85,15 @@ Result<std::string> run_command(
     return refuse("unexpected argument " + words->front());
   }
   return run(*words);
+}
+
+std::optional<CommandLine> declaration_of(const Subcommand& command) {
+  std::optional<CommandLine> declared;
+  asked_declaration = &declared;
+  // A command without options prints or refuses at once, to nobody.
+  static_cast<void>(command.run({std::string(command.name)}));
+  asked_declaration = nullptr;
+  return declared;
 }
 
 Result<double> parse_number(std::string_view name, std::string_view text) {

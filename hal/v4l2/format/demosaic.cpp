@@ -32,8 +32,6 @@ cv::Mat pixels(const ImageView<const std::uint8_t>& view, int type) {
 
 }  // namespace
 
-void prepare_demosaic() { cv::setNumThreads(1); }
-
 Result<> demosaic(Mosaic mosaic, const ImageView<const std::uint8_t>& samples,
                   const ImageView<std::uint8_t>& bgr) {
   if (mosaic == Mosaic::None || std::min(samples.width, samples.height) < 4 ||

@@ -73,7 +73,6 @@ FrameDecoder::FrameDecoder(const NegotiatedFormat& format, std::size_t buffers)
       pool_(make_frame_pool(format.stream.format, format.stream.width, format.stream.height,
                             buffers)) {
   if (format.coding.mosaic == Mosaic::None || format.stream.format != PixelFormat::Bgr) return;
-  prepare_demosaic();
   mosaic_.resize(static_cast<std::size_t>(format.stream.width) *
                  static_cast<std::size_t>(format.stream.height));
 }

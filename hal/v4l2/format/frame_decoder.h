@@ -27,8 +27,7 @@ void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int wi
 /// Thread-bound.
 class FrameDecoder {
  public:
-  /// For a format that is not zero-copy, with `buffers` for its frames. Switches OpenCV's threads
-  /// off: see prepare_demosaic().
+  /// For a format that is not zero-copy, with `buffers` for its frames.
   FrameDecoder(const NegotiatedFormat& format, std::size_t buffers);
 
   /// After a reconnection with the same stream format, whose layout may differ.

@@ -169,6 +169,17 @@ std::vector<Bit> fault_bits() {
            const Status& status = image.live.status;
            return i < status.camera_count && status.cameras[i].fault != hal::Fault::None;
          });
+  append(bits, kMaxCameras, "camera_#_moved",
+         "Camera # does not see the ball where it was aligned: see its alignment register",
+         [](I image, std::size_t i) {
+           return image.live.status.cameras[i].alignment >= WatchLevel::Warning;
+         });
+  append(bits, kMaxCameras, "camera_#_maintenance",
+         "Camera # is out of focus or the ball is dirty: see its registers focus and cleanliness",
+         [](I image, std::size_t i) {
+           const CameraStatus& camera = image.live.status.cameras[i];
+           return std::max(camera.focus, camera.cleanliness) >= WatchLevel::Warning;
+         });
   return bits;
 }
 

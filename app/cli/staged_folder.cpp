@@ -1,4 +1,4 @@
-#include "app/cli/keys/staged_folder.h"
+#include "app/cli/staged_folder.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ StagedFolder::~StagedFolder() {
 
 Result<StagedFolder> StagedFolder::beside(const fs::path& target) {
   std::error_code error;
-  fs::path place = fs::weakly_canonical(target, error);
+  fs::path place = fs::weakly_canonical(fs::absolute(target), error);
   if (!place.has_filename()) place = place.parent_path();  // given with a '/' at its end
   if (!error) fs::create_directories(place.parent_path(), error);
   if (error) return cannot_make(target, error.message());

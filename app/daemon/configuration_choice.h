@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/files/resolve.h"
+#include "app/files/trial.h"
+
+namespace orbwatch::app {
+
+/// A configuration and why it runs.
+struct Chosen {
+  Resolved site;
+  std::string refusal;         ///< of the files, whose last good version this is; empty: of none
+  std::optional<Trial> trial;  ///< this runs in place of the files until it is confirmed
+};
+
+/// Where a service keeps trials and the last good configuration; nullopt: this is no service, it
+/// has no STATE_DIRECTORY. Not while the environment is changed.
+std::optional<std::filesystem::path> service_folder();
+
+/// What runs: of a service a requested trial, once; else what the files say; if they are wrong, of
+/// a service, the last good configuration. A trial that a run before left unconfirmed has ended.
+/// Error: the files', and why there is no last good configuration.
+Result<Chosen> choose(const std::filesystem::path& file);
+
+/// Whether the files say what can run. Error: why not.
+Result<> check_restart(const std::filesystem::path& file);
+
+/// After a start: what runs is good, unless it is a trial.
+void keep(const Chosen& chosen);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,159 @@
+#include "app/files/calibration_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "app/files/rig_file.h"
+#include "app/files/rig_settings.h"
+#include "app/files/toml_reader.h"
+#include "app/files/toml_text.h"
+#include "app/model/utc_text.h"
+#include "app/pictures/picture_file.h"
+
+namespace orbwatch::app {
+namespace {
+
+struct BallCentreSettings {
+  optics::Vec3 centre;
+};
+
+struct EntrySettings {
+  int number = 0;
+  std::string time, camera, method, quality;
+  std::uint32_t rig = 0;
+  std::optional<BallCentreSettings> ball;
+  std::optional<optics::Pose> pose;
+  std::optional<OutlineSettings> limb;
+  std::optional<IntrinsicsSettings> lens;
+};
+
+struct CalibrationSettings {
+  std::vector<Located<EntrySettings>> entries;
+};
+
+template <class Visitor>
+void visit(Visitor& v, BallCentreSettings& ball) {
+  v.required("centre", ball.centre, kAnyNumber, "mm, machine frame");
+}
+
+template <class Visitor>
+void visit(Visitor& v, EntrySettings& entry) {
+  v.required("number", entry.number, Range::between(1, 1e9), "Counts entries");
+  v.required("time", entry.time, "When it was accepted, UTC");
+  v.required("camera", entry.camera, "The camera's name in the rig");
+  v.required("method", entry.method, "How it was found");
+  v.required("quality", entry.quality, "What is known of its errors");
+  v.required("rig", entry.rig, Range::between(0, 4294967295.0), "CRC-32 of the rig it is for");
+  v.table("ball", entry.ball, "The ball's place");
+  v.table("pose", entry.pose, "As in the rig");
+  v.table("outline", entry.limb, "As in the rig");
+  v.table("intrinsics", entry.lens, "As in the rig");
+}
+
+template <class Visitor>
+void visit(Visitor& v, CalibrationSettings& file) {
+  v.tables("entry", file.entries, 0, kMaxCalibrations, "Accepted alignments, oldest first");
+}
+
+CalibrationEntry entry_of(const EntrySettings& settings) {
+  CalibrationEntry entry{settings.number,  settings.time, settings.method,
+                         settings.quality, settings.rig,  {}};
+  CameraAlignment camera{.camera = settings.camera, .pose = settings.pose};
+  if (settings.limb) {
+    camera.outline = outline(*settings.limb);
+    camera.registration = registration(*settings.limb);
+  }
+  if (const auto& lens = settings.lens) {
+    camera.intrinsics.emplace();
+    camera.intrinsics->fx = lens->fx;
+    camera.intrinsics->fy = lens->fy;
+    camera.intrinsics->cx = lens->cx.value_or(0);
+    camera.intrinsics->cy = lens->cy.value_or(0);
+  }
+  if (settings.ball) entry.alignment.ball_centre = settings.ball->centre;
+  entry.alignment.cameras.push_back(camera);
+  return entry;
+}
+
+std::string text_of(const CalibrationEntry& entry) {
+  const CameraAlignment& camera = camera_of(entry);
+  std::string text = "\n[[entry]]\n" + toml_line("number", std::to_string(entry.number)) +
+                     toml_line("time", toml_string(entry.time)) +
+                     toml_line("camera", toml_string(camera.camera)) +
+                     toml_line("method", toml_string(entry.method)) +
+                     toml_line("quality", toml_string(entry.quality)) +
+                     toml_line("rig", std::to_string(entry.rig));
+  if (entry.alignment.ball_centre) {
+    text += "[entry.ball]\n" + toml_line("centre", toml_vector(*entry.alignment.ball_centre));
+  }
+  if (const auto& lens = camera.intrinsics) {
+    text += "[entry.intrinsics]\n" + toml_line("fx", toml_number(lens->fx)) +
+            toml_line("fy", toml_number(lens->fy)) + toml_line("cx", toml_number(lens->cx)) +
+            toml_line("cy", toml_number(lens->cy));
+  }
+  if (camera.pose) {
+    text += "[entry.pose]\n" + toml_pose(*camera.pose);
+  } else if (const auto& limb = camera.outline) {
+    text += "[entry.outline]\n" + toml_outline(*limb) +
+            toml_line("rotation_matrix", toml_matrix(camera.registration.value_or(optics::Mat3{})));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::filesystem::path calibration_file(const std::filesystem::path& state_folder) {
+  return state_folder / "calibration.toml";
+}
+
+Result<std::uint32_t> rig_checksum(const std::filesystem::path& rig, const FileTexts& instead) {
+  TextFiles files(instead);
+  return load_rig(rig, files).map([&](const auto&) { return files.checksum(); });
+}
+
+Result<std::vector<CalibrationEntry>> load_calibrations(const std::filesystem::path& file,
+                                                        TextFiles& files) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) && !error) return {};
+  const auto text = files.read(file, "a TOML file");
+  if (!text) return tl::unexpected(text.error());
+  Finding finding{file.string(), file.parent_path()};
+  CalibrationSettings settings;
+  read_toml(*text, settings, finding);
+  if (finding.message) return fail(*finding.message);
+  std::vector<CalibrationEntry> entries;
+  for (const EntrySettings& entry : settings.entries) entries.push_back(entry_of(entry));
+  return entries;
+}
+
+Result<> save_calibrations(const std::filesystem::path& file,
+                           const std::vector<CalibrationEntry>& entries) {
+  std::string text =
+      "# Alignments that orbwatchd accepted, in force instead of what the rig file says.\n"
+      "# `orbwatch calibration history` lists them, `orbwatch calibration restore` goes back.\n";
+  const std::size_t kept = std::min(entries.size(), kMaxCalibrations);
+  for (std::size_t n = entries.size() - kept; n < entries.size(); ++n) text += text_of(entries[n]);
+  return write_file(file, text);
+}
+
+std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entries,
+                                       std::uint32_t rig) {
+  std::vector<CalibrationEntry> newest;
+  std::set<std::string> done;
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+    const bool is_newest = done.insert(camera_of(*entry).camera).second;
+    if (is_newest && entry->rig == rig) newest.insert(newest.begin(), *entry);
+  }
+  return newest;
+}
+
+void accept(std::vector<CalibrationEntry>& entries, CalibrationEntry entry) {
+  entry.number = entries.empty() ? 1 : entries.back().number + 1;
+  entry.time = utc_text(std::chrono::system_clock::now()).value_or("");
+  entries.push_back(std::move(entry));
+}
+
+}  // namespace orbwatch::app

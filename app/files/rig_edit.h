@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/files/rig_alignment.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The text of a rig file with what was found out; comments, order and everything else stay. `name`
+/// and `folder` as for parse_rig(). Error: a rig that is refused before or after, no such camera, a
+/// camera that states a changed table inline.
+Result<std::string> aligned_rig(const std::string& text, const std::string& name,
+                                const std::filesystem::path& folder, const RigAlignment& alignment);
+
+/// The same for a file, written to `out`, which may be the same one. Error: also files that the rig
+/// names and that are not there from `out`, and as write_file().
+Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment& alignment,
+                           const std::filesystem::path& out);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,134 @@
+#include "app/files/toml_edit.h"
+
+#include <algorithm>
+
+namespace orbwatch::app {
+namespace {
+
+std::size_t line_of_header(const toml::table& table) { return table.source().begin.line; }
+
+/// The lines of the headers of a table and of those within it; inline tables have none.
+void collect_headers(const toml::table& table, std::vector<std::size_t>& lines) {
+  for (const auto& [key, node] : table) {
+    if (const toml::table* inner = node.as_table(); inner && !inner->is_inline()) {
+      lines.push_back(line_of_header(*inner));
+      collect_headers(*inner, lines);
+    }
+    const toml::array* list = node.as_array();
+    if (!list || !list->is_array_of_tables()) continue;
+    for (const toml::node& item : *list) {
+      const toml::table& element = *item.as_table();
+      if (element.is_inline()) continue;
+      lines.push_back(line_of_header(element));
+      collect_headers(element, lines);
+    }
+  }
+}
+
+bool is_comment_or_blank(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos || line[first] == '#';
+}
+
+}  // namespace
+
+Result<TomlEdit> TomlEdit::make(const std::string& text, const std::string& name) {
+  try {
+    return TomlEdit(text, toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    return fail(one_line(name + ":" + std::to_string(error.source().begin.line) + ": " +
+                         std::string(error.description())));
+  }
+}
+
+TomlEdit::TomlEdit(std::string text, toml::table root)
+    : text_(std::move(text)), root_(std::move(root)) {
+  if (!text_.empty() && text_.back() != '\n') text_ += '\n';
+  lines_.push_back(0);
+  for (std::size_t n = 0; n < text_.size(); ++n) {
+    if (text_[n] == '\n') lines_.push_back(n + 1);
+  }
+  collect_headers(root_, headers_);
+  std::ranges::sort(headers_);
+}
+
+void TomlEdit::set(const toml::table& table, std::string_view key, const std::string& value) {
+  if (const toml::node* old = table.get(key)) {
+    const toml::source_region& place = old->source();
+    changes_.push_back({offset(place.begin), offset(place.end), value});
+    return;
+  }
+  const std::size_t header = line_of_header(table);
+  const std::size_t end = end_of_values(header, next_header(header));
+  changes_.push_back({end, end, std::string(key) + " = " + value + "\n"});
+}
+
+void TomlEdit::remove(const toml::table& table, std::string_view key) {
+  const toml::node* node = table.get(key);
+  if (!node) return;
+  const toml::table* inner = node->as_table();
+  if (inner && !inner->is_inline()) {
+    changes_.push_back({line_begin(line_of_header(*inner)), end_of(*inner), ""});
+    return;
+  }
+  const toml::source_region& place = node->source();
+  changes_.push_back({line_begin(place.begin.line), line_begin(place.end.line + 1), ""});
+}
+
+void TomlEdit::append(const toml::table& table, const std::string& lines) {
+  const std::size_t end = end_of(table);
+  changes_.push_back({end, end, lines});
+}
+
+std::string TomlEdit::text() const {
+  std::vector<Change> changes = changes_;
+  std::ranges::stable_sort(changes, {}, &Change::begin);
+  std::string out;
+  std::size_t done = 0;
+  for (const Change& change : changes) {
+    out += text_.substr(done, change.begin - done) + change.text;
+    done = change.end;
+  }
+  return out + text_.substr(done);
+}
+
+/// toml++ counts columns in characters, from 1.
+std::size_t TomlEdit::offset(const toml::source_position& position) const {
+  std::size_t at = line_begin(position.line);
+  for (std::size_t column = 1; column < position.column && at < text_.size(); ++column) {
+    do {
+      ++at;
+    } while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0U) == 0x80U);
+  }
+  return at;
+}
+
+std::size_t TomlEdit::line_begin(std::size_t line) const {
+  return line <= lines_.size() ? lines_[line - 1] : text_.size();
+}
+
+/// Behind the last value of the lines [first_line, end_line): comments and blank lines before the
+/// next header belong to that.
+std::size_t TomlEdit::end_of_values(std::size_t first_line, std::size_t end_line) const {
+  std::size_t end = std::min(end_line, lines_.size());
+  while (end > first_line + 1 && is_comment_or_blank(std::string_view(text_).substr(
+                                     line_begin(end - 1), line_begin(end) - line_begin(end - 1)))) {
+    --end;
+  }
+  return line_begin(end);
+}
+
+/// The line of the first header behind `line`, or the one behind the text.
+std::size_t TomlEdit::next_header(std::size_t line) const {
+  const auto next = std::ranges::upper_bound(headers_, line);
+  return next == headers_.end() ? lines_.size() : *next;
+}
+
+std::size_t TomlEdit::end_of(const toml::table& table) const {
+  std::vector<std::size_t> own{line_of_header(table)};
+  collect_headers(table, own);
+  const std::size_t last = std::ranges::max(own);
+  return end_of_values(last, next_header(last));
+}
+
+}  // namespace orbwatch::app

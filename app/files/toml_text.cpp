@@ -1,0 +1,61 @@
+#include "app/files/toml_text.h"
+
+#include <cstdio>
+
+namespace orbwatch::app {
+
+std::string toml_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value == 0 ? 0 : value);  // no -0
+  return text;
+}
+
+std::string toml_list(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + toml_number(value);
+  return text + "]";
+}
+
+std::string toml_vector(const optics::Vec3& v) { return toml_list({v.x, v.y, v.z}); }
+
+std::string toml_matrix(const optics::Mat3& m) {
+  std::string text = "[\n";
+  for (const optics::Vec3& row : {m.row0, m.row1, m.row2}) {
+    text +=
+        "  " + toml_number(row.x) + ", " + toml_number(row.y) + ", " + toml_number(row.z) + ",\n";
+  }
+  return text + "]";
+}
+
+std::string toml_string(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (code >= 0x20 && code != 0x7F) {
+      quoted += c;
+    } else {
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04X", code);
+      quoted += escape;
+    }
+  }
+  return quoted + "\"";
+}
+
+std::string toml_line(const char* key, const std::string& value) {
+  return std::string(key) + " = " + value + "\n";
+}
+
+std::string toml_outline(const optics::Outline& outline) {
+  return toml_line("centre", toml_list({outline.centre.u, outline.centre.v})) +
+         toml_line("radii", toml_list({outline.rx, outline.ry})) +
+         toml_line("angle", toml_number(outline.angle));
+}
+
+std::string toml_pose(const optics::Pose& pose) {
+  return toml_line("position", toml_vector(pose.position)) +
+         toml_line("rotation", toml_matrix(pose.rotation));
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/files/text_file.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// A configuration that runs until it is confirmed, or for `seconds`. Until then the files stay as
+/// they are: whatever ends the process, the next one runs them. In the folder of what must outlast
+/// a restart:
+///
+///     request_trial() --> trial.json --take_trial()--> trial-running.json --end_trial()--> nothing
+struct Trial {
+  std::filesystem::path site;  ///< the configuration file that it is in place of
+  FileTexts texts;             ///< by the path of the file that each will be
+  int seconds = 0;
+};
+
+/// Asks the daemon that has this folder for a trial. Atomic. Error: as write_file().
+Result<> request_trial(const std::filesystem::path& folder, const Trial& trial);
+
+/// Whether one was requested and not taken yet.
+bool is_trial_requested(const std::filesystem::path& folder);
+
+/// The requested one; it runs from now on, and is requested no more, so that it is run once.
+/// Nullopt: none. Error: it is damaged.
+Result<std::optional<Trial>> take_trial(const std::filesystem::path& folder);
+
+/// The one that runs; nullopt: none, it was confirmed or ended. Error: it is damaged.
+Result<std::optional<Trial>> running_trial(const std::filesystem::path& folder);
+
+/// None runs any more. Returns whether one did.
+bool end_trial(const std::filesystem::path& folder);
+
+}  // namespace orbwatch::app
