@@ -35,18 +35,19 @@ const std::vector<Rule> kRules{
      {"tl/expected", "opencv2/"}},
     {"proc/align",
      {"proc/image", "proc/settings", "proc/optics", "proc/align"},
-     {"tl/expected", "opencv2/"}},
-    {"hal",
-     {"proc/image", "proc/settings", "hal"},
-     {"tl/expected", "libcamera/", "gpiod", "linux/"}},
+     {"tl/expected", "opencv2/", "ceres/", "Eigen/"}},
+    {"hal", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "gpiod", "linux/"}},
     {"hal/jpeg", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "jpeglib", "jerror"}},
+    {"hal/libcamera",
+     {"proc/image", "proc/settings", "hal"},
+     {"tl/expected", "libcamera/", "linux/"}},
     {"hal/replay", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "opencv2/"}},
     {"hal/v4l2", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "linux/", "opencv2/"}},
     {"app",
      {"proc", "hal", "app"},
      {"opencv2/", "toml++/", "yaml-cpp/", "dds/", "modbus/", "tl/expected"}},
     {"app/model", {"proc", "hal", "app/model"}, {"tl/expected", "nlohmann/"}},
-    {"app/files", {"proc", "hal", "app"}, {"toml++/", "yaml-cpp/", "tl/expected"}},
+    {"app/files", {"proc", "hal", "app"}, {"nlohmann/", "toml++/", "yaml-cpp/", "tl/expected"}},
     {"app/ports/console", port("app/ports/console"), {"tl/expected"}},
     {"app/ports/lines", port("app/ports/lines"), {"tl/expected"}},
     {"app/ports/snapshot", port("app/ports/snapshot"), {"tl/expected"}},
@@ -56,6 +57,10 @@ const std::vector<Rule> kRules{
     {"app/ports/dds/security",
      {"proc/image", "app/ports/dds"},
      {"dds/", "openssl/", "tl/expected"}},
+    {"app/ports/web", port("app/ports/web"), {"nlohmann/", "tl/expected"}},
+    {"app/ports/web/http",
+     {"proc/image", "proc/settings", "hal", "app/ports/web/http", "app/ports/web/web_settings.h"},
+     {"microhttpd.h", "nlohmann/", "tl/expected"}},
     {"app/pictures", {"proc", "hal", "app/pictures"}, {"opencv2/", "turbojpeg", "tl/expected"}},
     {"app/ports/modbus", port("app/ports/modbus"), {"modbus/", "tl/expected"}},
     {"app/ports/modbus/map",
@@ -70,6 +75,9 @@ const std::vector<Rule> kRules{
      {"proc", "hal", "app/model", "app/pipeline", "app/pictures", "app/log.h"},
      {"tl/expected"}},
     {"app/simulation", {"proc", "hal", "app/simulation"}, {"tl/expected"}},
+    {"app/service",
+     {"proc", "hal", "app/model", "app/service", "app/log.h"},
+     {"systemd/", "tl/expected"}},
     {"app/state", {"proc", "hal", "app/model", "app/log.h", "app/state"}, {"tl/expected"}},
     {"app/health", {"proc", "hal", "app/model", "app/health", "app/log.h"}, {"tl/expected"}},
 };
@@ -129,7 +137,7 @@ bool is_standard(const std::string& header) {
     return true;
   }
   static const std::vector<std::string> kLibraries{"gpiod.h", "jerror.h", "jpeglib.h",
-                                                   "turbojpeg.h"};
+                                                   "microhttpd.h", "turbojpeg.h"};
   return header.find('/') == std::string::npos &&
          std::ranges::find(kLibraries, header) == kLibraries.end();
 }

@@ -17,7 +17,7 @@ namespace {
 const std::filesystem::path kShipped =
     std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
 
-constexpr std::size_t kColour = 0, kThermal = 1;
+constexpr std::size_t kThermal = 1;
 
 /// The demonstration, from which each test makes its own.
 Resolved demo() {

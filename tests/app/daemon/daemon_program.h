@@ -14,7 +14,9 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "app/model/command.h"
 #include "tests/support/loopback_dds.h"
 #include "tests/support/registers.h"
 #include "tests/support/subprocess.h"
@@ -134,11 +136,23 @@ class Daemon : public testing::Test {
     return false;
   }
   std::int64_t read(const std::string& name) const { return read_register(port, name); }
+  /// What the daemon answers to a command.
+  app::CommandResult command(Subprocess& daemon, app::CommandCode code,
+                             const std::vector<std::int32_t>& arguments = {}) {
+    write_command(port, static_cast<std::uint16_t>(code), arguments, ++sequence);
+    EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == sequence; }))
+        << daemon.output();
+    return static_cast<app::CommandResult>(read("command_result"));
+  }
+  bool says(Subprocess& daemon, const std::string& text) const {
+    return eventually(daemon, [&] { return daemon.output().find(text) != std::string::npos; });
+  }
 
   TemporaryFolder folder;
   std::string state_folder = "state";
   int port = free_port();
   int domain = 1 + getpid() % 100;
+  std::uint16_t sequence = 100;  ///< of the newest command
 };
 
 inline const std::string kSmallMachine = R"(

@@ -85,8 +85,8 @@ class Dispatch : public testing::Test {
   }
 
   CommandResult command(CommandCode code, double argument = 0) {
-    return dispatch({code, {argument}},
-                    {*pipeline, *lines, snapshots ? &*snapshots : nullptr, [this] { ++restarts; }});
+    return dispatch({code, {argument}}, {*pipeline, *lines, snapshots ? &*snapshots : nullptr,
+                                         watch, alignment, [this] { ++restarts; }});
   }
   /// A frame that becomes a set.
   Status next_set(std::size_t camera = 0) {
@@ -116,6 +116,9 @@ class Dispatch : public testing::Test {
   std::optional<SnapshotSink> snapshots;
   std::uint64_t sets = 0;
   int restarts = 0;
+  const Resolved site{};  // without cameras
+  CameraWatch watch{site, hal::SharedThreads::alone()};
+  AlignmentDesk alignment{site, watch, [this] { ++restarts; }};
 };
 
 TEST_F(Dispatch, ATriggerMakesAResultOfTheNextSetOfAFreeCamera) {
@@ -223,6 +226,17 @@ TEST_F(Dispatch, AllElseGoesToThePipeline) {
   EXPECT_EQ(command(CommandCode::Start), CommandResult::Done);
   EXPECT_EQ(command(CommandCode::SetProcessActive, 1), CommandResult::Done);
   EXPECT_EQ(command(CommandCode::AcknowledgeAlarm, 0), CommandResult::Done);
+}
+
+TEST_F(Dispatch, AlignsNoCameraThatIsNotThere) {
+  start({hal::TriggerMode::Off});
+  for (const CommandCode code :
+       {CommandCode::DetectBall, CommandCode::RegisterCamera, CommandCode::CorrectAlignment,
+        CommandCode::AcceptAlignment, CommandCode::DiscardAlignment, CommandCode::LearnCleanBall,
+        CommandCode::MarkPoint, CommandCode::ForgetPoints, CommandCode::PlaceCamera}) {
+    EXPECT_EQ(command(code), CommandResult::ArgumentOutOfRange);
+  }
+  EXPECT_EQ(restarts, 0);
 }
 
 }  // namespace

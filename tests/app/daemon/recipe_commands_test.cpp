@@ -61,20 +61,9 @@ class RecipeCommands : public Daemon {
     return file;
   }
 
-  /// What the daemon answers to a command.
-  CommandResult command(Subprocess& daemon, CommandCode code,
-                        const std::vector<std::int32_t>& arguments = {}) {
-    write_command(port, static_cast<std::uint16_t>(code), arguments, ++sequence);
-    EXPECT_TRUE(eventually(daemon, [&] { return read("acknowledged_sequence") == sequence; }))
-        << daemon.output();
-    return static_cast<CommandResult>(read("command_result"));
-  }
   bool measures(Subprocess& daemon, std::int64_t recipe) const {
     return eventually(
         daemon, [&] { return read("system_recipe") == recipe && read("region_0_quality") != 0; });
-  }
-  bool says(Subprocess& daemon, const std::string& text) const {
-    return eventually(daemon, [&] { return daemon.output().find(text) != std::string::npos; });
   }
   /// Whole pictures in a folder.
   std::vector<std::string> pictures(const std::string& name) const {
@@ -86,8 +75,6 @@ class RecipeCommands : public Daemon {
     std::ranges::sort(found);
     return found;
   }
-
-  std::uint16_t sequence = 100;
 };
 
 TEST_F(RecipeCommands, ARecipeIsSelectedAndTheViewsOfTheOtherStay) {

@@ -106,7 +106,6 @@ std::ptrdiff_t last_marker(const Bytes& jpeg, int marker) {
   }
 }
 
-constexpr int kEndOfImage = 0xd9;
 constexpr int kStartOfScan = 0xda;
 constexpr std::size_t kMarkerBytes = 2;
 

@@ -76,8 +76,10 @@ TEST(FrameSync, ATriggeredCamerasQueueFillsWhileAllOtherPlacesAreFull) {
   expose();
   const auto processed = sync.next(soon());
   ASSERT_TRUE(processed);
-  std::vector<Frame> others;  // an older one that is held, and those of readers
-  for (std::size_t n = 0; n < kHeldFrames + kFrameReaders; ++n) others.push_back(pool.acquire());
+  std::vector<Frame> others;  // an older one that is held, and those of readers and watch
+  for (std::size_t n = 0; n < kHeldFrames + kFrameReaders + kWatchedFrames; ++n) {
+    others.push_back(pool.acquire());
+  }
   for (std::size_t n = 0; n < kTriggeredDepth; ++n) expose();
   EXPECT_EQ(sync.counts(0).dropped(), 0U);
   EXPECT_EQ(pool.size() - pool.lent(), kArrivingFrames + kDeviceBuffers);

@@ -58,7 +58,7 @@ TEST_F(BenchProgram, RunsTheConfigurationWithItsCamerasAndWithTestPatterns) {
 
 TEST_F(BenchProgram, SaysWhatIsWrong) {
   const std::string config = write_config(small_machine());
-  expect_refused({}, "--config FILE is missing");
+  expect_refused({}, "/etc/orbwatch/site.toml");
   expect_refused({"--config", (folder.path() / "none.toml").string()}, "none.toml");
   expect_refused({"--config", config, "--seconds", "0"}, "it must be from 1 to 3600");
   expect_refused({"--config", config, "--seconds", "3601"}, "it must be from 1 to 3600");

@@ -62,15 +62,15 @@ Status example_status() {
   status.selected_view = 2;
   status.camera_count = 2;
   status.view_count = 3;
-  status.cameras[0] = {.frames_per_second = 29.974,
-                       .frames = 0x0033'0506,
-                       .lost = 0x0044'0607,
-                       .dropped = 0x0055'0708};
-  status.cameras[1] = {.fault = hal::Fault::Stalled,
-                       .frames_per_second = 12.5,
-                       .frames = 0x0066'0809,
-                       .lost = 0x0077'090a,
-                       .dropped = 0x0088'0a0b};
+  status.cameras[0].frames_per_second = 29.974;
+  status.cameras[0].frames = 0x0033'0506;
+  status.cameras[0].lost = 0x0044'0607;
+  status.cameras[0].dropped = 0x0055'0708;
+  status.cameras[1].fault = hal::Fault::Stalled;
+  status.cameras[1].frames_per_second = 12.5;
+  status.cameras[1].frames = 0x0066'0809;
+  status.cameras[1].lost = 0x0077'090a;
+  status.cameras[1].dropped = 0x0088'0a0b;
   status.views[2] = {.published = 0x0099'0b0c,
                      .skipped = 0x00aa'0c0d,
                      .frames_per_second = 24.996,

@@ -11,6 +11,7 @@
 #include "tests/app/ports/dds/fastdds/paced_views.h"
 #include "tests/app/ports/dds/fastdds/reader_program.h"
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
+#include "tests/support/sanitizers.h"
 
 /// Readers and cables fail; pictures go on to whom they can reach, the pipeline never waits, every
 /// picture is accounted for and memory does not grow.
@@ -33,13 +34,6 @@ std::int64_t resident_bytes() {
   file >> all >> resident;
   return resident * sysconf(_SC_PAGESIZE);
 }
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// A sanitizer keeps what was freed, and waits for locks of its own.
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 class NetworkFault : public testing::Test {
  protected:
@@ -68,7 +62,7 @@ class NetworkFault : public testing::Test {
   /// That the pipeline waited for nobody, and that each view was written, or dropped for a reason
   /// that is counted.
   void expect_accounted() {
-    if (!kSanitized) {
+    if (!tests::kIsSanitized) {
       // Once in a while the thread that has a topic's lock for a moment is displaced just then.
       EXPECT_LE(views_.waits(), views_.accepted() / 20) << "of " << views_.accepted();
     }
@@ -100,7 +94,7 @@ TEST_F(NetworkFault, AStoppedReaderHoldsNobodyUpAndGoesOn) {
   const auto before = resident_bytes();
   EXPECT_TRUE(gets_more(*healthy, 60));
   constexpr std::int64_t kFewPictures = 1 << 20;
-  if (!kSanitized) {
+  if (!tests::kIsSanitized) {
     EXPECT_LT(resident_bytes() - before, kFewPictures) << "what is kept for the stopped one grows";
   }
   stopped->program().send(SIGCONT);

@@ -231,7 +231,7 @@ TEST_F(SimulatedView, CountsAreTheTemperaturesOfTheMachine) {
   ASSERT_EQ(image["encoding"].string(), "mono16");
   ASSERT_EQ(static_cast<int>(image["is_bigendian"]), 0);
   ASSERT_EQ(pixels.size(), static_cast<std::size_t>(kWork.width) * kWork.height * 2);
-  const auto near = [&](int x, int y) {
+  const auto near = [&pixels = pixels](int x, int y) {
     const auto at = 2 * (static_cast<std::size_t>(y) * kWork.width + static_cast<std::size_t>(x));
     const double celsius = (pixels[at] | pixels[at + 1] << 8) * kKelvinPerCount - 273.15;
     constexpr double kNear = 2;

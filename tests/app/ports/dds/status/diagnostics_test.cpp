@@ -102,6 +102,17 @@ TEST_F(Diagnostics, CameraTellsItsFaultAndItsFigures) {
   EXPECT_EQ(level("orbwatch: camera thermal"), DiagnosticLevel::Ok);
 }
 
+TEST_F(Diagnostics, CameraTellsThatItMovedOrItsBallIsDirty) {
+  status_.cameras[0].alignment = WatchLevel::Warning;
+  EXPECT_EQ(level("orbwatch: camera colour"), DiagnosticLevel::Warn);
+  status_.cameras[0].cleanliness = WatchLevel::Alarm;
+  const Diagnostic camera = found("orbwatch: camera colour");
+  EXPECT_EQ(camera.level, DiagnosticLevel::Error);
+  EXPECT_EQ(camera.message,
+            "camera delivers; its alignment is beyond its warning limit; its ball's dirt is beyond "
+            "its alarm limit");
+}
+
 TEST_F(Diagnostics, ViewAndRegionAreStaleBeforeTheyGiveAnything) {
   EXPECT_EQ(level("orbwatch: view front"), DiagnosticLevel::Ok);
   EXPECT_EQ(value(found("orbwatch: view front"), "skipped"),

@@ -246,6 +246,7 @@ void RegisterSources::expect_status() {
   expect([](S s) { s.live.status.busy_ms = 1.2; }, {"system_busy_ms"});
   expect([](S s) { s.live.status.realtime = true; }, {"system_realtime"});
   expect([](S s) { s.live.status.memory_locked = true; }, {"system_memory_locked"});
+  expect([](S s) { s.live.status.configuration_refused = true; }, {"system_configuration_refused"});
   for (std::size_t i = 0; i < kStages; ++i) {
     const std::string name = "stage_" + std::string(name_of(static_cast<Stage>(i))) + "_";
     expect([i](S s) { s.live.status.stages[i].cpu_ms = 1.2; }, {name + "cpu_ms"});
@@ -287,6 +288,16 @@ void RegisterSources::expect_cameras_and_views() {
     expect_of("missed", [](C c) { ++c.missed; });
     expect_of("damaged", [](C c) { ++c.damaged; });
     expect_of("flawed", [](C c) { ++c.flawed; });
+    expect_of("alignment", [](C c) { c.alignment = WatchLevel::Alarm; }, {"fault_bits"});
+    expect_of("drift_error", [](C c) { c.drift_error = 1; });
+    expect_of("drift_shift", [](C c) { c.drift_shift = 1; });
+    expect_of("focus", [](C c) { c.focus = WatchLevel::Alarm; }, {"fault_bits"});
+    expect_of("blur", [](C c) { c.blur = 1; });
+    expect_of("cleanliness", [](C c) { c.cleanliness = WatchLevel::Alarm; }, {"fault_bits"});
+    expect_of("contamination", [](C c) { c.contamination = 1; });
+    expect_of("proposal", [](C c) { c.proposal = ProposalState::Ready; });
+    expect_of("proposal_error", [](C c) { c.proposal_error = 1; });
+    expect_of("marked_points", [](C c) { ++c.marked_points; });
   }
   for (std::size_t i = 0; i < kMaxViews; ++i) {
     const auto expect_of = [&](const std::string& what, auto change) {

@@ -10,6 +10,7 @@
 
 #include "tests/app/ports/modbus/abuses.h"
 #include "tests/app/ports/modbus/clients.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/share.h"
 
 namespace orbwatch::app {
@@ -19,17 +20,6 @@ using std::chrono::seconds;
 using tests::eventually;
 using tests::Plc;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
-#if defined(__SANITIZE_THREAD__)
-constexpr bool kHasTime = false;
-#else
-constexpr bool kHasTime = true;
-#endif
-
 /// The abuse, and whether its clients may write like the PLC, as everybody may unless configured
 /// otherwise.
 using Case = std::tuple<tests::Abuse, bool>;
@@ -37,7 +27,8 @@ using Case = std::tuple<tests::Abuse, bool>;
 /// Random frames come for a minute, or the share of it that runs.
 seconds duration(const Case& abuse) {
   const bool is_long = std::get<0>(abuse).name == "random frames" && std::get<1>(abuse);
-  return seconds(is_long && kHasTime ? orbwatch::tests::share_of(60) : 1);
+  return seconds(is_long && !orbwatch::tests::kHasThreadSanitizer ? orbwatch::tests::share_of(60)
+                                                                  : 1);
 }
 
 std::ptrdiff_t open_files() {
@@ -84,7 +75,7 @@ TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
     ASSERT_NO_FATAL_FAILURE(ask_for(seconds(1)));
     const long before = resident();
     ASSERT_NO_FATAL_FAILURE(ask_for(duration(GetParam())));
-    if (!kIsSanitized) {
+    if (!tests::kIsSanitized) {
       EXPECT_LT(resident() - before, 2'000'000) << "more than sockets can explain";
     }
     EXPECT_GT(abused.acts(), 10U);

@@ -1,0 +1,277 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "app/files/resolve.h"
+#include "app/model/command.h"
+#include "app/model/status.h"
+#include "hal/replay/picture_folder.h"
+#include "tests/app/daemon/daemon_program.h"
+#include "tests/proc/align/detect/painted_ball.h"
+#include "tests/proc/align/place/mirrored_rig.h"
+
+/// Alignments as a PLC commands them, on a recording of a ball.
+namespace orbwatch::tests {
+namespace {
+
+using app::CommandCode;
+using app::CommandResult;
+using app::ProposalState;
+using app::WatchLevel;
+
+/// One camera; its outline is 3 px beside the ball.
+const std::string kRecordingRig = R"(
+[[camera]]
+name = "colour"
+width = 400
+height = 320
+[camera.outline]
+centre = [205.3, 161.7]
+radius = 115
+distance = 12
+)";
+
+const std::string kRecordingRecipe = R"(
+name = "front"
+[[view]]
+name = "front"
+measured = "colour"
+width = 64
+height = 48
+[[view.source]]
+camera = "colour"
+[[region]]
+name = "front"
+view = "front"
+hot_spot_threshold = 95
+)";
+
+class AlignmentCommands : public Daemon {
+ protected:
+  std::string site(const std::string& watch = "") {
+    std::filesystem::create_directory(folder / "pictures");
+    show({{202.3, 161.7}, 115, 115, 0});
+    return write_config(
+        "[[camera]]\nname = \"colour\"\nback_end = \"replay\"\nframe_rate = 10\n"
+        "[camera.replay]\nsource = \"pictures\"\n[camera.watch]\n" +
+            watch,
+        kRecordingRig, kRecordingRecipe);
+  }
+  void show(const optics::Outline& limb) {
+    cv::imwrite((folder / "pictures" / "0.png").string(), align::painted_ball({400, 320}, limb));
+  }
+  bool proposes(Subprocess& daemon, ProposalState state) {
+    return eventually(daemon, [&] { return read("camera_0_proposal") == static_cast<int>(state); });
+  }
+};
+
+TEST_F(AlignmentCommands, AFoundBallIsAcceptedAndCountsAfterARestart) {
+  Subprocess daemon = start(site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_EQ(command(daemon, CommandCode::DetectBall, {1}), CommandResult::ArgumentOutOfRange);
+  ASSERT_EQ(command(daemon, CommandCode::DetectBall, {0}), CommandResult::Done);
+  ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+  EXPECT_TRUE(proposes(daemon, ProposalState::None)) << daemon.output();
+  EXPECT_TRUE(eventually(daemon, [&] {
+    return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
+  })) << daemon.output();
+}
+
+TEST_F(AlignmentCommands, AProposalCanBeDiscarded) {
+  Subprocess daemon = start(site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::DiscardAlignment, {0}), CommandResult::NotPossible);
+  ASSERT_EQ(command(daemon, CommandCode::DetectBall, {0}), CommandResult::Done);
+  ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::DiscardAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(proposes(daemon, ProposalState::None)) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+}
+
+/// A calibrated camera in front of the ball, which a tool with a lamp moves around. The rig has the
+/// ball's outline; where the camera stands is unknown.
+class PlacementCommands : public AlignmentCommands {
+ protected:
+  PlacementCommands() {
+    machine.centre = {120, 60, 430};
+    machine.radius = 50;
+    const optics::Vec3 forward = optics::normalized({-0.2, 1, -0.1});
+    const optics::Vec3 right = optics::normalized(cross(forward, {0, 0, 1}));
+    RigCamera camera;
+    camera.focal = 115 * std::sqrt(12 * 12 - 1.0);
+    camera.width = 400;
+    camera.height = 320;
+    camera.pose = {{right, cross(forward, right), forward}, machine.centre - forward * 600};
+    machine.cameras = {camera};
+    machine.points = {{-180, -100, 300}, {420, -140, 260}, {60, -300, 640},
+                      {380, 100, 700},   {-150, 40, 600},  {150, -260, 200}};
+  }
+
+  std::string placement_site() {
+    const RigCamera& camera = machine.cameras.front();
+    limb = limb_of(camera, machine.centre, machine.radius);
+    std::ostringstream rig;
+    rig.precision(10);
+    rig << "[ball]\ncentre = [120, 60, 430]\nradius = 50\n[[camera]]\nname = \"colour\"\n"
+        << "width = 400\nheight = 320\n[camera.intrinsics]\nfx = " << camera.focal
+        << "\nfy = " << camera.focal << "\ncx = 199.5\ncy = 159.5\n[camera.outline]\ncentre = ["
+        << limb.centre.u << ", " << limb.centre.v << "]\nradii = [" << limb.rx << ", " << limb.ry
+        << "]\nangle = " << limb.angle << "\n";
+    show_lamp({});
+    // So many that the recording reads each one anew.
+    std::filesystem::create_directory(folder / "pictures");
+    for (std::size_t n = 0; n <= hal::kKeptFolderBytes / (400 * 320); ++n) {
+      std::filesystem::create_symlink(folder / "shown.png",
+                                      folder / "pictures" / (std::to_string(n) + ".png"));
+    }
+    return write_config(
+        "[place]\nsigma_px = 0.5\n[[camera]]\nname = \"colour\"\nback_end = \"replay\"\n"
+        "frame_rate = 20\n[camera.replay]\nsource = \"pictures\"\n",
+        rig.str(), kRecordingRecipe);
+  }
+
+  /// Pictures with the lamp where that point is seen, and a brighter one that always hangs there.
+  void show_lamp(const std::optional<optics::Vec3>& point) {
+    cv::Mat picture = align::painted_ball({400, 320}, {limb.centre, limb.rx, limb.ry, limb.angle});
+    picture = picture / 3;
+    add_light(picture, {limb.centre.u + 30, limb.centre.v - 35}, 250, 2.5);
+    if (point) {
+      add_light(picture, seen_at(machine.cameras.front(), machine.centre, machine.radius, *point),
+                160, 1.5);
+    }
+    // The daemon reads it at any moment.
+    cv::imwrite((folder / "new.png").string(), picture);
+    std::filesystem::rename(folder / "new.png", folder / "shown.png");
+  }
+  static void add_light(cv::Mat& picture, const optics::Vec2& at, double light, double sigma) {
+    for (int v = 0; v < picture.rows; ++v) {
+      for (int u = 0; u < picture.cols; ++u) {
+        const double square = std::pow(u - at.u, 2) + std::pow(v - at.v, 2);
+        auto& pixel = picture.at<std::uint8_t>(v, u);
+        pixel = cv::saturate_cast<std::uint8_t>(pixel +
+                                                light * std::exp(-square / (2 * sigma * sigma)));
+      }
+    }
+  }
+
+  /// Arguments of mark_point: thousandths of mm.
+  static std::vector<std::int32_t> at(const optics::Vec3& p) {
+    const auto scaled = [](double mm) { return static_cast<std::int32_t>(std::lround(mm * 1000)); };
+    return {0, scaled(p.x), scaled(p.y), scaled(p.z)};
+  }
+  /// Moves the lamp there and marks it; whether it was.
+  bool mark(Subprocess& daemon, const optics::Vec3& point) {
+    show_lamp(point);
+    const auto frames = read("camera_0_frames");
+    const auto points = read("camera_0_marked_points");
+    return eventually(daemon, [&] { return read("camera_0_frames") > frames + 2; }) &&
+           command(daemon, CommandCode::MarkPoint, at(point)) == CommandResult::Done &&
+           eventually(daemon,
+                      [&] {
+                        return read("camera_0_proposal") !=
+                               static_cast<int>(ProposalState::Working);
+                      }) &&
+           eventually(daemon,
+                      [&] {
+                        return read("camera_0_marked_points") == points + 1 ||
+                               read("camera_0_proposal") ==
+                                   static_cast<int>(ProposalState::Refused);
+                      }) &&
+           read("camera_0_marked_points") == points + 1;
+  }
+
+  MirroredRig machine;
+  SeenLimb limb;
+};
+
+TEST_F(PlacementCommands, ACameraIsPlacedByALampThatTheMachineMoves) {
+  Subprocess daemon = start(placement_site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::PlaceCamera, {0}), CommandResult::NotPossible);
+  EXPECT_EQ(command(daemon, CommandCode::ForgetPoints, {0}), CommandResult::NotPossible);
+  EXPECT_EQ(command(daemon, CommandCode::MarkPoint, {0, 100'000'001, 0, 0}),
+            CommandResult::ArgumentOutOfRange);
+  for (const optics::Vec3& point : machine.points) {
+    ASSERT_TRUE(mark(daemon, point)) << daemon.output();
+  }
+  // The lamp is off, and what stays is no point.
+  show_lamp({});
+  const auto frames = read("camera_0_frames");
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > frames + 2; }));
+  ASSERT_EQ(command(daemon, CommandCode::MarkPoint, at({0, 0, 0})), CommandResult::Done);
+  ASSERT_TRUE(proposes(daemon, ProposalState::Refused)) << daemon.output();
+  EXPECT_TRUE(says(daemon, "no light has moved to (0, 0, 0 mm)")) << daemon.output();
+
+  ASSERT_EQ(command(daemon, CommandCode::PlaceCamera, {0}), CommandResult::Done);
+  ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  const auto error = read("camera_0_proposal_error");  // thousandths of degrees
+  EXPECT_GT(error, 10);
+  EXPECT_LT(error, 1500);
+  EXPECT_TRUE(says(daemon, "marked minus shown: (-180, -100, 300 mm)")) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  ASSERT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+  EXPECT_TRUE(says(daemon, "place by 6 points")) << daemon.output();
+  const auto site = app::resolve((folder / "site.toml").string());
+  ASSERT_TRUE(site) << site.error().message;
+  const optics::RigCamera& placed = site->rig.cameras.front();
+  ASSERT_TRUE(placed.pose);
+  const optics::Pose& truth = machine.cameras.front().pose;
+  EXPECT_LT(norm(placed.pose->position - truth.position), 10);
+  EXPECT_GT(dot(placed.pose->rotation.row2, truth.rotation.row2), std::cos(0.02));
+  EXPECT_GT(dot(placed.pose->rotation.row0, truth.rotation.row0), std::cos(0.02));
+}
+
+TEST_F(AlignmentCommands, TheFirstCameraIsRegisteredToNone) {
+  Subprocess daemon = start(site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::RegisterCamera, {0}), CommandResult::NotPossible);
+  EXPECT_EQ(command(daemon, CommandCode::LearnCleanBall, {0}), CommandResult::Done);
+  EXPECT_EQ(command(daemon, CommandCode::LearnCleanBall, {3}), CommandResult::ArgumentOutOfRange);
+}
+
+TEST_F(AlignmentCommands, ADriftIsAnAlarmAndBecomesTheAlignment) {
+  const std::string config = site();
+  {
+    Subprocess daemon = start(config);
+    ASSERT_TRUE(eventually(daemon, [&] {
+      return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
+    })) << daemon.output();
+  }
+  show({{206.3, 161.7}, 115, 115, 0});  // while it is off
+  Subprocess daemon = start(config);
+  ASSERT_TRUE(eventually(daemon, [&] {
+    return read("camera_0_alignment") == static_cast<int>(WatchLevel::Alarm);
+  })) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::CorrectAlignment, {0}), CommandResult::Done);
+  ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(eventually(daemon, [&] {
+    return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
+  })) << daemon.output();
+}
+
+TEST_F(AlignmentCommands, ALastingDriftIsCorrectedWhereThatIsConfigured) {
+  const std::string config = site("correct = true\n");
+  {
+    Subprocess daemon = start(config);
+    ASSERT_TRUE(eventually(daemon, [&] {
+      return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
+    })) << daemon.output();
+  }
+  show({{206.3, 161.7}, 115, 115, 0});
+  Subprocess daemon = start(config);
+  EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+  EXPECT_TRUE(eventually(daemon, [&] {
+    return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
+  })) << daemon.output();
+}
+
+}  // namespace
+}  // namespace orbwatch::tests

@@ -1,0 +1,241 @@
+#include <dirent.h>
+#include <gmock/gmock.h>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/app/daemon/daemon_program.h"
+#include "tests/support/notify_socket.h"
+
+/// `orbwatchd` as a service manager sees it.
+namespace orbwatch::tests {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr milliseconds kWatchdog(1000);
+
+/// The thread of a process by its name; 0: there is none.
+pid_t thread_of(pid_t process, const std::string& name) {
+  for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::ifstream in(task.path() / "comm");
+    std::string found;
+    if (std::getline(in, found) && found == name) return std::stoi(task.path().filename());
+  }
+  return 0;
+}
+
+/// Stops one thread of a child, as an endless wait in a driver would, and lets it go on with the
+/// object's end. All other threads run.
+class HungThread {
+ public:
+  explicit HungThread(pid_t thread) : thread_(thread) {
+    is_hung_ = ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) == 0 &&
+               ::ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr) == 0 &&
+               ::waitpid(thread, nullptr, __WALL) == thread;
+  }
+  HungThread(const HungThread&) = delete;
+  HungThread& operator=(const HungThread&) = delete;
+  ~HungThread() { ::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr); }
+
+  bool is_hung() const { return is_hung_; }
+
+ private:
+  const pid_t thread_;
+  bool is_hung_ = false;
+};
+
+using Service = Daemon;
+
+TEST_F(Service, IsReadyFeedsTheWatchdogAndEnds) {
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  Subprocess daemon = start(write_config(small_machine()));
+  manager.await("READY=1");
+  manager.await("WATCHDOG=1");
+
+  daemon.send(SIGHUP);
+  const std::string reloading = manager.await("RELOADING=1");
+  EXPECT_THAT(reloading, HasSubstr("MONOTONIC_USEC="));
+  EXPECT_THAT(reloading, HasSubstr("WATCHDOG_USEC=180000000")) << "building all anew takes time";
+  EXPECT_THAT(manager.await("READY=1"), HasSubstr("WATCHDOG_USEC=1000000"));
+
+  daemon.send(SIGTERM);
+  manager.await("STOPPING=1");
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+TEST_F(Service, AHungPipelineIsNotFedByAnythingElse) {
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  Subprocess daemon = start(write_config(small_machine()));
+  manager.await("STATUS=running");
+  {
+    const HungThread pipeline(thread_of(daemon.pid(), "pipeline"));
+    ASSERT_TRUE(pipeline.is_hung());
+    EXPECT_TRUE(manager.falls_silent(2 * kWatchdog, 10));
+    EXPECT_TRUE(daemon.runs()) << "Modbus and all other threads";
+    EXPECT_GT(read("system_frame_set"), 0);
+  }
+  manager.await("WATCHDOG=1");
+}
+
+/// Darkness, a pulled cable, a camera that was never there: the pipeline has to prove itself then,
+/// too.
+TEST_F(Service, FeedsWithoutACameraAndNotWhenThatHangs) {
+  const std::string unplugged =
+      "[[camera.fault]]\nfault = \"unplugged\"\nfrom = 3\nuntil = 1000000\n";
+  std::string machine = small_machine(unplugged);
+  machine.insert(machine.find("[[camera]]\nname = \"thermal\""), unplugged);
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  Subprocess daemon = start(write_config(machine));
+  manager.await("STATUS=fault");
+  manager.await("WATCHDOG=1");
+  manager.await("WATCHDOG=1");
+  const HungThread pipeline(thread_of(daemon.pid(), "pipeline"));
+  ASSERT_TRUE(pipeline.is_hung());
+  EXPECT_TRUE(manager.falls_silent(2 * kWatchdog, 10));
+}
+
+/// What the files said last is run, and every interface says so.
+TEST_F(Service, AWrongConfigurationLeavesTheLastGoodOneRunning) {
+  ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  const std::string config = write_config(small_machine());
+  ::setenv("ORBWATCH_CONFIG", config.c_str(), 1);
+  {
+    Subprocess daemon({ORBWATCHD_PROGRAM}, folder.path() / "daemon.log");
+    manager.await("READY=1");
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
+    EXPECT_EQ(read("system_configuration_refused"), 0);
+    std::ofstream(config) << "nonsense = ";
+    daemon.send(SIGHUP);
+    EXPECT_TRUE(eventually(daemon, [&] { return read("system_configuration_refused") == 1; }));
+    daemon.send(SIGKILL);
+  }
+  Subprocess daemon({ORBWATCHD_PROGRAM}, folder.path() / "daemon.log");
+  EXPECT_THAT(manager.await("READY=1"), HasSubstr("site.toml:1"));
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
+  EXPECT_EQ(read("system_configuration_refused"), 1);
+  EXPECT_THAT(daemon.output(), HasSubstr("the last good configuration runs"));
+  ::unsetenv("ORBWATCH_CONFIG");
+  ::unsetenv("STATE_DIRECTORY");
+}
+
+TEST_F(Service, AWrongConfigurationWithoutALastGoodOneIsRefused) {
+  ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+  Subprocess daemon = start((folder / "absent.toml").string());
+  EXPECT_EQ(daemon.wait(), 1);
+  EXPECT_THAT(daemon.output(), HasSubstr("no configuration ran here before"));
+  ::unsetenv("STATE_DIRECTORY");
+}
+
+/// A configuration under trial, on its way by `orbwatch configure`.
+class Configured : public Service {
+ protected:
+  Configured() : manager(folder / "notify", kWatchdog) {
+    ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+    config = write_config(small_machine());
+    ::setenv("ORBWATCH_CONFIG", config.c_str(), 1);
+    fs::create_directory(folder / "new");
+    for (const char* name : {"site.toml", "rig.toml", "recipe.toml"}) {
+      fs::copy_file(folder / name, folder / "new" / name);
+    }
+    std::string text = text_of(folder / "new/site.toml");
+    text.replace(text.find("name = \"room\""), 13, "name = \"hall\"");
+    std::ofstream(folder / "new/site.toml") << text;
+  }
+  ~Configured() override {
+    ::unsetenv("ORBWATCH_CONFIG");
+    ::unsetenv("STATE_DIRECTORY");
+  }
+
+  static std::string text_of(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  Subprocess run() const { return Subprocess({ORBWATCHD_PROGRAM}, folder / "daemon.log"); }
+  /// Exit code and output.
+  std::pair<int, std::string> configure(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {ORBWATCH_PROGRAM, "configure"});
+    Subprocess program(arguments, folder / "configure.log");
+    const int code = program.wait();
+    return {code, program.output()};
+  }
+  /// The new configuration runs, and the files are the old ones.
+  void begin_trial(const std::string& seconds) {
+    manager.await("READY=1");
+    old_checksum = read("system_configuration_checksum");
+    const auto [code, said] =
+        configure({(folder / "new/site.toml").string(), "--seconds", seconds});
+    EXPECT_EQ(code, 0) << said;
+    EXPECT_THAT(said, HasSubstr("-name = \"room\"\n+name = \"hall\"\n"));
+    manager.await("READY=1");
+    EXPECT_NE(read("system_configuration_checksum"), old_checksum);
+    EXPECT_THAT(text_of(config), HasSubstr("room"));
+  }
+
+  NotifySocket manager;
+  std::string config;
+  std::int64_t old_checksum = 0;
+};
+
+TEST_F(Configured, IsWrittenByItsConfirmation) {
+  Subprocess daemon = run();
+  begin_trial("3600");
+  const auto [code, said] = configure({"--confirm"});
+  EXPECT_EQ(code, 0) << said;
+  EXPECT_THAT(text_of(config), HasSubstr("hall"));
+  EXPECT_EQ(configure({"--confirm"}).first, 1) << "nothing waits any more";
+  const auto checksum = read("system_configuration_checksum");
+  daemon.send(SIGHUP);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), checksum) << daemon.output();
+}
+
+TEST_F(Configured, GoesBackWithoutConfirmation) {
+  Subprocess daemon = run();
+  begin_trial("10");
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
+  EXPECT_THAT(daemon.output(), HasSubstr("was not confirmed"));
+  EXPECT_EQ(configure({"--confirm"}).first, 1);
+}
+
+TEST_F(Configured, GoesBackAfterAPowerCut) {
+  {
+    Subprocess daemon = run();
+    begin_trial("3600");
+    daemon.send(SIGKILL);
+  }
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
+  EXPECT_THAT(daemon.output(), HasSubstr("was not confirmed"));
+}
+
+TEST_F(Configured, GoesBackWhenCancelled) {
+  Subprocess daemon = run();
+  begin_trial("3600");
+  EXPECT_EQ(configure({"--cancel"}).first, 0);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum) << daemon.output();
+}
+
+TEST_F(Configured, RefusesWhatIsWrongAndChangesNothing) {
+  std::ofstream(folder / "new/recipe.toml") << "nonsense = ";
+  const auto [code, said] = configure({(folder / "new/site.toml").string()});
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(said, HasSubstr("new/recipe.toml:1"));
+  EXPECT_FALSE(fs::exists(folder / "trial.json"));
+  fs::copy_file(folder / "recipe.toml", folder / "new/recipe.toml",
+                fs::copy_options::overwrite_existing);
+  EXPECT_EQ(configure({(folder / "new/site.toml").string(), "--dry-run"}).first, 0);
+  EXPECT_FALSE(fs::exists(folder / "trial.json"));
+  EXPECT_EQ(configure({}).first, 1);
+}
+
+}  // namespace
+}  // namespace orbwatch::tests

@@ -1,0 +1,121 @@
+#include "app/files/rig_edit.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "app/files/rig_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+const std::string kRig = R"(# our machine
+[ball]
+centre = [120, 60, 430]          # by tape
+radius = 50
+
+[[camera]]                       # the colour one
+name = "A"
+width = 800
+height = 600
+[camera.intrinsics]
+fx = 4000
+fy = 4000
+cx = 399.5
+cy = 299.5
+[camera.pose]                    # from the drawing
+position = [120, -540, 430]
+rotation = [1, 0, 0,  0, 0, -1,  0, 1, 0]
+
+# not calibrated
+[[camera]]
+name = "B"
+width = 800
+height = 600
+[camera.outline]
+centre = [402.5, 297.1]          # by eye
+radius = 264.8
+distance = 11.5
+rotation = [90, 0, 0]
+)";
+
+const optics::Mat3 kTurned = optics::rotation({10, 20, 30});
+
+Result<std::string> aligned(const CameraAlignment& camera) {
+  return aligned_rig(kRig, "rig.toml", ".", {std::nullopt, {camera}});
+}
+
+optics::RigCamera camera(const std::string& text, std::size_t n) {
+  const auto rig = parse_rig(text, "rig.toml", ".");
+  EXPECT_TRUE(rig) << rig.error().message << "\n" << text;
+  return rig ? rig->cameras[n] : optics::RigCamera{};
+}
+
+TEST(RigEdit, ChangesAnOutlineAndKeepsTheRest) {
+  const auto text = aligned({.camera = "B",
+                             .outline = optics::Outline{{400, 300}, 260.25, 259.5, 12},
+                             .registration = kTurned});
+  ASSERT_TRUE(text) << text.error().message;
+  const optics::RigCamera b = camera(*text, 1);
+  EXPECT_EQ(b.outline->rx, 260.25);
+  EXPECT_EQ(b.outline->ry, 259.5);
+  EXPECT_EQ(b.outline->angle, 12);
+  EXPECT_EQ(b.distance, 11.5);
+  EXPECT_NEAR(b.registration.row0.y, kTurned.row0.y, 1e-9);
+  for (const char* kept : {"# our machine", "# by tape", "# the colour one", "# from the drawing",
+                           "# not calibrated", "# by eye"}) {
+    EXPECT_NE(text->find(kept), std::string::npos) << kept << "\n" << *text;
+  }
+}
+
+TEST(RigEdit, PutsAPoseInThePlaceOfAnOutline) {
+  const optics::Pose pose{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {120, -500, 430}};
+  const optics::Intrinsics lens{800, 600, 3000, 3000, 399.5, 299.5, {}, {}};
+  const auto text = aligned({.camera = "B", .pose = pose, .intrinsics = lens});
+  ASSERT_TRUE(text) << text.error().message;
+  const optics::RigCamera b = camera(*text, 1);
+  EXPECT_FALSE(b.outline);
+  EXPECT_EQ(b.pose->position.y, -500);
+  EXPECT_EQ(b.intrinsics->fx, 3000);
+}
+
+TEST(RigEdit, PutsAnOutlineInThePlaceOfAPose) {
+  const auto text = aligned({.camera = "A",
+                             .outline = optics::Outline{{400, 300}, 280, 280, 0},
+                             .registration = kTurned});
+  ASSERT_TRUE(text) << text.error().message;
+  const optics::RigCamera a = camera(*text, 0);
+  EXPECT_FALSE(a.pose);
+  EXPECT_EQ(a.outline->rx, 280);
+}
+
+TEST(RigEdit, MovesTheBall) {
+  const auto text = aligned_rig(kRig, "rig.toml", ".", {optics::Vec3{121.5, 60, 430}, {}});
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_NE(text->find("centre = [121.5, 60, 430]          # by tape"), std::string::npos);
+}
+
+TEST(RigEdit, RefusesWhatItCannotChange) {
+  EXPECT_FALSE(aligned({.camera = "C", .registration = kTurned}));
+  // A registration without an outline to belong to.
+  EXPECT_FALSE(aligned({.camera = "A", .registration = kTurned}));
+  EXPECT_FALSE(aligned_rig("[[camera]]\nname = 3\n", "rig.toml", ".", {}));
+}
+
+TEST(RigEdit, WritesTheFileItReadAndOnlyThen) {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "rig.toml";
+  std::ofstream(file) << kRig;
+  EXPECT_FALSE(write_aligned_rig(file, {std::nullopt, {{.camera = "C"}}}, file));
+  const RigAlignment turned{std::nullopt, {{.camera = "B", .registration = kTurned}}};
+  const auto written = write_aligned_rig(file, turned, file);
+  ASSERT_TRUE(written) << written.error().message;
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_NEAR(camera(text.str(), 1).registration.row0.y, kTurned.row0.y, 1e-9);
+}
+
+}  // namespace
+}  // namespace orbwatch::app
