@@ -1,2 +1,4 @@
-# Memory errors and undefined behaviour, with the system's compiler.
-set(ORBWATCH_SANITIZE address,undefined CACHE STRING "")
+# Memory errors and undefined behaviour, with coverage for libFuzzer, which only clang has.
+set(CMAKE_C_COMPILER clang)
+set(CMAKE_CXX_COMPILER clang++)
+set(ORBWATCH_SANITIZE address,undefined,fuzzer-no-link CACHE STRING "")
