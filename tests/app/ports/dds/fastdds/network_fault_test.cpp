@@ -62,7 +62,7 @@ class NetworkFault : public testing::Test {
   /// That the pipeline waited for nobody, and that each view was written, or dropped for a reason
   /// that is counted.
   void expect_accounted() {
-    if (!tests::kIsSanitized) {
+    if (!orbwatch::tests::kIsSanitized) {
       // Once in a while the thread that has a topic's lock for a moment is displaced just then.
       EXPECT_LE(views_.waits(), views_.accepted() / 20) << "of " << views_.accepted();
     }
@@ -94,7 +94,7 @@ TEST_F(NetworkFault, AStoppedReaderHoldsNobodyUpAndGoesOn) {
   const auto before = resident_bytes();
   EXPECT_TRUE(gets_more(*healthy, 60));
   constexpr std::int64_t kFewPictures = 1 << 20;
-  if (!tests::kIsSanitized) {
+  if (!orbwatch::tests::kIsSanitized) {
     EXPECT_LT(resident_bytes() - before, kFewPictures) << "what is kept for the stopped one grows";
   }
   stopped->program().send(SIGCONT);

@@ -75,7 +75,7 @@ TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
     ASSERT_NO_FATAL_FAILURE(ask_for(seconds(1)));
     const long before = resident();
     ASSERT_NO_FATAL_FAILURE(ask_for(duration(GetParam())));
-    if (!tests::kIsSanitized) {
+    if (!orbwatch::tests::kIsSanitized) {
       EXPECT_LT(resident() - before, 2'000'000) << "more than sockets can explain";
     }
     EXPECT_GT(abused.acts(), 10U);
