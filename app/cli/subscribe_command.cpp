@@ -20,6 +20,8 @@ std::vector<Option> declare(SubscribeOptions& o) {
       {"save", 0, "DIR", "save the newest image of each topic as PNG", text_option(o.save)},
       {"seconds", 0, "N", "end after this time (default: Ctrl-C)",
        number_option("seconds", o.seconds)},
+      {"count", 0, "N", "end when each topic has brought so many (default: no end)",
+       number_option("count", o.count)},
       {"stats", 0, "", "print rate, size, latency and gaps every second", flag_option(o.stats)},
       {"each", 0, "", "print a line for each sample", flag_option(o.each)},
   };

@@ -85,6 +85,12 @@ class Schedule {
   hal::TimePoint end_ = hal::TimePoint::max();
 };
 
+bool has_enough(const Subscriptions& subscriptions, int count) {
+  return count > 0 && std::ranges::all_of(subscriptions, [&](const auto& subscription) {
+           return subscription->report().received >= static_cast<std::uint64_t>(count);
+         });
+}
+
 Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
               const SubscribeOptions& options, const std::atomic<bool>& cancelled,
               std::ostream& out) {
@@ -92,7 +98,7 @@ Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
   for (bool last = false; !last;) {
     const auto now = hal::Clock::now();
     // Once more after the end, for samples that have arrived by then.
-    last = cancelled || schedule.over(now);
+    last = cancelled || schedule.over(now) || has_enough(subscriptions, options.count);
     const auto waited = wait_for_data(wait_set, last ? kNoTime : schedule.wait(now));
     if (!waited) return tl::unexpected(waited.error());
     for (const auto& subscription : subscriptions) {

@@ -21,16 +21,17 @@ struct SubscribeOptions {
   std::vector<std::string> topics{};
   std::filesystem::path save{};  ///< folder for the newest image of each topic, made if missing
   double seconds = 0;            ///< 0: until cancelled
+  int count = 0;                 ///< samples of each topic that are enough; 0: never
   bool stats = false;            ///< a line per topic and second
   bool each = false;             ///< a line per sample
 };
 
-/// Reads topics until the time is over or `cancelled` is set, and saves the newest images at the
-/// end. Topics that end in /process_state carry process states, in /compressed JPEG pictures, all
-/// others images; invalid samples are refused and counted. Lines go to `out`. Returns an entry per
-/// topic, in the order asked for.
-/// Thread-bound; `cancelled` is checked ten times a second. Errors: a topic twice, no usable
-/// network interface, a file that cannot be written.
+/// Reads topics until the time is over, each has brought `count` or `cancelled` is set, and saves
+/// the newest images at the end. Topics that end in /process_state carry process states, in
+/// /compressed JPEG pictures, all others images; invalid samples are refused and counted. Lines go
+/// to `out`. Returns an entry per topic, in the order asked for. Thread-bound; `cancelled` is
+/// checked ten times a second. Errors: a topic twice, no usable network interface, a file that
+/// cannot be written.
 Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
                                            const std::atomic<bool>& cancelled, std::ostream& out);
 

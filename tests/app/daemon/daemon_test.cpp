@@ -34,7 +34,8 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
 
   Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
                      "orbwatch/process/image_raw", "--topic", "orbwatch/room/image_raw", "--topic",
-                     "orbwatch/process_state", "--save", folder.path().string(), "--seconds", "5"},
+                     "orbwatch/process_state", "--save", folder.path().string(), "--count", "1",
+                     "--seconds", "60"},
                     folder.path() / "reader.log");
   EXPECT_EQ(reader.wait(), 0) << reader.output();
   EXPECT_EQ(cv::imread((folder.path() / "process.png").string()).size(), cv::Size(160, 120));
@@ -263,10 +264,10 @@ hot_spot_threshold = 500
   ASSERT_TRUE(eventually(daemon, [&] {
     return read("system_frame_set") > 24 && read("region_0_hot_spot_present") > 0;
   })) << daemon.output();
-  Subprocess reader(
-      {ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
-       "orbwatch/merged/image_raw", "--save", folder.path().string(), "--seconds", "4"},
-      folder.path() / "reader.log");
+  Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
+                     "orbwatch/merged/image_raw", "--save", folder.path().string(), "--count", "1",
+                     "--seconds", "60"},
+                    folder.path() / "reader.log");
   EXPECT_EQ(reader.wait(), 0) << reader.output();
   // scene.json's melt pool, seen from the ball's centre: yaw -122.9 to -113.7, pitch -48.2 to
   // -40.4. In a few of the frames a spark is larger than it.

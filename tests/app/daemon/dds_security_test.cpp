@@ -47,8 +47,8 @@ TEST_F(SecureDaemon, IsSeenAndCommandedWithItsKeysOnly) {
   Subprocess daemon = start(secured_config());
   EXPECT_EQ(ask({"state", "--timeout", "60"}, "office"), 0) << said << daemon.output();
   EXPECT_THAT(said, HasSubstr("running: every camera delivers"));
-  EXPECT_EQ(ask({"subscribe", "--topic", "orbwatch/room/image_raw", "--seconds", "3", "--save",
-                 folder.path().string()},
+  EXPECT_EQ(ask({"subscribe", "--topic", "orbwatch/room/image_raw", "--count", "1", "--seconds",
+                 "60", "--save", folder.path().string()},
                 "office"),
             0)
       << said;

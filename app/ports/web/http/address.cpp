@@ -31,6 +31,8 @@ std::optional<std::string_view> host_of(std::string_view header) {
   std::string_view rest = end == std::string_view::npos ? "" : header.substr(end);
   if (is_bracketed) rest.remove_prefix(1);
   if (!rest.empty() && (rest.front() != ':' || !is_port(rest.substr(1)))) return std::nullopt;
+  // What follows would not be seen by functions for C strings.
+  if (host.find('\0') != std::string_view::npos) return std::nullopt;
   return host;
 }
 

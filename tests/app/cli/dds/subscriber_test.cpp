@@ -69,6 +69,9 @@ class Subscriber {
   ~Subscriber() { cancelled_ = true; }
 
   const SharedText& printed() const { return text_; }
+  bool has_ended() const {
+    return result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
   Result<std::vector<TopicReport>> cancel() {
     cancelled_ = true;
     return result_.get();
@@ -108,6 +111,26 @@ class SubscriberTest : public testing::Test {
   tests::DdsNetwork network_;
   orbwatch::tests::TemporaryFolder folder_;
 };
+
+TEST_F(SubscriberTest, EndsWhenEachTopicHasBroughtEnough) {
+  DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);
+  ASSERT_TRUE(sink.start());
+  Subscriber subscriber(
+      {.topics = {"orbwatch/front/image_raw", "orbwatch/process_state"}, .count = 3, .each = true});
+  const auto view = make_view(0, "front", 3, 64, 48, true);
+  ASSERT_TRUE(eventually([&] {
+    tests::hand_over(sink, view);
+    return subscriber.printed().matches("(rt/orbwatch/front/image_raw: 64x48 rgb8\n){4}");
+  })) << subscriber.printed().text();
+  EXPECT_FALSE(subscriber.has_ended()) << "the state has brought nothing";
+  ASSERT_TRUE(eventually([&] {
+    sink.accept(tests::make_status());
+    return subscriber.has_ended();
+  })) << subscriber.printed().text();
+  const auto report = subscriber.cancel();
+  ASSERT_TRUE(report) << report.error().message;
+  for (const auto& topic : *report) EXPECT_GE(topic.received, 3U) << topic.topic;
+}
 
 TEST_F(SubscriberTest, SavesWhatTheSinkPublishes) {
   DdsSink sink({.domain = tests::DdsNetwork::kSinkDomain}, {{}, {"front"}, {}}, nullptr);

@@ -17,6 +17,7 @@ TEST(OwnHost, IsAnAddressLocalhostOrAName) {
         "fd00::1", "ball.plant.example.", "ball", "127.0.0.1@evil.example"}) {
     EXPECT_FALSE(is_own_host(other, names)) << other;
   }
+  EXPECT_FALSE(is_own_host(std::string_view("127.0.0.1\0.evil.example", 23), names));
 }
 
 TEST(Loopback, IsThisComputerOnly) {
