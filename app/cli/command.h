@@ -39,6 +39,7 @@ Result<std::string> command_command(const std::vector<std::string>& arguments);
 Result<std::string> dds_keys_command(const std::vector<std::string>& arguments);
 Result<std::string> bench_command(const std::vector<std::string>& arguments);
 Result<std::string> configure_command(const std::vector<std::string>& arguments);
+Result<std::string> doctor_command(const std::vector<std::string>& arguments);
 Result<std::string> lines_command(const std::vector<std::string>& arguments);
 Result<std::string> list_command(const std::vector<std::string>& arguments);
 

@@ -7,6 +7,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/options/options.h"
 #include "app/version.h"
 
 namespace orbwatch::app {
@@ -31,6 +32,7 @@ constexpr std::array kCommandTable{
     Subcommand{"command", "send a command to a running orbwatchd", command_command},
     Subcommand{"dds-keys", "make the keys of a secured DDS domain", dds_keys_command},
     Subcommand{"list", "show the cameras and GPIO lines that are connected", list_command},
+    Subcommand{"doctor", "check this board: what is wrong, and what mends it", doctor_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},
     Subcommand{"bench", "whether this computer does the work of a configuration", bench_command},
@@ -92,7 +94,7 @@ int main(int argc, char** argv) try {
     return 0;
   }
   std::fprintf(stderr, "orbwatch: %s\n", text.error().message.c_str());
-  return 1;
+  return orbwatch::app::error_status();
 } catch (const std::bad_alloc&) {
   std::fputs("orbwatch: not enough memory for pictures of this size\n", stderr);
   return 1;

@@ -12,10 +12,10 @@
 namespace orbwatch::app {
 namespace fs = std::filesystem;
 
-std::optional<std::string> read_system_file(const fs::path& file) {
+std::optional<std::string> read_system_file(const fs::path& file, std::size_t most) {
   const hal::FileDescriptor in(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!in.is_open()) return std::nullopt;
-  std::string text(std::size_t{16} << 10, '\0');
+  std::string text(most, '\0');
   std::size_t size = 0;
   while (size < text.size()) {
     const ssize_t got = ::read(in.get(), text.data() + size, text.size() - size);

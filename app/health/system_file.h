@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,9 +10,10 @@
 
 namespace orbwatch::app {
 
-/// The first 16 KiB of a file of procfs or sysfs; nullopt when it cannot be read. Never blocks, for
-/// any kind of file. Reentrant.
-std::optional<std::string> read_system_file(const std::filesystem::path& file);
+/// The first `most` bytes of a file of procfs or sysfs, 16 KiB unless said; nullopt when it cannot
+/// be read. Never blocks, for any kind of file. Reentrant.
+std::optional<std::string> read_system_file(const std::filesystem::path& file,
+                                            std::size_t most = std::size_t{16} << 10);
 
 /// A text that is one number, with white space around it; else nullopt. Base 16 may begin with 0x.
 /// Reentrant.

@@ -70,6 +70,9 @@ The command did what was asked; what it found is on standard output.
 .TP
 1
 It did not, or what it judges is not good enough; the reason is on standard error.
+.TP
+2
+Of a command that says so: its options or arguments are wrong.
 .SH ENVIRONMENT
 .TP
 .B ORBWATCH_CONFIG

@@ -17,6 +17,9 @@ constexpr int kFirstLong = 1000;
 /// Where a command line goes instead of being run, while declaration_of() asks for it.
 std::optional<CommandLine>* asked_declaration = nullptr;
 
+/// Of the command that run_command() ran last.
+int last_error_status = 1;
+
 tl::unexpected<Error> refuse(const std::string& what) { return fail(what + "; see --help"); }
 
 /// Calls the options' set(); returns the arguments that are no option.
@@ -78,14 +81,18 @@ Result<std::string> run_command(
     *asked_declaration = std::move(line);
     return std::string();
   }
+  last_error_status = line.usage_status;
   const auto words = parse(std::move(arguments), line.options, line.order);
   if (!words) return tl::unexpected(words.error());
   if (asks_help) return line.usage + options_help(line.options) + line.notes;
   if (!words->empty() && !line.takes_words) {
     return refuse("unexpected argument " + words->front());
   }
+  last_error_status = 1;
   return run(*words);
 }
+
+int error_status() { return last_error_status; }
 
 std::optional<CommandLine> declaration_of(const Subcommand& command) {
   std::optional<CommandLine> declared;

@@ -32,7 +32,8 @@ struct CommandLine {
   std::vector<Option> options;
   bool takes_words = false;  ///< arguments that are no option
   OptionOrder order = OptionOrder::Anywhere;
-  std::string notes{};  ///< printed by --help behind the options
+  std::string notes{};   ///< printed by --help behind the options
+  int usage_status = 1;  ///< exit status when the arguments are not these
 };
 
 /// Parses `arguments` (the command's name first), calls the options' set(), and returns what `run`
@@ -41,6 +42,10 @@ struct CommandLine {
 Result<std::string> run_command(
     std::vector<std::string> arguments, CommandLine line,
     const std::function<Result<std::string>(const std::vector<std::string>& words)>& run);
+
+/// The exit status of the error that run_command() returned last: the command's usage_status when
+/// it refused the arguments, else 1. Thread-bound.
+int error_status();
 
 /// `text` as a finite number. The error names the option `name`.
 Result<double> parse_number(std::string_view name, std::string_view text);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "app/cli/doctor/diagnosis.h"
+#include "app/cli/doctor/facts.h"
+
+/// The checks: what follows from facts. Each returns a line or more without the check's name, or
+/// none where the configuration has no use for it. All pure and reentrant.
+namespace orbwatch::app::doctor {
+
+Diagnoses check_configuration(const Facts& facts);
+Diagnoses check_board(const Facts& facts);
+Diagnoses check_kernel(const Facts& facts);
+Diagnoses check_heaps(const Facts& facts);
+Diagnoses check_cameras(const Facts& facts);
+Diagnoses check_lines(const Facts& facts);
+Diagnoses check_real_time(const Facts& facts);
+Diagnoses check_clock(const Facts& facts);
+Diagnoses check_receive_buffer(const Facts& facts);
+Diagnoses check_ports(const Facts& facts);
+Diagnoses check_firewall(const Facts& facts);
+Diagnoses check_disk(const Facts& facts);
+Diagnoses check_watchdog(const Facts& facts);
+Diagnoses check_heat(const Facts& facts);
+
+/// All of them, in this order, with their names.
+Diagnoses diagnose(const Facts& facts);
+
+}  // namespace orbwatch::app::doctor

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app::doctor {
+
+enum class Level : std::uint8_t {
+  Ok,
+  Warning,  ///< orbwatchd runs, with a risk or a lack
+  Fault,    ///< orbwatchd does not do what its configuration says
+};
+
+inline constexpr std::array kLevels{Word{"ok", Level::Ok}, Word{"warning", Level::Warning},
+                                    Word{"fault", Level::Fault}};
+
+/// What one check found.
+struct Diagnosis {
+  std::string check{};  ///< its name
+  Level level = Level::Ok;
+  std::string text{};    ///< may quote devices and files
+  std::string remedy{};  ///< the command that mends it, or the deed where none does; empty: ok
+};
+using Diagnoses = std::vector<Diagnosis>;
+
+inline Diagnosis ok(std::string text) { return {.text = std::move(text)}; }
+inline Diagnosis warning(std::string text, std::string remedy) {
+  return {.level = Level::Warning, .text = std::move(text), .remedy = std::move(remedy)};
+}
+inline Diagnosis fault(std::string text, std::string remedy) {
+  return {.level = Level::Fault, .text = std::move(text), .remedy = std::move(remedy)};
+}
+
+}  // namespace orbwatch::app::doctor

@@ -1,0 +1,113 @@
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <set>
+#include <sstream>
+
+#include "app/cli/doctor/gather.h"
+#include "app/cli/doctor/program_output.h"
+#include "app/health/system_file.h"
+#include "app/ports/web/http/address.h"
+#include "hal/thread/file_descriptor.h"
+
+/// Ports, limits of the network, packet filter.
+namespace orbwatch::app::doctor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestTable = std::size_t{1} << 20;  // bytes, 7000 sockets
+
+/// errno of binding as orbwatchd does; the port is free again at once, since nothing listened.
+int bind_error(const std::string& address, int port) {
+  const auto parsed = web::parse_address(address, port);
+  if (!parsed) return EINVAL;
+  const hal::FileDescriptor socket(
+      ::socket(parsed->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket.is_open()) return errno;
+  const int on = 1;
+  if (::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) != 0) return errno;
+  return ::bind(socket.get(), parsed->get(), parsed->length) == 0 ? 0 : errno;
+}
+
+/// The sockets that listen on `port`, in a table as /proc/net/tcp: by inode.
+void add_listeners(const fs::path& table, int port, std::set<std::string>& sockets) {
+  std::istringstream lines(read_system_file(table, kLongestTable).value_or(""));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string number, local, remote, state, queues, timer, retries, user, timeout, inode;
+    words >> number >> local >> remote >> state >> queues >> timer >> retries >> user >> timeout >>
+        inode;
+    constexpr const char* kListens = "0A";
+    if (!words || state != kListens || local.find(':') == std::string::npos) continue;
+    if (to_integer(local.substr(local.rfind(':') + 1), 16) == port) {
+      sockets.insert("socket:[" + inode + "]");
+    }
+  }
+}
+
+bool has_one_of(const fs::path& process, const std::set<std::string>& sockets) {
+  return std::ranges::any_of(entries(process / "fd"), [&](const fs::path& descriptor) {
+    std::error_code error;
+    return sockets.contains(fs::read_symlink(descriptor, error).string());
+  });
+}
+
+void add_port(const Sources& sources, const std::string& key, const std::string& address, int port,
+              Facts& facts) {
+  if (port == 0) return;
+  const fs::path proc = sources.at("/proc");
+  PortFacts found{.key = key, .address = address, .port = port};
+  found.error = bind_error(address, port);
+  if (found.error == EADDRINUSE) found.holder = listener_on(proc, port);
+  found.service_runs = facts.limits.of_service;
+  facts.ports.push_back(std::move(found));
+}
+
+void gather_ports(const Sources& sources, Facts& facts) {
+  const auto& modbus = std::get<ModbusSettings>(facts.site->sinks);
+  if (modbus.enabled) {
+    add_port(sources, "modbus", modbus.address, modbus.port, facts);
+    if (modbus.serial && !sources.has(modbus.serial->device)) {
+      facts.missing_serial_line = modbus.serial->device;
+    }
+  }
+  const auto& web = std::get<WebSettings>(facts.site->sinks);
+  if (web.enabled) add_port(sources, "web", web.address, web.port, facts);
+}
+
+}  // namespace
+
+std::string listener_on(const fs::path& proc, int port) {
+  std::set<std::string> sockets;
+  for (const char* table : {"net/tcp", "net/tcp6"}) add_listeners(proc / table, port, sockets);
+  if (sockets.empty()) return "";
+  for (const fs::path& process : entries(proc)) {
+    if (!to_integer(process.filename().native()) || !has_one_of(process, sockets)) continue;
+    const std::string name = read_system_file(process / "comm").value_or("");
+    return name.substr(0, name.find('\n'));
+  }
+  return "";
+}
+
+void gather_network(const Sources& sources, Facts& facts) {
+  NetworkFacts& network = facts.network;
+  const fs::path settings = sources.at("/proc/sys/net");
+  network.largest_receive_buffer = read_integer(settings / "core/rmem_max");
+  network.first_free_port = read_integer(settings / "ipv4/ip_unprivileged_port_start");
+  network.has_sysctl_file = sources.has("/usr/lib/sysctl.d/60-orbwatch-dds.conf");
+  network.has_unit = sources.has("/usr/lib/systemd/system/orbwatch.service") ||
+                     sources.has("/lib/systemd/system/orbwatch.service");
+  FirewallFacts& firewall = facts.firewall;
+  const fs::path nft = sources.at("/usr/sbin/nft");
+  firewall.has_nft = sources.has("/usr/sbin/nft");
+  if (firewall.has_nft) firewall.ruleset = program_output(nft, {"-j", "list", "ruleset"});
+  for (const char* tables : {"net/ip_tables_names", "net/ip6_tables_names"}) {
+    const auto names = read_system_file(sources.at("/proc") / tables);
+    firewall.has_iptables = firewall.has_iptables || (names && !names->empty());
+  }
+  if (facts.site) gather_ports(sources, facts);
+}
+
+}  // namespace orbwatch::app::doctor

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace orbwatch::app::doctor {
+
+struct ProgramLimits {
+  std::chrono::milliseconds time{5000};
+  std::size_t bytes = std::size_t{1} << 20;
+};
+
+/// What a program prints to standard output, in the language C. Nullopt: it cannot be started,
+/// ends with another status than 0, prints more than `limits.bytes`, or does not end in time; it
+/// and what it started in its process group are killed then. Never waits longer.
+std::optional<std::string> program_output(const std::filesystem::path& program,
+                                          const std::vector<std::string>& arguments,
+                                          const ProgramLimits& limits = {});
+
+}  // namespace orbwatch::app::doctor

@@ -1,0 +1,75 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/app/cli/command_line.h"
+
+/// `orbwatch doctor` as an installer runs it, on whatever machine this is.
+namespace orbwatch::tests {
+namespace {
+
+class Doctor : public CommandLine {
+ protected:
+  /// The shipped demo, which needs no device, no port and no network.
+  std::string demo() {
+    const auto shipped = std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
+    for (const char* name : {"demo-rig.toml", "demo-recipe.toml"}) {
+      std::filesystem::copy_file(shipped / name, path(name));
+    }
+    std::ifstream in(shipped / "demo.toml");
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t port = text.find("port = 1502");
+    EXPECT_NE(port, std::string::npos);
+    text.replace(port, 11, "port = 0");
+    return write("site.toml", "state_folder = \"" + path("state") + "\"\n" + text);
+  }
+
+  void expect_levels(const std::string& worst) const {
+    const auto report = nlohmann::json::parse(said.substr(0, said.rfind('}') + 1), nullptr, false);
+    ASSERT_TRUE(report.is_object()) << said;
+    EXPECT_TRUE(worst.empty() || report["worst"] == worst) << said;
+    for (const auto& check : report["checks"]) {
+      const bool is_ok = check["level"] == "ok";
+      ASSERT_TRUE(check["remedy"].is_string()) << check;
+      EXPECT_EQ(check["remedy"].get<std::string>().empty(), is_ok) << check;
+    }
+  }
+};
+
+TEST_F(Doctor, FindsNoFaultWhereTheConfigurationNeedsNothing) {
+  const std::string site = demo();
+  EXPECT_EQ(run({"doctor", "--config", site, "--json"}), 0) << said;
+  expect_levels("");
+  EXPECT_EQ(run({"doctor", "--config", site}), 0) << said;
+  EXPECT_NE(said.find("0 faults"), std::string::npos) << said;
+  EXPECT_NE(said.find("configuration"), std::string::npos) << said;
+}
+
+TEST_F(Doctor, AFaultIsStatus1AndStillATableOrJson) {
+  const std::string none = path("none.toml");
+  EXPECT_EQ(run({"doctor", "--config", none}), 1);
+  EXPECT_NE(said.find("none.toml: there is none. Remedy: orbwatch setup"), std::string::npos);
+  EXPECT_NE(said.find("orbwatch: 1 fault"), std::string::npos) << said;
+  EXPECT_EQ(run({"doctor", "--config", none, "--json"}), 1);
+  expect_levels("fault");
+}
+
+TEST_F(Doctor, ACameraThatIsNotThereIsAFault) {
+  const auto shipped = std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
+  for (const char* name : {"usb-camera.toml", "usb-camera-rig.toml", "usb-camera-recipe.toml"}) {
+    std::filesystem::copy_file(shipped / name, path(name));
+  }
+  EXPECT_EQ(run({"doctor", "--config", path("usb-camera.toml")}), 1) << said;
+  EXPECT_NE(said.find("fault    cameras"), std::string::npos) << said;
+}
+
+TEST_F(Doctor, WrongUsageIsStatus2) {
+  EXPECT_EQ(run({"doctor", "--yaml"}), 2);
+  EXPECT_EQ(run({"doctor", "site.toml"}), 2);
+  EXPECT_EQ(run({"doctor", "--config"}), 2);
+  expect_refused("doctor", {"Option", {"--yaml"}, {"--yaml", "--help"}});
+  EXPECT_EQ(run({"list", "--yaml"}), 1) << "of other commands it is as before";
+  EXPECT_EQ(run({"doctor", "--help"}), 0);
+  EXPECT_NE(said.find("Exit status 0: no fault. 1: a fault. 2: wrong usage."), std::string::npos);
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
