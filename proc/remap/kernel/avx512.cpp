@@ -323,33 +323,48 @@ template <Layout layout, Kept kept>
   }
 }
 
-/// So many blocks side by side make rows of 16 bytes, or of 12 if a pixel has three.
-constexpr int group_of(int out_bytes) { return out_bytes == 3 ? 1 : 4 / out_bytes; }
+/// So many blocks side by side make rows of 16 bytes, or of 48 if a pixel has three.
+constexpr int group_of(int out_bytes) { return out_bytes == 3 ? 4 : 4 / out_bytes; }
 
-/// Row j of a group of blocks in 128 bit lane j.
+/// A group's rows in parts of 16 bytes: of each part row j in 128 bit lane j.
 template <int out_bytes>
-__m512i rows_of(const __m512i (&blocks)[group_of(out_bytes)]) {
+struct Rows {
+  __m512i parts[out_bytes == 3 ? 3 : 1];
+};
+
+template <int out_bytes>
+Rows<out_bytes> rows_of(const __m512i (&blocks)[group_of(out_bytes)]) {
   if constexpr (out_bytes == 1) {
-    return _mm512_packus_epi16(_mm512_packus_epi32(blocks[0], blocks[1]),
-                               _mm512_packus_epi32(blocks[2], blocks[3]));
+    return {{_mm512_packus_epi16(_mm512_packus_epi32(blocks[0], blocks[1]),
+                                 _mm512_packus_epi32(blocks[2], blocks[3]))}};
   } else if constexpr (out_bytes == 2) {
-    return _mm512_packus_epi32(blocks[0], blocks[1]);
+    return {{_mm512_packus_epi32(blocks[0], blocks[1])}};
   } else if constexpr (out_bytes == 3) {
-    return _mm512_shuffle_epi8(
-        blocks[0], _mm512_broadcast_i32x4(
-                       _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
+    const __m512i order = _mm512_broadcast_i32x4(
+        _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1));
+    const auto row = [&](int k) { return _mm512_shuffle_epi8(blocks[k], order); };
+    const __m512i second = row(1), third = row(2);
+    return {{_mm512_or_si512(row(0), _mm512_bslli_epi128(second, 12)),
+             _mm512_or_si512(_mm512_bsrli_epi128(second, 4), _mm512_bslli_epi128(third, 8)),
+             _mm512_or_si512(_mm512_bsrli_epi128(third, 8), _mm512_bslli_epi128(row(3), 4))}};
   } else {
-    return blocks[0];
+    return {{blocks[0]}};
   }
 }
 
+/// The first `bytes` of row j of `parts`, a multiple of 4.
 template <int j, int bytes>
-void store_row(__m512i rows, std::uint8_t* out) {
-  const __m128i row = _mm512_extracti32x4_epi32(rows, j);
-  if constexpr (bytes == 16) {
+void store_row(const __m512i* parts, std::uint8_t* out) {
+  const __m128i row = _mm512_extracti32x4_epi32(parts[0], j);
+  if constexpr (bytes >= 16) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out), row);
+    if constexpr (bytes > 16) store_row<j, bytes - 16>(parts + 1, out + 16);
   } else {
-    _mm_mask_storeu_epi32(out, (1 << bytes / 4) - 1, row);
+    // No store by mask: some processors take many cycles for one.
+    if constexpr (bytes >= 8) _mm_storeu_si64(out, row);
+    constexpr int kLast = bytes / 4 - 1;
+    const int last = _mm_extract_epi32(row, kLast);
+    if constexpr (bytes % 8 != 0) std::memcpy(out + 4 * kLast, &last, sizeof last);
   }
 }
 
@@ -396,12 +411,12 @@ void fill_row(const TileJob& job, const BlockRow* row, const Shape& shape, std::
       blocks[k] = sample<layout, kept>(window, second, job.source.stride, here);
       lanes = _mm512_add_epi16(lanes, shape.along_x);
     }
-    const __m512i rows = rows_of<kOutBytes>(blocks);
+    const auto rows = rows_of<kOutBytes>(blocks);
     constexpr int kBytes = kCount * kBlock * kOutBytes;
-    store_row<0, kBytes>(rows, out);
-    store_row<1, kBytes>(rows, out + job.target.stride);
-    store_row<2, kBytes>(rows, out + 2 * job.target.stride);
-    store_row<3, kBytes>(rows, out + 3 * job.target.stride);
+    store_row<0, kBytes>(rows.parts, out);
+    store_row<1, kBytes>(rows.parts, out + job.target.stride);
+    store_row<2, kBytes>(rows.parts, out + 2 * job.target.stride);
+    store_row<3, kBytes>(rows.parts, out + 3 * job.target.stride);
     out += kBytes;
   }
 }
