@@ -180,11 +180,11 @@ void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
   }
 }
 
-/// By a kernel that keeps half of the pixels of a `fine` target, if there is one.
+/// By a kernel that keeps half of the pixels of a `fine` target. False: they do not fit windows.
 bool PlaneSampler::keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
                              const TargetPlane& fine, const TargetPlane& kept) const {
   BlockMap map;
-  if (kernel == nullptr || !map.fit(patch, fine.columns, fine.rows, rounding_)) return false;
+  if (!map.fit(patch, fine.columns, fine.rows, rounding_)) return false;
   kernel({map, source, kept});
   return true;
 }
@@ -198,7 +198,10 @@ bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& sourc
     const TargetPlane fine = samples.plane(pixel_bytes_, target.columns, kTile);
     const TargetPlane kept{target.data + top / 2 * target.stride, target.stride, target.columns,
                            kTile / 2};
-    if (keep_half(even_rows_, from_top, source, fine, kept)) continue;
+    if (even_rows_ != nullptr) {
+      if (!keep_half(even_rows_, from_top, source, fine, kept)) return false;
+      continue;
+    }
     if (!sample_blocks(from_top, source, fine)) return false;
     keep_even_rows(fine, target.columns * pixel_bytes_, kept);
   }
@@ -215,10 +218,10 @@ bool PlaneSampler::sample_half_columns(const Patch& patch, const SourcePlane& so
     const TargetPlane fine = samples.plane(pixel_bytes_, kTile, target.rows);
     const TargetPlane kept{target.data + left / 2 * pixel_bytes_, target.stride, kTile / 2,
                            target.rows};
-    if (keep_half(even_columns_, from_left, source, fine, kept)) continue;
-    if (!sample_blocks(from_left, source, fine) && !sample_half_rows(from_left, source, fine)) {
-      return false;
-    }
+    const bool is_kept = even_columns_ != nullptr;
+    if (is_kept && keep_half(even_columns_, from_left, source, fine, kept)) continue;
+    const bool fits = !is_kept && sample_blocks(from_left, source, fine);
+    if (!fits && !sample_half_rows(from_left, source, fine)) return false;
     keep_even_columns(fine, pixel_bytes_, kept);
   }
   return true;
