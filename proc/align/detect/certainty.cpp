@@ -8,24 +8,22 @@ namespace {
 
 /// px: above, more radius says no more.
 constexpr double kLargeEnough = 90;
-/// More likelihood than that does not make it more certain: a disc's sharp rim has it, too.
-constexpr double kEnough = 1.5;
-constexpr double kMostShift = 1.5;
+/// More likelihood than that does not make it more certain.
+constexpr double kEnough = 2.5;
 
 /// A ball's limb is hardly a step, since it reflects what is behind it. A sharp edge all around is
 /// a disc's or a matt sphere's, if it is not also very much like a ball's.
 double disc(const LimbEvidence& evidence) {
-  constexpr double kSharp = 0.85, kVeryLikely = 3.5;
+  constexpr double kSharp = 0.85, kVeryLikely = 3;
   return std::max(evidence.contour - kSharp, 0.0) *
-         std::clamp(kVeryLikely - evidence.likelihood, 0.0, 2.0);
+         std::clamp(kVeryLikely - evidence.likelihood, 0.0, 1.0);
 }
 
 }  // namespace
 
 double certainty(const LimbEvidence& e) {
-  const double odds = 35 * e.rank + 2.6 * std::log(std::min(e.radius, kLargeEnough) / 60) +
-                      7.4 * e.near_drop - 1.2 * std::min(e.shift, kMostShift) +
-                      2.8 * std::min(e.likelihood, kEnough) - 44 * disc(e) - 4.2;
+  const double odds = 6.6 * std::log(std::min(e.radius, kLargeEnough) / 60) + 12.2 * e.near_drop +
+                      2.6 * std::min(e.likelihood, kEnough) - 63 * disc(e) - 5.7;
   const bool is_enough = e.likelihood >= kLeastLikelihood && e.radius >= kLeastRadius;
   return is_enough ? odds : std::min(odds, -0.1);
 }

@@ -16,20 +16,19 @@ constexpr int kRounds = 4;  // per step
 
 double Circle::rank() const { return evidence / (radius * radius + kSmall); }
 
-Circle best_circle(const Slopes& slopes, const ReflectionLaw& law, Rings rings, Vec2 centre,
-                   double nearest, double farthest) {
+Circle best_circle(const Slopes& slopes, const ReflectionLaw& law, Vec2 centre, double nearest,
+                   double farthest) {
   const PolarEvidence evidence(slopes, law, centre, nearest, farthest);
   Circle best{centre, nearest, std::numeric_limits<double>::lowest()};
   for (double r = nearest; r <= farthest; r += std::max(0.3, 0.02 * r)) {
-    const Circle circle{centre, r, evidence(r, rings)};
+    const Circle circle{centre, r, evidence(r)};
     if (circle.rank() > best.rank()) best = circle;
   }
   return best;
 }
 
-Circle climb(const Slopes& slopes, const ReflectionLaw& law, Rings rings, const Circle& circle,
-             double first) {
-  Circle best = best_circle(slopes, law, rings, circle.centre, (1 - 2 * first) * circle.radius,
+Circle climb(const Slopes& slopes, const ReflectionLaw& law, const Circle& circle, double first) {
+  Circle best = best_circle(slopes, law, circle.centre, (1 - 2 * first) * circle.radius,
                             (1 + 2 * first) * circle.radius);
   for (double share = first; share > kLastStep; share /= 2) {
     for (int round = 0; round < kRounds; ++round) {
@@ -38,7 +37,7 @@ Circle climb(const Slopes& slopes, const ReflectionLaw& law, Rings rings, const 
       for (const Vec2 way : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}, Vec2{1, 1},
                              Vec2{-1, 1}, Vec2{1, -1}, Vec2{-1, -1}}) {
         const Vec2 centre{before.centre.u + step * way.u, before.centre.v + step * way.v};
-        const Circle next = best_circle(slopes, law, rings, centre, (1 - 1.5 * share) * best.radius,
+        const Circle next = best_circle(slopes, law, centre, (1 - 1.5 * share) * best.radius,
                                         (1 + 1.5 * share) * best.radius);
         if (next.rank() > best.rank()) best = next;
       }

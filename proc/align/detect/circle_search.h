@@ -17,12 +17,11 @@ struct Circle {
 
 /// The circle around `centre` with the highest rank and a radius between `nearest` and `farthest`.
 /// Reentrant.
-Circle best_circle(const Slopes& slopes, const ReflectionLaw& law, Rings rings, optics::Vec2 centre,
+Circle best_circle(const Slopes& slopes, const ReflectionLaw& law, optics::Vec2 centre,
                    double nearest, double farthest);
 
 /// From `circle` uphill by rank, in steps that begin with the share `first` of its radius.
 /// Reentrant.
-Circle climb(const Slopes& slopes, const ReflectionLaw& law, Rings rings, const Circle& circle,
-             double first);
+Circle climb(const Slopes& slopes, const ReflectionLaw& law, const Circle& circle, double first);
 
 }  // namespace orbwatch::align

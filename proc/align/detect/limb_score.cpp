@@ -9,7 +9,7 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr std::size_t kSectors = 64;
+constexpr std::size_t kSectors = 32;
 constexpr double kBeyondEdge = 1.5;      // px: outside, past the limb's own edge
 constexpr double kUnknownOutside = 0.2;  // agreement where the picture ends at the limb
 constexpr double kNearby = 8;            // px
@@ -26,28 +26,7 @@ struct Agreement {
   double mean(double otherwise) const { return count > 0 ? sum / count : otherwise; }
 };
 
-double drop(const cv::Mat& luminance, const optics::Outline& outline) {
-  const double radius = (outline.rx + outline.ry) / 2;
-  const LimbStrip strip(luminance, outline, std::max(5.0, 0.2 * radius));
-  std::array<Agreement, kSectors> inside, outside;
-  for (int ray = 0; ray < strip.rays(); ++ray) {
-    const std::size_t sector = strip.sector(ray, kSectors);
-    for (int k = 0; k < strip.columns(); ++k) {
-      const auto slope = strip.slope(ray, k);
-      if (!slope) continue;
-      if (strip.distance(k) < 0) inside[sector].add(*slope, strip.floor2());
-      if (strip.distance(k) > kBeyondEdge) outside[sector].add(*slope, strip.floor2());
-    }
-  }
-  double sum = 0, seen = 0;
-  for (std::size_t s = 0; s < kSectors; ++s) {
-    if (inside[s].count == 0) continue;
-    const double out = std::max(0.0, outside[s].mean(kUnknownOutside));
-    sum += std::clamp(inside[s].mean(0) - out, -0.5, 1.0);
-    seen += 1;
-  }
-  return sum / (seen + 0.5 * (kSectors - seen));
-}
+}  // namespace
 
 double contour(const cv::Mat& luminance, const optics::Outline& outline) {
   const LimbStrip strip(luminance, outline, kNearby);
@@ -73,16 +52,13 @@ double contour(const cv::Mat& luminance, const optics::Outline& outline) {
   return seen > 0 ? sum / seen : 0;
 }
 
-}  // namespace
-
 double near_drop(const cv::Mat& luminance, const optics::Outline& outline) {
-  constexpr std::size_t kNearSectors = 32;
   const double radius = (outline.rx + outline.ry) / 2;
   const double near = std::max(3.0, 0.08 * radius);
   const LimbStrip strip(luminance, outline, std::max(5.0, 0.2 * radius));
-  std::array<Agreement, kNearSectors> inside, outside;
+  std::array<Agreement, kSectors> inside, outside;
   for (int ray = 0; ray < strip.rays(); ++ray) {
-    const std::size_t sector = strip.sector(ray, kNearSectors);
+    const std::size_t sector = strip.sector(ray, kSectors);
     for (int k = 0; k < strip.columns(); ++k) {
       const double at = strip.distance(k);
       const auto slope = strip.slope(ray, k);
@@ -93,17 +69,13 @@ double near_drop(const cv::Mat& luminance, const optics::Outline& outline) {
   }
   double sum = 0;
   int seen = 0;
-  for (std::size_t s = 0; s < kNearSectors; ++s) {
+  for (std::size_t s = 0; s < kSectors; ++s) {
     if (inside[s].count == 0) continue;
     const double out = std::max(0.0, outside[s].mean(kUnknownOutside));
     sum += std::clamp(inside[s].mean(0) - out, -0.5, 1.0);
     ++seen;
   }
   return seen > 0 ? sum / seen : 0;
-}
-
-LimbScore limb_score(const cv::Mat& luminance, const optics::Outline& outline) {
-  return {drop(luminance, outline), contour(luminance, outline)};
 }
 
 }  // namespace orbwatch::align

@@ -40,7 +40,7 @@ Maps maps_of(const optics::Outline& outline, double reach, int rays, int columns
 
 LimbStrip::LimbStrip(const cv::Mat& luminance, const optics::Outline& outline, double reach) {
   const double girth = std::numbers::pi * (outline.rx + outline.ry);
-  const int rays = std::clamp(static_cast<int>(girth / 1.5), 128, 2048);
+  const int rays = std::clamp(static_cast<int>(girth / 1.5), 128, 2048) / kTogether * kTogether;
   const int steps = static_cast<int>(reach * kPerPixel);
   const Maps maps = maps_of(outline, static_cast<double>(steps) / kPerPixel, rays, 2 * steps + 1);
   cv::Mat ring;

@@ -12,6 +12,7 @@ namespace orbwatch::align {
 class LimbStrip {
  public:
   static constexpr int kPerPixel = 2;
+  static constexpr int kTogether = 8;  ///< rays() is a multiple of it
 
   /// `luminance`: one channel, 8 or 16 bit; `outline` in its pixels, with axes above 0.
   LimbStrip(const cv::Mat& luminance, const optics::Outline& outline, double reach);

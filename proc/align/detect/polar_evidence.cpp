@@ -12,7 +12,6 @@ constexpr double kCorrelated = 9, kCorrelatedEdge = 3;
 /// The annulus outside of a limb, shares of its radius.
 constexpr double kOutside = 1.04, kFar = 1.2;
 constexpr std::size_t kOutsideRing = ReflectionLaw::kRings - 2;
-constexpr std::size_t kFirstOuterRing = 3;
 /// What an edge on the limb is worth, nats.
 constexpr double kEdge = 0.3;
 /// The most that a sector may deny, nats per correlated area: a mount may hide the ball there.
@@ -92,16 +91,15 @@ void PolarEvidence::add_edges(const std::vector<float>& edges, std::size_t secto
   }
 }
 
-double PolarEvidence::operator()(double radius, Rings rings) const {
-  const std::size_t first_ring = rings == Rings::Outer ? kFirstOuterRing : 0;
+double PolarEvidence::operator()(double radius) const {
   double sum = 0;
-  for (std::size_t sector = 0; sector < kSectors; ++sector) sum += of(sector, radius, first_ring);
+  for (std::size_t sector = 0; sector < kSectors; ++sector) sum += of(sector, radius);
   return sum;
 }
 
-double PolarEvidence::of(std::size_t sector, double radius, std::size_t first_ring) const {
+double PolarEvidence::of(std::size_t sector, double radius) const {
   double inside = 0;
-  for (std::size_t n = first_ring; n < ReflectionLaw::kRings; ++n) {
+  for (std::size_t n = 0; n < ReflectionLaw::kRings; ++n) {
     inside +=
         ring(sector, n, radius * ReflectionLaw::kBounds[n], radius * ReflectionLaw::kBounds[n + 1]);
   }

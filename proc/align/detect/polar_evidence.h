@@ -10,9 +10,6 @@
 
 namespace orbwatch::align {
 
-/// Which part of a ball is to look like one: all of it finds balls, the outermost part places them.
-enum class Rings { All, Outer };
-
 /// What slopes say of circular limbs around one point: inside they should follow the ReflectionLaw,
 /// outside not, and an edge should stand on the limb. Pixels.
 class PolarEvidence {
@@ -23,7 +20,7 @@ class PolarEvidence {
 
   /// The logarithm of the likelihoods' ratio for a ball with a limb of that radius, all slopes
   /// together; what the picture does not show says nothing.
-  double operator()(double radius, Rings rings) const;
+  double operator()(double radius) const;
 
  private:
   static constexpr std::size_t kSectors = 32;
@@ -44,7 +41,7 @@ class PolarEvidence {
   void sum_up(const Slopes& slopes, const ReflectionLaw& law, optics::Vec2 centre,
               std::size_t angle, std::vector<float>& edges);
   void add_edges(const std::vector<float>& edges, std::size_t sector, float floor2);
-  double of(std::size_t sector, double radius, std::size_t first_ring) const;
+  double of(std::size_t sector, double radius) const;
   double ring(std::size_t sector, std::size_t n, double from, double to) const;
   double area(std::size_t sector, double from, double to) const;
 

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "proc/align/detect/ball_detector.h"
@@ -35,7 +39,7 @@ int at_most(double probability, int cases) {
 TEST(DetectionGate, SimulatedRooms) {
   const int cases = share_of(300);
   ErrorDistribution relative("detection, share of the radius"), pixels("detection, px");
-  int far_off = 0, confident = 0, confident_and_far_off = 0;
+  int beyond_half = 0, beyond_most = 0, far_off = 0, confident = 0, confident_and_far_off = 0;
   for (int n = 0; n < cases; ++n) {
     const MirrorRoomPicture room = mirror_room(any_room(90'000 + static_cast<std::uint64_t>(n)));
     const Outline truth{room.limb.centre, room.limb.rx, room.limb.ry, 0};
@@ -44,6 +48,8 @@ TEST(DetectionGate, SimulatedRooms) {
     const double off = error(found->outline, truth);
     relative.add(off / truth.rx);
     pixels.add(off);
+    beyond_half += off > std::max(0.0015 * truth.rx, 0.5) ? 1 : 0;
+    beyond_most += off > std::max(0.008 * truth.rx, 2.0) ? 1 : 0;
     const bool is_far_off = off > std::max(0.02 * truth.rx, 3.0);
     far_off += is_far_off ? 1 : 0;
     confident += found->is_confident() ? 1 : 0;
@@ -56,13 +62,17 @@ TEST(DetectionGate, SimulatedRooms) {
   pixels.report();
   std::printf("%d of %d far off, %d confident, %d both\n", far_off, cases, confident,
               confident_and_far_off);
+  std::printf("%d above 0.15 %% and 0.5 px, %d above 0.8 %% and 2 px\n", beyond_half, beyond_most);
+  RecordProperty("above 0.15 % and 0.5 px", beyond_half);
+  RecordProperty("above 0.8 % and 2 px", beyond_most);
   RecordProperty("far_off", far_off);
   RecordProperty("confident", confident);
   RecordProperty("confident_and_far_off", confident_and_far_off);
-  EXPECT_LE(far_off, at_most(0.08, cases));
+  EXPECT_LE(beyond_half, at_most(0.5, cases));
+  EXPECT_LE(beyond_most, at_most(0.05, cases));
+  EXPECT_LE(far_off, at_most(0.02, cases));
   EXPECT_EQ(confident_and_far_off, 0);
-  EXPECT_GE(confident, cases / 3);
-  EXPECT_LT(relative.p50(), 0.006);
+  EXPECT_GE(confident, cases / 2);
 }
 
 TEST(DetectionGate, RoomsWithoutABall) {
@@ -99,10 +109,51 @@ TEST(DetectionGate, RenderedMachines) {
       std::printf("%s %s: %.2f %%, confidence %.2f\n", cameras.name().c_str(),
                   camera.name().c_str(), 100 * off, found->confidence);
       // The narrow camera, the one off its axis with clutter around, the thermal one.
-      const double limit = camera.name() == "A" ? 0.002 : camera.name() == "B" ? 0.005 : 0.01;
+      const double limit = camera.name() == "A" ? 0.0015 : camera.name() == "B" ? 0.005 : 0.01;
       EXPECT_LT(off, limit) << file;
     }
   }
+}
+
+/// A circle of truth.json, which has pixels' centres at 0.5.
+Outline circle_of(const nlohmann::json& circle) {
+  return {{circle["cx"].get<double>() - 0.5, circle["cy"].get<double>() - 0.5},
+          circle["rx"],
+          circle["ry"],
+          0};
+}
+
+/// By the circle that its author cropped it to, or by one that was fitted later.
+double photograph_error(const nlohmann::json& photograph, const Outline& found) {
+  double least = 1;
+  for (const char* key : {"circle", "circle_refined"}) {
+    if (photograph[key].is_null()) continue;
+    const Outline truth = circle_of(photograph[key]);
+    least = std::min(least, error(found, truth) / truth.rx);
+  }
+  return least;
+}
+
+TEST(DetectionGate, Photographs) {
+  const std::filesystem::path folder = reference_data() / "photos";
+  ORBWATCH_REQUIRE_FILE(folder / "truth.json");
+  std::ifstream file(folder / "truth.json");
+  int balls = 0, right = 0;
+  for (const auto& photograph : nlohmann::json::parse(file)) {
+    const std::string name = photograph["file"];
+    const cv::Mat pixels = cv::imread((folder / name).string(), cv::IMREAD_COLOR);
+    ASSERT_FALSE(pixels.empty()) << name;
+    const auto found = detect_ball(picture_of_mat(pixels));
+    ASSERT_TRUE(found) << name << ": " << found.error().message;
+    const double off = photograph_error(photograph, found->outline);
+    std::printf("%s: %.2f %%, confidence %.2f\n", name.c_str(), 100 * off, found->confidence);
+    const bool is_ball = photograph["valid_for_detection"];
+    balls += is_ball ? 1 : 0;
+    right += is_ball && off <= 0.01 ? 1 : 0;
+    EXPECT_FALSE(found->is_confident() && (!is_ball || off > 0.02)) << name;
+  }
+  // An inflated satellite in its hangar is missed.
+  EXPECT_GE(right, balls - 1);
 }
 
 }  // namespace
