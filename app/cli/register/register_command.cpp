@@ -22,7 +22,8 @@ constexpr const char* kUsage =
     "the rig stands, B's is found. PATH is a JPEG or PNG picture, or a folder of them: a sequence\n"
     "whose n-th pictures of both cameras are of the same moment. The rig's scene corrects "
     "parallax;\n"
-    "without one, near rooms are registered badly or not at all.\n"
+    "without one, features find the rotation all the same, gradients and light only in wide "
+    "rooms.\n"
     "\n";
 
 constexpr const char* kNotes =

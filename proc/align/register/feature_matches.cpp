@@ -65,7 +65,8 @@ std::vector<Match> matched(const Features& a, const Features& b, double cosine) 
 
 }  // namespace
 
-Features find_features(const std::vector<SphereFace>& faces, const optics::BallProjection& ball) {
+Features find_features(const std::vector<SphereFace>& faces, const optics::BallProjection& ball,
+                       const std::optional<double>& closeness) {
   Features all;
   const cv::Ptr<cv::SIFT> sift = cv::SIFT::create(kMostPerFace, 3, kContrast);
   const cv::Mat element =
@@ -80,7 +81,7 @@ Features find_features(const std::vector<SphereFace>& faces, const optics::BallP
     for (std::size_t n = 0; n < points.size(); ++n) {
       const auto direction = face.view.direction(points[n].pt.x, points[n].pt.y);
       if (!direction || face_of(*direction) != index) continue;
-      const auto pixel = ball.pixel(*direction);
+      const auto pixel = pixel_of(ball, *direction, closeness);
       if (!pixel) continue;
       all.pixels.push_back(*pixel);
       all.directions.push_back(*direction);

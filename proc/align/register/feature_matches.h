@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "proc/align/register/sphere_view.h"
@@ -20,9 +21,10 @@ struct Features {
   cv::Mat descriptors;                   ///< SIFT's, one row each
 };
 
-/// SIFT features (Lowe 2004) of all faces, without duplicates. `ball`: what the faces were made of.
-/// Reentrant.
-Features find_features(const std::vector<SphereFace>& faces, const optics::BallProjection& ball);
+/// SIFT features (Lowe 2004) of all faces, without duplicates. `ball` and `closeness`: what the
+/// faces were made of. Reentrant.
+Features find_features(const std::vector<SphereFace>& faces, const optics::BallProjection& ball,
+                       const std::optional<double>& closeness = {});
 
 /// Pairs of features that are each other's nearest, and much nearer than the second. Reentrant.
 std::vector<Match> match_features(const Features& reference, const Features& camera);

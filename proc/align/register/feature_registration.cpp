@@ -15,12 +15,12 @@ namespace {
 
 using optics::BallProjection;
 using optics::Mat3;
-using optics::Outline;
 
 constexpr int kLeastInliers = 15;
 constexpr double kRivalry = 0.5;   // a rival has that share of the best one's inliers
 constexpr double kFinestView = 4;  // pixels per degree; more costs time and gains little
 const double kNeighbourhood = optics::radians(2.5);  // of features after the first estimate
+constexpr double kParallax = 1.4;  // radians per closeness: cameras see the ball's edges, too
 
 /// Both pictures as the search wants them.
 struct Pictures {
@@ -29,10 +29,12 @@ struct Pictures {
   double pixels_per_degree;
 };
 
-Result<Features> features(const cv::Mat& picture, const BallProjection& ball, double resolution) {
-  return sphere_faces(picture, ball, resolution).map([&](const std::vector<SphereFace>& faces) {
-    return find_features(faces, ball);
-  });
+Result<Features> features(const cv::Mat& picture, const BallProjection& ball, double resolution,
+                          const std::optional<double>& closeness = {}) {
+  return sphere_faces(picture, ball, resolution, closeness)
+      .map([&](const std::vector<SphereFace>& faces) {
+        return find_features(faces, ball, closeness);
+      });
 }
 
 /// The sought camera in its own frame, in a room far away.
@@ -50,24 +52,36 @@ Result<RotationConsensus> first_estimate(const Pictures& pictures, const Feature
   if (!other) return tl::unexpected(other.error());
   const auto found = agree_on_rotation(match_features(seen, *other), reference, sought);
   if (!found) return found;
-  if (static_cast<double>(found->rival) > kRivalry * static_cast<double>(found->inliers.size())) {
-    return fail("two different rotations fit nearly as well, " +
-                std::to_string(found->inliers.size()) + " and " + std::to_string(found->rival) +
+  if (static_cast<double>(found->rival) > kRivalry * static_cast<double>(found->agreeing)) {
+    return fail("two different rotations fit nearly as well, " + std::to_string(found->agreeing) +
+                " and " + std::to_string(found->rival) +
                 " features agree: put something with patterns where both cameras see it");
   }
   return found;
 }
 
-/// Again with views of the same frame, in which features look alike and stand near each other.
+/// Within what angle both cameras see the same. In an unstated room by its unevenness, too.
+double neighbourhood(const std::optional<RoomCloseness>& room) {
+  return kNeighbourhood + (room ? 2 * kParallax * room->spread : 0);
+}
+
+/// Again with views of the same frame and room, in which features look alike and stand near each
+/// other.
 Result<RotationRefinement> refined(const Pictures& pictures, const Features& seen,
                                    const BallProjection& reference, const SoughtCamera& sought,
-                                   const Mat3& rotation, const Outline& outline) {
-  const auto ball = turned(sought, rotation, outline);
+                                   const RefinementState& rough) {
+  const auto ball = turned(sought, rough.rotation, rough.outline);
   if (!ball) return tl::unexpected(ball.error());
-  const auto other = features(pictures.camera, *ball, pictures.pixels_per_degree);
+  const double resolution = pictures.pixels_per_degree;
+  std::optional<double> closeness;
+  if (rough.room) closeness = std::max(0.0, rough.room->mean);
+  const auto other = features(pictures.camera, *ball, resolution, closeness);
   if (!other) return tl::unexpected(other.error());
-  const auto matches = match_features(seen, *other, kNeighbourhood);
-  return refine_rotation(matches, reference, sought, rotation, outline);
+  const auto again = closeness ? features(pictures.reference, reference, resolution, closeness)
+                               : Result<Features>(seen);
+  if (!again) return tl::unexpected(again.error());
+  const auto matches = match_features(*again, *other, neighbourhood(rough.room));
+  return refine_rotation(matches, reference, sought, rough);
 }
 
 }  // namespace
@@ -83,19 +97,18 @@ Result<Registration> register_by_features(const ReferenceCamera& reference,
   if (!seen) return tl::unexpected(seen.error());
   const auto first = first_estimate(pictures, *seen, reference.ball, sought);
   if (!first) return tl::unexpected(first.error());
-  const auto rough = refine_rotation(first->inliers, reference.ball, sought, first->rotation,
-                                     *sought.camera.outline);
+  const auto rough = refine_rotation(first->inliers, reference.ball, sought,
+                                     {first->rotation, *sought.camera.outline, first->room});
   if (!rough) return tl::unexpected(rough.error());
-  const auto fine =
-      refined(pictures, *seen, reference.ball, sought, rough->rotation, rough->outline);
+  const auto fine = refined(pictures, *seen, reference.ball, sought, rough->state);
   if (!fine) return tl::unexpected(fine.error());
-  const auto ball = turned(sought, fine->rotation, fine->outline);
+  const auto ball = turned(sought, fine->state.rotation, fine->state.outline);
   if (!ball) return tl::unexpected(ball.error());
   const double share = overlap(reference.ball, reference.picture.width, reference.picture.height,
                                *ball, sought.picture.width, sought.picture.height);
-  return trusted(
-      {fine->rotation, fine->outline, fine->residual, share, fine->inliers, fine->covariance},
-      kLeastInliers);
+  return trusted({fine->state.rotation, fine->state.outline, fine->residual, share, fine->inliers,
+                  fine->covariance},
+                 kLeastInliers);
 }
 
 }  // namespace orbwatch::align

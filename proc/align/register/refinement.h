@@ -3,26 +3,27 @@
 #include <vector>
 
 #include "proc/align/register/feature_matches.h"
+#include "proc/align/register/refinement_trial.h"
 #include "proc/align/register/registration.h"
 
 namespace orbwatch::align {
 
-/// A rotation, and the outline when the sought camera's is unsure, by robust least squares over
-/// matches: the angles between what both cameras see, through the scene, weighted by both
-/// resolutions. Reentrant.
+/// A rotation, the outline when the sought camera's is unsure, and the room's closeness where no
+/// scene is stated, by robust least squares over matches: the angles between what both cameras see,
+/// through the scene, weighted by both resolutions. Reentrant.
 struct RotationRefinement {
-  optics::Mat3 rotation;
-  optics::Outline outline;
+  RefinementState state;
   optics::Mat3 covariance;  ///< as Registration's
   double residual = 0;      ///< degrees rms of the matches that fit
   int inliers = 0;          ///< matches that fit
 };
 
-/// Starts from `rotation` and `outline`. Error: those of optics::ball_projection, matches that do
-/// not determine the rotation.
+/// In a room of which nothing is stated each match is as close as its sights tell, and as all
+/// others are: the mean is an unknown of its own, the spread follows from what is found. Error:
+/// those of optics::ball_projection, matches that do not determine the rotation.
 Result<RotationRefinement> refine_rotation(const std::vector<Match>& matches,
                                            const optics::BallProjection& reference,
-                                           const SoughtCamera& sought, const optics::Mat3& rotation,
-                                           const optics::Outline& outline);
+                                           const SoughtCamera& sought,
+                                           const RefinementState& start);
 
 }  // namespace orbwatch::align

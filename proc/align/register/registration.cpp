@@ -28,6 +28,10 @@ std::string rounded(double value) {
 
 }  // namespace
 
+bool states_scene(const optics::Rig& rig) {
+  return rig.scene.room != optics::Scene::Room::None || !rig.scene.obstacles.empty();
+}
+
 std::array<double, 3> sigmas(const Registration& r) {
   return {optics::degrees(std::sqrt(r.covariance.row0.x)),
           optics::degrees(std::sqrt(r.covariance.row1.y)),

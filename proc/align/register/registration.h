@@ -37,6 +37,9 @@ struct Registration {
   optics::Mat3 covariance;  ///< of a small turn about the reference frame's axes, rad^2
 };
 
+/// Whether a rig tells where anything is; else the room is as unknown as the rotation.
+bool states_scene(const optics::Rig& rig);
+
 /// The standard deviations about the reference frame's axes, degrees.
 std::array<double, 3> sigmas(const Registration& registration);
 

@@ -3,141 +3,128 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <random>
 
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/register/sightings.h"
 
 namespace orbwatch::align {
 namespace {
 
 using optics::BallProjection;
 using optics::Mat3;
-using optics::Vec3;
 
-constexpr int kLeastTrials = 200;  // so that a rival is met, too
-constexpr int kMostTrials = 1500;
-constexpr double kMissed = 1e-4;  // probability that no trial was right
-constexpr int kRounds = 2;        // of looking up what the turned camera sees, and turning it again
-const double kAgreement = optics::radians(1.5);
-const double kDifferent = optics::radians(8);
+constexpr int kLeastTrials = 200;           // so that a rival is met, too
+constexpr double kMissed = 1e-4;            // probability that no trial was right
+constexpr std::size_t kMostCandidates = 8;  // that are fitted before they are compared
+constexpr int kFits = 8;                    // of each
 
+/// Trial rotations, the best of those that are altogether different.
 class Search {
  public:
-  Search(const std::vector<Match>& matches, const BallProjection& reference,
-         const SoughtCamera& sought)
-      : sought_(sought) {
-    for (const Match& match : matches) {
-      if (const auto seen = reference.direction(match.reference)) {
-        matches_.push_back(match);
-        seen_.push_back(*seen);
-      }
-    }
-  }
+  explicit Search(Sightings& sightings) : sightings_(sightings) {}
 
   Result<RotationConsensus> run() {
-    if (matches_.size() < 2) return fail("the pictures have nothing in common that can be told");
+    if (sightings_.size() < 2) return fail("the pictures have nothing in common that can be told");
+    std::uniform_int_distribution<std::size_t> any(0, sightings_.size() - 1);
     for (int trial = 0; trial < trials(); ++trial) {
-      const auto rotation = hypothesis();
+      const std::array chosen{any(random_), any(random_)};
+      const auto rotation = sightings_.hypothesis(chosen);
       if (!rotation) return tl::unexpected(rotation.error());
       if (!*rotation) continue;
-      const auto inliers = agreeing(**rotation);
+      const auto inliers = agreeing(**rotation, kAgreement);
       if (!inliers) return tl::unexpected(inliers.error());
-      note(**rotation, inliers->size());
+      note({**rotation, inliers->size()});
     }
-    return polished();
+    return decided();
   }
 
  private:
-  /// Enough that one was of two inliers.
-  int trials() const {
-    const double share = static_cast<double>(best_.inliers) / static_cast<double>(matches_.size());
-    const double needed = std::log(kMissed) / std::log1p(-std::min(0.99, share * share) - 1e-9);
-    return std::clamp(static_cast<int>(std::min(needed, 1e6)), kLeastTrials, kMostTrials);
-  }
-
   struct Found {
     Mat3 rotation;
     std::size_t inliers = 0;
   };
 
-  /// From two random matches; nullopt when they contradict each other.
-  Result<std::optional<Mat3>> hypothesis() {
-    std::uniform_int_distribution<std::size_t> any(0, matches_.size() - 1);
-    const std::array chosen{any(random_), any(random_)};
-    const double apart = angle_between(seen_[chosen[0]], seen_[chosen[1]]);
-    if (apart < kDifferent || apart > optics::radians(180) - kDifferent) return std::nullopt;
-    // Far away and in its own frame at first.
-    Mat3 rotation;
-    for (int round = 0; round <= kRounds; ++round) {
-      const auto ball = turned(sought_, rotation, *sought_.camera.outline);
-      if (!ball) return tl::unexpected(ball.error());
-      std::array<DirectionPair, 2> pairs;
-      for (std::size_t n = 0; n < 2; ++n) {
-        const auto direction = towards(*ball, matches_[chosen[n]], round > 0);
-        if (!direction) return std::nullopt;
-        pairs[n] = {seen_[chosen[n]], transposed(rotation) * *direction};
+  /// Enough that one was of two inliers.
+  int trials() const {
+    const std::size_t most = found_.empty() ? 0 : found_.front().inliers;
+    const double share = static_cast<double>(most) / static_cast<double>(sightings_.size());
+    const double needed = std::log(kMissed) / std::log1p(-std::min(0.99, share * share) - 1e-9);
+    return std::clamp(static_cast<int>(std::min(needed, 1e6)), kLeastTrials,
+                      sightings_.most_trials());
+  }
+
+  Result<std::vector<std::size_t>> agreeing(const Mat3& rotation, double within) const {
+    return sightings_.pairs(rotation).map([&](const auto& pairs) {
+      std::vector<std::size_t> inliers;
+      const double cosine = std::cos(within);
+      for (std::size_t n = 0; n < pairs.size(); ++n) {
+        if (pairs[n] && dot(rotation * pairs[n]->camera, pairs[n]->reference) > cosine) {
+          inliers.push_back(n);
+        }
       }
-      const double differs = angle_between(pairs[0].camera, pairs[1].camera) - apart;
-      if (round == kRounds && std::abs(differs) > 2 * kAgreement) return std::nullopt;
-      rotation = fit_rotation(pairs);
+      return inliers;
+    });
+  }
+
+  static bool is_better(const Found& a, const Found& b) { return a.inliers > b.inliers; }
+
+  void note(const Found& found) {
+    if (found_.size() == kMostCandidates && found.inliers <= found_.back().inliers) return;
+    const auto is_like = [&](const Found& other) {
+      return angle_between(found.rotation, other.rotation) <= kDifferent;
+    };
+    if (std::ranges::any_of(found_, [&](const Found& other) {
+          return is_like(other) && !is_better(found, other);
+        })) {
+      return;
+    }
+    std::erase_if(found_, is_like);
+    found_.insert(std::ranges::upper_bound(found_, found, is_better), found);
+    if (found_.size() > kMostCandidates) found_.pop_back();
+  }
+
+  /// Fitted to all that agree with it.
+  Result<Mat3> fitted(Mat3 rotation) const {
+    for (int round = 0; round < kFits; ++round) {
+      const auto inliers = agreeing(rotation, kAgreement);
+      if (!inliers) return tl::unexpected(inliers.error());
+      const auto better = sightings_.fitted(rotation, *inliers);
+      if (!better) return better;
+      rotation = *better;
     }
     return rotation;
   }
 
-  static std::optional<Vec3> towards(const BallProjection& ball, const Match& match, bool in_room) {
-    if (in_room) return ball.direction(match.camera);
-    const auto ray = ball.ray(match.camera);
-    return ray ? std::optional(ray->direction) : std::nullopt;
-  }
-
-  Result<std::vector<std::size_t>> agreeing(const Mat3& rotation) const {
-    const auto ball = turned(sought_, rotation, *sought_.camera.outline);
-    if (!ball) return tl::unexpected(ball.error());
-    std::vector<std::size_t> inliers;
-    const double cosine = std::cos(kAgreement);
-    for (std::size_t n = 0; n < matches_.size(); ++n) {
-      const auto direction = ball->direction(matches_[n].camera);
-      if (direction && dot(*direction, seen_[n]) > cosine) inliers.push_back(n);
+  /// The best one fitted, and how many agree with the best of the others.
+  Result<RotationConsensus> decided() {
+    if (found_.empty()) return fail("no rotation agrees with any two features");
+    std::vector<Found> fits;
+    for (const Found& one : found_) {
+      const auto rotation = fitted(one.rotation);
+      if (!rotation) return tl::unexpected(rotation.error());
+      const auto inliers = agreeing(*rotation, sightings_.exactness());
+      if (!inliers) return tl::unexpected(inliers.error());
+      fits.push_back({*rotation, inliers->size()});
     }
-    return inliers;
-  }
-
-  void note(const Mat3& rotation, std::size_t inliers) {
-    if (inliers > best_.inliers) {
-      if (angle_between(rotation, best_.rotation) > kDifferent) rival_ = best_.inliers;
-      best_ = {rotation, inliers};
-    } else if (angle_between(rotation, best_.rotation) > kDifferent) {
-      rival_ = std::max(rival_, inliers);
-    }
-  }
-
-  /// The best one, fitted to all that agree with it.
-  Result<RotationConsensus> polished() {
-    for (int round = 0; round < 5; ++round) {
-      const auto inliers = agreeing(best_.rotation);
-      const auto ball = turned(sought_, best_.rotation, *sought_.camera.outline);
-      if (!inliers || !ball) return fail("the best rotation has no projection");
-      std::vector<DirectionPair> pairs;
-      for (const std::size_t n : *inliers) {
-        const auto direction = ball->direction(matches_[n].camera);
-        pairs.push_back({seen_[n], transposed(best_.rotation) * *direction});
-      }
-      if (pairs.size() >= 2) best_.rotation = fit_rotation(pairs);
-    }
-    RotationConsensus result{best_.rotation, {}, rival_};
-    const auto inliers = agreeing(best_.rotation);
+    std::ranges::stable_sort(fits, is_better);
+    const Found& best = fits.front();
+    const auto rival = std::ranges::find_if(fits, [&](const Found& other) {
+      return angle_between(other.rotation, best.rotation) > kDifferent;
+    });
+    const auto inliers = agreeing(best.rotation, kAgreement);
     if (!inliers) return tl::unexpected(inliers.error());
-    for (const std::size_t n : *inliers) result.inliers.push_back(matches_[n]);
+    RotationConsensus result{best.rotation,
+                             {},
+                             best.inliers,
+                             rival == fits.end() ? 0 : rival->inliers,
+                             sightings_.room(best.rotation, *inliers)};
+    for (const std::size_t n : *inliers) result.inliers.push_back(sightings_.match(n));
     return result;
   }
 
-  const SoughtCamera& sought_;
-  std::vector<Match> matches_;
-  std::vector<Vec3> seen_;  ///< by the reference camera, per match
+  Sightings& sightings_;
   std::mt19937_64 random_{1};
-  Found best_;
-  std::size_t rival_ = 0;
+  std::vector<Found> found_;  ///< best first, altogether different from one another
 };
 
 }  // namespace
@@ -145,7 +132,9 @@ class Search {
 Result<RotationConsensus> agree_on_rotation(const std::vector<Match>& matches,
                                             const BallProjection& reference,
                                             const SoughtCamera& sought) {
-  return Search(matches, reference, sought).run();
+  const auto sightings = make_sightings(matches, reference, sought);
+  if (!sightings) return tl::unexpected(sightings.error());
+  return Search(**sightings).run();
 }
 
 }  // namespace orbwatch::align

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "proc/align/register/feature_matches.h"
+#include "proc/align/register/line_of_sight.h"
 #include "proc/align/register/registration.h"
 
 namespace orbwatch::align {
@@ -11,7 +13,9 @@ namespace orbwatch::align {
 struct RotationConsensus {
   optics::Mat3 rotation;
   std::vector<Match> inliers;
-  std::size_t rival = 0;  ///< how many agree with the best rotation that is altogether different
+  std::size_t agreeing = 0;  ///< of the inliers: how many agree as exactly as they should
+  std::size_t rival = 0;  ///< how many so agree with the best rotation that is altogether different
+  std::optional<RoomCloseness> room;  ///< where no scene is stated: as the inliers tell it
 };
 
 /// RANSAC (Fischler and Bolles 1981) over pairs of matches. Each trial rotation moves the camera

@@ -21,14 +21,15 @@ constexpr std::array<optics::YawPitchRoll, 6> kFaces{
     {{0, 0, 0}, {90, 0, 0}, {180, 0, 0}, {-90, 0, 0}, {0, 90, 0}, {0, -90, 0}}};
 
 /// Where each of the view's pixels lies in the source, not a number where nothing is to be shown.
-cv::Mat source_map(const ViewProjection& view, const BallProjection& ball) {
+cv::Mat source_map(const ViewProjection& view, const BallProjection& ball,
+                   const std::optional<double>& closeness) {
   const double cosine = std::cos(optics::radians(kWidestAngle));
   cv::Mat map(view.height(), view.width(), CV_32FC2, cv::Scalar::all(-1e6));
   for (int v = 0; v < map.rows; ++v) {
     for (int u = 0; u < map.cols; ++u) {
       const auto direction = view.direction(u, v);
       if (!direction || dot(*direction, ball.facing()) < cosine) continue;
-      const auto pixel = ball.pixel(*direction);
+      const auto pixel = pixel_of(ball, *direction, closeness);
       if (!pixel) continue;
       map.at<cv::Vec2f>(v, u) = {static_cast<float>(pixel->u), static_cast<float>(pixel->v)};
     }
@@ -52,7 +53,8 @@ std::size_t face_of(const Vec3& d) {
 }
 
 Result<std::vector<SphereFace>> sphere_faces(const cv::Mat& luminance, const BallProjection& ball,
-                                             double pixels_per_degree) {
+                                             double pixels_per_degree,
+                                             const std::optional<double>& closeness) {
   const double focal_length = optics::degrees(pixels_per_degree);
   const int side =
       static_cast<int>(std::ceil(4 * focal_length * std::tan(optics::radians(kFaceWidth / 4))));
@@ -67,7 +69,7 @@ Result<std::vector<SphereFace>> sphere_faces(const cv::Mat& luminance, const Bal
     const auto view = ViewProjection::make(
         {optics::ViewKind::Stereographic, orientation, kFaceWidth, std::nullopt, side, side});
     if (!view) return tl::unexpected(view.error());
-    const cv::Mat map = source_map(*view, ball);
+    const cv::Mat map = source_map(*view, ball, closeness);
     SphereFace face{*view, {}, within(map, luminance.size())};
     cv::remap(source, face.pixels, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
     faces.push_back(face);

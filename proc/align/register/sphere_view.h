@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "proc/image/result.h"
@@ -23,11 +24,20 @@ std::size_t face_of(const optics::Vec3& direction);
 
 /// All around a ball, in the ball projection's reference frame, at `pixels_per_degree` in the
 /// middle of each face. `luminance`: the camera's picture, one channel. What is nearer than some
-/// degrees to the limb, outside of the picture or behind the ball is not shown. Reentrant.
+/// degrees to the limb, outside of the picture or behind the ball is not shown. `closeness`: ball
+/// radius / distance of everything, instead of the projection's scene. Reentrant.
 /// Error: a resolution that is too large for a picture.
 Result<std::vector<SphereFace>> sphere_faces(const cv::Mat& luminance,
                                              const optics::BallProjection& ball,
-                                             double pixels_per_degree);
+                                             double pixels_per_degree,
+                                             const std::optional<double>& closeness = {});
+
+/// The pixel that shows a direction in such faces. Reentrant.
+inline std::optional<optics::Vec2> pixel_of(const optics::BallProjection& ball,
+                                            const optics::Vec3& direction,
+                                            const std::optional<double>& closeness) {
+  return closeness ? ball.pixel(direction, *closeness) : ball.pixel(direction);
+}
 
 /// A camera's pixels per degree where its ball shows most. Reentrant.
 double best_resolution(const optics::BallProjection& ball);

@@ -73,6 +73,21 @@ TEST(RegistrationGate, ColourOnColour) {
   EXPECT_EQ(tally.wrong, 0);
 }
 
+TEST(RegistrationGate, ColourOnColourWithoutAStatedScene) {
+  const int cases = share_of(100);
+  Tally tally("colour on colour, no scene, deg");
+  for (int n = 0; n < cases; ++n) {
+    CameraPair pair = camera_pair(70'000 + static_cast<std::uint64_t>(n), false);
+    pair.rig.scene = {};
+    tally.add(align::register_by_features(pair.reference(), pair.unknown()), pair.truth);
+  }
+  tally.report();
+  EXPECT_LE(tally.errors.p50(), 0.1);
+  EXPECT_LE(tally.errors.p95(), 0.3);
+  EXPECT_LE(tally.refused, cases / 20);
+  EXPECT_EQ(tally.wrong, 0);
+}
+
 TEST(RegistrationGate, ThermalOnColour) {
   const int cases = share_of(100);
   Tally tally("thermal on colour, deg");
@@ -94,20 +109,26 @@ TEST(RegistrationGate, ThermalOnColour) {
 TEST(RegistrationGate, WrongStartsAndOtherRoomsAreRefusedOrFoundAllTheSame) {
   const int cases = share_of(40);
   Tally far_off("thermal, start 20 to 60 degrees off"), elsewhere("colour, two rooms");
+  Tally unstated("colour, two rooms, no scene");
   for (int n = 0; n < cases; ++n) {
     const auto seed = 78'000 + static_cast<std::uint64_t>(n);
-    const CameraPair pair = camera_pair(seed, true), colour = camera_pair(seed, false);
+    const CameraPair pair = camera_pair(seed, true);
+    CameraPair colour = camera_pair(seed, false);
     std::mt19937_64 random(seed);
     align::SoughtCamera sought = pair.unknown();
     sought.camera.registration = turned_away(pair.truth, 20 + n % 41, random);
     far_off.add(align::register_by_gradients(pair.reference(), sought), pair.truth);
-    const CameraPair other = camera_pair(seed + 500, false);
+    CameraPair other = camera_pair(seed + 500, false);
     elsewhere.add(align::register_by_features(other.reference(), colour.unknown()), colour.truth);
+    other.rig.scene = colour.rig.scene = {};
+    unstated.add(align::register_by_features(other.reference(), colour.unknown()), colour.truth);
   }
   far_off.report();
   elsewhere.report();
+  unstated.report();
   EXPECT_EQ(far_off.wrong, 0);
   EXPECT_EQ(elsewhere.refused, cases);
+  EXPECT_EQ(unstated.refused, cases);
 }
 
 /// Two cameras of a rendered machine; A is known.
@@ -123,11 +144,11 @@ struct RenderedPair {
   }
 };
 
-RenderedPair rendered_pair(const std::string& name, const std::string& camera) {
+RenderedPair rendered_pair(const std::string& name, const std::string& camera,
+                           RenderedScene::Known known = RenderedScene::Known::BoxAndTable) {
   const RenderedScene scene(name);
   RenderedPair pair;
-  pair.sought.rig =
-      app::parse_rig(scene.rig(RenderedScene::Known::BoxAndTable), "rig.toml", "").value();
+  pair.sought.rig = app::parse_rig(scene.rig(known), "rig.toml", "").value();
   for (std::size_t n = 0; n < scene.cameras().size(); ++n) {
     const RenderedCamera& seen = scene.cameras()[n];
     const cv::Mat pixels =
@@ -168,6 +189,21 @@ TEST(RegistrationGate, RenderedMachinesOfTwoColourCameras) {
     pair.sought.outline_sigma = 0.02;
     expect_within(pair.by(align::register_by_features), pair.truth, 0.3,
                   scene + " B on A, detected outline");
+  }
+}
+
+TEST(RegistrationGate, RenderedMachinesWithoutAStatedScene) {
+  ORBWATCH_REQUIRE_FILE(rendered_pictures());
+  for (const std::string scene : {"near", "far"}) {
+    RenderedPair pair = rendered_pair(scene, "B", RenderedScene::Known::Nothing);
+    expect_within(pair.by(align::register_by_features), pair.truth, 0.12,
+                  scene + " B on A, no scene, true outline");
+    const auto found = align::detect_ball(pair.sought.picture);
+    ASSERT_TRUE(found) << found.error().message;
+    pair.sought.camera.outline = found->outline;
+    pair.sought.outline_sigma = 0.02;
+    expect_within(pair.by(align::register_by_features), pair.truth, 0.3,
+                  scene + " B on A, no scene, detected outline");
   }
 }
 
