@@ -18,7 +18,7 @@ constexpr std::size_t kScales = 3;
 constexpr double kNearest = 18, kNearestCoarse = 12, kFarthest = 80;  // radii, px
 constexpr double kLargest = 0.62;  // radius, of the picture's short side
 /// How many places are voted for at each scale, and how many circles are climbed and fitted.
-constexpr std::size_t kVotes = 8, kClimbed = 9, kFitted = 6;
+constexpr std::size_t kVotes = 8, kClimbed = 8, kFitted = 6;
 /// A difference() from which on two circles are worth a fit each.
 constexpr double kApart = 0.05;
 /// px: radii at which limbs are fitted, one after the other; at the second they are compared.

@@ -9,7 +9,7 @@ namespace {
 using optics::Vec2;
 
 constexpr double kSmall = 3000;  // px^2: as if so much of each circle had no evidence
-constexpr double kLastStep = 0.01;
+constexpr double kLastStep = 0.03;
 constexpr int kRounds = 4;  // per step
 
 }  // namespace
