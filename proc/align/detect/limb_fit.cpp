@@ -26,12 +26,12 @@ struct Climber {
 
   /// Circles all around.
   void search(double reach) {
+    constexpr int kPlaces = 3;
     const double far = 0.75 * reach, step = std::max(0.5, reach / 16);
-    const int places = reach > 6 ? 3 : 1;
-    for (int i = -places; i <= places; ++i) {
-      for (int j = -places; j <= places; ++j) {
+    for (int i = -kPlaces; i <= kPlaces; ++i) {
+      for (int j = -kPlaces; j <= kPlaces; ++j) {
         for (double r = -far; r <= far; r += step) {
-          take({r, i * far / places, j * far / places, 0, 0});
+          take({r, i * far / kPlaces, j * far / kPlaces, 0, 0});
         }
       }
     }

@@ -13,11 +13,12 @@ constexpr double kStray = 0.35;
 /// The steepest compression that pixels still show.
 constexpr double kMost = 10;
 
-}  // namespace
-
+/// The logarithm of the likelihoods' ratio for one compression.
 double log_ratio(double k, double share) {
   return std::log(kStray + (1 - kStray) * k / (share + k * k * (1 - share)));
 }
+
+}  // namespace
 
 ReflectionLaw::ReflectionLaw() {
   for (std::size_t ring = 0; ring < kRings; ++ring) {

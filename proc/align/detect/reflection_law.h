@@ -31,7 +31,4 @@ class ReflectionLaw {
   std::array<std::array<float, kRings>, kSteps> table_;
 };
 
-/// The logarithm of the ratio for one compression `k`.
-double log_ratio(double k, double share);
-
 }  // namespace orbwatch::align
