@@ -18,7 +18,7 @@ constexpr double kLeastLikelihood = 0.8;
 constexpr double kLeastRadius = 45;
 
 /// From the certainty on, an outline is trusted.
-constexpr double kCertain = 3.3;
+constexpr double kCertain = 4.3;
 
 /// The logarithm of the odds that the limb is a ball's and right to 2 % or 3 px: a logistic
 /// regression over the best limbs of 250 simulated rooms with a ball and 160 without, 7 rendered

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
@@ -26,11 +27,17 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   EXPECT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") != heartbeat; }));
   EXPECT_EQ(read("system_state"), 1) << "running";
   // The pool's truth: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
-  // from the ball at (120, 60, 430).
-  ASSERT_TRUE(
-      eventually(daemon, [&] { return read("region_0_hot_spot_peak_temperature") > 17000; }));
-  EXPECT_NEAR(static_cast<double>(read("region_0_hot_spot_yaw")) / 100, -115.6, 10);
-  EXPECT_NEAR(static_cast<double>(read("region_0_hot_spot_pitch")) / 100, -45, 6);
+  // from the ball at (120, 60, 430). Now and then a spark is larger.
+  const auto is_near = [&](const char* name, double truth, double tolerance) {
+    return std::abs(static_cast<double>(read(name)) / 100 - truth) <= tolerance;
+  };
+  ASSERT_TRUE(eventually(daemon,
+                         [&] {
+                           return read("region_0_hot_spot_peak_temperature") > 17000 &&
+                                  is_near("region_0_hot_spot_yaw", -115.6, 10) &&
+                                  is_near("region_0_hot_spot_pitch", -45, 6);
+                         }))
+      << read("region_0_hot_spot_yaw") << ", " << read("region_0_hot_spot_pitch");
 
   Subprocess reader({ORBWATCH_PROGRAM, "subscribe", "--domain", std::to_string(domain), "--topic",
                      "orbwatch/process/image_raw", "--topic", "orbwatch/room/image_raw", "--topic",
