@@ -55,6 +55,13 @@ TEST(DescribePrograms, TheManualPageHasEveryOption) {
   }
 }
 
+TEST(DescribePrograms, TheServicesPageHasItsHelp) {
+  std::string page =
+      text_of(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/daemon/orbwatchd.8");
+  std::erase(page, '\\');
+  EXPECT_THAT(page, HasSubstr(output_of({ORBWATCHD_PROGRAM, "--help"})));
+}
+
 TEST(DescribePrograms, BashOffersCommandsAndTheirOptions) {
   EXPECT_THAT(offered("orbwatch con"), HasSubstr("configure"));
   EXPECT_EQ(offered("orbwatch configure --con"), "--config --confirm ");
