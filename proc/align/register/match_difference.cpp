@@ -67,6 +67,7 @@ Difference difference(const SightedMatch& match, const TrialPlace& trial) {
 
 std::vector<double> errors(const std::vector<SightedMatch>& matches, const TrialPlace& trial) {
   std::vector<double> lengths;
+  lengths.reserve(matches.size());
   for (const SightedMatch& match : matches) lengths.push_back(length(difference(match, trial)));
   return lengths;
 }

@@ -83,6 +83,7 @@ class SightingsInScene final : public Sightings {
                       const std::vector<std::size_t>& inliers) const override {
     return pairs(rotation).map([&](const auto& all) {
       std::vector<DirectionPair> agreeing;
+      agreeing.reserve(inliers.size());
       for (const std::size_t n : inliers) agreeing.push_back(*all[n]);
       return agreeing.size() < 2 ? rotation : fit_rotation(agreeing);
     });
@@ -196,6 +197,7 @@ class SightingsAnywhere final : public Sightings {
                                     const std::vector<std::size_t>& inliers) const override {
     if (inliers.empty()) return kAnyRoom;
     std::vector<double> all;
+    all.reserve(inliers.size());
     for (const std::size_t n : inliers) all.push_back(met(lines_[n], rotation).closeness);
     const double mean = median(all);
     for (double& one : all) one = std::abs(one - mean);
