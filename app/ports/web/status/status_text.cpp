@@ -49,8 +49,8 @@ class Metrics {
   std::string text() const {
     std::string all;
     for (const auto& [name, metric] : metrics_) {
-      all +=
-          "# HELP " + name + " " + metric.help + "\n# TYPE " + name + " untyped\n" + metric.samples;
+      all.append("# HELP ").append(name).append(" ").append(metric.help);
+      all.append("\n# TYPE ").append(name).append(" untyped\n").append(metric.samples);
     }
     return all;
   }
