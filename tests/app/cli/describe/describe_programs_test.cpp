@@ -56,8 +56,7 @@ TEST(DescribePrograms, TheManualPageHasEveryOption) {
 }
 
 TEST(DescribePrograms, TheServicesPageHasItsHelp) {
-  std::string page =
-      text_of(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/daemon/orbwatchd.8");
+  std::string page = text_of(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/daemon/orbwatchd.8");
   std::erase(page, '\\');
   EXPECT_THAT(page, HasSubstr(output_of({ORBWATCHD_PROGRAM, "--help"})));
 }
