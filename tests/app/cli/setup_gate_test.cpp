@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <iterator>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "app/files/rig_file.h"
 #include "tests/app/cli/command_line.h"
@@ -81,7 +83,7 @@ double thermal_on_colour(const Projections& found, const Projections& truth) {
 
 class SetupGate : public CommandLine {
  protected:
-  /// A calibration file, as OpenCV writes it.
+  /// A calibration file, as ROS writes it.
   std::string calibration(const std::string& name, const cv::FileNode& camera) {
     std::ostringstream text;
     text.precision(12);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 

@@ -53,6 +53,14 @@ struct Tally {
     testing::Test::RecordProperty("refused", refused);
     testing::Test::RecordProperty("wrong", wrong);
   }
+  /// Of so many cases, the median and 95 % within degrees, hardly one refused, none wrong.
+  void expect(int cases, double median, double most) const {
+    report();
+    EXPECT_LE(errors.p50(), median);
+    EXPECT_LE(errors.p95(), most);
+    EXPECT_LE(refused, cases / 20);
+    EXPECT_EQ(wrong, 0);
+  }
 
   ErrorDistribution errors;
   int refused = 0;
@@ -66,11 +74,7 @@ TEST(RegistrationGate, ColourOnColour) {
     const CameraPair pair = camera_pair(70'000 + static_cast<std::uint64_t>(n), false);
     tally.add(align::register_by_features(pair.reference(), pair.unknown()), pair.truth);
   }
-  tally.report();
-  EXPECT_LE(tally.errors.p50(), 0.1);
-  EXPECT_LE(tally.errors.p95(), 0.3);
-  EXPECT_LE(tally.refused, cases / 20);
-  EXPECT_EQ(tally.wrong, 0);
+  tally.expect(cases, 0.1, 0.3);
 }
 
 TEST(RegistrationGate, ColourOnColourWithoutAStatedScene) {
@@ -81,11 +85,7 @@ TEST(RegistrationGate, ColourOnColourWithoutAStatedScene) {
     pair.rig.scene = {};
     tally.add(align::register_by_features(pair.reference(), pair.unknown()), pair.truth);
   }
-  tally.report();
-  EXPECT_LE(tally.errors.p50(), 0.1);
-  EXPECT_LE(tally.errors.p95(), 0.3);
-  EXPECT_LE(tally.refused, cases / 20);
-  EXPECT_EQ(tally.wrong, 0);
+  tally.expect(cases, 0.1, 0.3);
 }
 
 TEST(RegistrationGate, ThermalOnColour) {
@@ -99,11 +99,7 @@ TEST(RegistrationGate, ThermalOnColour) {
     sought.camera.registration = turned_away(pair.truth, 8.0 * (n % 9) / 8, random);
     tally.add(align::register_by_gradients(pair.reference(), sought), pair.truth);
   }
-  tally.report();
-  EXPECT_LE(tally.errors.p50(), 0.3);
-  EXPECT_LE(tally.errors.p95(), 0.8);
-  EXPECT_LE(tally.refused, cases / 20);
-  EXPECT_EQ(tally.wrong, 0);
+  tally.expect(cases, 0.3, 0.8);
 }
 
 TEST(RegistrationGate, WrongStartsAndOtherRoomsAreRefusedOrFoundAllTheSame) {
