@@ -13,8 +13,10 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "hal/frame/buffer_count.h"
 #include "hal/libcamera/libcamera_camera.h"
 #include "tests/hal/frame/udmabuf.h"
 
@@ -31,8 +33,16 @@ using testing::HasSubstr;
 constexpr const char* kCamera = "Sensor B";
 /// An emulated machine may be that slow; it says when a camera has stalled.
 constexpr StreamRequest kSmall{320, 240, 0.1};
+/// What the pipeline of vimc has, whatever it is asked for.
+constexpr std::size_t kVimcBuffers = 4;
 /// After it a test fails; nothing waits for so long otherwise.
 constexpr auto kMaxWait = 120s;
+
+/// The begin of the notice about it.
+std::string fewer_buffers() {
+  return std::to_string(kVimcBuffers) + " buffers instead of " +
+         std::to_string(kFreeRunningBuffers);
+}
 
 /// What a camera told, for a test that waits for it.
 class Witness {
@@ -222,16 +232,14 @@ TEST(Vimc, WaitsForAConsumerThatHoldsAllBuffers) {
   ASSERT_TRUE(camera.configure(kSmall));
   Witness witness;
   ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
-  // What the pipeline of vimc has, whatever it is asked for.
-  constexpr std::size_t kBuffers = 4;
   std::vector<Frame> held;
   std::set<const std::byte*> memory;
-  while (held.size() < kBuffers) {
+  while (held.size() < kVimcBuffers) {
     held.push_back(witness.frame());
     ASSERT_TRUE(held.back());
     memory.insert(held.back()->picture.planes[0].data);
   }
-  EXPECT_EQ(memory.size(), kBuffers) << "each in a buffer of its own";
+  EXPECT_EQ(memory.size(), kVimcBuffers) << "each in a buffer of its own";
   const std::byte* const released = held.front()->picture.planes[0].data;
   held.erase(held.begin());
   const Frame next = witness.frame();
@@ -248,7 +256,7 @@ TEST(Vimc, FillsMemoryThatItImports) {
   ASSERT_TRUE(camera.configure(kSmall));
   Witness witness;
   ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
-  EXPECT_EQ(notice.get_future().get(), "4 buffers instead of 10 from udmabuf");
+  EXPECT_EQ(notice.get_future().get(), fewer_buffers() + " from udmabuf");
   // More frames than buffers: each is queued again.
   for (int n = 0; n < 5; ++n) {
     const Frame frame = witness.frame();
@@ -266,8 +274,8 @@ TEST(Vimc, StaysInItsDriversMemoryWithoutAnother) {
   Witness witness;
   ASSERT_TRUE(camera.start(witness.on_frame(), witness.on_fault()));
   EXPECT_EQ(notice.get_future().get(),
-            "4 buffers instead of 10 in memory of the driver, which the CPU may not cache "
-            "(empty: has no memory)");
+            fewer_buffers() +
+                " in memory of the driver, which the CPU may not cache (empty: has no memory)");
   EXPECT_TRUE(witness.frame());
 }
 
