@@ -1,0 +1,16 @@
+# Sourced by run: one file brings all that a minimal system needs.
+# shellcheck shell=bash disable=SC2154
+
+test_bundle() {
+  local bundle=$folder/orbwatch-$suite-$architecture.tar
+  if [[ ! -e $bundle ]]; then
+    check "there is a bundle, by build-deb --bundle" test -e "$bundle"
+    return 0
+  fi
+  tar -xf "$bundle" -C "$packages"
+  boot "$roots/minimal-$suite-$architecture"
+  check "the minimal system has none of what it needs" inside sh -c '! test -e /usr/lib/*-linux-gnu/libmodbus.so.5'
+  check "the bundle installs without a network" inside "/packages/orbwatch-$suite-$architecture/install"
+  check "and the service is active" has ActiveState active
+  check "and measures" wait_for 30 measures
+}

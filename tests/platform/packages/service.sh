@@ -1,0 +1,124 @@
+# Sourced by run: the package installed, its service, what a second package adds, and their end.
+# shellcheck shell=bash disable=SC2154
+
+test_service() {
+  boot "$roots/ready-$suite-$architecture"
+  files >"$work/before"
+  check "the package has at most 5 MB: $(du -h --apparent-size "$package" | cut -f 1)" \
+    test "$(stat -c %s "$package")" -le 5000000
+  check "apt installs it without a network" inside sh -c "apt-get install -y /packages/orbwatch_*_$architecture.deb"
+  check "the service is active then" has ActiveState active
+  check "it measures the simulated machine, says mbpoll" wait_for 20 measures
+  check "what is installed is as it was packed" inside sh -c 'test -z "$(dpkg --verify orbwatch)"'
+  test_programs
+  test_start
+  test_killed
+  test_hung
+  test_wrong_configuration
+  test_second_machine
+  test_others
+  test_removal
+}
+
+test_programs() {
+  check "orbwatchd --check as the service's user" as_service orbwatchd --check
+  check "orbwatch doctor --json" doctor_speaks
+  check "the manual pages" inside sh -c 'zcat /usr/share/man/man1/orbwatch.1.gz /usr/share/man/man8/orbwatchd.8.gz | grep -q "\.TH"'
+  check "its exposure is at most 2.0 of 10" inside systemd-analyze security --threshold=20 --no-pager orbwatch.service
+  check "its lines are in the journal, with a level" inside sh -c \
+    'journalctl --no-pager SYSLOG_IDENTIFIER=orbwatchd PRIORITY=6 | grep "runs with"'
+  inside systemctl stop orbwatch.service
+  check "orbwatch bench --simulated as the service's user" \
+    as_service orbwatch bench --config /etc/orbwatch/site.toml --simulated --seconds 2
+  inside systemctl start orbwatch.service
+}
+
+# Its exit status depends on the board.
+doctor_speaks() {
+  inside orbwatch doctor --json >"$work/doctor.json" || (($? == 1))
+  python3 -c 'import json, sys
+report = json.load(open(sys.argv[1]))
+assert len(report["checks"]) > 5 and report["worst"] in ("ok", "warning", "fault"), report' "$work/doctor.json"
+}
+
+test_start() {
+  local begin
+  inside systemctl stop orbwatch.service
+  begin=$(date +%s%N)
+  inside systemctl start --no-block orbwatch.service
+  check "it starts" wait_for 60 measures
+  echo "       from start to the first result by Modbus: $(seconds_since "$begin")"
+  echo "       resident: $(awk '/^VmRSS/ {printf "%.0f MB", $2 / 1000}' "/proc/$(process)/status")"
+}
+
+# process: its number outside of the system.
+process() { pgrep --ns "$leader" --nslist pid --exact orbwatchd; }
+
+# came_back BEFORE: a new process measures, and the outputs were made safe in between.
+came_back() { (($(property NRestarts) > $1)) && [[ $(property ActiveState) == active ]] && measures; }
+
+outputs_were_made_safe() { property ExecStopPost | grep -F 'orbwatch lines --safe' | grep -F 'status=0/0'; }
+
+test_killed() {
+  local restarts begin
+  restarts=$(property NRestarts) begin=$(date +%s%N)
+  inside systemctl kill --signal=KILL --kill-whom=main orbwatch.service
+  check "killed, it comes back" wait_for 60 came_back "$restarts"
+  echo "       from SIGKILL to the next result: $(seconds_since "$begin")"
+  check "and its outputs were made safe" outputs_were_made_safe
+}
+
+test_hung() {
+  local restarts begin
+  restarts=$(property NRestarts) begin=$(date +%s%N)
+  "$here/hang_thread" "$(process)" pipeline &
+  check "hung, the watchdog ends it" wait_for 30 says "Watchdog timeout"
+  echo "       from the hang to the watchdog: $(seconds_since "$begin")"
+  check "and it comes back" wait_for 60 came_back "$restarts"
+  echo "       from the hang to the next result: $(seconds_since "$begin")"
+  check "and its outputs were made safe" outputs_were_made_safe
+  wait $!
+}
+
+test_wrong_configuration() {
+  check "nothing is refused yet" reads system_configuration_refused 0
+  inside sed -i '1i nonsense = ' /etc/orbwatch/site.toml
+  inside systemctl restart orbwatch.service
+  check "with a wrong configuration the last good one runs" wait_for 20 measures
+  check "and Modbus says so" reads system_configuration_refused 1
+  check "and systemd and the journal say where" says "site.toml:1"
+  check "as its status" grep -F "site.toml:1" <<<"$(property StatusText)"
+  inside sed -i 1d /etc/orbwatch/site.toml
+  inside systemctl restart orbwatch.service
+  check "mended, it counts again" wait_for 20 reads system_configuration_refused 0
+}
+
+test_second_machine() {
+  inside sh -c 'mkdir /etc/orbwatch/second && cd /etc/orbwatch && cp -r rig.toml recipes second &&
+    sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/" site.toml >second/site.toml'
+  check "a second machine on the board" inside systemctl start orbwatch@second.service
+  modbus_port=1503
+  check "is measured, too" wait_for 20 measures
+  modbus_port=1502
+  check "beside the first one" measures
+  inside systemctl stop orbwatch@second.service
+  inside rm -r /etc/orbwatch/second /var/lib/orbwatch-second
+}
+
+test_others() {
+  check "the module for libcamera is missed" inside sh -c 'orbwatch --version | grep -x "libcamera not installed"'
+  check "the other packages" inside sh -c 'apt-get install -y /packages/*.deb'
+  check "the service runs on" wait_for 20 measures
+  check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera [0-9]"'
+  check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
+    -a -e /usr/share/orbwatch-msgs/modbus/registers.csv
+}
+
+test_removal() {
+  check "apt removes it" inside sh -c 'apt-get remove -y "orbwatch*"'
+  check "nothing runs" inside sh -c '! systemctl is-active orbwatch.service && ! pgrep orbwatchd'
+  check "configuration and state are kept" inside test -e /etc/orbwatch/site.toml -a -e /var/lib/orbwatch/last-good.json
+  check "apt purges it" inside sh -c 'apt-get purge -y "orbwatch*"'
+  files >"$work/after"
+  check "nothing is left" diff "$work/before" "$work/after"
+}

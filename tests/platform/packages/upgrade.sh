@@ -1,0 +1,68 @@
+# Sourced by run: what an upgrade keeps, and what a downgrade says.
+# shellcheck shell=bash disable=SC2154
+
+test_upgrade() {
+  boot "$roots/ready-$suite-$architecture"
+  check "version $older is installed" inside sh -c 'apt-get install -y /packages/older/orbwatch_*.deb'
+  check "it measures" wait_for 30 measures
+  an_installer_was_here
+  check "it measures what the installer wrote" wait_for 30 measures
+  files_of_state before
+  check "apt upgrades to $version" inside sh -c \
+    "apt-get install -y -o Dpkg::Options::=--force-confold /packages/orbwatch_*_$architecture.deb"
+  check "it measures on" wait_for 30 measures
+  check "by the new program" sh -c '! readlink "/proc/$1/exe" | grep deleted' sh "$(process)"
+  check "the changed site is kept" inside grep -F 'name = "gate"' /etc/orbwatch/site.toml
+  check "the changed rig is kept, the new one is beside it" inside sh -c \
+    'grep -F "Measured on site" /etc/orbwatch/rig.toml && test -e /etc/orbwatch/rig.toml.dpkg-dist'
+  check "an unchanged recipe is the new one" inside sh -c '! grep -F "# As of" /etc/orbwatch/recipes/demo.toml'
+  files_of_state after
+  check "commands and calibration are kept" diff "$work/state-before" "$work/state-after"
+  check "the calibration is read" inside sh -c 'orbwatch calibration history | grep -F "for another rig file"'
+  test_older_files
+  check "a downgrade is refused with a sentence" downgrade_is_refused
+  check "version $version runs on" measures
+  check "and is installed" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
+}
+
+an_installer_was_here() {
+  inside sed -i 's/^name = "door"/name = "gate"/' /etc/orbwatch/site.toml
+  inside sed -i '1i # Measured on site.' /etc/orbwatch/rig.toml
+  inside systemctl stop orbwatch.service
+  as_service sh -c 'cat >/var/lib/orbwatch/calibration.toml' <<CALIBRATION
+[[entry]]
+number = 1
+time = "2026-01-01T00:00:00Z"
+camera = "colour"
+method = "detect_ball"
+quality = "0.1 mm"
+rig = 1
+[entry.ball]
+centre = [120, 60, 430]
+CALIBRATION
+  inside systemctl start orbwatch.service
+}
+
+files_of_state() { inside sh -c 'cd /var/lib/orbwatch && sha256sum calibration.toml commands' >"$work/state-$1"; }
+
+# What an older version wrote, and this one does not read.
+test_older_files() {
+  inside systemctl stop orbwatch.service
+  # Behind the eight letters of each slot of 8 KiB is the version.
+  inside sh -c 'for slot in 0 1; do
+    printf "\\0" | dd of=/var/lib/orbwatch/commands bs=1 seek=$((slot * 8192 + 8)) conv=notrunc status=none
+  done'
+  inside systemctl start orbwatch.service
+  check "older commands are refused with a sentence" says "commands: is of version 0; this orbwatchd reads version 1"
+  check "and it measures" wait_for 30 measures
+  inside sed -i '/^method/d' /var/lib/orbwatch/calibration.toml
+  inside systemctl --no-block restart orbwatch.service
+  check "an older calibration is refused with a sentence" wait_for 30 says "calibration.toml:"
+  inside rm /var/lib/orbwatch/calibration.toml
+  check "and without it, it measures" wait_for 60 measures
+}
+
+downgrade_is_refused() {
+  ! inside sh -c 'apt-get install -y --allow-downgrades /packages/older/orbwatch_*.deb' >"$work/downgrade" 2>&1 &&
+    grep -F "the older $older may not read" "$work/downgrade"
+}
