@@ -19,7 +19,7 @@
 namespace orbwatch::remap::avx2 {
 namespace {
 
-constexpr int kMostBlocks = kTile / kBlock;
+constexpr int kMostBlocks = kTile / kBlock, kMostRows = 2 * kMostBlocks;
 
 __m128i load128(const void* from) { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
 __m256i each(int value) { return _mm256_set1_epi16(static_cast<short>(value)); }
@@ -344,7 +344,7 @@ void fill_row(const TileJob& job, const BlockRow& row, const Shape& u, const Sha
 
 template <Layout layout, int blocks_x>
 void fill_rows(const TileJob& job) {
-  BlockRow rows[kMostBlocks];
+  BlockRow rows[kMostRows];
   walk(job.map, rows);
   using Axes = AxisPair<std::int16_t>;
   const LaneShape& lanes = job.map.lanes;

@@ -28,7 +28,7 @@
 namespace orbwatch::remap::avx512 {
 namespace {
 
-constexpr int kMostBlocks = kTile / kBlock;
+constexpr int kMostBlocks = kTile / kBlock, kMostRows = 2 * kMostBlocks;
 
 /// What the lanes of a register start from, computed by the compiler.
 template <class T>
@@ -425,7 +425,7 @@ template <Layout layout, int blocks_x, Kept kept>
 void fill_rows(const TileJob& job) {
   // All rows first: else the compiler takes places out of the vectors on the port that vpermb
   // needs.
-  BlockRow rows[kMostBlocks];
+  BlockRow rows[kMostRows];
   RowWalk walk(job.map.windows);
   const int blocks_y = job.map.blocks_y;
   for (int y = 0; y < blocks_y; ++y) {

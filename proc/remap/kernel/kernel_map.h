@@ -35,7 +35,7 @@ struct WindowWalk {
 /// Lanes of v have two fraction bits less: their along_x, along_y and start are these, rounded; so
 /// a row's number is in the bits where a table of rows of kWindow is indexed by it. And they count
 /// from kRowCentre above the window, for v - 1/2 is what a lower row is weighed with (see
-/// interpolation.h). Rounding moves a pixel by less than 1/300 px from the quadratic.
+/// interpolation.h). Rounding moves a pixel by less than 1/240 px from the quadratic.
 struct alignas(8) LaneShape {
   AxisPair<std::int16_t> slope_x, slope_y;    ///< of block (0, 0)'s corner; Q13
   AxisPair<std::int16_t> twice_xx, twice_yy;  ///< curvature, Q18
@@ -46,16 +46,17 @@ struct alignas(8) LaneShape {
 inline constexpr int kRowFractionBits = kFractionBits - 2;
 inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
 
-/// A map for kernels, over as many blocks as a tile, or its half in a subsampled plane, has.
+/// A map for kernels, over as many blocks as a tile has, or its half in a subsampled plane, or it
+/// at half steps along y.
 struct BlockMap {
   WindowWalk windows;
   LaneShape lanes;
   int blocks_x;  ///< 2 or 4
-  int blocks_y;
+  int blocks_y;  ///< 1 to 8
 
-  /// Becomes the map of a patch's first pixels, 8 or 16 columns and a multiple of 4 rows. False,
-  /// and then undefined, when the patch is too steep or bent: a block would not fit into its
-  /// window. `rounding`: see there.
+  /// Becomes the map of a patch's first pixels, 8 or 16 columns and a multiple of 4 rows, at
+  /// most 32. False, and then undefined, when the patch is too steep or bent: a block would not fit
+  /// into its window. `rounding`: see there.
   [[nodiscard]] bool fit(const Patch& patch, int columns, int rows, const Uv64& rounding);
 
   /// Added to every coordinate, Q24, for rounding of truncated places: half of their last bit, and

@@ -89,21 +89,28 @@ struct PointNeighbours {
   typename Pair::Word upper[kPointRun], lower[kPointRun];
 
   /// Four words at a time: x86 waits when it reads as a vector what was written word by word just
-  /// before.
-  [[gnu::always_inline]] static void read_quads(const PointRun& run, const std::uint8_t* row,
-                                                typename Pair::Word* words) {
+  /// before. Both rows by turns, so that no offset waits in a register for the second.
+  [[gnu::always_inline]] void read_quads(const PointRun& run, const std::uint8_t* upper_row,
+                                         const std::uint8_t* lower_row) {
     using Quads = std::uint64_t __attribute__((vector_size(2 * kPointRun)));
-    Quads quads;
+    Quads above, below;
 #pragma GCC unroll 4
     for (int x = 0; x < kPointRun; x += 4) {
-      const auto word = [&](int k) __attribute__((always_inline)) {
+      std::uint64_t up = 0, low = 0;
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) {
+        const std::ptrdiff_t from = run.offset[x + k];
         std::uint16_t value;
-        std::memcpy(&value, row + run.offset[x + k], sizeof value);
-        return std::uint64_t{value} << 16 * k;
-      };
-      quads[x / 4] = word(0) | word(1) | word(2) | word(3);
+        std::memcpy(&value, upper_row + from, sizeof value);
+        up |= std::uint64_t{value} << 16 * k;
+        std::memcpy(&value, lower_row + from, sizeof value);
+        low |= std::uint64_t{value} << 16 * k;
+      }
+      above[x / 4] = up;
+      below[x / 4] = low;
     }
-    std::memcpy(words, &quads, sizeof quads);
+    std::memcpy(upper, &above, sizeof above);
+    std::memcpy(lower, &below, sizeof below);
   }
 
   /// From sample `first` of each pixel on.
@@ -113,8 +120,7 @@ struct PointNeighbours {
         source.data + (kInfo.first + first * kInfo.every) * kInfo.sample_bytes;
     const std::uint8_t* const lower_row = upper_row + source.stride;
     if constexpr (kReadsQuads && sizeof(typename Pair::Word) == 2) {
-      read_quads(run, upper_row, upper);
-      return read_quads(run, lower_row, lower);
+      return read_quads(run, upper_row, lower_row);
     }
 #pragma GCC unroll 16
     for (int x = 0; x < kPointRun; ++x) {

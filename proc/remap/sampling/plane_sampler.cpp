@@ -39,9 +39,9 @@ SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& samplin
           picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
 }
 
-/// Room for samples at half steps, most of which are only passed through.
+/// Room for samples at half steps along one axis, most of which are only passed through.
 struct FineSamples {
-  alignas(64) std::array<std::uint8_t, kTile * kTile * 4> bytes;
+  alignas(64) std::array<std::uint8_t, 2 * kTile * kTile * 4> bytes;
 
   TargetPlane plane(int pixel_bytes, int columns, int rows) {
     return {bytes.data(), std::ptrdiff_t{kTile} * pixel_bytes, columns, rows};
@@ -193,18 +193,10 @@ bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& sourc
                                     const TargetPlane& target) const {
   const Patch half = at_half_rows(patch);
   FineSamples samples;
-  for (int top = 0; top < 2 * target.rows; top += kTile) {
-    const Patch from_top = top == 0 ? half : moved(half, 0, top);
-    const TargetPlane fine = samples.plane(pixel_bytes_, target.columns, kTile);
-    const TargetPlane kept{target.data + top / 2 * target.stride, target.stride, target.columns,
-                           kTile / 2};
-    if (even_rows_ != nullptr) {
-      if (!keep_half(even_rows_, from_top, source, fine, kept)) return false;
-      continue;
-    }
-    if (!sample_blocks(from_top, source, fine)) return false;
-    keep_even_rows(fine, target.columns * pixel_bytes_, kept);
-  }
+  const TargetPlane fine = samples.plane(pixel_bytes_, target.columns, 2 * target.rows);
+  if (even_rows_ != nullptr) return keep_half(even_rows_, half, source, fine, target);
+  if (!sample_blocks(half, source, fine)) return false;
+  keep_even_rows(fine, target.columns * pixel_bytes_, target);
   return true;
 }
 

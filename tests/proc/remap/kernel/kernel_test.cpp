@@ -137,8 +137,8 @@ class Trial {
 
  private:
   static constexpr std::uint8_t kCanary = 0xa5;
-  // The windows of 4x4 blocks that are two source pixels per pixel apart, four bytes each.
-  static inline GuardedMemory memory_{64 * (4 * 64 + 64)};
+  // The windows of 4x8 blocks that are two source pixels per pixel apart, four bytes each.
+  static inline GuardedMemory memory_{128 * (4 * 128 + 64)};
 
   Layout layout_;
   int columns_, rows_;
@@ -155,7 +155,7 @@ TEST_P(KernelOfLayout, EqualsTheScalarOne) {
   std::mt19937 random(5);
   int steepest = 0, gentle = 0;
   for (int round = 0; round < 2000; ++round) {
-    const int blocks_x = round % 2 ? 4 : 2, blocks_y = 1 << (round / 2 % 3);
+    const int blocks_x = round % 2 ? 4 : 2, blocks_y = 1 << (round / 2 % 4);
     const bool at_limit = round % 3 == 0;
     const RandomPatch shape(random, {round % 5 ? 1.0 : 0.3, round % 7 ? 0.01 : 0});
     const Trial trial(random, GetParam().layout,
@@ -177,7 +177,7 @@ TEST_P(KernelOfLayout, KeepsEverySecondColumnOrRow) {
   std::mt19937 random(7);
   int fitting = 0;
   for (int round = 0; round < 500; ++round) {
-    const int blocks_x = round % 2 ? 4 : 2, blocks_y = round % 4 < 2 ? 4 : 2;
+    const int blocks_x = round % 2 ? 4 : 2, blocks_y = 2 << (round / 2 % 3);
     const RandomPatch shape(random, {round % 5 ? 1.0 : 0.3, round % 7 ? 0.01 : 0});
     const Trial trial(random, GetParam().layout,
                       round % 3 ? shape.patch() : shape.steepest(blocks_x, blocks_y), blocks_x,

@@ -140,7 +140,7 @@ void expect_exact(const Scene& scene, double optics::Vec2::*axis, const Kernel& 
   remap(scene.grid, source.as_source(), Interpolation::Bilinear, out.picture,
         {0, scene.grid.tiles_y()}, kernel);
   // Of the grid, of places in lanes, of weights, and of samples.
-  constexpr double kTolerated = kTolerance + 1.0 / 300 + 1.0 / 256 + 0.5 / kPerPixel;
+  constexpr double kTolerated = kTolerance + 1.0 / 240 + 1.0 / 256 + 0.5 / kPerPixel;
   int compared = 0;
   for (int y = 0; y < out.picture.height; ++y) {
     for (int x = 0; x < out.picture.width; ++x) {
