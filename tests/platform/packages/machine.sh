@@ -91,6 +91,8 @@ register() {
 
 reads() { [[ $(register "$1") == "$2" ]]; }
 
+reads_another() { local value; value=$(register "$1"); [[ -n $value && $value != "$2" ]]; }
+
 measures() { (($(register system_frame_set) > 0)); }
 
 # says TEXT: whether the service has written it to the journal.

@@ -15,6 +15,7 @@ test_service() {
   test_killed
   test_hung
   test_wrong_configuration
+  test_configured
   test_second_machine
   test_others
   test_removal
@@ -28,8 +29,7 @@ test_programs() {
   check "its lines are in the journal, with a level" inside sh -c \
     'journalctl --no-pager SYSLOG_IDENTIFIER=orbwatchd PRIORITY=6 | grep "runs with"'
   inside systemctl stop orbwatch.service
-  check "orbwatch bench --simulated as the service's user" \
-    as_service orbwatch bench --config /etc/orbwatch/site.toml --simulated --seconds 2
+  check "orbwatch bench --simulated as the service's user" bench_speaks
   inside systemctl start orbwatch.service
 }
 
@@ -39,6 +39,15 @@ doctor_speaks() {
   python3 -c 'import json, sys
 report = json.load(open(sys.argv[1]))
 assert len(report["checks"]) > 5 and report["worst"] in ("ok", "warning", "fault"), report' "$work/doctor.json"
+}
+
+# Its exit status depends on what else this computer does.
+bench_speaks() {
+  as_service orbwatch bench --config /etc/orbwatch/site.toml --simulated --seconds 2 --json \
+    >"$work/bench.json" || (($? == 1))
+  python3 -c 'import json, sys
+report = json.load(open(sys.argv[1]))
+assert report["frame_sets"] > 0 and len(report["views"]) == 4, report' "$work/bench.json"
 }
 
 test_start() {
@@ -93,6 +102,26 @@ test_wrong_configuration() {
   check "mended, it counts again" wait_for 20 reads system_configuration_refused 0
 }
 
+# By root, for the service's user.
+test_configured() {
+  local before
+  before=$(register system_configuration_checksum)
+  inside sh -c 'mkdir /root/new && cp -r /etc/orbwatch/* /root/new && sed -i "s/^name = \"door\"/name = \"gate\"/" /root/new/site.toml'
+  check "orbwatch configure has a new configuration run" inside orbwatch configure /root/new/site.toml
+  check "and it runs" wait_for 30 reads_another system_configuration_checksum "$before"
+  check "the files are the old ones" inside grep -F 'name = "door"' /etc/orbwatch/site.toml
+  check "orbwatch configure --cancel" inside orbwatch configure --cancel
+  check "goes back" wait_for 30 reads system_configuration_checksum "$before"
+  inside orbwatch configure /root/new/site.toml >"$work/configured"
+  check "again" wait_for 30 reads_another system_configuration_checksum "$before"
+  check "orbwatch configure --confirm" inside orbwatch configure --confirm
+  check "writes the files" inside grep -F 'name = "gate"' /etc/orbwatch/site.toml
+  inside systemctl restart orbwatch.service
+  check "which are read after a restart" wait_for 30 reads_another system_configuration_checksum "$before"
+  check "and not refused" reads system_configuration_refused 0
+  inside rm -r /root/new
+}
+
 test_second_machine() {
   inside sh -c 'mkdir /etc/orbwatch/second && cd /etc/orbwatch && cp -r rig.toml recipes second &&
     sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/" site.toml >second/site.toml'
@@ -109,7 +138,7 @@ test_others() {
   check "the module for libcamera is missed" inside sh -c 'orbwatch --version | grep -x "libcamera not installed"'
   check "the other packages" inside sh -c 'apt-get install -y /packages/*.deb'
   check "the service runs on" wait_for 20 measures
-  check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera [0-9]"'
+  check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera v?[0-9]"'
   check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
     -a -e /usr/share/orbwatch-msgs/modbus/registers.csv
 }
