@@ -10,6 +10,9 @@
 
 namespace orbwatch::app::web {
 
+/// Whether a path takes ?view=NAME.
+enum class ViewArgument { None, One, Any };
+
 /// What is served under one path.
 struct Route {
   std::string method;  ///< GET, which includes HEAD, or POST
@@ -17,8 +20,9 @@ struct Route {
   std::string description;
   std::string type;  ///< of its answer
   std::function<void(const ExchangePtr&)> serve;
-  bool names_view = false;               ///< takes ?view=NAME
+  ViewArgument view = ViewArgument::None;
   const CommandInfo* command = nullptr;  ///< the command that it carries out
+  bool is_page = false;                  ///< a file of the page, which programs do not ask for
 };
 
 /// Passes a request to the route of its method and path, compared exactly; another method is

@@ -7,8 +7,10 @@
 #include "app/log.h"
 #include "app/model/condition.h"
 #include "app/ports/web/commands/command_body.h"
+#include "app/ports/web/page/page_files.h"
 #include "app/ports/web/status/openapi.h"
 #include "app/ports/web/status/status_text.h"
+#include "app/ports/web/streams/live_stream.h"
 
 namespace orbwatch::app {
 
@@ -21,6 +23,32 @@ constexpr auto kWatchPeriod = std::chrono::milliseconds(250);
 
 double seconds_between(hal::TimePoint from, hal::TimePoint to) {
   return std::chrono::duration<double>(to - from).count();
+}
+
+/// index.html is the root, too.
+std::vector<web::Route> page_routes() {
+  std::vector<web::Route> routes;
+  routes.reserve(web::kPageFiles.size());
+  for (const web::PageFile& file : web::kPageFiles) {
+    const std::string type(web::page_type(file.name));
+    const auto serve = [type, content = std::make_shared<const std::string>(file.content)](
+                           const ExchangePtr& exchange) {
+      web::Response response;
+      response.type = type;
+      response.body = content;
+      exchange->answer(std::move(response));
+    };
+    web::Route route;
+    route.method = "GET";
+    route.path = "/";
+    if (file.name != "index.html") route.path += file.name;
+    route.description = "Of the page";
+    route.type = type;
+    route.serve = serve;
+    route.is_page = true;
+    routes.push_back(std::move(route));
+  }
+  return routes;
 }
 
 }  // namespace
@@ -50,7 +78,12 @@ Result<> WebSink::start() {
   server_ = std::move(*server);
   is_running_ = true;
   thread_.start("web", [this] {
-    while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) server_->end_overdue();
+    while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
+      server_->end_overdue();
+      if (!status_feed_->is_wanted()) continue;
+      status_feed_->publish(std::make_shared<const std::string>(newest_as_json()),
+                            hal::Clock::now());
+    }
   });
   log_line(LogLevel::Info,
            "web: serves " + settings_.address + " port " + std::to_string(server_->port()));
@@ -130,11 +163,16 @@ std::vector<web::Route> WebSink::make_routes() {
       {"GET", "/metrics", "The status for Prometheus", std::string(kMetrics),
        by(&WebSink::serve_metrics)},
       {"GET", "/snapshot.jpg", "The view's next picture", "image/jpeg",
-       by(&WebSink::serve_snapshot), true},
+       by(&WebSink::serve_snapshot), web::ViewArgument::One},
       {"GET", "/stream.mjpg", "The view's pictures as MJPEG, for players and recorders",
-       std::string(web::MjpegStream::kType), by(&WebSink::serve_stream), true},
+       std::string(web::MjpegStream::kType), by(&WebSink::serve_stream), web::ViewArgument::One},
+      {"GET", "/api/v1/live",
+       "Status and views over one connection. Of each message first a line of JSON that says what "
+       "and how many bytes follow",
+       std::string(web::LiveStream::kType), by(&WebSink::serve_live), web::ViewArgument::Any},
   };
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
+  std::ranges::move(page_routes(), std::back_inserter(routes));
   return routes;
 }
 
@@ -149,7 +187,8 @@ std::vector<web::Route> WebSink::make_command_routes() {
       exchange->answer(web::error_response(400, command.error().message));
     };
     routes.push_back({"POST", "/api/v1/command/" + std::string(info.name),
-                      std::string(info.description), std::string(web::kJson), serve, false, &info});
+                      std::string(info.description), std::string(web::kJson), serve,
+                      web::ViewArgument::None, &info});
   }
   return routes;
 }
@@ -170,13 +209,16 @@ void WebSink::serve_health(const ExchangePtr& exchange) const {
   exchange->answer(std::move(response));
 }
 
-void WebSink::serve_status(const ExchangePtr& exchange) const {
+std::string WebSink::newest_as_json() const {
   const NewestStatus newest = this->newest();
   const auto now = hal::Clock::now();
   const bool has_status = newest.received != hal::TimePoint{};
   const double age = has_status ? seconds_between(newest.received, now) : signals::kNotValid;
-  exchange->answer(web::json_response(
-      web::status_json({newest.status, names_, now, newest.utc}, statistics(), age)));
+  return web::status_json({newest.status, names_, now, newest.utc}, statistics(), age);
+}
+
+void WebSink::serve_status(const ExchangePtr& exchange) const {
+  exchange->answer(web::json_response(newest_as_json()));
 }
 
 void WebSink::serve_metrics(const ExchangePtr& exchange) const {
@@ -188,10 +230,8 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   exchange->answer(std::move(response));
 }
 
-/// Null: `refusal` says what would be right.
-const web::ViewEncoder* WebSink::find_view(const web::Exchange& exchange,
-                                           std::string& refusal) const {
-  const std::string* name = exchange.request().argument("view");
+/// Null: `refusal` says what would be right. `name`: null when none was given.
+const web::ViewEncoder* WebSink::find_view(const std::string* name, std::string& refusal) const {
   refusal = name ? "there is no such view" : "say which view, as ?view=NAME";
   refusal += "; there are:";
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -203,7 +243,7 @@ const web::ViewEncoder* WebSink::find_view(const web::Exchange& exchange,
 
 void WebSink::serve_snapshot(const ExchangePtr& exchange) const {
   std::string refusal;
-  const web::ViewEncoder* view = find_view(*exchange, refusal);
+  const auto* view = find_view(exchange->request().argument("view"), refusal);
   if (!view) {
     exchange->answer(web::error_response(404, refusal));
     return;
@@ -213,18 +253,43 @@ void WebSink::serve_snapshot(const ExchangePtr& exchange) const {
 
 void WebSink::serve_stream(const ExchangePtr& exchange) {
   std::string refusal;
-  const web::ViewEncoder* view = find_view(*exchange, refusal);
+  const auto* view = find_view(exchange->request().argument("view"), refusal);
   if (!view) {
     exchange->answer(web::error_response(404, refusal));
     return;
   }
+  start_stream(exchange, web::MjpegStream::kType,
+               std::make_shared<web::MjpegStream>(view->feed(), stream_counts_));
+}
+
+/// Each view once, however often it is named.
+void WebSink::serve_live(const ExchangePtr& exchange) {
+  std::vector<web::LiveStream::Source> sources{{"", status_feed_}};
+  for (const auto& [argument, name] : exchange->request().query) {
+    if (argument != "view") continue;
+    std::string refusal;
+    const auto* view = find_view(&name, refusal);
+    if (!view) {
+      exchange->answer(web::error_response(404, refusal));
+      return;
+    }
+    if (std::ranges::find(sources, name, &web::LiveStream::Source::name) == sources.end()) {
+      sources.push_back({name, view->feed()});
+    }
+  }
+  start_stream(exchange, web::LiveStream::kType,
+               std::make_shared<web::LiveStream>(std::move(sources), stream_counts_));
+}
+
+void WebSink::start_stream(const ExchangePtr& exchange, std::string_view type,
+                           std::shared_ptr<web::Stream> stream) const {
   if (server_counts_.streams >= static_cast<std::uint64_t>(settings_.max_streams)) {
     exchange->answer(web::error_response(503, "all streams are taken: max_streams of [web]"));
     return;
   }
   web::Response response;
-  response.type = web::MjpegStream::kType;
-  response.stream = std::make_shared<web::MjpegStream>(view->feed(), stream_counts_);
+  response.type = type;
+  response.stream = std::move(stream);
   exchange->answer(std::move(response));
 }
 

@@ -4,15 +4,16 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/model/sink.h"
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/http/server.h"
-#include "app/ports/web/pictures/mjpeg_stream.h"
-#include "app/ports/web/pictures/view_encoder.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/status/web_statistics.h"
+#include "app/ports/web/streams/mjpeg_stream.h"
+#include "app/ports/web/streams/view_encoder.h"
 #include "app/ports/web/web_settings.h"
 #include "hal/thread/thread.h"
 
@@ -49,6 +50,7 @@ class WebSink final : public Sink {
 
   std::vector<web::Route> make_routes();
   std::vector<web::Route> make_command_routes();
+  std::string newest_as_json() const;
   NewestStatus newest() const;
   void serve_health(const web::ExchangePtr& exchange) const;
   void serve_status(const web::ExchangePtr& exchange) const;
@@ -56,7 +58,10 @@ class WebSink final : public Sink {
   void serve_metrics(const web::ExchangePtr& exchange) const;
   void serve_snapshot(const web::ExchangePtr& exchange) const;
   void serve_stream(const web::ExchangePtr& exchange);
-  const web::ViewEncoder* find_view(const web::Exchange& exchange, std::string& refusal) const;
+  void serve_live(const web::ExchangePtr& exchange);
+  void start_stream(const web::ExchangePtr& exchange, std::string_view type,
+                    std::shared_ptr<web::Stream> stream) const;
+  const web::ViewEncoder* find_view(const std::string* name, std::string& refusal) const;
 
   const WebSettings settings_;
   const StatusNames names_;
@@ -69,12 +74,15 @@ class WebSink final : public Sink {
   mutable std::mutex mutex_;
   NewestStatus newest_;  ///< under mutex_
 
+  /// The status as JSON for streams, made on thread_ while one is read.
+  const std::shared_ptr<web::Feed> status_feed_ = std::make_shared<web::Feed>();
+
   web::ServerCounts server_counts_;
   web::StreamCounts stream_counts_;
   web::CommandRunner commands_;
   const std::vector<web::Route> routes_;
   std::unique_ptr<web::Server> server_;
-  hal::Thread thread_;  ///< ends what is overdue
+  hal::Thread thread_;  ///< ends what is overdue, and reports to streams
 };
 
 }  // namespace orbwatch::app

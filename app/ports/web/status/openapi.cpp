@@ -21,6 +21,7 @@ void add_figure(Json& properties, const FieldInfo& field) {
   const std::string name(field.name);
   Json& figure = properties[name];
   figure["description"] = with_unit(field.description, field.unit);
+  if (!std::string_view(field.unit).empty()) figure["x-unit"] = field.unit;
   if constexpr (std::is_same_v<Value, bool>) {
     figure["type"] = "boolean";
   } else {
@@ -99,12 +100,14 @@ Json operation_of(const Route& route) {
       {"responses",
        {{"200", {{"description", "As asked"}, {"content", {{route.type, {{"schema", schema}}}}}}},
         {"default", error}}}};
-  if (route.names_view) {
-    operation["parameters"] = {{{"name", "view"},
-                                {"in", "query"},
-                                {"required", true},
-                                {"description", "Name of the view"},
-                                {"schema", {{"type", "string"}}}}};
+  if (route.view != ViewArgument::None) {
+    const bool is_one = route.view == ViewArgument::One;
+    operation["parameters"] = {
+        {{"name", "view"},
+         {"in", "query"},
+         {"required", is_one},
+         {"description", is_one ? "Name of the view" : "Name of a view; may be repeated"},
+         {"schema", {{"type", "string"}}}}};
   }
   if (route.command) {
     operation["operationId"] = std::string(route.command->name);
@@ -120,6 +123,7 @@ Json operation_of(const Route& route) {
 std::string openapi_json(const std::vector<Route>& routes) {
   Json paths = Json::object();
   for (const Route& route : routes) {
+    if (route.is_page) continue;
     paths[route.path][route.method == "GET" ? "get" : "post"] = operation_of(route);
   }
   const Json text{{"type", "string"}};

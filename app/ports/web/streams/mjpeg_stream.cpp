@@ -1,6 +1,4 @@
-#include "app/ports/web/pictures/mjpeg_stream.h"
-
-#include <algorithm>
+#include "app/ports/web/streams/mjpeg_stream.h"
 
 #include "app/model/utc_text.h"
 
@@ -24,22 +22,14 @@ bool MjpegStream::begin_next() {
   head_ = std::string(before) +
           "Content-Type: image/jpeg\r\nContent-Length: " + std::to_string(picture_->size()) +
           "\r\nX-Timestamp: " + utc_text(hal::to_utc(next->stamp)).value_or("") + "\r\n\r\n";
-  parts_ = {head_, *picture_, kBoundary};
+  parts_.begin({head_, *picture_, kBoundary});
   return true;
 }
 
 std::size_t MjpegStream::read(std::span<char> out) {
-  const auto is_sent = [](std::string_view part) { return part.empty(); };
-  if (std::ranges::all_of(parts_, is_sent) && !begin_next()) return 0;
-  std::size_t written = 0;
-  for (std::string_view& part : parts_) {
-    const std::size_t count = std::min(part.size(), out.size() - written);
-    std::copy_n(part.data(), count, out.data() + written);
-    part.remove_prefix(count);
-    written += count;
-  }
+  if (parts_.are_sent() && !begin_next()) return 0;
   // The picture after this one is the newest when the client has room for it.
-  return written;
+  return parts_.read(out);
 }
 
 }  // namespace orbwatch::app::web

@@ -1,10 +1,10 @@
-#include "app/ports/web/pictures/picture_feed.h"
+#include "app/ports/web/streams/feed.h"
 
 #include <utility>
 
 namespace orbwatch::app::web {
 
-PictureFeed::Reader::Reader(std::shared_ptr<PictureFeed> feed, std::function<void()> wake)
+Feed::Reader::Reader(std::shared_ptr<Feed> feed, std::function<void()> wake)
     : feed_(std::move(feed)),
       wake_(std::make_shared<const std::function<void()>>(std::move(wake))) {
   const std::lock_guard lock(feed_->mutex_);
@@ -13,29 +13,29 @@ PictureFeed::Reader::Reader(std::shared_ptr<PictureFeed> feed, std::function<voi
   feed_->count_wanted();
 }
 
-PictureFeed::Reader::~Reader() {
+Feed::Reader::~Reader() {
   const std::lock_guard lock(feed_->mutex_);
   std::erase(feed_->readers_, wake_);
   feed_->count_wanted();
 }
 
-std::optional<Jpeg> PictureFeed::Reader::next() {
+std::optional<Item> Feed::Reader::next() {
   const std::lock_guard lock(feed_->mutex_);
-  const Jpeg& newest = feed_->newest_;
+  const Item& newest = feed_->newest_;
   if (newest.number == newest_) return std::nullopt;
   skipped_ += newest.number - newest_ - 1;
   newest_ = newest.number;
   return newest;
 }
 
-void PictureFeed::answer_next(ExchangePtr exchange) {
+void Feed::answer_next(ExchangePtr exchange) {
   const std::lock_guard lock(mutex_);
   std::erase_if(waiting_, [](const ExchangePtr& other) { return other->is_answered(); });
   waiting_.push_back(std::move(exchange));
   count_wanted();
 }
 
-void PictureFeed::publish(Bytes bytes, hal::TimePoint stamp) {
+void Feed::publish(Bytes bytes, hal::TimePoint stamp) {
   std::vector<Wake> readers;
   std::vector<ExchangePtr> waiting;
   {
@@ -55,6 +55,6 @@ void PictureFeed::publish(Bytes bytes, hal::TimePoint stamp) {
   for (const Wake& wake : readers) (*wake)();
 }
 
-void PictureFeed::count_wanted() { wanted_ = readers_.size() + waiting_.size(); }
+void Feed::count_wanted() { wanted_ = readers_.size() + waiting_.size(); }
 
 }  // namespace orbwatch::app::web

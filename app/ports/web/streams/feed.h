@@ -13,44 +13,44 @@
 
 namespace orbwatch::app::web {
 
-/// A picture as it is sent.
-struct Jpeg {
+/// What a feed has at one moment: a picture as JPEG, or the status as JSON.
+struct Item {
   Bytes bytes;
-  std::uint64_t number = 0;  ///< counts the pictures of its feed from 1
-  hal::TimePoint stamp;      ///< of its exposure
+  std::uint64_t number = 0;  ///< counts the items of its feed from 1
+  hal::TimePoint stamp;      ///< of the exposure, or of the report
 };
 
-/// The newest picture of one source for any number of readers, each at its own pace: one that is
-/// slow gets the newest when it asks again. Thread-safe; holds no lock while others are called.
-class PictureFeed {
+/// The newest item of one source for any number of readers, each at its own pace: one that is slow
+/// gets the newest when it asks again. Thread-safe; holds no lock while others are called.
+class Feed {
  public:
-  /// Reads on; while one exists, pictures are wanted.
+  /// Reads on; while one exists, items are wanted.
   class Reader {
    public:
-    /// `wake` is called after each new picture, on the publisher's thread.
-    Reader(std::shared_ptr<PictureFeed> feed, std::function<void()> wake);
+    /// `wake` is called after each new item, on the publisher's thread.
+    Reader(std::shared_ptr<Feed> feed, std::function<void()> wake);
     ~Reader();
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    /// The newest picture, unless it was returned before or is older than the reader.
-    std::optional<Jpeg> next();
-    /// Pictures that were never returned because newer ones came.
+    /// The newest item, unless it was returned before or is older than the reader.
+    std::optional<Item> next();
+    /// Items that were never returned because newer ones came.
     std::uint64_t skipped() const { return skipped_; }
 
    private:
-    friend PictureFeed;
+    friend Feed;
 
-    const std::shared_ptr<PictureFeed> feed_;
+    const std::shared_ptr<Feed> feed_;
     const std::shared_ptr<const std::function<void()>> wake_;
     std::uint64_t newest_ = 0;  ///< number of the last one returned
     std::uint64_t skipped_ = 0;
   };
 
-  /// Whether somebody waits for a picture. For the pipeline: no lock.
+  /// Whether somebody waits for an item. For the pipeline: no lock.
   bool is_wanted() const { return wanted_ > 0; }
 
-  /// Answers `exchange` with the next picture as image/jpeg, if it is not answered before.
+  /// Answers `exchange` with the next item, a picture, if it is not answered before.
   void answer_next(ExchangePtr exchange);
 
   void publish(Bytes bytes, hal::TimePoint stamp);
@@ -61,7 +61,7 @@ class PictureFeed {
   void count_wanted();
 
   mutable std::mutex mutex_;
-  Jpeg newest_;
+  Item newest_;
   std::vector<Wake> readers_;
   std::vector<ExchangePtr> waiting_;
   std::atomic<std::size_t> wanted_{0};

@@ -1,4 +1,4 @@
-#include "app/ports/web/pictures/view_encoder.h"
+#include "app/ports/web/streams/view_encoder.h"
 
 #include <utility>
 

@@ -7,7 +7,7 @@
 #include "app/model/view.h"
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/jpeg_quality.h"
-#include "app/ports/web/pictures/picture_feed.h"
+#include "app/ports/web/streams/feed.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/shared_threads.h"
 
@@ -26,7 +26,7 @@ class ViewEncoder {
   /// Waits for the present picture and keeps none.
   void stop();
 
-  const std::shared_ptr<PictureFeed>& feed() const { return feed_; }
+  const std::shared_ptr<Feed>& feed() const { return feed_; }
   std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
   /// Pictures that were replaced before they were compressed.
   std::uint64_t replaced() const { return mailbox_.drops(); }
@@ -39,7 +39,7 @@ class ViewEncoder {
   hal::Mailbox<ViewPtr> mailbox_;
   JpegQuality quality_;
   JpegEncoder encoder_;
-  const std::shared_ptr<PictureFeed> feed_ = std::make_shared<PictureFeed>();
+  const std::shared_ptr<Feed> feed_ = std::make_shared<Feed>();
   hal::SharedThreads::Work work_;
 };
 

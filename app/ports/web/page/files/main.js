@@ -1,0 +1,73 @@
+import { describeFigures } from "./api.js";
+import { element, setText } from "./elements.js";
+import { Live } from "./live.js";
+import { Process } from "./process.js";
+import { Stream } from "./stream.js";
+import { System } from "./system.js";
+import { texts } from "./texts.js";
+
+const kRetryMs = 500;
+const kSilenceS = 2;
+const condition = document.getElementById("condition");
+
+function say(text, isWrong) {
+  setText(condition, text);
+  condition.classList.toggle("wrong", isWrong);
+}
+
+function addPages() {
+  const names = Object.keys(texts.pages);
+  const links = new Map();
+  for (const name of names) {
+    setText(document.getElementById(`${name}-title`), texts.pages[name]);
+    links.set(name, element("a", { href: `#/${name}` }, texts.pages[name]));
+  }
+  document.getElementById("nav").append(...links.values());
+  const turn = () => {
+    const asked = location.hash.slice(2);
+    const shown = names.includes(asked) ? asked : names[0];
+    for (const name of names) {
+      document.getElementById(name).hidden = name !== shown;
+      if (name === shown) links.get(name).setAttribute("aria-current", "page");
+      else links.get(name).removeAttribute("aria-current");
+    }
+  };
+  addEventListener("hashchange", turn);
+  turn();
+}
+
+// For ever: the appliance may start later than the page.
+async function figuresOfAppliance() {
+  for (;;) {
+    try {
+      return await describeFigures();
+    } catch {
+      say(texts.connecting, true);
+      await new Promise((resolve) => setTimeout(resolve, kRetryMs));
+    }
+  }
+}
+
+function showCondition(status) {
+  const isSilent = status.age === null || status.age > kSilenceS;
+  const { state, state_text } = status.system;
+  say(isSilent ? texts.silent : state_text, isSilent || state !== 1);
+}
+
+addPages();
+const figures = await figuresOfAppliance();
+const live = new Live(document.getElementById("live"), (views) => stream.choose(views));
+const process = new Process(document.getElementById("process"), figures);
+const system = new System(document.getElementById("system"), figures);
+const stream = new Stream(
+  (message) => {
+    if (message.head.kind === "view") return live.picture(message);
+    const status = JSON.parse(new TextDecoder().decode(message.body));
+    showCondition(status);
+    live.status(status);
+    process.status(status, message.received);
+    system.status(status);
+  },
+  () => say(texts.connecting, true),
+);
+stream.choose([]);

@@ -1,0 +1,29 @@
+// Everything that is known about the appliance, its cameras and views.
+import { element } from "./elements.js";
+import { FigureTable, Keyed } from "./figures.js";
+
+// Shown elsewhere, or no component.
+const kElsewhere = new Set(["stamp", "age", "regions", "alarms"]);
+
+export class System {
+  constructor(root, figures) {
+    this.parts = new Keyed(root, (key) => {
+      const [kind, name] = JSON.parse(key);
+      const table = new FigureTable(figures[kind] ?? {});
+      const title = name ? `${kind}: ${name}` : kind;
+      table.root.setAttribute("aria-label", title);
+      const opened = element("details", { open: kind === "system" },
+        element("summary", {}, title), table.root);
+      return { root: opened, show: (part) => opened.open && table.show(part) };
+    });
+  }
+
+  status(status) {
+    for (const [kind, part] of Object.entries(status)) {
+      if (kElsewhere.has(kind)) continue;
+      for (const one of [part].flat()) {
+        this.parts.get(JSON.stringify([kind, one.name ?? ""])).show(one);
+      }
+    }
+  }
+}

@@ -1,0 +1,75 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "app/ports/web/page/page_files.h"
+#include "tests/app/ports/web/served.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using testing::HasSubstr;
+
+/// Names of files in attributes of HTML and in imports of scripts.
+std::set<std::string> files_named_in(const std::string& text) {
+  static const std::regex kName(R"rx((?:src|href)="([^"#]+)"|from "\./([^"]+)")rx");
+  std::set<std::string> names;
+  for (auto found = std::sregex_iterator(text.begin(), text.end(), kName);
+       found != std::sregex_iterator(); ++found) {
+    names.insert((*found)[1].matched ? (*found)[1] : (*found)[2]);
+  }
+  return names;
+}
+
+TEST_F(Served, EveryFileOfThePageIsServedWithItsType) {
+  start();
+  for (const PageFile& file : kPageFiles) {
+    const std::string path = file.name == "index.html" ? "/" : "/" + std::string(file.name);
+    const Answer answer = get(port(), path);
+    EXPECT_EQ(answer.status, 200) << path;
+    EXPECT_EQ(answer.body, file.content) << path;
+    EXPECT_EQ(answer.headers.at("Content-Type"), page_type(file.name)) << path;
+    EXPECT_FALSE(page_type(file.name).empty()) << path << " has an ending without a type";
+  }
+}
+
+/// What the page loads, and what that loads in turn, is there, and from nowhere else.
+TEST_F(Served, ThePageLoadsOnlyItsOwnFiles) {
+  start();
+  std::set<std::string> seen, open{""};
+  while (!open.empty()) {
+    const std::string name = *open.begin();
+    open.erase(open.begin());
+    if (!seen.insert(name).second) continue;
+    const Answer answer = get(port(), "/" + name);
+    ASSERT_EQ(answer.status, 200) << name;
+    open.merge(files_named_in(answer.body));
+  }
+  EXPECT_EQ(seen.size(), kPageFiles.size()) << "some file is loaded by none";
+}
+
+/// The policy that is sent with it allows neither.
+TEST(Page, HasNoScriptOrStyleWithinTheHtml) {
+  for (const PageFile& file : kPageFiles) {
+    if (!file.name.ends_with(".html")) continue;
+    const std::string html(file.content);
+    EXPECT_FALSE(
+        std::regex_search(html, std::regex(R"(<script(?![^>]*\ssrc=)|<style|\sstyle=|\son\w+=)")))
+        << file.name;
+  }
+}
+
+TEST_F(Served, TheDescriptionHasWhatProgramsAskForOnly) {
+  start();
+  const auto all = nlohmann::json::parse(get(port(), "/api/v1/openapi.json").body);
+  EXPECT_TRUE(all["paths"].contains("/api/v1/live"));
+  EXPECT_FALSE(all["paths"].contains("/"));
+  EXPECT_FALSE(all["paths"].contains("/main.js"));
+  const auto& camera = all["components"]["schemas"]["Status"]["properties"]["cameras"]["items"];
+  EXPECT_EQ(camera["properties"]["latency_p50_ms"]["x-unit"], "ms");
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

@@ -1,0 +1,79 @@
+"""A daemon with the simulated machine and its page on a port of its own."""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import urllib.request
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PATIENCE_S = 60  # a machine that is busy; nothing waits for so long otherwise
+
+
+def eventually(what, condition):
+    """What `condition` gives as soon as that is true in Python's sense; polls a real program."""
+    give_up = time.monotonic() + PATIENCE_S
+    while not (value := condition()):
+        if time.monotonic() > give_up:
+            raise AssertionError(f"not within {PATIENCE_S} s: {what}")
+        time.sleep(0.05)
+    return value
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Appliance:
+    """Runs from start() to stop(), on the same port each time."""
+
+    def __init__(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="orbwatch-web-"))
+        self.port = free_port()
+        for file in (ROOT / "platform/config").glob("demo*.toml"):
+            shutil.copy(file, self.folder)
+        # The page instead of the ports that other daemons on this computer may have.
+        site = (self.folder / "demo.toml").read_text(encoding="utf-8")
+        site = site.replace("[modbus]\nport = 1502", f"[web]\nenabled = true\nport = {self.port}")
+        assert "[web]" in site, "the demo's site file has changed"
+        (self.folder / "demo.toml").write_text(site, encoding="utf-8")
+        self.daemon = None
+
+    def start(self):
+        log = open(self.folder / "log", "ab")
+        self.daemon = subprocess.Popen(
+            [ROOT / "build/release/app/orbwatchd", "--config", self.folder / "demo.toml"],
+            stdout=log, stderr=log, env={**os.environ, "CYCLONEDDS_URI": ""})
+        log.close()
+        eventually("the daemon runs", self.runs)
+
+    def runs(self):
+        if self.daemon.poll() is not None:
+            raise AssertionError((self.folder / "log").read_text(encoding="utf-8"))
+        try:
+            return self.status()["system"]["state"] == 1
+        except OSError:
+            return False
+
+    def stop(self):
+        self.daemon.send_signal(signal.SIGTERM)
+        self.daemon.wait(PATIENCE_S)
+
+    def close(self):
+        self.stop()
+        shutil.rmtree(self.folder)
+
+    @property
+    def address(self):
+        return f"http://127.0.0.1:{self.port}/"
+
+    def status(self):
+        with urllib.request.urlopen(self.address + "api/v1/status", timeout=PATIENCE_S) as answer:
+            return json.load(answer)

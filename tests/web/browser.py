@@ -1,0 +1,67 @@
+"""Debian's Chromium without a screen."""
+
+import pathlib
+import tempfile
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+
+PICTURES = pathlib.Path(__file__).resolve().parents[2] / "build/web"
+# As a container's root; and nothing of its own over the network.
+ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
+             "--disable-quic", "--no-first-run", "--disable-background-networking",
+             "--disable-component-update", "--disable-sync", "--window-size=1280,900"]
+
+
+class Browser(webdriver.Chrome):
+    def __init__(self):
+        options = Options()
+        options.binary_location = "/usr/bin/chromium"
+        self.profile = tempfile.TemporaryDirectory()
+        for argument in [*ARGUMENTS, f"--user-data-dir={self.profile.name}"]:
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        super().__init__(service=Service("/usr/bin/chromedriver"), options=options)
+
+    def close_all(self):
+        self.quit()
+        self.profile.cleanup()
+
+    def complaints(self):
+        """What the console says since the last call, without what was only noted."""
+        return [entry for entry in self.get_log("browser") if entry["level"] != "INFO"]
+
+    def text(self, selector):
+        return self.execute_script(
+            "return document.querySelector(arguments[0])?.textContent ?? ''", selector)
+
+    def picture_numbers(self):
+        """By view: the number of the picture that its canvas shows; 0: none."""
+        return self.execute_script("""
+            const numbers = {};
+            for (const figure of document.querySelectorAll('figure:not([hidden])')) {
+              const canvas = figure.querySelector('canvas');
+              numbers[figure.querySelector('strong').textContent] = Number(canvas.dataset.number ?? 0);
+            }
+            return numbers;""")
+
+    def brightness(self, view):
+        """Mean grey level of the view's canvas, and how far its pixels differ from it."""
+        return self.execute_script("""
+            const named = [...document.querySelectorAll('figure')]
+              .find((f) => f.querySelector('strong').textContent === arguments[0]);
+            const canvas = named.querySelector('canvas');
+            const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+            let sum = 0, squares = 0;
+            for (let k = 0; k < pixels.length; k += 4) {
+              const grey = (pixels[k] + pixels[k + 1] + pixels[k + 2]) / 3;
+              sum += grey;
+              squares += grey * grey;
+            }
+            const count = pixels.length / 4, mean = sum / count;
+            return [mean, Math.sqrt(squares / count - mean * mean)];""", view)
+
+    def keep_picture(self, name):
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        self.save_screenshot(str(PICTURES / f"{name}.png"))

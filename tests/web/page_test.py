@@ -1,0 +1,133 @@
+"""What a person does with the page, against a running daemon."""
+
+import unittest
+
+from selenium.webdriver.common.by import By
+
+from appliance import Appliance, eventually
+from browser import Browser
+
+VIEWS = {"panorama", "door", "heat", "process"}
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.appliance = Appliance()
+        cls.addClassCleanup(cls.appliance.close)
+        cls.appliance.start()
+
+    def setUp(self):
+        self.browser = Browser()
+        self.addCleanup(self.browser.close_all)
+
+    def open(self, page="live"):
+        self.browser.get(f"{self.appliance.address}#/{page}")
+        eventually("the page shows the state",
+                   lambda: "running" in self.browser.text("#condition"))
+
+    def expect_pictures(self, views):
+        before = self.browser.picture_numbers()
+        eventually(f"new pictures of {views}",
+                   lambda: set(now := self.browser.picture_numbers()) == views
+                   and all(now[view] != before.get(view, 0) for view in views))
+
+    def expect_no_complaint(self):
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_live_shows_every_view_over_one_stream(self):
+        self.open()
+        self.expect_pictures(VIEWS)
+        self.expect_pictures(VIEWS)
+        for view in VIEWS:
+            mean, deviation = self.browser.brightness(view)
+            self.assertGreater(mean, 20, view)
+            self.assertGreater(deviation, 10, f"{view} is one colour")
+        self.assertEqual(self.appliance.status()["web"]["streams"], 1)
+        # The page's own, and the one that asks. Those that loaded its files end when they are idle.
+        eventually("two connections are left",
+                   lambda: self.appliance.status()["web"]["connections"] <= 2)
+        self.browser.keep_picture("live")
+        self.expect_no_complaint()
+
+    def test_a_view_that_is_not_chosen_is_not_sent(self):
+        self.open()
+        self.expect_pictures(VIEWS)
+        for view in ("panorama", "door", "process"):
+            self.browser.find_element(By.NAME, view).click()
+        self.expect_pictures({"heat"})
+        numbers = self.browser.execute_script(
+            "return [...document.querySelectorAll('figure[hidden] canvas')]"
+            ".map((c) => c.dataset.number)")
+        self.expect_pictures({"heat"})
+        self.assertEqual(numbers, self.browser.execute_script(
+            "return [...document.querySelectorAll('figure[hidden] canvas')]"
+            ".map((c) => c.dataset.number)"))
+        eventually("one stream", lambda: self.appliance.status()["web"]["streams"] == 1)
+        self.expect_no_complaint()
+
+    def test_an_alarm_is_acknowledged(self):
+        def states():
+            return [alarm["state_text"] for alarm in self.appliance.status()["alarms"]]
+
+        self.open("process")
+        eventually("an alarm waits for somebody",
+                   lambda: any("not acknowledged" in state for state in states()))
+        done = self.appliance.status()["web"]["commands_done"]
+        self.browser.keep_picture("process")
+        for button in self.browser.find_elements(By.CSS_SELECTOR, "#process > button"):
+            button.click()
+        eventually("the command was carried out",
+                   lambda: self.appliance.status()["web"]["commands_done"] == done + 1)
+        self.assertEqual(self.browser.text("#process [role=alert]"), "")
+        self.expect_no_complaint()
+
+    def test_figures_are_those_of_the_interface(self):
+        self.open("system")
+        status = self.appliance.status()
+        rows = eventually("the figures", lambda: self.browser.execute_script(
+            "return [...document.querySelectorAll('#system details[open] tbody tr')]"
+            ".map((r) => [...r.children].map((c) => c.textContent))"))
+        shown = {row[0]: row[1:] for row in rows}
+        self.assertEqual(set(shown), {name for name in status["system"]
+                                      if not name.endswith("_text")})
+        self.assertEqual(shown["recipe"][0], str(status["system"]["recipe"]))
+        self.assertEqual(shown["state"][0], status["system"]["state_text"])
+        self.assertEqual(shown["busy_ms"][1], "ms")
+        self.browser.keep_picture("system")
+        self.expect_no_complaint()
+
+    def test_a_hidden_tab_takes_no_stream(self):
+        self.open()
+        self.expect_pictures(VIEWS)
+        self.browser.switch_to.new_window("tab")
+        eventually("no stream is open", lambda: self.appliance.status()["web"]["streams"] == 0)
+        self.browser.close()
+        self.browser.switch_to.window(self.browser.window_handles[0])
+        self.expect_pictures(VIEWS)
+
+    def test_pictures_come_back_after_a_restart_of_the_daemon(self):
+        self.open()
+        self.expect_pictures(VIEWS)
+        self.appliance.stop()
+        eventually("the page says so", lambda: "No connection" in self.browser.text("#condition"))
+        eventually("the page says how old its pictures are",
+                   lambda: "No new picture" in self.browser.text("#tiles .overlay"))
+        self.browser.keep_picture("lost")
+        self.appliance.start()
+        self.expect_pictures(VIEWS)
+        self.assertIn("running", self.browser.text("#condition"))
+
+    def test_a_phone_needs_no_sideways_scrolling(self):
+        self.browser.set_window_size(500, 844)
+        for page in ("live", "process", "system"):
+            self.open(page)
+            widths = self.browser.execute_script(
+                "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+            self.assertLessEqual(widths[0], widths[1], page)
+        self.browser.keep_picture("phone")
+        self.expect_no_complaint()
+
+
+if __name__ == "__main__":
+    unittest.main()
