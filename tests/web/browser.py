@@ -8,6 +8,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
 PICTURES = pathlib.Path(__file__).resolve().parents[2] / "build/web"
+AXE = PICTURES / "node_modules/axe-core/axe.min.js"
 # As a container's root; and nothing of its own over the network.
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
              "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -61,6 +62,23 @@ class Browser(webdriver.Chrome):
             }
             const count = pixels.length / 4, mean = sum / count;
             return [mean, Math.sqrt(squares / count - mean * mean)];""", view)
+
+    def show_in(self, scheme):
+        """"light" or "dark"."""
+        self.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+    def allow_scripts(self):
+        """For barriers(), which the policy of pages opened from now on would forbid."""
+        self.execute_cdp_cmd("Page.setBypassCSP", {"enabled": True})
+
+    def barriers(self):
+        """What axe-core finds serious."""
+        self.execute_script(AXE.read_text(encoding="utf-8"))
+        return self.execute_async_script("""
+            axe.run().then((result) => arguments[0](result.violations
+              .filter((found) => ['serious', 'critical'].includes(found.impact))
+              .map((found) => `${found.id}: ${found.nodes[0].html}`)));""")
 
     def keep_picture(self, name):
         PICTURES.mkdir(parents=True, exist_ok=True)

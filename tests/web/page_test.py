@@ -1,11 +1,12 @@
 """What a person does with the page, against a running daemon."""
 
+import os
 import unittest
 
 from selenium.webdriver.common.by import By
 
 from appliance import Appliance, eventually
-from browser import Browser
+from browser import AXE, Browser
 
 VIEWS = {"panorama", "door", "heat", "process"}
 
@@ -117,6 +118,18 @@ class Page(unittest.TestCase):
         self.appliance.start()
         self.expect_pictures(VIEWS)
         self.assertIn("running", self.browser.text("#condition"))
+
+    def test_nothing_keeps_anybody_out(self):
+        if not AXE.exists() and not os.environ.get("ORBWATCH_ACCEPTANCE"):
+            self.skipTest("skipped, missing: axe-core, which npm installs")
+        self.browser.allow_scripts()
+        for page in ("live", "process", "system"):
+            for scheme in ("light", "dark"):
+                with self.subTest(page=page, scheme=scheme):
+                    self.browser.show_in(scheme)
+                    self.browser.get("about:blank")
+                    self.open(page)
+                    self.assertEqual(self.browser.barriers(), [])
 
     def test_a_phone_needs_no_sideways_scrolling(self):
         self.browser.set_window_size(500, 844)
