@@ -40,3 +40,17 @@ video_device() {
   echo "no video device named $1" >&2
   return 1
 }
+
+# on_host PROGRAM [ARGUMENT...]: runs a program of the folder host on the computer that emulates this
+# machine and is its only neighbour in the network; prints what it prints and returns its exit code.
+on_host() {
+  local channel line code=1
+  exec {channel}<>/dev/virtio-ports/host || return
+  echo "$*" >&"$channel"
+  while read -r line <&"$channel"; do
+    [[ $line != "exit "* ]] || { code=${line#exit }; break; }
+    [[ -z $line ]] || echo "$line"
+  done
+  exec {channel}>&-
+  return "$code"
+}

@@ -6,23 +6,10 @@
 export CYCLONEDDS_URI='<General><Interfaces><NetworkInterface name="lo" multicast="false"/>
   </Interfaces></General><Discovery><ParticipantIndex>auto</ParticipantIndex>
   <Peers><Peer address="127.0.0.1"/></Peers></Discovery>'
-modbus_port=1502
-
-# register NAME: the value of an input register.
-register() {
-  local address kind type=(-t 3)
-  read -r address kind < <(awk -F, -v name="$1" '$1 == "input" && $6 == name {print $2, $4}' \
-    /orbwatch/app/ports/modbus/registers.csv)
-  [[ $kind != UDINT ]] || type=(-t 3:int -B)
-  mbpoll -m tcp -p "$modbus_port" -0 -r "$address" "${type[@]}" -c 1 -1 -o 5 127.0.0.1 |
-    sed -n "s/^\[$address\]:[[:space:]]*\([0-9]*\).*/\1/p"
-}
-
-is() { [[ $(register "$1") == "$2" ]]; }
-
-is_past() { (($(register "$1") > $2)); }
-
-answers() { [[ -n $(register system_heartbeat 2>/dev/null) ]]; }
+# shellcheck disable=SC2034
+modbus_port=1502 modbus_address=127.0.0.1
+# shellcheck source=modbus.sh
+. /orbwatch/tests/hil/guest/modbus.sh
 
 # Sets daemon to its process.
 daemon_starts() {

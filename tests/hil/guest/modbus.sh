@@ -1,0 +1,20 @@
+# Reads orbwatchd's registers at $modbus_address:$modbus_port, in the machine or beside it.
+# shellcheck shell=bash
+
+registers=$(dirname "${BASH_SOURCE[0]}")/../../../app/ports/modbus/registers.csv
+
+# register NAME: the value of an input register.
+register() {
+  local address kind type=(-t 3)
+  read -r address kind < <(awk -F, -v name="$1" '$1 == "input" && $6 == name {print $2, $4}' \
+    "$registers")
+  [[ $kind != UDINT ]] || type=(-t 3:int -B)
+  mbpoll -m tcp -p "${modbus_port:?}" -0 -r "$address" "${type[@]}" -c 1 -1 -o 5 \
+    "${modbus_address:?}" | sed -n "s/^\[$address\]:[[:space:]]*\([0-9]*\).*/\1/p"
+}
+
+is() { [[ $(register "$1") == "$2" ]]; }
+
+is_past() { (($(register "$1") > $2)); }
+
+answers() { [[ -n $(register system_heartbeat 2>/dev/null) ]]; }
