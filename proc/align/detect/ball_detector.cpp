@@ -12,14 +12,14 @@ namespace orbwatch::align {
 namespace {
 
 constexpr int kSmallestSide = 64;
-/// A difference() from which on two limbs are different places. One that is less like a ball by no
-/// more than kRivalLikeness makes the best one doubtful.
-constexpr double kElsewhere = 0.5, kRivalLikeness = 1;
+/// A difference() from which on two limbs are different places. One that is less certain by no more
+/// than kRival makes the best one doubtful.
+constexpr double kElsewhere = 0.5, kRival = 2.6;
 
 /// Whether another place looks nearly as much like a ball.
 bool has_rival(const std::vector<FoundLimb>& limbs) {
   return std::ranges::any_of(limbs, [&](const FoundLimb& other) {
-    return other.likeness > limbs.front().likeness - kRivalLikeness &&
+    return certainty(other.evidence) > certainty(limbs.front().evidence) - kRival &&
            difference(other.outline, limbs.front().outline) > kElsewhere;
   });
 }
@@ -42,15 +42,13 @@ Result<BallDetection> detect_ball(const Picture& picture) {
                 std::to_string(picture.height) + "; a ball is found in at least " +
                 std::to_string(kSmallestSide) + "x" + std::to_string(kSmallestSide) + " pixels");
   }
-  BallSearch search(luminance_of(picture));
-  const std::vector<FoundLimb> limbs = search.run();
+  const std::vector<FoundLimb> limbs = BallSearch(luminance_of(picture)).run();
   if (limbs.empty()) return fail("the picture shows no edges that could be a ball's");
   const FoundLimb& best = limbs.front();
   const bool rival = has_rival(limbs);
-  const LimbEvidence evidence = search.evidence(best);
-  const double odds = certainty(evidence) - kCertain;
+  const double odds = certainty(best.evidence) - kCertain;
   BallDetection ball{best.outline, 1 / (1 + std::exp(-(rival ? std::min(odds, -0.1) : odds))), ""};
-  if (!ball.is_confident()) ball.reason = doubt(evidence, rival);
+  if (!ball.is_confident()) ball.reason = doubt(best.evidence, rival);
   return ball;
 }
 

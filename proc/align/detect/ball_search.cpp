@@ -2,31 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "proc/align/detect/centre_votes.h"
 #include "proc/align/detect/limb_fit.h"
 #include "proc/align/detect/limb_likelihood.h"
 #include "proc/align/detect/limb_score.h"
+#include "proc/align/detect/ring_search.h"
+#include "proc/align/detect/ring_strip.h"
+#include "proc/align/detect/slopes.h"
 
 namespace orbwatch::align {
 namespace {
 
 using optics::Outline;
 
-/// Scales that are searched; the coarsest for balls of any size, the others for small ones.
-constexpr std::size_t kScales = 3;
-constexpr double kNearest = 18, kNearestCoarse = 12, kFarthest = 80;  // radii, px
+/// Scales that are searched, each for balls that look alike there, from the coarsest on.
+constexpr std::size_t kScales = 5;
 constexpr double kLargest = 0.62;  // radius, of the picture's short side
-/// How many places are voted for at each scale, and how many circles are climbed and fitted.
-constexpr std::size_t kVotes = 8, kClimbed = 8, kFitted = 6;
-/// A difference() from which on two circles are worth a fit each.
-constexpr double kApart = 0.05;
-/// px: radii at which limbs are fitted, one after the other; at the second they are compared.
-constexpr double kCoarse = 45, kCompared = 90, kFine = 400;
+/// How many places are voted for at each scale.
+constexpr std::size_t kVotes = 8;
+/// px: radii at which limbs are compared, and at which the best one is fitted in the end.
+constexpr double kCompared = 90, kFine = 400;
 /// px: what is seen on both sides of a limb.
 constexpr double kAround = 8;
-/// px: a blurred edge looks like the ball's inside until there.
-constexpr double kBlur = 1;
+/// px: a smaller limb has no surroundings.
+constexpr double kSmallest = 12;
+
+/// Limbs are fitted at finer and finer scales, fewer and fewer of them.
+struct Stage {
+  double radius;     ///< px, about that of the limb's picture
+  std::size_t most;  ///< that are fitted
+  double apart;      ///< a difference() from which on two are worth a fit each
+};
+constexpr Stage kStages[]{{30, 14, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
 
 double mean_radius(const Outline& outline) { return (outline.rx + outline.ry) / 2; }
 
@@ -37,83 +46,76 @@ double difference(const Outline& a, const Outline& b) {
   return std::max(apart, std::abs(a.rx - b.rx)) / std::min(a.rx, b.rx);
 }
 
-BallSearch::BallSearch(const cv::Mat& luminance) : pyramid_(luminance), slopes_(pyramid_.size()) {}
+std::vector<FoundLimb> BallSearch::run() const {
+  std::vector<FoundLimb> found;
+  for (const Likely& limb : limbs()) found.push_back(with_evidence(limb));
+  std::ranges::sort(found, std::greater<>(),
+                    [](const FoundLimb& limb) { return certainty(limb.evidence); });
+  if (found.empty()) return found;
+  const Outline fine = fitted(found[0].outline, kFine).outline;
+  found[0] = with_evidence({fine, likeness(fine, kFine)});
+  return found;
+}
 
-std::vector<FoundLimb> BallSearch::run() {
-  std::vector<FoundLimb> limbs;
-  for (const Outline& circle : circles()) {
-    const Outline limb = fitted(fitted(circle, kCoarse), kCompared);
-    if (mean_radius(limb) >= kNearestCoarse) limbs.push_back({limb, likeness(limb, kCompared)});
+/// The most likely ones.
+std::vector<BallSearch::Likely> BallSearch::limbs() const {
+  std::vector<Likely> all = rings();
+  for (const Stage& stage : kStages) {
+    all = best_of(std::move(all), stage.most, stage.apart);
+    for (Likely& limb : all) limb = fitted(limb.outline, stage.radius);
   }
-  std::ranges::sort(limbs, std::greater<>(), &FoundLimb::likeness);
-  if (!limbs.empty()) limbs[0].outline = fitted(limbs[0].outline, kFine);
-  return limbs;
-}
-
-LimbEvidence BallSearch::evidence(const FoundLimb& limb) const {
-  const std::size_t level = pyramid_.level_for(limb.outline, kCompared);
-  const cv::Mat& luminance = pyramid_.level(level);
-  const Outline here = Pyramid::between(limb.outline, 0, level);
-  return {mean_radius(here), near_drop(luminance, here), contour(luminance, here),
-          likeness(limb.outline, kFine)};
-}
-
-const Slopes& BallSearch::slopes(std::size_t level) {
-  if (slopes_[level].along_u.empty()) slopes_[level] = slopes_of(pyramid_.level(level));
-  return slopes_[level];
-}
-
-/// The best circles around the places that slopes point to.
-std::vector<BallSearch::Start> BallSearch::starts(std::size_t level, bool coarsest) {
-  const Slopes& here = slopes(level);
-  const double largest = kLargest * std::min(here.width(), here.height());
-  const double nearest = coarsest ? kNearestCoarse : kNearest;
-  const double farthest = coarsest ? largest : std::min(kFarthest, largest);
-  if (farthest < nearest) return {};
-  const double limit = coarsest ? largest : std::min(1.2 * kFarthest, largest);
-  std::vector<Start> starts;
-  for (const auto& centre : centre_votes(here, nearest, farthest, kVotes)) {
-    starts.push_back({level, best_circle(here, law_, centre, nearest, limit)});
-  }
-  return starts;
-}
-
-/// Of all scales, the best first.
-std::vector<BallSearch::Start> BallSearch::starts() {
-  std::vector<Start> all;
-  for (std::size_t n = 0; n < std::min(kScales, pyramid_.size()); ++n) {
-    const std::vector<Start> more = starts(pyramid_.size() - 1 - n, n == 0);
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  const auto rank = [](const Start& start) { return start.circle.rank(); };
-  std::ranges::sort(all, std::greater<>(), rank);
-  if (all.size() > kClimbed) all.resize(kClimbed);
-  for (Start& start : all) start.circle = climb(slopes(start.level), law_, start.circle, 0.1);
-  std::ranges::sort(all, std::greater<>(), rank);
+  std::erase_if(all, [](const Likely& limb) { return mean_radius(limb.outline) < kSmallest; });
   return all;
 }
 
-/// Those that differ, in the picture's pixels.
-std::vector<Outline> BallSearch::circles() {
-  std::vector<Outline> kept;
-  for (const Start& start : starts()) {
-    if (kept.size() == kFitted) break;
-    const double radius = start.circle.radius - kBlur;
-    const Outline outline =
-        Pyramid::between({start.circle.centre, radius, radius, 0}, start.level, 0);
-    if (std::ranges::all_of(
-            kept, [&](const Outline& other) { return difference(outline, other) >= kApart; })) {
-      kept.push_back(outline);
+/// The most likely ones that differ by more than `apart`.
+std::vector<BallSearch::Likely> BallSearch::best_of(std::vector<Likely> all, std::size_t most,
+                                                    double apart) {
+  std::ranges::sort(all, std::greater<>(), &Likely::likeness);
+  std::vector<Likely> kept;
+  for (const Likely& one : all) {
+    if (kept.size() == most) break;
+    if (std::ranges::all_of(kept, [&](const Likely& other) {
+          return difference(one.outline, other.outline) >= apart;
+        })) {
+      kept.push_back(one);
     }
   }
   return kept;
 }
 
+FoundLimb BallSearch::with_evidence(const Likely& limb) const {
+  const std::size_t level = pyramid_.level_for(limb.outline, kCompared);
+  const cv::Mat& luminance = pyramid_.level(level);
+  const Outline here = Pyramid::between(limb.outline, 0, level);
+  return {limb.outline,
+          {mean_radius(here), near_drop(luminance, here), contour(luminance, here), limb.likeness}};
+}
+
+/// Around the places that slopes point to, of all scales.
+std::vector<BallSearch::Likely> BallSearch::rings() const {
+  std::vector<Likely> all;
+  for (std::size_t n = 0; n < std::min(kScales, pyramid_.size()); ++n) {
+    const std::size_t level = pyramid_.size() - 1 - n;
+    const cv::Mat& luminance = pyramid_.level(level);
+    const double largest = kLargest * std::min(luminance.cols, luminance.rows);
+    const double farthest = std::min(RingStrip::kFarthest, largest);
+    if (farthest < RingStrip::kNearest) continue;
+    for (const optics::Vec2 place :
+         centre_votes(slopes_of(luminance), RingStrip::kNearest, farthest, kVotes)) {
+      const Ring ring = likeliest_ring(luminance, place);
+      const Outline circle{ring.centre, ring.radius, ring.radius, 0};
+      all.push_back({Pyramid::between(circle, level, 0), ring.likeness});
+    }
+  }
+  return all;
+}
+
 /// The most likely limb around, by the scale at which it has about that radius.
-Outline BallSearch::fitted(const Outline& outline, double radius) const {
+BallSearch::Likely BallSearch::fitted(const Outline& outline, double radius) const {
   const std::size_t level = pyramid_.level_for(outline, radius);
-  return Pyramid::between(
-      fit_limb(pyramid_.level(level), Pyramid::between(outline, 0, level), kAround), level, 0);
+  const LimbFit fit = fit_limb(pyramid_.level(level), Pyramid::between(outline, 0, level), kAround);
+  return {Pyramid::between(fit.outline, level, 0), fit.likeness};
 }
 
 double BallSearch::likeness(const Outline& outline, double radius) const {

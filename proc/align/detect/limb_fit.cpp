@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "proc/align/detect/limb_likelihood.h"
 
@@ -71,8 +72,10 @@ Outline moved(const Outline& outline, const Offset& offset) {
 
 }  // namespace
 
-Outline fit_limb(const cv::Mat& luminance, const Outline& outline, double reach) {
-  if (std::min(outline.rx, outline.ry) < reach + kSmallest) return outline;
+LimbFit fit_limb(const cv::Mat& luminance, const Outline& outline, double reach) {
+  if (std::min(outline.rx, outline.ry) < reach + kSmallest) {
+    return {outline, std::numeric_limits<double>::lowest()};
+  }
   const LimbStrip strip(luminance, outline, reach);
   const LimbLikelihood likelihood(strip, outline, luminance.size());
   Climber climber{likelihood};
@@ -80,7 +83,7 @@ Outline fit_limb(const cv::Mat& luminance, const Outline& outline, double reach)
   for (double step = reach / 4; step > kLastStep; step *= 0.6) {
     for (int round = 0; round < 8 && climber.climb(step); ++round) continue;
   }
-  return moved(outline, climber.best);
+  return {moved(outline, climber.best), likelihood.above_random(climber.best)};
 }
 
 }  // namespace orbwatch::align

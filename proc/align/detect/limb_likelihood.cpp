@@ -9,8 +9,6 @@
 namespace orbwatch::align {
 namespace {
 
-/// Share of the parts that say nothing.
-constexpr double kStray = 0.05;
 /// Neighbouring parts see the same: all together count as so many.
 constexpr double kIndependent = 64;
 /// What an axis costs that differs from what perspective makes of a sphere, nats per share of the
@@ -28,13 +26,9 @@ LimbLikelihood::LimbLikelihood(const LimbStrip& strip, const optics::Outline& ou
       radius_((outline.rx + outline.ry) / 2),
       half_((outline.rx - outline.ry) / 2) {
   const LimbColumns limb = limb_columns(strip);
-  parts_.reserve(limb.probabilities.size());
-  for (const float p : limb.probabilities) {
-    parts_.push_back(std::log(kStray / limb.columns + (1 - kStray) * static_cast<double>(p)));
-  }
+  parts_ = limb.above_random();
   for (int n = 0; n < limb.parts; ++n) {
-    const double middle = LimbColumns::kRays * (n + 0.5) - 0.5;
-    const double a = 2 * std::numbers::pi * middle / strip.rays();
+    const double a = limb.angle(n);
     basis_.push_back({1, std::cos(a), std::sin(a), std::cos(2 * a), std::sin(2 * a)});
   }
   const double u = outline.centre.u - (picture.width - 1) / 2.0;
@@ -56,27 +50,23 @@ double LimbLikelihood::shape(const Offset& offset) const {
   return -kShape * std::hypot(beyond, across);
 }
 
-/// The mean of all parts.
-double LimbLikelihood::seen(const Offset& offset) const {
+double LimbLikelihood::above_random(const Offset& offset) const {
   double sum = 0;
   for (std::size_t n = 0; n < basis_.size(); ++n) {
     double t = 0;
     for (std::size_t i = 0; i < offset.size(); ++i) t += basis_[n][i] * offset[i];
     const double place =
-        std::clamp(limb_ + t * LimbStrip::kPerPixel, 0.0, static_cast<double>(columns_) - 1.001);
+        std::clamp(limb_ + t * LimbStrip::kPerUnit, 0.0, static_cast<double>(columns_) - 1.001);
     const auto k = static_cast<std::size_t>(place);
-    const double* row = &parts_[n * columns_];
-    sum += std::lerp(row[k], row[k + 1], place - static_cast<double>(k));
+    const float* row = &parts_[n * columns_];
+    const double share = place - static_cast<double>(k);
+    sum += (1 - share) * row[k] + share * row[k + 1];
   }
   return sum / static_cast<double>(basis_.size());
 }
 
 double LimbLikelihood::operator()(const Offset& offset) const {
-  return kIndependent * seen(offset) + shape(offset);
-}
-
-double LimbLikelihood::above_random() const {
-  return seen({}) + std::log(static_cast<double>(columns_));
+  return kIndependent * above_random(offset) + shape(offset);
 }
 
 }  // namespace orbwatch::align

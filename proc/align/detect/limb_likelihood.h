@@ -12,8 +12,7 @@ namespace orbwatch::align {
 /// the factors of 1, cos, sin, cos 2, sin 2.
 using Offset = std::array<double, 5>;
 
-/// How likely the ball's limb lies there, by what limb_columns() sees in a strip, in nats. Some
-/// parts may be wrong: a mount hides the limb, a reflection looks like it.
+/// How likely the ball's limb lies there, by what limb_columns() sees in a strip, in nats.
 class LimbLikelihood {
  public:
   /// Of offsets from `outline` within `strip`, which was made of it, in a picture of that size.
@@ -21,17 +20,16 @@ class LimbLikelihood {
 
   double operator()(const Offset& offset) const;
 
-  /// By how much that of the outline itself is above a limb's anywhere in a strip that tells
-  /// nothing, nats per part: 1 to 3 for a ball, below 0 for most other things.
-  double above_random() const;
+  /// LimbColumns::above_random() of an offset, the mean of all parts: 1 to 3 for a ball, below 0
+  /// for most other things.
+  double above_random(const Offset& offset = {}) const;
 
  private:
-  double seen(const Offset& offset) const;
   double shape(const Offset& offset) const;
 
   std::size_t columns_;
   double limb_;                ///< column
-  std::vector<double> parts_;  ///< nats by part and column
+  std::vector<float> parts_;   ///< LimbColumns::above_random()
   std::vector<Offset> basis_;  ///< by part
   // Of the outline: its mean radius, half the difference of its axes, the direction to the middle
   // of the picture in twice its own angle, and how long it may be for its place.

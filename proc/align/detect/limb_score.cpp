@@ -37,7 +37,7 @@ double contour(const cv::Mat& luminance, const optics::Outline& outline) {
     bool limb_seen = true;
     for (int k = 0; k < strip.columns(); ++k) {
       const auto slope = strip.slope(ray, k);
-      const bool on_limb = std::abs(k - strip.limb()) <= LimbStrip::kPerPixel;
+      const bool on_limb = std::abs(k - strip.limb()) <= LimbStrip::kPerUnit;
       if (!slope) {
         limb_seen &= !on_limb;
         continue;

@@ -11,7 +11,7 @@ namespace orbwatch::align {
 /// have their centres at integers. Immutable; reentrant.
 class Pyramid {
  public:
-  static constexpr int kSmallest = 128;
+  static constexpr int kSmallest = 32;
 
   /// `luminance`: one channel, 8 or 16 bit; shared, not copied.
   explicit Pyramid(const cv::Mat& luminance);

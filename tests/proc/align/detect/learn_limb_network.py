@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""learn_limb_network.py STRIPS: learns the weights of proc/align/detect/limb_network.cpp from what
-learn_limb_strips wrote, and prints limb_network.inc. Needs python3-torch; takes some minutes.
+"""learn_limb_network.py limb|ring STRIPS: learns the weights of a network of
+proc/align/detect/limb_network.cpp from what learn_limb_strips wrote, and prints limb_network.inc or
+ring_network.inc. Needs python3-torch; takes some minutes.
 
 The network says, for each eight rays of a strip, in which column the limb crosses them, or that it
 does not. It is the same along the limb and along the normal, so strips of any size will do."""
 
+import dataclasses
 import math
 import random
 import sys
@@ -14,27 +16,37 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-WIDTH, EPOCHS, BATCH, STEP = 16, 30, 16, 6e-3
 RAYS = 8  # a part of the limb
-CROP = 128  # rays that are learnt from at a time
 PER_PIXEL = 2  # columns
+
+
+@dataclasses.dataclass
+class Course:
+    """How a network is learnt."""
+    width: int  # channels
+    epochs: int
+    batch: int  # strips
+    step: float
+    crop: int  # rays that are learnt from at a time
+
+
+COURSES = {"limb": Course(16, 30, 16, 6e-3, 128), "ring": Course(8, 7, 32, 8e-3, 96)}
 
 
 class Network(nn.Module):
     """As in limb_network.cpp: the ring is closed, and nothing is beyond the columns."""
 
-    # inputs, outputs, rays, columns, step in rays, rays before the first
-    LAYERS = ((4, WIDTH, 8, 7, 4, 2), (WIDTH, WIDTH, 4, 7, 2, 1), (WIDTH, WIDTH, 3, 7, 1, 1),
-              (WIDTH, 1, 3, 5, 1, 1))
-
-    def __init__(self):
+    def __init__(self, width):
         super().__init__()
+        # inputs, outputs, rays, columns, step in rays, rays before the first
+        self.shapes = ((4, width, 8, 7, 4, 2), (width, width, 4, 7, 2, 1),
+                       (width, width, 3, 7, 1, 1), (width, 1, 3, 5, 1, 1))
         self.layers = nn.ModuleList(nn.Conv2d(i, o, (rays, columns), stride=(step, 1))
-                                    for i, o, rays, columns, step, _ in self.LAYERS)
+                                    for i, o, rays, columns, step, _ in self.shapes)
 
     def forward(self, strips):
         """Logarithms of the odds of each column against no limb, by part."""
-        for layer, (_, _, rays, columns, step, before) in zip(self.layers, self.LAYERS):
+        for layer, (_, _, rays, columns, step, before) in zip(self.layers, self.shapes):
             if layer is not self.layers[0]:
                 strips = functional.relu(strips)
             after = rays - step - before
@@ -68,12 +80,12 @@ def strips_of(file):
     return strips
 
 
-def cropped(strip):
+def cropped(strip, crop):
     """A random arc of a strip, as often mirrored and in negative as not."""
     slopes, distances = strip
     first = random.randrange(len(distances))
-    slopes = torch.cat([slopes, slopes], 1)[:, RAYS * first:RAYS * first + CROP]
-    distances = torch.cat([distances, distances])[first:first + CROP // RAYS]
+    slopes = torch.cat([slopes, slopes], 1)[:, RAYS * first:RAYS * first + crop]
+    distances = torch.cat([distances, distances])[first:first + crop // RAYS]
     if random.random() < 0.5:
         slopes = slopes * torch.tensor([-1.0, -1, -1, 1])[:, None, None]
     if random.random() < 0.5:
@@ -97,16 +109,18 @@ def loss(network, slopes, distances):
     return -torch.where(seen, right, logarithms[..., columns]).mean()
 
 
-def learnt(strips):
-    network = Network()
+def learnt(strips, course):
+    network = Network(course.width)
     optimizer = torch.optim.Adam(network.parameters())
-    steps, step = EPOCHS * (len(strips) // BATCH), 0
-    for epoch in range(EPOCHS):
+    batch, epochs = course.batch, course.epochs
+    steps, step = epochs * (len(strips) // batch), 0
+    for epoch in range(epochs):
         random.shuffle(strips)
         total = 0
-        for first in range(0, len(strips) - BATCH + 1, BATCH):
-            slopes, distances = zip(*(cropped(strip) for strip in strips[first:first + BATCH]))
-            rate = STEP * min(1, (step + 1) / 100) * 0.5 * (1 + math.cos(math.pi * step / steps))
+        for first in range(0, len(strips) - batch + 1, batch):
+            slopes, distances = zip(*(cropped(strip, course.crop)
+                                      for strip in strips[first:first + batch]))
+            rate = course.step * min(1, (step + 1) / 100) * 0.5 * (1 + math.cos(math.pi * step / steps))
             for group in optimizer.param_groups:
                 group["lr"] = rate + 1e-4
             step += 1
@@ -114,7 +128,7 @@ def learnt(strips):
             optimizer.zero_grad()
             error.backward()
             optimizer.step()
-            total += error.item() * BATCH
+            total += error.item() * batch
         print(f"epoch {epoch + 1}: {total / len(strips):.3f} nats a part", file=sys.stderr)
     return network
 
@@ -135,12 +149,12 @@ def print_weights(network):
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+    if len(sys.argv) != 3 or sys.argv[1] not in COURSES:
         print(__doc__)
         return 0 if sys.argv[1:] == ["--help"] else 2
     random.seed(1)
     torch.manual_seed(1)
-    print_weights(learnt(strips_of(sys.argv[1])))
+    print_weights(learnt(strips_of(sys.argv[2]), COURSES[sys.argv[1]]))
     return 0
 
 

@@ -17,7 +17,7 @@ TEST(LimbFit, FindsTheLimbFromAround) {
   const cv::Mat picture = painted_ball({264, 204}, kLimb);
   for (const auto [du, dv, dr] : {std::array{2.5, -1.5, 1.0}, {-2.0, 2.0, -2.0}, {0.0, 0.0, 0.0}}) {
     Outline fit{{kLimb.centre.u + du, kLimb.centre.v + dv}, kLimb.rx + dr, kLimb.rx + dr, 0};
-    for (const double reach : {6.0, 4.0, 3.0}) fit = fit_limb(picture, fit, reach);
+    for (const double reach : {6.0, 4.0, 3.0}) fit = fit_limb(picture, fit, reach).outline;
     EXPECT_NEAR(fit.centre.u, kLimb.centre.u, 0.5);
     EXPECT_NEAR(fit.centre.v, kLimb.centre.v, 0.5);
     EXPECT_NEAR((fit.rx + fit.ry) / 2, kLimb.rx, 0.6);
@@ -29,7 +29,7 @@ TEST(LimbFit, FindsAHiddenPart) {
   cv::Mat picture = painted_ball({264, 204}, kLimb);
   cv::rectangle(picture, {185, 80}, {263, 130}, cv::Scalar(40), cv::FILLED);  // a mount
   Outline fit{{kLimb.centre.u + 1.5, kLimb.centre.v - 1}, 81.5, 81.5, 0};
-  for (const double reach : {6.0, 4.0, 3.0}) fit = fit_limb(picture, fit, reach);
+  for (const double reach : {6.0, 4.0, 3.0}) fit = fit_limb(picture, fit, reach).outline;
   EXPECT_NEAR(fit.centre.u, kLimb.centre.u, 0.8);
   EXPECT_NEAR(fit.centre.v, kLimb.centre.v, 0.8);
   EXPECT_NEAR((fit.rx + fit.ry) / 2, kLimb.rx, 0.8);
@@ -38,7 +38,7 @@ TEST(LimbFit, FindsAHiddenPart) {
 TEST(LimbFit, LeavesWhatIsTooSmallAsItIs) {
   const cv::Mat picture(100, 100, CV_8U, cv::Scalar(0));
   const Outline small{{50, 50}, 6, 5, 30};
-  const Outline fit = fit_limb(picture, small, 4);
+  const Outline fit = fit_limb(picture, small, 4).outline;
   EXPECT_EQ(fit.centre.u, 50);
   EXPECT_EQ(fit.rx, 6);
   EXPECT_EQ(fit.ry, 5);
@@ -53,7 +53,7 @@ TEST(LimbStrip, UnrollsAnEllipseWithSlopesPerPixel) {
   }
   const Outline ellipse{{150, 100}, 60, 50, 25};
   const LimbStrip strip(ramp, ellipse, 5);
-  EXPECT_EQ(strip.columns(), 2 * 5 * LimbStrip::kPerPixel + 1);
+  EXPECT_EQ(strip.columns(), 2 * 5 * LimbStrip::kPerUnit + 1);
   EXPECT_EQ(strip.distance(strip.limb()), 0);
   EXPECT_EQ(strip.distance(strip.columns() - 1), 5);
   for (int ray = 0; ray < strip.rays(); ++ray) {

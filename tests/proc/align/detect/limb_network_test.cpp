@@ -42,7 +42,7 @@ TEST(LimbNetwork, SeesTheLimbWhereItIs) {
     const optics::Outline outline{kLimb.centre, kLimb.rx + off, kLimb.ry + off, 0};
     const LimbStrip strip(ball, outline, 8);
     const int seen = likeliest_column(limb_columns(strip)) - strip.limb();
-    EXPECT_NEAR(seen, -off * LimbStrip::kPerPixel, 2) << off;
+    EXPECT_NEAR(seen, -off * LimbStrip::kPerUnit, 2) << off;
   }
 }
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace orbwatch::align {
+
+/// Values by ray, channel and column, with zeros on both sides of the columns. Rays are a ring.
+class Field {
+ public:
+  Field(int rays, int channels, int columns);
+
+  int rays() const { return rays_; }
+  int channels() const { return channels_; }
+  int columns() const { return columns_; }
+  /// From the first column on.
+  float* at(int ray, int channel) { return &values_[first(ray, channel)]; }
+  const float* at(int ray, int channel) const { return &values_[first(ray, channel)]; }
+  /// Of any number the ray that it is.
+  int ring(int ray) const { return (ray + rays_) % rays_; }
+
+ private:
+  std::size_t first(int ray, int channel) const;
+
+  int rays_, channels_, columns_, stride_;
+  std::vector<float> values_;
+};
+
+/// A convolution: how far it reaches along the ring (rays) and outwards (columns).
+struct Layer {
+  int inputs, outputs;
+  int rays, columns;
+  int step;    ///< rays from one output to the next
+  int before;  ///< rays before an output's first that it sees
+};
+
+constexpr std::size_t weight_count(const Layer& layer) {
+  return static_cast<std::size_t>(layer.outputs * (1 + layer.inputs * layer.rays * layer.columns));
+}
+
+/// `weights`: a bias for each output, then the weights by input, ray, column and output. Reentrant.
+Field convolution(const Field& in, const Layer& layer, std::span<const float> weights);
+
+/// Sets what is below 0 to 0.
+void rectify(Field& field);
+
+}  // namespace orbwatch::align

@@ -1,0 +1,72 @@
+#include "proc/align/detect/ring_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "proc/align/detect/centre_votes.h"
+#include "proc/align/detect/ring_strip.h"
+#include "tests/proc/align/detect/painted_ball.h"
+
+namespace orbwatch::align {
+namespace {
+
+const optics::Outline kLimb{{72.3, 51.7}, 26, 26, 0};
+const cv::Size kSize(140, 104);
+
+TEST(CentreVotes, MeetInTheBallsCentre) {
+  const auto centres = centre_votes(slopes_of(painted_ball(kSize, kLimb)), RingStrip::kNearest,
+                                    RingStrip::kFarthest, 8);
+  ASSERT_FALSE(centres.empty());
+  EXPECT_LE(centres.size(), 8U);
+  EXPECT_TRUE(std::ranges::any_of(centres, [](const optics::Vec2& c) {
+    return std::hypot(c.u - kLimb.centre.u, c.v - kLimb.centre.v) < 0.2 * kLimb.rx;
+  }));
+}
+
+TEST(CentreVotes, AreNoneWhereNothingIsSeen) {
+  EXPECT_TRUE(
+      centre_votes(slopes_of(cv::Mat(200, 260, CV_16U, cv::Scalar(7000))), 15, 38, 8).empty());
+}
+
+TEST(RingStrip, UnrollsCirclesToColumns) {
+  // A disc's edge is in one column.
+  cv::Mat disc(kSize, CV_8U, cv::Scalar(20));
+  cv::circle(disc, {70, 52}, 24, cv::Scalar(200), cv::FILLED);
+  const RingStrip strip(disc, {70, 52});
+  for (int ray = 0; ray < strip.rays(); ++ray) {
+    int steepest = 0;
+    for (int k = 0; k < strip.columns(); ++k) {
+      const auto slope = strip.slope(ray, k);
+      ASSERT_TRUE(slope);
+      if (slope->along < strip.slope(ray, steepest)->along) steepest = k;
+    }
+    EXPECT_NEAR(RingStrip::radius(steepest), 24.5, 1.5) << ray;
+  }
+}
+
+TEST(RingSearch, FindsTheLimbFromAround) {
+  const cv::Mat ball = painted_ball(kSize, kLimb);
+  for (const auto [du, dv] : {std::array{0.0, 0.0}, {4.0, 0.0}, {-3.0, 3.0}, {0.0, -5.0}}) {
+    const Ring ring = likeliest_ring(ball, {kLimb.centre.u + du, kLimb.centre.v + dv});
+    EXPECT_NEAR(ring.centre.u, kLimb.centre.u, 0.08 * kLimb.rx) << du << " " << dv;
+    EXPECT_NEAR(ring.centre.v, kLimb.centre.v, 0.08 * kLimb.rx) << du << " " << dv;
+    EXPECT_NEAR(ring.radius, kLimb.rx, 0.08 * kLimb.rx) << du << " " << dv;
+    EXPECT_GT(ring.likeness, 0.5);
+  }
+}
+
+TEST(RingSearch, IsLessLikelyInNoise) {
+  cv::Mat noise(kSize, CV_8U);
+  cv::theRNG().state = 5;
+  cv::randn(noise, 120, 30);
+  const double ball = likeliest_ring(painted_ball(kSize, kLimb), kLimb.centre).likeness;
+  EXPECT_LT(likeliest_ring(noise, {70, 52}).likeness, ball);
+  // Beyond the picture, too.
+  EXPECT_LT(likeliest_ring(noise, {-400, 52}).likeness, ball);
+}
+
+}  // namespace
+}  // namespace orbwatch::align
