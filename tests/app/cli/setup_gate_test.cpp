@@ -43,10 +43,11 @@ struct Projections {
   optics::BallProjection thermal;
 };
 
-Projections truth(const cv::FileStorage& file) {
+Projections truth(const cv::FileStorage& file, bool table_known = true) {
   const RenderedScene scene("near");
   optics::Rig rig =
       app::parse_rig(scene.rig(RenderedScene::Known::BoxAndTable), "rig.toml", "").value();
+  if (!table_known) rig.scene.obstacles.clear();
   optics::RigCamera &colour = rig.cameras[0], &thermal = rig.cameras[2];
   const cv::FileNode seen = file["sequences"]["seq_spark"]["camera"];
   colour.width = colour.height = colour.intrinsics->width = colour.intrinsics->height =
@@ -173,8 +174,11 @@ TEST_F(SetupGate, ItsTableNeedNotBeKnown) {
   ORBWATCH_REQUIRE_FILE(rendered_pictures());
   const cv::FileStorage file = open_rendered_scene();
   ASSERT_EQ(set_up(file, false), 0) << said;
-  // What stands on the table has parallax that nothing stated takes away.
-  EXPECT_LE(error(file), 2.1) << said;
+  // The parallax of the table that is not stated stays even where all else is right.
+  const double by_table = thermal_on_colour(truth(file, false), truth(file));
+  std::printf("of that by the table alone: %.2f deg rms\n", by_table);
+  RecordProperty("by the table alone, deg rms", std::to_string(by_table));
+  EXPECT_LE(error(file), by_table + 0.2) << said;
 }
 
 }  // namespace
