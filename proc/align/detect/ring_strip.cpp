@@ -23,6 +23,7 @@ SlopeStrip::Places RingStrip::places(optics::Vec2 centre) {
   const int between = static_cast<int>(std::ceil(std::log(kFarthest / kNearest) / kGrowth));
   const int columns = between + 1 + 2 * kBeside;
   std::vector<double> radii;
+  radii.reserve(static_cast<std::size_t>(columns));
   for (int k = 0; k < columns; ++k) radii.push_back(radius(k));
   Places places(kRays, columns);
   for (int ray = 0; ray < kRays; ++ray) {
