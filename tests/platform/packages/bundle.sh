@@ -3,10 +3,8 @@
 
 test_bundle() {
   local bundle=$folder/orbwatch-$suite-$architecture.tar
-  if [[ ! -e $bundle ]]; then
-    check "there is a bundle, by build-deb --bundle" test -e "$bundle"
-    return 0
-  fi
+  check "there is a bundle, by build-deb --bundle" test -e "$bundle"
+  [[ -e $bundle ]] || return 0
   tar -xf "$bundle" -C "$packages"
   boot "$roots/minimal-$suite-$architecture"
   check "the minimal system has none of what it needs" inside sh -c '! test -e /usr/lib/*-linux-gnu/libmodbus.so.5'
