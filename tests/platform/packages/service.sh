@@ -1,5 +1,6 @@
-# Sourced by run: the package installed, its service, what a second package adds, and their end.
-# shellcheck shell=bash disable=SC2154
+# Sourced by run: the package installed, its service, what a second package adds, and their end. What
+# seems unused is read by machine.sh.
+# shellcheck shell=bash disable=SC2154,SC2034
 
 test_service() {
   boot "$roots/ready-$suite-$architecture"
