@@ -58,6 +58,7 @@ class Page(unittest.TestCase):
         for view in ("panorama", "door", "process"):
             self.browser.find_element(By.NAME, view).click()
         self.expect_pictures({"heat"})
+        self.expect_pictures({"heat"})
         numbers = self.browser.execute_script(
             "return [...document.querySelectorAll('figure[hidden] canvas')]"
             ".map((c) => c.dataset.number)")
