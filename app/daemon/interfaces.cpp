@@ -6,14 +6,21 @@
 #include <string_view>
 #include <utility>
 
+#include "app/state/state_folder.h"
+
 namespace orbwatch::app {
 namespace {
 
 SinkContext make_context(const Resolved& site, CommandHandler handler,
                          std::shared_ptr<CommandRecord> record,
                          std::shared_ptr<hal::SharedThreads> background) {
-  SinkContext context{site.names,           {}, {}, std::move(handler), std::move(record),
-                      std::move(background)};
+  SinkContext context{site.names,
+                      {},
+                      {},
+                      std::move(handler),
+                      std::move(record),
+                      std::move(background),
+                      state_folder(site.site.state_folder)};
   context.views.resize(site.names.views.size());
   const auto publish = [&context](const ViewSettings& view, bool measured) {
     const bool perspective = view.kind == optics::ViewKind::Perspective;

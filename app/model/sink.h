@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct SinkContext {
   CommandHandler handler;
   std::shared_ptr<CommandRecord> record;           ///< of the commands that go to `handler`
   std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
+  std::filesystem::path state_folder;              ///< of what must outlast a restart
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "proc/settings/settings.h"
+
+namespace orbwatch::app {
+
+/// Who somebody is on the network; each may do what those before may. The names are in the users
+/// file and on the page.
+enum class Role : std::uint8_t {
+  Nobody,         ///< not known by name
+  Viewer,         ///< sees pictures, figures and the description
+  Operator,       ///< runs the process: starts and stops, recipes, alarms, views
+  Integrator,     ///< sets the appliance up: alignment, outputs, restart
+  Administrator,  ///< says who is what
+};
+
+inline constexpr std::array kRoles{
+    Word{"viewer", Role::Viewer},
+    Word{"operator", Role::Operator},
+    Word{"integrator", Role::Integrator},
+    Word{"administrator", Role::Administrator},
+};
+
+}  // namespace orbwatch::app
