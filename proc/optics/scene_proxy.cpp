@@ -19,6 +19,7 @@ constexpr int kFaces = 6;
 using Axes = std::array<double, 3>;
 
 Axes by_axis(const Vec3& v) { return {v.x, v.y, v.z}; }
+Vec3 vector(const Axes& v) { return {v[0], v[1], v[2]}; }
 
 bool is_usable(const Vec3& v) {
   return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
@@ -93,6 +94,30 @@ bool faces_ball(const Axes& low, const Axes& high, unsigned corner, unsigned axi
     if (corner >> other & 1U ? high[other] < 0 : low[other] > 0) return true;
   }
   return false;
+}
+
+/// One of a box's faces.
+SceneProxy::Face side(const Box& box, std::size_t axis, bool is_high, int surface) {
+  const Axes low = by_axis(box.low), high = by_axis(box.high);
+  const std::size_t first = (axis + 1) % 3, second = (axis + 2) % 3;
+  Axes corner = low, along{}, across{};
+  corner[axis] = (is_high ? high : low)[axis];
+  along[first] = high[first] - low[first];
+  across[second] = high[second] - low[second];
+  return {vector(corner), vector(along), vector(across), surface};
+}
+
+/// A little larger but along `axis`, so that no gap is seen where its faces meet.
+Box grown(const Axes& low, const Axes& high, std::size_t axis) {
+  constexpr double kShare = 1e-3;
+  Axes from = low, to = high;
+  for (std::size_t other = 0; other < 3; ++other) {
+    if (other == axis) continue;
+    const double more = (high[other] - low[other]) * kShare;
+    from[other] -= more;
+    to[other] += more;
+  }
+  return {vector(from), vector(to)};
 }
 
 }  // namespace
@@ -303,19 +328,50 @@ std::vector<std::pair<Vec3, Vec3>> SceneProxy::edges() const {
     });
   }
   for (const Block& box : obstacles_) {
-    auto low = box.low, high = box.high;
-    bool visible = true;
-    for (std::size_t axis = 0; axis < 3 && walled; ++axis) {
-      low[axis] = std::max(low[axis], walls_.low[axis]);
-      high[axis] = std::min(high[axis], walls_.high[axis]);
-      visible = visible && low[axis] < high[axis];
-    }
-    if (!visible) continue;
+    const auto part = within_walls(box);
+    if (!part) continue;
+    const Axes low = by_axis(part->low), high = by_axis(part->high);
     for_each_edge([&](unsigned corner, unsigned axis) {
       if (faces_ball(low, high, corner, axis)) edges.push_back(ends(low, high, corner, axis));
     });
   }
   return edges;
+}
+
+std::optional<Box> SceneProxy::within_walls(const Block& obstacle) const {
+  Axes low = obstacle.low, high = obstacle.high;
+  if (room_ == Scene::Room::Box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::max(low[axis], walls_.low[axis]);
+      high[axis] = std::min(high[axis], walls_.high[axis]);
+      if (!(low[axis] < high[axis])) return std::nullopt;
+    }
+  }
+  return Box{vector(low), vector(high)};
+}
+
+std::vector<SceneProxy::Face> SceneProxy::faces() const {
+  std::vector<Face> faces;
+  const bool walled = room_ == Scene::Room::Box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool is_high : {false, true}) {
+      const int surface = walled ? face(axis, is_high) : 0;
+      faces.push_back(walled ? side(grown(walls_.low, walls_.high, axis), axis, is_high, surface)
+                             : side({{-1, -1, -1}, {1, 1, 1}}, axis, is_high, surface));
+    }
+  }
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    const auto part = within_walls(obstacles_[i]);
+    if (!part) continue;
+    const Axes low = by_axis(part->low), high = by_axis(part->high);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!(low[axis] > 0) && !(high[axis] < 0)) continue;
+      const bool is_high = high[axis] < 0;
+      const int surface = kWalls + kFaces * static_cast<int>(i) + face(axis, is_high);
+      faces.push_back(side(*part, axis, is_high, surface));
+    }
+  }
+  return faces;
 }
 
 bool SceneProxy::lists_every_edge() const {

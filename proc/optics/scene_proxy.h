@@ -82,6 +82,21 @@ class SceneProxy {
   /// end at the walls of a box; their intersections with other rooms or one another are left out.
   std::vector<std::pair<Vec3, Vec3>> edges() const;
 
+  /// A rectangle of which `surface` is a part: its corner and two sides, relative to the ball's
+  /// centre, in ball radii.
+  struct Face {
+    Vec3 corner;
+    Vec3 along;
+    Vec3 across;
+    int surface = 0;
+  };
+
+  /// The faces of boxes that are turned towards the ball: together, the nearer before the further,
+  /// they are all that hit() meets. Walls go on a little beyond their edges, where others hide
+  /// them; obstacles end at the walls of a box. A room that is no box has the faces of a cube
+  /// around all else, which stand for directions only.
+  std::vector<Face> faces() const;
+
   /// Whether edges() is complete: no plane's horizon, no obstacle in a sphere or before a plane,
   /// and no intersecting obstacles.
   bool lists_every_edge() const;
@@ -112,6 +127,9 @@ class SceneProxy {
   double meet_room(const Ray& ray) const;
   double meet_walls(const Ray& ray) const;
   static double meet_obstacle(const Block& box, const Ray& ray);
+
+  /// The part of an obstacle within the walls; nullopt when there is none.
+  std::optional<Box> within_walls(const Block& obstacle) const;
 
   // Relative to the ball's centre, in ball radii.
   Scene::Room room_ = Scene::Room::None;

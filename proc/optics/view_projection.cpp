@@ -15,6 +15,9 @@ constexpr double kLeastFov = 1e-6;
 
 // A Ball view shows this much more than the limb's bounding box: alignment wants to see the limb.
 constexpr double kCropMargin = 1.02;
+// A Ball view's pixels that are so much larger or smaller than its camera's become these: nothing
+// is interpolated then, and half of the margin is left.
+constexpr double kOwnPixel = 0.01;
 
 // A pixel exactly on a fisheye's end must not fall beyond it by rounding.
 constexpr double kHalfTurn = std::numbers::pi * (1 + 1e-12);
@@ -131,6 +134,11 @@ Result<> ViewProjection::crop(const BallProjection& ball) {
   step_u_ = step_v_ =
       2 * kCropMargin * std::max(half_width / spec_.width, half_height / spec_.height);
   crop_centre_ = limb->centre;
+  if (std::abs(step_u_ - 1) <= kOwnPixel) {
+    const double u = (spec_.width - 1) / 2.0, v = (spec_.height - 1) / 2.0;
+    step_u_ = step_v_ = 1;
+    crop_centre_ = {std::round(limb->centre.u - u) + u, std::round(limb->centre.v - v) + v};
+  }
   ball_ = ball;
   return {};
 }
@@ -138,6 +146,11 @@ Result<> ViewProjection::crop(const BallProjection& ball) {
 Vec2 ViewProjection::camera_pixel(double u, double v) const {
   return {crop_centre_.u + (u - (spec_.width - 1) / 2.0) * step_u_,
           crop_centre_.v + (v - (spec_.height - 1) / 2.0) * step_v_};
+}
+
+Vec2 ViewProjection::of_camera_pixel(const Vec2& pixel) const {
+  return {(spec_.width - 1) / 2.0 + (pixel.u - crop_centre_.u) / step_u_,
+          (spec_.height - 1) / 2.0 + (pixel.v - crop_centre_.v) / step_v_};
 }
 
 std::optional<Vec3> ViewProjection::direction(double u, double v) const {

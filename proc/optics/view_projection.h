@@ -44,7 +44,8 @@ class ViewProjection {
   static Result<ViewProjection> make(const ViewSpec& spec);
 
   /// A view of any kind; a Ball view shows what that camera sees, cut to the limb's bounding box
-  /// and a margin, with square pixels. Error: also a limb that the lens does not show.
+  /// and a margin, with square pixels: the camera's own, if the sizes differ by no more than 1 %.
+  /// Error: also a limb that the lens does not show.
   static Result<ViewProjection> make(const ViewSpec& spec, const BallProjection& ball);
 
   /// Unit vector of a pixel (OpenCV convention), also a little outside the picture. nullopt where
@@ -65,8 +66,13 @@ class ViewProjection {
   /// ROS' camera_info of a perspective view; nullopt for other kinds.
   std::optional<Intrinsics> intrinsics() const;
 
+  /// Where a Ball view shows a pixel of its camera.
+  Vec2 of_camera_pixel(const Vec2& pixel) const;
+
   /// What it was made of.
   const ViewSpec& spec() const { return spec_; }
+  /// Whose picture a Ball view is; nullopt for other kinds.
+  const std::optional<BallProjection>& ball() const { return ball_; }
   ViewKind kind() const { return spec_.kind; }
   int width() const { return spec_.width; }
   int height() const { return spec_.height; }

@@ -121,6 +121,25 @@ TEST(ViewProjection, ABallViewIsTheCamerasPictureCutToTheLimb) {
   EXPECT_NEAR(c.u, a.u, 1e-6);
 }
 
+TEST(ViewProjection, ABallViewOfTheCamerasSizeHasTheCamerasPixels) {
+  const BallProjection ball = tilted_ball();
+  const Outline limb = ball.outline().value();
+  const double c = std::cos(radians(limb.angle)), s = std::sin(radians(limb.angle));
+  const double half =
+      std::max(std::hypot(limb.rx * c, limb.ry * s), std::hypot(limb.rx * s, limb.ry * c));
+  for (const double share : {0.995, 1.0, 1.005, 1.1}) {
+    const int size = static_cast<int>(std::lround(2.04 * half * share));
+    const auto view = ViewProjection::make({ViewKind::Ball, {}, {}, {}, size, size}, ball).value();
+    for (const Vec2 pixel : {Vec2{310, 250}, Vec2{270, 300}}) {
+      const Vec2 shown = view.of_camera_pixel(pixel);
+      const bool is_one = std::abs(shown.u - std::round(shown.u)) < 1e-9 &&
+                          std::abs(shown.v - std::round(shown.v)) < 1e-9;
+      EXPECT_EQ(is_one, share < 1.05) << size << ": " << shown.u << " " << shown.v;
+      EXPECT_LT(deviation(*view.direction(shown.u, shown.v), *ball.direction(pixel)), 1e-9);
+    }
+  }
+}
+
 TEST(ViewProjection, PixelIsTheInverseOfDirection) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> angle(-180, 180), share(0, 1);

@@ -1,0 +1,124 @@
+#include "proc/optics/ball_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "proc/optics/resolution.h"
+#include "tests/proc/optics/random_camera.h"
+
+namespace orbwatch::optics {
+namespace {
+
+using tests::random_camera;
+using tests::random_direction;
+using tests::scene_around_ball;
+
+constexpr double kDegree = 3.14159265358979 / 180;
+
+struct Drawn {
+  double distance;
+  std::optional<Vec2> pixel;  ///< nullopt: blind
+};
+
+/// Where a ray from the ball's centre meets a triangle (Moeller and Trumbore), and the pixel there.
+std::optional<Drawn> meet(const BallMesh& mesh, const Vec3& ray, const std::uint32_t* corners) {
+  const BallMesh::Node &a = mesh.nodes[corners[0]], &b = mesh.nodes[corners[1]],
+                       &c = mesh.nodes[corners[2]];
+  const Vec3 ab = b.position - a.position, ac = c.position - a.position;
+  const Vec3 p = cross(ray, ac), q = cross(-a.position, ab);
+  const double determinant = dot(ab, p);
+  const double u = dot(-a.position, p) / determinant, v = dot(ray, q) / determinant;
+  const double distance = dot(ac, q) / determinant;
+  if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0)) return std::nullopt;
+  const double w = 1 - u - v;
+  const Vec2 distant = mesh.distant(ray);
+  return Drawn{distance, Vec2{distant.u + w * a.offset.u + u * b.offset.u + v * c.offset.u,
+                              distant.v + w * a.offset.v + u * b.offset.v + v * c.offset.v}};
+}
+
+/// What a graphics processor draws in a direction: the nearest triangle.
+std::optional<Drawn> draw(const BallMesh& mesh, const Vec3& ray) {
+  std::optional<Drawn> nearest;
+  for (const auto* triangles : {&mesh.triangles, &mesh.blind}) {
+    for (std::size_t k = 0; k < triangles->size(); k += 3) {
+      auto drawn = meet(mesh, ray, triangles->data() + k);
+      if (!drawn || (nearest && drawn->distance >= nearest->distance)) continue;
+      if (triangles == &mesh.blind) drawn->pixel.reset();
+      nearest = drawn;
+    }
+  }
+  return nearest;
+}
+
+ViewProjection ball_view(const BallProjection& ball) {
+  return ViewProjection::make({ViewKind::Ball, {}, {}, {}, 1000, 900}, ball).value();
+}
+
+/// How near the blind cone begins: a direction so far beside this one is in it.
+bool is_near_blind_cone(const BallProjection& ball, const Vec3& direction) {
+  const Vec3 further = normalized(direction - ball.facing() * kDegree);
+  return !ball.pixel(further);
+}
+
+class BallMeshOf : public testing::TestWithParam<std::tuple<Scene::Room, bool>> {};
+
+TEST_P(BallMeshOf, ShowsWhatTheExactModelShows) {
+  const auto [room, obstacles] = GetParam();
+  std::mt19937 random(7);
+  for (const double distance : {6.0, 12.0}) {
+    const auto ball =
+        BallProjection::make(BallModel::Kind::Exact, random_camera(random, distance, 2),
+                             tests::kBall, scene_around_ball(room, obstacles))
+            .value();
+    const ViewProjection view = ball_view(ball);
+    const BallMesh mesh = ball_mesh(view);
+    EXPECT_LT(mesh.nodes.size(), 45000U);
+    int compared = 0, blind = 0;
+    for (int n = 0; n < 1000; ++n) {
+      const Vec3 direction = random_direction(random);
+      const auto exact = view.pixel(direction);
+      const auto drawn = draw(mesh, direction);
+      ASSERT_TRUE(drawn) << "there is a hole";
+      if (!exact) {
+        EXPECT_FALSE(drawn->pixel) << "the blind cone is drawn";
+        ++blind;
+      } else if (drawn->pixel) {
+        // A triangle may bend twice between the places where it was checked.
+        EXPECT_LT(std::hypot(drawn->pixel->u - exact->u, drawn->pixel->v - exact->v), 1.5 / 32);
+        ++compared;
+      } else {
+        EXPECT_TRUE(is_near_blind_cone(ball, direction)) << resolution(ball, direction);
+      }
+    }
+    EXPECT_GT(compared, 900);
+    EXPECT_GT(blind, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, BallMeshOf,
+                         testing::Combine(testing::Values(Scene::Room::None, Scene::Room::Sphere,
+                                                          Scene::Room::Plane, Scene::Room::Box),
+                                          testing::Bool()));
+
+TEST(BallMesh, NodesHaveTheResolutionThere) {
+  std::mt19937 random(3);
+  const auto ball = BallProjection::make(BallModel::Kind::Exact, random_camera(random, 9, 0),
+                                         tests::kBall, scene_around_ball(Scene::Room::Box, true))
+                        .value();
+  const BallMesh mesh = ball_mesh(ball_view(ball));
+  ASSERT_GT(mesh.nodes.size(), 1000U);
+  std::size_t seen = 0;
+  for (std::size_t k = 0; k < mesh.nodes.size(); k += 97) {
+    const BallMesh::Node& node = mesh.nodes[k];
+    const double truth = resolution(ball, normalized(node.position));
+    EXPECT_TRUE(node.resolution == truth || node.resolution == 0);
+    seen += node.resolution > 0 ? 1 : 0;
+  }
+  EXPECT_GT(seen, mesh.nodes.size() / 97 / 2);
+}
+
+}  // namespace
+}  // namespace orbwatch::optics
