@@ -2,28 +2,10 @@
 # line of /results/checks each; what it printed is in the log.
 # shellcheck shell=bash
 
-failed_checks=0
+# shellcheck source=../../support/checks.sh
+. /orbwatch/tests/support/checks.sh
 
-# check NAME COMMAND...: a test that passes when the command ends with 0; fails when the test does.
-check() {
-  local name=$1 verdict=passed
-  shift
-  echo "--- $name ($(cut -d ' ' -f 1 /proc/uptime) s)"
-  "$@" || { verdict=FAILED failed_checks=$((failed_checks + 1)); }
-  echo "$verdict: $name"
-  echo "$verdict $name" >>/results/checks
-  [[ $verdict == passed ]]
-}
-
-# wait_for SECONDS COMMAND...: until the command succeeds; emulated machines take their time.
-wait_for() {
-  local deadline=$((SECONDS + $1))
-  shift
-  until "$@"; do
-    ((SECONDS < deadline)) || { echo "not within the time: $*"; return 1; }
-    sleep 0.1
-  done
-}
+report() { echo "$1 $2" >>/results/checks; }
 
 # load DRIVER [PARAMETER=VALUE...]: loads a driver and lets udev finish with what it brought.
 load() {

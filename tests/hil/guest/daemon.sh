@@ -8,8 +8,8 @@ export CYCLONEDDS_URI='<General><Interfaces><NetworkInterface name="lo" multicas
   <Peers><Peer address="127.0.0.1"/></Peers></Discovery>'
 # shellcheck disable=SC2034
 modbus_port=1502 modbus_address=127.0.0.1
-# shellcheck source=modbus.sh
-. /orbwatch/tests/hil/guest/modbus.sh
+# shellcheck source=../../support/modbus.sh
+. /orbwatch/tests/support/modbus.sh
 
 # Sets daemon to its process.
 daemon_starts() {

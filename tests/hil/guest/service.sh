@@ -6,8 +6,8 @@ export DEBIAN_FRONTEND=noninteractive
 modbus_port=1502 modbus_address=127.0.0.1
 machine_address=10.77.0.2
 camera=/dev/video40 width=320 height=256 bytes=$((320 * 256 * 2))
-# shellcheck source=modbus.sh
-. /orbwatch/tests/hil/guest/modbus.sh
+# shellcheck source=../../support/modbus.sh
+. /orbwatch/tests/support/modbus.sh
 
 # property NAME: what systemd says of the service.
 property() { systemctl show --property "$1" --value orbwatch; }

@@ -6,9 +6,12 @@ test_bundle() {
   check "there is a bundle, by build-deb --bundle" test -e "$bundle"
   [[ -e $bundle ]] || return 0
   tar -xf "$bundle" -C "$packages"
-  boot "$roots/minimal-$suite-$architecture"
+  check "a system boots" boot "$roots/minimal-$suite-$architecture" || return
   check "the minimal system has none of what it needs" inside sh -c '! test -e /usr/lib/*-linux-gnu/libmodbus.so.5'
   check "the bundle installs without a network" inside "/packages/orbwatch-$suite-$architecture/install"
   check "and the service is active" has ActiveState active
-  check "and measures" wait_for 30 measures
+  check "and measures" wait_for "$patience" measures
+  check "it adds the module for libcamera" inside "/packages/orbwatch-$suite-$architecture/install" orbwatch-camera-libcamera
+  check "which is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera v?[0-9]"'
+  check "and the service runs on" wait_for "$patience" measures
 }

@@ -1,33 +1,26 @@
 # Sourced: a Debian system with systemd in a container, and the words to test it with.
 # shellcheck shell=bash disable=SC2154
 
-failed_checks=0
-modbus_port=1502
+# shellcheck source=../../support/checks.sh
+. "$source/tests/support/checks.sh"
+# Read by modbus.sh, where they are words of a command.
+# shellcheck disable=SC2034
+modbus_port=1502 modbus_address=127.0.0.1
+# shellcheck source=../../support/modbus.sh
+. "$source/tests/support/modbus.sh"
 
-# check NAME COMMAND...: a test that passes when the command ends with 0; what it printed is in the log.
-check() {
-  local name=$1
-  shift
-  if "$@" >"$work/check.log" 2>&1; then
-    echo "passed $name"
-  else
-    failed_checks=$((failed_checks + 1))
-    echo "FAILED $name"
-    tail -n 40 "$work/check.log" | sed 's/^/  /'
-    if [[ -n ${leader:-} ]]; then
-      inside journalctl --no-pager -n 25 -u 'orbwatch*' 2>&1 | sed 's,^,  | ,' || echo '  | no journal'
-    fi
-  fi
-}
+# Seconds that are waited for anything. Nothing is measured by it: what took how long is printed.
+patience=180
 
-# wait_for SECONDS COMMAND...: until the command succeeds.
-wait_for() {
-  local deadline=$((SECONDS + $1))
-  shift
-  until "$@"; do
-    ((SECONDS < deadline)) || { echo "not within the time: $*"; return 1; }
-    sleep 0.05
-  done
+# say TEXT: for the reader; what else is printed is for the log.
+say() { echo "$*" >&3; }
+
+report() {
+  say "$1 $2"
+  [[ $1 == FAILED ]] || return 0
+  { tac "$log" | sed '/^--- /q' | tac | tail -n 40
+    if [[ -n ${leader:-} ]]; then inside journalctl --no-pager -n 25 -u 'orbwatch*' | sed 's,^,| ,'; fi
+  } 2>&1 | sed 's/^/  /' >&3
 }
 
 # boot ROOT: starts the system of ROOT, without a network and with what it writes kept apart, and sets
@@ -35,16 +28,18 @@ wait_for() {
 boot() {
   machine=$work/machine
   mkdir -p "$machine" "$work/root"
-  mount -t tmpfs tmpfs "$machine"
-  mkdir "$machine/upper" "$machine/work"
-  mount -t overlay overlay -o "lowerdir=$1,upperdir=$machine/upper,workdir=$machine/work" "$work/root"
+  mount -t tmpfs tmpfs "$machine" && mkdir "$machine/upper" "$machine/work" &&
+    mount -t overlay overlay -o "lowerdir=$1,upperdir=$machine/upper,workdir=$machine/work" "$work/root" ||
+    return
   systemd-nspawn --quiet --boot --directory="$work/root" --machine=orbwatch-packages --private-network \
     --register=no --keep-unit --link-journal=no --resolv-conf=off --timezone=off --console=pipe \
     --system-call-filter=@memlock \
     --bind-ro="$packages:/packages" </dev/null >"$work/console" 2>&1 &
   container=$!
-  wait_for 30 has_a_first_process || { cat "$work/console"; return 1; }
-  wait_for 60 is_up || { cat "$work/console"; inside systemctl --no-pager --failed; return 1; }
+  wait_for "$patience" has_a_first_process || { cat "$work/console"; return 1; }
+  # shellcheck disable=SC2034
+  modbus_from=(nsenter --target "$leader" --net --)
+  wait_for "$patience" is_up || { cat "$work/console"; inside systemctl --no-pager --failed; return 1; }
 }
 
 has_a_first_process() {
@@ -52,18 +47,21 @@ has_a_first_process() {
   [[ -n $leader ]]
 }
 
-is_up() { [[ $(inside systemctl is-system-running 2>/dev/null) == running ]]; }
+# What of Debian's own cannot start in a container is not what is tested.
+is_up() { [[ $(inside systemctl is-system-running 2>/dev/null) =~ ^(running|degraded)$ ]]; }
 
 # halt: ends the system and forgets what it wrote.
 halt() {
   if [[ -n ${leader:-} ]]; then
-    inside systemctl --no-block poweroff >"$work/console" 2>&1 || kill -KILL "$leader"
+    inside systemctl --no-block poweroff && wait_for "$patience" container_has_ended || kill -KILL "$leader"
     wait "$container"
     leader=""
   fi
   if mountpoint -q "$work/root"; then umount "$work/root"; fi
   if [[ -n ${machine:-} ]] && mountpoint -q "$machine"; then umount "$machine"; fi
 }
+
+container_has_ended() { ! kill -0 "$container" 2>/dev/null; }
 
 # inside COMMAND...: as root in the system.
 inside() {
@@ -79,21 +77,9 @@ property() { inside systemctl show --value --property="$1" "${2:-orbwatch.servic
 
 has() { [[ $(property "$1") == "$2" ]]; }
 
-# register NAME: the value of an input register, by a client of other people.
-register() {
-  local address kind type=(-t 3)
-  read -r address kind < <(awk -F, -v name="$1" '$1 == "input" && $6 == name {print $2, $4}' \
-    "$source/app/ports/modbus/registers.csv")
-  [[ $kind != UDINT ]] || type=(-t 3:int -B)
-  nsenter --target "$leader" --net -- mbpoll -m tcp -p "$modbus_port" -0 -r "$address" "${type[@]}" \
-    -c 1 -1 -o 1 127.0.0.1 2>/dev/null | sed -n "s/^\[$address\]:[[:space:]]*\([0-9]*\).*/\1/p"
-}
-
-reads() { [[ $(register "$1") == "$2" ]]; }
-
 reads_another() { local value; value=$(register "$1"); [[ -n $value && $value != "$2" ]]; }
 
-measures() { (($(register system_frame_set) > 0)); }
+measures() { is_past system_frame_set 0; }
 
 # says TEXT: whether the service has written it to the journal.
 says() { inside journalctl --no-pager --unit orbwatch.service | grep -F -- "$1"; }

@@ -3,13 +3,13 @@
 # shellcheck shell=bash disable=SC2154,SC2034
 
 test_service() {
-  boot "$roots/ready-$suite-$architecture"
+  check "a system boots" boot "$roots/ready-$suite-$architecture" || return
   files >"$work/before"
   check "the package has at most 5 MB: $(du -h --apparent-size "$package" | cut -f 1)" \
     test "$(stat -c %s "$package")" -le 5000000
   check "apt installs it without a network" inside sh -c "apt-get install -y /packages/orbwatch_*_$architecture.deb"
   check "the service is active then" has ActiveState active
-  check "it measures the simulated machine, says mbpoll" wait_for 20 measures
+  check "it measures the simulated machine, says mbpoll" wait_for "$patience" measures
   check "what is installed is as it was packed" inside sh -c 'test -z "$(dpkg --verify orbwatch)"'
   test_programs
   test_start
@@ -56,9 +56,9 @@ test_start() {
   inside systemctl stop orbwatch.service
   begin=$(date +%s%N)
   inside systemctl start --no-block orbwatch.service
-  check "it starts" wait_for 60 measures
-  echo "       from start to the first result by Modbus: $(seconds_since "$begin")"
-  echo "       resident: $(awk '/^VmRSS/ {printf "%.0f MB", $2 / 1000}' "/proc/$(process)/status")"
+  check "it starts" wait_for "$patience" measures
+  say "       from start to the first result by Modbus: $(seconds_since "$begin")"
+  say "       resident: $(awk '/^VmRSS/ {printf "%.0f MB", $2 / 1000}' "/proc/$(process)/status")"
 }
 
 # process: its number outside of the system.
@@ -73,35 +73,37 @@ test_killed() {
   local restarts begin
   restarts=$(property NRestarts) begin=$(date +%s%N)
   inside systemctl kill --signal=KILL --kill-whom=main orbwatch.service
-  check "killed, it comes back" wait_for 60 came_back "$restarts"
-  echo "       from SIGKILL to the next result: $(seconds_since "$begin")"
-  check "and its outputs were made safe" outputs_were_made_safe
+  check "killed, it comes back" wait_for "$patience" came_back "$restarts"
+  say "       from SIGKILL to the next result: $(seconds_since "$begin")"
+  check "and its outputs were made safe" wait_for "$patience" outputs_were_made_safe
 }
 
 test_hung() {
   local restarts begin
   restarts=$(property NRestarts) begin=$(date +%s%N)
   "$here/hang_thread" "$(process)" pipeline &
-  check "hung, the watchdog ends it" wait_for 30 says "Watchdog timeout"
-  echo "       from the hang to the watchdog: $(seconds_since "$begin")"
-  check "and it comes back" wait_for 60 came_back "$restarts"
-  echo "       from the hang to the next result: $(seconds_since "$begin")"
-  check "and its outputs were made safe" outputs_were_made_safe
+  check "hung, the watchdog ends it" wait_for "$patience" says "Watchdog timeout"
+  say "       from the hang to the watchdog: $(seconds_since "$begin")"
+  check "and it comes back" wait_for "$patience" came_back "$restarts"
+  say "       from the hang to the next result: $(seconds_since "$begin")"
+  check "and its outputs were made safe" wait_for "$patience" outputs_were_made_safe
   wait $!
 }
 
 test_wrong_configuration() {
-  check "nothing is refused yet" reads system_configuration_refused 0
+  check "nothing is refused yet" wait_for "$patience" is system_configuration_refused 0
   inside sed -i '1i nonsense = ' /etc/orbwatch/site.toml
   inside systemctl restart orbwatch.service
-  check "with a wrong configuration the last good one runs" wait_for 20 measures
-  check "and Modbus says so" reads system_configuration_refused 1
-  check "and systemd and the journal say where" says "site.toml:1"
-  check "as its status" grep -F "site.toml:1" <<<"$(property StatusText)"
+  check "with a wrong configuration the last good one runs" wait_for "$patience" measures
+  check "and Modbus says so" wait_for "$patience" is system_configuration_refused 1
+  check "and systemd and the journal say where" wait_for "$patience" says "site.toml:1"
+  check "as its status" wait_for "$patience" status_says "site.toml:1"
   inside sed -i 1d /etc/orbwatch/site.toml
   inside systemctl restart orbwatch.service
-  check "mended, it counts again" wait_for 20 reads system_configuration_refused 0
+  check "mended, it counts again" wait_for "$patience" is system_configuration_refused 0
 }
+
+status_says() { property StatusText | grep -F -- "$1"; }
 
 # By root, for the service's user.
 test_configured() {
@@ -109,17 +111,17 @@ test_configured() {
   before=$(register system_configuration_checksum)
   inside sh -c 'mkdir /root/new && cp -r /etc/orbwatch/* /root/new && sed -i "s/^name = \"door\"/name = \"gate\"/" /root/new/site.toml'
   check "orbwatch configure has a new configuration run" inside orbwatch configure /root/new/site.toml
-  check "and it runs" wait_for 30 reads_another system_configuration_checksum "$before"
+  check "and it runs" wait_for "$patience" reads_another system_configuration_checksum "$before"
   check "the files are the old ones" inside grep -F 'name = "door"' /etc/orbwatch/site.toml
   check "orbwatch configure --cancel" inside orbwatch configure --cancel
-  check "goes back" wait_for 30 reads system_configuration_checksum "$before"
-  inside orbwatch configure /root/new/site.toml >"$work/configured"
-  check "again" wait_for 30 reads_another system_configuration_checksum "$before"
+  check "goes back" wait_for "$patience" is system_configuration_checksum "$before"
+  inside orbwatch configure /root/new/site.toml
+  check "again" wait_for "$patience" reads_another system_configuration_checksum "$before"
   check "orbwatch configure --confirm" inside orbwatch configure --confirm
   check "writes the files" inside grep -F 'name = "gate"' /etc/orbwatch/site.toml
   inside systemctl restart orbwatch.service
-  check "which are read after a restart" wait_for 30 reads_another system_configuration_checksum "$before"
-  check "and not refused" reads system_configuration_refused 0
+  check "which are read after a restart" wait_for "$patience" reads_another system_configuration_checksum "$before"
+  check "and not refused" wait_for "$patience" is system_configuration_refused 0
   inside rm -r /root/new
 }
 
@@ -128,9 +130,9 @@ test_second_machine() {
     sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/" site.toml >second/site.toml'
   check "a second machine on the board" inside systemctl start orbwatch@second.service
   modbus_port=1503
-  check "is measured, too" wait_for 20 measures
+  check "is measured, too" wait_for "$patience" measures
   modbus_port=1502
-  check "beside the first one" measures
+  check "beside the first one" wait_for "$patience" measures
   inside systemctl stop orbwatch@second.service
   inside rm -r /etc/orbwatch/second /var/lib/orbwatch-second
 }
@@ -138,7 +140,7 @@ test_second_machine() {
 test_others() {
   check "the module for libcamera is missed" inside sh -c 'orbwatch --version | grep -x "libcamera not installed"'
   check "the other packages" inside sh -c 'apt-get install -y /packages/*.deb'
-  check "the service runs on" wait_for 20 measures
+  check "the service runs on" wait_for "$patience" measures
   check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera v?[0-9]"'
   check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
     -a -e /usr/share/orbwatch-msgs/modbus/registers.csv

@@ -2,15 +2,15 @@
 # shellcheck shell=bash disable=SC2154
 
 test_upgrade() {
-  boot "$roots/ready-$suite-$architecture"
+  check "a system boots" boot "$roots/ready-$suite-$architecture" || return
   check "version $older is installed" inside sh -c 'apt-get install -y /packages/older/orbwatch_*.deb'
-  check "it measures" wait_for 30 measures
+  check "it measures" wait_for "$patience" measures
   an_installer_was_here
-  check "it measures what the installer wrote" wait_for 30 measures
+  check "it measures what the installer wrote" wait_for "$patience" measures
   files_of_state before
   check "apt upgrades to $version" inside sh -c \
     "apt-get install -y -o Dpkg::Options::=--force-confold /packages/orbwatch_*_$architecture.deb"
-  check "it measures on" wait_for 30 measures
+  check "it measures on" wait_for "$patience" measures
   check "by the new program" sh -c '! readlink "/proc/$1/exe" | grep deleted' sh "$(process)"
   check "the changed site is kept" inside grep -F 'name = "gate"' /etc/orbwatch/site.toml
   check "the changed rig is kept, the new one is beside it" inside sh -c \
@@ -21,7 +21,7 @@ test_upgrade() {
   check "the calibration is read" inside sh -c 'orbwatch calibration history | grep -F "for another rig file"'
   test_older_files
   check "a downgrade is refused with a sentence" downgrade_is_refused
-  check "version $version runs on" measures
+  check "version $version runs on" wait_for "$patience" measures
   check "and is installed" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
 }
 
@@ -53,13 +53,13 @@ test_older_files() {
     printf "\\0" | dd of=/var/lib/orbwatch/commands bs=1 seek=$((slot * 8192 + 8)) conv=notrunc status=none
   done'
   inside systemctl start orbwatch.service
-  check "older commands are refused with a sentence" says "commands: is of version 0; this orbwatchd reads version 1"
-  check "and it measures" wait_for 30 measures
+  check "older commands are refused with a sentence" wait_for "$patience" says "commands: is of version 0; this orbwatchd reads version 1"
+  check "and it measures" wait_for "$patience" measures
   inside sed -i '/^method/d' /var/lib/orbwatch/calibration.toml
   inside systemctl --no-block restart orbwatch.service
-  check "an older calibration is refused with a sentence" wait_for 30 says "calibration.toml:"
+  check "an older calibration is refused with a sentence" wait_for "$patience" says "calibration.toml:"
   inside rm /var/lib/orbwatch/calibration.toml
-  check "and without it, it measures" wait_for 60 measures
+  check "and without it, it measures" wait_for "$patience" measures
 }
 
 downgrade_is_refused() {

@@ -1,7 +1,9 @@
-# Reads orbwatchd's registers at $modbus_address:$modbus_port, in the machine or beside it.
+# Reads orbwatchd's registers at $modbus_address:$modbus_port by a client of other people, which the
+# words $modbus_from start elsewhere: in the network of a container.
 # shellcheck shell=bash
 
-registers=$(dirname "${BASH_SOURCE[0]}")/../../../app/ports/modbus/registers.csv
+registers=$(dirname "${BASH_SOURCE[0]}")/../../app/ports/modbus/registers.csv
+modbus_from=()
 
 # register NAME: the value of an input register.
 register() {
@@ -9,7 +11,7 @@ register() {
   read -r address kind < <(awk -F, -v name="$1" '$1 == "input" && $6 == name {print $2, $4}' \
     "$registers")
   [[ $kind != UDINT ]] || type=(-t 3:int -B)
-  mbpoll -m tcp -p "${modbus_port:?}" -0 -r "$address" "${type[@]}" -c 1 -1 -o 5 \
+  "${modbus_from[@]}" mbpoll -m tcp -p "${modbus_port:?}" -0 -r "$address" "${type[@]}" -c 1 -1 -o 5 \
     "${modbus_address:?}" | sed -n "s/^\[$address\]:[[:space:]]*\([0-9]*\).*/\1/p"
 }
 
