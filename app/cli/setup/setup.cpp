@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "app/cli/setup/site_files.h"
+#include "proc/align/obstacle/standing_box.h"
 #include "proc/align/register/camera_registration.h"
 #include "proc/optics/lens.h"
 
@@ -14,6 +16,9 @@ namespace {
 
 /// A ball centre by tape and one by a pose differ by no more than that, ball radii.
 constexpr double kContradiction = 0.5;
+
+/// The name of an obstacle that nobody has stated.
+constexpr const char* kFoundBox = "found_box";
 
 /// The surest of a few pictures of a record.
 Result<align::BallDetection> detect(const CameraRecord& record) {
@@ -155,6 +160,52 @@ void register_cameras(Setup& setup, const std::filesystem::path& folder) {
   }
 }
 
+/// The box that the first camera and another one prove.
+std::optional<optics::Box> found_box(const Setup& setup, std::size_t camera) {
+  const optics::Rig rig = rig_of(setup);
+  const auto pictures = together(setup.cameras.front().record, setup.cameras[camera].record);
+  const auto first = optics::ball_projection(rig, rig.cameras.front());
+  const auto second = optics::ball_projection(rig, rig.cameras[camera]);
+  if (pictures.camera.empty() || !first || !second) return std::nullopt;
+  const auto found = align::find_standing_box({pictures.reference.front(), *first},
+                                              {pictures.camera.front(), *second}, rig.scene);
+  if (!found) return std::nullopt;  // what is stated stands
+  return found->box;
+}
+
+std::string sentence(const optics::Box& box, const std::string& first, const std::string& second) {
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "a box of %.0f x %.0f mm, %.0f mm high, about %.0f, %.0f mm: %s and %s agree better "
+      "with it, nobody has measured it",
+      box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z,
+      (box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2, first.c_str(), second.c_str());
+  return text;
+}
+
+/// The first box on the floor that cameras prove, and their registrations with it.
+void find_obstacle(Setup& setup, const std::filesystem::path& folder) {
+  if (!setup.walls || !setup.cameras.front().pose) return;
+  const std::string first = setup.cameras.front().name;
+  for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
+    if (!setup.cameras[n].is_registered && !setup.cameras[n].pose) continue;
+    const auto box = found_box(setup, n);
+    if (!box) continue;
+    const std::string what = sentence(*box, first, setup.cameras[n].name);
+    setup.obstacles.push_back({kFoundBox, *box, "found: " + what + "."});
+    setup.missing.push_back("whether there is " + what + ". Measure it and correct " + kFoundBox +
+                            " in " + in_rig(folder) + ", or give --obstacle");
+    break;
+  }
+  if (setup.obstacles.empty() || setup.obstacles.back().remark.empty()) return;
+  for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
+    if (!setup.cameras[n].is_registered) continue;
+    const auto again = registration(setup, n);
+    if (again) setup.cameras[n].registration = *again;
+  }
+}
+
 }  // namespace
 
 optics::Rig rig_of(const Setup& setup) {
@@ -176,6 +227,7 @@ Result<> align_cameras(Setup& setup, const std::filesystem::path& folder) {
   if (auto found = find_ball(setup, folder); !found) return found;
   say_what_lenses_lack(setup);
   register_cameras(setup, folder);
+  find_obstacle(setup, folder);
   return {};
 }
 

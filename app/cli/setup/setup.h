@@ -33,6 +33,7 @@ struct SetupCamera {
 struct NamedBox {
   std::string name;
   optics::Box box;
+  std::string remark;  ///< for people; empty: as stated
 };
 
 /// A site in the making: what is known, what was found out, and what is still missing.
@@ -52,9 +53,9 @@ inline constexpr double kAssumedDistance = 12;
 optics::Rig rig_of(const Setup& setup);
 
 /// Finds the ball in every camera's pictures, the ball in the machine by the first camera's pose,
-/// and registers the others to the first one. Cameras without a ball are left out. `folder`: the
-/// site's, for the commands in `missing`. Error: no camera shows a ball, or what is known
-/// contradicts itself.
+/// registers the others to the first one, and looks for a box on the floor that is not stated.
+/// Cameras without a ball are left out. `folder`: the site's, for the commands in `missing`. Error:
+/// no camera shows a ball, or what is known contradicts itself.
 Result<> align_cameras(Setup& setup, const std::filesystem::path& folder);
 
 }  // namespace orbwatch::app

@@ -141,7 +141,7 @@ Result<> read_machine(const SetupOptions& o, Setup& setup) {
     const auto [name, text] = named(word, "obstacle" + std::to_string(setup.obstacles.size() + 1));
     const auto obstacle = box("obstacle", text);
     if (!obstacle) return tl::unexpected(obstacle.error());
-    setup.obstacles.push_back({name, *obstacle});
+    setup.obstacles.push_back({name, *obstacle, ""});
   }
   const bool knows_where = !o.poses.empty() || setup.ball_centre;
   if ((setup.walls || !setup.obstacles.empty()) && !knows_where) {

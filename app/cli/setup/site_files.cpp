@@ -96,8 +96,9 @@ std::string rig_text(const Setup& setup) {
     text += "\n[scene]\nroom = \"box\"\n" + box_text(rig.scene.walls);
   }
   for (const NamedBox& obstacle : setup.obstacles) {
-    text += "\n[[scene.obstacle]]\n" + toml_line("name", toml_string(obstacle.name)) +
-            box_text(obstacle.box);
+    text += "\n[[scene.obstacle]]\n" +
+            (obstacle.remark.empty() ? "" : "# " + obstacle.remark + "\n") +
+            toml_line("name", toml_string(obstacle.name)) + box_text(obstacle.box);
   }
   for (const SetupCamera& camera : setup.cameras) {
     const hal::StreamFormat& format = camera.record.format;
