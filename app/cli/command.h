@@ -41,6 +41,7 @@ Result<std::string> bench_command(const std::vector<std::string>& arguments);
 Result<std::string> configure_command(const std::vector<std::string>& arguments);
 Result<std::string> doctor_command(const std::vector<std::string>& arguments);
 Result<std::string> lines_command(const std::vector<std::string>& arguments);
+Result<std::string> password_command(const std::vector<std::string>& arguments);
 Result<std::string> list_command(const std::vector<std::string>& arguments);
 
 // Subjects of describe_command; they write no file but that of -o.

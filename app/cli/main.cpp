@@ -30,6 +30,8 @@ constexpr std::array kCommandTable{
                subscribe_command},
     Subcommand{"state", "show the process state of a running orbwatchd", state_command},
     Subcommand{"command", "send a command to a running orbwatchd", command_command},
+    Subcommand{"password", "set a password of the page, or replace a forgotten one",
+               password_command},
     Subcommand{"dds-keys", "make the keys of a secured DDS domain", dds_keys_command},
     Subcommand{"list", "show the cameras and GPIO lines that are connected", list_command},
     Subcommand{"doctor", "check this board: what is wrong, and what mends it", doctor_command},

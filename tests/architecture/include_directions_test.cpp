@@ -58,6 +58,7 @@ const std::vector<Rule> kRules{
      {"proc/image", "app/ports/dds"},
      {"dds/", "openssl/", "tl/expected"}},
     {"app/ports/web", port("app/ports/web"), {"nlohmann/", "tl/expected"}},
+    {"app/ports/web/access", port("app/ports/web"), {"nlohmann/", "sodium.h", "tl/expected"}},
     {"app/ports/web/http",
      {"proc/image", "proc/settings", "hal", "app/ports/web/http", "app/ports/web/web_settings.h"},
      {"microhttpd.h", "nlohmann/", "tl/expected"}},

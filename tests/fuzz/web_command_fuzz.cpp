@@ -4,13 +4,16 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "app/ports/web/access/access_body.h"
+#include "app/ports/web/access/users.h"
 #include "app/ports/web/commands/command_body.h"
 #include "app/ports/web/http/address.h"
 
-/// Any bytes as the body of a command over HTTP and as a Host header: the first byte says which
-/// command. What is taken for a command must be an allowed one of that name, what is refused must
-/// say why, and only numbers and localhost are names of this host.
+/// Any bytes as the body of a command over HTTP, as that of a login, as a users file and as a Host
+/// header: the first byte says which command. What is taken for a command must be an allowed one of
+/// that name, what is refused must say why, and only numbers and localhost are names of this host.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orbwatch::app;
   if (size == 0) return 0;
@@ -21,6 +24,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }
   if (!command && command.error().message.empty()) std::abort();
+  const std::vector<web::BodyMember> allowed{{"user", ""}, {"password", "", false}};
+  const auto members = web::parse_members(allowed, text);
+  if (members && members->size() != allowed.size()) std::abort();
+  const auto users = web::parse_users(text);
+  if (users && !web::parse_users(web::users_text(*users))) std::abort();
   const bool is_number =
       text.find_first_not_of("0123456789abcdefABCDEF.:[]") == std::string_view::npos;
   const bool is_localhost = text.size() >= 9 && ::strncasecmp(text.data(), "localhost", 9) == 0 &&

@@ -43,6 +43,7 @@ class Appliance:
         site = (self.folder / "demo.toml").read_text(encoding="utf-8")
         site = site.replace("[modbus]\nport = 1502", f"[web]\nenabled = true\nport = {self.port}")
         assert "[web]" in site, "the demo's site file has changed"
+        site = 'state_folder = "state"\n' + site
         (self.folder / "demo.toml").write_text(site, encoding="utf-8")
         self.daemon = None
 

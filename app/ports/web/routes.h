@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "app/model/command.h"
+#include "app/model/role.h"
+#include "app/ports/web/access/caller.h"
 #include "app/ports/web/http/exchange.h"
 
 namespace orbwatch::app::web {
@@ -13,21 +15,35 @@ namespace orbwatch::app::web {
 /// Whether a path takes ?view=NAME.
 enum class ViewArgument { None, One, Any };
 
-/// What is served under one path.
+/// A text within the JSON object that is the body of a request.
+struct BodyMember {
+  std::string_view name;
+  std::string_view description;
+  bool is_required = true;
+};
+
+/// What is served under one path, and to whom.
 struct Route {
   std::string method;  ///< GET, which includes HEAD, or POST
   std::string path;
+  Role role = Role::Administrator;  ///< the least that it is served to
   std::string description;
   std::string type;  ///< of its answer
   std::function<void(const ExchangePtr&)> serve;
   ViewArgument view = ViewArgument::None;
   const CommandInfo* command = nullptr;  ///< the command that it carries out
+  std::vector<BodyMember> body{};        ///< of a route that is no command
   bool is_page = false;                  ///< a file of the page, which programs do not ask for
 };
 
+/// Says who sent a request; never waits.
+using CallerOf = std::function<Caller(const Request&)>;
+
 /// Passes a request to the route of its method and path, compared exactly; another method is
-/// answered 405, another path 404. A POST that a foreign page may have caused is answered 403, and
-/// one that is not JSON 415, which no form can send. Reentrant as far as the routes are.
-void serve(const std::vector<Route>& routes, const ExchangePtr& exchange);
+/// answered 405, another path 404. A caller whose role is too low is answered 401 or 403. A POST
+/// that a foreign page may have caused is answered 403, and one that is not JSON 415, which no form
+/// can send. Reentrant as far as the routes are.
+void serve(const std::vector<Route>& routes, const CallerOf& caller_of,
+           const ExchangePtr& exchange);
 
 }  // namespace orbwatch::app::web

@@ -35,16 +35,23 @@ struct WebSettings {
   std::chrono::milliseconds request_timeout{10000};
   JpegSettings jpeg;
 
+  /// Of a session that nobody uses; an open stream uses it.
+  std::chrono::seconds session_idle{60 * 60};
+  /// Of a session at most; then one logs in again.
+  std::chrono::seconds session_longest{12 * 60 * 60};
+
   /// Without word from the pipeline, which promises ten a second; then it is not healthy.
   std::chrono::milliseconds status_timeout{2000};
 };
 
 template <class Visitor>
 void visit(Visitor& v, WebSettings& web) {
+  using Minutes = DurationRange<std::ratio<60>>;
   v.optional("enabled", web.enabled, "Serve HTTP");
   v.optional("address", web.address, "Numeric address to listen on; it must be one of loopback");
   v.require(web::is_loopback(web.address), "address",
-            "is no address of loopback, as 127.0.0.1 or ::1: there are no passwords yet");
+            "is no address of loopback, as 127.0.0.1 or ::1: passwords would cross the network "
+            "unencrypted");
   v.optional("port", web.port, Range::between(0, 65535), "0: any free port");
   v.optional("names", web.names,
              "Host names under which browsers reach it, besides addresses and localhost");
@@ -58,12 +65,16 @@ void visit(Visitor& v, WebSettings& web) {
              "Of a request; a larger one is refused");
   v.optional("request_timeout_ms", web.request_timeout, Milliseconds{Range::between(100, 60000)},
              "For a request to arrive as a whole, and for its answer to be read");
+  v.optional("session_idle_min", web.session_idle, Minutes{Range::between(1, 1e5)},
+             "Logs out who does nothing and has no stream open for so long");
+  v.optional("session_longest_min", web.session_longest, Minutes{Range::between(1, 1e5)},
+             "Logs out after so long in any case");
   v.table("jpeg", web.jpeg, "Of snapshots and streams");
 }
 
 /// Who may command over HTTP, in words; empty: nobody. Reentrant.
 inline std::string commanders(const WebSettings& settings) {
-  return settings.enabled ? "over HTTP from this host only" : "";
+  return settings.enabled ? "over HTTP from this host only, by role once there are users" : "";
 }
 
 std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context);

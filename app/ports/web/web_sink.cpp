@@ -40,6 +40,7 @@ std::vector<web::Route> page_routes() {
     };
     web::Route route;
     route.method = "GET";
+    route.role = Role::Nobody;
     route.path = "/";
     if (file.name != "index.html") route.path += file.name;
     route.description = "Of the page";
@@ -59,6 +60,9 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       threads_(context.background),
       asked_(names_.views.size()),
       commands_(context.handler, context.record),
+      audit_(context.state_folder),
+      access_(context.state_folder, {settings_.session_idle, settings_.session_longest}),
+      desk_(access_, audit_, settings_.session_longest),
       routes_(make_routes()) {
   views_.reserve(names_.views.size());
   for (std::size_t i = 0; i < names_.views.size(); ++i) {
@@ -71,23 +75,31 @@ WebSink::~WebSink() { stop(); }
 Result<> WebSink::start() {
   if (!settings_.enabled || server_) return {};
   commands_.start();
+  access_.start();
+  desk_.start();
+  const auto caller_of = [this](const web::Request& request) {
+    return access_.caller(web::credentials_of(request));
+  };
   auto server = web::Server::open(
-      settings_, [this](const ExchangePtr& exchange) { web::serve(routes_, exchange); },
+      settings_,
+      [this, caller_of](const ExchangePtr& exchange) { web::serve(routes_, caller_of, exchange); },
       server_counts_);
   if (!server) return tl::unexpected(server.error());
   server_ = std::move(*server);
   is_running_ = true;
-  thread_.start("web", [this] {
-    while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
-      server_->end_overdue();
-      if (!status_feed_->is_wanted()) continue;
-      status_feed_->publish(std::make_shared<const std::string>(newest_as_json()),
-                            hal::Clock::now());
-    }
-  });
+  thread_.start("web", [this] { watch(); });
   log_line(LogLevel::Info,
            "web: serves " + settings_.address + " port " + std::to_string(server_->port()));
   return {};
+}
+
+void WebSink::watch() {
+  while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
+    server_->end_overdue();
+    access_.refresh();
+    if (!status_feed_->is_wanted()) continue;
+    status_feed_->publish(std::make_shared<const std::string>(newest_as_json()), hal::Clock::now());
+  }
 }
 
 void WebSink::stop() {
@@ -95,11 +107,13 @@ void WebSink::stop() {
   thread_.stop();
   server_.reset();
   commands_.stop();
+  desk_.stop();
+  access_.stop();
   for (const auto& view : views_) view->stop();
 }
 
 std::chrono::nanoseconds WebSink::cpu_time() const {
-  std::chrono::nanoseconds time = thread_.cpu_time() + commands_.cpu_time();
+  std::chrono::nanoseconds time = thread_.cpu_time() + commands_.cpu_time() + desk_.cpu_time();
   for (const auto& view : views_) time += view->cpu_time();
   return time;
 }
@@ -155,22 +169,26 @@ std::vector<web::Route> WebSink::make_routes() {
     return [this, serve](const ExchangePtr& exchange) { (this->*serve)(exchange); };
   };
   std::vector<web::Route> routes{
-      {"GET", "/healthz", "200 while the pipeline reports, else 503; in words its state", text,
+      {"GET", "/healthz", Role::Nobody,
+       "200 while the pipeline reports, else 503; in words its state", text,
        by(&WebSink::serve_health)},
-      {"GET", "/api/v1/status", "Everything that is known at present", json,
+      {"GET", "/api/v1/status", Role::Viewer, "Everything that is known at present", json,
        by(&WebSink::serve_status)},
-      {"GET", "/api/v1/openapi.json", "This description", json, by(&WebSink::serve_description)},
-      {"GET", "/metrics", "The status for Prometheus", std::string(kMetrics),
+      {"GET", "/api/v1/openapi.json", Role::Viewer, "This description", json,
+       by(&WebSink::serve_description)},
+      {"GET", "/metrics", Role::Viewer, "The status for Prometheus", std::string(kMetrics),
        by(&WebSink::serve_metrics)},
-      {"GET", "/snapshot.jpg", "The view's next picture", "image/jpeg",
+      {"GET", "/snapshot.jpg", Role::Viewer, "The view's next picture", "image/jpeg",
        by(&WebSink::serve_snapshot), web::ViewArgument::One},
-      {"GET", "/stream.mjpg", "The view's pictures as MJPEG, for players and recorders",
+      {"GET", "/stream.mjpg", Role::Viewer,
+       "The view's pictures as MJPEG, for players and recorders",
        std::string(web::MjpegStream::kType), by(&WebSink::serve_stream), web::ViewArgument::One},
-      {"GET", "/api/v1/live",
+      {"GET", "/api/v1/live", Role::Viewer,
        "Status and views over one connection. Of each message first a line of JSON that says what "
        "and how many bytes follow",
        std::string(web::LiveStream::kType), by(&WebSink::serve_live), web::ViewArgument::Any},
   };
+  std::ranges::move(desk_.routes(), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
   std::ranges::move(page_routes(), std::back_inserter(routes));
   return routes;
@@ -181,16 +199,34 @@ std::vector<web::Route> WebSink::make_command_routes() {
   std::vector<web::Route> routes;
   routes.reserve(kCommands.size());
   for (const CommandInfo& info : kCommands) {
-    const auto serve = [this, &info](const ExchangePtr& exchange) {
-      const auto command = web::parse_command(info, exchange->request().body);
-      if (command) return commands_.run(*command, exchange);
-      exchange->answer(web::error_response(400, command.error().message));
-    };
-    routes.push_back({"POST", "/api/v1/command/" + std::string(info.name),
+    const auto serve = [this, &info](const ExchangePtr& exchange) { run_command(info, exchange); };
+    routes.push_back({"POST", "/api/v1/command/" + std::string(info.name), info.role,
                       std::string(info.description), std::string(web::kJson), serve,
                       web::ViewArgument::None, &info});
   }
   return routes;
+}
+
+void WebSink::run_command(const CommandInfo& info, const ExchangePtr& exchange) {
+  const web::Request& request = exchange->request();
+  const auto command = web::parse_command(info, request.body);
+  if (!command) {
+    exchange->answer(web::error_response(400, command.error().message));
+    return;
+  }
+  const web::Audit::Entry entry{{},
+                                access_.caller(web::credentials_of(request)).name,
+                                request.peer,
+                                std::string(info.name),
+                                {},
+                                web::arguments_text(info, *command),
+                                {}};
+  commands_.run(*command, exchange, [this, entry](CommandResult result) {
+    web::Audit::Entry noted = entry;
+    noted.time = web::Access::utc_now();
+    noted.result = operator_text(result);
+    audit_.note(noted);
+  });
 }
 
 void WebSink::serve_description(const ExchangePtr& exchange) const {
@@ -230,34 +266,28 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   exchange->answer(std::move(response));
 }
 
-/// Null: `refusal` says what would be right. `name`: null when none was given.
-const web::ViewEncoder* WebSink::find_view(const std::string* name, std::string& refusal) const {
-  refusal = name ? "there is no such view" : "say which view, as ?view=NAME";
+/// Null: it has answered that there is no such view, and which there are. `name`: null when none
+/// was given.
+const web::ViewEncoder* WebSink::find_view(const std::string* name,
+                                           const ExchangePtr& exchange) const {
+  std::string refusal = name ? "there is no such view" : "say which view, as ?view=NAME";
   refusal += "; there are:";
   for (std::size_t i = 0; i < views_.size(); ++i) {
     if (name && *name == names_.views[i]) return views_[i].get();
     refusal += (i == 0 ? " " : ", ") + names_.views[i];
   }
+  exchange->answer(web::error_response(404, refusal));
   return nullptr;
 }
 
 void WebSink::serve_snapshot(const ExchangePtr& exchange) const {
-  std::string refusal;
-  const auto* view = find_view(exchange->request().argument("view"), refusal);
-  if (!view) {
-    exchange->answer(web::error_response(404, refusal));
-    return;
-  }
-  view->feed()->answer_next(exchange);
+  const auto* view = find_view(exchange->request().argument("view"), exchange);
+  if (view) view->feed()->answer_next(exchange);
 }
 
 void WebSink::serve_stream(const ExchangePtr& exchange) {
-  std::string refusal;
-  const auto* view = find_view(exchange->request().argument("view"), refusal);
-  if (!view) {
-    exchange->answer(web::error_response(404, refusal));
-    return;
-  }
+  const auto* view = find_view(exchange->request().argument("view"), exchange);
+  if (!view) return;
   start_stream(exchange, web::MjpegStream::kType,
                std::make_shared<web::MjpegStream>(view->feed(), stream_counts_));
 }
@@ -267,12 +297,8 @@ void WebSink::serve_live(const ExchangePtr& exchange) {
   std::vector<web::LiveStream::Source> sources{{"", status_feed_}};
   for (const auto& [argument, name] : exchange->request().query) {
     if (argument != "view") continue;
-    std::string refusal;
-    const auto* view = find_view(&name, refusal);
-    if (!view) {
-      exchange->answer(web::error_response(404, refusal));
-      return;
-    }
+    const auto* view = find_view(&name, exchange);
+    if (!view) return;
     if (std::ranges::find(sources, name, &web::LiveStream::Source::name) == sources.end()) {
       sources.push_back({name, view->feed()});
     }
@@ -282,7 +308,7 @@ void WebSink::serve_live(const ExchangePtr& exchange) {
 }
 
 void WebSink::start_stream(const ExchangePtr& exchange, std::string_view type,
-                           std::shared_ptr<web::Stream> stream) const {
+                           std::shared_ptr<web::Stream> stream) {
   if (server_counts_.streams >= static_cast<std::uint64_t>(settings_.max_streams)) {
     exchange->answer(web::error_response(503, "all streams are taken: max_streams of [web]"));
     return;
@@ -290,6 +316,9 @@ void WebSink::start_stream(const ExchangePtr& exchange, std::string_view type,
   web::Response response;
   response.type = type;
   response.stream = std::move(stream);
+  response.may_go_on = [this, credentials = web::credentials_of(exchange->request())] {
+    return access_.caller(credentials).role >= Role::Viewer;
+  };
   exchange->answer(std::move(response));
 }
 

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "app/model/sink.h"
+#include "app/ports/web/access/access.h"
+#include "app/ports/web/access/access_desk.h"
+#include "app/ports/web/access/audit.h"
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/routes.h"
@@ -40,6 +43,7 @@ class WebSink final : public Sink {
 
   int port() const { return server_ ? server_->port() : 0; }
   web::WebStatistics statistics() const;
+  const std::vector<web::Route>& routes() const { return routes_; }
 
  private:
   struct NewestStatus {
@@ -50,6 +54,8 @@ class WebSink final : public Sink {
 
   std::vector<web::Route> make_routes();
   std::vector<web::Route> make_command_routes();
+  void run_command(const CommandInfo& info, const web::ExchangePtr& exchange);
+  void watch();
   std::string newest_as_json() const;
   NewestStatus newest() const;
   void serve_health(const web::ExchangePtr& exchange) const;
@@ -60,8 +66,9 @@ class WebSink final : public Sink {
   void serve_stream(const web::ExchangePtr& exchange);
   void serve_live(const web::ExchangePtr& exchange);
   void start_stream(const web::ExchangePtr& exchange, std::string_view type,
-                    std::shared_ptr<web::Stream> stream) const;
-  const web::ViewEncoder* find_view(const std::string* name, std::string& refusal) const;
+                    std::shared_ptr<web::Stream> stream);
+  const web::ViewEncoder* find_view(const std::string* name,
+                                    const web::ExchangePtr& exchange) const;
 
   const WebSettings settings_;
   const StatusNames names_;
@@ -80,6 +87,9 @@ class WebSink final : public Sink {
   web::ServerCounts server_counts_;
   web::StreamCounts stream_counts_;
   web::CommandRunner commands_;
+  web::Audit audit_;
+  web::Access access_;
+  web::AccessDesk desk_;
   const std::vector<web::Route> routes_;
   std::unique_ptr<web::Server> server_;
   hal::Thread thread_;  ///< ends what is overdue, and reports to streams

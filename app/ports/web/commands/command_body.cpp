@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/model/json.h"
+
 namespace orbwatch::app::web {
 namespace {
 
@@ -37,6 +39,14 @@ Result<Command> parse_command(const CommandInfo& info, std::string_view body) {
   }
   if (check(command) != CommandResult::Done) return fail(refusal_text(command));
   return command;
+}
+
+std::string arguments_text(const CommandInfo& info, const Command& command) {
+  nlohmann::ordered_json arguments;
+  for (std::size_t i = 0; i < info.argument_count(); ++i) {
+    arguments[std::string(info.arguments[i].name)] = to_json(command.arguments[i]);
+  }
+  return arguments.empty() ? "" : arguments.dump();
 }
 
 }  // namespace orbwatch::app::web

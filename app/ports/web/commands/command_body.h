@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "app/model/command.h"
@@ -11,5 +12,8 @@ namespace orbwatch::app::web {
 /// unit; an empty body stands for no arguments. Errors: not such an object; an argument is missing,
 /// unknown, not a number or out of range. Reentrant.
 Result<Command> parse_command(const CommandInfo& info, std::string_view body);
+
+/// As parse_command() takes it: {"view":0,"yaw":12.5}; empty without arguments. Reentrant.
+std::string arguments_text(const CommandInfo& info, const Command& command);
 
 }  // namespace orbwatch::app::web

@@ -44,13 +44,13 @@ void CommandRunner::start() {
   });
 }
 
-void CommandRunner::run(const Command& command, const ExchangePtr& exchange) {
+void CommandRunner::run(const Command& command, const ExchangePtr& exchange, OnResult on_result) {
   if (!handler_) return answer(*exchange, CommandResult::NotPossible);
   bool is_full = false;
   {
     const std::lock_guard lock(mutex_);
     is_full = waiting_.size() == kMostWaiting;
-    if (!is_full) waiting_.push_back({command, exchange});
+    if (!is_full) waiting_.push_back({command, exchange, std::move(on_result)});
   }
   if (is_full) return answer(*exchange, CommandResult::Busy);
   thread_.wake();
@@ -66,7 +66,9 @@ void CommandRunner::carry_out_all() {
       waiting_.pop_front();
     }
     if (next.exchange->is_answered()) continue;
-    answer(*next.exchange, record_->carry_out({kClient, ++number_}, next.command, handler_));
+    const CommandResult result = record_->carry_out({kClient, ++number_}, next.command, handler_);
+    next.on_result(result);
+    answer(*next.exchange, result);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -23,6 +24,8 @@ class CommandRunner {
   /// Behind which the record finds them: all requests over HTTP are one client. Spells "web".
   static constexpr std::uint64_t kClient = 0x776562;
 
+  using OnResult = std::function<void(CommandResult)>;
+
   /// Without a handler every command is refused as not possible.
   CommandRunner(CommandHandler handler, std::shared_ptr<CommandRecord> record);
 
@@ -30,7 +33,9 @@ class CommandRunner {
   /// Carries out what waits.
   void stop() { thread_.stop(); }
 
-  void run(const Command& command, const ExchangePtr& exchange);
+  /// `on_result` is called before the answer, on the runner's thread, unless the command was
+  /// refused because of too many.
+  void run(const Command& command, const ExchangePtr& exchange, OnResult on_result);
 
   std::uint64_t done() const { return done_; }
   std::uint64_t refused() const { return refused_; }
@@ -40,6 +45,7 @@ class CommandRunner {
   struct Waiting {
     Command command;
     ExchangePtr exchange;
+    OnResult on_result;
   };
 
   void carry_out_all();

@@ -34,7 +34,7 @@ struct Ends {
 
 Connections::Connection* Connections::add(int socket, std::string peer) {
   const std::lock_guard lock(mutex_);
-  all_.push_back({socket, std::move(peer), hal::Clock::now() + timeout_, {}, {}});
+  all_.push_back({socket, std::move(peer), hal::Clock::now() + timeout_, {}, {}, {}});
   return &all_.back();
 }
 
@@ -56,9 +56,10 @@ void Connections::begin_sending(Connection* connection) {
   connection->deadline = hal::Clock::now() + timeout_;
 }
 
-bool Connections::begin_stream(Connection* connection,
-                               const std::shared_ptr<StreamSender>& stream) {
+bool Connections::begin_stream(Connection* connection, const std::shared_ptr<StreamSender>& stream,
+                               std::function<bool()> may_go_on) {
   const std::lock_guard lock(mutex_);
+  connection->may_go_on = std::move(may_go_on);
   connection->exchange.reset();
   connection->stream = stream;
   connection->deadline = hal::TimePoint::max();
@@ -69,6 +70,7 @@ void Connections::end_answer(Connection* connection) {
   const std::lock_guard lock(mutex_);
   connection->exchange.reset();
   connection->stream.reset();
+  connection->may_go_on = nullptr;
   connection->deadline = hal::Clock::now() + timeout_;
 }
 
@@ -79,11 +81,12 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
     const std::lock_guard lock(mutex_);
     for (Connection& connection : all_) {
       const bool is_overdue = now >= connection.deadline;
-      if (!is_overdue && !has_gone(connection.socket)) continue;
+      const bool may_go_on = !connection.may_go_on || connection.may_go_on();
+      if (!is_overdue && may_go_on && !has_gone(connection.socket)) continue;
       overdue += is_overdue ? 1 : 0;
       const bool waits_for_answer = !connection.exchange.expired();
       ends.add(connection);
-      if (is_overdue && !waits_for_answer) ::shutdown(connection.socket, SHUT_RDWR);
+      if (!may_go_on || (is_overdue && !waits_for_answer)) ::shutdown(connection.socket, SHUT_RDWR);
     }
   }
   ends.end();

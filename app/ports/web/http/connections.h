@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -23,6 +24,7 @@ class Connections {
     hal::TimePoint deadline;  ///< max(): none
     std::weak_ptr<Exchange> exchange;
     std::weak_ptr<StreamSender> stream;
+    std::function<bool()> may_go_on;  ///< of the stream; empty: always
   };
 
   explicit Connections(std::chrono::milliseconds timeout) : timeout_(timeout) {}
@@ -35,12 +37,15 @@ class Connections {
   bool begin_answer(Connection* connection, const ExchangePtr& exchange);
   /// Its answer is being sent.
   void begin_sending(Connection* connection);
-  /// Its answer is a stream: it has no deadline. False: the server is closing.
-  bool begin_stream(Connection* connection, const std::shared_ptr<StreamSender>& stream);
+  /// Its answer is a stream: it has no deadline, and ends once it may not go on. False: the server
+  /// is closing.
+  bool begin_stream(Connection* connection, const std::shared_ptr<StreamSender>& stream,
+                    std::function<bool()> may_go_on);
   /// Its answer was sent; the next request has as long.
   void end_answer(Connection* connection);
 
-  /// Ends connections that are overdue or whose client has gone; returns how many were overdue.
+  /// Ends connections that are overdue, whose client has gone or whose stream may not go on;
+  /// returns how many were overdue.
   std::size_t end_overdue(hal::TimePoint now);
   /// Ends them all, and refuses more work.
   void end_all();

@@ -54,6 +54,8 @@ struct Response {
   Bytes body;
   std::shared_ptr<Stream> stream;
   Values headers;  ///< besides those that every answer has
+  /// Whether the client may still have the stream; asked again and again. Empty: always.
+  std::function<bool()> may_go_on;
 };
 
 Response json_response(std::string text, int status = 200);

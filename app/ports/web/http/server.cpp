@@ -197,7 +197,8 @@ MHD_Result Server::Callbacks::send_stream(Server& server, MHD_Connection* connec
   response.stream->on_data([weak = std::weak_ptr(sender)] {
     if (const auto alive = weak.lock()) alive->wake();
   });
-  if (!server.connections_.begin_stream(connection_of(connection), sender)) return MHD_NO;
+  if (!server.connections_.begin_stream(connection_of(connection), sender, response.may_go_on))
+    return MHD_NO;
   ++server.counts_.streams;
   const Reply reply =
       make_reply(response, std::move(sender), [&counts = server.counts_] { --counts.streams; });

@@ -87,6 +87,18 @@ Json command_schema(const CommandInfo& info) {
   return schema;
 }
 
+Json body_schema(const std::vector<BodyMember>& body) {
+  Json properties = Json::object(), names = Json::array();
+  for (const BodyMember& member : body) {
+    properties[std::string(member.name)] = {{"type", "string"},
+                                            {"description", std::string(member.description)}};
+    if (member.is_required) names.push_back(std::string(member.name));
+  }
+  Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!names.empty()) schema["required"] = names;
+  return schema;
+}
+
 Json operation_of(const Route& route) {
   Json schema{{"type", "string"}};
   if (route.type == kJson) schema = {{"type", "object"}};
@@ -100,6 +112,15 @@ Json operation_of(const Route& route) {
       {"responses",
        {{"200", {{"description", "As asked"}, {"content", {{route.type, {{"schema", schema}}}}}}},
         {"default", error}}}};
+  if (route.role != Role::Nobody) {
+    operation["x-role"] = std::string(word_for(kRoles, route.role));
+    operation["security"] = Json::array({{{"session", Json::array()}}, {{"token", Json::array()}}});
+  }
+  if (!route.body.empty()) {
+    operation["requestBody"] = {
+        {"required", true},
+        {"content", {{std::string(kJson), {{"schema", body_schema(route.body)}}}}}};
+  }
   if (route.view != ViewArgument::None) {
     const bool is_one = route.view == ViewArgument::One;
     operation["parameters"] = {
@@ -127,16 +148,21 @@ std::string openapi_json(const std::vector<Route>& routes) {
     paths[route.path][route.method == "GET" ? "get" : "post"] = operation_of(route);
   }
   const Json text{{"type", "string"}};
-  const Json all{{"openapi", "3.0.3"},
-                 {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
-                 {"paths", std::move(paths)},
-                 {"components",
-                  {{"schemas",
-                    {{"Status", status_schema()},
-                     {"CommandAnswer",
-                      {{"type", "object"},
-                       {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
-                     {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
+  const Json all{
+      {"openapi", "3.0.3"},
+      {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
+      {"paths", std::move(paths)},
+      {"components",
+       {{"securitySchemes",
+         {{"session",
+           {{"type", "apiKey"}, {"in", "cookie"}, {"name", std::string(kSessionCookie)}}},
+          {"token", {{"type", "http"}, {"scheme", "bearer"}}}}},
+        {"schemas",
+         {{"Status", status_schema()},
+          {"CommandAnswer",
+           {{"type", "object"},
+            {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
+          {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
   return all.dump();
 }
 

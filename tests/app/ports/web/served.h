@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -39,7 +40,10 @@ inline WebSettings on_a_free_port(WebSettings settings = {}) {
 class Served : public testing::Test {
  protected:
   void start(const WebSettings& settings = {}) {
-    sink = std::make_unique<WebSink>(on_a_free_port(settings), make_context());
+    SinkContext context = make_context();
+    context.state_folder = state_folder;
+    context.handler = handler;
+    sink = std::make_unique<WebSink>(on_a_free_port(settings), context);
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;
     sink->accept(app::tests::make_status());
@@ -62,6 +66,8 @@ class Served : public testing::Test {
     sink->accept(view);
   }
 
+  std::filesystem::path state_folder;  ///< empty: no users
+  CommandHandler handler;
   std::unique_ptr<WebSink> sink;
 };
 

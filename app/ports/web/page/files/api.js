@@ -24,11 +24,11 @@ export async function describeFigures() {
 }
 
 // Empty when it was done, else why not.
-export async function command(name, body) {
+export async function post(path, body) {
   try {
-    const answer = await fetch(`/api/v1/command/${name}`, {
+    const answer = await fetch(path, {
       method: "POST",
-      headers: { "Content-Type": "application/json" },
+      headers: { "Content-Type": "application/json", "X-Orbwatch": "page" },
       body: JSON.stringify(body),
     });
     const result = await answer.json();
@@ -37,3 +37,5 @@ export async function command(name, body) {
     return error.message;
   }
 }
+
+export const command = (name, body) => post(`/api/v1/command/${name}`, body);

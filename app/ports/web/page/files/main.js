@@ -1,3 +1,4 @@
+import { admit, askAgain } from "./access.js";
 import { describeFigures } from "./api.js";
 import { element, setText } from "./elements.js";
 import { Live } from "./live.js";
@@ -54,6 +55,7 @@ function showCondition(status) {
   say(isSilent ? texts.silent : state_text, isSilent || state !== 1);
 }
 
+await admit(() => say(texts.connecting, true));
 addPages();
 const figures = await figuresOfAppliance();
 const live = new Live(document.getElementById("live"), (views) => stream.choose(views));
@@ -68,6 +70,9 @@ const stream = new Stream(
     process.status(status, message.received);
     system.status(status);
   },
-  () => say(texts.connecting, true),
+  () => {
+    say(texts.connecting, true);
+    askAgain();
+  },
 );
 stream.choose([]);

@@ -1,6 +1,18 @@
 // Every text that the page itself says; names and descriptions of figures come from the appliance.
 export const texts = {
   pages: { live: "Live", process: "Process", system: "System" },
+  user: "User",
+  password: "Password",
+  newPassword: (characters) => `New password, at least ${characters} characters`,
+  passwordAgain: "The same again",
+  passwordsDiffer: "the two passwords differ",
+  logInTitle: "Log in",
+  logIn: "Log in",
+  logOut: "Log out",
+  firstPasswordTitle: "The first password",
+  setPassword: "Set a password",
+  noPassword: "No password is set.",
+  account: (user, role) => `${user}, ${role}`,
   connecting: "No connection to the appliance: trying again",
   silent: "The pipeline does not report",
   chooseViews: "Views",

@@ -1,0 +1,134 @@
+#include <termios.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "app/cli/command.h"
+#include "app/cli/options/options.h"
+#include "app/files/resolve.h"
+#include "app/files/site_file.h"
+#include "app/ports/web/access/secret.h"
+#include "app/ports/web/access/users.h"
+#include "app/state/state_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr const char* kFirstUser = "admin";
+
+constexpr const char* kUsage =
+    "Usage: orbwatch password [NAME] [options]\n\n"
+    "Sets the password of a user of the page and its HTTP interface (default: admin), or makes\n"
+    "the user; with the first one there, nobody sees or does anything there without logging in.\n"
+    "A forgotten password is replaced in this way, without loss of anything else. It is asked\n"
+    "for twice on a terminal, or is a line of standard input. A running orbwatchd takes it up\n"
+    "by itself.\n\n";
+
+struct PasswordOptions {
+  std::filesystem::path config;
+  std::optional<Role> role;
+};
+
+/// A terminal that shows nothing of what is typed, and passes Ctrl-C on as a character.
+class SilentTerminal {
+ public:
+  SilentTerminal() {
+    if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
+    termios silent = before_;
+    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);
+    is_silent_ = ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent) == 0;
+  }
+  SilentTerminal(const SilentTerminal&) = delete;
+  SilentTerminal& operator=(const SilentTerminal&) = delete;
+  ~SilentTerminal() {
+    if (is_silent_) ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
+  }
+  bool is_silent() const { return is_silent_; }
+
+ private:
+  termios before_{};
+  bool is_silent_ = false;
+};
+
+Result<std::string> ask(const std::string& what) {
+  constexpr char kControlC = '\3';
+  std::cerr << what << ": " << std::flush;
+  std::string line;
+  const bool is_read = static_cast<bool>(std::getline(std::cin, line));
+  std::cerr << "\n";
+  if (!is_read || line.find(kControlC) != std::string::npos) return fail("cancelled");
+  return line;
+}
+
+Result<std::string> read_password(const std::string& name) {
+  std::string line;
+  if (::isatty(STDIN_FILENO) == 0) {
+    if (std::getline(std::cin, line)) return line;
+    return fail("standard input has no line with the password");
+  }
+  const SilentTerminal terminal;
+  if (!terminal.is_silent()) return fail("the terminal cannot be kept from showing the password");
+  auto first = ask("New password of " + name);
+  if (!first) return first;
+  const auto second = ask("Again");
+  if (!second) return second;
+  if (*first != *second) return fail("the two are not the same; nothing was changed");
+  return first;
+}
+
+/// The first user is administrator.
+std::optional<Role> role_of_new(const web::Users& users) {
+  return users.users.empty() ? std::optional(Role::Administrator) : std::nullopt;
+}
+
+Result<std::string> set_password(const PasswordOptions& o, const std::string& name) {
+  if (auto named = web::check_name(name); !named) return tl::unexpected(named.error());
+  const auto site = read_site(site_file(o.config));
+  if (!site) return tl::unexpected(site.error());
+  const auto password = read_password(name);
+  if (!password) return password;
+  if (auto right = web::check_password(*password); !right) return tl::unexpected(right.error());
+  const auto hash = web::hash_password(*password);
+  if (!hash) return hash;
+  const auto file = web::users_file(state_folder(site->state_folder));
+  const auto changed = web::change_users(file, [&](web::Users& users) -> Result<> {
+    const bool is_new = users.find(name) == nullptr;
+    const auto role = is_new && !o.role ? role_of_new(users) : o.role;
+    if (is_new && !role) {
+      return fail("there is no user " + name + "; --role makes a new one");
+    }
+    return web::set_user(users, name, role, *hash);
+  });
+  if (!changed) return tl::unexpected(changed.error());
+  return "the password of " + name + " is set, in " + file.string() + "\n";
+}
+
+}  // namespace
+
+Result<std::string> password_command(const std::vector<std::string>& arguments) {
+  PasswordOptions o;
+  const auto set_role = [&o](const std::string& word) -> Result<> {
+    const auto role = web::parse_role(word);
+    if (!role) return tl::unexpected(role.error());
+    o.role = *role;
+    return {};
+  };
+  return run_command(
+      arguments,
+      {.usage = kUsage,
+       .options = {{"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
+                    text_option(o.config)},
+                   {"role", 'r', "ROLE",
+                    joined(kRoles) + "\n(default: as before; the first user is administrator)",
+                    set_role}},
+       .takes_words = true},
+      [&](const std::vector<std::string>& words) -> Result<std::string> {
+        if (words.size() > 1) return fail("say one NAME only; see --help");
+        return set_password(o, words.empty() ? kFirstUser : words.front());
+      });
+}
+
+}  // namespace orbwatch::app

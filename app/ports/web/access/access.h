@@ -1,0 +1,91 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "app/ports/web/access/caller.h"
+#include "app/ports/web/access/login_limits.h"
+#include "app/ports/web/access/sessions.h"
+#include "app/ports/web/access/users.h"
+
+namespace orbwatch::app::web {
+
+/// Says who a caller is, by the users file of the state folder. Until a first password is set
+/// there, whoever is on this computer is administrator and nobody else is anything; a file that
+/// cannot be used makes everybody nobody.
+///
+/// Thread rule: caller, has_users and users on any thread, they wait for nothing; refresh on any
+/// thread, too, it waits for the disk; the rest on one thread at a time, it waits for the disk,
+/// login and change_password for a hash, too.
+class Access {
+ public:
+  /// Why somebody was not let in.
+  struct Refusal {
+    int status = 0;  ///< of HTTP
+    std::string what;
+    std::chrono::seconds retry_after{0};
+  };
+  using Token = tl::expected<std::string, Refusal>;
+  using ClockOfUtc = std::function<Utc()>;
+
+  /// `state_folder` empty: nobody can set a password.
+  Access(std::filesystem::path state_folder, Sessions::Limits limits, ClockOfUtc clock = utc_now);
+
+  /// Reads the files. Complains in the log.
+  void start();
+  /// Keeps when sessions were used last.
+  void stop();
+  /// Reads the users again when their file has changed.
+  void refresh();
+
+  Caller caller(const Credentials& credentials);
+  bool has_users() const;
+
+  /// The token of a new session.
+  Token login(const std::string& name, const std::string& password, const std::string& peer);
+  void logout(const std::string& session);
+  /// Of whoever knows the present one; ends the sessions of the user and begins a new one.
+  Token change_password(const std::string& name, const std::string& old_password,
+                        const std::string& new_password, const std::string& peer);
+  /// Errors: as change_users().
+  Result<> change(const std::function<Result<>(Users&)>& change);
+  /// As they are now; nobody when the file is absent or cannot be used.
+  Users users() const;
+
+  static Utc utc_now();
+
+ private:
+  struct FileMark {
+    std::int64_t seconds = 0, nanoseconds = 0, size = 0;
+    std::uint64_t number = 0;
+    bool operator==(const FileMark&) const = default;
+  };
+  enum class State { Nobody, Users, Unusable };
+
+  FileMark mark() const;
+  void load();  ///< under files_mutex_
+  void keep();
+  std::string begin(const User& user);
+  tl::expected<User, Refusal> judge(const std::string& name, const std::string& password,
+                                    const std::string& peer);
+
+  const std::filesystem::path folder_;
+  const ClockOfUtc clock_;
+  std::mutex files_mutex_;  ///< also while the users file is read; before mutex_
+  FileMark mark_;           ///< of the users file as it was read; under files_mutex_
+
+  mutable std::mutex
+      mutex_;  ///< of what follows; never held while the disk or a hash is waited for
+  State state_ = State::Nobody;
+  std::string fault_;
+  Users users_;
+  Sessions sessions_;
+  LoginLimits limits_;
+};
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ports/web/routes.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::web {
+
+/// Texts of a body by name; one that was left out is empty.
+using Members = std::map<std::string, std::string, std::less<>>;
+
+/// A JSON object with these texts. Errors: it is none; a member is missing, unknown or no text.
+/// Never quotes a value, which may be a password. Reentrant.
+Result<Members> parse_members(const std::vector<BodyMember>& allowed, std::string_view body);
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/ports/web/access/access.h"
+#include "app/ports/web/access/access_body.h"
+#include "app/ports/web/access/audit.h"
+#include "app/ports/web/access/slow_work.h"
+#include "app/ports/web/routes.h"
+
+namespace orbwatch::app::web {
+
+/// The routes by which people and programs log in, and by which the administrator says who they
+/// are. Thread rule: start and stop by one owner; the routes on any thread.
+class AccessDesk {
+ public:
+  /// `access` and `audit` outlive it. `longest` is the age of a session at most.
+  AccessDesk(Access& access, Audit& audit, std::chrono::seconds longest)
+      : access_(access), audit_(audit), longest_(longest) {}
+
+  void start() { work_.start(); }
+  void stop() { work_.stop(); }
+
+  std::vector<Route> routes();
+
+  std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
+
+ private:
+  struct Request {
+    const web::Request& sent;
+    const Members& members;
+    std::string user;               ///< who asks
+    std::string before{}, after{};  ///< for the audit
+  };
+  using Handler = Response (AccessDesk::*)(Request&);
+
+  Route changing(const char* path, Role role, const char* description, std::vector<BodyMember> body,
+                 Handler handler);
+  Route shown(const char* path, Role role, const char* description,
+              Response (AccessDesk::*handler)(const web::Request&) const);
+
+  Response session(const web::Request& request) const;
+  Response users(const web::Request& request) const;
+  Response login(Request& request);
+  Response logout(Request& request);
+  Response set_password(Request& request);
+  Response set_user(Request& request);
+  Response remove_user(Request& request);
+  Response create_token(Request& request);
+  Response revoke_token(Request& request);
+  Response answer_and_note(const ExchangePtr& exchange, const Members& members, Handler handler);
+  void show_audit(const ExchangePtr& exchange);
+  std::string role_of(const std::string& user) const;
+  Response logged_in(const Access::Token& token) const;
+
+  Access& access_;
+  Audit& audit_;
+  const std::chrono::seconds longest_;
+  SlowWork work_;
+};
+
+}  // namespace orbwatch::app::web

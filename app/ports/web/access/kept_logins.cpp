@@ -1,0 +1,71 @@
+#include "app/ports/web/access/kept_logins.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/state/private_file.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::int64_t to_number(Utc time) { return time.time_since_epoch().count(); }
+Utc to_utc(const Json& number) { return Utc(std::chrono::seconds(number.get<std::int64_t>())); }
+
+Json to_json(const std::vector<LoginLimits::Entry>& entries) {
+  Json list = Json::array();
+  for (const auto& [key, failures, last] : entries) {
+    list.push_back({{"key", key}, {"failures", failures}, {"last", to_number(last)}});
+  }
+  return list;
+}
+
+std::vector<LoginLimits::Entry> to_entries(const Json& list) {
+  std::vector<LoginLimits::Entry> entries;
+  for (const Json& one : list) {
+    entries.push_back(
+        {one.at("key").get<std::string>(), one.at("failures").get<int>(), to_utc(one.at("last"))});
+  }
+  return entries;
+}
+
+}  // namespace
+
+Result<> load_logins(const std::filesystem::path& file, Sessions& sessions, LoginLimits& limits) {
+  const auto text = read_private(file);
+  if (!text) return tl::unexpected(text.error());
+  if (!*text) return {};
+  try {
+    const Json all = Json::parse(**text);
+    std::vector<Sessions::Session> kept;
+    for (const Json& one : all.at("sessions")) {
+      kept.push_back({one.at("hash").get<std::string>(), one.at("user").get<std::string>(),
+                      one.at("password").get<std::string>(), to_utc(one.at("begun")),
+                      to_utc(one.at("used"))});
+    }
+    limits.restore(to_entries(all.at("names")), to_entries(all.at("addresses")));
+    sessions.restore(std::move(kept));
+  } catch (const Json::exception&) {
+    return fail(file.string() + ": is damaged; everybody has to log in anew");
+  }
+  return {};
+}
+
+Result<> save_logins(const std::filesystem::path& file, const Sessions& sessions,
+                     const LoginLimits& limits) {
+  Json kept = Json::array();
+  for (const auto& [hash, user, password, begun, used] : sessions.all()) {
+    kept.push_back({{"hash", hash},
+                    {"user", user},
+                    {"password", password},
+                    {"begun", to_number(begun)},
+                    {"used", to_number(used)}});
+  }
+  const Json all{{"sessions", kept},
+                 {"names", to_json(limits.names())},
+                 {"addresses", to_json(limits.addresses())}};
+  // A name that somebody tried may be no text.
+  return write_private(file, all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,193 @@
+#include "app/ports/web/access/access.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "app/ports/web/access/secret.h"
+#include "app/state/private_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using orbwatch::tests::TemporaryFolder;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+const std::string kPassword = "correct horse battery";
+const std::string kPeer = "10.0.0.9";
+constexpr Sessions::Limits kLimits{seconds(600), seconds(3600)};
+
+class AccessTest : public testing::Test {
+ protected:
+  void SetUp() override { restart(); }
+  void restart() {
+    access = std::make_unique<Access>(folder.path(), kLimits, [this] { return now; });
+    access->start();
+  }
+  void add(const std::string& name, Role role) const {
+    // By another process, as `orbwatch password` does.
+    ASSERT_TRUE(change_users(users_file(folder.path()), [&](Users& users) {
+      return set_user(users, name, role, hash_password(kPassword).value());
+    }));
+    access->refresh();
+  }
+  Caller by_session(const std::string& token) const { return access->caller({kPeer, token, {}}); }
+
+  TemporaryFolder folder;
+  Utc now{seconds(1'800'000'000)};
+  std::unique_ptr<Access> access;
+};
+
+TEST_F(AccessTest, WithoutUsersOnlyThisComputerMayDoAnything) {
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Administrator);
+  EXPECT_EQ(access->caller({"::1", {}, {}}).role, Role::Administrator);
+  EXPECT_EQ(access->caller({kPeer, {}, {}}).role, Role::Nobody);
+  EXPECT_EQ(access->login("admin", kPassword, kPeer).error().status, 409);
+  add("admin", Role::Administrator);
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+}
+
+TEST_F(AccessTest, ASessionIsItsUserUntilItIsLoggedOut) {
+  add("admin", Role::Administrator);
+  add("kim", Role::Operator);
+  const auto token = access->login("kim", kPassword, kPeer);
+  ASSERT_TRUE(token) << token.error().what;
+  EXPECT_EQ(by_session(*token).name, "kim");
+  EXPECT_EQ(by_session(*token).role, Role::Operator);
+  EXPECT_EQ(by_session(*token + "x").role, Role::Nobody);
+  EXPECT_EQ(access->caller({kPeer, {}, *token}).role, Role::Nobody) << "no token of a program";
+  access->logout(*token);
+  EXPECT_EQ(by_session(*token).role, Role::Nobody);
+}
+
+TEST_F(AccessTest, ASessionEndsUnusedAndAtItsAge) {
+  add("admin", Role::Administrator);
+  const std::string used = access->login("admin", kPassword, kPeer).value();
+  const std::string unused = access->login("admin", kPassword, kPeer).value();
+  for (int i = 0; i < 5; ++i) {
+    now += kLimits.idle - seconds(1);
+    EXPECT_EQ(by_session(used).role, Role::Administrator) << i;
+  }
+  EXPECT_EQ(by_session(unused).role, Role::Nobody);
+  now += kLimits.idle - seconds(1);
+  EXPECT_EQ(by_session(used).role, Role::Nobody) << "older than it may be";
+}
+
+TEST_F(AccessTest, SessionsOutlastARestart) {
+  add("admin", Role::Administrator);
+  const std::string token = access->login("admin", kPassword, kPeer).value();
+  restart();
+  EXPECT_EQ(by_session(token).role, Role::Administrator);
+  access->logout(token);
+  restart();
+  EXPECT_EQ(by_session(token).role, Role::Nobody);
+}
+
+TEST_F(AccessTest, AUserWhoIsRemovedOrHasANewPasswordIsLoggedOut) {
+  add("admin", Role::Administrator);
+  add("kim", Role::Operator);
+  const std::string kim = access->login("kim", kPassword, kPeer).value();
+  const std::string admin = access->login("admin", kPassword, kPeer).value();
+  ASSERT_TRUE(access->change([](Users& users) {
+    std::erase_if(users.users, [](const User& user) { return user.name == "kim"; });
+    return Result<>();
+  }));
+  EXPECT_EQ(by_session(kim).role, Role::Nobody);
+  EXPECT_EQ(by_session(admin).role, Role::Administrator);
+  add("admin", Role::Administrator);  // the same password, hashed anew
+  EXPECT_EQ(by_session(admin).role, Role::Nobody);
+}
+
+TEST_F(AccessTest, ANewRoleCountsAtOnce) {
+  add("admin", Role::Administrator);
+  add("kim", Role::Integrator);
+  const std::string token = access->login("kim", kPassword, kPeer).value();
+  ASSERT_TRUE(
+      access->change([](Users& users) { return set_user(users, "kim", Role::Viewer, ""); }));
+  EXPECT_EQ(by_session(token).role, Role::Viewer);
+}
+
+TEST_F(AccessTest, GuessingIsSlowedDownAcrossARestart) {
+  add("admin", Role::Administrator);
+  for (int i = 0; i < LoginLimits::kFree; ++i) {
+    const auto guessed = access->login("admin", "wrong password " + std::to_string(i), kPeer);
+    ASSERT_FALSE(guessed);
+    EXPECT_EQ(guessed.error().status, 401);
+    EXPECT_EQ(guessed.error().what, "name or password is wrong");
+  }
+  for (int i = 0; i < 2; ++i) {
+    const auto refused = access->login("admin", kPassword, kPeer);
+    ASSERT_FALSE(refused) << "the right one is refused, too";
+    EXPECT_EQ(refused.error().status, 429);
+    EXPECT_EQ(refused.error().retry_after, seconds(1));
+    restart();
+  }
+  now += seconds(1);
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer));
+}
+
+TEST_F(AccessTest, AnUnknownNameIsRefusedAsAWrongPasswordIs) {
+  add("admin", Role::Administrator);
+  for (const char* name : {"nobody", "", "No Name"}) {
+    const auto refused = access->login(name, kPassword, kPeer);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().status, 401);
+    EXPECT_EQ(refused.error().what, "name or password is wrong");
+  }
+}
+
+TEST_F(AccessTest, APasswordIsChangedByWhoKnowsIt) {
+  add("admin", Role::Administrator);
+  const std::string before = access->login("admin", kPassword, kPeer).value();
+  const std::string next = "another long password";
+  EXPECT_EQ(access->change_password("admin", "not the old one", next, kPeer).error().status, 401);
+  EXPECT_EQ(access->change_password("admin", kPassword, "short", kPeer).error().status, 400);
+  EXPECT_EQ(by_session(before).role, Role::Administrator);
+  const auto after = access->change_password("admin", kPassword, next, kPeer);
+  ASSERT_TRUE(after) << after.error().what;
+  EXPECT_EQ(by_session(*after).role, Role::Administrator);
+  EXPECT_EQ(by_session(before).role, Role::Nobody);
+  EXPECT_FALSE(access->login("admin", kPassword, kPeer));
+  EXPECT_TRUE(access->login("admin", next, kPeer));
+}
+
+TEST_F(AccessTest, AFileThatCannotBeUsedLetsNobodyIn) {
+  add("admin", Role::Administrator);
+  const std::string token = access->login("admin", kPassword, kPeer).value();
+  const auto file = users_file(folder.path());
+  ::chmod(file.c_str(), 0644);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);  // another time
+  restart();
+  EXPECT_EQ(by_session(token).role, Role::Nobody);
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+  const auto refused = access->login("admin", kPassword, kPeer);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().status, 503);
+  EXPECT_THAT(refused.error().what, HasSubstr("chmod 600"));
+}
+
+TEST_F(AccessTest, NoFileHoldsAPasswordOrAToken) {
+  add("admin", Role::Administrator);
+  const std::string token = access->login("admin", kPassword, kPeer).value();
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    const std::string text = read_private(entry.path()).value().value();
+    EXPECT_EQ(text.find(kPassword), std::string::npos) << entry.path();
+    EXPECT_EQ(text.find(token), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(AccessTest, OneUserHasFewSessions) {
+  add("admin", Role::Administrator);
+  const std::string first = access->login("admin", kPassword, kPeer).value();
+  for (std::size_t i = 0; i < Sessions::kMostOfUser; ++i) {
+    now += seconds(1);
+    ASSERT_TRUE(access->login("admin", kPassword, kPeer));
+  }
+  EXPECT_EQ(by_session(first).role, Role::Nobody);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

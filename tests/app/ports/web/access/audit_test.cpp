@@ -1,0 +1,150 @@
+#include "app/ports/web/access/audit.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/ports/web/access/access_served.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using nlohmann::json;
+using orbwatch::tests::TemporaryFolder;
+
+json entries(const Audit& audit, std::size_t most = 100000) {
+  return json::parse(audit.newest(most))["entries"];
+}
+
+Audit::Entry numbered(int number) {
+  return {Utc(std::chrono::seconds(1'800'000'000)),
+          "kim",
+          "10.0.0.1",
+          std::to_string(number),
+          "",
+          "",
+          "done"};
+}
+
+TEST(Audit, HoldsWhatWasNotedAcrossARestart) {
+  const TemporaryFolder folder;
+  Audit(folder.path())
+      .note({Utc(std::chrono::seconds(1'800'000'000)), "kim", "10.0.0.1", "set_user", "lee: viewer",
+             "lee: operator", "done"});
+  Audit(folder.path()).note(numbered(2));
+  const json all = entries(Audit(folder.path()));
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0], (json{{"time", "2027-01-15T08:00:00.000000000Z"},
+                          {"who", "kim"},
+                          {"from", "10.0.0.1"},
+                          {"what", "set_user"},
+                          {"before", "lee: viewer"},
+                          {"after", "lee: operator"},
+                          {"result", "done"}}));
+  EXPECT_EQ(all[1]["what"], "2");
+  struct stat about {};
+  ASSERT_EQ(::stat((folder / "audit.jsonl").c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 07777U, 0600U);
+}
+
+TEST(Audit, IsBoundedAndKeepsTheNewest) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  Audit::Entry large = numbered(0);
+  large.after = std::string(Audit::kMostBytes / 50, 'x');
+  constexpr int kNoted = 170;
+  for (int i = 0; i < kNoted; ++i) {
+    large.what = std::to_string(i);
+    audit.note(large);
+  }
+  EXPECT_EQ(folder.files(), 2);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_LE(entry.file_size(), Audit::kMostBytes);
+  }
+  const json all = entries(audit);
+  EXPECT_GT(all.size(), 49U);
+  EXPECT_EQ(all.back()["what"], std::to_string(kNoted - 1));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i]["what"], std::to_string(static_cast<std::size_t>(kNoted) - all.size() + i));
+  }
+  EXPECT_EQ(entries(audit, 3).front()["what"], std::to_string(kNoted - 3));
+}
+
+TEST(Audit, ALineThatWasCutTakesNoOtherWithIt) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  audit.note(numbered(1));
+  audit.note(numbered(2));
+  const auto file = folder / "audit.jsonl";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 10);
+  audit.note(numbered(3));
+  const json all = entries(audit);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0]["what"], "1");
+  EXPECT_EQ(all[1]["what"], "3");
+}
+
+class AuditServed : public AccessServed {
+ protected:
+  void SetUp() override {
+    AccessServed::SetUp();
+    handler = [](const Command& command) {
+      return command.code == CommandCode::Stop ? CommandResult::NotPossible : CommandResult::Done;
+    };
+    add_one_of_each_role();
+    start();
+  }
+  json shown() const {
+    return json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body)["entries"];
+  }
+};
+
+TEST_F(AuditServed, SaysWhoDidWhat) {
+  const std::string admin = session_of("administrator") + kPageHeaders;
+  EXPECT_EQ(login("viewer", "not the password").status, 401);
+  EXPECT_EQ(login("my-password-in-the-wrong-field", "x").status, 401);
+  EXPECT_EQ(
+      post("/api/v1/command/select_view", R"({"view":1})", by_token(Role::Operator) + kJsonHeader)
+          .status,
+      200);
+  EXPECT_EQ(post("/api/v1/command/stop", "{}", by_token(Role::Operator) + kJsonHeader).status, 409);
+  EXPECT_EQ(
+      post("/api/v1/set_user",
+           json{{"user", "viewer"}, {"role", "operator"}, {"password", kPassword}}.dump(), admin)
+          .status,
+      200);
+  EXPECT_EQ(post("/api/v1/remove_user", R"({"user":"viewer"})", admin).status, 200);
+  EXPECT_EQ(post("/api/v1/create_token", R"({"name":"plc","role":"viewer"})", admin).status, 200);
+  const json all = shown();
+  ASSERT_EQ(all.size(), 8U) << all.dump(1);
+  const auto expect = [&](std::size_t i, const char* who, const char* what, const char* before,
+                          const char* after, const char* result) {
+    EXPECT_EQ(all[i]["who"], who) << all[i];
+    EXPECT_EQ(all[i]["what"], what) << all[i];
+    EXPECT_EQ(all[i]["before"], before) << all[i];
+    EXPECT_EQ(all[i]["after"], after) << all[i];
+    EXPECT_EQ(all[i]["result"], result) << all[i];
+    EXPECT_EQ(all[i]["from"], "127.0.0.1");
+  };
+  expect(0, "administrator", "login", "", "administrator: administrator", "done");
+  expect(1, "", "login", "", "viewer: viewer", "refused");
+  expect(2, "", "login", "", "", "refused");
+  expect(3, "operator", "select_view", "", R"({"view":1})", "done");
+  expect(4, "operator", "stop", "", "", "not possible with this configuration");
+  expect(5, "administrator", "set_user", "viewer: viewer", "viewer: operator, another password",
+         "done");
+  expect(6, "administrator", "remove_user", "viewer: operator", "", "done");
+  expect(7, "administrator", "create_token", "", "plc: viewer", "done");
+}
+
+TEST_F(AuditServed, ALoginFloodPushesNothingOut) {
+  for (int i = 0; i < 30; ++i) login("administrator", "a wrong guess");
+  EXPECT_LE(shown().size(), static_cast<std::size_t>(LoginLimits::kFree) + 3);
+  EXPECT_GE(shown().size(), static_cast<std::size_t>(LoginLimits::kFree));
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

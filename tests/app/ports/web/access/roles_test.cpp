@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <set>
+
+#include "app/ports/web/page/page_files.h"
+#include "tests/app/ports/web/access/access_served.h"
+
+/// Every route with every role: what is declared is what happens.
+namespace orbwatch::app::web::tests {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::array kEveryRole{Role::Nobody, Role::Viewer, Role::Operator, Role::Integrator,
+                                Role::Administrator};
+
+class Roles : public AccessServed {
+ protected:
+  void SetUp() override {
+    AccessServed::SetUp();
+    handler = [this](const Command&) {
+      ++carried_out;
+      return CommandResult::Done;
+    };
+    add_one_of_each_role();
+    start();
+  }
+  /// What a route answers to an empty object, which changes nobody's role or password.
+  Answer ask(const Route& route, const std::string& headers) const {
+    return route.method == "POST" ? post(route.path, "{}", headers + kPageHeaders)
+                                  : get(port(), route.path, headers);
+  }
+  static void expect_refused(const Answer& answer, const Route& route, Role role) {
+    EXPECT_EQ(answer.status, role == Role::Nobody ? 401 : 403);
+    const auto said = nlohmann::json::parse(answer.body);
+    ASSERT_EQ(said.size(), 1U) << answer.body;
+    EXPECT_THAT(said["error"].get<std::string>(),
+                HasSubstr(route.method + " " + route.path + " needs the role " +
+                          std::string(word_for(kRoles, route.role))));
+  }
+
+  std::atomic<int> carried_out{0};
+};
+
+TEST_F(Roles, EachProgramGetsWhatItsRoleMayAndNothingElse) {
+  ASSERT_GT(sink->routes().size(), kCommands.size() + kPageFiles.size());
+  for (const Route& route : sink->routes()) {
+    for (const Role role : kEveryRole) {
+      SCOPED_TRACE(route.method + " " + route.path + " as " + std::string(word_for(kRoles, role)));
+      const int before = carried_out;
+      const Answer answer = ask(route, by_token(role));
+      if (role < route.role) {
+        expect_refused(answer, route, role);
+        EXPECT_EQ(carried_out, before);
+      } else {
+        EXPECT_NE(answer.status, 401) << answer.body;
+        EXPECT_NE(answer.status, 403) << answer.body;
+        EXPECT_NE(answer.status, 0);
+      }
+    }
+  }
+  EXPECT_GT(carried_out, 0);
+}
+
+TEST_F(Roles, EachPersonGetsWhatTheirRoleMayAndNothingElse) {
+  std::map<Role, std::string> sessions{{Role::Nobody, ""}};
+  for (const auto& [name, role] : kRoles) sessions[role] = session_of(std::string(name));
+  for (const Route& route : sink->routes()) {
+    if (route.path == "/api/v1/logout") continue;
+    for (const Role role : kEveryRole) {
+      SCOPED_TRACE(route.method + " " + route.path + " as " + std::string(word_for(kRoles, role)));
+      const int before = carried_out;
+      const Answer answer = ask(route, sessions[role]);
+      if (role < route.role) {
+        expect_refused(answer, route, role);
+        EXPECT_EQ(carried_out, before);
+      } else {
+        EXPECT_NE(answer.status, 401) << answer.body;
+        EXPECT_NE(answer.status, 403) << answer.body;
+        EXPECT_NE(answer.status, 0);
+      }
+    }
+  }
+}
+
+TEST_F(Roles, OnlyThePageAndTheWayInAreForEverybody) {
+  std::set<std::string> open;
+  for (const Route& route : sink->routes()) {
+    if (route.role == Role::Nobody && !route.is_page) open.insert(route.method + " " + route.path);
+    if (route.is_page) {
+      EXPECT_EQ(route.method, "GET") << route.path;
+    }
+  }
+  EXPECT_THAT(open,
+              testing::ElementsAre("GET /api/v1/session", "GET /healthz", "POST /api/v1/login"));
+}
+
+TEST_F(Roles, EachCommandHasTheRoleOfTheList) {
+  std::size_t commands = 0;
+  for (const Route& route : sink->routes()) {
+    if (!route.command) continue;
+    ++commands;
+    EXPECT_EQ(route.role, route.command->role) << route.path;
+    EXPECT_GE(route.role, Role::Operator) << route.path << ": a viewer changes nothing";
+  }
+  EXPECT_EQ(commands, kCommands.size());
+}
+
+TEST_F(Roles, WhatIsWrittenAboutRolesIsWhatIsServed) {
+  const auto described =
+      nlohmann::json::parse(get(port(), "/api/v1/openapi.json", by_token(Role::Viewer)).body);
+  for (const Route& route : sink->routes()) {
+    if (route.is_page) continue;
+    const auto& operation = described["paths"][route.path][route.method == "GET" ? "get" : "post"];
+    EXPECT_EQ(operation.value("x-role", ""), word_for(kRoles, route.role)) << route.path;
+    EXPECT_EQ(operation.contains("security"), route.role != Role::Nobody) << route.path;
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

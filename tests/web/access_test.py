@@ -1,0 +1,142 @@
+"""Logging in, against a running daemon."""
+
+import json
+import subprocess
+import unittest
+import urllib.error
+import urllib.request
+
+from selenium.webdriver.common.by import By
+
+from appliance import ROOT, Appliance, eventually
+from browser import AXE, Browser
+
+PASSWORD = "correct horse battery"
+NEXT_PASSWORD = "a forgotten one replaced"
+
+
+class Access(unittest.TestCase):
+    """In order: each case goes on with the users of the one before."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.appliance = Appliance()
+        cls.addClassCleanup(cls.appliance.close)
+        cls.appliance.start()
+
+    def setUp(self):
+        self.browser = Browser()
+        self.addCleanup(self.browser.close_all)
+
+    def fill(self, **values):
+        for name, value in values.items():
+            field = eventually(name, lambda name=name: self.browser.find_elements(By.NAME, name))[0]
+            field.clear()
+            field.send_keys(value)
+        self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
+
+    def expect_live(self):
+        eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
+
+    def session(self):
+        """What the interface says about the browser's own session."""
+        return self.browser.execute_async_script(
+            "fetch('/api/v1/session').then((a) => a.json()).then(arguments[0])")
+
+    def status_of(self, path):
+        """Of a request without any session."""
+        try:
+            with urllib.request.urlopen(self.appliance.address + path, timeout=60) as answer:
+                return answer.status
+        except urllib.error.HTTPError as error:
+            error.close()
+            return error.code
+
+    def users(self):
+        file = self.appliance.folder / "state/users.json"
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        return {user["name"]: user["role"] for user in json.loads(file.read_text())["users"]}
+
+    def test_1_the_first_password_is_set(self):
+        self.browser.get(self.appliance.address)
+        self.expect_live()
+        self.assertEqual(self.status_of("api/v1/status"), 200)
+        self.browser.find_element(By.CSS_SELECTOR, "#account button").click()
+        self.fill(password=PASSWORD, again=PASSWORD + "x")
+        eventually("the page says that they differ",
+                   lambda: "differ" in self.browser.text("#access [role=alert]"))
+        self.browser.keep_picture("first-password")
+        self.fill(password=PASSWORD, again=PASSWORD)
+        eventually("the page says who it is",
+                   lambda: "admin" in self.browser.text("#account"))
+        self.expect_live()
+        self.assertEqual(self.session(),
+                         {"user": "admin", "role": "administrator", "has_users": True})
+        self.assertEqual(self.users(), {"admin": "administrator"})
+        self.assertEqual(self.status_of("api/v1/status"), 401)
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_2_nobody_gets_in_without_it(self):
+        self.browser.get(self.appliance.address)
+        eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+        self.assertEqual(self.browser.find_elements(By.TAG_NAME, "canvas"), [])
+        self.browser.keep_picture("login")
+        self.fill(user="admin", password="not the right one")
+        eventually("the page says so",
+                   lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
+        self.assertEqual(self.session()["user"], "")
+        self.fill(user="admin", password=PASSWORD)
+        self.expect_live()
+        self.assertEqual(self.session()["user"], "admin")
+
+    def test_3_logging_out_ends_session_and_stream(self):
+        self.browser.get(self.appliance.address)
+        self.fill(user="admin", password=PASSWORD)
+        self.expect_live()
+        self.browser.find_element(By.CSS_SELECTOR, "#account button").click()
+        eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+        self.assertEqual(self.session()["user"], "")
+
+    def test_4_a_restart_of_the_daemon_logs_nobody_out(self):
+        self.browser.get(self.appliance.address)
+        self.fill(user="admin", password=PASSWORD)
+        self.expect_live()
+        self.appliance.stop()
+        eventually("the page says so", lambda: "No connection" in self.browser.text("#condition"))
+        self.appliance.start()
+        eventually("the page shows the state again",
+                   lambda: "running" in self.browser.text("#condition"))
+        self.assertEqual(self.session()["user"], "admin")
+
+    def test_5_a_forgotten_password_is_replaced_on_the_board(self):
+        self.browser.get(self.appliance.address)
+        self.fill(user="admin", password=PASSWORD)
+        self.expect_live()
+        subprocess.run(
+            [ROOT / "build/release/app/orbwatch", "password",
+             "--config", self.appliance.folder / "demo.toml"],
+            input=NEXT_PASSWORD + "\n", encoding="utf-8", check=True, capture_output=True)
+        # The session of whoever knew the old one ends, with its stream.
+        eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+        self.fill(user="admin", password=PASSWORD)
+        eventually("the old one is refused",
+                   lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
+        self.fill(user="admin", password=NEXT_PASSWORD)
+        self.expect_live()
+        self.assertEqual(self.users(), {"admin": "administrator"})
+
+    def test_6_nothing_keeps_anybody_out(self):
+        if not AXE.exists():
+            self.skipTest("skipped, missing: axe-core, which npm installs")
+        self.browser.allow_scripts()
+        for scheme in ("light", "dark"):
+            with self.subTest(scheme=scheme):
+                self.browser.show_in(scheme)
+                self.browser.get("about:blank")
+                self.browser.get(self.appliance.address)
+                eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+                self.assertEqual(self.browser.barriers(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
