@@ -33,20 +33,15 @@ class Builder {
       : site_(site), formats_(formats), scene_{site.rig.ball, std::move(proxy)} {}
 
   /// Error: the rig makes the view impossible.
-  Result<ViewPlan> plan_view(const ViewSettings& view) const {
-    std::vector<ViewSource> sources;
-    for (const SourceSettings& source : view.sources) {
-      const std::size_t camera = source.camera.index;
-      auto ball = optics::ball_projection(site_.rig, site_.rig_camera(camera));
-      if (!ball) return tl::unexpected(ball.error());
-      sources.push_back({camera, formats_[camera], std::move(*ball), source.weight,
-                         colour_map(source), source.sharpness});
-    }
-    auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
-    if (!projection) return fail("view " + view.name + ": " + projection.error().message);
-    return ViewPlan{view.index,   view.name,          std::move(*projection), std::move(sources),
-                    view.combine, view.interpolation, std::nullopt,           0,
-                    view.match};
+  Result<ViewPlan> plan_view(const ViewSettings& view) const { return plan_view(view, site_.rig); }
+
+  /// As plan_view(). A ball's picture by its own camera alone is copied: where that sees the scene
+  /// from the ball, one part may hide another that the ball's centre sees.
+  Result<ViewPlan> plan_display_view(const ViewSettings& view) const {
+    if (view.kind != optics::ViewKind::Ball || view.sources.size() != 1) return plan_view(view);
+    optics::Rig rig = site_.rig;
+    rig.scene = {};
+    return plan_view(view, rig);
   }
 
   /// Errors name the recipe's file.
@@ -64,6 +59,22 @@ class Builder {
   }
 
  private:
+  Result<ViewPlan> plan_view(const ViewSettings& view, const optics::Rig& rig) const {
+    std::vector<ViewSource> sources;
+    for (const SourceSettings& source : view.sources) {
+      const std::size_t camera = source.camera.index;
+      auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
+      if (!ball) return tl::unexpected(ball.error());
+      sources.push_back({camera, formats_[camera], std::move(*ball), source.weight,
+                         colour_map(source), source.sharpness});
+    }
+    auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
+    if (!projection) return fail("view " + view.name + ": " + projection.error().message);
+    return ViewPlan{view.index,   view.name,          std::move(*projection), std::move(sources),
+                    view.combine, view.interpolation, std::nullopt,           0,
+                    view.match};
+  }
+
   template <class T>
   Result<T> named(std::size_t recipe, Result<T> result) const {
     if (result) return result;
@@ -192,7 +203,7 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
   PipelinePlan plan;
   static_cast<PipelineSettings&>(plan) = site.site.pipeline;
   for (const ViewSettings& settings : site.site.views) {
-    auto view = builder.plan_view(settings);
+    auto view = builder.plan_display_view(settings);
     if (!view) return tl::unexpected(view.error());
     plan.views.push_back(std::move(*view));
   }
@@ -218,7 +229,7 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
   const Builder builder(site, formats, std::move(*proxy));
   Recompiled recompiled;
   for (std::size_t i = 0; i < site.site.views.size(); ++i) {
-    auto view = builder.plan_view(site.site.views[i]);
+    auto view = builder.plan_display_view(site.site.views[i]);
     if (!view) return tl::unexpected(view.error());
     if (uses(view->sources, camera)) recompiled.sources[i] = std::move(view->sources);
   }
@@ -248,7 +259,7 @@ Result<> check_site(const Resolved& site, Dates dates) {
   if (!proxy) return tl::unexpected(proxy.error());
   const Builder builder(site, formats, std::move(*proxy));
   for (const ViewSettings& view : site.site.views) {
-    if (const auto planned = builder.plan_view(view); !planned) {
+    if (const auto planned = builder.plan_display_view(view); !planned) {
       return tl::unexpected(planned.error());
     }
   }

@@ -11,6 +11,18 @@
 namespace orbwatch::app {
 namespace {
 
+/// As PublishedView has it. Null for other views; what the rig makes impossible, build() refuses.
+std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
+                                                      const ViewSettings& view) {
+  if (view.kind != optics::ViewKind::Ball || view.sources.size() != 1) return nullptr;
+  const SourceSettings& source = view.sources.front();
+  const auto ball = optics::ball_projection(site.rig, site.rig_camera(source.camera.index));
+  if (!ball) return nullptr;
+  auto projection = optics::ViewProjection::make(view.spec(), *ball);
+  if (!projection) return nullptr;
+  return std::make_shared<const optics::ViewProjection>(std::move(*projection));
+}
+
 SinkContext make_context(const Resolved& site, CommandHandler handler,
                          std::shared_ptr<CommandRecord> record,
                          std::shared_ptr<hal::SharedThreads> background) {
@@ -22,9 +34,10 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
                       std::move(background),
                       state_folder(site.site.state_folder)};
   context.views.resize(site.names.views.size());
-  const auto publish = [&context](const ViewSettings& view, bool measured) {
+  const auto publish = [&context, &site](const ViewSettings& view, bool measured) {
     const bool perspective = view.kind == optics::ViewKind::Perspective;
-    context.views[view.index] = {view.encoding, perspective, measured};
+    context.views[view.index] = {view.encoding, perspective, measured,
+                                 measured ? nullptr : ball_of(site, view)};
   };
   for (const ViewSettings& view : site.site.views) publish(view, false);
   for (const Recipe& recipe : site.recipes) {

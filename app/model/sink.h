@@ -14,6 +14,7 @@
 #include "hal/thread/shared_threads.h"
 #include "proc/image/pixel_format.h"
 #include "proc/image/result.h"
+#include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
 
@@ -22,6 +23,8 @@ struct PublishedView {
   PixelFormat encoding = PixelFormat::Rgb;  ///< or Bgr or Grey
   bool perspective = true;                  ///< a pinhole camera describes it
   bool measured = true;                     ///< it has a plane that is measured
+  /// Of a display view, one camera's own picture of its ball: where that shows the room; else null.
+  std::shared_ptr<const optics::ViewProjection> ball = nullptr;
 };
 
 class CommandRecord;

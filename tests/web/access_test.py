@@ -103,7 +103,7 @@ class Access(unittest.TestCase):
         self.expect_live()
         self.appliance.stop()
         eventually("the page says so", lambda: "No connection" in self.browser.text("#condition"))
-        self.appliance.start()
+        self.appliance.start(self.appliance.is_healthy)
         eventually("the page shows the state again",
                    lambda: "running" in self.browser.text("#condition"))
         self.assertEqual(self.session()["user"], "admin")

@@ -47,19 +47,29 @@ class Appliance:
         (self.folder / "demo.toml").write_text(site, encoding="utf-8")
         self.daemon = None
 
-    def start(self):
+    def start(self, is_up=None):
+        """Until `is_up`, by default runs(), which needs no log-in as long as there are no users."""
         log = open(self.folder / "log", "ab")
         self.daemon = subprocess.Popen(
             [ROOT / "build/release/app/orbwatchd", "--config", self.folder / "demo.toml"],
             stdout=log, stderr=log, env={**os.environ, "CYCLONEDDS_URI": ""})
         log.close()
-        eventually("the daemon runs", self.runs)
+        eventually("the daemon runs", is_up or self.runs)
 
     def runs(self):
         if self.daemon.poll() is not None:
             raise AssertionError((self.folder / "log").read_text(encoding="utf-8"))
         try:
             return self.status()["system"]["state"] == 1
+        except OSError:
+            return False
+
+    def is_healthy(self):
+        if self.daemon.poll() is not None:
+            raise AssertionError((self.folder / "log").read_text(encoding="utf-8"))
+        try:
+            with urllib.request.urlopen(self.address + "healthz", timeout=PATIENCE_S):
+                return True
         except OSError:
             return False
 

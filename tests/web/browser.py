@@ -16,11 +16,11 @@ ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--dis
 
 
 class Browser(webdriver.Chrome):
-    def __init__(self):
+    def __init__(self, more_arguments=()):
         options = Options()
         options.binary_location = "/usr/bin/chromium"
         self.profile = tempfile.TemporaryDirectory()
-        for argument in [*ARGUMENTS, f"--user-data-dir={self.profile.name}"]:
+        for argument in [*ARGUMENTS, *more_arguments, f"--user-data-dir={self.profile.name}"]:
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         super().__init__(service=Service("/usr/bin/chromedriver"), options=options)

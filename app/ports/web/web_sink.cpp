@@ -60,6 +60,7 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       threads_(context.background),
       asked_(names_.views.size()),
       commands_(context.handler, context.record),
+      look_around_(context.names, context.views, context.background),
       audit_(context.state_folder),
       access_(context.state_folder, {settings_.session_idle, settings_.session_longest}),
       desk_(access_, audit_, settings_.session_longest),
@@ -107,13 +108,15 @@ void WebSink::stop() {
   thread_.stop();
   server_.reset();
   commands_.stop();
+  look_around_.stop();
   desk_.stop();
   access_.stop();
   for (const auto& view : views_) view->stop();
 }
 
 std::chrono::nanoseconds WebSink::cpu_time() const {
-  std::chrono::nanoseconds time = thread_.cpu_time() + commands_.cpu_time() + desk_.cpu_time();
+  std::chrono::nanoseconds time =
+      thread_.cpu_time() + commands_.cpu_time() + look_around_.cpu_time() + desk_.cpu_time();
   for (const auto& view : views_) time += view->cpu_time();
   return time;
 }
@@ -189,6 +192,7 @@ std::vector<web::Route> WebSink::make_routes() {
        std::string(web::LiveStream::kType), by(&WebSink::serve_live), web::ViewArgument::Any},
   };
   std::ranges::move(desk_.routes(), std::back_inserter(routes));
+  std::ranges::move(look_around_.routes(), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
   std::ranges::move(page_routes(), std::back_inserter(routes));
   return routes;

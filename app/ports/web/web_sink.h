@@ -13,6 +13,7 @@
 #include "app/ports/web/access/audit.h"
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/http/server.h"
+#include "app/ports/web/look_around/look_around.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/status/web_statistics.h"
 #include "app/ports/web/streams/mjpeg_stream.h"
@@ -87,6 +88,7 @@ class WebSink final : public Sink {
   web::ServerCounts server_counts_;
   web::StreamCounts stream_counts_;
   web::CommandRunner commands_;
+  web::LookAround look_around_;
   web::Audit audit_;
   web::Access access_;
   web::AccessDesk desk_;

@@ -1,14 +1,14 @@
 // Views, tiled, each with the age of what is seen.
 import { element, setText } from "./elements.js";
 import { Keyed } from "./figures.js";
+import { NewestPicture } from "./newest_picture.js";
 import { texts } from "./texts.js";
 
 const kStaleMs = 2000;
 
 class Tile {
   #latest = null; // {age_ms, received} of the picture that is shown
-  #waiting = null;
-  #isDecoding = false;
+  #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
 
   constructor(name) {
     this.name = name;
@@ -26,23 +26,16 @@ class Tile {
           href: `/snapshot.jpg?view=${encodeURIComponent(name)}` }, texts.snapshot), full));
   }
 
-  // While a picture is decoded only the newest waits.
-  async show(message) {
-    this.#waiting = message;
-    if (this.#isDecoding) return;
-    this.#isDecoding = true;
-    while (this.#waiting) {
-      const { head, body, received } = this.#waiting;
-      this.#waiting = null;
-      const picture = await createImageBitmap(new Blob([body], { type: "image/jpeg" }));
-      if (this.canvas.width !== picture.width) this.canvas.width = picture.width;
-      if (this.canvas.height !== picture.height) this.canvas.height = picture.height;
-      this.canvas.getContext("2d").drawImage(picture, 0, 0);
-      picture.close();
-      this.canvas.dataset.number = head.number;
-      this.#latest = { age_ms: head.age_ms, received };
-    }
-    this.#isDecoding = false;
+  show(message) {
+    return this.#pictures.show(message);
+  }
+
+  #draw(picture, { head, received }) {
+    if (this.canvas.width !== picture.width) this.canvas.width = picture.width;
+    if (this.canvas.height !== picture.height) this.canvas.height = picture.height;
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    this.canvas.dataset.number = head.number;
+    this.#latest = { age_ms: head.age_ms, received };
   }
 
   tick(faults) {
@@ -80,7 +73,11 @@ export class Live {
       this.choices.append(element("label", {}, box, " ", name));
       this.tiles.get(name);
     }
-    this.#report();
+    this.onChoice();
+  }
+
+  get views() {
+    return [...(this.#chosen ?? [])].filter(([, is]) => is).map(([name]) => name);
   }
 
   picture(message) {
@@ -90,10 +87,7 @@ export class Live {
   #choose(name, isChosen) {
     this.#chosen.set(name, isChosen);
     this.tiles.get(name).root.hidden = !isChosen;
-    this.#report();
-  }
-  #report() {
-    this.onChoice([...this.#chosen].filter(([, is]) => is).map(([name]) => name));
+    this.onChoice();
   }
   #tick() {
     for (const [name, is] of this.#chosen ?? []) if (is) this.tiles.get(name).tick(this.#faults);

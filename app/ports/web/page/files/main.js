@@ -2,6 +2,7 @@ import { admit, askAgain } from "./access.js";
 import { describeFigures } from "./api.js";
 import { element, setText } from "./elements.js";
 import { Live } from "./live.js";
+import { Look } from "./look.js";
 import { Process } from "./process.js";
 import { Stream } from "./stream.js";
 import { System } from "./system.js";
@@ -58,21 +59,26 @@ function showCondition(status) {
 await admit(() => say(texts.connecting, true));
 addPages();
 const figures = await figuresOfAppliance();
-const live = new Live(document.getElementById("live"), (views) => stream.choose(views));
+const choose = () => stream.choose(look.isShown ? look.views : live.views);
+const live = new Live(document.getElementById("live"), choose);
+const look = new Look(document.getElementById("look"), choose);
 const process = new Process(document.getElementById("process"), figures);
 const system = new System(document.getElementById("system"), figures);
 const stream = new Stream(
   (message) => {
-    if (message.head.kind === "view") return live.picture(message);
+    if (message.head.kind === "view") return (look.isShown ? look : live).picture(message);
     const status = JSON.parse(new TextDecoder().decode(message.body));
     showCondition(status);
     live.status(status);
+    look.status(status);
     process.status(status, message.received);
     system.status(status);
   },
   () => {
     say(texts.connecting, true);
+    look.lost();
     askAgain();
   },
 );
-stream.choose([]);
+addEventListener("hashchange", choose);
+choose();

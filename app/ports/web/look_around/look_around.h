@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "app/model/sink.h"
+#include "app/ports/web/http/exchange.h"
+#include "app/ports/web/routes.h"
+#include "hal/thread/shared_threads.h"
+
+namespace orbwatch::app::web {
+
+/// Serves what browsers need to draw views of the room from a ball's picture by themselves. A mesh
+/// is computed when it is first asked for, on shared threads, and kept: calibration and scene
+/// change with a restart only. Thread rule: stop by the owner; the routes on any thread.
+class LookAround {
+ public:
+  LookAround(const StatusNames& names, const std::vector<PublishedView>& views,
+             std::shared_ptr<hal::SharedThreads> threads);
+
+  std::vector<Route> routes();
+
+  /// Waits for the computation under way; what still waits is left to its deadline.
+  void stop() { work_.cancel(); }
+  std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
+
+ private:
+  struct Sphere {
+    std::string name;  ///< of the view
+    std::shared_ptr<const optics::ViewProjection> view;
+    Bytes mesh;                        ///< null: not computed yet; under mutex_
+    std::string tag;                   ///< of the mesh; under mutex_
+    std::vector<ExchangePtr> waiting;  ///< under mutex_
+  };
+
+  void serve_list(const ExchangePtr& exchange) const;
+  void serve_mesh(const ExchangePtr& exchange);
+  void compute();
+  static void answer(const ExchangePtr& exchange, const Bytes& mesh, const std::string& tag);
+
+  std::string list_;  ///< the answer of serve_list()
+  std::mutex mutex_;
+  std::vector<Sphere> spheres_;
+  hal::SharedThreads::Work work_;
+};
+
+}  // namespace orbwatch::app::web

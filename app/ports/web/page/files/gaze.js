@@ -1,0 +1,99 @@
+// Where somebody looks, and how mouse, wheel, fingers and keys turn it.
+
+const kNarrowest = 5, kWidest = 140; // degrees
+const kKeyShare = 0.05; // of the field of view per key
+const kZoom = 1.1; // per key
+const kWheelZoom = 0.0015; // per pixel that the wheel says
+const kRadians = Math.PI / 180;
+
+const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
+
+export class Gaze {
+  yaw = 0; // degrees, as everywhere in orbwatch: from +Y towards +X
+  pitch = 0;
+  fov = 90; // horizontal
+
+  #home = null;
+
+  constructor(onChange) {
+    this.onChange = onChange;
+  }
+
+  // Looks where the camera sees best, unless somebody has turned it already.
+  begin([x, y, z]) {
+    if (this.#home) return;
+    this.#home = { yaw: Math.atan2(x, y) / kRadians, pitch: Math.asin(z) / kRadians, fov: 90 };
+    this.reset();
+  }
+  reset() {
+    const { yaw, pitch, fov } = this.#home ?? { yaw: 0, pitch: 0, fov: 90 };
+    this.look(yaw, pitch, fov);
+  }
+
+  look(yaw, pitch, fov) {
+    this.yaw = ((((yaw + 180) % 360) + 360) % 360) - 180;
+    this.pitch = clamp(pitch, -90, 90);
+    this.fov = clamp(fov, kNarrowest, kWidest);
+    this.onChange();
+  }
+  turn(yaw, pitch) {
+    this.look(this.yaw + yaw, this.pitch + pitch, this.fov);
+  }
+  zoom(factor) {
+    this.look(this.yaw, this.pitch, this.fov / factor);
+  }
+
+  // Columns of right, up and forward, and the tangent of half the field of view.
+  get view() {
+    const a = this.yaw * kRadians, b = this.pitch * kRadians;
+    const [sa, ca, sb, cb] = [Math.sin(a), Math.cos(a), Math.sin(b), Math.cos(b)];
+    return {
+      axes: [ca, -sa, 0, -sa * sb, -ca * sb, cb, sa * cb, ca * cb, sb],
+      tangent: Math.tan((this.fov * kRadians) / 2),
+    };
+  }
+}
+
+export function followGestures(canvas, gaze) {
+  const fingers = new Map(); // by pointer
+  const spread = () => {
+    const [a, b] = [...fingers.values()];
+    return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const last = fingers.get(event.pointerId);
+    if (!last) return;
+    const before = spread();
+    const here = { x: event.offsetX, y: event.offsetY };
+    fingers.set(event.pointerId, here);
+    const share = gaze.fov / canvas.clientWidth / fingers.size;
+    gaze.turn((last.x - here.x) * share, (here.y - last.y) * share);
+    if (before > 0 && spread() > 0) gaze.zoom(spread() / before);
+  });
+  for (const end of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(end, (event) => fingers.delete(event.pointerId));
+  }
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    gaze.zoom(Math.exp(-event.deltaY * kWheelZoom));
+  }, { passive: false });
+  canvas.addEventListener("keydown", (event) => {
+    const step = gaze.fov * kKeyShare;
+    const done = {
+      ArrowLeft: () => gaze.turn(-step, 0),
+      ArrowRight: () => gaze.turn(step, 0),
+      ArrowUp: () => gaze.turn(0, step),
+      ArrowDown: () => gaze.turn(0, -step),
+      "+": () => gaze.zoom(kZoom),
+      "-": () => gaze.zoom(1 / kZoom),
+      Home: () => gaze.reset(),
+    }[event.key];
+    if (!done || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    done();
+  });
+}

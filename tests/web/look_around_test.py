@@ -1,0 +1,257 @@
+"""Views of the room that the browser draws, beside those of the appliance."""
+
+import base64
+import json
+import os
+import unittest
+import urllib.request
+
+import cv2
+import numpy
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from appliance import PATIENCE_S, eventually
+from browser import AXE, Browser
+from rendered_machine import PICTURES, RenderedMachine
+
+WITH_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+WITHOUT_WEBGL = ["--disable-3d-apis"]
+NEAR_BLIND_CONE_DEG = 6
+
+
+class LookingAround(unittest.TestCase):
+    QUALITY = 100  # what JPEG loses is not the drawing's
+    ARGUMENTS = WITH_WEBGL
+
+    @classmethod
+    def setUpClass(cls):
+        if not PICTURES.exists():
+            if os.environ.get("ORBWATCH_ACCEPTANCE"):
+                raise AssertionError(f"missing: {PICTURES}")
+            raise unittest.SkipTest(f"skipped, missing: {PICTURES}")
+        cls.appliance = RenderedMachine(cls.QUALITY)
+        cls.addClassCleanup(cls.appliance.close)
+        cls.appliance.start()
+
+    def setUp(self):
+        self.browser = Browser(self.ARGUMENTS)
+        self.addCleanup(self.browser.close_all)
+
+    def open(self):
+        self.browser.get(f"{self.appliance.address}#/look")
+        eventually("there is a canvas",
+                   lambda: self.browser.find_elements(By.CSS_SELECTOR, "#look canvas"))
+        # The product's view has that size.
+        self.browser.execute_script(
+            "const style = document.querySelector('#look canvas').style;"
+            "style.width = `${arguments[0]}px`; style.height = `${arguments[1]}px`;",
+            RenderedMachine.WIDTH, RenderedMachine.HEIGHT)
+        eventually("the canvas shows a picture",
+                   lambda: int(self.canvas.get_dom_attribute("data-number") or 0) > 0)
+
+    @property
+    def canvas(self):
+        return self.browser.find_element(By.CSS_SELECTOR, "#look canvas")
+
+    def get(self, path):
+        with urllib.request.urlopen(self.appliance.address + path, timeout=PATIENCE_S) as answer:
+            return answer.read()
+
+    def point(self, view, yaw, pitch, h_fov):
+        views = [one["name"] for one in self.appliance.status()["views"]]
+        body = {"view": views.index(view), "yaw": yaw, "pitch": pitch, "h_fov": h_fov}
+        request = urllib.request.Request(
+            self.appliance.address + "api/v1/command/point_view", json.dumps(body).encode(),
+            {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
+            self.assertEqual(answer.status, 200)
+
+    def choose(self, **values):
+        """Sets controls by their names."""
+        for name, value in values.items():
+            self.browser.execute_script("""
+                const control = document.querySelector(`#look [name=${arguments[0]}]`);
+                if (control.type === 'checkbox') control.checked = arguments[1];
+                else control.value = arguments[1];
+                control.dispatchEvent(new Event('input'));
+                control.dispatchEvent(new Event('change'));""", name, value)
+
+    def gaze(self):
+        """Yaw, pitch and field of view of what the canvas shows, once it follows no more."""
+        self.browser.execute_async_script(
+            "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
+        return [float(self.canvas.get_dom_attribute(f"data-{name}"))
+                for name in ("yaw", "pitch", "fov")]
+
+    def drawn(self):
+        """The canvas in grey."""
+        url = self.browser.execute_script("return arguments[0].toDataURL('image/png')", self.canvas)
+        png = numpy.frombuffer(base64.b64decode(url.split(",")[1]), numpy.uint8)
+        return cv2.imdecode(png, cv2.IMREAD_GRAYSCALE)
+
+    def snapshot(self, view):
+        jpeg = numpy.frombuffer(self.get(f"snapshot.jpg?view={view}"), numpy.uint8)
+        return cv2.imdecode(jpeg, cv2.IMREAD_GRAYSCALE)
+
+    def beyond_blind_cone(self):
+        """How far each pixel is from camera A's blind cone, degrees; below 0 within."""
+        head = json.loads(self.get("api/v1/sphere?view=ball").split(b"\n", 1)[0])
+        away = self.appliance.angle_from([-x for x in head["facing"]], *self.gaze())
+        return away - self.appliance.blind_half_angle
+
+
+class WebGl(LookingAround):
+    def drag(self, x, y):
+        ActionChains(self.browser).drag_and_drop_by_offset(self.canvas, x, y).perform()
+
+    def expect_alike(self, view, where, least):
+        """The appliance's view shows what the canvas does; its picture may be of before the command
+        that pointed it, so that it is asked for again."""
+        shares = []
+
+        def is_alike():
+            difference = cv2.absdiff(self.drawn(), self.snapshot(view))
+            shares.append(float(numpy.mean(difference[where] <= 2)))
+            return shares[-1] >= least
+        try:
+            eventually("the appliance's view is the browser's", is_alike)
+        finally:
+            yaw, pitch, fov = self.gaze()
+            print(f"{view} at yaw {yaw:.1f} pitch {pitch:.1f}, {fov:.0f} deg wide, JPEG quality "
+                  f"{self.QUALITY}: {100 * max(shares):.2f} % alike of {numpy.mean(where):.2f}")
+
+    def test_draws_what_the_appliance_draws(self):
+        self.open()
+        self.choose(second="", blind=False)
+        for x, y, zoom in [(0, 0, ""), (400, 0, ""), (400, 150, ""), (-300, -250, ""),
+                           (300, 0, "+++++"), (-400, 0, "----------")]:
+            self.drag(x, y)
+            if zoom:
+                self.canvas.send_keys(zoom)
+            gaze = self.gaze()
+            with self.subTest(gaze=gaze):
+                where = self.beyond_blind_cone() > NEAR_BLIND_CONE_DEG
+                self.assertGreater(numpy.mean(where), 0.5)
+                self.point("turned", *gaze)
+                self.expect_alike("turned", where, 0.99)
+        self.browser.keep_picture("look")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_each_camera_fills_the_others_blind_cone(self):
+        self.open()
+        self.choose(second="heat", mix=0, blind=False)
+        head = json.loads(self.get("api/v1/sphere?view=heat").split(b"\n", 1)[0])
+        facing = head["facing"]
+        while True:  # to where the thermal camera sees best
+            yaw, pitch, _ = self.gaze()
+            wanted = numpy.degrees([numpy.arctan2(facing[0], facing[1]), numpy.arcsin(facing[2])])
+            off = [(wanted[0] - yaw + 180) % 360 - 180, wanted[1] - pitch]
+            if max(map(abs, off)) < 5:
+                break
+            self.drag(*(int(numpy.clip(part * 10, -250, 250)) for part in (-off[0], off[1])))
+        self.point("both", *self.gaze())
+        beyond = self.beyond_blind_cone()
+        self.assertGreater(numpy.mean(beyond < -2), 0.005)
+        self.expect_alike("both", beyond < -2, 0.95)
+        self.expect_alike("both", beyond > NEAR_BLIND_CONE_DEG, 0.99)
+        only_first = self.drawn()
+        self.choose(mix=100)
+        self.gaze()
+        self.assertGreater(float(numpy.mean(cv2.absdiff(self.drawn(), only_first))), 10)
+        self.browser.keep_picture("look-thermal")
+
+    def test_keys_wheel_and_fingers_turn_it(self):
+        self.open()
+        yaw, pitch, fov = self.gaze()
+        self.canvas.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_UP)
+        self.assertAlmostEqual(self.gaze()[0], yaw + fov / 20, 6)
+        self.assertAlmostEqual(self.gaze()[1], pitch + fov / 20, 6)
+        self.canvas.send_keys("+")
+        self.assertAlmostEqual(self.gaze()[2], fov / 1.1, 6)
+        self.canvas.send_keys(Keys.HOME)
+        self.assertEqual(self.gaze(), [yaw, pitch, fov])
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.canvas)
+        ActionChains(self.browser).scroll_from_origin(
+            ScrollOrigin.from_element(self.canvas), 0, -200).perform()
+        self.assertLess(self.gaze()[2], fov)
+        self.canvas.send_keys(Keys.HOME)
+        self.pinch()
+        self.assertLess(self.gaze()[2], fov / 1.5)
+        self.assertAlmostEqual(self.gaze()[0], yaw, 0)
+
+    def pinch(self):
+        """Two fingers twice as far apart."""
+        box = self.canvas.rect
+        scroll = self.browser.execute_script("return window.scrollY")
+        x, y = box["x"] + box["width"] / 2, box["y"] - scroll + box["height"] / 2
+        for kind, distance in [("touchStart", 50), ("touchMove", 75), ("touchMove", 100),
+                               ("touchEnd", None)]:
+            points = [] if distance is None else [{"x": x - distance, "y": y, "id": 0},
+                                                  {"x": x + distance, "y": y, "id": 1}]
+            self.browser.execute_cdp_cmd("Input.dispatchTouchEvent",
+                                         {"type": kind, "touchPoints": points})
+
+    def test_marks_are_drawn(self):
+        self.open()
+        self.choose(second="", blind=False)
+        self.gaze()
+        plain = self.drawn()
+        for mark in ("resolution", "wireFrame"):
+            self.choose(**{mark: True})
+            self.gaze()
+            changed = numpy.mean(cv2.absdiff(self.drawn(), plain) > 10)
+            self.assertGreater(changed, 0.5 if mark == "resolution" else 0.001, mark)
+            self.browser.keep_picture(f"look-{mark}")
+            self.choose(**{mark: False})
+            self.gaze()
+            self.assertLess(numpy.mean(cv2.absdiff(self.drawn(), plain) > 2), 0.001)
+        # Away from where the camera sees best.
+        self.drag(440, 0), self.drag(440, 0), self.drag(440, 0), self.drag(440, 0)
+        self.gaze()
+        unmarked, beyond = self.drawn(), self.beyond_blind_cone()
+        self.choose(blind=True)
+        self.gaze()
+        differs = cv2.absdiff(self.drawn(), unmarked) > 10
+        self.assertGreater(numpy.mean(beyond < -1), 0.005)
+        self.assertGreater(numpy.mean(differs[beyond < -1]), 0.15)
+        self.assertEqual(numpy.mean(differs[beyond > NEAR_BLIND_CONE_DEG]), 0)
+        self.browser.keep_picture("look-blind")
+
+    def test_nothing_keeps_anybody_out(self):
+        if not AXE.exists() and not os.environ.get("ORBWATCH_ACCEPTANCE"):
+            self.skipTest("skipped, missing: axe-core, which npm installs")
+        self.browser.allow_scripts()
+        for scheme in ("light", "dark"):
+            self.browser.show_in(scheme)
+            self.browser.get("about:blank")
+            self.open()
+            self.assertEqual(self.browser.barriers(), [])
+
+    def test_one_stream_brings_only_what_is_shown(self):
+        self.open()
+        self.choose(second="")
+        eventually("one stream", lambda: self.appliance.status()["web"]["streams"] == 1)
+
+
+class WithoutWebGl(LookingAround):
+    ARGUMENTS = WITHOUT_WEBGL
+
+    def test_the_appliance_turns_a_view(self):
+        self.open()
+        self.assertIn("no WebGL", self.browser.text("#look"))
+        before = self.snapshot("turned")
+        done = self.appliance.status()["web"]["commands_done"]
+        self.canvas.send_keys(Keys.ARROW_RIGHT * 8)
+        eventually("it was commanded",
+                   lambda: self.appliance.status()["web"]["commands_done"] > done)
+        eventually("the view has turned",
+                   lambda: numpy.mean(cv2.absdiff(self.snapshot("turned"), before)) > 10)
+        self.browser.keep_picture("look-server")
+        self.assertEqual(self.browser.complaints(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
