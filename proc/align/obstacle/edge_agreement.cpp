@@ -90,6 +90,7 @@ Result<EdgeAgreement> EdgeAgreement::measure(const ReferenceCamera& first,
   if (!proxy) return tl::unexpected(proxy.error());
   const std::vector<Vec3> directions = downward();
   std::vector<double> stated;
+  stated.reserve(directions.size());
   for (const Vec3& direction : directions) stated.push_back(proxy->hit(direction).closeness);
 
   EdgeAgreement out;
