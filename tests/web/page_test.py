@@ -100,6 +100,28 @@ class Page(unittest.TestCase):
         self.browser.keep_picture("system")
         self.expect_no_complaint()
 
+    def test_a_picture_that_cannot_be_decoded_stops_nothing(self):
+        self.open()
+        shown = self.browser.execute_async_script("""
+            const done = arguments[0];
+            (async () => {
+              const { NewestPicture } = await import('/newest_picture.js');
+              const canvas = document.createElement('canvas');
+              const blob = await new Promise((give) => canvas.toBlob(give, 'image/jpeg'));
+              const good = new Uint8Array(await blob.arrayBuffer());
+              const shown = [];
+              const pictures = new NewestPicture((picture, { head }) => {
+                if (head.number === 2) throw new Error('not drawn');
+                shown.push(head.number);
+              });
+              const show = (number, body) => pictures.show({ head: { name: 'front', number }, body });
+              await show(1, new Uint8Array([1, 2, 3]));
+              await show(2, good).catch(() => shown.push('refused'));
+              await show(3, good);
+              done(shown);
+            })();""")
+        self.assertEqual(shown, ["refused", 3])
+
     def test_a_hidden_tab_takes_no_stream(self):
         self.open()
         self.expect_pictures(VIEWS)
