@@ -162,6 +162,7 @@ class Room {
     reflectance_ = Light{in(0.6, 1), in(0.6, 1), in(0.6, 1)};
     grain_ = in(0, 1) < 0.3 ? in(0, 0.2) : 0;
     if (settings.ball) ball_ = Sphere{{}, 1};
+    if (settings.table) stand_table(settings.seed);
   }
 
   void hang(const Vec3& axis, double radius) {
@@ -196,6 +197,32 @@ class Room {
     if (rod_) rod_->paint = rod_->paint.warmed();
   }
 
+  /// A table of its own seed, so that all else is as without it.
+  void stand_table(std::uint64_t seed) {
+    std::mt19937_64 random(mix(seed ^ 0x7ab1e));
+    const auto any = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const Vec3 size = room_.hi - room_.lo;
+    const Vec3 half{size.x * any(0.15, 0.3), size.y * any(0.15, 0.3), 0};
+    const Vec3 middle{any(room_.lo.x + half.x, room_.hi.x - half.x),
+                      any(room_.lo.y + half.y, room_.hi.y - half.y), 0};
+    const double top = std::min(-1.6, room_.lo.z * any(0.4, 0.85));
+    const double patch = norm(size) / 12;
+    table_ = Box{{middle.x - half.x, middle.y - half.y, room_.lo.z},
+                 {middle.x + half.x, middle.y + half.y, top}};
+    blocks_.push_back({*table_, {a_paint(patch), a_paint(patch), a_paint(patch)}});
+  }
+
+  /// nullopt: none, or it was in the way.
+  std::optional<optics::Box> table() const {
+    const bool stands = table_ && std::ranges::any_of(blocks_, [this](const Block& b) {
+                          return norm(b.box.lo - table_->lo) + norm(b.box.hi - table_->hi) == 0;
+                        });
+    if (!stands) return std::nullopt;
+    return optics::Box{table_->lo, table_->hi};
+  }
+
   /// The walls and boxes.
   optics::Scene scene() const {
     optics::Scene scene;
@@ -203,6 +230,15 @@ class Room {
     scene.walls = {room_.lo, room_.hi};
     for (const Block& block : blocks_) scene.obstacles.push_back({block.box.lo, block.box.hi});
     return scene;
+  }
+
+  /// What a ray meets by the ball.
+  std::optional<Vec3> mirrored(const Ray& ray) const {
+    const double hit = entry(ray, *ball_);
+    if (hit == kNever || hit > end(ray).distance) return std::nullopt;
+    const Vec3 normal = ray.at(hit);
+    const Ray onward{normal, ray.direction - normal * (2 * dot(ray.direction, normal))};
+    return onward.at(end(onward).distance);
   }
 
   /// What arrives along a ray from outside of everything.
@@ -310,6 +346,7 @@ class Room {
   std::vector<Marble> marbles_;
   std::vector<Lamp> lamps_;
   std::optional<Sphere> ball_;
+  std::optional<Box> table_;
   std::optional<Tube> rod_;
   Light reflectance_;
   double grain_ = 0;  ///< share of light that the ball scatters
@@ -438,7 +475,8 @@ MirrorRoomPicture picture(const Room& room, const Camera& camera,
           camera.focal_length,
           ball,
           camera.axes,
-          camera.position};
+          camera.position,
+          {}};
 }
 
 }  // namespace
@@ -479,10 +517,15 @@ MirrorRoomPair mirror_room_pair(const MirrorRoomSettings& first, const MirrorRoo
   const auto seen = [&](const Camera& camera, const MirrorRoomSettings& settings) {
     Room shown = room;
     if (settings.thermal) shown.warm();
-    return picture(shown, camera, settings, random);
+    MirrorRoomPicture taken = picture(shown, camera, settings, random);
+    const cv::Size size(settings.width, settings.height);
+    taken.mirrored = [room, camera, size](const Vec2& pixel) {
+      return room.mirrored(camera.ray(pixel.u, pixel.v, size));
+    };
+    return taken;
   };
   const MirrorRoomPicture from_a = seen(a, first), from_b = seen(b, second);
-  return {from_a, from_b, room.scene()};
+  return {from_a, from_b, room.scene(), room.table()};
 }
 
 }  // namespace orbwatch::tests

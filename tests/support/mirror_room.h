@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -29,6 +30,7 @@ struct MirrorRoomSettings {
   double blur = 0.5;       ///< sigma, px
   bool thermal = false;    ///< 16 bit grey, 25 counts per K, else 8 bit BGR
   bool ball = true;        ///< without: the room alone
+  bool table = false;      ///< a big box on the floor, unless it is in the cameras' way
 };
 
 /// An ellipse in a picture: pixels with centres at integers.
@@ -44,6 +46,8 @@ struct MirrorRoomPicture {
   optics::Vec3 ball;        ///< camera frame, ball radii
   optics::Mat3 axes;        ///< of the camera in the room: right, down, forward
   optics::Vec3 position;    ///< of the camera in the room, ball radii
+  /// Of a pair: what a pixel shows by the ball, in the room; nullopt beside the ball.
+  std::function<std::optional<optics::Vec3>(const optics::Vec2&)> mirrored;
 };
 
 /// The share of the limb, about, that lies outside of the picture.
@@ -57,6 +61,7 @@ struct MirrorRoomPair {
   MirrorRoomPicture first;
   MirrorRoomPicture second;
   optics::Scene scene;  ///< the room's walls and boxes; its tubes and spheres are left out
+  std::optional<optics::Box> table;  ///< the last one of the scene's boxes, when it stands
 };
 
 /// The room of `first.seed`, and what hides the limb of the first camera. A thermal camera sees the

@@ -73,10 +73,11 @@ inline MirrorRoomSettings any_camera(std::uint64_t seed, bool thermal, std::mt19
 }
 
 /// A colour camera, and a second one of either kind. Outlines, lenses, radius and the room's walls
-/// and boxes are stated. `seed` draws everything.
-inline CameraPair camera_pair(std::uint64_t seed, bool thermal) {
+/// and boxes are stated. `seed` draws everything. `table`: a big box stands on the floor, too.
+inline CameraPair camera_pair(std::uint64_t seed, bool thermal, bool table = false) {
   std::mt19937_64 random(seed);
   MirrorRoomSettings first = any_camera(seed, false, random);
+  first.table = table;
   first.limb_hidden = std::uniform_real_distribution<double>(0, 0.1)(random);
   const MirrorRoomSettings second = any_camera(seed, thermal, random);
   CameraPair pair{mirror_room_pair(first, second), {}, {}, {}, {}};
