@@ -99,9 +99,7 @@ void rooms(int count, std::uint64_t first, bool table, bool boxes_stated) {
   testing::Test::RecordProperty("rooms", registered);
 }
 
-TEST(StandingBoxGate, ATableThatIsNotStated) {
-  rooms(share_of(40), 170'000, true, true);
-}
+TEST(StandingBoxGate, ATableThatIsNotStated) { rooms(share_of(40), 170'000, true, true); }
 
 TEST(StandingBoxGate, NoTable) { rooms(share_of(40), 171'000, false, true); }
 
