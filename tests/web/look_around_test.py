@@ -142,29 +142,6 @@ class WebGl(LookingAround):
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "GPU stall due to ReadPixels" not in entry["message"]], [])
 
-    def test_each_camera_fills_the_others_blind_cone(self):
-        self.open()
-        self.choose(second="heat", mix=0, blind=False)
-        head = json.loads(self.get("api/v1/sphere?view=heat").split(b"\n", 1)[0])
-        facing = head["facing"]
-        while True:  # to where the thermal camera sees best
-            yaw, pitch, _ = self.gaze()
-            wanted = numpy.degrees([numpy.arctan2(facing[0], facing[1]), numpy.arcsin(facing[2])])
-            off = [(wanted[0] - yaw + 180) % 360 - 180, wanted[1] - pitch]
-            if max(map(abs, off)) < 5:
-                break
-            self.drag(*(int(numpy.clip(part * 10, -250, 250)) for part in (-off[0], off[1])))
-        self.point("both", *self.gaze())
-        beyond = self.beyond_blind_cone()
-        self.assertGreater(numpy.mean(beyond < -2), 0.005)
-        self.expect_alike("both", beyond < -2, 0.95)
-        self.expect_alike("both", beyond > NEAR_BLIND_CONE_DEG, 0.99)
-        only_first = self.drawn()
-        self.choose(mix=100)
-        self.gaze()
-        self.assertGreater(float(numpy.mean(cv2.absdiff(self.drawn(), only_first))), 10)
-        self.browser.keep_picture("look-thermal")
-
     def test_keys_wheel_and_fingers_turn_it(self):
         self.open()
         yaw, pitch, fov = self.gaze()
