@@ -160,8 +160,12 @@ Response AccessDesk::logged_in(const Access::Token& token) const {
 }
 
 Response AccessDesk::login(Request& request) {
-  return logged_in(
-      access_.login(request.members.at("user"), request.members.at("password"), request.sent.peer));
+  const std::string& user = request.members.at("user");
+  const auto token = access_.login(user, request.members.at("password"), request.sent.peer);
+  if (token) request.user = user;
+  // Only a known name: a password may have been typed in its place.
+  request.after = role_of(user);
+  return logged_in(token);
 }
 
 Response AccessDesk::logout(Request& request) {
@@ -193,7 +197,11 @@ Response AccessDesk::set_user(Request& request) {
     if (!hashed) return error_response(503, hashed.error().message);
     hash = std::move(*hashed);
   }
-  return done_or(access_.change([&](Users& all) { return web::set_user(all, user, role, hash); }));
+  request.before = role_of(user);
+  const auto changed =
+      access_.change([&](Users& all) { return web::set_user(all, user, role, hash); });
+  if (changed) request.after = role_of(user) + (hash.empty() ? "" : ", another password");
+  return done_or(changed);
 }
 
 Response AccessDesk::remove_user(Request& request) {
