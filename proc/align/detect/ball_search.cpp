@@ -22,6 +22,9 @@ constexpr std::size_t kScales = 5;
 constexpr double kLargest = 0.62;  // radius, of the picture's short side
 /// How many places are voted for at each scale.
 constexpr std::size_t kVotes = 8;
+/// How many rings around each: what the ball shows has rings too, that may look likelier than its
+/// limb until both are fitted.
+constexpr std::size_t kRings = 3;
 /// px: radii at which limbs are compared, and at which the best one is fitted in the end.
 constexpr double kCompared = 90, kFine = 400;
 /// px: what is seen on both sides of a limb.
@@ -35,7 +38,7 @@ struct Stage {
   std::size_t most;  ///< that are fitted
   double apart;      ///< a difference() from which on two are worth a fit each
 };
-constexpr Stage kStages[]{{30, 14, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
+constexpr Stage kStages[]{{30, 18, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
 
 double mean_radius(const Outline& outline) { return (outline.rx + outline.ry) / 2; }
 
@@ -103,9 +106,10 @@ std::vector<BallSearch::Likely> BallSearch::rings() const {
     if (farthest < RingStrip::kNearest) continue;
     for (const optics::Vec2 place :
          centre_votes(slopes_of(luminance), RingStrip::kNearest, farthest, kVotes)) {
-      const Ring ring = likeliest_ring(luminance, place);
-      const Outline circle{ring.centre, ring.radius, ring.radius, 0};
-      all.push_back({Pyramid::between(circle, level, 0), ring.likeness});
+      for (const Ring& ring : likeliest_rings(luminance, place, kRings)) {
+        const Outline circle{ring.centre, ring.radius, ring.radius, 0};
+        all.push_back({Pyramid::between(circle, level, 0), ring.likeness});
+      }
     }
   }
   return all;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "proc/align/detect/limb_network.h"
@@ -25,12 +24,14 @@ class Rings {
     sums_.resize(static_cast<std::size_t>(limb_.columns));
   }
 
-  struct Best {
-    int column = 0;
-    float likeness = 0;
+  /// A circle whose centre is off by (u, v) radii.
+  struct Circle {
+    double u, v;
+    int column;
+    float likeness;
   };
-  /// With a centre off by (u, v) radii.
-  Best best(double u, double v) {
+  /// Adds those with one centre, of all radii.
+  void add(double u, double v, std::vector<Circle>& all) {
     std::ranges::fill(sums_, 0.F);
     const int end = limb_.columns - RingStrip::kBeside;
     for (std::size_t n = 0; n < cosines_.size(); ++n) {
@@ -40,9 +41,10 @@ class Rings {
       for (int k = RingStrip::kBeside; k < end; ++k)
         sums_[static_cast<std::size_t>(k)] += row[k + shift];
     }
-    const auto first = sums_.begin() + RingStrip::kBeside;
-    const auto most = std::max_element(first, sums_.begin() + end);
-    return {static_cast<int>(most - sums_.begin()), *most / static_cast<float>(limb_.parts)};
+    for (int k = RingStrip::kBeside; k < end; ++k) {
+      const float sum = sums_[static_cast<std::size_t>(k)];
+      all.push_back({u, v, k, sum / static_cast<float>(limb_.parts)});
+    }
   }
 
  private:
@@ -52,22 +54,41 @@ class Rings {
   std::vector<float> sums_;
 };
 
-}  // namespace
-
-Ring likeliest_ring(const cv::Mat& luminance, optics::Vec2 place) {
+std::vector<Ring> all_rings(const cv::Mat& luminance, optics::Vec2 place) {
   Rings rings(RingStrip(luminance, place));
-  Ring best{place, RingStrip::kNearest, std::numeric_limits<double>::lowest()};
+  std::vector<Rings::Circle> circles;
   constexpr int kSteps = static_cast<int>(kFarthestOff / kStep);
   for (int i = -kSteps; i <= kSteps; ++i) {
     for (int j = -kSteps; j <= kSteps; ++j) {
-      if (i * i + j * j > kSteps * kSteps) continue;
-      const Rings::Best here = rings.best(i * kStep, j * kStep);
-      if (!(here.likeness > best.likeness)) continue;
-      const double r = RingStrip::radius(here.column);
-      best = {{place.u + i * kStep * r, place.v + j * kStep * r}, r, here.likeness};
+      if (i * i + j * j <= kSteps * kSteps) rings.add(i * kStep, j * kStep, circles);
     }
   }
-  return best;
+  std::vector<Ring> all;
+  all.reserve(circles.size());
+  for (const Rings::Circle& circle : circles) {
+    const double r = RingStrip::radius(circle.column);
+    all.push_back({{place.u + circle.u * r, place.v + circle.v * r}, r, circle.likeness});
+  }
+  return all;
+}
+
+/// Whether two are so close to each other that a fit of one may well find the other.
+bool is_beside(const Ring& a, const Ring& b) {
+  constexpr double kApart = 0.1;  // radii
+  const double apart = std::hypot(a.centre.u - b.centre.u, a.centre.v - b.centre.v);
+  return std::max(apart, std::abs(a.radius - b.radius)) < kApart * std::min(a.radius, b.radius);
+}
+
+}  // namespace
+
+std::vector<Ring> likeliest_rings(const cv::Mat& luminance, optics::Vec2 place, std::size_t most) {
+  std::vector<Ring> all = all_rings(luminance, place), found;
+  while (found.size() < most && !all.empty()) {
+    const Ring best = *std::ranges::max_element(all, {}, &Ring::likeness);
+    found.push_back(best);
+    std::erase_if(all, [&](const Ring& other) { return is_beside(other, best); });
+  }
+  return found;
 }
 
 }  // namespace orbwatch::align

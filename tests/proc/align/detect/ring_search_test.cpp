@@ -47,10 +47,14 @@ TEST(RingStrip, UnrollsCirclesToColumns) {
   }
 }
 
+Ring likeliest(const cv::Mat& luminance, optics::Vec2 place) {
+  return likeliest_rings(luminance, place, 1).at(0);
+}
+
 TEST(RingSearch, FindsTheLimbFromAround) {
   const cv::Mat ball = painted_ball(kSize, kLimb);
   for (const auto [du, dv] : {std::array{0.0, 0.0}, {4.0, 0.0}, {-3.0, 3.0}, {0.0, -5.0}}) {
-    const Ring ring = likeliest_ring(ball, {kLimb.centre.u + du, kLimb.centre.v + dv});
+    const Ring ring = likeliest(ball, {kLimb.centre.u + du, kLimb.centre.v + dv});
     EXPECT_NEAR(ring.centre.u, kLimb.centre.u, 0.08 * kLimb.rx) << du << " " << dv;
     EXPECT_NEAR(ring.centre.v, kLimb.centre.v, 0.08 * kLimb.rx) << du << " " << dv;
     EXPECT_NEAR(ring.radius, kLimb.rx, 0.08 * kLimb.rx) << du << " " << dv;
@@ -58,14 +62,29 @@ TEST(RingSearch, FindsTheLimbFromAround) {
   }
 }
 
+TEST(RingSearch, FindsWhatElseIsAround) {
+  const auto apart = [](const Ring& a, const Ring& b) {
+    const double centres = std::hypot(a.centre.u - b.centre.u, a.centre.v - b.centre.v);
+    return std::max(centres, std::abs(a.radius - b.radius)) / std::min(a.radius, b.radius);
+  };
+  const auto rings = likeliest_rings(painted_ball(kSize, kLimb), kLimb.centre, 4);
+  ASSERT_EQ(rings.size(), 4U);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_LE(rings[i].likeness, rings[j].likeness);
+      EXPECT_GE(apart(rings[i], rings[j]), 0.1);
+    }
+  }
+}
+
 TEST(RingSearch, IsLessLikelyInNoise) {
   cv::Mat noise(kSize, CV_8U);
   cv::theRNG().state = 5;
   cv::randn(noise, 120, 30);
-  const double ball = likeliest_ring(painted_ball(kSize, kLimb), kLimb.centre).likeness;
-  EXPECT_LT(likeliest_ring(noise, {70, 52}).likeness, ball);
+  const double ball = likeliest(painted_ball(kSize, kLimb), kLimb.centre).likeness;
+  EXPECT_LT(likeliest(noise, {70, 52}).likeness, ball);
   // Beyond the picture, too.
-  EXPECT_LT(likeliest_ring(noise, {-400, 52}).likeness, ball);
+  EXPECT_LT(likeliest(noise, {-400, 52}).likeness, ball);
 }
 
 }  // namespace
