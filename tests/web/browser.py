@@ -12,7 +12,8 @@ AXE = PICTURES / "node_modules/axe-core/axe.min.js"
 # As a container's root; and nothing of its own over the network.
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
              "--disable-quic", "--no-first-run", "--disable-background-networking",
-             "--disable-component-update", "--disable-sync", "--window-size=1280,900"]
+             "--disable-component-update", "--disable-sync", "--window-size=1280,900",
+             "--enable-unsafe-swiftshader"]  # WebGL by software, without a complaint
 
 
 class Browser(webdriver.Chrome):
@@ -41,7 +42,7 @@ class Browser(webdriver.Chrome):
         """By view: the number of the picture that its canvas shows; 0: none."""
         return self.execute_script("""
             const numbers = {};
-            for (const figure of document.querySelectorAll('figure:not([hidden])')) {
+            for (const figure of document.querySelectorAll('#tiles figure:not([hidden])')) {
               const canvas = figure.querySelector('canvas');
               numbers[figure.querySelector('strong').textContent] = Number(canvas.dataset.number ?? 0);
             }
@@ -50,7 +51,7 @@ class Browser(webdriver.Chrome):
     def brightness(self, view):
         """Mean grey level of the view's canvas, and how far its pixels differ from it."""
         return self.execute_script("""
-            const named = [...document.querySelectorAll('figure')]
+            const named = [...document.querySelectorAll('#tiles figure')]
               .find((f) => f.querySelector('strong').textContent === arguments[0]);
             const canvas = named.querySelector('canvas');
             const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
