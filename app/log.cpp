@@ -1,17 +1,48 @@
 #include "app/log.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "app/log_writer.h"
+
 namespace orbwatch::app {
 
-void log_line(LogLevel level, std::string_view text) {
-  static const bool journal = std::getenv("JOURNAL_STREAM") != nullptr;
+void log_line(LogLevel level, std::string_view text, const LogFields& fields) {
+  const LogRecord record{level, text, fields};
+  if (LogWriter* const writer = LogWriter::current()) {
+    writer->write(record);
+  } else {
+    write_text(record);
+  }
+}
+
+void log_soon(LogLevel level, std::initializer_list<std::string_view> text,
+              const LogFields& fields) {
+  if (LogWriter* const writer = LogWriter::current()) {
+    writer->write_soon(level, text, fields);
+    return;
+  }
+  std::string joined;
+  for (const std::string_view part : text) joined += part;
+  write_text({level, joined, fields});
+}
+
+bool is_journal_on_stderr() {
+  const char* const stream = std::getenv("JOURNAL_STREAM");
+  struct stat file {};
+  if (stream == nullptr || ::fstat(STDERR_FILENO, &file) != 0) return false;
+  return std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino) == stream;
+}
+
+void write_text(const LogRecord& record) {
   std::string line;
-  if (journal) line = "<" + std::to_string(static_cast<int>(level)) + ">";
+  if (is_journal_on_stderr()) line = "<" + std::to_string(static_cast<int>(record.level)) + ">";
   line += "orbwatch: ";
-  line += text;
+  line += record.text;
   line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
 }

@@ -1,14 +1,42 @@
 #pragma once
 
+#include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 namespace orbwatch::app {
 
-/// Syslog's levels; journald reads them from the start of a line.
+/// Syslog's levels, which are the journal's.
 enum class LogLevel { Error = 3, Warning = 4, Info = 6 };
 
-/// Writes one line to stderr, never mixed with that of another thread. In the journal "<n>" in
-/// front is its level. Thread-safe; may wait for the terminal, so never per frame.
-void log_line(LogLevel level, std::string_view text);
+/// What a line is about: fields of the journal, to select lines by. Empty or 0: not about one.
+struct LogFields {
+  std::string_view camera{};  ///< its name in the site's files
+  std::string_view fault{};   ///< hal::word(), also of the fault that is over
+  std::uint64_t trigger = 0;  ///< number of the trigger
+};
+
+struct LogRecord {
+  LogLevel level = LogLevel::Info;
+  std::string_view text;
+  LogFields fields;
+};
+
+/// Logs one line, never mixed with that of another thread: to the process's LogWriter, or without
+/// one by write_text(). Thread-safe; allocates and may wait for the reader, so never on the frame
+/// path.
+void log_line(LogLevel level, std::string_view text, const LogFields& fields = {});
+
+/// As log_line() with the text joined, for the frame path: with a LogWriter it neither allocates
+/// nor waits for the reader. Lines too many at once are dropped and counted, a long one is cut.
+void log_soon(LogLevel level, std::initializer_list<std::string_view> text,
+              const LogFields& fields = {});
+
+/// Writes one line to stderr. Where that is the journal's, "<n>" in front is its level.
+void write_text(const LogRecord& record);
+
+/// Whether stderr is connected to the journal, by the rule of systemd.exec(5) for JOURNAL_STREAM.
+/// Not while the environment is changed.
+bool is_journal_on_stderr();
 
 }  // namespace orbwatch::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -49,6 +50,29 @@ constexpr std::string_view operator_text(Fault fault) {
   return {};
 }
 
+/// The one place of the word for each fault, for files and for the log; empty for none.
+constexpr std::string_view word(Fault fault) {
+  switch (fault) {
+    case Fault::None:
+      return "";
+    case Fault::Unplugged:
+      return "unplugged";
+    case Fault::Stalled:
+      return "stalled";
+    case Fault::ReadError:
+      return "read_error";
+    case Fault::CorruptFrame:
+      return "corrupt_frame";
+    case Fault::WrongFormat:
+      return "wrong_format";
+    case Fault::Refused:
+      return "refused";
+    case Fault::NoTimeStamps:
+      return "no_time_stamps";
+  }
+  return {};
+}
+
 /// A change of a camera's state. Fault::None: it delivers again.
 struct FaultReport {
   Fault fault = Fault::None;
@@ -75,10 +99,14 @@ struct ScriptedFault {
   std::uint64_t until = 0;
 };
 
-inline constexpr std::array kFaultWords{
-    Word{"unplugged", Fault::Unplugged}, Word{"stalled", Fault::Stalled},
-    Word{"read_error", Fault::ReadError}, Word{"corrupt_frame", Fault::CorruptFrame},
-    Word{"wrong_format", Fault::WrongFormat}};
+/// The faults that a script may have.
+inline constexpr auto kFaultWords = [] {
+  constexpr std::array kScripted{Fault::Unplugged, Fault::Stalled, Fault::ReadError,
+                                 Fault::CorruptFrame, Fault::WrongFormat};
+  std::array<Word<Fault>, kScripted.size()> words{};
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = {word(kScripted[i]), kScripted[i]};
+  return words;
+}();
 
 template <class Visitor>
 void visit(Visitor& v, ScriptedFault& fault) {

@@ -104,8 +104,8 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   if (auto started = pipeline_->start(sinks); !started) return started;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!absent_[i]) continue;
-    attempts_.add(
-        "camera " + site_.site.cameras[i].name,
+    attempts_.add_camera(
+        site_.site.cameras[i].name,
         [this, i] { return take_up(site_, i, *cameras_[i], *pipeline_); }, now);
   }
   log_line(LogLevel::Info, "runs with " + std::to_string(site_.names.cameras.size()) +
@@ -114,9 +114,11 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
                                " recipes, remap kernel " +
                                std::string(remap::default_kernel().name));
   for (const CalibrationEntry& entry : site_.alignments) {
-    log_line(LogLevel::Info, "camera " + camera_of(entry).camera + ": alignment " +
-                                 std::to_string(entry.number) + " of " + entry.time +
-                                 " counts, not the rig file's: " + entry.method);
+    const std::string camera = camera_of(entry).camera;
+    log_line(LogLevel::Info,
+             "camera " + camera + ": alignment " + std::to_string(entry.number) + " of " +
+                 entry.time + " counts, not the rig file's: " + entry.method,
+             {.camera = camera});
   }
   log_line(LogLevel::Info, commanders_text(site_.site.sinks));
   return {};

@@ -218,6 +218,7 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     plan.sync.policies[i] = site.site.cameras[i].sync;
   }
+  plan.camera_names = site.names.cameras;
   plan.formats = std::move(formats);
   return plan;
 }

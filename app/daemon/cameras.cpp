@@ -110,10 +110,11 @@ Result<PipelinePlan> open_cameras(const Resolved& site, Lines& lines) {
   return plan;
 }
 
-Result<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera, Pipeline& pipeline) {
+hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera,
+                            Pipeline& pipeline) {
   const auto missing = [&](const hal::FaultReport& fault) {
     pipeline.miss(index, fault.fault);
-    return fail("camera " + site.site.cameras[index].name + ": " + fault.detail);
+    return hal::fail(fault.fault, "camera " + site.site.cameras[index].name + ": " + fault.detail);
   };
   const auto format = open_camera(camera, site, index);
   if (!format) return missing(format.error());
@@ -122,7 +123,9 @@ Result<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera, P
     formats[index] = *format;
     auto recompiled = rebuild(site, std::move(formats), index);
     if (!recompiled) return missing({hal::Fault::WrongFormat, recompiled.error().message});
-    if (auto taken = pipeline.take_over(std::move(*recompiled)); !taken) return taken;
+    if (const auto taken = pipeline.take_over(std::move(*recompiled)); !taken) {
+      return missing({hal::Fault::Refused, taken.error().message});
+    }
   }
   if (const auto admitted = pipeline.admit(index, *format); !admitted) {
     return missing({hal::Fault::Refused, admitted.error().message});

@@ -33,6 +33,7 @@ Result<PipelinePlan> open_cameras(const Resolved& site, Lines& lines);
 /// Opens an absent camera and has the pipeline take it up; compiles its views first where it
 /// delivers another format than was expected. On the main thread. The error is also the camera's
 /// fault.
-Result<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera, Pipeline& pipeline);
+hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera,
+                            Pipeline& pipeline);
 
 }  // namespace orbwatch::app

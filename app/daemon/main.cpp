@@ -23,6 +23,8 @@
 #include "app/files/site_file.h"
 #include "app/files/trial.h"
 #include "app/log.h"
+#include "app/log_writer.h"
+#include "app/service/journal.h"
 #include "app/service/progress_notice.h"
 #include "app/service/service_manager.h"
 #include "app/version.h"
@@ -184,7 +186,8 @@ Result<> check(const std::filesystem::path& file) {
 }
 
 /// The same program with the same arguments; returns only when that fails.
-Result<> start_again(char** argv) {
+Result<> start_again(LogWriter& log, char** argv) {
+  log.flush();
   ::execv("/proc/self/exe", argv);
   return fail(std::string("cannot start again: ") + std::strerror(errno));
 }
@@ -194,6 +197,7 @@ int main(int argc, char** argv) {
   const auto arguments = parse(argc, argv, exit_code);
   if (!arguments) return exit_code;
   const sigset_t signals = block_signals();
+  LogWriter log(log_output());
   const auto kernel = remap::requested_kernel();
   Result<> result;
   if (!kernel) {
@@ -204,7 +208,8 @@ int main(int argc, char** argv) {
     result =
         choose(arguments->config)
             .and_then([&](const Chosen& chosen) { return run(chosen, signals, arguments->config); })
-            .and_then([&](bool restarts) { return restarts ? start_again(argv) : Result<>(); });
+            .and_then(
+                [&](bool restarts) { return restarts ? start_again(log, argv) : Result<>(); });
   }
   if (result) return 0;
   log_line(LogLevel::Error, result.error().message);

@@ -31,18 +31,20 @@ hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) 
 
 }  // namespace
 
-CameraGroup::CameraGroup(Cameras cameras, const Formats& formats, const CameraSet& absent,
-                         const Triggers& triggers, const hal::SyncSettings& sync)
+CameraGroup::CameraGroup(Cameras cameras, const Names& names, const Formats& formats,
+                         const CameraSet& absent, const Triggers& triggers,
+                         const hal::SyncSettings& sync)
     : sync_(cameras.size(), sync), members_(cameras.size()) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
     member.camera = std::move(cameras[i]);
+    member.name = i < names.size() ? names[i] : member.camera->info().id;
     member.format = formats[i];
     if (i < triggers.size()) member.trigger = triggers[i];
     if (member.trigger) member.camera->set_gate(stamp_with(member.trigger));
     if (member.trigger || members_.size() > 1) member.camera->require_stamps();
-    member.camera->set_on_notice([id = member.camera->info().id](const std::string& text) {
-      log_line(LogLevel::Info, std::string(id).append(": ").append(text));
+    member.camera->set_on_notice([&member](const std::string& text) {
+      log_soon(LogLevel::Info, {member.camera->info().id, ": ", text}, {.camera = member.name});
     });
     member.absent = absent[i];
     if (member.absent) miss(i, hal::Fault::Unplugged);
@@ -156,23 +158,30 @@ void CameraGroup::watch_controls(Member& member, const hal::FrameMetadata& metad
   const bool is_overdue =
       metadata.not_as_set && metadata.exposure_start - metadata.controls_as_of > kControlPatience;
   if (is_overdue && !member.is_otherwise) {
-    log_line(LogLevel::Warning, member.camera->info().id + ": its " + metadata.not_as_set +
-                                    " is another than was set; choose a value that it takes");
+    log_soon(LogLevel::Warning,
+             {member.camera->info().id, ": its ", metadata.not_as_set,
+              " is another than was set; choose a value that it takes"},
+             {.camera = member.name, .trigger = metadata.trigger.value_or(0)});
   }
   member.is_otherwise = is_overdue;
 }
 
 void CameraGroup::on_fault(std::size_t index, const hal::FaultReport& report) {
   Member& member = members_[index];
-  if (member.fault.exchange(report.fault) == report.fault) return;
+  const hal::Fault before = member.fault.exchange(report.fault);
+  if (before == report.fault) return;
   const bool is_cleared = report.fault == hal::Fault::None;
   if (!is_cleared) {
     sync_.clear(index);
     if (member.trigger) member.trigger->abandon();
   }
-  log_line(is_cleared ? LogLevel::Info : LogLevel::Warning,
-           member.camera->info().id + ": " + std::string(operator_text(report.fault)) +
-               (report.detail.empty() ? "" : " (" + report.detail + ")"));
+  const bool has_detail = !report.detail.empty();
+  log_soon(is_cleared ? LogLevel::Info : LogLevel::Warning,
+           {member.camera->info().id, ": ", operator_text(report.fault), has_detail ? " (" : "",
+            report.detail, has_detail ? ")" : ""},
+           {.camera = member.name,
+            .fault = hal::word(is_cleared ? before : report.fault),
+            .trigger = member.trigger ? member.trigger->counts().triggers : 0});
 }
 
 void CameraGroup::report(Status& status, std::optional<hal::Clock::duration> elapsed) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/model/status.h"
@@ -30,12 +31,14 @@ using CameraSet = std::bitset<kMaxCameras>;
 class CameraGroup {
  public:
   using Cameras = std::vector<std::unique_ptr<hal::Camera>>;
+  using Names = std::vector<std::string>;
   using Formats = std::vector<hal::StreamFormat>;
   using Triggers = std::vector<std::shared_ptr<hal::FrameTrigger>>;
 
-  /// 1..kMaxCameras cameras, configured to `formats` unless they are `absent`. A camera with a
-  /// trigger delivers only the frames that belong to one.
-  CameraGroup(Cameras cameras, const Formats& formats, const CameraSet& absent,
+  /// 1..kMaxCameras cameras, configured to `formats` unless they are `absent`. The log says
+  /// `names`, without them the cameras' ids. A camera with a trigger delivers only the frames that
+  /// belong to one.
+  CameraGroup(Cameras cameras, const Names& names, const Formats& formats, const CameraSet& absent,
               const Triggers& triggers, const hal::SyncSettings& sync);
 
   Result<> start();
@@ -76,6 +79,7 @@ class CameraGroup {
  private:
   struct Member {
     std::unique_ptr<hal::Camera> camera;
+    std::string name;     ///< for the log
     bool absent = false;  ///< changed on the main thread, under setting_
     hal::StreamFormat format;
     std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: it runs freely

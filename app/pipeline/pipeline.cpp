@@ -54,7 +54,8 @@ Pipeline::Pipeline(PipelinePlan plan)
     : plan_(std::move(plan)),
       formats_(plan_.formats),
       views_(all_views(plan_)),
-      cameras_(std::move(plan_.cameras), plan_.formats, plan_.absent, plan_.triggers, plan_.sync),
+      cameras_(std::move(plan_.cameras), plan_.camera_names, plan_.formats, plan_.absent,
+               plan_.triggers, plan_.sync),
       workers_(worker_count(plan_.workers, plan_.reserved_cores)),
       sharpenings_(sharpenings_of(views_)),
       pyramids_(plan_.formats, sharpenings_),
@@ -261,8 +262,9 @@ void Pipeline::count(const hal::FrameSet& set, hal::Clock::duration spent) {
   for (const Sink* sink : sinks_) sinks += sink->cpu_time();
   stages_.end_set(cameras_.capture_time(), sinks);
   if (budget_.add(spent) && budget_.overruns() == 1) {
-    log_line(LogLevel::Warning,
-             "a frame set took longer than its deadline; display views slow down");
+    log_soon(LogLevel::Warning,
+             {"a frame set took longer than its deadline; display views slow down"},
+             {.trigger = status_.trigger});
   }
 }
 

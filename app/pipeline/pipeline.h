@@ -52,6 +52,7 @@ struct Surroundings {
 /// Everything the pipeline needs; cameras are configured already, unless they are absent.
 struct PipelinePlan : PipelineSettings {
   std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< 1..kMaxCameras; the first one paces
+  std::vector<std::string> camera_names;              ///< in the site's files; none: their ids
   std::vector<hal::StreamFormat> formats;             ///< by camera; of an absent one a guess
   CameraSet absent;                                   ///< to be taken up when they come
   std::vector<std::shared_ptr<hal::FrameTrigger>>

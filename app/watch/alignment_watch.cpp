@@ -55,10 +55,12 @@ void AlignmentWatch::refer() {
       picture ? monitor_.refer_to(picture->picture) : Result<>(tl::unexpected(picture.error()));
   is_referred_ = referred.has_value();
   if (!referred) {
-    log_line(LogLevel::Warning, name_ +
-                                    ": the picture of its alignment cannot be used, the first "
-                                    "one from now on counts: " +
-                                    referred.error().message);
+    log_line(LogLevel::Warning,
+             name_ +
+                 ": the picture of its alignment cannot be used, the first "
+                 "one from now on counts: " +
+                 referred.error().message,
+             {.camera = name_});
   }
 }
 
@@ -81,10 +83,12 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
 void AlignmentWatch::keep(const Picture& picture) {
   is_referred_ = true;
   if (const auto written = keep_file(reference_, align::luminance_of(picture)); !written) {
-    log_line(LogLevel::Warning, name_ +
-                                    ": the picture of its alignment is not kept, after a "
-                                    "restart the alignment counts from then on: " +
-                                    written.error().message);
+    log_line(LogLevel::Warning,
+             name_ +
+                 ": the picture of its alignment is not kept, after a "
+                 "restart the alignment counts from then on: " +
+                 written.error().message,
+             {.camera = name_});
   }
 }
 
@@ -101,7 +105,7 @@ void AlignmentWatch::log_level(WatchLevel level) {
   if (drift_.cause != align::DriftCause::Unknown) {
     text += ", " + std::string(align::text(drift_.cause));
   }
-  log_line(level == WatchLevel::Good ? LogLevel::Info : LogLevel::Warning, text);
+  log_line(level == WatchLevel::Good ? LogLevel::Info : LogLevel::Warning, text, {.camera = name_});
 }
 
 }  // namespace orbwatch::app

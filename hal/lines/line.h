@@ -65,6 +65,19 @@ constexpr std::string_view operator_text(LineFault fault) {
   return "unknown line fault";
 }
 
+/// The one place of the word for each fault, for the log; empty for none.
+constexpr std::string_view word(LineFault fault) {
+  switch (fault) {
+    case LineFault::None:
+      return "";
+    case LineFault::Gone:
+      return "line_gone";
+    case LineFault::ReadError:
+      return "line_read_error";
+  }
+  return {};
+}
+
 /// A change of a line's state. LineFault::None: it works again.
 struct LineFaultReport {
   LineFault fault = LineFault::None;

@@ -77,7 +77,7 @@ const std::vector<Rule> kRules{
      {"tl/expected"}},
     {"app/simulation", {"proc", "hal", "app/simulation"}, {"tl/expected"}},
     {"app/service",
-     {"proc", "hal", "app/model", "app/service", "app/log.h"},
+     {"proc", "hal", "app/model", "app/service", "app/log.h", "app/log_writer.h"},
      {"systemd/", "tl/expected"}},
     {"app/state", {"proc", "hal", "app/model", "app/log.h", "app/state"}, {"tl/expected"}},
     {"app/health", {"proc", "hal", "app/model", "app/health", "app/log.h"}, {"tl/expected"}},

@@ -26,10 +26,14 @@ std::unique_ptr<hal::LineBackEnd> make_simulated(
                                                nullptr, is_connected);
 }
 
-void log_fault(const std::string& name, const hal::LineFaultReport& report) {
-  log_line(report.fault == hal::LineFault::None ? LogLevel::Info : LogLevel::Warning,
-           name + ": " + std::string(operator_text(report.fault)) +
-               (report.detail.empty() ? "" : " (" + report.detail + ")"));
+/// On the line thread. `before`: the fault until now.
+void log_fault(const std::string& name, hal::LineFault before, const hal::LineFaultReport& report) {
+  const bool is_cleared = report.fault == hal::LineFault::None;
+  const bool has_detail = !report.detail.empty();
+  log_soon(is_cleared ? LogLevel::Info : LogLevel::Warning,
+           {name, ": ", operator_text(report.fault), has_detail ? " (" : "", report.detail,
+            has_detail ? ")" : ""},
+           {.fault = word(is_cleared ? before : report.fault)});
 }
 
 }  // namespace
@@ -72,13 +76,14 @@ hal::WatchedInput& Lines::input(const std::string& name) {
 
 /// On the line thread, once it runs.
 hal::LineRetry::OnFault Lines::on_fault(std::size_t index, const std::string& name) {
-  return [this, bit = 1U << index, name](const hal::LineFaultReport& report) {
+  return [this, bit = 1U << index, name,
+          before = hal::LineFault::None](const hal::LineFaultReport& report) mutable {
     if (report.fault == hal::LineFault::None) {
       faults_ &= ~bit;
     } else {
       faults_ |= bit;
     }
-    log_fault(name, report);
+    log_fault(name, std::exchange(before, report.fault), report);
   };
 }
 

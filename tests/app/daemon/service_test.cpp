@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/app/daemon/daemon_program.h"
+#include "tests/support/journal_socket.h"
 #include "tests/support/notify_socket.h"
 
 /// `orbwatchd` as a service manager sees it.
@@ -122,6 +123,36 @@ TEST_F(Service, AWrongConfigurationLeavesTheLastGoodOneRunning) {
   EXPECT_THAT(daemon.output(), HasSubstr("the last good configuration runs"));
   ::unsetenv("ORBWATCH_CONFIG");
   ::unsetenv("STATE_DIRECTORY");
+}
+
+TEST_F(Service, TheJournalHasCameraAndFault) {
+  const std::string log = folder.path() / "daemon.log";
+  std::ofstream(log) << "";
+  struct stat file {};
+  ASSERT_EQ(::stat(log.c_str(), &file), 0);
+  const std::string config =
+      write_config(small_machine("[[camera.fault]]\nfault = \"stalled\"\nfrom = 3\nuntil = 30\n"));
+  ORBWATCH_WITHOUT_A_JOURNAL([&] {
+    const JournalSocket journal;
+    ::setenv("JOURNAL_STREAM", journal_stream_of(file).c_str(), 1);
+    Subprocess daemon({ORBWATCHD_PROGRAM, "--config", config}, log);
+    ::unsetenv("JOURNAL_STREAM");
+    const auto stalled = [](const JournalSocket::Entry& entry) {
+      return entry.contains("ORBWATCH_FAULT") && entry.at("ORBWATCH_FAULT") == "stalled";
+    };
+    auto entry = journal.await(stalled);
+    EXPECT_EQ(entry["ORBWATCH_CAMERA"], "thermal");
+    EXPECT_EQ(entry["PRIORITY"], "4");
+    EXPECT_EQ(entry["SYSLOG_IDENTIFIER"], "orbwatchd");
+    entry = journal.await(stalled);
+    EXPECT_EQ(entry["PRIORITY"], "6") << "it is over";
+    daemon.send(SIGTERM);
+    journal.await([](const JournalSocket::Entry& last) {
+      return last.at("MESSAGE") == "ended by signal 15";
+    });
+    EXPECT_EQ(daemon.wait(), 0);
+    EXPECT_EQ(daemon.output(), "") << "everything goes to the journal";
+  });
 }
 
 TEST_F(Service, AWrongConfigurationWithoutALastGoodOneIsRefused) {

@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <string>
 #include <thread>
 
+#include "app/log_writer.h"
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/pipeline.h"
 #include "hal/frame/frame_pool.h"
@@ -106,6 +108,20 @@ TEST(FramePath, DoesNotAllocate) {
     mailbox.put(std::move(view));
   }
   EXPECT_EQ(allocations, before);
+}
+
+TEST(FramePath, LogsWithoutAllocation) {
+  std::atomic<std::size_t> written = 0;
+  LogWriter log([&written](const LogRecord&) { ++written; });
+  const std::string detail(2 * LogWriter::kMaxText, 'd');
+  const std::size_t before = allocations;
+  for (std::size_t i = 0; i < 3 * LogWriter::kMaxWaiting; ++i) {
+    log_soon(LogLevel::Warning, {"colour: stalled (", detail, ")"},
+             {.camera = "colour", .fault = "stalled", .trigger = i});
+  }
+  EXPECT_EQ(allocations, before);
+  log.flush();
+  EXPECT_GE(written, LogWriter::kMaxWaiting);
 }
 
 /// Reads the counters of the pipeline's thread.

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdio>
+#include <cstdint>
 #include <mutex>
+#include <string>
 #include <string_view>
 
+#include "app/log.h"
 #include "app/ports/dds/participant/rate_limit.h"
 
 namespace orbwatch::app {
@@ -26,19 +28,25 @@ bool is_of_a_bad_sample(std::string_view message) {
   return has(": deserialization ") || (has("dropping oversize ") && has(" from remote writer "));
 }
 
+LogLevel level_of(std::uint32_t priority) {
+  if ((priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0) return LogLevel::Error;
+  return (priority & DDS_LC_WARNING) != 0 ? LogLevel::Warning : LogLevel::Info;
+}
+
+/// On any thread of Cyclone DDS or of ours that writes samples, so none waits for the log's reader.
 void write_line(void*, const dds_log_data_t* line) {
-  if (is_of_a_bad_sample(line->message)) ++malformed;
+  std::string_view message = line->message;
+  if (is_of_a_bad_sample(message)) ++malformed;
   static std::mutex mutex;
   static RateLimit budget(kLinesPerMinute, std::chrono::minutes(1));
   const std::lock_guard lock(mutex);
   const auto withheld = budget.admit(hal::Clock::now());
   if (!withheld) return;
   if (*withheld > 0) {
-    std::fprintf(stderr, "DDS: %llu log lines withheld\n",
-                 static_cast<unsigned long long>(*withheld));
+    log_soon(LogLevel::Warning, {"DDS: ", std::to_string(*withheld), " log lines withheld"});
   }
-  // The message ends with its line feed.
-  std::fprintf(stderr, "DDS: %s", line->message);
+  if (message.ends_with('\n')) message.remove_suffix(1);
+  log_soon(level_of(line->priority), {"DDS: ", message});
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace orbwatch::app {
 /// since limit_dds_log(); thread-safe.
 std::uint64_t malformed_samples();
 
-/// Sends the log of Cyclone DDS to stderr, a few lines a minute at most: the loss of a link writes
+/// Sends the log of Cyclone DDS to that of the process, a few lines a minute at most: the loss of a link writes
 /// more than a thousand. For the whole process; thread-safe, repeating it does nothing.
 void limit_dds_log();
 

@@ -24,7 +24,7 @@ TEST(LimitDdsLogTest, WhatCycloneLogsArrivesAndIsLimited) {
   // A repetition within the minute finds the budget spent.
   static bool repeated = false;
   if (!std::exchange(repeated, true)) {
-    EXPECT_EQ(log.rfind("DDS: ", 0), 0u) << log;
+    EXPECT_EQ(log.rfind("orbwatch: DDS: ", 0), 0u) << log;
   }
 }
 

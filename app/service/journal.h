@@ -1,0 +1,17 @@
+#pragma once
+
+#include "app/log_writer.h"
+
+namespace orbwatch::app {
+
+/// Fields of the journal beside those of systemd. Manuals name them: they never change.
+inline constexpr const char* kCameraField = "ORBWATCH_CAMERA";
+inline constexpr const char* kFaultField = "ORBWATCH_FAULT";
+inline constexpr const char* kTriggerField = "ORBWATCH_TRIGGER";
+
+/// Where the log of this process goes: with its fields to the journal if stderr is connected to
+/// that, else as text to stderr, and what the journal does not accept, too. Not while the
+/// environment is changed.
+LogWriter::Output log_output();
+
+}  // namespace orbwatch::app
