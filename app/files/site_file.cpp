@@ -1,12 +1,12 @@
 #include "app/files/site_file.h"
 
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 
 #include "app/pictures/picture_file.h"
+#include "hal/regular_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -36,9 +36,13 @@ Result<> keep_last_good(const std::filesystem::path& folder, const Resolved& sit
 Result<Resolved> resolve_last_good(const std::filesystem::path& folder,
                                    const std::filesystem::path& file) {
   const auto kept = kept_in(folder);
-  std::ifstream in(kept);
-  if (!in) return fail(kept.string() + ": no configuration ran here before");
-  const auto files = nlohmann::json::parse(in, nullptr, false);
+  std::error_code none;  // read_regular_file() says what is wrong
+  if (!std::filesystem::exists(kept, none) && !none) {
+    return fail(kept.string() + ": no configuration ran here before");
+  }
+  const auto json = hal::read_regular_file(kept, kMostTexts);
+  if (!json) return tl::unexpected(json.error());
+  const auto files = nlohmann::json::parse(*json, nullptr, false);
   if (!files.is_object()) return fail(kept.string() + ": is damaged");
   FileTexts texts;
   for (const auto& [path, text] : files.items()) {

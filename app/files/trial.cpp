@@ -1,11 +1,12 @@
 #include "app/files/trial.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 
+#include "app/files/text_file.h"
 #include "app/pictures/picture_file.h"
+#include "hal/regular_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -16,13 +17,15 @@ fs::path requested_in(const fs::path& folder) { return folder / "trial.json"; }
 fs::path running_in(const fs::path& folder) { return folder / "trial-running.json"; }
 
 Result<std::optional<Trial>> read(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) return std::nullopt;
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  std::error_code none;  // read_regular_file() says what is wrong
+  if (!fs::exists(file, none) && !none) return std::nullopt;
+  const auto text = hal::read_regular_file(file, kMostTexts);
+  if (!text) return tl::unexpected(text.error());
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
   try {
     Trial trial{json.at("site").get<std::string>(), {}, json.at("seconds").get<int>()};
-    for (const auto& [path, text] : json.at("files").items()) {
-      trial.texts[path] = text.get<std::string>();
+    for (const auto& [path, kept] : json.at("files").items()) {
+      trial.texts[path] = kept.get<std::string>();
     }
     return trial;
   } catch (const nlohmann::json::exception&) {

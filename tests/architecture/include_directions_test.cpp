@@ -55,7 +55,7 @@ const std::vector<Rule> kRules{
     {"app/ports/dds", port("app/ports/dds"), {"dds/", "tl/expected"}},
     {"app/ports/dds/generated", {"app/ports/dds/generated", "dds"}, {}},
     {"app/ports/dds/security",
-     {"proc/image", "app/ports/dds"},
+     {"proc/image", "hal", "app/ports/dds"},
      {"dds/", "openssl/", "tl/expected"}},
     {"app/ports/web", port("app/ports/web"), {"nlohmann/", "tl/expected"}},
     {"app/ports/web/access", port("app/ports/web"), {"nlohmann/", "sodium.h", "tl/expected"}},

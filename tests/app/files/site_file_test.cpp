@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -28,6 +29,10 @@ class LastGood : public testing::Test {
     for (const char* name : {"demo.toml", "demo-rig.toml", "demo-recipe.toml"}) {
       fs::copy_file(fs::path(ORBWATCH_SOURCE_DIR) / "platform/config" / name, folder_ / name);
     }
+  }
+  static std::string text_of(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -63,6 +68,40 @@ TEST_F(LastGood, SaysWhatIsMissing) {
   EXPECT_THAT(resolve_last_good(state_, site_).error().message, HasSubstr("is damaged"));
   write("state/last-good.json", "{\"site\": 1}");
   EXPECT_THAT(resolve_last_good(state_, site_).error().message, HasSubstr("is damaged"));
+  fs::remove(state_ / "last-good.json");
+  ASSERT_EQ(::mkfifo((state_ / "last-good.json").c_str(), 0600), 0);
+  EXPECT_THAT(resolve_last_good(state_, site_).error().message,
+              HasSubstr("last-good.json: cannot be read: is a pipe"));
+}
+
+/// A pipe without a writer would be waited for.
+TEST_F(LastGood, NoFileOfAConfigurationIsAPipeAFolderOrTooLarge) {
+  write("demo.toml", "state_folder = \"state\"\n" + text_of(site_));
+  fs::create_directories(state_);
+  write("state/calibration.toml", "");
+  ASSERT_TRUE(resolve(site_)) << resolve(site_).error().message;
+  for (const std::string name :
+       {"demo.toml", "demo-rig.toml", "demo-recipe.toml", "state/calibration.toml"}) {
+    const fs::path file = folder_ / name;
+    const std::string text = text_of(file);
+    const auto refusal = [&] {
+      const auto resolved = resolve(site_);
+      return resolved ? name + " was read" : resolved.error().message;
+    };
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    EXPECT_THAT(refusal(), HasSubstr(name + ": cannot be read: is a pipe or a device, no regular "
+                                            "file; it must be a TOML file"));
+    fs::remove(file);
+    fs::create_directory(file);
+    EXPECT_THAT(refusal(), HasSubstr(name + ": cannot be read: Is a directory"));
+    fs::remove(file);
+    write(name, text + std::string((std::size_t{1} << 20) - text.size(), '\n'));
+    EXPECT_TRUE(resolve(site_)) << name << " has 1 MiB";
+    write(name, text + std::string((std::size_t{1} << 20) + 1 - text.size(), '\n'));
+    EXPECT_THAT(refusal(), HasSubstr(name + ": cannot be read: is larger than 1024 KiB"));
+    write(name, text);
+  }
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <sys/stat.h>
 
-#include "app/ports/dds/security/key_file.h"
+#include "hal/regular_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -84,7 +84,7 @@ EnclaveFiles::EnclaveFiles(const fs::path& folder)
       permissions(folder / "permissions.p7s") {}
 
 Result<std::string> read_document(const fs::path& file, const Certificate& signer) {
-  return read_key_file(file).and_then([&](const std::string& document) {
+  return hal::read_regular_file(file).and_then([&](const std::string& document) {
     return of_file(file, verified_document(document, signer)).map_error([&](const Error& error) {
       return Error{error.message + "; it must be as " + subject_of(signer) + " signed it"};
     });
@@ -92,7 +92,7 @@ Result<std::string> read_document(const fs::path& file, const Certificate& signe
 }
 
 Result<Certificate> read_certificate(const fs::path& file) {
-  return read_key_file(file).and_then(
+  return hal::read_regular_file(file).and_then(
       [&](const std::string& pem) { return of_file(file, certificate_from_pem(pem)); });
 }
 
@@ -102,7 +102,7 @@ Result<Key> read_key(const fs::path& file) {
       (status.st_mode & S_IROTH) != 0) {
     return fail(file.string() + ": may be read by everybody, so it is no secret; chmod it to 0600");
   }
-  return read_key_file(file).and_then(
+  return hal::read_regular_file(file).and_then(
       [&](const std::string& pem) { return of_file(file, key_from_pem(pem)); });
 }
 

@@ -11,9 +11,6 @@ namespace orbwatch::app {
 /// Who may read a file besides its owner.
 enum class Readable { Owner, Everybody };
 
-/// The whole file. Error: names file and reason; larger than 1 MiB.
-Result<std::string> read_key_file(const std::filesystem::path& file);
-
 /// Creates a file that does not exist yet and flushes it to the disk. One for its owner only is
 /// never readable by others, not even while it is written. Error: names file and reason.
 Result<> write_key_file(const std::filesystem::path& file, std::string_view text,
