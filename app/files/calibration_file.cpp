@@ -117,7 +117,8 @@ Result<std::uint32_t> rig_checksum(const std::filesystem::path& rig, const FileT
 Result<std::vector<CalibrationEntry>> load_calibrations(const std::filesystem::path& file,
                                                         TextFiles& files) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error) && !error) return {};
+  const bool is_replaced = files.instead().contains(file);
+  if (!is_replaced && !std::filesystem::exists(file, error) && !error) return {};
   const auto text = files.read(file, "a TOML file");
   if (!text) return tl::unexpected(text.error());
   Finding finding{file.string(), file.parent_path()};
@@ -137,6 +138,17 @@ Result<> save_calibrations(const std::filesystem::path& file,
   const std::size_t kept = std::min(entries.size(), kMaxCalibrations);
   for (std::size_t n = entries.size() - kept; n < entries.size(); ++n) text += text_of(entries[n]);
   return write_file(file, text);
+}
+
+Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::path kept;
+  for (int n = 1; n == 1 || error == std::errc::file_exists; ++n) {
+    kept = file.string() + ".damaged-" + std::to_string(n);
+    std::filesystem::create_hard_link(file, kept, error);
+  }
+  if (error) return fail(kept.string() + ": cannot be written: " + error.message());
+  return kept;
 }
 
 std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entries,

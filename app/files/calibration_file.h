@@ -47,6 +47,10 @@ Result<std::vector<CalibrationEntry>> load_calibrations(const std::filesystem::p
 Result<> save_calibrations(const std::filesystem::path& file,
                            const std::vector<CalibrationEntry>& entries);
 
+/// Gives a damaged file a second name beside it, so that nothing is lost when it is written anew.
+/// Returns that name. Error: why it has none.
+Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file);
+
 /// What counts now for that rig: of each camera the newest entry, oldest first.
 std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entries,
                                        std::uint32_t rig);

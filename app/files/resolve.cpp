@@ -269,7 +269,9 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   if (auto done = resolve_references(resolved, name); !done) return tl::unexpected(done.error());
   resolved.checksum = files.checksum();
   resolved.texts = files.texts();
-  resolved.texts.erase(calibration_file(state_folder(resolved.site.state_folder)));
+  const auto calibration = calibration_file(state_folder(resolved.site.state_folder));
+  resolved.calibration[calibration] = resolved.texts[calibration];
+  resolved.texts.erase(calibration);
   return resolved;
 }
 

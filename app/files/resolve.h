@@ -28,6 +28,7 @@ struct Resolved {
   StatusNames names;
   std::uint32_t checksum = 0;  ///< CRC-32 of all the files
   FileTexts texts;             ///< of all hand-written files
+  FileTexts calibration;       ///< of the one file of accepted alignments; empty text: no such file
 
   const optics::RigCamera& rig_camera(std::size_t camera) const {
     return rig.cameras[rig_cameras[camera]];

@@ -15,6 +15,34 @@ std::filesystem::path kept_in(const std::filesystem::path& folder) {
   return folder / "last-good.json";
 }
 
+/// In a file of its own: what is accepted later counts with a configuration that ran before, too.
+std::filesystem::path calibration_kept_in(const std::filesystem::path& folder) {
+  return folder / "last-good-calibration.json";
+}
+
+Result<> keep(const std::filesystem::path& file, const FileTexts& texts) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [path, text] : texts) json[path.string()] = text;
+  // Comments may have any bytes.
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+  return write_file(file, json.dump(1, ' ', false, kReplace) + "\n");
+}
+
+Result<FileTexts> read_kept(const std::filesystem::path& file, const std::string& if_absent) {
+  std::error_code none;  // read_regular_file() says what is wrong
+  if (!std::filesystem::exists(file, none) && !none) return fail(file.string() + ": " + if_absent);
+  const auto text = hal::read_regular_file(file, kMostTexts);
+  if (!text) return tl::unexpected(text.error());
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object()) return fail(file.string() + ": is damaged");
+  FileTexts texts;
+  for (const auto& [path, kept] : json.items()) {
+    if (!kept.is_string()) return fail(file.string() + ": is damaged");
+    texts[path] = kept.get<std::string>();
+  }
+  return texts;
+}
+
 }  // namespace
 
 std::filesystem::path site_file(const std::filesystem::path& given) {
@@ -24,35 +52,29 @@ std::filesystem::path site_file(const std::filesystem::path& given) {
 }
 
 Result<> keep_last_good(const std::filesystem::path& folder, const Resolved& site) {
-  nlohmann::json files = nlohmann::json::object();
-  for (const auto& [path, text] : site.texts) files[path.string()] = text;
   std::error_code none;  // write_file() says what is wrong with the folder
   std::filesystem::create_directories(folder, none);
-  // Comments may have any bytes.
-  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  return write_file(kept_in(folder), files.dump(1, ' ', false, kReplace) + "\n");
+  return keep(calibration_kept_in(folder), site.calibration).and_then([&] {
+    return keep(kept_in(folder), site.texts);
+  });
 }
 
 Result<Resolved> resolve_last_good(const std::filesystem::path& folder,
                                    const std::filesystem::path& file) {
   const auto kept = kept_in(folder);
-  std::error_code none;  // read_regular_file() says what is wrong
-  if (!std::filesystem::exists(kept, none) && !none) {
-    return fail(kept.string() + ": no configuration ran here before");
-  }
-  const auto json = hal::read_regular_file(kept, kMostTexts);
-  if (!json) return tl::unexpected(json.error());
-  const auto files = nlohmann::json::parse(*json, nullptr, false);
-  if (!files.is_object()) return fail(kept.string() + ": is damaged");
-  FileTexts texts;
-  for (const auto& [path, text] : files.items()) {
-    if (!text.is_string()) return fail(kept.string() + ": is damaged");
-    texts[path] = text.get<std::string>();
-  }
-  if (!texts.contains(file)) {
+  auto texts = read_kept(kept, "no configuration ran here before");
+  if (!texts) return tl::unexpected(texts.error());
+  if (!texts->contains(file)) {
     return fail(kept.string() + ": what ran here before was not " + file.string());
   }
-  return resolve(file, texts);
+  auto with_accepted = resolve(file, *texts);
+  if (with_accepted) return with_accepted;
+  auto calibration = read_kept(calibration_kept_in(folder), "no alignments were kept");
+  if (!calibration) {
+    return fail(with_accepted.error().message + "; " + calibration.error().message);
+  }
+  texts->merge(*calibration);
+  return resolve(file, *texts);
 }
 
 }  // namespace orbwatch::app

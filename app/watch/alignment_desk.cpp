@@ -53,10 +53,23 @@ bool is_young(const std::filesystem::path& file, const std::string& camera,
          });
 }
 
-/// Accepts it into the file. Error: as load_calibrations() and save_calibrations().
-Result<int> put_in_force(const std::filesystem::path& file, const CalibrationEntry& entry) {
+/// Keeps a damaged file aside. The alignments that run.
+Result<std::vector<CalibrationEntry>> load_running(const std::filesystem::path& file,
+                                                   const FileTexts& running, const Error& damage) {
+  return keep_damaged(file).and_then([&](const std::filesystem::path& kept) {
+    log_line(LogLevel::Warning, damage.message + "; it is kept as " + kept.string());
+    TextFiles files(running);
+    return load_calibrations(file, files);
+  });
+}
+
+/// Accepts it into the file, a damaged one of which is written anew with what is `running`. Error:
+/// as load_calibrations(), keep_damaged() and save_calibrations().
+Result<int> put_in_force(const std::filesystem::path& file, const FileTexts& running,
+                         const CalibrationEntry& entry) {
   TextFiles files;
   auto entries = load_calibrations(file, files);
+  if (!entries) entries = load_running(file, running, entries.error());
   if (!entries) return tl::unexpected(entries.error());
   accept(*entries, entry);
   return save_calibrations(file, *entries).map([&] { return entries->back().number; });
@@ -330,7 +343,7 @@ CommandResult AlignmentDesk::accept(std::size_t camera) {
   if (busy_) return CommandResult::Busy;
   if (!proposals_[camera]) return CommandResult::NotPossible;
   const auto file = calibration_file(state_folder(site_.site.state_folder));
-  const auto number = put_in_force(file, *proposals_[camera]);
+  const auto number = put_in_force(file, site_.calibration, *proposals_[camera]);
   if (!number) {
     log_line(LogLevel::Error, name(camera) + ": not accepted: " + number.error().message,
              {.camera = name(camera)});

@@ -3,9 +3,11 @@
 #include <sys/ptrace.h>
 #include <sys/wait.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "app/files/calibration_file.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/support/journal_socket.h"
 #include "tests/support/notify_socket.h"
@@ -155,6 +157,53 @@ TEST_F(Service, TheJournalHasCameraAndFault) {
   });
 }
 
+std::string contents(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Nobody is at the machine who could mend a file that a power cut or an editor has damaged.
+TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
+  ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  const std::string config = write_config(small_machine());
+  std::vector<app::CalibrationEntry> entries(1);
+  entries[0].number = 1;
+  entries[0].time = "2026-11-25T10:00:00Z";
+  entries[0].method = "by hand";
+  entries[0].quality = "good";
+  entries[0].rig = app::rig_checksum(folder / "rig.toml").value();
+  entries[0].alignment.cameras.push_back({.camera = "colour"});  // as the rig has it
+  const fs::path file = app::calibration_file(folder / state_folder);
+  fs::create_directories(file.parent_path());
+  ASSERT_TRUE(app::save_calibrations(file, entries));
+  const std::string good = contents(file);
+  const std::string in_force = "camera colour: alignment 1 of 2026-11-25T10:00:00Z counts";
+  {
+    Subprocess daemon = start(config);
+    manager.await("READY=1");
+    EXPECT_THAT(daemon.output(), HasSubstr(in_force));
+    EXPECT_EQ(read("system_configuration_refused"), 0);
+  }
+  std::string without_key = good;
+  without_key.erase(without_key.find("method = "), std::strlen("method = \"by hand\"\n"));
+  for (const std::string& damaged : {without_key, good.substr(0, good.find("\"good\"") + 2)}) {
+    std::ofstream(file) << damaged;
+    Subprocess daemon = start(config);
+    EXPECT_THAT(manager.await("READY=1"), HasSubstr("calibration.toml:"));
+    EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
+    EXPECT_EQ(read("system_configuration_refused"), 1);
+    EXPECT_THAT(daemon.output(), HasSubstr(in_force));
+    EXPECT_EQ(contents(file), damaged) << "nothing is lost";
+  }
+  std::ofstream(file) << good;
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  EXPECT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
+  EXPECT_EQ(read("system_configuration_refused"), 0) << "it is mended";
+  ::unsetenv("STATE_DIRECTORY");
+}
+
 TEST_F(Service, AWrongConfigurationWithoutALastGoodOneIsRefused) {
   ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
   Subprocess daemon = start((folder / "absent.toml").string());
@@ -174,7 +223,7 @@ class Configured : public Service {
     for (const char* name : {"site.toml", "rig.toml", "recipe.toml"}) {
       fs::copy_file(folder / name, folder / "new" / name);
     }
-    std::string text = text_of(folder / "new/site.toml");
+    std::string text = contents(folder / "new/site.toml");
     text.replace(text.find("name = \"room\""), 13, "name = \"hall\"");
     std::ofstream(folder / "new/site.toml") << text;
   }
@@ -183,10 +232,6 @@ class Configured : public Service {
     ::unsetenv("STATE_DIRECTORY");
   }
 
-  static std::string text_of(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   Subprocess run() const { return Subprocess({ORBWATCHD_PROGRAM}, folder / "daemon.log"); }
   /// Exit code and output.
   std::pair<int, std::string> configure(std::vector<std::string> arguments) const {
@@ -205,7 +250,7 @@ class Configured : public Service {
     EXPECT_THAT(said, HasSubstr("-name = \"room\"\n+name = \"hall\"\n"));
     manager.await("READY=1");
     EXPECT_NE(read("system_configuration_checksum"), old_checksum);
-    EXPECT_THAT(text_of(config), HasSubstr("room"));
+    EXPECT_THAT(contents(config), HasSubstr("room"));
   }
 
   NotifySocket manager;
@@ -218,7 +263,7 @@ TEST_F(Configured, IsWrittenByItsConfirmation) {
   begin_trial("3600");
   const auto [code, said] = configure({"--confirm"});
   EXPECT_EQ(code, 0) << said;
-  EXPECT_THAT(text_of(config), HasSubstr("hall"));
+  EXPECT_THAT(contents(config), HasSubstr("hall"));
   EXPECT_EQ(configure({"--confirm"}).first, 1) << "nothing waits any more";
   const auto checksum = read("system_configuration_checksum");
   daemon.send(SIGHUP);

@@ -78,6 +78,20 @@ TEST_F(CalibrationFile, KeepsAPoseAndItsLens) {
   EXPECT_EQ(a.intrinsics->fy, 501);
 }
 
+TEST_F(CalibrationFile, KeepsEveryDamagedOneBesideIt) {
+  const auto file = calibration_file(folder.path());
+  for (const std::string text : {"first", "second"}) {
+    std::ofstream(file) << text;
+    const auto kept = keep_damaged(file);
+    ASSERT_TRUE(kept) << kept.error().message;
+    EXPECT_EQ(*kept, file.string() + (text == "first" ? ".damaged-1" : ".damaged-2"));
+    ASSERT_TRUE(save_calibrations(file, some()));
+    std::ifstream in(*kept);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), text);
+  }
+  EXPECT_FALSE(keep_damaged(folder.path() / "none.toml"));
+}
+
 TEST_F(CalibrationFile, IsEmptyWhenItDoesNotExist) {
   TextFiles files;
   const auto read = load_calibrations(folder.path() / "none.toml", files);

@@ -74,6 +74,42 @@ TEST_F(LastGood, SaysWhatIsMissing) {
               HasSubstr("last-good.json: cannot be read: is a pipe"));
 }
 
+/// Once damaged, accepted alignments are those that were kept; until then those that are there now.
+TEST_F(LastGood, HasTheAlignmentsOfNowUnlessTheyAreDamaged) {
+  write("demo.toml", "state_folder = \"state\"\n" + text_of(site_));
+  const auto good = resolve(site_);
+  ASSERT_TRUE(good) << good.error().message;
+  CalibrationEntry entry;
+  entry.rig = rig_checksum(folder_ / "demo-rig.toml").value();
+  entry.alignment.cameras.push_back({.camera = good->site.cameras.front().name});
+  fs::create_directories(state_);
+  const auto kept = [&](const std::string& method) {
+    entry.method = method;
+    std::vector<CalibrationEntry> entries;
+    accept(entries, entry);
+    ASSERT_TRUE(save_calibrations(calibration_file(state_), entries));
+  };
+  const auto method_in_force = [&]() -> std::string {
+    const auto last = resolve_last_good(state_, site_);
+    if (!last) return last.error().message;
+    return last->alignments.empty() ? "" : last->alignments.front().method;
+  };
+  kept("kept");
+  ASSERT_TRUE(keep_last_good(state_, resolve(site_).value()));
+  kept("accepted later");
+  EXPECT_EQ(method_in_force(), "accepted later");
+  write("state/calibration.toml", "nonsense = ");
+  EXPECT_EQ(method_in_force(), "kept");
+  fs::remove(state_ / "last-good-calibration.json");
+  EXPECT_THAT(method_in_force(), HasSubstr("calibration.toml:1: "));
+  EXPECT_THAT(method_in_force(), HasSubstr("no alignments were kept"));
+
+  fs::remove(state_ / "calibration.toml");
+  ASSERT_TRUE(keep_last_good(state_, resolve(site_).value()));
+  write("state/calibration.toml", "nonsense = ");
+  EXPECT_EQ(method_in_force(), "") << "none was accepted then";
+}
+
 /// A pipe without a writer would be waited for.
 TEST_F(LastGood, NoFileOfAConfigurationIsAPipeAFolderOrTooLarge) {
   write("demo.toml", "state_folder = \"state\"\n" + text_of(site_));
