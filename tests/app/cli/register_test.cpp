@@ -54,7 +54,8 @@ class Register : public CommandLine {
   /// The cameras A and B of one room, and their rig.
   void write_room(bool pose_of_b) {
     pair_ = camera_pair(501, false);
-    const auto& [a, b, scene] = pair_.room;
+    const MirrorRoomPicture &a = pair_.room.first, &b = pair_.room.second;
+    const optics::Scene& scene = pair_.room.scene;
     write("a.png", a.pixels);
     write("b.png", b.pixels);
     std::string text =
