@@ -61,7 +61,8 @@ class RenderedMachine(Appliance):
             return f'kind = "ball"\nwidth = {side(cameras[name])}\nheight = {side(cameras[name])}\n'
 
         thermal = '[[view.source]]\ncamera = "C"\nrange = [15, 60]\n'
-        colour = '[[view.source]]\ncamera = "A"\n'
+        # Sharpening would enlarge what JPEG loses of the ball's picture.
+        colour = '[[view.source]]\ncamera = "A"\nsharpness = 0\n'
         perspective = f"width = {self.WIDTH}\nheight = {self.HEIGHT}\n"
         text = f'''state_folder = "state"
 rig = "rig.toml"

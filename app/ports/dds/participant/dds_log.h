@@ -9,8 +9,8 @@ namespace orbwatch::app {
 /// since limit_dds_log(); thread-safe.
 std::uint64_t malformed_samples();
 
-/// Sends the log of Cyclone DDS to that of the process, a few lines a minute at most: the loss of a link writes
-/// more than a thousand. For the whole process; thread-safe, repeating it does nothing.
+/// Sends the log of Cyclone DDS to that of the process, a few lines a minute at most: the loss of a
+/// link writes more than a thousand. For the whole process; thread-safe, repeating it does nothing.
 void limit_dds_log();
 
 }  // namespace orbwatch::app

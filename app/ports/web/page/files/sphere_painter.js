@@ -39,11 +39,20 @@ out vec4 colour;
 void main() {
   vec3 half_way = normalize(normalize(place) + facing);
   vec2 pixel = centre + vec2(dot(across, half_way), dot(down, half_way)) + beside;
-  // The mip level that the appliance would choose.
+  // As the appliance does (proc/remap): beyond a step of 1.4 px, the mean of four places in the
+  // pixel, read from the mip level below the one whose step is allowed.
   vec2 right = dFdx(pixel), below = dFdy(pixel);
   float step = sqrt(max(dot(right, right), dot(below, below)));
   float level = clamp(ceil(log2(step / 1.4)), 0.0, 3.0);
-  vec3 shown = textureLod(picture, (pixel + 0.5) / size, level).rgb;
+  vec3 shown = vec3(0);
+  if (level == 0.0) {
+    shown = textureLod(picture, (pixel + 0.5) / size, 0.0).rgb;
+  } else {
+    for (int k = 0; k < 4; ++k) {
+      vec2 point = pixel + (k < 2 ? 0.25 : -0.25) * right + (k % 2 == 0 ? 0.25 : -0.25) * below;
+      shown += 0.25 * textureLod(picture, (point + 0.5) / size, level - 1.0).rgb;
+    }
+  }
   // From 1 px per degree, blue, over green to 16, red.
   float t = clamp(log2(max(sharpness, 1.0)) / 4.0, 0.0, 1.0);
   vec3 ramp = clamp(vec3(2.0 * t - 1.0, 1.0 - abs(2.0 * t - 1.0), 1.0 - 2.0 * t), 0.0, 1.0);
