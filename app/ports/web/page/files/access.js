@@ -72,13 +72,16 @@ function showAccount({ user, role, has_users: hasUsers }) {
   account.replaceChildren(element("span", {}, name), " ", button);
 }
 
-// Returns once whoever looks may see the page; until then there is a form. For ever: the appliance
-// may start later than the page.
+// Returns the session once whoever looks may see the page; until then there is a form. For ever: the
+// appliance may start later than the page.
 export async function admit(onNoAnswer) {
   for (;;) {
     try {
       const present = await session();
-      if (present.role) return showAccount(present);
+      if (present.role) {
+        showAccount(present);
+        return present;
+      }
       showLogin();
       return new Promise(() => {});
     } catch {

@@ -23,8 +23,8 @@ export async function describeFigures() {
   return figures;
 }
 
-// Empty when it was done, else why not.
-export async function post(path, body) {
+// The answer's members, with `refused` when it was not done: why not.
+export async function answerTo(path, body) {
   try {
     const answer = await fetch(path, {
       method: "POST",
@@ -32,10 +32,12 @@ export async function post(path, body) {
       body: JSON.stringify(body),
     });
     const result = await answer.json();
-    return answer.ok ? "" : (result.error ?? result.result_text);
+    return answer.ok ? result : { refused: result.error ?? result.result_text };
   } catch (error) {
-    return error.message;
+    return { refused: error.message };
   }
 }
 
+// Empty when it was done, else why not.
+export const post = async (path, body) => (await answerTo(path, body)).refused ?? "";
 export const command = (name, body) => post(`/api/v1/command/${name}`, body);

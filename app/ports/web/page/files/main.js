@@ -3,6 +3,7 @@ import { describeFigures } from "./api.js";
 import { element, setText } from "./elements.js";
 import { Live } from "./live.js";
 import { Look } from "./look.js";
+import { People } from "./people.js";
 import { Process } from "./process.js";
 import { Stream } from "./stream.js";
 import { System } from "./system.js";
@@ -56,7 +57,7 @@ function showCondition(status) {
   say(isSilent ? texts.silent : state_text, isSilent || state !== 1);
 }
 
-await admit(() => say(texts.connecting, true));
+const { role, has_users: hasUsers } = await admit(() => say(texts.connecting, true));
 addPages();
 const figures = await figuresOfAppliance();
 const choose = () => stream.choose(look.isShown ? look.views : live.views);
@@ -64,6 +65,7 @@ const live = new Live(document.getElementById("live"), choose);
 const look = new Look(document.getElementById("look"), choose);
 const process = new Process(document.getElementById("process"), figures);
 const system = new System(document.getElementById("system"), figures);
+if (hasUsers && role === "administrator") new People(document.getElementById("system"));
 const stream = new Stream(
   (message) => {
     if (message.head.kind === "view") return (look.isShown ? look : live).picture(message);

@@ -1,0 +1,89 @@
+// For administrators: who may log in, which programs have a token, and who did what.
+import { answerTo, post } from "./api.js";
+import { element, setText } from "./elements.js";
+import { texts } from "./texts.js";
+
+const kRoles = ["viewer", "operator", "integrator", "administrator"];
+const kShownEntries = 50;
+
+function table(label, titles) {
+  const body = element("tbody");
+  const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
+  const root = element("div", { className: "scroll", tabIndex: 0, role: "group" },
+    element("table", {}, element("thead", {}, head), body));
+  root.setAttribute("aria-label", label);
+  return { root, body };
+}
+
+function field(label, properties) {
+  return element("label", {}, label, " ", element("input", { required: true, ...properties }));
+}
+
+function roleField() {
+  const select = element("select", { name: "role" }, ...kRoles.map((role) => element("option", {}, role)));
+  return element("label", {}, texts.role, " ", select);
+}
+
+export class People {
+  constructor(root) {
+    this.said = element("p", { role: "status" });
+    this.users = table(texts.people, [texts.user, texts.role, ""]);
+    this.tokens = table(texts.programs, [texts.program, texts.role, ""]);
+    this.done = table(texts.audit, [texts.when, texts.who, texts.from, texts.what, texts.before,
+                                    texts.after, texts.result]);
+    this.opened = element("details", { id: "people" }, element("summary", {}, texts.peopleTitle),
+      this.said,
+      element("h3", {}, texts.people), this.users.root,
+      this.#form(texts.setUser, "/api/v1/set_user", [
+        field(texts.user, { name: "user", autocomplete: "off" }), roleField(),
+        field(texts.newPassword(12), { name: "password", type: "password", minLength: 12,
+                                       autocomplete: "new-password" })]),
+      element("h3", {}, texts.programs), this.tokens.root,
+      this.#form(texts.createToken, "/api/v1/create_token", [
+        field(texts.program, { name: "name", autocomplete: "off" }), roleField()]),
+      element("h3", {}, texts.audit), this.done.root);
+    this.opened.addEventListener("toggle", () => this.opened.open && this.#refresh());
+    root.append(this.opened);
+  }
+
+  #form(action, path, fields) {
+    const form = element("form", {}, ...fields, element("button", {}, action));
+    form.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      const { refused, token } = await answerTo(path, Object.fromEntries(new FormData(form)));
+      if (!refused) form.reset();
+      await this.#say(refused, token ? texts.newToken(token) : texts.done);
+    });
+    return form;
+  }
+
+  async #say(refused, done) {
+    setText(this.said, refused ? texts.refused(refused) : done);
+    this.said.classList.toggle("wrong", Boolean(refused));
+    await this.#refresh();
+  }
+
+  #row({ name, role }, action, path, body) {
+    const button = element("button", { type: "button" }, action);
+    button.setAttribute("aria-label", `${action} ${name}`);
+    button.addEventListener("click", async () => this.#say(await post(path, body), texts.done));
+    return element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, role),
+      element("td", {}, button));
+  }
+
+  async #refresh() {
+    const [people, audit] = await Promise.all(["users", "audit"].map(async (what) => {
+      const answer = await fetch(`/api/v1/${what}`);
+      return answer.ok ? answer.json() : null;
+    }));
+    if (!people || !audit) return;
+    this.users.body.replaceChildren(...people.users.map((one) =>
+      this.#row(one, texts.remove, "/api/v1/remove_user", { user: one.name })));
+    this.tokens.body.replaceChildren(...people.tokens.map((one) =>
+      this.#row(one, texts.revoke, "/api/v1/revoke_token", { name: one.name })));
+    const entries = audit.slice(-kShownEntries).reverse();
+    this.done.body.replaceChildren(...entries.map((entry) => element("tr", {},
+      ...["time", "who", "from", "what", "before", "after", "result"].map((key) =>
+        element("td", {}, entry[key] ?? "")))));
+  }
+}
