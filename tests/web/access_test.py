@@ -29,9 +29,12 @@ class Access(unittest.TestCase):
         self.browser = Browser()
         self.addCleanup(self.browser.close_all)
 
+    def fields(self, name):
+        return self.browser.find_elements(By.CSS_SELECTOR, f"#access [name={name}]")
+
     def fill(self, **values):
         for name, value in values.items():
-            field = eventually(name, lambda name=name: self.browser.find_elements(By.NAME, name))[0]
+            field = eventually(name, lambda name=name: self.fields(name))[0]
             field.clear()
             field.send_keys(value)
         self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
@@ -97,7 +100,7 @@ class Access(unittest.TestCase):
 
     def test_2_nobody_gets_in_without_it(self):
         self.browser.get(self.appliance.address)
-        eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+        eventually("the form", lambda: self.fields("password"))
         self.assertEqual(self.browser.find_elements(By.TAG_NAME, "canvas"), [])
         self.browser.keep_picture("login")
         self.fill(user="admin", password="not the right one")
@@ -113,7 +116,7 @@ class Access(unittest.TestCase):
         self.fill(user="admin", password=PASSWORD)
         self.expect_live()
         self.browser.find_element(By.CSS_SELECTOR, "#account button").click()
-        eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+        eventually("the form", lambda: self.fields("password"))
         self.assertEqual(self.session()["user"], "")
 
     def test_4_a_restart_of_the_daemon_logs_nobody_out(self):
@@ -136,7 +139,7 @@ class Access(unittest.TestCase):
              "--config", self.appliance.folder / "demo.toml"],
             input=NEXT_PASSWORD + "\n", encoding="utf-8", check=True, capture_output=True)
         # The session of whoever knew the old one ends, with its stream.
-        eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+        eventually("the form", lambda: self.fields("password"))
         self.fill(user="admin", password=PASSWORD)
         eventually("the old one is refused",
                    lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
@@ -151,7 +154,7 @@ class Access(unittest.TestCase):
                 self.browser.show_in(scheme)
                 self.browser.get("about:blank")
                 self.browser.get(self.appliance.address)
-                eventually("the form", lambda: self.browser.find_elements(By.NAME, "password"))
+                eventually("the form", lambda: self.fields("password"))
                 self.assertEqual(self.browser.barriers(), [])
 
     def test_7_the_administrator_lets_others_in(self):

@@ -58,9 +58,13 @@ export class People {
   }
 
   async #say(refused, done) {
-    setText(this.said, refused ? texts.refused(refused) : done);
-    this.said.classList.toggle("wrong", Boolean(refused));
+    this.#show(refused ? texts.refused(refused) : done, Boolean(refused));
     await this.#refresh();
+  }
+
+  #show(text, isWrong) {
+    setText(this.said, text);
+    this.said.classList.toggle("wrong", isWrong);
   }
 
   #row({ name, role }, action, path, body) {
@@ -72,16 +76,18 @@ export class People {
   }
 
   async #refresh() {
-    const [people, audit] = await Promise.all(["users", "audit"].map(async (what) => {
-      const answer = await fetch(`/api/v1/${what}`);
-      return answer.ok ? answer.json() : null;
-    }));
-    if (!people || !audit) return;
+    const answers = await Promise.all(["users", "audit"].map((what) => fetch(`/api/v1/${what}`)));
+    const refused = answers.find((answer) => !answer.ok);
+    if (refused) {
+      const { error } = await refused.json();
+      return this.#show(texts.refused(error), true);
+    }
+    const [people, audit] = await Promise.all(answers.map((answer) => answer.json()));
     this.users.body.replaceChildren(...people.users.map((one) =>
       this.#row(one, texts.remove, "/api/v1/remove_user", { user: one.name })));
     this.tokens.body.replaceChildren(...people.tokens.map((one) =>
       this.#row(one, texts.revoke, "/api/v1/revoke_token", { name: one.name })));
-    const entries = audit.slice(-kShownEntries).reverse();
+    const entries = audit.entries.slice(-kShownEntries).reverse();
     this.done.body.replaceChildren(...entries.map((entry) => element("tr", {},
       ...["time", "who", "from", "what", "before", "after", "result"].map((key) =>
         element("td", {}, entry[key] ?? "")))));
