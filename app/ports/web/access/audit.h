@@ -33,7 +33,8 @@ class Audit {
   /// Complains in the log when it cannot be kept.
   void note(const Entry& entry);
 
-  /// `{"entries": [...]}` as JSON, the newest last. Lines that a power cut left in part are left out.
+  /// `{"entries": [...]}` as JSON, the newest last. Lines that a power cut left in part are left
+  /// out.
   std::string newest(std::size_t most) const;
 
  private:
