@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <mutex>
 #include <system_error>
 #include <thread>
 
@@ -19,13 +20,19 @@ namespace {
 
 constexpr int kBackgroundNice = 5;
 
-/// Of the process, as schedule_threads() set it before other threads started.
+/// Of the process, as schedule_threads() set it; the log's thread may have started before.
 struct Scheduling {
   bool by_role = false;
   bool realtime = false;
   std::vector<int> cores;
 };
-Scheduling scheduling;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+Scheduling scheduling;        // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::mutex scheduling_mutex;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+Scheduling present_scheduling() {
+  const std::lock_guard lock(scheduling_mutex);
+  return scheduling;
+}
 
 /// Of the calling thread; those that it creates itself, in a library perhaps, are as any. Returns
 /// errno, or 0.
@@ -125,18 +132,20 @@ ThreadGrants schedule_threads(const ThreadSettings& settings) {
                                 "the capability CAP_IPC_LOCK, allows it");
     }
   }
+  const std::lock_guard lock(scheduling_mutex);
   scheduling = {true, grants.realtime, settings.cores};
   return grants;
 }
 
 void schedule_this_thread(ThreadRole role) {
-  if (!scheduling.by_role) return;
+  const Scheduling present = present_scheduling();
+  if (!present.by_role) return;
   const int priority = fifo_priority(role);
-  if (priority > 0 && role != ThreadRole::Lines && !scheduling.cores.empty()) {
-    keep_to(scheduling.cores);
+  if (priority > 0 && role != ThreadRole::Lines && !present.cores.empty()) {
+    keep_to(present.cores);
   }
   // Allowed already, or without effect: schedule_threads() has said so.
-  if (priority > 0 && scheduling.realtime) run_first_in_first_out(priority);
+  if (priority > 0 && present.realtime) run_first_in_first_out(priority);
   if (role == ThreadRole::Background) {
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kBackgroundNice);
   }
