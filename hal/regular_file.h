@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
+#include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::hal {
@@ -12,5 +14,12 @@ namespace orbwatch::hal {
 /// pipe would. Error: file and reason. Reentrant.
 Result<std::string> read_regular_file(const std::filesystem::path& file,
                                       std::size_t most = std::size_t{1} << 20);
+/// The same of one that is open, with O_NONBLOCK; `file` names it in the error.
+Result<std::string> read_regular_file(const FileDescriptor& opened,
+                                      const std::filesystem::path& file,
+                                      std::size_t most = std::size_t{1} << 20);
+
+/// Writes all of it. False: errno says why. Reentrant.
+bool write_all(const FileDescriptor& file, std::string_view text);
 
 }  // namespace orbwatch::hal

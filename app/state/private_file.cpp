@@ -7,30 +7,20 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
-#include "hal/thread/file_descriptor.h"
+#include "hal/regular_file.h"
 
 namespace orbwatch::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr off_t kMostBytes = off_t{1} << 20;
 constexpr mode_t kMode = S_IRUSR | S_IWUSR;
 
 /// With errno.
 tl::unexpected<Error> cannot(const fs::path& file, const std::string& what) {
   return fail(file.string() + ": cannot be " + what + ": " + std::system_category().message(errno));
-}
-
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(file, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
 }
 
 /// The daemon has no right to read what root owns.
@@ -55,24 +45,15 @@ Result<std::optional<std::string>> read_private(const fs::path& file) {
   const hal::FileDescriptor opened(
       ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!opened.is_open() && errno == ENOENT) return std::nullopt;
+  if (!opened.is_open()) return cannot(file, "read");
+  auto text = hal::read_regular_file(opened, file);
+  if (!text) return tl::unexpected(text.error());
   struct stat about {};
-  if (!opened.is_open() || ::fstat(opened.get(), &about) != 0) return cannot(file, "read");
-  if (!S_ISREG(about.st_mode)) return fail(file.string() + ": is no regular file");
+  if (::fstat(opened.get(), &about) != 0) return cannot(file, "read");
   if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     return fail(file.string() + ": others than its owner may use it; mend it by chmod 600");
   }
-  if (about.st_size > kMostBytes) return fail(file.string() + ": is larger than 1 MiB");
-  std::string text(static_cast<std::size_t>(about.st_size), '\0');
-  std::size_t length = 0;
-  while (length < text.size()) {
-    const ssize_t count = ::read(opened.get(), text.data() + length, text.size() - length);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return cannot(file, "read");
-    if (count == 0) break;
-    length += static_cast<std::size_t>(count);
-  }
-  text.resize(length);
-  return text;
+  return std::move(*text);
 }
 
 Result<> write_private(const fs::path& file, std::string_view text) {
@@ -83,7 +64,7 @@ Result<> write_private(const fs::path& file, std::string_view text) {
   const hal::FileDescriptor written(
       ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
   const bool is_replaced = written.is_open() && give_to_owner_of(folder->get(), written.get()) &&
-                           write_all(written.get(), text) && ::fsync(written.get()) == 0 &&
+                           hal::write_all(written, text) && ::fsync(written.get()) == 0 &&
                            ::rename(unfinished.c_str(), file.c_str()) == 0 &&
                            ::fsync(folder->get()) == 0;
   if (!is_replaced) return cannot(file, "written");
