@@ -20,6 +20,10 @@ void log_line(LogLevel level, std::string_view text, const LogFields& fields) {
   }
 }
 
+void log_camera(LogLevel level, std::string_view camera, std::string_view text) {
+  log_line(level, std::string(camera).append(": ").append(text), {.camera = camera});
+}
+
 void log_soon(LogLevel level, std::initializer_list<std::string_view> text,
               const LogFields& fields) {
   if (LogWriter* const writer = LogWriter::current()) {

@@ -157,8 +157,7 @@ void AlignmentDesk::work() {
   const std::size_t camera = *std::exchange(busy_, std::nullopt);
   if (!found) {
     states_[camera] = ProposalState::Refused;
-    log_line(LogLevel::Warning, name(camera) + ": nothing found: " + found.error().message,
-             {.camera = name(camera)});
+    log_camera(LogLevel::Warning, name(camera), "nothing found: " + found.error().message);
     return;
   }
   if (!*found) {
@@ -169,10 +168,9 @@ void AlignmentDesk::work() {
   proposals_[camera] = proposal.entry;
   direction_sigmas_[camera] = proposal.direction_sigma;
   states_[camera] = ProposalState::Ready;
-  log_line(LogLevel::Info,
-           name(camera) + ": an alignment is proposed: " + proposal.entry.method + ", " +
-               proposal.entry.quality + "; accept_alignment puts it in force, with a restart",
-           {.camera = name(camera)});
+  log_camera(LogLevel::Info, name(camera),
+             "an alignment is proposed: " + proposal.entry.method + ", " + proposal.entry.quality +
+                 "; accept_alignment puts it in force, with a restart");
 }
 
 void AlignmentDesk::forget_proposal(std::size_t camera) {
@@ -244,10 +242,9 @@ AlignmentDesk::Finding AlignmentDesk::marked(std::size_t camera, const optics::V
   const auto added = points_[camera].add(point, pictures, *seen->outline);
   if (!added) return tl::unexpected(added.error());
   point_counts_[camera] = points_[camera].size();
-  log_line(LogLevel::Info,
-           name(camera) + ": a point is marked, of " + std::to_string(points_[camera].size()) +
-               " for place_camera",
-           {.camera = name(camera)});
+  log_camera(
+      LogLevel::Info, name(camera),
+      "a point is marked, of " + std::to_string(points_[camera].size()) + " for place_camera");
   return std::nullopt;
 }
 
@@ -286,9 +283,8 @@ Result<AlignmentDesk::Proposal> AlignmentDesk::placed(std::size_t camera) const 
   if (!request) return tl::unexpected(request.error());
   const auto placement = align::place(*request);
   if (!placement) return tl::unexpected(placement.error());
-  log_line(LogLevel::Info,
-           name(camera) + ": marked minus shown: " + residuals_text(*request, *placement, 0),
-           {.camera = name(camera)});
+  log_camera(LogLevel::Info, name(camera),
+             "marked minus shown: " + residuals_text(*request, *placement, 0));
   return rig_alignment(*request, *placement).map([&](const RigAlignment& alignment) {
     const align::PlacedCamera& found = placement->cameras.front();
     Proposal proposal{entry(alignment.cameras.front()), found.direction_sigma};
@@ -345,14 +341,11 @@ CommandResult AlignmentDesk::accept(std::size_t camera) {
   const auto file = calibration_file(state_folder(site_.site.state_folder));
   const auto number = put_in_force(file, site_.calibration, *proposals_[camera]);
   if (!number) {
-    log_line(LogLevel::Error, name(camera) + ": not accepted: " + number.error().message,
-             {.camera = name(camera)});
+    log_camera(LogLevel::Error, name(camera), "not accepted: " + number.error().message);
     return CommandResult::NotCarriedOut;
   }
-  log_line(
-      LogLevel::Info,
-      name(camera) + ": alignment " + std::to_string(*number) + " is accepted; restarts with it",
-      {.camera = name(camera)});
+  log_camera(LogLevel::Info, name(camera),
+             "alignment " + std::to_string(*number) + " is accepted; restarts with it");
   forget_proposal(camera);
   restart_();
   return CommandResult::Done;

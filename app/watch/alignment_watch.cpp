@@ -55,12 +55,9 @@ void AlignmentWatch::refer() {
       picture ? monitor_.refer_to(picture->picture) : Result<>(tl::unexpected(picture.error()));
   is_referred_ = referred.has_value();
   if (!referred) {
-    log_line(LogLevel::Warning,
-             name_ +
-                 ": the picture of its alignment cannot be used, the first "
-                 "one from now on counts: " +
-                 referred.error().message,
-             {.camera = name_});
+    log_camera(LogLevel::Warning, name_,
+               "the picture of its alignment cannot be used, the first one from now on counts: " +
+                   referred.error().message);
   }
 }
 
@@ -83,12 +80,10 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
 void AlignmentWatch::keep(const Picture& picture) {
   is_referred_ = true;
   if (const auto written = keep_file(reference_, align::luminance_of(picture)); !written) {
-    log_line(LogLevel::Warning,
-             name_ +
-                 ": the picture of its alignment is not kept, after a "
-                 "restart the alignment counts from then on: " +
-                 written.error().message,
-             {.camera = name_});
+    log_camera(LogLevel::Warning, name_,
+               "the picture of its alignment is not kept, after a restart the alignment counts "
+               "from then on: " +
+                   written.error().message);
   }
 }
 
@@ -100,12 +95,12 @@ void AlignmentWatch::log_level(WatchLevel level) {
   if (is_first && level == WatchLevel::Good) return;
   char error[32];
   std::snprintf(error, sizeof error, "%.2f", drift_.direction_error);
-  std::string text = name_ + ": its alignment is " + std::string(operator_text(level)) +
+  std::string text = "its alignment is " + std::string(operator_text(level)) +
                      ": views are off by " + error + " deg rms";
   if (drift_.cause != align::DriftCause::Unknown) {
     text += ", " + std::string(align::text(drift_.cause));
   }
-  log_line(level == WatchLevel::Good ? LogLevel::Info : LogLevel::Warning, text, {.camera = name_});
+  log_camera(level == WatchLevel::Good ? LogLevel::Info : LogLevel::Warning, name_, text);
 }
 
 }  // namespace orbwatch::app

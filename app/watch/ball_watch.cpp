@@ -71,10 +71,9 @@ void BallWatch::refer() {
   });
   is_referred_ = used.has_value();
   if (used) return;
-  log_line(LogLevel::Warning,
-           name_ + ": what the clean ball shows is learnt anew: " + reference_.string() + ": " +
-               used.error().message,
-           {.camera = name_});
+  log_camera(LogLevel::Warning, name_,
+             "what the clean ball shows is learnt anew: " + reference_.string() + ": " +
+                 used.error().message);
 }
 
 void BallWatch::observe(const Picture& picture, hal::TimePoint stamp, CameraWatchStatus& figures) {
@@ -113,7 +112,7 @@ void BallWatch::learn_anew() {
   is_referred_ = false;
   std::error_code error;
   std::filesystem::remove(reference_, error);
-  log_line(LogLevel::Info, name_ + ": learns what the clean ball shows", {.camera = name_});
+  log_camera(LogLevel::Info, name_, "learns what the clean ball shows");
 }
 
 /// The ball is taken to be clean when its camera is aligned.
@@ -122,12 +121,9 @@ void BallWatch::learn() {
   if (!learnt || !dirt_.use(*learnt)) return;
   is_referred_ = true;
   if (const auto saved = save(reference_, *learnt); !saved) {
-    log_line(LogLevel::Warning,
-             name_ +
-                 ": what the clean ball shows is not kept, it is learnt "
-                 "anew after a restart: " +
-                 saved.error().message,
-             {.camera = name_});
+    log_camera(LogLevel::Warning, name_,
+               "what the clean ball shows is not kept, it is learnt anew after a restart: " +
+                   saved.error().message);
   }
 }
 
@@ -136,8 +132,8 @@ void BallWatch::log_level(const char* what, WatchLevel level, WatchLevel& logged
   const bool is_first = logged == WatchLevel::NotMeasured;
   logged = level;
   if (is_first && level == WatchLevel::Good) return;
-  log_line(level == WatchLevel::Good ? LogLevel::Info : LogLevel::Warning,
-           name_ + ": its " + what + " is " + std::string(operator_text(level)), {.camera = name_});
+  log_camera(level == WatchLevel::Good ? LogLevel::Info : LogLevel::Warning, name_,
+             std::string("its ") + what + " is " + std::string(operator_text(level)));
 }
 
 }  // namespace orbwatch::app

@@ -52,8 +52,7 @@ CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::Shared
     if (watched) {
       cameras_.back() = std::move(*watched);
     } else {
-      log_line(LogLevel::Warning, settings.name + ": is not watched: " + watched.error().message,
-               {.camera = settings.name});
+      log_camera(LogLevel::Warning, settings.name, "is not watched: " + watched.error().message);
     }
   }
 }
