@@ -1,11 +1,11 @@
 // Logging in and out, and the first password.
 import { post } from "./api.js";
-import { element, setText } from "./elements.js";
+import { element, field, setText } from "./elements.js";
 import { texts } from "./texts.js";
 
 const kRetryMs = 500;
 const kFirstUser = "admin";
-const kLeastCharacters = 12;
+export const kLeastCharacters = 12;
 const account = document.getElementById("account");
 const section = document.getElementById("access");
 let isSending = false;  // a form: until it is answered the page does not begin anew
@@ -14,10 +14,6 @@ export async function session() {
   const answer = await fetch("/api/v1/session");
   if (!answer.ok) throw new Error(`status ${answer.status}`);
   return answer.json();
-}
-
-function field(label, properties) {
-  return element("label", {}, label, " ", element("input", { required: true, ...properties }));
 }
 
 // `send(values)` returns why it was refused, or nothing; then the page begins anew.

@@ -13,3 +13,18 @@ export function element(tag, properties = {}, ...children) {
 export function setText(where, text) {
   if (where.textContent !== text) where.textContent = text;
 }
+
+export function field(label, properties) {
+  return element("label", {}, label, " ", element("input", { required: true, ...properties }));
+}
+
+// With a heading for each of `titles`, in a part that scrolls sideways and that keys reach:
+// {root, body}.
+export function table(titles, label = "") {
+  const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
+  const body = element("tbody");
+  const root = element("div", { className: "scroll", tabIndex: 0, role: "group" },
+    element("table", {}, element("thead", {}, head), body));
+  if (label) root.setAttribute("aria-label", label);
+  return { root, body };
+}

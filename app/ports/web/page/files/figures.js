@@ -1,5 +1,5 @@
 // Tables of figures that are updated in place.
-import { element, setText } from "./elements.js";
+import { element, setText, table } from "./elements.js";
 import { texts } from "./texts.js";
 
 export function figureText(value, words) {
@@ -15,11 +15,9 @@ export class FigureTable {
 
   constructor(descriptions) {
     this.descriptions = descriptions;
-    this.body = element("tbody");
-    const titles = [texts.signal, texts.value, texts.unit, texts.meaning];
-    const head = element("tr", {}, ...titles.map((t) => element("th", { scope: "col" }, t)));
-    this.root = element("div", { className: "scroll", tabIndex: 0, role: "group" },
-      element("table", {}, element("thead", {}, head), this.body));
+    const { root, body } = table([texts.signal, texts.value, texts.unit, texts.meaning]);
+    this.root = root;
+    this.body = body;
   }
 
   show(component) {

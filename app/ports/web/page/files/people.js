@@ -1,23 +1,11 @@
 // For administrators: who may log in, which programs have a token, and who did what.
+import { kLeastCharacters } from "./access.js";
 import { answerTo, post } from "./api.js";
-import { element, setText } from "./elements.js";
+import { element, field, setText, table } from "./elements.js";
 import { texts } from "./texts.js";
 
 const kRoles = ["viewer", "operator", "integrator", "administrator"];
 const kShownEntries = 50;
-
-function table(label, titles) {
-  const body = element("tbody");
-  const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
-  const root = element("div", { className: "scroll", tabIndex: 0, role: "group" },
-    element("table", {}, element("thead", {}, head), body));
-  root.setAttribute("aria-label", label);
-  return { root, body };
-}
-
-function field(label, properties) {
-  return element("label", {}, label, " ", element("input", { required: true, ...properties }));
-}
 
 function roleField() {
   const select = element("select", { name: "role" }, ...kRoles.map((role) => element("option", {}, role)));
@@ -27,17 +15,18 @@ function roleField() {
 export class People {
   constructor(root) {
     this.said = element("p", { role: "status" });
-    this.users = table(texts.people, [texts.user, texts.role, ""]);
-    this.tokens = table(texts.programs, [texts.program, texts.role, ""]);
-    this.done = table(texts.audit, [texts.when, texts.who, texts.from, texts.what, texts.before,
-                                    texts.after, texts.result]);
+    this.users = table([texts.user, texts.role, ""], texts.people);
+    this.tokens = table([texts.program, texts.role, ""], texts.programs);
+    this.done = table([texts.when, texts.who, texts.from, texts.what, texts.before, texts.after,
+                       texts.result], texts.audit);
     this.opened = element("details", { id: "people" }, element("summary", {}, texts.peopleTitle),
       this.said,
       element("h3", {}, texts.people), this.users.root,
       this.#form(texts.setUser, "/api/v1/set_user", [
         field(texts.user, { name: "user", autocomplete: "off" }), roleField(),
-        field(texts.newPassword(12), { name: "password", type: "password", minLength: 12,
-                                       autocomplete: "new-password" })]),
+        field(texts.newPassword(kLeastCharacters), {
+          name: "password", type: "password", minLength: kLeastCharacters,
+          autocomplete: "new-password" })]),
       element("h3", {}, texts.programs), this.tokens.root,
       this.#form(texts.createToken, "/api/v1/create_token", [
         field(texts.program, { name: "name", autocomplete: "off" }), roleField()]),

@@ -1,7 +1,7 @@
 // Alarms, signals of the regions and their last ten minutes.
 import { command } from "./api.js";
 import { drawChart, History } from "./chart.js";
-import { element, setText } from "./elements.js";
+import { element, setText, table } from "./elements.js";
 import { FigureTable, Keyed } from "./figures.js";
 import { texts } from "./texts.js";
 
@@ -13,15 +13,14 @@ class Alarms {
   constructor(root) {
     this.said = element("p", { className: "wrong", role: "alert" });
     this.none = element("p", {}, texts.noAlarms);
-    this.body = element("tbody");
     const titles = [texts.alarm, texts.state, texts.level, texts.value, texts.acknowledge];
-    this.table = element("table", { hidden: true }, element("thead", {},
-      element("tr", {}, ...titles.map((t) => element("th", { scope: "col" }, t)))), this.body);
+    const { root: scrolled, body } = table(titles, texts.alarms);
+    this.table = scrolled;
+    this.table.hidden = true;
+    this.body = body;
     const all = element("button", { type: "button" }, texts.acknowledgeAll);
     all.addEventListener("click", () => this.#acknowledge(0));
-    root.append(element("h3", {}, texts.alarms), this.said, this.none,
-      element("div", { className: "scroll", tabIndex: 0, role: "group",
-                       "aria-label": texts.alarms }, this.table), all);
+    root.append(element("h3", {}, texts.alarms), this.said, this.none, this.table, all);
   }
 
   show(alarms) {
