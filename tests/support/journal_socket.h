@@ -13,14 +13,13 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "tests/support/on_a_thread.h"
 #include "tests/support/reference_data.h"
 
 namespace orbwatch::tests {
@@ -29,19 +28,12 @@ namespace orbwatch::tests {
 /// Programs that it starts have the same. False: the system does not allow that.
 inline bool without_a_journal(const std::function<void()>& work) {
   bool allowed = false;
-  std::exception_ptr thrown;
-  std::thread([&] {
+  on_a_thread([&] {
     allowed = ::unshare(CLONE_NEWNS) == 0 &&
               ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
               ::mount("tmpfs", "/run", "tmpfs", 0, nullptr) == 0;
-    if (!allowed) return;
-    try {
-      work();
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-  }).join();
-  if (thrown) std::rethrow_exception(thrown);
+    if (allowed) work();
+  });
   return allowed;
 }
 

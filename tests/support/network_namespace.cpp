@@ -11,29 +11,17 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+
+#include "tests/support/on_a_thread.h"
 
 namespace orbwatch::tests {
 
 namespace {
 
 constexpr const char* kInterface = "wire";
-
-/// On a thread of its own, which takes what it did to itself along when it ends.
-void on_a_thread(const std::function<void()>& work) {
-  std::exception_ptr thrown;
-  std::thread([&] {
-    try {
-      work();
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-  }).join();
-  if (thrown) std::rethrow_exception(thrown);
-}
 
 [[noreturn]] void fail_with_errno(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);

@@ -9,25 +9,15 @@ import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import ROOT, Appliance, eventually
-from browser import Browser
+from appliance import ROOT, eventually
+from page_case import PageCase
 
 PASSWORD = "correct horse battery"
 NEXT_PASSWORD = "a forgotten one replaced"
 
 
-class Access(unittest.TestCase):
+class Access(PageCase):
     """In order: each case goes on with the users of the one before."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.appliance = Appliance()
-        cls.addClassCleanup(cls.appliance.close)
-        cls.appliance.start()
-
-    def setUp(self):
-        self.browser = Browser()
-        self.addCleanup(self.browser.close_all)
 
     def fields(self, name):
         return self.browser.find_elements(By.CSS_SELECTOR, f"#access [name={name}]")

@@ -56,22 +56,23 @@ class Appliance:
         log.close()
         eventually("the daemon runs", is_up or self.runs)
 
-    def runs(self):
+    def says(self, condition):
+        """Whether it is so; False as long as the daemon does not answer."""
         if self.daemon.poll() is not None:
             raise AssertionError((self.folder / "log").read_text(encoding="utf-8"))
         try:
-            return self.status()["system"]["state"] == 1
+            return condition()
         except OSError:
             return False
 
+    def runs(self):
+        return self.says(lambda: self.status()["system"]["state"] == 1)
+
     def is_healthy(self):
-        if self.daemon.poll() is not None:
-            raise AssertionError((self.folder / "log").read_text(encoding="utf-8"))
-        try:
+        def answers():
             with urllib.request.urlopen(self.address + "healthz", timeout=PATIENCE_S):
                 return True
-        except OSError:
-            return False
+        return self.says(answers)
 
     def stop(self):
         self.daemon.send_signal(signal.SIGTERM)

@@ -14,7 +14,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 from appliance import PATIENCE_S, eventually
-from browser import Browser
+from page_case import PageCase
 from rendered_machine import PICTURES, RenderedMachine
 
 WITH_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
@@ -22,23 +22,17 @@ WITHOUT_WEBGL = ["--disable-3d-apis"]
 NEAR_BLIND_CONE_DEG = 6
 
 
-class LookingAround(unittest.TestCase):
+class LookingAround(PageCase):
     QUALITY = 100  # what JPEG loses is not the drawing's
     ARGUMENTS = WITH_WEBGL
 
     @classmethod
-    def setUpClass(cls):
+    def make_appliance(cls):
         if not PICTURES.exists():
             if os.environ.get("ORBWATCH_ACCEPTANCE"):
                 raise AssertionError(f"missing: {PICTURES}")
             raise unittest.SkipTest(f"skipped, missing: {PICTURES}")
-        cls.appliance = RenderedMachine(cls.QUALITY)
-        cls.addClassCleanup(cls.appliance.close)
-        cls.appliance.start()
-
-    def setUp(self):
-        self.browser = Browser(self.ARGUMENTS)
-        self.addCleanup(self.browser.close_all)
+        return RenderedMachine(cls.QUALITY)
 
     def open(self):
         self.browser.get(f"{self.appliance.address}#/look")

@@ -4,23 +4,13 @@ import unittest
 
 from selenium.webdriver.common.by import By
 
-from appliance import Appliance, eventually
-from browser import Browser
+from appliance import eventually
+from page_case import PageCase
 
 VIEWS = {"panorama", "door", "heat", "process"}
 
 
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.appliance = Appliance()
-        cls.addClassCleanup(cls.appliance.close)
-        cls.appliance.start()
-
-    def setUp(self):
-        self.browser = Browser()
-        self.addCleanup(self.browser.close_all)
-
+class Page(PageCase):
     def open(self, page="live"):
         self.browser.get(f"{self.appliance.address}#/{page}")
         eventually("the page shows the state",

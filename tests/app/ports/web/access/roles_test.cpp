@@ -41,6 +41,19 @@ class Roles : public AccessServed {
                 HasSubstr(route.method + " " + route.path + " needs the role " +
                           std::string(word_for(kRoles, route.role))));
   }
+  void expect_what_is_declared(const Route& route, Role role, const std::string& headers) {
+    SCOPED_TRACE(route.method + " " + route.path + " as " + std::string(word_for(kRoles, role)));
+    const int before = carried_out;
+    const Answer answer = ask(route, headers);
+    if (role < route.role) {
+      expect_refused(answer, route, role);
+      EXPECT_EQ(carried_out, before);
+    } else {
+      EXPECT_NE(answer.status, 401) << answer.body;
+      EXPECT_NE(answer.status, 403) << answer.body;
+      EXPECT_NE(answer.status, 0);
+    }
+  }
 
   std::atomic<int> carried_out{0};
 };
@@ -48,19 +61,7 @@ class Roles : public AccessServed {
 TEST_F(Roles, EachProgramGetsWhatItsRoleMayAndNothingElse) {
   ASSERT_GT(sink->routes().size(), kCommands.size() + kPageFiles.size());
   for (const Route& route : sink->routes()) {
-    for (const Role role : kEveryRole) {
-      SCOPED_TRACE(route.method + " " + route.path + " as " + std::string(word_for(kRoles, role)));
-      const int before = carried_out;
-      const Answer answer = ask(route, by_token(role));
-      if (role < route.role) {
-        expect_refused(answer, route, role);
-        EXPECT_EQ(carried_out, before);
-      } else {
-        EXPECT_NE(answer.status, 401) << answer.body;
-        EXPECT_NE(answer.status, 403) << answer.body;
-        EXPECT_NE(answer.status, 0);
-      }
-    }
+    for (const Role role : kEveryRole) expect_what_is_declared(route, role, by_token(role));
   }
   EXPECT_GT(carried_out, 0);
 }
@@ -70,19 +71,7 @@ TEST_F(Roles, EachPersonGetsWhatTheirRoleMayAndNothingElse) {
   for (const auto& [name, role] : kRoles) sessions[role] = session_of(std::string(name));
   for (const Route& route : sink->routes()) {
     if (route.path == "/api/v1/logout") continue;
-    for (const Role role : kEveryRole) {
-      SCOPED_TRACE(route.method + " " + route.path + " as " + std::string(word_for(kRoles, role)));
-      const int before = carried_out;
-      const Answer answer = ask(route, sessions[role]);
-      if (role < route.role) {
-        expect_refused(answer, route, role);
-        EXPECT_EQ(carried_out, before);
-      } else {
-        EXPECT_NE(answer.status, 401) << answer.body;
-        EXPECT_NE(answer.status, 403) << answer.body;
-        EXPECT_NE(answer.status, 0);
-      }
-    }
+    for (const Role role : kEveryRole) expect_what_is_declared(route, role, sessions[role]);
   }
 }
 
