@@ -11,6 +11,7 @@
 #include "app/cli/staged_folder.h"
 #include "app/ports/dds/security/enclave.h"
 #include "app/ports/dds/security/key_file.h"
+#include "app/ports/dds/security/signed_document.h"
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/ports/dds/security/certificate.h"
+#include "app/certificates/certificate.h"
 
 /// The two documents of DDS Security, governance and permissions, written and read. All reentrant.
 namespace orbwatch::app {

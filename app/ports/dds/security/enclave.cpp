@@ -1,7 +1,6 @@
 #include "app/ports/dds/security/enclave.h"
 
-#include <sys/stat.h>
-
+#include "app/ports/dds/security/signed_document.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app {
@@ -9,37 +8,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Nullopt: dates are not checked.
-using Now = std::optional<std::chrono::sys_seconds>;
-
-/// The reason of `result` with its file before it.
-template <class Value>
-Result<Value> of_file(const fs::path& file, Result<Value> result) {
-  if (result) return result;
-  return fail(file.string() + ": " + result.error().message);
-}
-
-std::string day(std::chrono::sys_seconds time) { return date_text(time, "%Y-%m-%d %H:%M UTC"); }
-
-Result<> check_dates(const fs::path& file, const Validity& validity, const Now& now) {
-  if (!now) return {};
-  if (now >= validity.until) {
-    return fail(file.string() + ": expired on " + day(validity.until) + "; it must be made anew");
-  }
-  if (now < validity.from) {
-    return fail(file.string() + ": is valid from " + day(validity.from) +
-                " on; is this computer's clock right? It says " + day(*now));
-  }
-  return {};
-}
-
 Result<Certificate> read_valid_certificate(const fs::path& file, const Now& now) {
   auto certificate = read_certificate(file);
   if (!certificate) return certificate;
-  const auto checked =
-      of_file(file, validity_of(*certificate)).and_then([&](const Validity& validity) {
-        return check_dates(file, validity, now);
-      });
+  const auto checked = check_dates(file, *certificate, now);
   if (!checked) return tl::unexpected(checked.error());
   return certificate;
 }
@@ -91,23 +63,7 @@ Result<std::string> read_document(const fs::path& file, const Certificate& signe
   });
 }
 
-Result<Certificate> read_certificate(const fs::path& file) {
-  return hal::read_regular_file(file).and_then(
-      [&](const std::string& pem) { return of_file(file, certificate_from_pem(pem)); });
-}
-
-Result<Key> read_key(const fs::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
-      (status.st_mode & S_IROTH) != 0) {
-    return fail(file.string() + ": may be read by everybody, so it is no secret; chmod it to 0600");
-  }
-  return hal::read_regular_file(file).and_then(
-      [&](const std::string& pem) { return of_file(file, key_from_pem(pem)); });
-}
-
-Result<> check_enclave(const EnclaveFiles& files, int domain,
-                       std::optional<std::chrono::sys_seconds> now) {
+Result<> check_enclave(const EnclaveFiles& files, int domain, const Now& now) {
   const auto identity_ca = read_valid_certificate(files.identity_ca, now);
   if (!identity_ca) return tl::unexpected(identity_ca.error());
   const auto permissions_ca = read_valid_certificate(files.permissions_ca, now);
@@ -119,12 +75,11 @@ Result<> check_enclave(const EnclaveFiles& files, int domain,
   if (!is_issued_by(*certificate, *identity_ca)) {
     return fail(files.certificate.string() + ": was not issued by " + files.identity_ca.string());
   }
-  if (!is_key_of(*key, *certificate)) {
-    return fail(files.key.string() + ": is not the key of " + files.certificate.string());
-  }
-  return check_governance(files, *permissions_ca, domain).and_then([&] {
-    return check_permissions(files, *permissions_ca, subject_of(*certificate), domain, now);
-  });
+  return check_pair(files.key, *key, files.certificate, *certificate)
+      .and_then([&] { return check_governance(files, *permissions_ca, domain); })
+      .and_then([&] {
+        return check_permissions(files, *permissions_ca, subject_of(*certificate), domain, now);
+      });
 }
 
 }  // namespace orbwatch::app

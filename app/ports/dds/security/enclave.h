@@ -1,12 +1,10 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <optional>
 #include <string>
 
+#include "app/certificates/certificate_file.h"
 #include "app/ports/dds/security/access_documents.h"
-#include "app/ports/dds/security/certificate.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -26,15 +24,11 @@ struct EnclaveFiles {
 
 /// The text of a signed document in a file. Errors name file and reason.
 Result<std::string> read_document(const std::filesystem::path& file, const Certificate& signer);
-Result<Certificate> read_certificate(const std::filesystem::path& file);
-/// Refuses a world-readable key.
-Result<Key> read_key(const std::filesystem::path& file);
 
 /// Checks whether a participant with these files can join the domain and be authenticated. Cyclone
 /// DDS checks less and does not name the file. Errors: a file that is missing, damaged, expired at
 /// `now`, not valid yet, or inconsistent with the others or the domain. Without `now` dates are not
 /// checked. Reentrant.
-Result<> check_enclave(const EnclaveFiles& files, int domain,
-                       std::optional<std::chrono::sys_seconds> now);
+Result<> check_enclave(const EnclaveFiles& files, int domain, const Now& now);
 
 }  // namespace orbwatch::app

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "app/ports/dds/participant/participant.h"
-#include "app/ports/dds/security/certificate.h"
 #include "app/ports/dds/security/key_file.h"
+#include "app/ports/dds/security/signed_document.h"
 #include "tests/app/ports/dds/security/openssl_program.h"
 #include "tests/app/ports/dds/security/test_keystore.h"
 

@@ -8,19 +8,11 @@
 #include <string>
 #include <string_view>
 
+#include "app/certificates/openssl.h"
 #include "proc/image/result.h"
 
-/// Everything that OpenSSL does: keys, certificates and signatures. All reentrant.
+/// Keys and certificates by OpenSSL. All reentrant.
 namespace orbwatch::app {
-
-/// Releases an object of OpenSSL's C API by its own function.
-template <auto release>
-struct OpensslDeleter {
-  template <class Object>
-  void operator()(Object* object) const {
-    release(object);
-  }
-};
 
 using Key = std::unique_ptr<EVP_PKEY, OpensslDeleter<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, OpensslDeleter<X509_free>>;
@@ -67,14 +59,5 @@ Result<Validity> validity_of(const Certificate& certificate);
 /// Whether `certificate` was issued by `authority`; dates are not checked.
 bool is_issued_by(const Certificate& certificate, const Certificate& authority);
 bool is_key_of(const Key& key, const Certificate& certificate);
-
-/// `text` as S/MIME multipart/signed with a detached PKCS #7 signature, as DDS
-/// Security 1.1, 9.4.1.2, requires of governance and permissions.
-Result<std::string> sign_document(std::string_view text, const Credential& signer);
-
-/// The text of a signed document. Only the key of `signer` is trusted, not one whose
-/// certificate it issued or that the document contains. Errors: not S/MIME; not signed by
-/// `signer`, or changed afterwards.
-Result<std::string> verified_document(std::string_view document, const Certificate& signer);
 
 }  // namespace orbwatch::app

@@ -1,11 +1,8 @@
-#include "app/ports/dds/security/certificate.h"
+#include "app/certificates/certificate.h"
 
-#include <openssl/bio.h>
 #include <openssl/bn.h>
 #include <openssl/ec.h>
-#include <openssl/err.h>
 #include <openssl/pem.h>
-#include <openssl/pkcs7.h>
 #include <openssl/x509v3.h>
 
 #include <array>
@@ -15,17 +12,10 @@
 namespace orbwatch::app {
 namespace {
 
-using Bio = std::unique_ptr<BIO, OpensslDeleter<BIO_free_all>>;
-using Pkcs7 = std::unique_ptr<PKCS7, OpensslDeleter<PKCS7_free>>;
 using Extension = std::unique_ptr<X509_EXTENSION, OpensslDeleter<X509_EXTENSION_free>>;
 using BigNumber = std::unique_ptr<BIGNUM, OpensslDeleter<BN_free>>;
 using Store = std::unique_ptr<X509_STORE, OpensslDeleter<X509_STORE_free>>;
 using StoreContext = std::unique_ptr<X509_STORE_CTX, OpensslDeleter<X509_STORE_CTX_free>>;
-
-/// Does not own the certificates in it.
-using Certificates =
-    std::unique_ptr<STACK_OF(X509),
-                    OpensslDeleter<[](STACK_OF(X509) * stack) { sk_X509_free(stack); }>>;
 
 /// RFC 5280 allows 20 octets and wants a positive number.
 constexpr int kSerialBits = 159;
@@ -91,28 +81,6 @@ std::optional<std::chrono::sys_seconds> time_of(const ASN1_TIME* time) {
 
 /// Instead of a prompt on the terminal.
 int no_password(char*, int, int, void*) { return 0; }
-
-/// The error of an OpenSSL call that just failed on this thread: "<what>: <OpenSSL's reason>".
-Error openssl_error(std::string_view what) {
-  const char* reason = ERR_reason_error_string(ERR_peek_last_error());
-  ERR_clear_error();
-  return {std::string(what) + ": " + (reason ? reason : "OpenSSL gives no reason")};
-}
-
-/// Reads from `text`, which must live as long.
-Bio read_bio(std::string_view text) {
-  return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
-}
-
-/// Writes to memory that grows.
-Bio write_bio() { return Bio(BIO_new(BIO_s_mem())); }
-
-/// The text written so far.
-std::string text_of(const Bio& bio) {
-  char* data = nullptr;
-  const long size = BIO_get_mem_data(bio.get(), &data);
-  return size > 0 ? std::string(data, static_cast<std::size_t>(size)) : std::string();
-}
 
 }  // namespace
 
@@ -201,39 +169,6 @@ bool is_issued_by(const Certificate& certificate, const Certificate& authority) 
 
 bool is_key_of(const Key& key, const Certificate& certificate) {
   return X509_check_private_key(certificate.get(), key.get()) == 1;
-}
-
-Result<std::string> sign_document(std::string_view text, const Credential& signer) {
-  constexpr int kFlags = PKCS7_TEXT | PKCS7_DETACHED | PKCS7_STREAM;
-  const Bio in = read_bio(text);
-  const Bio out = write_bio();
-  const Pkcs7 signature(
-      PKCS7_sign(signer.certificate.get(), signer.key.get(), nullptr, in.get(), kFlags));
-  if (!in || !out || !signature ||
-      SMIME_write_PKCS7(out.get(), signature.get(), in.get(), kFlags) != 1) {
-    return tl::unexpected(openssl_error("document cannot be signed"));
-  }
-  return text_of(out);
-}
-
-Result<std::string> verified_document(std::string_view document, const Certificate& signer) {
-  const Bio in = read_bio(document);
-  BIO* found = nullptr;
-  const Pkcs7 signature(in ? SMIME_read_PKCS7(in.get(), &found) : nullptr);
-  const Bio content(found);
-  if (!signature || !content) return tl::unexpected(openssl_error("is no signed S/MIME document"));
-  const Certificates signers(sk_X509_new_null());
-  const Bio out = write_bio();
-  if (!out || !signers || sk_X509_push(signers.get(), signer.get()) < 1) {
-    return tl::unexpected(openssl_error("cannot be verified"));
-  }
-  // The signer is known beforehand: no certificate is looked for in the document, and no chain.
-  constexpr int kFlags = PKCS7_TEXT | PKCS7_NOVERIFY | PKCS7_NOINTERN;
-  if (PKCS7_verify(signature.get(), signers.get(), nullptr, content.get(), out.get(), kFlags) !=
-      1) {
-    return tl::unexpected(openssl_error("bad signature"));
-  }
-  return text_of(out);
 }
 
 }  // namespace orbwatch::app

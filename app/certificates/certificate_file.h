@@ -1,0 +1,38 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "app/certificates/certificate.h"
+#include "proc/image/result.h"
+
+/// Keys and certificates in PEM files that people name; errors name file and reason. All reentrant;
+/// they wait for the disk.
+namespace orbwatch::app {
+
+/// Nullopt: dates are not checked.
+using Now = std::optional<std::chrono::sys_seconds>;
+
+/// The reason of `result` with its file before it.
+template <class Value>
+Result<Value> of_file(const std::filesystem::path& file, Result<Value> result) {
+  if (result) return result;
+  return fail(file.string() + ": " + result.error().message);
+}
+
+/// Error: `now` lies outside.
+Result<> check_dates(const std::filesystem::path& file, const Validity& validity, const Now& now);
+/// The same of the certificate that is in `file`.
+Result<> check_dates(const std::filesystem::path& file, const Certificate& certificate,
+                     const Now& now);
+
+Result<Certificate> read_certificate(const std::filesystem::path& file);
+/// Refuses a world-readable key.
+Result<Key> read_key(const std::filesystem::path& file);
+
+/// Error: each may be right, but not together.
+Result<> check_pair(const std::filesystem::path& key_file, const Key& key,
+                    const std::filesystem::path& certificate_file, const Certificate& certificate);
+
+}  // namespace orbwatch::app
