@@ -11,7 +11,7 @@
 #include "app/files/toml_reader.h"
 #include "app/files/toml_text.h"
 #include "app/model/utc_text.h"
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -137,7 +137,7 @@ Result<> save_calibrations(const std::filesystem::path& file,
       "# `orbwatch calibration history` lists them, `orbwatch calibration restore` goes back.\n";
   const std::size_t kept = std::min(entries.size(), kMaxCalibrations);
   for (std::size_t n = entries.size() - kept; n < entries.size(); ++n) text += text_of(entries[n]);
-  return write_file(file, text);
+  return hal::write_file(file, text);
 }
 
 Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file) {

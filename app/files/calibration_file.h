@@ -43,7 +43,7 @@ Result<std::vector<CalibrationEntry>> load_calibrations(const std::filesystem::p
                                                         TextFiles& files);
 
 /// Writes them as load_calibrations() reads them, the newest kMaxCalibrations. Error: as
-/// write_file().
+/// hal::write_file().
 Result<> save_calibrations(const std::filesystem::path& file,
                            const std::vector<CalibrationEntry>& entries);
 

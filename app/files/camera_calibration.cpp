@@ -10,7 +10,7 @@
 
 #include "app/files/finding.h"
 #include "app/files/plain_names.h"
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -216,7 +216,7 @@ Result<std::string> calibration_text(const Intrinsics& intrinsics, const std::st
 Result<> write_calibration(const std::filesystem::path& file, const Intrinsics& intrinsics,
                            const std::string& name, CalibrationFormat format) {
   return calibration_text(intrinsics, name, format).and_then([&](const std::string& text) {
-    return write_file(file, text);
+    return hal::write_file(file, text);
   });
 }
 

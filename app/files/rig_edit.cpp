@@ -8,7 +8,7 @@
 #include "app/files/text_file.h"
 #include "app/files/toml_edit.h"
 #include "app/files/toml_text.h"
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -169,7 +169,7 @@ Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment&
         // Files that the rig names count from its new folder now.
         const auto there = parse_rig(text, out.string(), out.parent_path());
         if (!there) return tl::unexpected(there.error());
-        return write_file(out, text);
+        return hal::write_file(out, text);
       });
 }
 

@@ -15,7 +15,7 @@ Result<std::string> aligned_rig(const std::string& text, const std::string& name
                                 const std::filesystem::path& folder, const RigAlignment& alignment);
 
 /// The same for a file, written to `out`, which may be the same one. Error: also files that the rig
-/// names and that are not there from `out`, and as write_file().
+/// names and that are not there from `out`, and as hal::write_file().
 Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment& alignment,
                            const std::filesystem::path& out);
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app {
@@ -25,7 +25,7 @@ Result<> keep(const std::filesystem::path& file, const FileTexts& texts) {
   for (const auto& [path, text] : texts) json[path.string()] = text;
   // Comments may have any bytes.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  return write_file(file, json.dump(1, ' ', false, kReplace) + "\n");
+  return hal::write_file(file, json.dump(1, ' ', false, kReplace) + "\n");
 }
 
 Result<FileTexts> read_kept(const std::filesystem::path& file, const std::string& if_absent) {

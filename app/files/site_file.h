@@ -13,7 +13,7 @@ std::filesystem::path site_file(const std::filesystem::path& given);
 
 /// Keeps the texts of a configuration, and of its accepted alignments, in `folder`, replacing those
 /// that were kept, each atomically.
-/// Error: as write_file().
+/// Error: as hal::write_file().
 Result<> keep_last_good(const std::filesystem::path& folder, const Resolved& site);
 
 /// Resolves `file` with the kept texts in place of the files, and with the accepted alignments as

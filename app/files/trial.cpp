@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "app/files/text_file.h"
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app {
@@ -42,7 +42,7 @@ Result<> request_trial(const fs::path& folder, const Trial& trial) {
       {"site", trial.site.string()}, {"seconds", trial.seconds}, {"files", files}};
   // Comments may have any bytes.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  return write_file(requested_in(folder), json.dump(1, ' ', false, kReplace) + "\n");
+  return hal::write_file(requested_in(folder), json.dump(1, ' ', false, kReplace) + "\n");
 }
 
 bool is_trial_requested(const fs::path& folder) {

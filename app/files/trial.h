@@ -19,7 +19,7 @@ struct Trial {
   int seconds = 0;
 };
 
-/// Asks the daemon that has this folder for a trial. Atomic. Error: as write_file().
+/// Asks the daemon that has this folder for a trial. Atomic. Error: as hal::write_file().
 Result<> request_trial(const std::filesystem::path& folder, const Trial& trial);
 
 /// Whether one was requested and not taken yet.

@@ -1,19 +1,13 @@
 #include "app/pictures/picture_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <cstring>
+#include <cctype>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <regex>
 #include <string>
 #include <vector>
 
+#include "hal/atomic_file.h"
 #include "proc/align/first_plane.h"
 #include "proc/image/image_view.h"
 
@@ -25,26 +19,6 @@ std::string lower_extension(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-bool write_all(int file, std::span<const std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-/// Of a file that write_file() has not renamed yet: NAME.PROCESS-SERIAL.part
-bool is_temporary(const std::filesystem::path& path) {
-  static const std::regex kName(R"(.+\.\d+-\d+\.part)");
-  return std::regex_match(path.filename().string(), kName);
-}
-
-tl::unexpected<Error> cannot_write(const std::filesystem::path& path) {
-  return fail(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 /// In OpenCV's order of channels.
@@ -70,44 +44,6 @@ cv::Mat with_alpha(const cv::Mat& picture, const ImageView<const std::uint8_t>& 
 }
 
 }  // namespace
-
-Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  static std::atomic<unsigned> serial{0};
-  const std::string temporary =
-      path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
-  const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-  if (file < 0) return cannot_write(path);
-  // The lock, which ends with the process, says that the file is no leftover. Where a file system
-  // has no locks, leftovers are not removed either.
-  static_cast<void>(::flock(file, LOCK_EX));
-  const bool written = write_all(file, bytes) && ::fsync(file) == 0;
-  const int reason = errno;
-  const bool closed = ::close(file) == 0;
-  if (written && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return {};
-  if (!written) errno = reason;
-  auto error = cannot_write(path);
-  ::unlink(temporary.c_str());
-  return error;
-}
-
-Result<> write_file(const std::filesystem::path& path, std::string_view text) {
-  return write_file(path,
-                    std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-}
-
-Result<> remove_unfinished(const std::filesystem::path& folder) {
-  std::error_code error;
-  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
-       it.increment(error)) {
-    if (!is_temporary(it->path())) continue;
-    const int file = ::open(it->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (file < 0) continue;  // renamed meanwhile, or not ours
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(it->path(), error);
-    ::close(file);
-  }
-  if (error) return fail(folder.string() + ": " + error.message());
-  return {};
-}
 
 Result<> check_picture_name(const std::filesystem::path& path, PixelFormat format,
                             bool transparency) {
@@ -141,7 +77,7 @@ Result<> write_picture(const std::filesystem::path& path, const Picture& picture
   } catch (const cv::Exception& error) {
     return fail(path.string() + ": the picture cannot be encoded: " + error.err);
   }
-  return write_file(path, bytes);
+  return hal::write_file(path, bytes);
 }
 
 }  // namespace orbwatch::app

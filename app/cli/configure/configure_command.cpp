@@ -9,8 +9,8 @@
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
 #include "app/files/trial.h"
-#include "app/pictures/picture_file.h"
 #include "app/state/state_folder.h"
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -107,7 +107,7 @@ Result<std::string> confirm(const fs::path& folder) {
   std::string text;
   const auto write = [&text](const fs::path& path, const std::string& content) {
     text += path.string() + ": written\n";
-    return write_file(path, content);
+    return hal::write_file(path, content);
   };
   for (const auto& [path, content] : (*trial)->texts) {
     if (path == (*trial)->site) continue;
@@ -123,7 +123,7 @@ Result<std::string> confirm(const fs::path& folder) {
 Result<std::string> run(Options o, const std::vector<std::string>& words) {
   o.config = fs::absolute(site_file(o.config)).lexically_normal();
   const std::size_t ways = words.size() + (o.confirm ? 1 : 0) + (o.cancel ? 1 : 0);
-  if (ways != 1) return fail("say FILE, --confirm or --cancel; see --help");
+  if (ways != 1) return usage_error("say FILE, --confirm or --cancel");
   const fs::path folder = state_folder({});
   if (o.confirm) return confirm(folder);
   if (o.cancel) {
@@ -131,7 +131,8 @@ Result<std::string> run(Options o, const std::vector<std::string>& words) {
     return fail("no configuration waits for its confirmation");
   }
   if (o.seconds < kShortest || o.seconds > kLongest) {
-    return fail("--seconds is " + std::to_string(o.seconds) + "; it must be from 10 to 3600");
+    return usage_error("--seconds is " + std::to_string(o.seconds) +
+                       "; it must be from 10 to 3600");
   }
   return try_out(o, words.front());
 }

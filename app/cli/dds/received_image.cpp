@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 #include "hal/jpeg/jpeg_decoder.h"
 
 namespace orbwatch::app {
@@ -42,7 +42,7 @@ template <class MakeImage>
 Result<> save(MakeImage make_image, const std::filesystem::path& path) try {
   std::vector<std::uint8_t> png;
   if (!cv::imencode(".png", make_image(), png)) return fail("image: cannot be encoded as PNG");
-  return write_file(path, png);
+  return hal::write_file(path, png);
 } catch (const cv::Exception& error) {
   return fail("image: cannot be encoded as PNG: " + error.err);
 }

@@ -8,7 +8,7 @@
 #include "app/files/camera_calibration.h"
 #include "app/files/resolve.h"
 #include "app/files/toml_text.h"
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -132,9 +132,9 @@ Result<> write_site(const Setup& setup, const std::filesystem::path& folder) {
     }
     if (!written) return written;
   }
-  return write_file(folder / kRecipeFile, recipe_text(setup))
-      .and_then([&] { return write_file(folder / kRigFile, rig_text(setup)); })
-      .and_then([&] { return write_file(folder / kSiteFile, site_text(setup)); });
+  return hal::write_file(folder / kRecipeFile, recipe_text(setup))
+      .and_then([&] { return hal::write_file(folder / kRigFile, rig_text(setup)); })
+      .and_then([&] { return hal::write_file(folder / kSiteFile, site_text(setup)); });
 }
 
 /// Whether the daemon would run it.

@@ -14,6 +14,7 @@
 #include "app/log.h"
 #include "app/model/utc_text.h"
 #include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -70,7 +71,7 @@ Result<> SnapshotSink::start() {
     return fail("snapshot.folder: " + settings_.folder.string() + ": " + error.message() +
                 "; it must be a folder that can be written to");
   }
-  if (auto removed = remove_unfinished(settings_.folder); !removed) {
+  if (auto removed = hal::remove_unfinished(settings_.folder); !removed) {
     return fail("snapshot.folder: " + removed.error().message);
   }
   thread_.start("snapshot", hal::ThreadRole::Background, [this] { run(); });

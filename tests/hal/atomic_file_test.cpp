@@ -1,4 +1,4 @@
-#include "app/pictures/picture_file.h"
+#include "hal/atomic_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "hal/thread/file_descriptor.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orbwatch::app {
+namespace orbwatch::hal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,7 +48,7 @@ TEST(RemoveUnfinished, RemovesWhatIsLeftAndNothingElse) {
   std::ofstream(folder.path() / "a.png.12-0.part") << "half";
   const fs::path written = folder.path() / "b.png.13-7.part";
   {
-    const hal::FileDescriptor writer(::open(written.c_str(), O_CREAT | O_WRONLY, 0600));
+    const FileDescriptor writer(::open(written.c_str(), O_CREAT | O_WRONLY, 0600));
     ASSERT_EQ(::flock(writer.get(), LOCK_EX), 0);
     ASSERT_TRUE(remove_unfinished(folder.path()));
     EXPECT_TRUE(fs::exists(written)) << "it is being written";
@@ -64,4 +64,4 @@ TEST(RemoveUnfinished, SaysWhichFolderItCannotRead) {
 }
 
 }  // namespace
-}  // namespace orbwatch::app
+}  // namespace orbwatch::hal
