@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
@@ -111,7 +112,10 @@ int wait_for_signal(const sigset_t& signals, hal::TimePoint due) {
   }
   const auto left = std::max(hal::Clock::duration(0), due - hal::Clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(left);
-  const timespec timeout{seconds.count(), std::chrono::nanoseconds(left - seconds).count()};
+  // 32 bit on armhf.
+  const timespec timeout{
+      static_cast<std::time_t>(seconds.count()),
+      static_cast<decltype(timespec::tv_nsec)>(std::chrono::nanoseconds(left - seconds).count())};
   return std::max(0, sigtimedwait(&signals, nullptr, &timeout));
 }
 
