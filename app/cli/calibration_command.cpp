@@ -70,10 +70,9 @@ Result<std::string> accepted(Calibrations& all, CalibrationEntry entry) {
          " counts from the next start or restart of orbwatchd on\n";
 }
 
-Result<std::string> restore(Calibrations& all, const std::string& word) {
-  const auto number = parse_whole("restore", word);
-  if (!number) return tl::unexpected(number.error());
-  const auto found = std::ranges::find(all.entries, *number, &CalibrationEntry::number);
+Result<std::string> restore(Calibrations& all, int number) {
+  const std::string word = std::to_string(number);
+  const auto found = std::ranges::find(all.entries, number, &CalibrationEntry::number);
   if (found == all.entries.end()) {
     return fail("there is no alignment " + word + "; see orbwatch calibration history");
   }
@@ -104,11 +103,13 @@ Result<std::string> run(const std::filesystem::path& config,
   const std::string what = words.empty() ? "" : words.front();
   const bool is_right = (what == "history" && words.size() == 1) ||
                         ((what == "restore" || what == "reset") && words.size() == 2);
-  if (!is_right) return fail("say history, restore NUMBER or reset CAMERA; see --help");
+  if (!is_right) return usage_error("say history, restore NUMBER or reset CAMERA");
+  const auto number = what == "restore" ? parse_whole(what, words[1]) : Result<int>(0);
+  if (!number) return usage_error(number.error().message);
   auto all = read(config);
   if (!all) return tl::unexpected(all.error());
   if (what == "history") return history(*all);
-  return what == "restore" ? restore(*all, words[1]) : reset(*all, words[1]);
+  return what == "restore" ? restore(*all, *number) : reset(*all, words[1]);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Result<std::string> command_command(const std::vector<std::string>& arguments) {
        .notes = "\nCommands:\n" + commands_help()},
       [&](const std::vector<std::string>& words) -> Result<std::string> {
         const auto command = parse_command(words);
-        if (!command) return tl::unexpected(command.error());
+        if (!command) return usage_error(command.error().message);
         const auto answer = send_command(o, *command, cancelled_by_signal());
         if (!answer) return tl::unexpected(answer.error());
         if (answer->result != CommandResult::Done) return fail(words.front() + ": " + answer->text);

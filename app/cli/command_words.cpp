@@ -25,11 +25,10 @@ std::string usage(const CommandInfo& info) {
 Result<Command> parse_command(const std::vector<std::string>& words) {
   const CommandInfo* info = words.empty() ? nullptr : find_command(words.front());
   if (!info) {
-    return fail(words.empty() ? "say which command; see --help"
-                              : "there is no command " + words.front() + "; see --help");
+    return fail(words.empty() ? "say which command" : "there is no command " + words.front());
   }
   if (words.size() != 1 + info->argument_count()) {
-    return fail("its form is: " + usage(*info) + "; see --help");
+    return fail("its form is: " + usage(*info));
   }
   Command command{info->code, {}};
   for (std::size_t i = 0; i < info->argument_count(); ++i) {

@@ -54,7 +54,7 @@ constexpr const char* kUsage =
 /// Returns the new folders, one a line.
 Result<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& words) {
   if (words.size() != 1 || words.front().empty()) {
-    return fail("say which FOLDER to make keys in, and one only; see --help");
+    return usage_error("say which FOLDER to make keys in, and one only");
   }
   if (const auto checked = check_topic_path(o.prefix, "prefix"); !checked) {
     return tl::unexpected(checked.error());

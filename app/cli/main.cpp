@@ -8,6 +8,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
+#include "app/exit_status.h"
 #include "app/version.h"
 
 namespace orbwatch::app {
@@ -42,21 +43,31 @@ constexpr std::array kCommandTable{
                describe_command},
 };
 
+std::string exit_statuses_help() {
+  std::string help;
+  for (const ExitStatusInfo& info : kExitStatuses) {
+    help += "  " + std::to_string(static_cast<int>(info.status)) + "  " +
+            std::string(info.of_orbwatch) + "\n";
+  }
+  return help;
+}
+
 std::string help() {
   return "Usage: orbwatch COMMAND [options]\n\n"
          "Tools around mirror balls and the orbwatchd service.\n\n" +
          subcommands_help(kCommandTable) +
-         "\n`orbwatch COMMAND --help` explains a command; --version names the libraries.\n";
+         "\n`orbwatch COMMAND --help` explains a command; --version names the libraries.\n\n"
+         "Exit status:\n" +
+         exit_statuses_help();
 }
 
 Result<std::string> dispatch(const std::vector<std::string>& arguments) {
   const std::string name = arguments.empty() ? "" : arguments.front();
-  if (name == "--help" || name == "-h") return help();
+  if (name == "--help" || name == "-h" || name == "help") return help();
   if (name == "--version") return version_text("orbwatch");
   const auto* const command = std::ranges::find(kCommandTable, name, &Subcommand::name);
   if (command != kCommandTable.end()) return command->run(arguments);
-  return fail(name.empty() ? "say what to do; see --help"
-                           : "there is no command " + name + "; see --help");
+  return usage_error(name.empty() ? "say what to do" : "there is no command " + name);
 }
 
 std::atomic<bool> cancelled{false};
@@ -93,11 +104,11 @@ int main(int argc, char** argv) try {
   const auto text = orbwatch::app::dispatch({argv + 1, argv + argc});
   if (text) {
     std::cout << *text;
-    return 0;
+    return static_cast<int>(orbwatch::app::ExitStatus::Done);
   }
   std::fprintf(stderr, "orbwatch: %s\n", text.error().message.c_str());
-  return orbwatch::app::error_status();
+  return static_cast<int>(orbwatch::app::error_status());
 } catch (const std::bad_alloc&) {
   std::fputs("orbwatch: not enough memory for pictures of this size\n", stderr);
-  return 1;
+  return static_cast<int>(orbwatch::app::ExitStatus::Failed);
 }

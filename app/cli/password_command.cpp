@@ -126,7 +126,7 @@ Result<std::string> password_command(const std::vector<std::string>& arguments) 
                     set_role}},
        .takes_words = true},
       [&](const std::vector<std::string>& words) -> Result<std::string> {
-        if (words.size() > 1) return fail("say one NAME only; see --help");
+        if (words.size() > 1) return usage_error("say one NAME only");
         return set_password(o, words.empty() ? kFirstUser : words.front());
       });
 }

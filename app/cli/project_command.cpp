@@ -84,16 +84,18 @@ std::vector<Option> declare(ProjectOptions& o) {
 Result<> assign_pictures(const std::vector<std::string>& alone,
                          std::vector<ChosenCamera>& cameras) {
   if (cameras.size() == 1 && cameras.front().picture.empty()) {
-    if (alone.size() != 1) return fail("give exactly one picture IN; see --help");
+    if (alone.size() != 1) return usage_error("give exactly one picture IN");
     cameras.front().picture = alone.front();
     return {};
   }
   for (const ChosenCamera& camera : cameras) {
     if (camera.picture.empty()) {
-      return fail("camera " + camera.name + " has no picture; use --camera " + camera.name + "=IN");
+      return usage_error("camera " + camera.name + " has no picture; use --camera " + camera.name +
+                         "=IN");
     }
   }
-  if (!alone.empty()) return fail(alone.front() + " belongs to no camera; use --camera NAME=IN");
+  if (!alone.empty())
+    return usage_error(alone.front() + " belongs to no camera; use --camera NAME=IN");
   return {};
 }
 
@@ -184,12 +186,12 @@ void merge(const ProjectOptions& o, const optics::ViewProjection& projection,
 Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
   if (o.camera_info.empty()) return {};
   const auto intrinsics = view.intrinsics();
-  if (!intrinsics) return fail("--camera-info: only a perspective view has one");
+  if (!intrinsics) return usage_error("--camera-info: only a perspective view has one");
   return write_calibration(o.camera_info, *intrinsics, "view", CalibrationFormat::Ros);
 }
 
 Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone) {
-  if (o.output.empty()) return fail("-o OUT is missing; see --help");
+  if (o.output.empty()) return usage_error("-o OUT is missing");
   auto cameras = choose_cameras(o.cameras);
   if (!cameras) return tl::unexpected(cameras.error());
   if (auto assigned = assign_pictures(alone, *cameras); !assigned) return assigned;

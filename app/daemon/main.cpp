@@ -20,6 +20,7 @@
 #include "app/daemon/build.h"
 #include "app/daemon/configuration_choice.h"
 #include "app/daemon/interfaces.h"
+#include "app/exit_status.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
 #include "app/files/trial.h"
@@ -54,29 +55,29 @@ struct Arguments {
   bool check = false;
 };
 
-/// Nullopt: main returns `exit_code`.
-std::optional<Arguments> parse(int argc, char** argv, int& exit_code) {
+/// Nullopt: main returns `status`.
+std::optional<Arguments> parse(int argc, char** argv, ExitStatus& status) {
   constexpr option kOptions[] = {{"config", required_argument, nullptr, 'c'},
                                  {"check", no_argument, nullptr, 'k'},
                                  {"help", no_argument, nullptr, 'h'},
                                  {"version", no_argument, nullptr, 'v'},
                                  {nullptr, 0, nullptr, 0}};
   Arguments arguments;
-  exit_code = 0;
+  status = ExitStatus::Done;
   for (int option = 0; (option = getopt_long(argc, argv, "", kOptions, nullptr)) != -1;) {
     if (option == 'c') arguments.config = optarg;
     if (option == 'k') arguments.check = true;
     if (option == 'h') std::cout << kHelp;
     if (option == 'v') std::cout << version_text("orbwatchd");
     if (option == 'h' || option == 'v') return std::nullopt;
-    if (option == '?') exit_code = 2;
+    if (option == '?') status = ExitStatus::WrongUsage;
   }
-  if (exit_code == 0 && optind < argc) {
+  if (status == ExitStatus::Done && optind < argc) {
     log_line(LogLevel::Error, std::string("unexpected argument ") + argv[optind]);
-    exit_code = 2;
+    status = ExitStatus::WrongUsage;
   }
   arguments.config = site_file(arguments.config);
-  return exit_code == 0 ? std::optional(arguments) : std::nullopt;
+  return status == ExitStatus::Done ? std::optional(arguments) : std::nullopt;
 }
 
 /// Signals that end or restart are delivered to the one thread that waits for them.
@@ -196,10 +197,10 @@ Result<> start_again(LogWriter& log, char** argv) {
   return fail(std::string("cannot start again: ") + std::strerror(errno));
 }
 
-int main(int argc, char** argv) {
-  int exit_code = 0;
-  const auto arguments = parse(argc, argv, exit_code);
-  if (!arguments) return exit_code;
+ExitStatus main(int argc, char** argv) {
+  ExitStatus status = ExitStatus::Done;
+  const auto arguments = parse(argc, argv, status);
+  if (!arguments) return status;
   const sigset_t signals = block_signals();
   LogWriter log(log_output());
   const auto kernel = remap::requested_kernel();
@@ -215,9 +216,9 @@ int main(int argc, char** argv) {
             .and_then(
                 [&](bool restarts) { return restarts ? start_again(log, argv) : Result<>(); });
   }
-  if (result) return 0;
+  if (result) return ExitStatus::Done;
   log_line(LogLevel::Error, result.error().message);
-  return 1;
+  return ExitStatus::Failed;
 }
 
 }  // namespace
@@ -226,5 +227,5 @@ int main(int argc, char** argv) {
 int main(int argc, char** argv) {
   // OpenCV would share every call among all cores, the frame path's too.
   cv::setNumThreads(1);
-  return orbwatch::app::main(argc, argv);
+  return static_cast<int>(orbwatch::app::main(argc, argv));
 }

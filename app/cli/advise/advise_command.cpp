@@ -60,7 +60,7 @@ std::vector<Option> declare(AdviseOptions& o) {
 
 Result<std::string> advise(const AdviseOptions& o) {
   const auto advice = align::advise(o.arrangement);
-  if (!advice) return fail(advice.error().message + "; see --help");
+  if (!advice) return usage_error(advice.error().message);
   return o.json ? advise_json(*advice) : advise_text(o.arrangement, *advice);
 }
 

@@ -66,8 +66,8 @@ Result<std::string> bench_command(const std::vector<std::string>& arguments) {
       {.usage = "Usage: orbwatch bench --config FILE [options]\n\n"
                 "Runs a configuration as orbwatchd does, and prints what it takes of this "
                 "computer:\nprocessor time of each stage per frame set, load of each thread, "
-                "latency, memory; and\nin one line whether it fits the rate. Exit status 0: it "
-                "does.\n\n",
+                "latency, memory; and\nin one line whether it fits the rate. Exit status 1: it "
+                "does not.\n\n",
        .options = declare(o),
        .notes = "\nStop orbwatchd first: it has the cameras. What nobody reads is not encoded: let "
                 "the\ncontroller, or `orbwatch subscribe`, read the topics that it will read. "

@@ -80,8 +80,8 @@ void write_place(const optics::BallProjection& ball, std::ostream& out) {
 }
 
 Result<std::string> describe(const DescribeCameraOptions& o) {
-  if (o.rig.empty()) return fail("--rig is missing; see --help");
-  if (o.camera.empty()) return fail("--camera is missing; see --help");
+  if (o.rig.empty()) return usage_error("--rig is missing");
+  if (o.camera.empty()) return usage_error("--camera is missing");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto camera = find_camera(*rig, o.camera);

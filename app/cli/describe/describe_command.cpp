@@ -64,7 +64,7 @@ Result<std::string> describe_command(const std::vector<std::string>& arguments) 
   if (subject != kSubjects.end()) return subject->run({arguments.begin() + 1, arguments.end()});
   std::string known;
   for (const Subcommand& s : kSubjects) known += (known.empty() ? "" : ", ") + std::string(s.name);
-  return fail("say what to describe: " + known + "; see --help");
+  return usage_error("say what to describe: " + known);
 }
 
 }  // namespace orbwatch::app

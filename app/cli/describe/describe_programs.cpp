@@ -1,6 +1,7 @@
 #include "app/cli/describe/describe_programs.h"
 
 #include "app/cli/options/declaration.h"
+#include "app/exit_status.h"
 #include "app/model/command.h"
 
 namespace orbwatch::app {
@@ -63,17 +64,16 @@ orbwatch \- tools around mirror balls and the orbwatchd service
 .SH COMMANDS
 )";
 
-constexpr const char* kTail = R"(.SH EXIT STATUS
-.TP
-0
-The command did what was asked; what it found is on standard output.
-.TP
-1
-It did not, or what it judges is not good enough; the reason is on standard error.
-.TP
-2
-Of a command that says so: its options or arguments are wrong.
-.SH ENVIRONMENT
+std::string exit_statuses() {
+  std::string text = ".SH EXIT STATUS\n";
+  for (const ExitStatusInfo& info : kExitStatuses) {
+    text += ".TP\n" + std::to_string(static_cast<int>(info.status)) + "\n" +
+            escaped(info.of_orbwatch) + "\n";
+  }
+  return text;
+}
+
+constexpr const char* kTail = R"(.SH ENVIRONMENT
 .TP
 .B ORBWATCH_CONFIG
 The configuration file, where none is given.
@@ -124,7 +124,7 @@ std::string man_page(std::span<const Subcommand> commands, std::span<const Subco
     if (command.name != "describe") continue;
     for (const Subcommand& subject : subjects) text += section("describe ", subject);
   }
-  return text + kTail;
+  return text + exit_statuses() + kTail;
 }
 
 std::string bash_completion(std::span<const Subcommand> commands,

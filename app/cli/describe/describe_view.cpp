@@ -199,9 +199,10 @@ Result<std::string> describe(const DescribeViewOptions& o) {
   std::vector<CameraFigures> figures;
   std::vector<float> best(static_cast<std::size_t>(view->width()) * view->height());
   for (const ChosenCamera& camera : *cameras) {
-    if (!camera.picture.empty()) return fail("--camera takes no picture here; give its name alone");
+    if (!camera.picture.empty())
+      return usage_error("--camera takes no picture here; give its name alone");
     const auto size = camera.size ? camera.size : o.picture_size;
-    if (!size) return fail("--size-of-picture is missing; see --help");
+    if (!size) return usage_error("--size-of-picture is missing");
     if (auto fits = check_picture_size(camera, *size); !fits) return tl::unexpected(fits.error());
     const auto map = optics::resolution_map(*view, camera.ball, size->width, size->height);
     figures.push_back(figures_of(camera, *view, *size, map));

@@ -97,7 +97,7 @@ Result<std::string> detect_command(const std::vector<std::string>& arguments) {
                      {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
                      [&](const auto& words) -> Result<std::string> {
                        if (words.size() == 1) return detect(o, words.front());
-                       return fail("name one picture; see --help");
+                       return usage_error("name one picture");
                      });
 }
 

@@ -11,8 +11,6 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr int kWrongUsage = 2;
-
 Result<std::string> examine(const std::filesystem::path& file, bool json) {
   const auto facts = doctor::gather(doctor::this_computer(), file);
   const auto diagnoses = doctor::diagnose(facts);
@@ -41,8 +39,7 @@ Result<std::string> doctor_command(const std::vector<std::string>& arguments) {
                     "\"check\", \"level\", \"text\" and \"remedy\"",
                     flag_option(json)}},
        .notes = "\nA fault keeps orbwatchd from what its configuration says; with a warning it "
-                "runs, at a\nrisk. Exit status 0: no fault. 1: a fault. 2: wrong usage.\n",
-       .usage_status = kWrongUsage},
+                "runs, at a\nrisk. Exit status 1: there is a fault.\n"},
       [&](const auto&) { return examine(site_file(config), json); });
 }
 

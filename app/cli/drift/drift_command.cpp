@@ -60,11 +60,11 @@ std::vector<Option> declare(DriftOptions& o) {
 Result<std::string> drift(DriftOptions o, const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || equals + 1 == word.size()) {
-    return fail("\"" + word + "\" must be CAMERA=FOLDER");
+    return usage_error("\"" + word + "\" must be CAMERA=FOLDER");
   }
   o.sequence.folder = word.substr(equals + 1);
-  if (o.rig.empty()) return fail("--rig is missing; see --help");
-  if (!(o.sequence.rate > 0)) return fail("--rate must be above 0");
+  if (o.rig.empty()) return usage_error("--rig is missing");
+  if (!(o.sequence.rate > 0)) return usage_error("--rate must be above 0");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto camera = find_camera(*rig, word.substr(0, equals));
@@ -84,7 +84,7 @@ Result<std::string> drift_command(const std::vector<std::string>& arguments) {
                      {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
                      [&](const auto& words) -> Result<std::string> {
                        if (words.size() == 1) return drift(o, words.front());
-                       return fail("name one CAMERA=FOLDER; see --help");
+                       return usage_error("name one CAMERA=FOLDER");
                      });
 }
 

@@ -52,7 +52,7 @@ Result<std::string> lines_command(const std::vector<std::string>& arguments) {
                    {"config", 'c', "FILE", "that of orbwatchd (default: as orbwatchd)",
                     text_option(config)}}},
       [&](const auto&) -> Result<std::string> {
-        if (!safe) return fail("say --safe; see --help");
+        if (!safe) return usage_error("say --safe");
         return set_safe(site_file(config));
       });
 }

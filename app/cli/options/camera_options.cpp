@@ -39,15 +39,15 @@ struct Named {
 };
 
 Result<> check_choice(const std::vector<std::string>& cameras) {
-  if (cameras.empty()) return fail("--rig needs at least one --camera; see --help");
+  if (cameras.empty()) return usage_error("--rig needs at least one --camera");
   if (cameras.size() > remap::kMaxSources) {
-    return fail(std::to_string(cameras.size()) + " cameras are given; at most " +
-                std::to_string(remap::kMaxSources) + " are merged");
+    return usage_error(std::to_string(cameras.size()) + " cameras are given; at most " +
+                       std::to_string(remap::kMaxSources) + " are merged");
   }
   for (auto it = cameras.begin(); it != cameras.end(); ++it) {
     const std::string name = Named(*it).name;
     if (std::any_of(cameras.begin(), it, [&](const auto& c) { return Named(c).name == name; })) {
-      return fail("camera " + name + " is given twice");
+      return usage_error("camera " + name + " is given twice");
     }
   }
   return {};
@@ -66,7 +66,8 @@ Result<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
                                     {o.alpha.has_value(), "--alpha"},
                                     {o.distance.has_value(), "--distance"},
                                     {o.rotation.has_value(), "--rotation"}}) {
-    if (given) return fail("--rig and " + std::string(name) + " are given; the rig states it");
+    if (given)
+      return usage_error("--rig and " + std::string(name) + " are given; the rig states it");
   }
   if (auto good = check_choice(o.cameras); !good) return tl::unexpected(good.error());
   const auto rig = load_rig(o.rig);
@@ -86,8 +87,8 @@ Result<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
 }
 
 Result<std::vector<ChosenCamera>> choose_described(const CameraOptions& o) {
-  if (!o.cameras.empty()) return fail("--camera needs --rig; see --help");
-  if (!o.ball) return fail("--ball is missing (or --rig); see --help");
+  if (!o.cameras.empty()) return usage_error("--camera needs --rig");
+  if (!o.ball) return usage_error("--ball is missing (or --rig)");
   const auto kind = o.model.value_or(optics::BallModel::Kind::Exact);
   const auto model = optics::BallModel::make(kind, o.alpha, o.distance);
   if (!model) return tl::unexpected(model.error());

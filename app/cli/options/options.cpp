@@ -17,10 +17,8 @@ constexpr int kFirstLong = 1000;
 /// Where a command line goes instead of being run, while declaration_of() asks for it.
 std::optional<CommandLine>* asked_declaration = nullptr;
 
-/// Of the command that run_command() ran last.
-int last_error_status = 1;
-
-tl::unexpected<Error> refuse(const std::string& what) { return fail(what + "; see --help"); }
+/// Of the error that was returned last.
+ExitStatus last_error_status = ExitStatus::Failed;
 
 /// Calls the options' set(); returns the arguments that are no option.
 Result<std::vector<std::string>> parse(std::vector<std::string> arguments,
@@ -44,8 +42,8 @@ Result<std::vector<std::string>> parse(std::vector<std::string> arguments,
   const int argc = static_cast<int>(arguments.size());
   for (int found = 0;
        (found = getopt_long(argc, argv.data(), letters.c_str(), table.data(), nullptr)) != -1;) {
-    if (found == '?') return refuse(std::string("unknown option ") + argv[optind - 1]);
-    if (found == ':') return refuse(std::string(argv[optind - 1]) + " needs a value");
+    if (found == '?') return usage_error(std::string("unknown option ") + argv[optind - 1]);
+    if (found == ':') return usage_error(std::string(argv[optind - 1]) + " needs a value");
     const auto chosen = std::find_if(options.begin(), options.end(), [&](const Option& o) {
       return o.letter == found || kFirstLong + (&o - options.data()) == found;
     });
@@ -81,18 +79,23 @@ Result<std::string> run_command(
     *asked_declaration = std::move(line);
     return std::string();
   }
-  last_error_status = line.usage_status;
+  last_error_status = ExitStatus::WrongUsage;
   const auto words = parse(std::move(arguments), line.options, line.order);
   if (!words) return tl::unexpected(words.error());
   if (asks_help) return line.usage + options_help(line.options) + line.notes;
   if (!words->empty() && !line.takes_words) {
-    return refuse("unexpected argument " + words->front());
+    return usage_error("unexpected argument " + words->front());
   }
-  last_error_status = 1;
+  last_error_status = ExitStatus::Failed;
   return run(*words);
 }
 
-int error_status() { return last_error_status; }
+tl::unexpected<Error> usage_error(const std::string& what) {
+  last_error_status = ExitStatus::WrongUsage;
+  return fail(what + "; see --help");
+}
+
+ExitStatus error_status() { return last_error_status; }
 
 std::optional<CommandLine> declaration_of(const Subcommand& command) {
   std::optional<CommandLine> declared;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/exit_status.h"
 #include "proc/image/result.h"
 #include "proc/settings/settings.h"
 
@@ -32,8 +33,7 @@ struct CommandLine {
   std::vector<Option> options;
   bool takes_words = false;  ///< arguments that are no option
   OptionOrder order = OptionOrder::Anywhere;
-  std::string notes{};   ///< printed by --help behind the options
-  int usage_status = 1;  ///< exit status when the arguments are not these
+  std::string notes{};  ///< printed by --help behind the options
 };
 
 /// Parses `arguments` (the command's name first), calls the options' set(), and returns what `run`
@@ -43,9 +43,13 @@ Result<std::string> run_command(
     std::vector<std::string> arguments, CommandLine line,
     const std::function<Result<std::string>(const std::vector<std::string>& words)>& run);
 
-/// The exit status of the error that run_command() returned last: the command's usage_status when
-/// it refused the arguments, else 1. Thread-bound.
-int error_status();
+/// The error of a command whose options or arguments are wrong: `what`, and where to read how it is
+/// right. It ends with ExitStatus::WrongUsage, as those of run_command() itself and of set() do.
+/// Thread-bound.
+tl::unexpected<Error> usage_error(const std::string& what);
+
+/// How the error that a command returned last ends the program. Thread-bound.
+ExitStatus error_status();
 
 /// `text` as a finite number. The error names the option `name`.
 Result<double> parse_number(std::string_view name, std::string_view text);

@@ -55,8 +55,8 @@ constexpr const char* kNotes =
     "pixel [u, v], residual [u, v] marked minus shown in px (null: not shown), outlier}]}].\n";
 
 Result<std::string> place(const PlaceOptions& o) {
-  if (o.rig.empty()) return fail("--rig is missing; see --help");
-  if (o.cameras.empty()) return fail("--camera is missing; see --help");
+  if (o.rig.empty()) return usage_error("--rig is missing");
+  if (o.cameras.empty()) return usage_error("--camera is missing");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto request = place_request(o, *rig);

@@ -129,14 +129,14 @@ Result<CameraAlignment> alignment(const optics::Rig& rig, const std::string& nam
 
 Result<std::string> register_cameras(const RegisterOptions& o, const std::string& first,
                                      const std::string& second) {
-  if (o.rig.empty()) return fail("say which rig: --rig FILE");
+  if (o.rig.empty()) return usage_error("--rig is missing");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
   const auto a = read_named_pictures(first);
   if (!a) return tl::unexpected(a.error());
   const auto b = read_named_pictures(second);
   if (!b) return tl::unexpected(b.error());
-  if (a->name == b->name) return fail("camera " + a->name + " is given twice");
+  if (a->name == b->name) return usage_error("camera " + a->name + " is given twice");
   const auto reference = find_camera(*rig, a->name);
   if (!reference) return tl::unexpected(reference.error());
   if (auto same = check_size(*reference, *a); !same) return tl::unexpected(same.error());
@@ -166,7 +166,7 @@ Result<std::string> register_command(const std::vector<std::string>& arguments) 
                      {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
                      [&](const auto& words) -> Result<std::string> {
                        if (words.size() == 2) return register_cameras(o, words[0], words[1]);
-                       return fail("name two cameras with their pictures, A=PATH B=PATH");
+                       return usage_error("name two cameras with their pictures, A=PATH B=PATH");
                      });
 }
 

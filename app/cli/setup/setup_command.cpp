@@ -106,7 +106,7 @@ std::string report(const Setup& setup, const SetupOptions& o) {
 }
 
 Result<std::string> set_up(const SetupOptions& o) {
-  if (o.folder.empty()) return fail("give the site's folder, -o DIR; see --help");
+  if (o.folder.empty()) return usage_error("give the site's folder, -o DIR");
   Setup setup;
   return check_place(o.folder, o.force)
       .and_then([&] { return read_machine(o, setup); })

@@ -23,8 +23,8 @@ Result<std::vector<double>> numbers(const char* option, const std::string& text,
                                     std::size_t count) {
   auto values = parse_numbers(option, text);
   if (values && values->size() != count) {
-    return fail(std::string("--") + option + " has " + std::to_string(values->size()) +
-                " numbers; it takes " + std::to_string(count));
+    return usage_error(std::string("--") + option + " has " + std::to_string(values->size()) +
+                       " numbers; it takes " + std::to_string(count));
   }
   return values;
 }
@@ -47,9 +47,10 @@ Result<SetupCamera*> camera_of(Setup& setup, const char* option, const std::stri
   std::string names;
   for (const SetupCamera& camera : setup.cameras)
     names += (names.empty() ? "" : ", ") + camera.name;
-  return fail(std::string("--") + option + ": " +
-              (name.empty() ? "say whose it is, as NAME=..." : "there is no camera " + name) +
-              "; there are: " + names);
+  return usage_error(
+      std::string("--") + option + ": " +
+      (name.empty() ? "say whose it is, as NAME=..." : "there is no camera " + name) +
+      "; there are: " + names);
 }
 
 Result<> read_calibration_of(SetupCamera& camera, const std::string& file) {
@@ -71,7 +72,7 @@ Result<> read_pose_of(SetupCamera& camera, const std::string& text) {
   const auto v = numbers("pose", text, 12);
   if (!v) return tl::unexpected(v.error());
   const auto rotation = optics::checked_rotation({vector(*v, 3), vector(*v, 6), vector(*v, 9)});
-  if (!rotation) return fail("--pose of " + camera.name + ": " + rotation.error().message);
+  if (!rotation) return usage_error("--pose of " + camera.name + ": " + rotation.error().message);
   camera.pose = optics::Pose{*rotation, vector(*v, 0)};
   return {};
 }
@@ -79,7 +80,7 @@ Result<> read_pose_of(SetupCamera& camera, const std::string& text) {
 Result<> read_distance_of(SetupCamera& camera, const std::string& text) {
   const auto mm = parse_number("distance", text);
   if (!mm) return tl::unexpected(mm.error());
-  if (!(*mm > 0)) return fail("--distance is " + text + "; it must be above 0 mm");
+  if (!(*mm > 0)) return usage_error("--distance is " + text + "; it must be above 0 mm");
   camera.distance = *mm;
   return {};
 }
@@ -125,7 +126,7 @@ std::vector<Option> setup_options(SetupOptions& o) {
 }
 
 Result<> read_machine(const SetupOptions& o, Setup& setup) {
-  if (!(o.ball_diameter > 0)) return fail("give --ball-diameter, above 0 mm; see --help");
+  if (!(o.ball_diameter > 0)) return usage_error("give --ball-diameter, above 0 mm");
   setup.ball_radius = o.ball_diameter / 2;
   if (!o.ball_centre.empty()) {
     const auto centre = numbers("ball-centre", o.ball_centre, 3);
@@ -145,7 +146,7 @@ Result<> read_machine(const SetupOptions& o, Setup& setup) {
   }
   const bool knows_where = !o.poses.empty() || setup.ball_centre;
   if ((setup.walls || !setup.obstacles.empty()) && !knows_where) {
-    return fail(
+    return usage_error(
         "--box and --obstacle are in the machine's axes, in which nothing else is known; "
         "give --pose or --ball-centre, too");
   }

@@ -62,7 +62,7 @@ TEST_F(Calibration, RefusesWhatItDoesNotHave) {
   EXPECT_EQ(run({"restore", "7"}), 1);
   EXPECT_NE(said.find("there is no alignment 7"), std::string::npos) << said;
   EXPECT_EQ(run({"reset", "spare"}), 1);
-  EXPECT_EQ(run({"forget"}), 1);
+  EXPECT_EQ(run({"forget"}), 2);
   write("rig.toml", app::kRig + "# changed\n");
   EXPECT_EQ(run({"restore", "1"}), 1);
   EXPECT_NE(said.find("another rig file"), std::string::npos) << said;
