@@ -66,11 +66,11 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
   auto plan = open_cameras(site, *all.lines_);
   if (!plan) return tl::unexpected(plan.error());
   plan->background = all.background_;
-  all.interfaces_.emplace(
-      site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
-      all.record_, all.background_, all.snapshots());
   all.watch_.emplace(site, all.background_);
   all.alignment_.emplace(site, *all.watch_, restart);
+  all.interfaces_.emplace(
+      site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
+      all.record_, all.background_, all.snapshots(), &*all.alignment_);
   plan->surroundings = [&all, grants](hal::TimePoint now) {
     return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),
                         grants.realtime,           grants.memory_locked, all.watched(),

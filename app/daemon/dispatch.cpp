@@ -78,6 +78,20 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
       return receivers.alignment.forget_points(command.integer(0));
     case CommandCode::PlaceCamera:
       return receivers.alignment.place(command.integer(0));
+    case CommandCode::MoveOutline:
+      return receivers.alignment.move_outline(command.integer(0), {arguments[1], arguments[2]});
+    case CommandCode::ShapeOutline:
+      return receivers.alignment.shape_outline(command.integer(0), arguments[1], arguments[2],
+                                               arguments[3]);
+    case CommandCode::TurnCamera:
+      return receivers.alignment.turn(command.integer(0),
+                                      {arguments[1], arguments[2], arguments[3]});
+    case CommandCode::UndoAlignment:
+      return receivers.alignment.undo(command.integer(0));
+    case CommandCode::RevertAlignment:
+      return receivers.alignment.revert(command.integer(0));
+    case CommandCode::PickPixel:
+      return receivers.alignment.pick(command.integer(0), {arguments[1], arguments[2]});
   }
   return CommandResult::UnknownCommand;
 }

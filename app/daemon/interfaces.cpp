@@ -25,14 +25,16 @@ std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
 
 SinkContext make_context(const Resolved& site, CommandHandler handler,
                          std::shared_ptr<CommandRecord> record,
-                         std::shared_ptr<hal::SharedThreads> background) {
+                         std::shared_ptr<hal::SharedThreads> background,
+                         AlignmentSource* alignment) {
   SinkContext context{site.names,
                       {},
                       {},
                       std::move(handler),
                       std::move(record),
                       std::move(background),
-                      state_folder(site.site.state_folder)};
+                      state_folder(site.site.state_folder),
+                      alignment};
   context.views.resize(site.names.views.size());
   const auto publish = [&context, &site](const ViewSettings& view, bool measured) {
     const bool perspective = view.kind == optics::ViewKind::Perspective;
@@ -62,9 +64,10 @@ std::string commanders_text(const SinkSettings& sinks) {
 
 Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
                        std::shared_ptr<CommandRecord> record,
-                       std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots) {
+                       std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
+                       AlignmentSource* alignment) {
   const SinkContext context =
-      make_context(site, std::move(handler), std::move(record), std::move(background));
+      make_context(site, std::move(handler), std::move(record), std::move(background), alignment);
   std::size_t next = 0;
   std::apply(
       [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },

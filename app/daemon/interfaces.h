@@ -39,10 +39,10 @@ inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<S
 class Interfaces {
  public:
   /// Makes the enabled ones. `handler` carries commands out, noted in `record`; `background`
-  /// encodes; `snapshots` is the
-  /// caller's and outlives this; null: none.
+  /// encodes; `snapshots` and `alignment` are the caller's and outlive this; null: none.
   Interfaces(const Resolved& site, CommandHandler handler, std::shared_ptr<CommandRecord> record,
-             std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots);
+             std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
+             AlignmentSource* alignment = nullptr);
 
   /// Starts them, with those that cannot be opened among the `attempts`.
   void start(Attempts& attempts, hal::TimePoint now);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/model/role.h"
+#include "proc/image/picture.h"
 
 namespace orbwatch::app {
 
@@ -29,6 +30,12 @@ inline constexpr ArgumentInfo kCameraArgument{"camera", "",        1,
                                               0,        kAnyIndex, "index of the camera, from 0"};
 /// Machine frame. 100 m are more than any machine has.
 inline constexpr double kMaxCoordinate = 100000;
+inline constexpr ArgumentInfo pixel_argument(std::string_view name, std::string_view description) {
+  return {name, "px", 0.01, -kMaxSide, kMaxSide, description};
+}
+inline constexpr ArgumentInfo radius_argument(std::string_view name, std::string_view description) {
+  return {name, "px", 0.01, 1, kMaxSide, description};
+}
 inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
                                             0,      kAnyIndex, "index of the view, from 0"};
 
@@ -37,59 +44,82 @@ inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
 /// X(code, number, name, role, description, arguments...): the numbers go to PLC and controller, so
 /// append and never renumber. The role is the least that may give it where people log in. Limits of
 /// an argument that depend on the configuration are the handler's.
-#define ORBWATCH_COMMANDS(X)                                                                     \
-  X(SelectView, 1, "select_view", Operator, "Shows this view on the topic of the selected view", \
-    kViewArgument)                                                                               \
-  X(Pulse, 2, "pulse", Integrator, "One pulse on this line",                                     \
-    ArgumentInfo{"line", "", 1, 0, kAnyIndex, "index of the trigger_out line, from 0"})          \
-  X(Start, 3, "start", Operator, "Starts measuring again", kNoArgument)                          \
-  X(Stop, 4, "stop", Operator, "Stops measuring; views are still published", kNoArgument)        \
-  X(SelectRecipe, 5, "select_recipe", Operator,                                                  \
-    "Measures by this recipe from the next frame set on",                                        \
-    ArgumentInfo{"recipe", "", 1, 1, kAnyIndex, "number of the recipe"})                         \
-  X(PointView, 6, "point_view", Operator, "Points a display view in another direction",          \
-    kViewArgument, ArgumentInfo{"yaw", "deg", 0.01, -180, 180, "from +Y towards +X"},            \
-    ArgumentInfo{"pitch", "deg", 0.01, -90, 90, "up positive"},                                  \
-    ArgumentInfo{"h_fov", "deg", 0.01, 0, 360, "horizontal field of view; 0 keeps it"})          \
-  X(MixSources, 7, "mix_sources", Operator, "Changes a camera's weight in a display view",       \
-    kViewArgument,                                                                               \
-    ArgumentInfo{"source", "", 1, 0, kAnyIndex, "index among the view's sources, from 0"},       \
-    ArgumentInfo{"weight", "", 0.001, 0.001, 1000, "its share where several cameras see"})       \
-  X(Trigger, 8, "trigger", Operator,                                                             \
-    "Measures the next frame set as a result, like an edge of the trigger line", kNoArgument)    \
-  X(AcknowledgeAlarm, 9, "acknowledge_alarm", Operator, "Acknowledges one alarm or all",         \
-    ArgumentInfo{"alarm", "", 1, 0, kAnyIndex, "number of the alarm, from 1; 0: all"})           \
-  X(Snapshot, 10, "snapshot", Operator,                                                          \
-    "Writes the next picture of a view into the snapshot folder", kViewArgument)                 \
-  X(SetProcessActive, 11, "set_process_active", Operator,                                        \
-    "Sets whether the process is active, for a recipe with process_active = \"command\"",        \
-    ArgumentInfo{"active", "", 1, 0, 1, "1: active"})                                            \
-  X(Restart, 12, "restart", Integrator,                                                          \
-    "Shuts orbwatchd down and starts it again with its files read anew", kNoArgument)            \
-  X(DetectBall, 13, "detect_ball", Integrator,                                                   \
-    "Finds the ball in a camera's next picture: a proposal", kCameraArgument)                    \
-  X(RegisterCamera, 14, "register_camera", Integrator,                                           \
-    "Finds how a camera stands to the first one, by what both see: a proposal", kCameraArgument) \
-  X(CorrectAlignment, 15, "correct_alignment", Integrator,                                       \
-    "Proposes an alignment that a camera's drift asks for", kCameraArgument)                     \
-  X(AcceptAlignment, 16, "accept_alignment", Integrator,                                         \
-    "Puts the proposed alignment of a camera in force, with a restart", kCameraArgument)         \
-  X(DiscardAlignment, 17, "discard_alignment", Integrator,                                       \
-    "Forgets the proposed alignment of a camera", kCameraArgument)                               \
-  X(LearnCleanBall, 18, "learn_clean_ball", Operator,                                            \
-    "The ball was cleaned: what a camera sees of it from now on is clean", kCameraArgument)      \
-  X(MarkPoint, 19, "mark_point", Integrator,                                                     \
-    "The tool's light is at these coordinates, machine frame: its place in a camera's picture "  \
-    "is a point for place_camera, until the next restart",                                       \
-    kCameraArgument,                                                                             \
-    ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},             \
-    ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                  \
-    ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})                       \
-  X(ForgetPoints, 20, "forget_points", Integrator,                                               \
-    "Forgets the points that were marked for a camera", kCameraArgument)                         \
-  X(PlaceCamera, 21, "place_camera", Integrator,                                                 \
-    "Finds where a camera stands, by its marked points and the site's tags: a proposal",         \
-    kCameraArgument)
+#define ORBWATCH_COMMANDS(X)                                                                       \
+  X(SelectView, 1, "select_view", Operator, "Shows this view on the topic of the selected view",   \
+    kViewArgument)                                                                                 \
+  X(Pulse, 2, "pulse", Integrator, "One pulse on this line",                                       \
+    ArgumentInfo{"line", "", 1, 0, kAnyIndex, "index of the trigger_out line, from 0"})            \
+  X(Start, 3, "start", Operator, "Starts measuring again", kNoArgument)                            \
+  X(Stop, 4, "stop", Operator, "Stops measuring; views are still published", kNoArgument)          \
+  X(SelectRecipe, 5, "select_recipe", Operator,                                                    \
+    "Measures by this recipe from the next frame set on",                                          \
+    ArgumentInfo{"recipe", "", 1, 1, kAnyIndex, "number of the recipe"})                           \
+  X(PointView, 6, "point_view", Operator, "Points a display view in another direction",            \
+    kViewArgument, ArgumentInfo{"yaw", "deg", 0.01, -180, 180, "from +Y towards +X"},              \
+    ArgumentInfo{"pitch", "deg", 0.01, -90, 90, "up positive"},                                    \
+    ArgumentInfo{"h_fov", "deg", 0.01, 0, 360, "horizontal field of view; 0 keeps it"})            \
+  X(MixSources, 7, "mix_sources", Operator, "Changes a camera's weight in a display view",         \
+    kViewArgument,                                                                                 \
+    ArgumentInfo{"source", "", 1, 0, kAnyIndex, "index among the view's sources, from 0"},         \
+    ArgumentInfo{"weight", "", 0.001, 0.001, 1000, "its share where several cameras see"})         \
+  X(Trigger, 8, "trigger", Operator,                                                               \
+    "Measures the next frame set as a result, like an edge of the trigger line", kNoArgument)      \
+  X(AcknowledgeAlarm, 9, "acknowledge_alarm", Operator, "Acknowledges one alarm or all",           \
+    ArgumentInfo{"alarm", "", 1, 0, kAnyIndex, "number of the alarm, from 1; 0: all"})             \
+  X(Snapshot, 10, "snapshot", Operator,                                                            \
+    "Writes the next picture of a view into the snapshot folder", kViewArgument)                   \
+  X(SetProcessActive, 11, "set_process_active", Operator,                                          \
+    "Sets whether the process is active, for a recipe with process_active = \"command\"",          \
+    ArgumentInfo{"active", "", 1, 0, 1, "1: active"})                                              \
+  X(Restart, 12, "restart", Integrator,                                                            \
+    "Shuts orbwatchd down and starts it again with its files read anew", kNoArgument)              \
+  X(DetectBall, 13, "detect_ball", Integrator,                                                     \
+    "Finds the ball in a camera's next picture: a proposal", kCameraArgument)                      \
+  X(RegisterCamera, 14, "register_camera", Integrator,                                             \
+    "Finds how a camera stands to the first one, by what both see: a proposal", kCameraArgument)   \
+  X(CorrectAlignment, 15, "correct_alignment", Integrator,                                         \
+    "Proposes an alignment that a camera's drift asks for", kCameraArgument)                       \
+  X(AcceptAlignment, 16, "accept_alignment", Integrator,                                           \
+    "Puts the proposed alignment of a camera in force, with a restart", kCameraArgument)           \
+  X(DiscardAlignment, 17, "discard_alignment", Integrator,                                         \
+    "Forgets the proposed alignment of a camera", kCameraArgument)                                 \
+  X(LearnCleanBall, 18, "learn_clean_ball", Operator,                                              \
+    "The ball was cleaned: what a camera sees of it from now on is clean", kCameraArgument)        \
+  X(MarkPoint, 19, "mark_point", Integrator,                                                       \
+    "The tool's light is at these coordinates, machine frame: its place in a camera's picture "    \
+    "is a point for place_camera, until the next restart",                                         \
+    kCameraArgument,                                                                               \
+    ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},               \
+    ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                    \
+    ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})                         \
+  X(ForgetPoints, 20, "forget_points", Integrator,                                                 \
+    "Forgets the points that were marked for a camera", kCameraArgument)                           \
+  X(PlaceCamera, 21, "place_camera", Integrator,                                                   \
+    "Finds where a camera stands, by its marked points and the site's tags: a proposal",           \
+    kCameraArgument)                                                                               \
+  X(MoveOutline, 22, "move_outline", Integrator,                                                   \
+    "The ball's outline has its centre here in a camera's picture: a proposal", kCameraArgument,   \
+    pixel_argument("u", "to the right, pixel centres at integers"), pixel_argument("v", "down"))   \
+  X(ShapeOutline, 23, "shape_outline", Integrator,                                                 \
+    "The ball's outline has these semi-axes in a camera's picture: a proposal", kCameraArgument,   \
+    radius_argument("rx", "the first semi-axis"), radius_argument("ry", "the one across it"),      \
+    ArgumentInfo{"angle", "deg", 0.01, -180, 180, "of the first one, from u towards v"})           \
+  X(TurnCamera, 24, "turn_camera", Integrator,                                                     \
+    "Turns what a camera shows about the ball, in the machine frame: a proposal", kCameraArgument, \
+    ArgumentInfo{"yaw", "deg", 0.001, -180, 180, "about Z, from +Y towards +X"},                   \
+    ArgumentInfo{"pitch", "deg", 0.001, -90, 90, "about X, up positive"},                          \
+    ArgumentInfo{"roll", "deg", 0.001, -180, 180, "about Y, the right side dips"})                 \
+  X(UndoAlignment, 25, "undo_alignment", Integrator,                                               \
+    "Takes the last change of a camera's proposed alignment back", kCameraArgument)                \
+  X(RevertAlignment, 26, "revert_alignment", Integrator,                                           \
+    "Puts the alignment of a camera in force that counted before the present one, with a "         \
+    "restart; again: the present one",                                                             \
+    kCameraArgument)                                                                               \
+  X(PickPixel, 27, "pick_pixel", Integrator,                                                       \
+    "A camera's picture shows a known point here: the next mark_point says which, instead of "     \
+    "the tool's light",                                                                            \
+    kCameraArgument, pixel_argument("u", "to the right, pixel centres at integers"),               \
+    pixel_argument("v", "down"))
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

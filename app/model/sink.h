@@ -27,6 +27,7 @@ struct PublishedView {
   std::shared_ptr<const optics::ViewProjection> ball = nullptr;
 };
 
+class AlignmentSource;
 class CommandRecord;
 
 /// What every sink is made with, besides its own settings.
@@ -38,6 +39,7 @@ struct SinkContext {
   std::shared_ptr<CommandRecord> record;           ///< of the commands that go to `handler`
   std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
   std::filesystem::path state_folder;              ///< of what must outlast a restart
+  AlignmentSource* alignment = nullptr;            ///< outlives the sinks' run; null: none
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses

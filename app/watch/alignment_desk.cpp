@@ -1,79 +1,16 @@
 #include "app/watch/alignment_desk.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
 #include <utility>
 
-#include "app/files/calibration_file.h"
 #include "app/log.h"
-#include "app/model/utc_text.h"
-#include "app/state/state_folder.h"
-#include "app/watch/drift_correction.h"
-#include "app/watch/placed_alignment.h"
-#include "proc/align/detect/ball_detector.h"
-#include "proc/align/register/camera_registration.h"
+#include "app/watch/alignment_state.h"
+#include "proc/align/register/registration.h"
 
 namespace orbwatch::app {
 namespace {
 
-/// Of both cameras, to register by: enough of a process' light at any usual rate.
-constexpr std::size_t kPictures = 24;
-constexpr std::size_t kPicturesOfLight = 8;
-constexpr std::chrono::seconds kPatience{10};
-
-std::string two_digits(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-/// The pictures that were taken at the same moments.
-align::SimultaneousPictures together(const std::vector<RecordedPicture>& reference,
-                                     const std::vector<RecordedPicture>& camera) {
-  align::SimultaneousPictures pictures;
-  for (const RecordedPicture& one : reference) {
-    const auto other = std::ranges::find(camera, one.time, &RecordedPicture::time);
-    if (other == camera.end()) continue;
-    pictures.reference.push_back(one.picture);
-    pictures.camera.push_back(other->picture);
-  }
-  return pictures;
-}
-
-/// Whether an entry of that camera is younger than `age`. An unreadable file is another's concern.
-bool is_young(const std::filesystem::path& file, const std::string& camera,
-              std::chrono::minutes age) {
-  TextFiles files;
-  const auto entries = load_calibrations(file, files);
-  const auto oldest = utc_text(std::chrono::system_clock::now() - age);
-  return entries && std::ranges::any_of(*entries, [&](const CalibrationEntry& entry) {
-           // Moments of one form: the later text is the later moment.
-           return camera_of(entry).camera == camera && entry.time > oldest;
-         });
-}
-
-/// Keeps a damaged file aside. The alignments that run.
-Result<std::vector<CalibrationEntry>> load_running(const std::filesystem::path& file,
-                                                   const FileTexts& running, const Error& damage) {
-  return keep_damaged(file).and_then([&](const std::filesystem::path& kept) {
-    log_line(LogLevel::Warning, damage.message + "; it is kept as " + kept.string());
-    TextFiles files(running);
-    return load_calibrations(file, files);
-  });
-}
-
-/// Accepts it into the file, a damaged one of which is written anew with what is `running`. Error:
-/// as load_calibrations(), keep_damaged() and save_calibrations().
-Result<int> put_in_force(const std::filesystem::path& file, const FileTexts& running,
-                         const CalibrationEntry& entry) {
-  TextFiles files;
-  auto entries = load_calibrations(file, files);
-  if (!entries) entries = load_running(file, running, entries.error());
-  if (!entries) return tl::unexpected(entries.error());
-  accept(*entries, entry);
-  return save_calibrations(file, *entries).map([&] { return entries->back().number; });
-}
+std::optional<AlignmentProposal> found(AlignmentProposal proposal) { return proposal; }
 
 }  // namespace
 
@@ -82,6 +19,9 @@ AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch,
     : site_(site),
       watch_(watch),
       restart_(std::move(restart)),
+      finder_(site, watch),
+      accepted_(site),
+      pictures_(watch),
       work_(thread_, [this] { work(); }),
       correction_(thread_, [this] { correct_lasting_drifts(); }) {
   for (auto& sigma : direction_sigmas_) sigma = signals::kNotValid;
@@ -100,51 +40,83 @@ void AlignmentDesk::stop() {
   watch_.cancel_records();
   correction_.cancel();
   work_.cancel();
+  pictures_.stop();
 }
 
 CommandResult AlignmentDesk::detect(std::size_t camera) {
-  return begin(camera, watch_.is_watched(camera), [this, camera] { return detected(camera); });
+  return begin(camera, watch_.is_watched(camera), [this, camera](const optics::Rig& rig) {
+    return finder_.detect(rig, camera).map(found);
+  });
 }
 
 CommandResult AlignmentDesk::register_to_first(std::size_t camera) {
   const bool is_possible = camera != 0 && watch_.is_watched(camera) && watch_.is_watched(0);
-  return begin(camera, is_possible, [this, camera] { return registered(camera); });
+  return begin(camera, is_possible, [this, camera](const optics::Rig& rig) {
+    return finder_.register_to_first(rig, camera).map(found);
+  });
 }
 
 CommandResult AlignmentDesk::correct(std::size_t camera) {
-  return begin(camera, watch_.is_watched(camera), [this, camera] { return drifted(camera); });
+  return begin(camera, watch_.is_watched(camera), [this, camera](const optics::Rig& rig) {
+    return finder_.correct(rig, camera).map(found);
+  });
 }
 
 CommandResult AlignmentDesk::mark(std::size_t camera, const optics::Vec3& point) {
-  return begin(camera, watch_.is_watched(camera),
-               [this, camera, point] { return marked(camera, point); });
+  return begin(camera, watch_.is_watched(camera), [this, camera, point](const optics::Rig& rig) {
+    std::optional<optics::Vec2> picked;
+    {
+      const std::lock_guard lock(mutex_);
+      picked = std::exchange(desks_[camera].picked, std::nullopt);
+    }
+    return finder_.mark(rig, camera, point, picked).map([&] {
+      point_counts_[camera] = finder_.points(camera).size();
+      return std::optional<AlignmentProposal>();
+    });
+  });
+}
+
+CommandResult AlignmentDesk::pick(std::size_t camera, const optics::Vec2& pixel) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  const std::lock_guard lock(mutex_);
+  const auto rig = proposed_rig(camera);
+  const auto ball = rig ? optics::ball_projection(*rig, rig->cameras[site_.rig_cameras[camera]])
+                        : Result<optics::BallProjection>(tl::unexpected(rig.error()));
+  if (!ball || !ball->ray(pixel)) return CommandResult::ArgumentOutOfRange;
+  desks_[camera].picked = pixel;
+  return CommandResult::Done;
 }
 
 CommandResult AlignmentDesk::place(std::size_t camera) {
   const bool is_possible =
       watch_.is_watched(camera) && (point_counts_[camera] > 0 || !site_.site.place.tags.empty());
-  return begin(camera, is_possible, [this, camera] { return placed(camera); });
+  return begin(camera, is_possible, [this, camera](const optics::Rig& rig) {
+    return finder_.place(rig, camera).map(found);
+  });
 }
 
 CommandResult AlignmentDesk::forget_points(std::size_t camera) {
-  if (camera >= site_.site.cameras.size()) return CommandResult::ArgumentOutOfRange;
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
   const std::lock_guard lock(mutex_);
   if (busy_) return CommandResult::Busy;
   if (point_counts_[camera] == 0) return CommandResult::NotPossible;
-  points_[camera].clear();
+  finder_.forget_points(camera);
   point_counts_[camera] = 0;
   return CommandResult::Done;
 }
 
 CommandResult AlignmentDesk::begin(std::size_t camera, bool is_possible, Task task) {
-  if (camera >= site_.site.cameras.size()) return CommandResult::ArgumentOutOfRange;
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
   if (!is_possible) return CommandResult::NotPossible;
   {
     const std::lock_guard lock(mutex_);
     if (busy_) return CommandResult::Busy;
+    auto rig = proposed_rig(camera);
+    if (!rig) return CommandResult::NotPossible;
+    rig_ = std::move(*rig);
     busy_ = camera;
     task_ = std::move(task);
-    forget_proposal(camera);
+    desks_[camera].refusal.clear();
     states_[camera] = ProposalState::Working;
   }
   work_.request();
@@ -152,147 +124,167 @@ CommandResult AlignmentDesk::begin(std::size_t camera, bool is_possible, Task ta
 }
 
 void AlignmentDesk::work() {
-  const Finding found = task_();
+  const Finding finding = task_(rig_);
   const std::lock_guard lock(mutex_);
   const std::size_t camera = *std::exchange(busy_, std::nullopt);
-  if (!found) {
+  if (!finding) {
     states_[camera] = ProposalState::Refused;
-    log_camera(LogLevel::Warning, name(camera), "nothing found: " + found.error().message);
+    desks_[camera].refusal = finding.error().message;
+    log_camera(LogLevel::Warning, name(camera), "nothing found: " + finding.error().message);
     return;
   }
-  if (!*found) {
-    states_[camera] = ProposalState::None;
-    return;
+  if (*finding) {
+    add_step(camera, **finding);
+  } else {
+    show_steps(camera);
   }
-  const Proposal& proposal = **found;
-  proposals_[camera] = proposal.entry;
-  direction_sigmas_[camera] = proposal.direction_sigma;
-  states_[camera] = ProposalState::Ready;
+}
+
+/// As it would be if the camera's proposal were accepted.
+Result<optics::Rig> AlignmentDesk::proposed_rig(std::size_t camera) const {
+  optics::Rig rig = site_.rig;
+  const std::vector<AlignmentProposal>& steps = desks_[camera].steps;
+  if (steps.empty()) return rig;
+  return apply({.cameras = {steps.back().alignment}}, rig).map([&] { return rig; });
+}
+
+void AlignmentDesk::add_step(std::size_t camera, AlignmentProposal proposal) {
+  std::vector<AlignmentProposal>& steps = desks_[camera].steps;
   log_camera(LogLevel::Info, name(camera),
-             "an alignment is proposed: " + proposal.entry.method + ", " + proposal.entry.quality +
+             "an alignment is proposed: " + proposal.method + ", " + proposal.quality +
                  "; accept_alignment puts it in force, with a restart");
+  if (steps.size() == kMostSteps) steps.erase(steps.begin());
+  steps.push_back(std::move(proposal));
+  show_steps(camera);
+}
+
+/// In the figures.
+void AlignmentDesk::show_steps(std::size_t camera) {
+  const std::vector<AlignmentProposal>& steps = desks_[camera].steps;
+  direction_sigmas_[camera] = steps.empty() ? signals::kNotValid : steps.back().direction_sigma;
+  states_[camera] = steps.empty() ? ProposalState::None : ProposalState::Ready;
 }
 
 void AlignmentDesk::forget_proposal(std::size_t camera) {
-  proposals_[camera].reset();
-  direction_sigmas_[camera] = signals::kNotValid;
-  states_[camera] = ProposalState::None;
+  desks_[camera].steps.clear();
+  desks_[camera].refusal.clear();
+  show_steps(camera);
 }
 
-Result<AlignmentDesk::Proposal> AlignmentDesk::detected(std::size_t camera) const {
-  const auto pictures = watch_.record({camera}, 1, kPatience);
-  if (!pictures) return tl::unexpected(pictures.error());
-  const auto ball = align::detect_ball((*pictures)[0].front().picture);
-  if (!ball) return tl::unexpected(ball.error());
-  if (!ball->is_confident()) return fail("the ball was not found for sure: " + ball->reason);
-  return with_outline(site_.rig, site_.rig_camera(camera), ball->outline)
-      .map([&](const CameraAlignment& alignment) {
-        Proposal found{entry(alignment)};
-        found.entry.method = "detect";
-        found.entry.quality = two_digits("confidence %.2f", ball->confidence);
-        return found;
-      });
+CommandResult AlignmentDesk::move_outline(std::size_t camera, const optics::Vec2& centre) {
+  return state(camera, "outline by hand",
+               [&](optics::Outline& outline, optics::Mat3&) { outline.centre = centre; });
 }
 
-Result<AlignmentDesk::Proposal> AlignmentDesk::registered(std::size_t camera) const {
-  const auto pictures = watch_.record({0, camera}, kPictures, kPatience);
-  if (!pictures) return tl::unexpected(pictures.error());
-  const auto simultaneous = together((*pictures)[0], (*pictures)[1]);
-  if (simultaneous.camera.empty()) return fail("the cameras took no pictures at the same moment");
-  const auto reference = optics::ball_projection(site_.rig, site_.rig_camera(0));
-  if (!reference) return tl::unexpected(reference.error());
-  const auto turnable = align::by_outline(site_.rig, site_.rig_camera(camera));
-  if (!turnable) return tl::unexpected(turnable.error());
-  const align::SoughtCamera sought{simultaneous.camera.front(), site_.rig, *turnable};
-  const auto found = align::register_camera(simultaneous, *reference, sought,
-                                            align::RegistrationMethod::Auto, [](const auto&) {});
-  if (!found) return tl::unexpected(found.error());
-  const align::Registration& best = found->registration;
-  Proposal result{
-      entry({.camera = name(camera), .outline = best.outline, .registration = best.rotation}),
-      std::ranges::max(align::sigmas(best))};
-  const auto* const method = std::ranges::find(align::kRegistrationMethods, found->method,
-                                               [](const auto& word) { return word.value; });
-  result.entry.method = "register by " + std::string(method->name);
-  result.entry.quality = two_digits("residual %.2f deg rms", best.residual) +
-                         two_digits(", sigma %.2f deg", result.direction_sigma);
-  return result;
-}
-
-Result<AlignmentDesk::Proposal> AlignmentDesk::drifted(std::size_t camera) const {
-  const auto drift = watch_.drift(camera);
-  if (!drift) return fail("no picture was seen yet");
-  return corrected(site_.rig, site_.rig_camera(camera), *drift)
-      .map([&](const CameraAlignment& alignment) {
-        Proposal found{entry(alignment), drift->direction_sigma};
-        found.entry.method = "drift";
-        found.entry.quality = two_digits("moved by %.2f deg rms", drift->direction_error) +
-                              two_digits(", sigma %.2f deg", drift->direction_sigma);
-        return found;
-      });
-}
-
-AlignmentDesk::Finding AlignmentDesk::marked(std::size_t camera, const optics::Vec3& point) {
-  const auto seen = align::by_outline(site_.rig, site_.rig_camera(camera));
-  if (!seen) return tl::unexpected(seen.error());
-  const auto recorded = watch_.record({camera}, kPicturesOfLight, kPatience);
-  if (!recorded) return tl::unexpected(recorded.error());
-  std::vector<Picture> pictures;
-  for (const RecordedPicture& one : recorded->front()) pictures.push_back(one.picture);
-  const auto added = points_[camera].add(point, pictures, *seen->outline);
-  if (!added) return tl::unexpected(added.error());
-  point_counts_[camera] = points_[camera].size();
-  log_camera(
-      LogLevel::Info, name(camera),
-      "a point is marked, of " + std::to_string(points_[camera].size()) + " for place_camera");
-  return std::nullopt;
-}
-
-/// For the outline that is in force.
-Result<align::PlaceRequest> AlignmentDesk::place_request(std::size_t camera) const {
-  const PlaceSettings& settings = site_.site.place;
-  align::PlaceRequest request;
-  request.centre = {align::BallCentre::Knowledge::Known, site_.rig.ball.centre, 0};
-  request.ball_radius = site_.rig.ball.radius;
-  request.sigma_px = settings.sigma_px;
-  request.sigma_mm = settings.sigma_mm;
-  auto unplaced = unplaced_camera(site_.rig_camera(camera), false);
-  if (!unplaced) return tl::unexpected(unplaced.error());
-  const auto seen = align::by_outline(site_.rig, site_.rig_camera(camera));
-  if (!seen) return tl::unexpected(seen.error());
-  unplaced->outline = *seen->outline;
-  unplaced->outline_sigma = settings.outline_sigma;
-  if (const auto marked = points_[camera].mark(*unplaced, request); !marked) {
-    return tl::unexpected(marked.error());
-  }
-  if (!settings.tags.empty()) {
-    const auto recorded = watch_.record({camera}, 1, kPatience);
-    if (!recorded) return tl::unexpected(recorded.error());
-    std::vector<align::PrintedTag> tags;
-    for (const TagSettings& tag : settings.tags) tags.push_back(tag.tag());
-    const auto shown =
-        align::mark_tags(recorded->front().front().picture, tags, *unplaced, request);
-    if (!shown) return tl::unexpected(shown.error());
-  }
-  request.cameras.push_back(std::move(*unplaced));
-  return request;
-}
-
-Result<AlignmentDesk::Proposal> AlignmentDesk::placed(std::size_t camera) const {
-  const auto request = place_request(camera);
-  if (!request) return tl::unexpected(request.error());
-  const auto placement = align::place(*request);
-  if (!placement) return tl::unexpected(placement.error());
-  log_camera(LogLevel::Info, name(camera),
-             "marked minus shown: " + residuals_text(*request, *placement, 0));
-  return rig_alignment(*request, *placement).map([&](const RigAlignment& alignment) {
-    const align::PlacedCamera& found = placement->cameras.front();
-    Proposal proposal{entry(alignment.cameras.front()), found.direction_sigma};
-    proposal.entry.method = "place by " + std::to_string(found.marks.size()) + " points";
-    proposal.entry.quality = two_digits("residual %.2f px rms", rms_residual(found)) +
-                             two_digits(", sigma %.2f deg", found.direction_sigma);
-    return proposal;
+CommandResult AlignmentDesk::shape_outline(std::size_t camera, double rx, double ry, double angle) {
+  return state(camera, "outline by hand", [&](optics::Outline& outline, optics::Mat3&) {
+    outline = {outline.centre, rx, ry, angle};
   });
+}
+
+CommandResult AlignmentDesk::turn(std::size_t camera, const optics::YawPitchRoll& turn) {
+  return state(camera, "turned by hand", [&](optics::Outline&, optics::Mat3& registration) {
+    registration = optics::rotation(turn) * registration;
+  });
+}
+
+CommandResult AlignmentDesk::state(std::size_t camera, const std::string& method,
+                                   const Change& change) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  const std::lock_guard lock(mutex_);
+  if (busy_) return CommandResult::Busy;
+  auto proposal = stated(camera, method, change);
+  if (!proposal) {
+    desks_[camera].refusal = proposal.error().message;
+    return CommandResult::ArgumentOutOfRange;
+  }
+  desks_[camera].refusal.clear();
+  add_step(camera, std::move(*proposal));
+  return CommandResult::Done;
+}
+
+Result<AlignmentProposal> AlignmentDesk::stated(std::size_t camera, const std::string& method,
+                                                const Change& change) const {
+  auto rig = proposed_rig(camera);
+  if (!rig) return tl::unexpected(rig.error());
+  const auto seen = align::by_outline(*rig, rig->cameras[site_.rig_cameras[camera]]);
+  if (!seen) return tl::unexpected(seen.error());
+  CameraAlignment alignment{
+      .camera = seen->name, .outline = seen->outline, .registration = seen->registration};
+  change(*alignment.outline, *alignment.registration);
+  return apply({.cameras = {alignment}}, *rig).map([&] {
+    return AlignmentProposal{alignment, method, "stated, not measured"};
+  });
+}
+
+CommandResult AlignmentDesk::undo(std::size_t camera) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  const std::lock_guard lock(mutex_);
+  if (busy_ == camera) return CommandResult::Busy;
+  Desk& desk = desks_[camera];
+  const bool was_refused = states_[camera] == ProposalState::Refused;
+  if (!was_refused && desk.steps.empty()) return CommandResult::NotPossible;
+  if (!was_refused) desk.steps.pop_back();
+  desk.refusal.clear();
+  show_steps(camera);
+  return CommandResult::Done;
+}
+
+CommandResult AlignmentDesk::discard(std::size_t camera) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  const std::lock_guard lock(mutex_);
+  if (busy_ == camera) return CommandResult::Busy;
+  if (states_[camera] == ProposalState::None) return CommandResult::NotPossible;
+  forget_proposal(camera);
+  return CommandResult::Done;
+}
+
+CommandResult AlignmentDesk::accept(std::size_t camera) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  CalibrationEntry entry;
+  {
+    const std::lock_guard lock(mutex_);
+    if (busy_) return CommandResult::Busy;
+    if (states_[camera] != ProposalState::Ready) return CommandResult::NotPossible;
+    const AlignmentProposal& proposal = desks_[camera].steps.back();
+    entry.method = proposal.method;
+    entry.quality = proposal.quality;
+    entry.alignment.cameras.push_back(proposal.alignment);
+    busy_ = camera;
+  }
+  return put_in_force(camera, entry);
+}
+
+CommandResult AlignmentDesk::revert(std::size_t camera) {
+  if (!has(camera)) return CommandResult::ArgumentOutOfRange;
+  {
+    const std::lock_guard lock(mutex_);
+    if (busy_) return CommandResult::Busy;
+    busy_ = camera;
+  }
+  const auto before = accepted_.before(name(camera));
+  if (before && *before) return put_in_force(camera, **before);
+  const std::lock_guard lock(mutex_);
+  busy_.reset();
+  if (before) return CommandResult::NotPossible;
+  log_camera(LogLevel::Error, name(camera), "not reverted: " + before.error().message);
+  return CommandResult::NotCarriedOut;
+}
+
+/// For the caller who has set busy_, which is reset.
+CommandResult AlignmentDesk::put_in_force(std::size_t camera, const CalibrationEntry& entry) {
+  const auto number = accepted_.add(entry);
+  const std::lock_guard lock(mutex_);
+  busy_.reset();
+  if (!number) {
+    log_camera(LogLevel::Error, name(camera), "not accepted: " + number.error().message);
+    return CommandResult::NotCarriedOut;
+  }
+  log_camera(LogLevel::Info, name(camera),
+             "alignment " + std::to_string(*number) + " is accepted; restarts with it");
+  forget_proposal(camera);
+  restart_();
+  return CommandResult::Done;
 }
 
 void AlignmentDesk::correct_lasting_drifts() {
@@ -310,54 +302,18 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
     return;
   }
   if (!drifting_since_[camera]) drifting_since_[camera] = now;
-  const auto file = calibration_file(state_folder(site_.site.state_folder));
   if (now - *drifting_since_[camera] < kLastingDrift ||
-      is_young(file, name(camera), kPauseOfCorrections)) {
+      accepted_.is_young(name(camera), kPauseOfCorrections)) {
     return;
   }
-  auto found = drifted(camera);
-  if (!found) return;
+  auto corrected = finder_.correct(site_.rig, camera);
+  if (!corrected) return;
   {
     const std::lock_guard lock(mutex_);
     if (busy_) return;
-    proposals_[camera] = std::move(found->entry);
+    add_step(camera, std::move(*corrected));
   }
   accept(camera);
-}
-
-/// For the rig file as it is now: what changed it since the start is not in force yet.
-CalibrationEntry AlignmentDesk::entry(const CameraAlignment& alignment) const {
-  CalibrationEntry entry;
-  entry.rig = rig_checksum(site_.site.rig.path).value_or(0);
-  entry.alignment.cameras.push_back(alignment);
-  return entry;
-}
-
-CommandResult AlignmentDesk::accept(std::size_t camera) {
-  if (camera >= site_.site.cameras.size()) return CommandResult::ArgumentOutOfRange;
-  const std::lock_guard lock(mutex_);
-  if (busy_) return CommandResult::Busy;
-  if (!proposals_[camera]) return CommandResult::NotPossible;
-  const auto file = calibration_file(state_folder(site_.site.state_folder));
-  const auto number = put_in_force(file, site_.calibration, *proposals_[camera]);
-  if (!number) {
-    log_camera(LogLevel::Error, name(camera), "not accepted: " + number.error().message);
-    return CommandResult::NotCarriedOut;
-  }
-  log_camera(LogLevel::Info, name(camera),
-             "alignment " + std::to_string(*number) + " is accepted; restarts with it");
-  forget_proposal(camera);
-  restart_();
-  return CommandResult::Done;
-}
-
-CommandResult AlignmentDesk::discard(std::size_t camera) {
-  if (camera >= site_.site.cameras.size()) return CommandResult::ArgumentOutOfRange;
-  const std::lock_guard lock(mutex_);
-  if (busy_ == camera) return CommandResult::Busy;
-  if (states_[camera] == ProposalState::None) return CommandResult::NotPossible;
-  forget_proposal(camera);
-  return CommandResult::Done;
 }
 
 void AlignmentDesk::report(std::array<CameraWatchStatus, kMaxCameras>& figures) const {
@@ -366,6 +322,62 @@ void AlignmentDesk::report(std::array<CameraWatchStatus, kMaxCameras>& figures) 
     figures[i].proposal_error = direction_sigmas_[i];
     figures[i].marked_points = point_counts_[i];
   }
+}
+
+AlignmentReport AlignmentDesk::report(std::size_t camera) const {
+  AlignmentReport report;
+  if (!has(camera)) return report;
+  const auto state_of = [&](const optics::Rig& rig) {
+    const auto state = alignment_state(rig, rig.cameras[site_.rig_cameras[camera]]);
+    return state ? std::optional(*state) : std::nullopt;
+  };
+  std::optional<optics::Rig> proposed;
+  std::optional<AlignmentProposal> step;
+  {
+    const std::lock_guard lock(mutex_);
+    const Desk& desk = desks_[camera];
+    report.state = states_[camera];
+    report.refusal = desk.refusal;
+    report.steps = desk.steps.size();
+    report.picked = desk.picked;
+    if (!desk.steps.empty()) step = desk.steps.back();
+    if (const auto rig = proposed_rig(camera); step && rig) proposed = *rig;
+  }
+  const optics::RigCamera& own = site_.rig_camera(camera);
+  report.width = own.width;
+  report.height = own.height;
+  report.is_watched = watch_.is_watched(camera);
+  report.points = finder_.points(camera);
+  report.in_force = state_of(site_.rig);
+  for (const CalibrationEntry& entry : site_.alignments) {
+    if (!report.in_force || camera_of(entry).camera != own.name) continue;
+    report.in_force->number = entry.number;
+    report.in_force->method = entry.method;
+    report.in_force->quality = entry.quality;
+  }
+  if (proposed) report.proposed = state_of(*proposed);
+  if (report.proposed) {
+    report.proposed->method = step->method;
+    report.proposed->quality = step->quality;
+    report.proposed->direction_sigma = step->direction_sigma;
+  }
+  return report;
+}
+
+Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_picture) {
+  if (!has(picture.camera)) return fail("there is no camera " + std::to_string(picture.camera));
+  optics::Rig rig = site_.rig;
+  if (picture.is_proposed) {
+    const std::lock_guard lock(mutex_);
+    auto proposed = proposed_rig(picture.camera);
+    if (!proposed) return tl::unexpected(proposed.error());
+    rig = std::move(*proposed);
+  }
+  optics::RigCamera camera = rig.cameras[site_.rig_cameras[picture.camera]];
+  if (picture.model) camera.model = *picture.model;
+  return optics::ball_projection(rig, camera).and_then([&](const optics::BallProjection& ball) {
+    return pictures_.request(picture, ball, std::move(on_picture));
+  });
 }
 
 }  // namespace orbwatch::app

@@ -11,27 +11,33 @@
 #include <vector>
 
 #include "app/files/resolve.h"
+#include "app/model/alignment.h"
 #include "app/model/command.h"
-#include "app/model/status.h"
+#include "app/watch/accepted_alignments.h"
+#include "app/watch/alignment_finder.h"
+#include "app/watch/alignment_pictures.h"
 #include "app/watch/camera_watch.h"
-#include "app/watch/point_marks.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
 
-/// Finds new alignments of a running site's cameras on command, and puts those that are accepted
-/// in force: an entry in the file of calibrations, and a restart. One at a time; each takes
-/// seconds, on a thread of its own. Cameras whose settings ask for it are corrected without a
-/// command when their drift lasts, not more often than each kPauseOfCorrections.
+/// Finds new alignments of a running site's cameras on command, changes them, and puts those that
+/// are accepted in force: an entry in the file of calibrations, and a restart. What is found or
+/// stated builds on the camera's proposal, if there is one, and is a step that can be taken back.
+/// Finding takes seconds, one camera at a time, on a thread of its own. Cameras whose settings ask
+/// for it are corrected without a command when their drift lasts, not more often than each
+/// kPauseOfCorrections.
 /// Thread rule: start and stop on the owner's thread, the rest on any.
-class AlignmentDesk {
+class AlignmentDesk : public AlignmentSource {
  public:
   static constexpr std::chrono::seconds kLastingDrift{10};
   static constexpr std::chrono::minutes kPauseOfCorrections{10};
+  /// Older steps are forgotten.
+  static constexpr std::size_t kMostSteps = 200;
 
   /// `watch` outlives it. `restart` requests it and returns.
   AlignmentDesk(const Resolved& site, CameraWatch& watch, std::function<void()> restart);
-  ~AlignmentDesk();
+  ~AlignmentDesk() override;
 
   // Commands. ArgumentOutOfRange: no such camera; Busy: another one is being found;
   // NotPossible: see each.
@@ -43,59 +49,89 @@ class AlignmentDesk {
   CommandResult register_to_first(std::size_t camera);
   /// Takes its drift for its alignment. NotPossible: it is not watched.
   CommandResult correct(std::size_t camera);
-  /// Adds a point to place the camera by, where its ball shows the tool's light now; a proposal is
-  /// forgotten. NotPossible: it is not watched.
+  /// Adds a point to place the camera by, at the pixel that was picked, or where its ball shows the
+  /// tool's light now. NotPossible: it is not watched.
   CommandResult mark(std::size_t camera, const optics::Vec3& point);
-  /// Forgets all of them. NotPossible: there are none.
+  /// Says where the picture shows the point that is marked next. ArgumentOutOfRange: outside of the
+  /// ball, too.
+  CommandResult pick(std::size_t camera, const optics::Vec2& pixel);
+  /// Forgets all points. NotPossible: there are none.
   CommandResult forget_points(std::size_t camera);
   /// Places it by its points and the site's tags. NotPossible: it is not watched, or there are
   /// neither.
   CommandResult place(std::size_t camera);
-  /// Puts what was found in force. NotPossible: nothing was.
+
+  // States an alignment. ArgumentOutOfRange: also one that cannot be; the report says why.
+
+  CommandResult move_outline(std::size_t camera, const optics::Vec2& centre);
+  CommandResult shape_outline(std::size_t camera, double rx, double ry, double angle);
+  /// About the ball, as a turn in the machine frame.
+  CommandResult turn(std::size_t camera, const optics::YawPitchRoll& turn);
+
+  /// Takes the last step back. NotPossible: there is none.
+  CommandResult undo(std::size_t camera);
+  /// Puts the proposal in force. NotPossible: there is none, or the last finding was refused.
   CommandResult accept(std::size_t camera);
-  /// Forgets it. NotPossible: nothing was found.
+  /// Puts what counted before in force. NotPossible: the rig file counts.
+  CommandResult revert(std::size_t camera);
+  /// Forgets the proposal. NotPossible: there is none.
   CommandResult discard(std::size_t camera);
 
   /// Sets the figures of proposals and points.
   void report(std::array<CameraWatchStatus, kMaxCameras>& figures) const;
+
+  AlignmentReport report(std::size_t camera) const override;
+  Result<> request(const AlignmentPicture& picture, OnPicture on_picture) override;
 
   /// Begins to correct cameras whose settings ask for that.
   void start();
   void stop();
 
  private:
-  struct Proposal {
-    CalibrationEntry entry;
-    double direction_sigma = signals::kNotValid;  ///< degrees
+  using Finding = Result<std::optional<AlignmentProposal>>;  ///< none: a point was marked
+  using Task = std::function<Finding(const optics::Rig& rig)>;
+  /// Changes the camera as it is to be, of which it has outline and registration.
+  using Change = std::function<void(optics::Outline& outline, optics::Mat3& registration)>;
+
+  /// What is proposed for one camera, under mutex_.
+  struct Desk {
+    std::vector<AlignmentProposal> steps;  ///< the last one counts
+    std::string refusal;
+    std::optional<optics::Vec2> picked;
   };
-  using Finding = Result<std::optional<Proposal>>;  ///< none: a point was marked
-  using Task = std::function<Finding()>;
+
+  bool has(std::size_t camera) const { return camera < site_.site.cameras.size(); }
+  const std::string& name(std::size_t camera) const { return site_.site.cameras[camera].name; }
 
   CommandResult begin(std::size_t camera, bool is_possible, Task task);
   void work();
+  CommandResult state(std::size_t camera, const std::string& method, const Change& change);
+  Result<AlignmentProposal> stated(std::size_t camera, const std::string& method,
+                                   const Change& change) const;
+  CommandResult put_in_force(std::size_t camera, const CalibrationEntry& entry);
   void correct_lasting_drifts();
   void correct_lasting_drift(std::size_t camera, hal::TimePoint now);
-  Result<Proposal> detected(std::size_t camera) const;
-  Result<Proposal> registered(std::size_t camera) const;
-  Result<Proposal> drifted(std::size_t camera) const;
-  Finding marked(std::size_t camera, const optics::Vec3& point);
-  Result<Proposal> placed(std::size_t camera) const;
-  Result<align::PlaceRequest> place_request(std::size_t camera) const;
-  CalibrationEntry entry(const CameraAlignment& alignment) const;
+
+  // Under mutex_.
+  Result<optics::Rig> proposed_rig(std::size_t camera) const;
+  void add_step(std::size_t camera, AlignmentProposal proposal);
+  void show_steps(std::size_t camera);
   void forget_proposal(std::size_t camera);
-  const std::string& name(std::size_t camera) const { return site_.site.cameras[camera].name; }
 
   const Resolved& site_;
   CameraWatch& watch_;
   const std::function<void()> restart_;
+  AlignmentFinder finder_;
+  AcceptedAlignments accepted_;  ///< of whoever has set busy_
+  AlignmentPictures pictures_;
   std::array<std::atomic<ProposalState>, kMaxCameras> states_{};
   std::array<std::atomic<double>, kMaxCameras> direction_sigmas_{};  ///< of the proposals
   std::array<std::atomic<std::size_t>, kMaxCameras> point_counts_{};
-  std::array<PointMarks, kMaxCameras> points_;  ///< the task's while there is one
-  std::mutex mutex_;  ///< of what follows; also while accept() writes the file
-  std::array<std::optional<CalibrationEntry>, kMaxCameras> proposals_;
+  mutable std::mutex mutex_;  ///< of what follows
+  std::array<Desk, kMaxCameras> desks_;
   std::optional<std::size_t> busy_;  ///< the camera that is worked for
   Task task_;
+  optics::Rig rig_;                                                        ///< for task_
   std::array<std::optional<hal::TimePoint>, kMaxCameras> drifting_since_;  ///< the correction's
   /// Others must not wait for seconds.
   const std::shared_ptr<hal::SharedThreads> thread_ =

@@ -27,6 +27,7 @@ void CameraWatch::Watched::look() {
     drift = alignment.drift();
   }
   record();
+  serve_readers();
   frame.reset();
   looking.store(false, std::memory_order_release);
 }
@@ -42,7 +43,17 @@ void CameraWatch::Watched::record() {
   records.added.notify_all();
 }
 
-CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::SharedThreads>& threads) {
+void CameraWatch::Watched::serve_readers() {
+  std::vector<std::function<void(RecordedPicture)>> served;
+  {
+    const std::lock_guard lock(mutex);
+    served.swap(readers);
+  }
+  for (const auto& reader : served) reader(copied(frame->picture, stamp.time_since_epoch()));
+}
+
+CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::SharedThreads>& threads)
+    : threads_(threads) {
   const auto folder = state_folder(site.site.state_folder);
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     const CameraSettings& settings = site.site.cameras[i];
@@ -115,6 +126,11 @@ std::optional<align::DriftState> CameraWatch::drift(std::size_t camera) const {
   if (camera >= cameras_.size() || !cameras_[camera]) return std::nullopt;
   const std::lock_guard lock(cameras_[camera]->mutex);
   return cameras_[camera]->drift;
+}
+
+void CameraWatch::ask(std::size_t camera, std::function<void(RecordedPicture)> reader) {
+  const std::lock_guard lock(cameras_[camera]->mutex);
+  cameras_[camera]->readers.push_back(std::move(reader));
 }
 
 Result<std::vector<std::vector<RecordedPicture>>> CameraWatch::record(

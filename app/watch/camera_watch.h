@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -22,7 +23,8 @@ namespace orbwatch::app {
 
 /// Watches the cameras of a site beside the frame path, each on a shared thread: a picture that
 /// comes while the one before is being looked at is not looked at.
-/// Thread rule: as a Sink; cancel_records, figures, drift and record on any thread.
+/// Thread rule: as a Sink; cancel_records, figures, drift, ask and record on any
+/// thread.
 class CameraWatch : public Sink {
  public:
   /// Cameras that cannot be watched are named in the log.
@@ -46,6 +48,13 @@ class CameraWatch : public Sink {
 
   /// The newest drift of a camera that is watched and was seen.
   std::optional<align::DriftState> drift(std::size_t camera) const;
+
+  /// Has the next picture of a watched camera copied for `reader`, which is called once, on a
+  /// shared thread, and must return soon. Never called after stop().
+  void ask(std::size_t camera, std::function<void(RecordedPicture)> reader);
+
+  /// Those that watch.
+  const std::shared_ptr<hal::SharedThreads>& threads() const { return threads_; }
 
   /// The ball was cleaned: its figure counts from what is seen now. For a camera that is watched.
   void learn_clean_ball(std::size_t camera) { cameras_[camera]->cleaned = true; }
@@ -74,6 +83,7 @@ class CameraWatch : public Sink {
             std::shared_ptr<hal::SharedThreads> threads);
     void look();
     void record();
+    void serve_readers();
 
     AlignmentWatch alignment;
     BallWatch ball;
@@ -84,6 +94,7 @@ class CameraWatch : public Sink {
     mutable std::mutex mutex;  ///< of these two, held only while they are copied
     CameraWatchStatus figures;
     std::optional<align::DriftState> drift;
+    std::vector<std::function<void(RecordedPicture)>> readers;  ///< under `mutex`, too
     Records& records;
     std::size_t wanted = 0;                 ///< pictures; under records.mutex
     std::vector<RecordedPicture> recorded;  ///< under records.mutex
@@ -94,6 +105,7 @@ class CameraWatch : public Sink {
                                         std::size_t camera, const std::filesystem::path& folder,
                                         const std::shared_ptr<hal::SharedThreads>& threads);
 
+  const std::shared_ptr<hal::SharedThreads> threads_;
   Records records_;
   std::vector<std::unique_ptr<Watched>> cameras_;  ///< null: not watched
 };

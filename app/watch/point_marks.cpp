@@ -6,9 +6,17 @@
 #include <utility>
 
 namespace orbwatch::app {
+namespace {
+
+tl::unexpected<Error> too_many() {
+  return fail(std::to_string(PointMarks::kMost) + " points are marked already, which is the most");
+}
+
+}  // namespace
 
 Result<optics::Vec2> PointMarks::place_of(std::span<const SeenPoint> points, std::size_t index,
                                           const optics::Outline& outline) {
+  if (points[index].pixel) return *points[index].pixel;
   std::vector<std::vector<align::SmallLight>> elsewhere;
   elsewhere.reserve(points.size());
   for (std::size_t n = 0; n < points.size(); ++n) {
@@ -25,18 +33,30 @@ Result<optics::Vec2> PointMarks::place_of(std::span<const SeenPoint> points, std
   return fail(text.str());
 }
 
-Result<> PointMarks::add(const optics::Vec3& point, std::span<const Picture> pictures,
-                         const optics::Outline& outline) {
-  auto lights = align::small_lights(pictures, outline);
-  if (!lights) return tl::unexpected(lights.error());
+/// Those with other coordinates.
+std::vector<PointMarks::SeenPoint> PointMarks::others(const optics::Vec3& point) const {
   std::vector<SeenPoint> points = points_;
   std::erase_if(points, [&](const SeenPoint& seen) {
     return seen.point.x == point.x && seen.point.y == point.y && seen.point.z == point.z;
   });
-  if (points.size() >= kMost) {
-    return fail(std::to_string(kMost) + " points are marked already, which is the most");
-  }
-  points.push_back({point, std::move(*lights)});
+  return points;
+}
+
+Result<> PointMarks::add(const optics::Vec3& point, const optics::Vec2& pixel) {
+  std::vector<SeenPoint> points = others(point);
+  if (points.size() >= kMost) return too_many();
+  points.push_back({point, {}, pixel});
+  points_ = std::move(points);
+  return {};
+}
+
+Result<> PointMarks::add(const optics::Vec3& point, std::span<const Picture> pictures,
+                         const optics::Outline& outline) {
+  auto lights = align::small_lights(pictures, outline);
+  if (!lights) return tl::unexpected(lights.error());
+  std::vector<SeenPoint> points = others(point);
+  if (points.size() >= kMost) return too_many();
+  points.push_back({point, std::move(*lights), {}});
   const auto own = place_of(points, points.size() - 1, outline);
   if (!own) return tl::unexpected(own.error());
   points_ = std::move(points);

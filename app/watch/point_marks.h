@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,9 @@
 
 namespace orbwatch::app {
 
-/// Points to place one camera by, one after the other: the machine moves a light to known
-/// coordinates. Of all the lights that the ball shows it is the one that has moved. Thread-bound.
+/// Points to place one camera by, one after the other: somebody says where the picture shows them,
+/// or the machine moves a light to known coordinates; of all the lights that the ball shows it is
+/// the one that has moved. Thread-bound.
 class PointMarks {
  public:
   static constexpr std::size_t kMost = 64;
@@ -22,6 +24,9 @@ class PointMarks {
   /// since the other points, kMost points.
   Result<> add(const optics::Vec3& point, std::span<const Picture> pictures,
                const optics::Outline& outline);
+
+  /// The same for one that the picture shows at `pixel`. Error: kMost points.
+  Result<> add(const optics::Vec3& point, const optics::Vec2& pixel);
 
   void clear() { points_.clear(); }
   std::size_t size() const { return points_.size(); }
@@ -34,7 +39,9 @@ class PointMarks {
   struct SeenPoint {
     optics::Vec3 point;
     std::vector<align::SmallLight> lights;
+    std::optional<optics::Vec2> pixel;  ///< where somebody has seen it, without lights
   };
+  std::vector<SeenPoint> others(const optics::Vec3& point) const;
   static Result<optics::Vec2> place_of(std::span<const SeenPoint> points, std::size_t index,
                                        const optics::Outline& outline);
 

@@ -15,6 +15,14 @@ namespace orbwatch::app::web {
 /// Whether a path takes ?view=NAME.
 enum class ViewArgument { None, One, Any };
 
+/// A path's ?name=VALUE, besides a view.
+struct QueryArgument {
+  std::string_view name;
+  std::string_view description;
+  bool is_required = false;
+  bool is_number = true;
+};
+
 /// A text within the JSON object that is the body of a request.
 struct BodyMember {
   std::string_view name;
@@ -33,7 +41,8 @@ struct Route {
   ViewArgument view = ViewArgument::None;
   const CommandInfo* command = nullptr;  ///< the command that it carries out
   std::vector<BodyMember> body{};        ///< of a route that is no command
-  bool is_page = false;                  ///< a file of the page, which programs do not ask for
+  std::vector<QueryArgument> query{};
+  bool is_page = false;  ///< a file of the page, which programs do not ask for
 };
 
 /// Says who sent a request; never waits.

@@ -61,6 +61,7 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       asked_(names_.views.size()),
       commands_(context.handler, context.record),
       look_around_(context.names, context.views, context.background),
+      align_(context.names.cameras, context.alignment),
       audit_(context.state_folder),
       access_(context.state_folder, {settings_.session_idle, settings_.session_longest}),
       desk_(access_, audit_, settings_.session_longest),
@@ -193,6 +194,7 @@ std::vector<web::Route> WebSink::make_routes() {
   };
   std::ranges::move(desk_.routes(), std::back_inserter(routes));
   std::ranges::move(look_around_.routes(), std::back_inserter(routes));
+  std::ranges::move(align_.routes(), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
   std::ranges::move(page_routes(), std::back_inserter(routes));
   return routes;

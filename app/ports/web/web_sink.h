@@ -11,6 +11,7 @@
 #include "app/ports/web/access/access.h"
 #include "app/ports/web/access/access_desk.h"
 #include "app/ports/web/access/audit.h"
+#include "app/ports/web/align/align_routes.h"
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/look_around/look_around.h"
@@ -89,6 +90,7 @@ class WebSink final : public Sink {
   web::StreamCounts stream_counts_;
   web::CommandRunner commands_;
   web::LookAround look_around_;
+  web::AlignRoutes align_;
   web::Audit audit_;
   web::Access access_;
   web::AccessDesk desk_;

@@ -10,6 +10,7 @@
 #include "app/model/command.h"
 #include "app/model/status.h"
 #include "hal/replay/picture_folder.h"
+#include "proc/optics/rotation.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/proc/align/detect/painted_ball.h"
 #include "tests/proc/align/place/mirrored_rig.h"
@@ -93,6 +94,44 @@ TEST_F(AlignmentCommands, AProposalCanBeDiscarded) {
   EXPECT_EQ(command(daemon, CommandCode::DiscardAlignment, {0}), CommandResult::Done);
   EXPECT_TRUE(proposes(daemon, ProposalState::None)) << daemon.output();
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+}
+
+TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {
+  Subprocess daemon = start(site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::UndoAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_EQ(command(daemon, CommandCode::RevertAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_EQ(command(daemon, CommandCode::MoveOutline, {1, 20000, 16000}),
+            CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(command(daemon, CommandCode::MoveOutline, {0, 90000, 16000}),
+            CommandResult::ArgumentOutOfRange)
+      << "outside of the picture";
+  ASSERT_EQ(command(daemon, CommandCode::MoveOutline, {0, 20225, 16175}), CommandResult::Done);
+  ASSERT_EQ(command(daemon, CommandCode::ShapeOutline, {0, 11450, 11350, 3000}),
+            CommandResult::Done);
+  ASSERT_EQ(command(daemon, CommandCode::TurnCamera, {0, 50, 0, 0}), CommandResult::Done);
+  ASSERT_EQ(command(daemon, CommandCode::TurnCamera, {0, 0, 5000, 0}), CommandResult::Done);
+  ASSERT_EQ(command(daemon, CommandCode::UndoAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  ASSERT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+  const auto accepted = app::resolve((folder / "site.toml").string());
+  ASSERT_TRUE(accepted) << accepted.error().message;
+  const optics::RigCamera& camera = accepted->rig.cameras.front();
+  EXPECT_NEAR(camera.outline->centre.u, 202.25, 1e-9);
+  EXPECT_NEAR(camera.outline->ry, 113.5, 1e-9);
+  EXPECT_NEAR(camera.outline->angle, 30, 1e-9);
+  EXPECT_NEAR(optics::yaw_pitch_roll(camera.registration).yaw, 0.05, 1e-9);
+  EXPECT_NEAR(optics::yaw_pitch_roll(camera.registration).pitch, 0, 1e-9);
+
+  ASSERT_TRUE(proposes(daemon, ProposalState::None)) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::RevertAlignment, {0}), CommandResult::Done);
+  ASSERT_TRUE(says(daemon, "camera colour: alignment 2 of ")) << daemon.output();
+  const auto reverted = app::resolve((folder / "site.toml").string());
+  ASSERT_TRUE(reverted) << reverted.error().message;
+  EXPECT_NEAR(reverted->rig.cameras.front().outline->centre.u, 205.3, 1e-9);
+  ASSERT_EQ(command(daemon, CommandCode::RevertAlignment, {0}), CommandResult::Done);
+  ASSERT_TRUE(says(daemon, "restored 1: turned by hand")) << daemon.output();
 }
 
 /// A calibrated camera in front of the ball, which a tool with a lamp moves around. The rig has the
@@ -226,6 +265,36 @@ TEST_F(PlacementCommands, ACameraIsPlacedByALampThatTheMachineMoves) {
   EXPECT_LT(norm(placed.pose->position - truth.position), 10);
   EXPECT_GT(dot(placed.pose->rotation.row2, truth.rotation.row2), std::cos(0.02));
   EXPECT_GT(dot(placed.pose->rotation.row0, truth.rotation.row0), std::cos(0.02));
+}
+
+TEST_F(PlacementCommands, ACameraIsPlacedByPointsThatSomebodyPicked) {
+  Subprocess daemon = start(placement_site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  EXPECT_EQ(command(daemon, CommandCode::PickPixel, {0, 100, 100}),
+            CommandResult::ArgumentOutOfRange)
+      << "beside the ball";
+  std::uint64_t marked = 0;
+  for (const optics::Vec3& point : machine.points) {
+    const auto seen = seen_at(machine.cameras.front(), machine.centre, machine.radius, point);
+    const auto scaled = [](double px) { return static_cast<std::int32_t>(std::lround(px * 100)); };
+    ASSERT_EQ(command(daemon, CommandCode::PickPixel, {0, scaled(seen.u), scaled(seen.v)}),
+              CommandResult::Done);
+    ASSERT_EQ(command(daemon, CommandCode::MarkPoint, at(point)), CommandResult::Done);
+    ++marked;
+    ASSERT_TRUE(eventually(daemon, [&] {
+      return read("camera_0_marked_points") == static_cast<std::int64_t>(marked) &&
+             read("camera_0_proposal") == static_cast<int>(ProposalState::None);
+    })) << daemon.output();
+  }
+  ASSERT_EQ(command(daemon, CommandCode::PlaceCamera, {0}), CommandResult::Done);
+  ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  ASSERT_TRUE(says(daemon, "place by 6 points")) << daemon.output();
+  const auto site = app::resolve((folder / "site.toml").string());
+  ASSERT_TRUE(site) << site.error().message;
+  ASSERT_TRUE(site->rig.cameras.front().pose);
+  EXPECT_LT(norm(site->rig.cameras.front().pose->position - machine.cameras.front().pose.position),
+            2);
 }
 
 TEST_F(AlignmentCommands, TheFirstCameraIsRegisteredToNone) {

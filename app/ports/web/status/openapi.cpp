@@ -130,6 +130,14 @@ Json operation_of(const Route& route) {
          {"description", is_one ? "Name of the view" : "Name of a view; may be repeated"},
          {"schema", {{"type", "string"}}}}};
   }
+  for (const QueryArgument& argument : route.query) {
+    operation["parameters"].push_back(
+        {{"name", argument.name},
+         {"in", "query"},
+         {"required", argument.is_required},
+         {"description", argument.description},
+         {"schema", {{"type", argument.is_number ? "number" : "string"}}}});
+  }
   if (route.command) {
     operation["operationId"] = std::string(route.command->name);
     operation["requestBody"] = {

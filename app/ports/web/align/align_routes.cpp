@@ -1,0 +1,148 @@
+#include "app/ports/web/align/align_routes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "app/ports/web/align/alignment_text.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr std::string_view kJpeg = "image/jpeg";
+constexpr int kDefaultSide = 480;
+/// A view is computed for each request.
+constexpr int kLargestSide = 1920;
+
+const QueryArgument kCamera{"camera", "Name of the camera", true, false};
+const QueryArgument kWhich{"which", "proposed or, by default, in_force", false, false};
+
+Result<double> number_of(const Request& request, std::string_view name, double otherwise,
+                         double lowest, double highest) {
+  const std::string* text = request.argument(name);
+  if (!text) return otherwise;
+  double value = NAN;
+  const char* const end = text->data() + text->size();
+  const auto parsed = std::from_chars(text->data(), end, value);
+  if (parsed.ec == std::errc() && parsed.ptr == end && value >= lowest && value <= highest) {
+    return value;
+  }
+  return fail(std::string(name) + " is " + *text + "; it must be " +
+              range_text({name, "", 0.001, lowest, highest, ""}));
+}
+
+Result<optics::ViewSpec> view_of(const Request& request) {
+  optics::ViewSpec view;
+  const auto yaw = number_of(request, "yaw", 0, -180, 180);
+  const auto pitch = number_of(request, "pitch", 0, -90, 90);
+  const auto h_fov = number_of(request, "h_fov", 90, 1, 170);
+  const auto width = number_of(request, "width", kDefaultSide, 16, kLargestSide);
+  const auto height = number_of(request, "height", kDefaultSide, 16, kLargestSide);
+  for (const auto* number : {&yaw, &pitch, &h_fov, &width, &height}) {
+    if (!*number) return tl::unexpected(number->error());
+  }
+  view.orientation = {*yaw, *pitch, 0};
+  view.h_fov = *h_fov;
+  view.width = static_cast<int>(*width);
+  view.height = static_cast<int>(*height);
+  return view;
+}
+
+template <class Words>
+std::string listed(const Words& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + std::string(word.name);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Route> AlignRoutes::routes() {
+  Route state;
+  state.method = "GET";
+  state.path = "/api/v1/alignment";
+  state.role = Role::Viewer;
+  state.description =
+      "Of each camera where it has the ball, how it stands, what is proposed, its points with "
+      "their "
+      "residuals, and where its picture shows the scene's edges; px, deg, mm";
+  state.type = kJson;
+  state.serve = [this](const ExchangePtr& exchange) { serve_alignment(exchange); };
+  Route ball = state;
+  ball.path = "/api/v1/alignment/ball.jpg";
+  ball.description = "What a camera sees next, pixel by pixel";
+  ball.type = kJpeg;
+  ball.query = {kCamera};
+  ball.serve = [this](const ExchangePtr& exchange) { serve_picture(exchange, false); };
+  Route view = ball;
+  view.path = "/api/v1/alignment/view.jpg";
+  view.description = "The next perspective view by one camera alone, to judge its alignment by";
+  view.query = {kCamera,
+                kWhich,
+                {"yaw", "deg, from +Y towards +X; 0"},
+                {"pitch", "deg, up positive; 0"},
+                {"h_fov", "deg, horizontal field of view; 90"},
+                {"width", "px; 480"},
+                {"height", "px; 480"},
+                {"model", "exact, paper or classical instead of the rig's", false, false}};
+  view.serve = [this](const ExchangePtr& exchange) { serve_picture(exchange, true); };
+  return {std::move(state), std::move(ball), std::move(view)};
+}
+
+void AlignRoutes::serve_alignment(const ExchangePtr& exchange) const {
+  std::vector<AlignmentReport> reports(cameras_.size());
+  for (std::size_t i = 0; source_ && i < cameras_.size(); ++i) reports[i] = source_->report(i);
+  exchange->answer(json_response(alignment_json(cameras_, reports)));
+}
+
+Result<AlignmentPicture> AlignRoutes::picture_of(const Request& request, bool is_view) const {
+  AlignmentPicture picture;
+  const std::string* name = request.argument(kCamera.name);
+  const auto camera = name ? std::ranges::find(cameras_, *name) : cameras_.end();
+  if (camera == cameras_.end()) {
+    return fail("say as ?camera=NAME which of the cameras that /api/v1/alignment lists");
+  }
+  picture.camera = static_cast<std::size_t>(camera - cameras_.begin());
+  if (!is_view) return picture;
+  const std::string* which = request.argument(kWhich.name);
+  picture.is_proposed = which && *which == "proposed";
+  if (which && *which != "proposed" && *which != "in_force") {
+    return fail("which is " + *which + "; it must be proposed or in_force");
+  }
+  if (const std::string* model = request.argument("model")) {
+    const auto* const known =
+        std::ranges::find(optics::kBallModels, *model, [](const auto& word) { return word.name; });
+    if (known == optics::kBallModels.end()) {
+      return fail("model is " + *model + "; it must be one of " + listed(optics::kBallModels));
+    }
+    picture.model = known->value;
+  }
+  return view_of(request).map([&](const optics::ViewSpec& view) {
+    picture.view = view;
+    return picture;
+  });
+}
+
+void AlignRoutes::serve_picture(const ExchangePtr& exchange, bool is_view) const {
+  const auto picture = picture_of(exchange->request(), is_view);
+  if (!picture) {
+    exchange->answer(error_response(400, picture.error().message));
+    return;
+  }
+  const auto on_picture = [exchange](Result<std::string> jpeg) {
+    if (!jpeg) {
+      exchange->answer(error_response(409, jpeg.error().message));
+      return;
+    }
+    Response response;
+    response.type = kJpeg;
+    response.body = std::make_shared<const std::string>(std::move(*jpeg));
+    exchange->answer(std::move(response));
+  };
+  const auto requested = source_ ? source_->request(*picture, on_picture)
+                                 : Result<>(fail("there is nothing to be aligned"));
+  if (!requested) exchange->answer(error_response(409, requested.error().message));
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/model/alignment.h"
+#include "app/ports/web/http/exchange.h"
+#include "app/ports/web/routes.h"
+
+namespace orbwatch::app::web {
+
+/// Serves what alignments are judged by; commands change them. Pictures are made elsewhere: no
+/// thread of the server waits. Thread-safe.
+class AlignRoutes {
+ public:
+  /// `source`: null: there is nothing to be aligned; else it outlives the routes' use.
+  AlignRoutes(std::vector<std::string> cameras, AlignmentSource* source)
+      : cameras_(std::move(cameras)), source_(source) {}
+
+  std::vector<Route> routes();
+
+ private:
+  void serve_alignment(const ExchangePtr& exchange) const;
+  void serve_picture(const ExchangePtr& exchange, bool is_view) const;
+  Result<AlignmentPicture> picture_of(const Request& request, bool is_view) const;
+
+  const std::vector<std::string> cameras_;
+  AlignmentSource* const source_;
+};
+
+}  // namespace orbwatch::app::web

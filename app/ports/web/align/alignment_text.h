@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/model/alignment.h"
+
+namespace orbwatch::app::web {
+
+/// {"cameras": [...]}: what is known of each camera's alignment, as JSON. Pixels are [u, v], points
+/// [x, y, z]. Reentrant.
+std::string alignment_json(const std::vector<std::string>& cameras,
+                           const std::vector<AlignmentReport>& reports);
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,77 @@
+#include "app/watch/accepted_alignments.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/files/calibration_file.h"
+#include "app/log.h"
+#include "app/model/utc_text.h"
+#include "app/state/state_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+CalibrationEntry rig_files(const std::string& camera) {
+  CalibrationEntry entry;
+  entry.method = "reset to the rig file";
+  entry.alignment.cameras.push_back({.camera = camera});
+  return entry;
+}
+
+}  // namespace
+
+AcceptedAlignments::AcceptedAlignments(const Resolved& site)
+    : site_(site), file_(calibration_file(state_folder(site.site.state_folder))) {}
+
+std::uint32_t AcceptedAlignments::rig() const {
+  return rig_checksum(site_.site.rig.path).value_or(0);
+}
+
+/// Keeps a damaged file aside; then the alignments that run.
+Result<std::vector<CalibrationEntry>> AcceptedAlignments::load_or_mend() {
+  TextFiles files;
+  const auto entries = load_calibrations(file_, files);
+  if (entries) return entries;
+  return keep_damaged(file_).and_then([&](const std::filesystem::path& kept) {
+    log_line(LogLevel::Warning, entries.error().message + "; it is kept as " + kept.string());
+    TextFiles running(site_.calibration);
+    return load_calibrations(file_, running);
+  });
+}
+
+Result<int> AcceptedAlignments::add(CalibrationEntry entry) {
+  auto entries = load_or_mend();
+  if (!entries) return tl::unexpected(entries.error());
+  entry.rig = rig();
+  accept(*entries, std::move(entry));
+  return save_calibrations(file_, *entries).map([&] { return entries->back().number; });
+}
+
+Result<std::optional<CalibrationEntry>> AcceptedAlignments::before(
+    const std::string& camera) const {
+  TextFiles files;
+  auto entries = load_calibrations(file_, files);
+  if (!entries) return tl::unexpected(entries.error());
+  std::erase_if(*entries, [&, rig = rig()](const CalibrationEntry& entry) {
+    return camera_of(entry).camera != camera || entry.rig != rig;
+  });
+  if (entries->empty()) return std::nullopt;
+  entries->pop_back();
+  CalibrationEntry before = entries->empty() ? rig_files(camera) : entries->back();
+  if (!entries->empty()) {
+    before.method = "restored " + std::to_string(before.number) + ": " + before.method;
+  }
+  return before;
+}
+
+bool AcceptedAlignments::is_young(const std::string& camera, std::chrono::minutes age) const {
+  TextFiles files;
+  const auto entries = load_calibrations(file_, files);
+  const auto oldest = utc_text(std::chrono::system_clock::now() - age);
+  return entries && std::ranges::any_of(*entries, [&](const CalibrationEntry& entry) {
+           // Moments of one form: the later text is the later moment.
+           return camera_of(entry).camera == camera && entry.time > oldest;
+         });
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/files/resolve.h"
+#include "app/model/alignment.h"
+#include "app/watch/camera_watch.h"
+#include "app/watch/point_marks.h"
+
+namespace orbwatch::app {
+
+/// An alignment of one camera that was found or stated, and how.
+struct AlignmentProposal {
+  CameraAlignment alignment;
+  std::string method;
+  std::string quality;                          ///< what is known of its errors
+  double direction_sigma = signals::kNotValid;  ///< degrees
+};
+
+/// Finds alignments of a running site's cameras by their next pictures, which takes seconds. `rig`
+/// is what counts until then: it says what an alignment keeps. Every camera is watched.
+/// Thread rule: one caller at a time; points() on any thread.
+class AlignmentFinder {
+ public:
+  /// Both outlive it.
+  AlignmentFinder(const Resolved& site, CameraWatch& watch) : site_(site), watch_(watch) {}
+
+  /// By the ball in the picture.
+  Result<AlignmentProposal> detect(const optics::Rig& rig, std::size_t camera) const;
+  /// By what it and the first camera see.
+  Result<AlignmentProposal> register_to_first(const optics::Rig& rig, std::size_t camera) const;
+  /// By its drift.
+  Result<AlignmentProposal> correct(const optics::Rig& rig, std::size_t camera) const;
+
+  /// Adds a point where the ball shows the tool's light now, or at `pixel`.
+  Result<> mark(const optics::Rig& rig, std::size_t camera, const optics::Vec3& point,
+                const std::optional<optics::Vec2>& pixel);
+  void forget_points(std::size_t camera);
+  /// By its points and the site's tags.
+  Result<AlignmentProposal> place(const optics::Rig& rig, std::size_t camera);
+
+  /// Those that were marked, and what the newest placement said of them.
+  std::vector<PlacedPoint> points(std::size_t camera) const;
+
+ private:
+  const optics::RigCamera& camera_of(const optics::Rig& rig, std::size_t camera) const {
+    return rig.cameras[site_.rig_cameras[camera]];
+  }
+  Result<align::PlaceRequest> place_request(const optics::Rig& rig, std::size_t camera) const;
+  void show(std::size_t camera, const align::PlaceRequest& request,
+            const align::Placement* placement);
+
+  const Resolved& site_;
+  CameraWatch& watch_;
+  std::array<PointMarks, kMaxCameras> points_;
+  mutable std::mutex mutex_;
+  std::array<std::vector<PlacedPoint>, kMaxCameras> shown_;  ///< under mutex_
+};
+
+}  // namespace orbwatch::app

@@ -1,0 +1,158 @@
+#include "app/ports/web/align/align_routes.h"
+
+#include <gmock/gmock.h>
+
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/app/ports/web/served.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Knows one alignment and remembers what was asked.
+class Source : public AlignmentSource {
+ public:
+  AlignmentReport report(std::size_t camera) const override {
+    AlignmentReport report;
+    report.width = 640;
+    report.height = 480;
+    if (camera != 0) return report;
+    report.is_watched = true;
+    report.state = ProposalState::Ready;
+    report.steps = 2;
+    report.in_force = CameraAlignmentState{{{310, 250.5}, 220, 200, 30}, {40, -20, 10}};
+    report.proposed = report.in_force;
+    report.proposed->method = "detect";
+    report.proposed->direction_sigma = 0.2;
+    report.proposed->edges = {{{1, 2}, {3, 4}}};
+    report.points = {{{1, 2, 3}, {4, 5}, optics::Vec2{0.5, -0.25}, false}, {{7, 8, 9}, {6, 5}}};
+    return report;
+  }
+  Result<> request(const AlignmentPicture& picture, OnPicture on_picture) override {
+    if (picture.camera == 1) return fail("the camera is not watched");
+    const std::lock_guard lock(mutex_);
+    asked_ = picture;
+    // As cameras do: later, and elsewhere.
+    pictures_.emplace_back([on_picture = std::move(on_picture)] { on_picture("a picture"); });
+    return {};
+  }
+  AlignmentPicture asked() const {
+    const std::lock_guard lock(mutex_);
+    return asked_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  AlignmentPicture asked_;
+  std::vector<std::jthread> pictures_;
+};
+
+class ServedAlignment : public Served {
+ protected:
+  void SetUp() override {
+    SinkContext context = make_context();
+    context.alignment = &source;
+    names = context.names.cameras;
+    sink = std::make_unique<WebSink>(on_a_free_port(), context);
+    const auto started = sink->start();
+    ASSERT_TRUE(started) << started.error().message;
+  }
+  Answer view(const std::string& query) const {
+    return get(port(), "/api/v1/alignment/view.jpg?camera=" + names[0] + query);
+  }
+
+  std::vector<std::string> names;
+  Source source;
+};
+
+TEST_F(ServedAlignment, SaysWhatIsInForceAndWhatIsProposed) {
+  const Answer answer = get(port(), "/api/v1/alignment");
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  const json cameras = json::parse(answer.body)["cameras"];
+  ASSERT_EQ(cameras.size(), names.size());
+  const json& first = cameras[0];
+  EXPECT_EQ(first["name"], names[0]);
+  EXPECT_EQ(first["width"], 640);
+  EXPECT_EQ(first["state"], 2);
+  EXPECT_EQ(first["steps"], 2);
+  EXPECT_EQ(first["in_force"]["outline"],
+            (json{{"u", 310.}, {"v", 250.5}, {"rx", 220.}, {"ry", 200.}, {"angle", 30.}}));
+  EXPECT_EQ(first["in_force"]["rotation"], (json{{"yaw", 40.}, {"pitch", -20.}, {"roll", 10.}}));
+  EXPECT_EQ(first["in_force"]["position"], nullptr);
+  EXPECT_EQ(first["in_force"]["direction_sigma"], nullptr);
+  EXPECT_EQ(first["proposed"]["method"], "detect");
+  EXPECT_EQ(first["proposed"]["direction_sigma"], 0.2);
+  EXPECT_EQ(first["proposed"]["edges"], json::parse("[[[1.0, 2.0], [3.0, 4.0]]]"));
+  EXPECT_EQ(first["points"][0]["point"], json::parse("[1.0, 2.0, 3.0]"));
+  EXPECT_EQ(first["points"][0]["residual"], json::parse("[0.5, -0.25]"));
+  EXPECT_EQ(first["points"][1]["residual"], nullptr);
+  EXPECT_EQ(cameras[1]["in_force"], nullptr);
+  EXPECT_EQ(cameras[1]["is_watched"], false);
+}
+
+TEST_F(ServedAlignment, ABallsPictureComesWhenTheCameraHasTakenIt) {
+  const Answer answer = get(port(), "/api/v1/alignment/ball.jpg?camera=" + names[0]);
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.headers.at("Content-Type"), "image/jpeg");
+  EXPECT_EQ(answer.body, "a picture");
+  EXPECT_EQ(source.asked().camera, 0U);
+  EXPECT_FALSE(source.asked().view);
+}
+
+TEST_F(ServedAlignment, AViewIsWhatWasAskedFor) {
+  ASSERT_EQ(view("").status, 200);
+  EXPECT_FALSE(source.asked().is_proposed);
+  EXPECT_FALSE(source.asked().model);
+  EXPECT_EQ(source.asked().view->h_fov, 90);
+  ASSERT_EQ(
+      view("&which=proposed&model=paper&yaw=-30.5&pitch=12&h_fov=60&width=320&height=200").status,
+      200);
+  const AlignmentPicture asked = source.asked();
+  EXPECT_TRUE(asked.is_proposed);
+  EXPECT_EQ(asked.model, optics::BallModel::Kind::Paper);
+  EXPECT_EQ(asked.view->orientation.yaw, -30.5);
+  EXPECT_EQ(asked.view->orientation.pitch, 12);
+  EXPECT_EQ(asked.view->h_fov, 60);
+  EXPECT_EQ(asked.view->width, 320);
+  EXPECT_EQ(asked.view->height, 200);
+}
+
+TEST_F(ServedAlignment, WhatIsWrongIsNamed) {
+  for (const auto& [query, named] : std::vector<std::pair<std::string, std::string>>{
+           {"&yaw=200", "yaw is 200; it must be -180 to 180"},
+           {"&yaw=1e", "yaw is 1e; it must be"},
+           {"&pitch=nan", "pitch is nan; it must be"},
+           {"&width=100000", "width is 100000; it must be 16 to 1920"},
+           {"&which=other", "which is other; it must be proposed or in_force"},
+           {"&model=flat", "model is flat; it must be one of exact, paper, classical"}}) {
+    const Answer answer = view(query);
+    EXPECT_EQ(answer.status, 400) << query;
+    EXPECT_THAT(answer.body, HasSubstr(named));
+  }
+  const Answer none = get(port(), "/api/v1/alignment/ball.jpg?camera=none");
+  EXPECT_EQ(none.status, 400);
+  EXPECT_THAT(none.body, HasSubstr("/api/v1/alignment lists"));
+  const Answer blind = get(port(), "/api/v1/alignment/ball.jpg?camera=" + names[1]);
+  EXPECT_EQ(blind.status, 409);
+  EXPECT_THAT(blind.body, HasSubstr("not watched"));
+}
+
+TEST_F(ServedAlignment, ArgumentsAreDescribed) {
+  const json all = json::parse(get(port(), "/api/v1/openapi.json").body);
+  const json& parameters = all["paths"]["/api/v1/alignment/view.jpg"]["get"]["parameters"];
+  ASSERT_EQ(parameters.size(), 8U);
+  EXPECT_EQ(parameters[0]["name"], "camera");
+  EXPECT_EQ(parameters[0]["required"], true);
+  EXPECT_EQ(parameters[0]["schema"]["type"], "string");
+  EXPECT_EQ(parameters[2]["name"], "yaw");
+  EXPECT_EQ(parameters[2]["required"], false);
+  EXPECT_EQ(parameters[2]["schema"]["type"], "number");
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

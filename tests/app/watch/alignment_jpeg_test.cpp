@@ -1,0 +1,78 @@
+#include "app/watch/alignment_jpeg.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "proc/optics/rotation.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr int kSide = 200;
+
+optics::BallProjection ball() {
+  const auto model = optics::BallModel::make(optics::BallModel::Kind::Exact, {}, 12).value();
+  return optics::BallProjection::make(model, {{99.5, 99.5}, 80, 80, 0}, {}).value();
+}
+
+cv::Mat decoded(const std::string& jpeg) {
+  return cv::imdecode(std::vector<std::uint8_t>(jpeg.begin(), jpeg.end()), cv::IMREAD_UNCHANGED);
+}
+
+/// Counts of a room at `base`, its right half 100 counts warmer, with one spot far above.
+std::vector<std::uint16_t> counts(std::uint16_t base) {
+  std::vector<std::uint16_t> samples(kSide * kSide, base);
+  for (int v = 0; v < kSide; ++v) {
+    for (int u = kSide / 2; u < kSide; ++u) {
+      samples[static_cast<std::size_t>(v * kSide + u)] = static_cast<std::uint16_t>(base + 100);
+    }
+  }
+  samples[kSide * kSide / 2] = 65535;
+  return samples;
+}
+
+Picture picture(std::vector<std::uint16_t>& samples) {
+  return picture_of(PixelFormat::Y16,
+                    ImageView<std::uint16_t>{samples.data(), kSide, kSide, 1, kSide});
+}
+
+TEST(AlignmentJpeg, OfCountsTheRangeThatIsThereIsShown) {
+  for (const std::uint16_t base : {100, 7400, 60000}) {
+    auto samples = counts(base);
+    const auto jpeg = alignment_jpeg(picture(samples), ball(), std::nullopt);
+    ASSERT_TRUE(jpeg) << jpeg.error().message;
+    const cv::Mat shown = decoded(*jpeg);
+    ASSERT_EQ(shown.size(), cv::Size(kSide, kSide));
+    EXPECT_LT(shown.at<std::uint8_t>(20, 20), 10) << base;
+    EXPECT_GT(shown.at<std::uint8_t>(20, 180), 245) << base;
+  }
+}
+
+/// Yaw 0 looks back at the camera; what is right of the camera's picture, seen in a mirror, is left
+/// of the view.
+TEST(AlignmentJpeg, AViewIsMadeThroughTheBall) {
+  auto samples = counts(7400);
+  optics::ViewSpec spec;
+  spec.h_fov = 90;
+  spec.width = 120;
+  spec.height = 80;
+  const auto jpeg = alignment_jpeg(picture(samples), ball(), spec);
+  ASSERT_TRUE(jpeg) << jpeg.error().message;
+  const cv::Mat shown = decoded(*jpeg);
+  ASSERT_EQ(shown.size(), cv::Size(120, 80));
+  EXPECT_GT(shown.at<std::uint8_t>(20, 10), 245);
+  EXPECT_LT(shown.at<std::uint8_t>(20, 110), 10);
+}
+
+TEST(AlignmentJpeg, AnImpossibleViewIsRefused) {
+  auto samples = counts(7400);
+  optics::ViewSpec spec;
+  spec.h_fov = 180;
+  spec.width = spec.height = 80;
+  EXPECT_FALSE(alignment_jpeg(picture(samples), ball(), spec));
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,79 @@
+#include "app/watch/alignment_state.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "proc/align/register/registration.h"
+
+namespace orbwatch::app {
+namespace {
+
+optics::Rig rig_with_pose() {
+  optics::Rig rig;
+  rig.ball = {{120, 60, 430}, 50};
+  optics::RigCamera camera;
+  camera.name = "a";
+  camera.width = camera.height = 800;
+  camera.intrinsics = optics::Intrinsics{800, 800, 4200, 4200, 399.5, 399.5, {}, {}};
+  camera.pose = optics::Pose{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {120, -540, 430}};
+  rig.cameras.push_back(camera);
+  return rig;
+}
+
+TEST(AlignmentState, OfAPoseIsItsOutlineAndItsRotation) {
+  const optics::Rig rig = rig_with_pose();
+  const auto state = alignment_state(rig, rig.cameras.front());
+  ASSERT_TRUE(state) << state.error().message;
+  EXPECT_NEAR(state->outline.centre.u, 399.5, 1e-6);
+  EXPECT_NEAR(state->outline.rx, 4200 * std::tan(std::asin(50.0 / 600)), 1e-6);
+  ASSERT_TRUE(state->position);
+  EXPECT_NEAR(norm(*state->position - optics::Vec3{120, -540, 430}), 0, 1e-6);
+  // It looks along +Y, so that yaw 180 looks back at it.
+  EXPECT_NEAR(std::abs(state->rotation.yaw), 180, 1e-6);
+  EXPECT_NEAR(state->rotation.pitch, 0, 1e-6);
+  EXPECT_TRUE(state->edges.empty()) << "there is no scene";
+}
+
+TEST(AlignmentState, IsTheSameForACameraThatIsStatedByItsOutline) {
+  const optics::Rig rig = rig_with_pose();
+  const auto turnable = align::by_outline(rig, rig.cameras.front());
+  ASSERT_TRUE(turnable);
+  const auto state = alignment_state(rig, *turnable);
+  ASSERT_TRUE(state);
+  ASSERT_TRUE(state->position);
+  EXPECT_NEAR(norm(*state->position - optics::Vec3{120, -540, 430}), 0, 1e-3);
+}
+
+TEST(AlignmentState, EdgesOfTheSceneAreWhereTheBallShowsThem) {
+  optics::Rig rig = rig_with_pose();
+  rig.scene.room = optics::Scene::Room::Box;
+  rig.scene.walls = {{-600, -900, 0}, {600, 500, 800}};
+  const auto state = alignment_state(rig, rig.cameras.front());
+  ASSERT_TRUE(state) << state.error().message;
+  const auto ball = optics::ball_projection(rig, rig.cameras.front());
+  ASSERT_TRUE(ball);
+  // A corner at the camera's side, where three edges meet.
+  const auto corner = ball->pixel(normalized(optics::Vec3{-600, -900, 0} - rig.ball.centre));
+  ASSERT_TRUE(corner);
+  int ends = 0;
+  for (const auto& line : state->edges) {
+    ASSERT_GT(line.size(), 1U);
+    for (const optics::Vec2& end : {line.front(), line.back()}) {
+      ends += std::hypot(end.u - corner->u, end.v - corner->v) < 1e-3 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(ends, 3);
+}
+
+/// From above nothing of the floor below the table is seen.
+TEST(AlignmentState, WhatIsHiddenIsNotShown) {
+  optics::Rig rig = rig_with_pose();
+  rig.scene.obstacles = {{{-100, -200, 0}, {340, 320, 200}}};
+  const auto state = alignment_state(rig, rig.cameras.front());
+  ASSERT_TRUE(state) << state.error().message;
+  EXPECT_EQ(state->edges.size(), 4U) << "of the top; the ball hangs above it";
+}
+
+}  // namespace
+}  // namespace orbwatch::app
