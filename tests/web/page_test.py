@@ -135,7 +135,7 @@ class Page(PageCase):
 
     def test_nothing_keeps_anybody_out(self):
         self.browser.look_for_barriers()
-        for page in ("live", "process", "system"):
+        for page in ("live", "align", "process", "system"):
             for scheme in ("light", "dark"):
                 with self.subTest(page=page, scheme=scheme):
                     self.browser.show_in(scheme)
@@ -145,7 +145,7 @@ class Page(PageCase):
 
     def test_a_phone_needs_no_sideways_scrolling(self):
         self.browser.set_window_size(500, 844)
-        for page in ("live", "process", "system"):
+        for page in ("live", "align", "process", "system"):
             self.open(page)
             widths = self.browser.execute_script(
                 "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")

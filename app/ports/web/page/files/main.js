@@ -1,4 +1,5 @@
 import { admit, askAgain } from "./access.js";
+import { Align } from "./align.js";
 import { describeFigures } from "./api.js";
 import { element, setText } from "./elements.js";
 import { Live } from "./live.js";
@@ -63,6 +64,7 @@ const figures = await figuresOfAppliance();
 const choose = () => stream.choose(look.isShown ? look.views : live.views);
 const live = new Live(document.getElementById("live"), choose);
 const look = new Look(document.getElementById("look"), choose);
+new Align(document.getElementById("align"));
 const process = new Process(document.getElementById("process"), figures);
 const system = new System(document.getElementById("system"), figures);
 if (hasUsers && role === "administrator") new People(document.getElementById("system"));

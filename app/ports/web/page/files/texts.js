@@ -1,6 +1,6 @@
 // Every text that the page itself says; names and descriptions of figures come from the appliance.
 export const texts = {
-  pages: { live: "Live", look: "Look around", process: "Process", system: "System" },
+  pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System" },
   user: "User",
   password: "Password",
   newPassword: (characters) => `New password, at least ${characters} characters`,
@@ -61,6 +61,34 @@ export const texts = {
   noSphere: "No view shows a ball as its camera does: add one of kind \"ball\" to the site file.",
   noWebGl: "This browser draws no WebGL: the appliance turns a view, for everybody who looks at it.",
   noWebGlNoView: "This browser draws no WebGL, and the appliance has no view that can be turned.",
+  align: {
+    camera: "Camera",
+    detect: "Find the ball",
+    undo: "Undo",
+    accept: "Accept",
+    discard: "Discard",
+    revert: "Back to the alignment before",
+    picture: "What the camera sees",
+    outlineGroup: "The ball's outline and the scene's edges",
+    help: "Drag the middle of the ball or one of its radii onto the limb; arrow keys move them by 0.1 " +
+      "pixel, with shift by 1. Thin lines show the machine's edges as the alignment has them, the " +
+      "dashed ellipse what is in force. Accept writes the calibration and restarts with it.",
+    handle: {
+      centre: ({ u, v }) => `Middle of the ball, at ${u.toFixed(1)}, ${v.toFixed(1)} pixels`,
+      rx: ({ rx, angle }) => `First radius, ${rx.toFixed(1)} pixels, at ${angle.toFixed(1)} degrees`,
+      ry: ({ ry }) => `Second radius, ${ry.toFixed(1)} pixels`,
+    },
+    outline: ({ u, v, rx, ry, angle }) => `Outline: centre ${u.toFixed(2)}, ${v.toFixed(2)}, radii ` +
+      `${rx.toFixed(2)}, ${ry.toFixed(2)} px, at ${angle.toFixed(1)}°.`,
+    rotation: ({ yaw, pitch, roll }) =>
+      `Rotation: ${yaw.toFixed(2)}°, ${pitch.toFixed(2)}°, ${roll.toFixed(2)}°.`,
+    proposal: (method, quality) => `Proposed: ${method}, ${quality}`,
+    inForce: (method, quality) => `In force: ${method}${quality ? `, ${quality}` : ""}`,
+    ofRig: "In force: as the rig file has it",
+    refusal: (why) => `Not found: ${why}`,
+    waiting: (why) => `No answer (${why}): trying again`,
+    notWatched: "Nothing is found or shown of this camera: it is not watched, see the log.",
+  },
   alarms: "Alarms",
   noAlarms: "There are no alarms.",
   alarm: "Alarm",

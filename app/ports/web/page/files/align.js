@@ -1,0 +1,128 @@
+// The ball in each camera's picture: found, corrected by hand, accepted.
+import { command } from "./api.js";
+import { BallEditor } from "./ball_editor.js";
+import { element, setText } from "./elements.js";
+import { texts } from "./texts.js";
+
+const kPauseMs = 300;  // between two looks at the appliance
+const kReady = 2, kWorking = 1;
+
+async function fetched(path) {
+  const answer = await fetch(path);
+  if (!answer.ok) throw new Error((await answer.json().catch(() => ({}))).error ?? answer.status);
+  return answer;
+}
+
+export class Align {
+  #cameras = [];
+  #isRunning = false;
+
+  constructor(root) {
+    this.root = root;
+    this.choice = element("select", { name: "camera" });
+    this.choice.addEventListener("change", () => this.#choose());
+    this.said = element("p", { role: "status" });
+    this.refused = element("p", { role: "alert", className: "wrong" });
+    this.editor = new BallEditor((name, values) => this.#give(name, values));
+    this.buttons = Object.fromEntries([
+      ["detect", "detect_ball"], ["undo", "undo_alignment"], ["accept", "accept_alignment"],
+      ["discard", "discard_alignment"], ["revert", "revert_alignment"],
+    ].map(([name, given]) => [name, this.#button(texts.align[name], given)]));
+    this.facts = element("p", { className: "where" });
+    root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
+      this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
+      this.said, this.refused, this.facts, element("p", {}, texts.align.help));
+    addEventListener("hashchange", () => this.#run());
+    document.addEventListener("visibilitychange", () => this.#run());
+    this.#run();
+  }
+
+  get isShown() {
+    return !this.root.hidden && !document.hidden;
+  }
+  get #camera() {
+    return this.#cameras.find(({ name }) => name === this.choice.value);
+  }
+
+  #button(label, name) {
+    const button = element("button", { type: "button" }, label);
+    button.addEventListener("click", () => this.#give(name));
+    return button;
+  }
+
+  // Empty when it was done, else why not.
+  async #give(name, values = {}) {
+    if (!this.#camera) return "";
+    const why = await command(name, { camera: this.#camera.index, ...values });
+    await this.#look().catch(() => {});
+    setText(this.refused, why ? texts.refused(this.#camera.refusal || why) : "");
+    return why;
+  }
+
+  // One after the other as long as somebody looks; after a failure it tries again.
+  async #run() {
+    if (this.#isRunning) return;
+    this.#isRunning = true;
+    while (this.isShown) {
+      try {
+        await this.#look();
+        await this.#showPicture();
+      } catch (error) {
+        setText(this.said, texts.align.waiting(error.message));
+      }
+      await new Promise((resolve) => setTimeout(resolve, kPauseMs));
+    }
+    this.#isRunning = false;
+  }
+
+  async #look() {
+    this.#cameras = (await (await fetched("/api/v1/alignment")).json()).cameras;
+    for (const { name } of this.#cameras.slice(this.choice.options.length)) {
+      this.choice.append(element("option", { value: name }, name));
+    }
+    if (this.#camera) this.#show(this.#camera);
+  }
+
+  async #showPicture() {
+    if (!this.#camera?.is_watched) return;
+    const { name } = this.#camera;
+    const path = `/api/v1/alignment/ball.jpg?camera=${encodeURIComponent(name)}`;
+    const picture = await createImageBitmap(await (await fetched(path)).blob());
+    if (this.#camera.name === name) this.editor.showPicture(picture);
+    picture.close();
+  }
+
+  #choose() {
+    setText(this.refused, "");
+    this.editor.forget();
+    if (this.#camera) this.#show(this.#camera);
+  }
+
+  #show(camera) {
+    const { proposed, in_force: inForce, state } = camera;
+    const isReady = state === kReady, isWorking = state === kWorking;
+    this.editor.show(camera);
+    setText(this.said, this.#words(camera));
+    setText(this.facts, this.#figures(proposed ?? inForce));
+    this.buttons.detect.disabled = isWorking || !camera.is_watched;
+    this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);
+    this.buttons.accept.disabled = !isReady;
+    this.buttons.discard.disabled = isWorking || (state === 0 && camera.steps === 0);
+    this.buttons.revert.disabled = isWorking || !inForce?.method;
+  }
+
+  #words({ is_watched: isWatched, state, state_text: text, refusal, proposed, in_force: inForce }) {
+    if (!isWatched) return texts.align.notWatched;
+    if (refusal) return texts.align.refusal(refusal);
+    if (state === kReady) return texts.align.proposal(proposed.method, proposed.quality);
+    if (state === kWorking) return text;
+    return inForce?.method ? texts.align.inForce(inForce.method, inForce.quality)
+      : texts.align.ofRig;
+  }
+
+  #figures(shown) {
+    if (!shown) return "";
+    const { outline, rotation } = shown;
+    return `${texts.align.outline(outline)} ${texts.align.rotation(rotation)}`;
+  }
+}

@@ -1,0 +1,181 @@
+// A camera's picture with the ball's outline over it as an ellipse, moved by its handles with
+// pointer, touch or keys, and the scene's edges as the alignment has them.
+import { element } from "./elements.js";
+import { texts } from "./texts.js";
+
+const kSvg = "http://www.w3.org/2000/svg";
+const kStepPx = 0.1, kLargeStepPx = 1;
+// Keys that are held down become one change.
+const kSettleMs = 250;
+const kHandlePx = 11;  // on the screen
+const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+function drawn(tag, attributes = {}) {
+  const made = document.createElementNS(kSvg, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  return made;
+}
+
+function place(shape, attributes) {
+  for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
+}
+
+// Unit vectors along the axes.
+function axes({ angle }) {
+  const a = angle * Math.PI / 180;
+  return { rx: [Math.cos(a), Math.sin(a)], ry: [-Math.sin(a), Math.cos(a)] };
+}
+
+// By handle: where it stands.
+function handlesOf(outline) {
+  const { u, v, rx, ry } = outline, along = axes(outline);
+  return { centre: [u, v], rx: [u + rx * along.rx[0], v + rx * along.rx[1]],
+           ry: [u + ry * along.ry[0], v + ry * along.ry[1]] };
+}
+
+// What an outline is once its handle is at [u, v]. The first radius turns the ellipse, too.
+function pulled(outline, handle, [u, v]) {
+  if (handle === "centre") return { ...outline, u, v };
+  const du = u - outline.u, dv = v - outline.v;
+  if (handle === "rx") {
+    return { ...outline, rx: Math.max(1, Math.hypot(du, dv)), angle: Math.atan2(dv, du) * 180 / Math.PI };
+  }
+  const [x, y] = axes(outline).ry;
+  return { ...outline, ry: Math.max(1, Math.abs(du * x + dv * y)) };
+}
+
+export class BallEditor {
+  #outline = null;   // as it is shown
+  #isHeld = false;   // somebody changes it: what the appliance says waits
+  #settle = 0;
+  #handles = {};
+
+  // `onChange(command, values)` has the appliance take over what was changed; a promise.
+  constructor(onChange) {
+    this.onChange = onChange;
+    this.canvas = element("canvas", { role: "img", "aria-label": texts.align.picture });
+    this.svg = drawn("svg", { role: "group", "aria-label": texts.align.outlineGroup });
+    this.edges = drawn("g", { class: "edges" });
+    this.marks = drawn("g", { class: "marks" });
+    this.before = drawn("ellipse", { class: "before" });
+    this.ellipse = drawn("ellipse", { class: "limb" });
+    this.svg.append(this.edges, this.before, this.ellipse, this.marks);
+    for (const name of ["centre", "rx", "ry"]) this.#addHandle(name);
+    this.root = element("figure", { className: "ball" },
+      element("div", { className: "picture" }, this.canvas, this.svg));
+    new ResizeObserver(() => this.#draw()).observe(this.svg);
+  }
+
+  #addHandle(name) {
+    const handle = drawn("circle", { tabindex: 0, role: "button", "data-handle": name });
+    handle.addEventListener("pointerdown", (event) => this.#drag(event, handle, name));
+    handle.addEventListener("keydown", (event) => this.#press(event, name));
+    this.#handles[name] = handle;
+    this.svg.append(handle);
+  }
+
+  // In pixels of the camera, whose centres are at integers.
+  pixelAt({ clientX, clientY }) {
+    const box = this.svg.getBoundingClientRect();
+    return [(clientX - box.left) / box.width * this.canvas.width - 0.5,
+            (clientY - box.top) / box.height * this.canvas.height - 0.5];
+  }
+
+  #drag(event, handle, name) {
+    if (!this.#outline || event.button !== 0) return;
+    event.preventDefault();
+    handle.focus();
+    handle.setPointerCapture(event.pointerId);
+    const before = this.#outline;
+    const from = this.pixelAt(event), at = handlesOf(before)[name];
+    this.#isHeld = true;
+    const move = (moved) => {
+      const to = this.pixelAt(moved);
+      this.#outline = pulled(before, name, [at[0] + to[0] - from[0], at[1] + to[1] - from[1]]);
+      this.#draw();
+    };
+    const end = (ended) => {
+      handle.removeEventListener("pointermove", move);
+      handle.removeEventListener("pointerup", end);
+      handle.removeEventListener("pointercancel", end);
+      if (ended.type === "pointercancel") this.#outline = before;
+      this.#apply(name, before);
+    };
+    handle.addEventListener("pointermove", move);
+    handle.addEventListener("pointerup", end);
+    handle.addEventListener("pointercancel", end);
+  }
+
+  // Of a radius, right and up are larger, left and down smaller.
+  #press(event, name) {
+    const [du, dv] = kKeys[event.key] ?? [];
+    if (du === undefined || !this.#outline) return;
+    event.preventDefault();
+    const step = event.shiftKey ? kLargeStepPx : kStepPx;
+    this.#isHeld = true;
+    if (name === "centre") {
+      this.#outline = { ...this.#outline, u: this.#outline.u + step * du, v: this.#outline.v + step * dv };
+    } else {
+      const radius = Math.max(1, this.#outline[name] + step * (du - dv));
+      this.#outline = { ...this.#outline, [name]: radius };
+    }
+    this.#draw();
+    clearTimeout(this.#settle);
+    this.#settle = setTimeout(() => this.#apply(name), kSettleMs);
+  }
+
+  async #apply(name, before = null) {
+    const { u, v, rx, ry, angle } = this.#outline;
+    if (this.#outline !== before) {
+      await (name === "centre" ? this.onChange("move_outline", { u, v })
+        : this.onChange("shape_outline", { rx, ry, angle }));
+    }
+    this.#isHeld = false;
+    this.#refresh();
+  }
+
+  forget() {
+    clearTimeout(this.#settle);
+    this.#isHeld = false;
+  }
+
+  show(camera) {
+    this.camera = camera;
+    if (this.canvas.width !== camera.width || this.canvas.height !== camera.height) {
+      this.canvas.width = camera.width;
+      this.canvas.height = camera.height;
+    }
+    place(this.svg, { viewBox: `-0.5 -0.5 ${camera.width} ${camera.height}` });
+    this.#refresh();
+  }
+
+  showPicture(picture) {
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
+  }
+
+  #refresh() {
+    if (this.#isHeld || !this.camera) return;
+    const shown = this.camera.proposed ?? this.camera.in_force;
+    this.#outline = shown?.outline ?? null;
+    this.edges.replaceChildren(...(shown?.edges ?? []).map((line) =>
+      drawn("polyline", { points: line.map((pixel) => pixel.join(",")).join(" ") })));
+    this.#draw();
+  }
+
+  #draw() {
+    const shapes = [this.ellipse, this.before, ...Object.values(this.#handles)];
+    for (const shape of shapes) place(shape, { visibility: this.#outline ? "visible" : "hidden" });
+    if (!this.#outline) return;
+    const ellipse = ({ u, v, rx, ry, angle }) =>
+      ({ cx: u, cy: v, rx, ry, transform: `rotate(${angle} ${u} ${v})` });
+    place(this.ellipse, ellipse(this.#outline));
+    const inForce = this.camera.in_force?.outline;
+    if (inForce) place(this.before, ellipse(inForce));
+    const scale = this.canvas.width / (this.svg.clientWidth || this.canvas.width);
+    for (const [name, [cx, cy]] of Object.entries(handlesOf(this.#outline))) {
+      place(this.#handles[name], { cx, cy, r: kHandlePx * scale,
+        "aria-label": texts.align.handle[name](this.#outline) });
+    }
+  }
+}
