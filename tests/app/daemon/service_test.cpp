@@ -312,7 +312,7 @@ TEST_F(Configured, RefusesWhatIsWrongAndChangesNothing) {
                 fs::copy_options::overwrite_existing);
   EXPECT_EQ(configure({(folder / "new/site.toml").string(), "--dry-run"}).first, 0);
   EXPECT_FALSE(fs::exists(folder / "trial.json"));
-  EXPECT_EQ(configure({}).first, 1);
+  EXPECT_EQ(configure({}).first, 2);
 }
 
 }  // namespace
