@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -22,13 +23,19 @@ bool is_temporary(const std::filesystem::path& path) {
   return std::regex_match(path.filename().string(), kName);
 }
 
-/// A name is on the disk once its folder is. Some file systems have nothing to write there, and say
-/// EINVAL.
-bool sync_folder_of(const std::filesystem::path& path) {
-  const auto parent = path.parent_path();
-  const FileDescriptor folder(
-      ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  return folder.is_open() && (::fsync(folder.get()) == 0 || errno == EINVAL);
+/// Some file systems have nothing to write there, and say EINVAL.
+bool is_synced(const std::filesystem::path& folder) {
+  const FileDescriptor opened(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return opened.is_open() && (::fsync(opened.get()) == 0 || errno == EINVAL);
+}
+
+/// Whoever could read or write the file before, still can.
+void keep_mode(const std::filesystem::path& path, const FileDescriptor& file) {
+  constexpr mode_t kPermissions = 0777;
+  struct stat before {};
+  if (!file.is_open() || ::stat(path.c_str(), &before) != 0) return;
+  static_cast<void>(::fchmod(file.get(), before.st_mode & kPermissions));
 }
 
 }  // namespace
@@ -42,9 +49,10 @@ Result<> write_file(const std::filesystem::path& path, std::string_view text) {
   // The lock, which ends with the process, says that the file is no leftover. Where a file system
   // has no locks, leftovers are not removed either.
   if (file.is_open()) static_cast<void>(::flock(file.get(), LOCK_EX));
+  keep_mode(path, file);
   const bool is_replaced = file.is_open() && write_all(file, text) && ::fsync(file.get()) == 0 &&
                            ::rename(temporary.c_str(), path.c_str()) == 0;
-  if (is_replaced && sync_folder_of(path)) return {};
+  if (is_replaced && is_synced(path.parent_path())) return {};
   const std::string reason = std::system_category().message(errno);
   if (file.is_open() && !is_replaced) ::unlink(temporary.c_str());
   return fail(path.string() + ": cannot be written: " + reason);
@@ -53,6 +61,11 @@ Result<> write_file(const std::filesystem::path& path, std::string_view text) {
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   return write_file(path,
                     std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+Result<> sync_folder(const std::filesystem::path& folder) {
+  if (is_synced(folder)) return {};
+  return fail(folder.string() + ": " + std::system_category().message(errno));
 }
 
 Result<> remove_unfinished(const std::filesystem::path& folder) {

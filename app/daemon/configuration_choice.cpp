@@ -34,6 +34,24 @@ std::optional<Chosen> choose_trial(const std::filesystem::path& folder,
   return std::nullopt;
 }
 
+/// Nullopt: nothing that was confirmed is left to be written. It runs as it was confirmed while it
+/// cannot be.
+std::optional<Chosen> choose_confirmed(const std::filesystem::path& folder,
+                                       const std::filesystem::path& file) {
+  const auto finished = finish_confirmed(folder);
+  if (finished) {
+    if (*finished) log_line(LogLevel::Warning, "wrote the rest of a confirmed configuration");
+    return std::nullopt;
+  }
+  const std::string why = "a confirmed configuration is not written: " + finished.error().message;
+  log_line(LogLevel::Error, why);
+  const auto confirmed = confirmed_trial(folder);
+  if (!confirmed || !*confirmed || (*confirmed)->site != file) return std::nullopt;
+  auto site = resolve_and_check(file, (*confirmed)->texts);
+  if (!site) return std::nullopt;
+  return Chosen{std::move(*site), why, {}};
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> service_folder() {
@@ -47,6 +65,7 @@ Result<Chosen> choose(const std::filesystem::path& file) {
     if (end_trial(*folder)) {
       log_line(LogLevel::Warning, "the new configuration was not confirmed: the files count again");
     }
+    if (auto confirmed = choose_confirmed(*folder, file)) return std::move(*confirmed);
     if (auto trial = choose_trial(*folder, file)) return std::move(*trial);
   }
   auto site = resolve_and_check(file, {});

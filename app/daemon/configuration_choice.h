@@ -20,9 +20,10 @@ struct Chosen {
 /// has no STATE_DIRECTORY. Not while the environment is changed.
 std::optional<std::filesystem::path> service_folder();
 
-/// What runs: of a service a requested trial, once; else what the files say; if they are wrong, of
-/// a service, the last good configuration. A trial that a run before left unconfirmed has ended.
-/// Error: the files', and why there is no last good configuration.
+/// What runs: of a service, a confirmed trial that is not written yet; a requested trial, once;
+/// else what the files say; if they are wrong, of a service, the last good configuration. A trial
+/// that a run before left unconfirmed has ended. Error: the files', and why there is no last good
+/// configuration.
 Result<Chosen> choose(const std::filesystem::path& file);
 
 /// Whether the files say what can run. Error: why not.

@@ -128,6 +128,8 @@ bool asks_for_restart(Waiting& waiting) {
   if (waiting.trial_ends == hal::TimePoint::max()) return false;
   const auto running = running_trial(*waiting.folder);
   if (running && !*running) {
+    const auto confirmed = confirmed_trial(*waiting.folder);
+    if (confirmed && *confirmed) return false;  // its files are being written
     waiting.trial_ends = hal::TimePoint::max();
     const auto files = resolve(waiting.file);
     return !files || files->checksum != waiting.checksum;

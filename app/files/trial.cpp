@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 fs::path requested_in(const fs::path& folder) { return folder / "trial.json"; }
 fs::path running_in(const fs::path& folder) { return folder / "trial-running.json"; }
+fs::path confirmed_in(const fs::path& folder) { return folder / "trial-confirmed.json"; }
 
 Result<std::optional<Trial>> read(const fs::path& file) {
   std::error_code none;  // read_regular_file() says what is wrong
@@ -40,14 +41,20 @@ Result<> request_trial(const fs::path& folder, const Trial& trial) {
   for (const auto& [path, text] : trial.texts) files[path.string()] = text;
   const nlohmann::json json{
       {"site", trial.site.string()}, {"seconds", trial.seconds}, {"files", files}};
-  // Comments may have any bytes.
-  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  return hal::write_file(requested_in(folder), json.dump(1, ' ', false, kReplace) + "\n");
+  try {
+    return hal::write_file(requested_in(folder), json.dump(1) + "\n");
+  } catch (const nlohmann::json::type_error&) {
+    return fail(trial.site.string() + ": it or a file that it names is not UTF-8");
+  }
 }
 
 bool is_trial_requested(const fs::path& folder) {
   std::error_code none;
   return fs::exists(requested_in(folder), none);
+}
+
+Result<std::optional<Trial>> requested_trial(const fs::path& folder) {
+  return read(requested_in(folder));
 }
 
 Result<std::optional<Trial>> take_trial(const fs::path& folder) {
@@ -60,6 +67,49 @@ Result<std::optional<Trial>> take_trial(const fs::path& folder) {
 
 Result<std::optional<Trial>> running_trial(const fs::path& folder) {
   return read(running_in(folder));
+}
+
+Result<std::vector<fs::path>> confirm_trial(const fs::path& folder) {
+  std::error_code error;
+  fs::rename(running_in(folder), confirmed_in(folder), error);
+  if (error && error != std::errc::no_such_file_or_directory) {
+    return fail(running_in(folder).string() + ": " + error.message());
+  }
+  if (!error) {
+    if (auto kept = hal::sync_folder(folder); !kept) return tl::unexpected(kept.error());
+  }
+  auto written = finish_confirmed(folder);
+  if (!written) return tl::unexpected(written.error());
+  if (*written) return std::move(**written);
+  return fail("no configuration waits for its confirmation: it was not taken up, or went back");
+}
+
+Result<std::optional<Trial>> confirmed_trial(const fs::path& folder) {
+  return read(confirmed_in(folder));
+}
+
+Result<std::optional<std::vector<fs::path>>> finish_confirmed(const fs::path& folder) {
+  const auto trial = confirmed_trial(folder);
+  if (!trial) return tl::unexpected(trial.error());
+  if (!*trial) return std::nullopt;
+  std::vector<fs::path> written;
+  const auto write = [&written](const fs::path& path, const std::string& text) -> Result<> {
+    const auto present = hal::read_regular_file(path);
+    if (present && *present == text) return {};
+    written.push_back(path);
+    return hal::write_file(path, text);
+  };
+  for (const auto& [path, text] : (*trial)->texts) {
+    if (path == (*trial)->site) continue;
+    if (auto done = write(path, text); !done) return tl::unexpected(done.error());
+  }
+  const auto site = (*trial)->texts.find((*trial)->site);
+  if (site != (*trial)->texts.end()) {
+    if (auto done = write(site->first, site->second); !done) return tl::unexpected(done.error());
+  }
+  std::error_code none;
+  fs::remove(confirmed_in(folder), none);
+  return written;
 }
 
 bool end_trial(const fs::path& folder) {

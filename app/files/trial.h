@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/files/text_file.h"
 #include "proc/image/result.h"
@@ -13,17 +14,21 @@ namespace orbwatch::app {
 /// a restart:
 ///
 ///     request_trial() --> trial.json --take_trial()--> trial-running.json --end_trial()--> nothing
+///                                           confirm_trial() --> trial-confirmed.json --> its files
 struct Trial {
   std::filesystem::path site;  ///< the configuration file that it is in place of
   FileTexts texts;             ///< by the path of the file that each will be
   int seconds = 0;
 };
 
-/// Asks the daemon that has this folder for a trial. Atomic. Error: as hal::write_file().
+/// Asks the daemon that has this folder for a trial. Atomic. Errors: a text is not UTF-8; as
+/// hal::write_file().
 Result<> request_trial(const std::filesystem::path& folder, const Trial& trial);
 
 /// Whether one was requested and not taken yet.
 bool is_trial_requested(const std::filesystem::path& folder);
+/// That one; nullopt: none. Error: it is damaged.
+Result<std::optional<Trial>> requested_trial(const std::filesystem::path& folder);
 
 /// The requested one; it runs from now on, and is requested no more, so that it is run once.
 /// Nullopt: none. Error: it is damaged.
@@ -34,5 +39,19 @@ Result<std::optional<Trial>> running_trial(const std::filesystem::path& folder);
 
 /// None runs any more. Returns whether one did.
 bool end_trial(const std::filesystem::path& folder);
+
+/// Keeps the trial that runs: writes those of its texts that differ from their files, the
+/// configuration file last. From its first moment on the confirmation counts: after a power cut
+/// finish_confirmed() does what is left. Returns the files written. Errors: none runs; as
+/// hal::write_file(), and it may be repeated.
+Result<std::vector<std::filesystem::path>> confirm_trial(const std::filesystem::path& folder);
+
+/// The one that was confirmed and is not written to the end; nullopt: none. Error: it is damaged.
+Result<std::optional<Trial>> confirmed_trial(const std::filesystem::path& folder);
+
+/// Writes what confirm_trial() has not. Returns the files written; nullopt: there was nothing to
+/// finish. Errors: it is damaged; as hal::write_file(), and it may be repeated.
+Result<std::optional<std::vector<std::filesystem::path>>> finish_confirmed(
+    const std::filesystem::path& folder);
 
 }  // namespace orbwatch::app

@@ -41,6 +41,17 @@ TEST(WriteFile, ReplacesAFileAndLeavesNoOther) {
   EXPECT_EQ(names(folder.path()), std::set<std::string>{"a.png"});
 }
 
+TEST(WriteFile, KeepsTheModeOfTheFile) {
+  const tests::TemporaryFolder folder;
+  const fs::path file = folder.path() / "site.toml";
+  ASSERT_TRUE(write_file(file, "old"));
+  const auto mode = fs::perms(0604);
+  fs::permissions(file, mode);
+  ASSERT_TRUE(write_file(file, "new"));
+  EXPECT_EQ(text(file), "new");
+  EXPECT_EQ(fs::status(file).permissions(), mode);
+}
+
 TEST(RemoveUnfinished, RemovesWhatIsLeftAndNothingElse) {
   const tests::TemporaryFolder folder;
   const std::set<std::string> others{"a.png", "a.png.part", "notes.part", ".12-0.part"};

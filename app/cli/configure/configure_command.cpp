@@ -3,21 +3,18 @@
 #include <vector>
 
 #include "app/cli/command.h"
-#include "app/cli/configure/text_difference.h"
 #include "app/cli/options/options.h"
-#include "app/daemon/build.h"
+#include "app/daemon/new_configuration.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
 #include "app/files/trial.h"
+#include "app/model/configuration_files.h"
 #include "app/state/state_folder.h"
-#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kShortest = 10, kLongest = 3600;  // s
 
 constexpr const char* kUsage =
     "Usage: orbwatch configure FILE [--seconds N] [--dry-run]\n"
@@ -33,7 +30,7 @@ constexpr const char* kUsage =
 
 struct Options {
   fs::path config;
-  int seconds = 120;
+  int seconds = kUsualTrial;
   bool dry_run = false;
   bool confirm = false;
   bool cancel = false;
@@ -53,41 +50,26 @@ Result<FileTexts> placed(const FileTexts& texts, const fs::path& from, const fs:
   return moved;
 }
 
-std::string differences(const FileTexts& texts) {
-  std::string all;
-  for (const auto& [path, text] : texts) {
-    TextFiles files;
-    const auto old = files.read(path, "a text file");
-    all += text_difference(old.value_or(""), text, path.string());
-  }
-  return all;
-}
-
-Result<Trial> make_trial(const Options& o, const fs::path& file) {
+/// The texts of the new files by their places beside the installed one, whose name may differ.
+Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
   fs::path folder = file.parent_path();
   if (folder.empty()) folder = ".";
   const auto site = resolve(folder / file.filename());
   if (!site) return tl::unexpected(site.error());
-  Trial trial{o.config, {}, o.seconds};
-  auto texts = placed(site->texts, folder, o.config.parent_path());
-  if (!texts) return tl::unexpected(texts.error());
-  trial.texts = std::move(*texts);
-  // The file's own name may differ.
-  const auto own =
-      trial.texts.extract((o.config.parent_path() / file.filename()).lexically_normal());
-  trial.texts[o.config] = own.mapped();
-  // As it will stand there.
-  const auto checked = resolve(o.config, trial.texts).and_then([](const Resolved& there) {
-    return check_site(there, Dates::Checked);
-  });
-  if (!checked) return tl::unexpected(checked.error());
-  return trial;
+  auto texts = placed(site->texts, folder, installed.parent_path());
+  if (!texts) return texts;
+  auto own = texts->extract((installed.parent_path() / file.filename()).lexically_normal());
+  (*texts)[installed] = std::move(own.mapped());
+  return texts;
 }
 
 Result<std::string> try_out(const Options& o, const fs::path& file) {
-  const auto trial = make_trial(o, file);
+  const auto texts = new_texts(file, o.config);
+  if (!texts) return tl::unexpected(texts.error());
+  const auto trial = checked_trial(o.config, *texts, o.seconds);
   if (!trial) return tl::unexpected(trial.error());
-  const std::string difference = differences(trial->texts);
+  std::string difference;
+  for (const auto& [path, lines] : differences_from_files(trial->texts)) difference += lines;
   if (difference.empty()) return "changes nothing\n";
   if (o.dry_run) return difference;
   if (auto asked = request_trial(state_folder({}), *trial); !asked) {
@@ -97,27 +79,12 @@ Result<std::string> try_out(const Options& o, const fs::path& file) {
          " seconds from now on; keep it with: orbwatch configure --confirm\n";
 }
 
-/// Writes the files, the configuration file last, and only then ends the trial: a confirmation that
-/// was interrupted may be repeated.
 Result<std::string> confirm(const fs::path& folder) {
-  const auto trial = running_trial(folder);
-  if (!trial) return tl::unexpected(trial.error());
-  if (!*trial)
-    return fail("no configuration waits for its confirmation: it was not taken up, or went back");
-  std::string text;
-  const auto write = [&text](const fs::path& path, const std::string& content) {
-    text += path.string() + ": written\n";
-    return hal::write_file(path, content);
-  };
-  for (const auto& [path, content] : (*trial)->texts) {
-    if (path == (*trial)->site) continue;
-    if (auto written = write(path, content); !written) return tl::unexpected(written.error());
-  }
-  const auto written = write((*trial)->site, (*trial)->texts.at((*trial)->site));
-  if (!written) return tl::unexpected(written.error());
-  if (!end_trial(folder))
-    return fail("it went back meanwhile; the files are the new ones: send the command restart");
-  return text;
+  return confirm_trial(folder).map([](const std::vector<fs::path>& written) {
+    std::string text;
+    for (const fs::path& path : written) text += path.string() + ": written\n";
+    return text;
+  });
 }
 
 Result<std::string> run(Options o, const std::vector<std::string>& words) {
@@ -130,7 +97,7 @@ Result<std::string> run(Options o, const std::vector<std::string>& words) {
     if (end_trial(folder)) return "goes back\n";
     return fail("no configuration waits for its confirmation");
   }
-  if (o.seconds < kShortest || o.seconds > kLongest) {
+  if (o.seconds < kShortestTrial || o.seconds > kLongestTrial) {
     return usage_error("--seconds is " + std::to_string(o.seconds) +
                        "; it must be from 10 to 3600");
   }
@@ -152,7 +119,7 @@ Result<std::string> configure_command(const std::vector<std::string>& arguments)
       {.usage = kUsage,
        .options = {{"config", 'c', "FILE", "the installed file (default: as orbwatchd)",
                     text_option(o.config)},
-                   {"seconds", 0, "N", "until it goes back, 10 to 3600 (default 120)",
+                   {"seconds", 0, "N", "until it goes back, 10 to 3600 (default 60)",
                     seconds_option(o.seconds)},
                    {"dry-run", 0, "", "check and show the difference only", flag_option(o.dry_run)},
                    {"confirm", 0, "", "keep what runs: write the files", flag_option(o.confirm)},

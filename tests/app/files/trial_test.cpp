@@ -42,6 +42,38 @@ TEST_F(TrialFile, ThatIsDamagedIsRefused) {
   }
 }
 
+TEST_F(TrialFile, IsWrittenWhereItDiffersOnceItIsConfirmed) {
+  const fs::path site = folder_ / "site.toml", rig = folder_ / "rig.toml";
+  std::ofstream(site) << "old";
+  std::ofstream(rig) << "same";
+  ASSERT_TRUE(request_trial(folder_.path(), {site, {{site, "new"}, {rig, "same"}}, 30}));
+  EXPECT_FALSE(confirm_trial(folder_.path())) << "it does not run yet";
+  ASSERT_TRUE(take_trial(folder_.path()));
+  const auto written = confirm_trial(folder_.path());
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_THAT(*written, testing::ElementsAre(site));
+  EXPECT_FALSE(confirm_trial(folder_.path())) << "nothing waits any more";
+  EXPECT_EQ(finish_confirmed(folder_.path()).value(), std::nullopt);
+  EXPECT_FALSE(end_trial(folder_.path()));
+}
+
+TEST_F(TrialFile, ThatCannotBeWrittenMayBeConfirmedAgain) {
+  const fs::path site = folder_ / "absent/site.toml";
+  ASSERT_TRUE(request_trial(folder_.path(), {site, {{site, "new"}}, 30}));
+  ASSERT_TRUE(take_trial(folder_.path()));
+  EXPECT_THAT(confirm_trial(folder_.path()).error().message, HasSubstr("cannot be written"));
+  EXPECT_TRUE(confirmed_trial(folder_.path()).value());
+  fs::create_directory(folder_ / "absent");
+  EXPECT_TRUE(confirm_trial(folder_.path()));
+  EXPECT_TRUE(fs::exists(site));
+}
+
+TEST_F(TrialFile, ThatIsNoUtf8IsRefused) {
+  const auto requested = request_trial(folder_.path(), {"/etc/site.toml", {{"/a", "\xFF"}}, 30});
+  EXPECT_THAT(requested.error().message, HasSubstr("is not UTF-8"));
+  EXPECT_FALSE(is_trial_requested(folder_.path()));
+}
+
 /// A pipe without a writer would be waited for.
 TEST_F(TrialFile, IsNoPipeAndNoFolder) {
   ASSERT_EQ(::mkfifo(requested_.c_str(), 0600), 0);

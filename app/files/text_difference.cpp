@@ -1,4 +1,4 @@
-#include "app/cli/configure/text_difference.h"
+#include "app/files/text_difference.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -50,7 +50,8 @@ std::string text_difference(const std::string& before, const std::string& after,
       text += "+" + new_lines[j++] + "\n";
     }
   }
-  return text.empty() ? text : name + "\n" + text;
+  if (text.empty()) text = "another end of the last line\n";
+  return name + "\n" + text;
 }
 
 }  // namespace orbwatch::app

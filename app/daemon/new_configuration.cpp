@@ -1,0 +1,50 @@
+#include "app/daemon/new_configuration.h"
+
+#include "app/daemon/build.h"
+#include "app/files/resolve.h"
+#include "app/files/text_difference.h"
+
+namespace orbwatch::app {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> name_beside(const fs::path& site, const fs::path& file) {
+  const fs::path folder = site.parent_path();
+  const fs::path name = folder.empty() ? file : file.lexically_relative(folder);
+  if (name.empty() || name.is_absolute()) return std::nullopt;
+  for (const fs::path& part : name) {
+    if (part == "..") return std::nullopt;
+  }
+  return name.string();
+}
+
+Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int seconds) {
+  const auto resolved = resolve(site, texts);
+  if (!resolved) return tl::unexpected(resolved.error());
+  if (const auto checked = check_site(*resolved, Dates::Checked); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  for (const auto& [file, text] : texts) {
+    if (!resolved->texts.contains(file)) {
+      return fail(file.string() + ": no file of the configuration names it");
+    }
+  }
+  Trial trial{site, {}, seconds};
+  for (const auto& [file, text] : resolved->texts) {
+    if (name_beside(site, file)) trial.texts[file] = text;
+  }
+  return trial;
+}
+
+std::map<fs::path, std::string> differences_from_files(const FileTexts& texts) {
+  std::map<fs::path, std::string> all;
+  for (const auto& [file, text] : texts) {
+    TextFiles files;
+    const auto old = files.read(file, "a text file");
+    const bool is_same = old && *old == text;
+    if (!is_same) all[file] = text_difference(old.value_or(""), text, file.string());
+  }
+  return all;
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "app/files/trial.h"
+
+namespace orbwatch::app {
+
+/// What a file is called beside the configuration file `site`: its path from there. Nullopt: it is
+/// outside of that folder.
+std::optional<std::string> name_beside(const std::filesystem::path& site,
+                                       const std::filesystem::path& file);
+
+/// A trial of the configuration file `site` with `texts` in place of it and of files beside it,
+/// checked as it will stand there, as by `orbwatchd --check`. Errors: also a text that no file
+/// names.
+Result<Trial> checked_trial(const std::filesystem::path& site, const FileTexts& texts, int seconds);
+
+/// By their file, the lines by which texts differ from the files, see text_difference().
+std::map<std::filesystem::path, std::string> differences_from_files(const FileTexts& texts);
+
+}  // namespace orbwatch::app
