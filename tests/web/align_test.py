@@ -66,10 +66,10 @@ class AlignCase(PageCase):
         count = len(self.calibrations())
         self.press("Accept")
         eventually("it is written", lambda: len(self.calibrations()) == count + 1)
-        number = self.calibrations()[-1]
+        entry = self.calibrations()[-1]
         eventually("it is in force", lambda: (self.camera(name) or {}).get("in_force", {}).get(
-            "method") == number["method"] and not self.proposed(name))
-        return number
+            "number") == entry["number"])
+        return entry
 
     def handle(self, name):
         return self.browser.find_element(By.CSS_SELECTOR, f"#align [data-handle={name}]")
@@ -154,6 +154,100 @@ class Outline(AlignCase):
         eventually("the rig file counts",
                    lambda: (self.camera() or {}).get("in_force", {}).get("outline") == before)
         self.expect_no_complaint()
+
+
+class Register(AlignCase):
+    def brightness_rows(self):
+        """The pixels of the comparison, as one number each."""
+        return self.browser.execute_script("""
+            const canvas = document.querySelector('#register canvas');
+            const copy = new OffscreenCanvas(canvas.width, canvas.height)
+              .getContext('2d', { willReadFrequently: true });
+            copy.drawImage(canvas, 0, 0);
+            const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+            const grey = [];
+            for (let k = 0; k < pixels.length; k += 4) grey.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
+            return grey;""")
+
+    def compared(self, way):
+        Select(self.browser.find_element(By.NAME, "way")).select_by_value(way)
+        return numpy.reshape(self.brightness_rows(), (480, 480))
+
+    def number(self):
+        return int(self.browser.execute_script(
+            "return document.querySelector('#register canvas').dataset.number ?? 0"))
+
+    def test_both_cameras_are_compared_and_one_is_turned_by_hand(self):
+        self.open("thermal")
+        eventually("a comparison", self.number)
+        blend, board = self.compared("blend"), self.compared("checkerboard")
+        self.assertGreater(numpy.std(board), 10)
+        # Fields are by turns one and the other camera's: half of them differ from the mixture alike.
+        self.assertGreater(numpy.mean(numpy.abs(board - blend)), 5)
+        before = rotation_of(self.camera("thermal")["in_force"]["rotation"])
+        shown = self.number()
+        self.press("Yaw +0.05°")
+        eventually("a proposal", lambda: self.proposed("thermal"))
+        self.press("Yaw +0.05°")
+        self.press("Pitch −0.05°")
+        eventually("three steps", lambda: self.camera("thermal")["steps"] == 3)
+        after = rotation_of(self.proposed("thermal")["rotation"])
+        self.assertAlmostEqual(degrees_between(after, before), numpy.hypot(0.1, 0.05), delta=1e-3)
+        eventually("it is compared anew", lambda: self.number() > shown)
+        self.browser.keep_picture("register")
+        self.press("Discard")
+        eventually("nothing is proposed", lambda: not self.proposed("thermal"))
+        self.expect_no_complaint()
+
+    def test_what_is_5_percent_and_10_degrees_wrong_becomes_right(self):
+        """Finds both balls and how the second camera stands; the gates are those of the methods."""
+        self.open("colour")
+        for name, share in (("colour", 0.0015), ("thermal", 0.01)):
+            Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
+                   ).select_by_value(name)
+            self.press("Find the ball")
+            eventually("a proposal", lambda name=name: self.camera(name)["state"] == READY)
+            entry = self.accept(name)
+            self.assertEqual(entry["method"], "detect")
+            self.expect_outline(entry["outline"], self.appliance.truth[name][0], share)
+        self.assertGreater(self.registration_error(), 8)
+        self.press("Register")
+        eventually("a proposal", lambda: self.camera("thermal")["state"] == READY)
+        self.assertIn("residual", self.proposed("thermal")["quality"])
+        eventually("the page says how well", lambda: "residual" in self.browser.text(
+            "#align [role=status]"))
+        entry = self.accept("thermal")
+        self.assertIn("register", entry["method"])
+        self.assertLess(self.registration_error(), 0.6)
+        self.browser.keep_picture("registered")
+        self.expect_no_complaint()
+
+    def test_nothing_keeps_anybody_out(self):
+        self.browser.look_for_barriers()
+        for scheme in ("light", "dark"):
+            with self.subTest(scheme=scheme):
+                self.browser.show_in(scheme)
+                self.browser.get("about:blank")
+                self.open("thermal")
+                eventually("a comparison", self.number)
+                self.assertEqual(self.browser.barriers(), [])
+        self.browser.set_window_size(500, 844)
+        widths = self.browser.execute_script(
+            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+        self.assertLessEqual(widths[0], widths[1])
+        self.browser.keep_picture("align-phone")
+
+    def registration_error(self):
+        """Of what is in force, degrees."""
+        return degrees_between(rotation_of(self.camera("thermal")["in_force"]["rotation"]),
+                               self.appliance.truth["thermal"][1])
+
+    def expect_outline(self, entry, truth, share):
+        """Centre and radius within that share of the radius, as calibration.toml has them."""
+        radii = entry.get("radii", [entry.get("radius")] * 2)
+        self.assertLess(abs(entry["centre"][0] - truth["u"]), share * truth["rx"])
+        self.assertLess(abs(entry["centre"][1] - truth["v"]), share * truth["rx"])
+        self.assertLess(abs(sum(radii) - truth["rx"] - truth["ry"]) / 2, share * truth["rx"])
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 import { command } from "./api.js";
 import { BallEditor } from "./ball_editor.js";
 import { element, setText } from "./elements.js";
+import { Register } from "./register.js";
 import { texts } from "./texts.js";
 
 const kPauseMs = 300;  // between two looks at the appliance
@@ -29,9 +30,11 @@ export class Align {
       ["discard", "discard_alignment"], ["revert", "revert_alignment"],
     ].map(([name, given]) => [name, this.#button(texts.align[name], given)]));
     this.facts = element("p", { className: "where" });
+    this.register = new Register((name, values) => this.#give(name, values));
     root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
       this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
-      this.said, this.refused, this.facts, element("p", {}, texts.align.help));
+      this.said, this.refused, this.facts, element("p", {}, texts.align.help),
+      this.register.root);
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
@@ -104,6 +107,7 @@ export class Align {
     this.editor.show(camera);
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
+    this.register.show(this.#cameras, camera, isWorking);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);
     this.buttons.accept.disabled = !isReady;

@@ -89,6 +89,25 @@ export const texts = {
     waiting: (why) => `No answer (${why}): trying again`,
     notWatched: "Nothing is found or shown of this camera: it is not watched, see the log.",
   },
+  register: {
+    title: "How it stands to the first camera",
+    run: "Register",
+    help: "Found by what both cameras see. Judge it by one view that both show, one over the other, " +
+      "and turn it by hand where they do not agree.",
+    nudge: (axis, step) => `${{ yaw: "Yaw", pitch: "Pitch", roll: "Roll" }[axis]} ` +
+      `${step < 0 ? "−" : "+"}${Math.abs(step)}°`,
+  },
+  compare: {
+    canvas: "One view by both cameras",
+    way: "Compare by",
+    blink: "blink",
+    blend: "blend",
+    checkerboard: "checkerboard",
+    share: "Share of the second",
+    yaw: "Yaw, °",
+    pitch: "Pitch, °",
+    h_fov: "Width, °",
+  },
   alarms: "Alarms",
   noAlarms: "There are no alarms.",
   alarm: "Alarm",
