@@ -12,7 +12,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.select import Select
 
 from appliance import PATIENCE_S, eventually
-from misaligned_machine import MisalignedMachine, degrees_between, rotation_of
+from misaligned_machine import MisalignedMachine, degrees_between, rotation_of, seen_at
 from page_case import PageCase
 
 READY = 2
@@ -73,6 +73,12 @@ class AlignCase(PageCase):
 
     def handle(self, name):
         return self.browser.find_element(By.CSS_SELECTOR, f"#align [data-handle={name}]")
+
+    def fill(self, form, **values):
+        for name, value in values.items():
+            field = self.browser.find_element(By.CSS_SELECTOR, f"{form} [name={name}]")
+            field.clear()
+            field.send_keys(str(value))
 
     def expect_no_complaint(self):
         # A restart of the daemon ends connections.
@@ -248,6 +254,60 @@ class Register(AlignCase):
         self.assertLess(abs(entry["centre"][0] - truth["u"]), share * truth["rx"])
         self.assertLess(abs(entry["centre"][1] - truth["v"]), share * truth["rx"])
         self.assertLess(abs(sum(radii) - truth["rx"] - truth["ry"]) / 2, share * truth["rx"])
+
+
+class Place(AlignCase):
+    # Corners of enclosure and workpiece; the ball shows them well apart.
+    POINTS = [(-600, -500, 0), (600, -500, 0), (-600, -500, 800), (600, -500, 800),
+              (-190, -130, 178), (-30, -130, 178), (250, -200, 140)]
+
+    def pixels(self):
+        """Where the colour camera's ball shows the points."""
+        rig = self.appliance.rig
+        return [seen_at(rig["camera"][0], rig["ball"], point) for point in self.POINTS]
+
+    def click_at(self, u, v):
+        """There in the picture, to a pixel of the screen."""
+        picture = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg")
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
+        scale = picture.size["width"] / 1000
+        ActionChains(self.browser).move_to_element_with_offset(
+            picture, (u + 0.5 - 500) * scale, (v + 0.5 - 500) * scale).click().perform()
+
+    def test_a_camera_is_placed_by_points_that_are_clicked(self):
+        self.open("colour")
+        self.press("Find the ball")
+        eventually("a proposal", lambda: self.camera()["state"] == READY)
+        # The rotation that is placed must come from the points alone.
+        self.answer("api/v1/command/turn_camera", {"camera": 0, "yaw": 10, "pitch": 5, "roll": -7})
+        pixels = self.pixels()
+        for count, (point, (u, v)) in enumerate(zip(self.POINTS, pixels), start=1):
+            if count == 1:
+                self.click_at(u, v)
+                clicked = float(self.browser.find_element(By.NAME, "u").get_property("value"))
+                self.assertAlmostEqual(clicked, u, delta=2)
+            self.fill("#point", u=round(u, 1), v=round(v, 1),
+                      **dict(zip("xyz", point)))
+            self.press("Add the point")
+            eventually("it is marked", lambda count=count: len(self.camera()["points"]) == count)
+        self.assertEqual([tuple(point["point"]) for point in self.camera()["points"]], self.POINTS)
+        self.press("Place")
+        eventually("residuals", lambda: all(point["residual"] for point in self.camera()["points"]))
+        eventually("a proposal", lambda: self.camera()["state"] == READY)
+        residuals = [numpy.hypot(*point["residual"]) for point in self.camera()["points"]]
+        self.assertLess(max(residuals), 0.5)
+        first = self.camera()["points"][0]["residual"]
+        eventually("the page shows them", lambda: ", ".join(f"{one:.2f}" for one in first)
+                   in self.browser.text("#place tbody"))
+        self.browser.keep_picture("place")
+        entry = self.accept()
+        self.assertIn("place by 7 points", entry["method"])
+        truth = self.appliance.rig["camera"][0]["pose"]
+        rotation = numpy.reshape(entry["pose"]["rotation"], (3, 3))
+        self.assertLess(degrees_between(rotation, numpy.reshape(truth["rotation"], (3, 3))), 0.2)
+        self.assertLess(numpy.linalg.norm(numpy.subtract(entry["pose"]["position"],
+                                                         truth["position"])), 3)
+        self.expect_no_complaint()
 
 
 if __name__ == "__main__":

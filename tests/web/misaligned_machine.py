@@ -34,6 +34,33 @@ def outline_of(camera, ball):
     return {"u": centre[0], "v": centre[1], "rx": radii[0], "ry": radii[1], "angle": angle}
 
 
+def seen_at(camera, ball, point):
+    """The pixel at which the ball shows a point: where light is reflected, both angles to the
+    sphere's normal are the same."""
+    eye = numpy.array(camera["pose"]["position"]) - ball["centre"]
+    point = numpy.array(point) - ball["centre"]
+    forward = eye / numpy.linalg.norm(eye)
+    across = point - (point @ forward) * forward
+    across /= numpy.linalg.norm(across)
+
+    def excess(a):
+        """By how much the way to the camera leans away from the normal more than that to the point."""
+        normal = numpy.cos(a) * forward + numpy.sin(a) * across
+        along = -numpy.sin(a) * forward + numpy.cos(a) * across
+        to_eye, to_point = (end - ball["radius"] * normal for end in (eye, point))
+        return (numpy.arctan2(-(to_eye @ along), to_eye @ normal)
+                - numpy.arctan2(to_point @ along, to_point @ normal))
+
+    low, high = 0, numpy.arccos(ball["radius"] / numpy.linalg.norm(eye))
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if excess(middle) < 0 else (low, middle)
+    spot = ball["radius"] * (numpy.cos(low) * forward + numpy.sin(low) * across)
+    lens = camera["intrinsics"]
+    x, y, z = numpy.reshape(camera["pose"]["rotation"], (3, 3)) @ (spot - eye)
+    return lens["fx"] * x / z + lens["cx"], lens["fy"] * y / z + lens["cy"]
+
+
 def registration_of(camera):
     """From the camera's own axes, X = -right, Y = -forward, Z = -down, to the machine's."""
     right, down, forward = numpy.reshape(camera["pose"]["rotation"], (3, 3))

@@ -1,7 +1,8 @@
 // The ball in each camera's picture: found, corrected by hand, accepted.
 import { command } from "./api.js";
 import { BallEditor } from "./ball_editor.js";
-import { element, setText } from "./elements.js";
+import { commandButton, element, setText } from "./elements.js";
+import { Place } from "./place.js";
 import { Register } from "./register.js";
 import { texts } from "./texts.js";
 
@@ -24,17 +25,19 @@ export class Align {
     this.choice.addEventListener("change", () => this.#choose());
     this.said = element("p", { role: "status" });
     this.refused = element("p", { role: "alert", className: "wrong" });
-    this.editor = new BallEditor((name, values) => this.#give(name, values));
+    const give = (name, values) => this.#give(name, values);
+    this.place = new Place(give);
+    this.editor = new BallEditor(give, (pixel) => this.place.pick(pixel));
     this.buttons = Object.fromEntries([
       ["detect", "detect_ball"], ["undo", "undo_alignment"], ["accept", "accept_alignment"],
       ["discard", "discard_alignment"], ["revert", "revert_alignment"],
-    ].map(([name, given]) => [name, this.#button(texts.align[name], given)]));
+    ].map(([name, given]) => [name, commandButton(texts.align[name], given, give)]));
     this.facts = element("p", { className: "where" });
-    this.register = new Register((name, values) => this.#give(name, values));
+    this.register = new Register(give);
     root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
       this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
       this.said, this.refused, this.facts, element("p", {}, texts.align.help),
-      this.register.root);
+      this.register.root, this.place.root);
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
@@ -47,17 +50,11 @@ export class Align {
     return this.#cameras.find(({ name }) => name === this.choice.value);
   }
 
-  #button(label, name) {
-    const button = element("button", { type: "button" }, label);
-    button.addEventListener("click", () => this.#give(name));
-    return button;
-  }
-
   // Empty when it was done, else why not.
   async #give(name, values = {}) {
     if (!this.#camera) return "";
     const why = await command(name, { camera: this.#camera.index, ...values });
-    await this.#look().catch(() => {});
+    await this.#look().catch((error) => this.#waitAfter(error));
     setText(this.refused, why ? texts.refused(this.#camera.refusal || why) : "");
     return why;
   }
@@ -71,11 +68,15 @@ export class Align {
         await this.#look();
         await this.#showPicture();
       } catch (error) {
-        setText(this.said, texts.align.waiting(error.message));
+        this.#waitAfter(error);
       }
       await new Promise((resolve) => setTimeout(resolve, kPauseMs));
     }
     this.#isRunning = false;
+  }
+
+  #waitAfter(error) {
+    setText(this.said, texts.align.waiting(error.message));
   }
 
   async #look() {
@@ -107,6 +108,7 @@ export class Align {
     this.editor.show(camera);
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
+    this.place.show(camera, isWorking);
     this.register.show(this.#cameras, camera, isWorking);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);

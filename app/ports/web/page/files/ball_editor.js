@@ -7,7 +7,7 @@ const kSvg = "http://www.w3.org/2000/svg";
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
-const kHandlePx = 11;  // on the screen
+const kHandlePx = 11, kMarkPx = 6;  // on the screen
 const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 function drawn(tag, attributes = {}) {
@@ -46,12 +46,15 @@ function pulled(outline, handle, [u, v]) {
 
 export class BallEditor {
   #outline = null;   // as it is shown
+  #changed = new Set();  // commands that are to be given
+  #edits = 0;        // counts changes
   #isHeld = false;   // somebody changes it: what the appliance says waits
   #settle = 0;
   #handles = {};
 
   // `onChange(command, values)` has the appliance take over what was changed; a promise.
-  constructor(onChange) {
+  // `onPick([u, v])`: somebody pointed there, beside the handles.
+  constructor(onChange, onPick) {
     this.onChange = onChange;
     this.canvas = element("canvas", { role: "img", "aria-label": texts.align.picture });
     this.svg = drawn("svg", { role: "group", "aria-label": texts.align.outlineGroup });
@@ -61,6 +64,9 @@ export class BallEditor {
     this.ellipse = drawn("ellipse", { class: "limb" });
     this.svg.append(this.edges, this.before, this.ellipse, this.marks);
     for (const name of ["centre", "rx", "ry"]) this.#addHandle(name);
+    this.svg.addEventListener("click", (event) => {
+      if (!event.target.hasAttribute("data-handle")) onPick(this.pixelAt(event));
+    });
     this.root = element("figure", { className: "ball" },
       element("div", { className: "picture" }, this.canvas, this.svg));
     new ResizeObserver(() => this.#draw()).observe(this.svg);
@@ -89,7 +95,9 @@ export class BallEditor {
     const before = this.#outline;
     const from = this.pixelAt(event), at = handlesOf(before)[name];
     this.#isHeld = true;
+    let isMoved = false;
     const move = (moved) => {
+      isMoved = true;
       const to = this.pixelAt(moved);
       this.#outline = pulled(before, name, [at[0] + to[0] - from[0], at[1] + to[1] - from[1]]);
       this.#draw();
@@ -99,7 +107,8 @@ export class BallEditor {
       handle.removeEventListener("pointerup", end);
       handle.removeEventListener("pointercancel", end);
       if (ended.type === "pointercancel") this.#outline = before;
-      this.#apply(name, before);
+      else if (isMoved) this.#change(name);
+      this.#apply();
     };
     handle.addEventListener("pointermove", move);
     handle.addEventListener("pointerup", end);
@@ -112,7 +121,7 @@ export class BallEditor {
     if (du === undefined || !this.#outline) return;
     event.preventDefault();
     const step = event.shiftKey ? kLargeStepPx : kStepPx;
-    this.#isHeld = true;
+    this.#change(name);
     if (name === "centre") {
       this.#outline = { ...this.#outline, u: this.#outline.u + step * du, v: this.#outline.v + step * dv };
     } else {
@@ -121,21 +130,30 @@ export class BallEditor {
     }
     this.#draw();
     clearTimeout(this.#settle);
-    this.#settle = setTimeout(() => this.#apply(name), kSettleMs);
+    this.#settle = setTimeout(() => this.#apply(), kSettleMs);
   }
 
-  async #apply(name, before = null) {
-    const { u, v, rx, ry, angle } = this.#outline;
-    if (this.#outline !== before) {
-      await (name === "centre" ? this.onChange("move_outline", { u, v })
-        : this.onChange("shape_outline", { rx, ry, angle }));
-    }
+  #change(handle) {
+    this.#changed.add(handle === "centre" ? "move_outline" : "shape_outline");
+    this.#isHeld = true;
+    ++this.#edits;
+  }
+
+  // What is changed meanwhile is applied later.
+  async #apply() {
+    const edits = this.#edits, { u, v, rx, ry, angle } = this.#outline;
+    const values = { move_outline: { u, v }, shape_outline: { rx, ry, angle } };
+    const changed = [...this.#changed];
+    this.#changed.clear();
+    for (const name of changed) await this.onChange(name, values[name]);
+    if (edits !== this.#edits) return;
     this.#isHeld = false;
     this.#refresh();
   }
 
   forget() {
     clearTimeout(this.#settle);
+    this.#changed.clear();
     this.#isHeld = false;
   }
 
@@ -154,8 +172,26 @@ export class BallEditor {
     this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
   }
 
+  // Crosses where points were marked, with a line to where they are shown since the camera was
+  // placed.
+  #markPoints({ points, picked }) {
+    const size = kMarkPx * this.#scale();
+    const cross = ([u, v]) => drawn("path", {
+      d: `M${u - size},${v}H${u + size}M${u},${v - size}V${v + size}` });
+    const off = points.filter(({ residual }) => residual).map(({ pixel, residual }) =>
+      drawn("path", { d: `M${pixel}L${pixel[0] - residual[0]},${pixel[1] - residual[1]}` }));
+    const marked = points.map(({ pixel }) => cross(pixel));
+    this.marks.replaceChildren(...off, ...marked, ...(picked ? [cross(picked)] : []));
+  }
+
+  // Of a pixel on the screen.
+  #scale() {
+    return this.canvas.width / (this.svg.clientWidth || this.canvas.width);
+  }
+
   #refresh() {
     if (this.#isHeld || !this.camera) return;
+    this.#markPoints(this.camera);
     const shown = this.camera.proposed ?? this.camera.in_force;
     this.#outline = shown?.outline ?? null;
     this.edges.replaceChildren(...(shown?.edges ?? []).map((line) =>
@@ -172,9 +208,8 @@ export class BallEditor {
     place(this.ellipse, ellipse(this.#outline));
     const inForce = this.camera.in_force?.outline;
     if (inForce) place(this.before, ellipse(inForce));
-    const scale = this.canvas.width / (this.svg.clientWidth || this.canvas.width);
     for (const [name, [cx, cy]] of Object.entries(handlesOf(this.#outline))) {
-      place(this.#handles[name], { cx, cy, r: kHandlePx * scale,
+      place(this.#handles[name], { cx, cy, r: kHandlePx * this.#scale(),
         "aria-label": texts.align.handle[name](this.#outline) });
     }
   }

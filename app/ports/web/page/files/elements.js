@@ -28,3 +28,10 @@ export function table(titles, label = "") {
   if (label) root.setAttribute("aria-label", label);
   return { root, body };
 }
+
+// `give(name)` is called when it is pressed.
+export function commandButton(label, name, give) {
+  const button = element("button", { type: "button" }, label);
+  button.addEventListener("click", () => give(name));
+  return button;
+}

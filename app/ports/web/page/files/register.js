@@ -1,6 +1,6 @@
 // How a camera stands to the first one: found, compared by what both show, turned by hand.
 import { Comparison, Gaze, pictureOf } from "./compare.js";
-import { element, setText } from "./elements.js";
+import { commandButton, element, setText } from "./elements.js";
 import { texts } from "./texts.js";
 
 const kNudgeDeg = 0.05;
@@ -27,8 +27,7 @@ export class Register {
   // `give(command, values)` as Align has it.
   constructor(give) {
     this.give = give;
-    this.button = element("button", { type: "button" }, texts.register.run);
-    this.button.addEventListener("click", () => this.give("register_camera"));
+    this.button = commandButton(texts.register.run, "register_camera", give);
     this.comparison = new Comparison();
     this.gaze = new Gaze(() => this.#load());
     this.refused = element("p", { role: "alert", className: "wrong" });

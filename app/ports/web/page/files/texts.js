@@ -97,6 +97,27 @@ export const texts = {
     nudge: (axis, step) => `${{ yaw: "Yaw", pitch: "Pitch", roll: "Roll" }[axis]} ` +
       `${step < 0 ? "−" : "+"}${Math.abs(step)}°`,
   },
+  place: {
+    title: "Where it stands in the machine",
+    help: "Click a point in the picture whose place in the machine is known, type its coordinates and add " +
+      "it; six points all around the ball are a good number. Or let the machine hold its tool's light at " +
+      "known coordinates: a PLC sends them by the command mark_point, or type them here. The ball's " +
+      "outline must be right before.",
+    u: "In the picture: right, px",
+    v: "down, px",
+    x: "In the machine: X, mm",
+    y: "Y, mm",
+    z: "Z, mm",
+    add: "Add the point",
+    light: "Add the tool's light at X, Y, Z",
+    run: "Place",
+    forget: "Forget all points",
+    points: "Known points",
+    point: "X, Y, Z, mm",
+    pixel: "Marked at, px",
+    residual: "Marked minus shown, px",
+    outlier: "contradicts the others",
+  },
   compare: {
     canvas: "One view by both cameras",
     way: "Compare by",
