@@ -25,7 +25,9 @@ class Source : public AlignmentSource {
     report.is_watched = true;
     report.state = ProposalState::Ready;
     report.steps = 2;
-    report.in_force = CameraAlignmentState{{{310, 250.5}, 220, 200, 30}, {40, -20, 10}};
+    report.in_force.emplace();
+    report.in_force->outline = {{310, 250.5}, 220, 200, 30};
+    report.in_force->rotation = {40, -20, 10};
     report.proposed = report.in_force;
     report.proposed->method = "detect";
     report.proposed->direction_sigma = 0.2;
