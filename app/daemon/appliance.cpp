@@ -55,7 +55,7 @@ Appliance::~Appliance() {
 }
 
 Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
-                                                   std::function<void()> restart) {
+                                                   std::function<void()> restart, Program program) {
   if (auto checked = hal::check(site.site.threads); !checked) {
     return tl::unexpected(checked.error());
   }
@@ -70,7 +70,7 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
   all.alignment_.emplace(site, *all.watch_, restart);
   all.interfaces_.emplace(
       site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
-      all.record_, all.background_, all.snapshots(), &*all.alignment_);
+      all.record_, all.background_, all.snapshots(), &*all.alignment_, std::move(program));
   plan->surroundings = [&all, grants](hal::TimePoint now) {
     return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),
                         grants.realtime,           grants.memory_locked, all.watched(),

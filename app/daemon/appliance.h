@@ -12,6 +12,7 @@
 #include "app/daemon/interfaces.h"
 #include "app/files/resolve.h"
 #include "app/health/health_sampler.h"
+#include "app/model/program.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
@@ -27,9 +28,10 @@ namespace orbwatch::app {
 class Appliance {
  public:
   /// Opens the lines and cameras that are there. `site` outlives it. `restart` requests a new start
-  /// on any thread and returns. Error: the files.
+  /// on any thread and returns. `program` is for the interfaces. Error: the files.
   static Result<std::unique_ptr<Appliance>> make(const Resolved& site,
-                                                 std::function<void()> restart);
+                                                 std::function<void()> restart,
+                                                 Program program = {});
   /// Stops what runs: first the pipeline, which calls the others.
   ~Appliance();
   Appliance(const Appliance&) = delete;

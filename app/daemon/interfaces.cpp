@@ -25,8 +25,8 @@ std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
 
 SinkContext make_context(const Resolved& site, CommandHandler handler,
                          std::shared_ptr<CommandRecord> record,
-                         std::shared_ptr<hal::SharedThreads> background,
-                         AlignmentSource* alignment) {
+                         std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
+                         Program program) {
   SinkContext context{site.names,
                       {},
                       {},
@@ -34,7 +34,9 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
                       std::move(record),
                       std::move(background),
                       state_folder(site.site.state_folder),
-                      alignment};
+                      alignment,
+                      std::move(program),
+                      nullptr};
   context.views.resize(site.names.views.size());
   const auto publish = [&context, &site](const ViewSettings& view, bool measured) {
     const bool perspective = view.kind == optics::ViewKind::Perspective;
@@ -65,9 +67,10 @@ std::string commanders_text(const SinkSettings& sinks) {
 Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
                        std::shared_ptr<CommandRecord> record,
                        std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
-                       AlignmentSource* alignment) {
-  const SinkContext context =
-      make_context(site, std::move(handler), std::move(record), std::move(background), alignment);
+                       AlignmentSource* alignment, Program program) {
+  SinkContext context = make_context(site, std::move(handler), std::move(record),
+                                     std::move(background), alignment, std::move(program));
+  context.tables = [this] { return tables(); };
   std::size_t next = 0;
   std::apply(
       [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },
@@ -94,6 +97,12 @@ std::vector<Sink*> Interfaces::sinks() const {
   std::vector<Sink*> sinks;
   std::ranges::copy_if(all_, std::back_inserter(sinks), [](const Sink* sink) { return sink; });
   return sinks;
+}
+
+std::vector<InterfaceTable> Interfaces::tables() const {
+  std::vector<InterfaceTable> all;
+  for (const Sink* sink : sinks()) std::ranges::move(sink->tables(), std::back_inserter(all));
+  return all;
 }
 
 std::uint32_t Interfaces::faults() const {

@@ -14,6 +14,7 @@
 #include "app/daemon/attempts.h"
 #include "app/files/resolve.h"
 #include "app/model/command.h"
+#include "app/model/program.h"
 #include "app/model/sink.h"
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/state/command_record.h"
@@ -42,7 +43,7 @@ class Interfaces {
   /// encodes; `snapshots` and `alignment` are the caller's and outlive this; null: none.
   Interfaces(const Resolved& site, CommandHandler handler, std::shared_ptr<CommandRecord> record,
              std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
-             AlignmentSource* alignment = nullptr);
+             AlignmentSource* alignment = nullptr, Program program = {});
 
   /// Starts them, with those that cannot be opened among the `attempts`.
   void start(Attempts& attempts, hal::TimePoint now);
@@ -50,6 +51,9 @@ class Interfaces {
 
   /// For the pipeline.
   std::vector<Sink*> sinks() const;
+
+  /// What they show of themselves. On any thread, once this is made.
+  std::vector<InterfaceTable> tables() const;
 
   /// As the figure interface_faults of SystemStatus. On any thread.
   std::uint32_t faults() const;

@@ -11,14 +11,17 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <opencv2/core/utility.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/daemon/appliance.h"
 #include "app/daemon/attempts.h"
 #include "app/daemon/build.h"
 #include "app/daemon/configuration_choice.h"
+#include "app/daemon/installed_configuration.h"
 #include "app/daemon/interfaces.h"
 #include "app/exit_status.h"
 #include "app/files/resolve.h"
@@ -26,6 +29,7 @@
 #include "app/files/trial.h"
 #include "app/log.h"
 #include "app/log_writer.h"
+#include "app/recent_log.h"
 #include "app/service/journal.h"
 #include "app/service/progress_notice.h"
 #include "app/service/service_manager.h"
@@ -169,16 +173,22 @@ Result<> start(Appliance& appliance, ProgressNotice& notice) {
 }
 
 /// Runs until a signal. True: to be started again.
-Result<bool> run(const Chosen& chosen, const sigset_t& signals, const std::filesystem::path& file) {
+Result<bool> run(const Chosen& chosen, const sigset_t& signals, const std::filesystem::path& file,
+                 std::shared_ptr<const RecentLog> log) {
   ProgressNotice notice(chosen.refusal);  // outlives the run
-  auto appliance = Appliance::make(chosen.site, [] { ::kill(::getpid(), SIGHUP); });
+  const auto files = std::make_shared<InstalledConfiguration>(file, chosen);
+  auto appliance = Appliance::make(
+      chosen.site, [] { ::kill(::getpid(), SIGHUP); },
+      {files, std::move(log), versions("orbwatchd"), commanders_text(chosen.site.site.sinks)});
   if (!appliance) return tl::unexpected(appliance.error());
   if (!chosen.refusal.empty()) (*appliance)->report_refused_configuration();
   if (auto started = start(**appliance, notice); !started) return tl::unexpected(started.error());
   keep(chosen);
   Waiting waiting{.file = file, .checksum = chosen.site.checksum};
-  if (chosen.trial)
+  if (chosen.trial) {
     waiting.trial_ends = hal::Clock::now() + std::chrono::seconds(chosen.trial->seconds);
+    files->set_trial_end(waiting.trial_ends);
+  }
   const bool restarts = wait_for_end(signals, waiting, **appliance);
   restarts ? notify_restart() : notify_end();
   return restarts;
@@ -204,7 +214,11 @@ ExitStatus main(int argc, char** argv) {
   const auto arguments = parse(argc, argv, status);
   if (!arguments) return status;
   const sigset_t signals = block_signals();
-  LogWriter log(log_output());
+  const auto recent = std::make_shared<RecentLog>();
+  LogWriter log([recent, output = log_output()](const LogRecord& record) {
+    recent->add(record);
+    output(record);
+  });
   const auto kernel = remap::requested_kernel();
   Result<> result;
   if (!kernel) {
@@ -212,11 +226,12 @@ ExitStatus main(int argc, char** argv) {
   } else if (arguments->check) {
     result = check(arguments->config);
   } else {
-    result =
-        choose(arguments->config)
-            .and_then([&](const Chosen& chosen) { return run(chosen, signals, arguments->config); })
-            .and_then(
-                [&](bool restarts) { return restarts ? start_again(log, argv) : Result<>(); });
+    result = choose(arguments->config)
+                 .and_then([&](const Chosen& chosen) {
+                   return run(chosen, signals, arguments->config, recent);
+                 })
+                 .and_then(
+                     [&](bool restarts) { return restarts ? start_again(log, argv) : Result<>(); });
   }
   if (result) return ExitStatus::Done;
   log_line(LogLevel::Error, result.error().message);

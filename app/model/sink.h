@@ -2,11 +2,14 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "app/model/command.h"
+#include "app/model/interface_table.h"
 #include "app/model/picture_needs.h"
+#include "app/model/program.h"
 #include "app/model/status.h"
 #include "app/model/status_report.h"
 #include "app/model/view.h"
@@ -40,6 +43,9 @@ struct SinkContext {
   std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
   std::filesystem::path state_folder;              ///< of what must outlast a restart
   AlignmentSource* alignment = nullptr;            ///< outlives the sinks' run; null: none
+  Program program;                                 ///< around the appliance
+  /// What all sinks show of themselves, on any thread while they run; empty: nothing.
+  std::function<std::vector<InterfaceTable>()> tables = nullptr;
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses
@@ -57,6 +63,8 @@ class Sink {
   virtual bool works() const { return true; }
   /// Processor time of its threads since the start. On any thread.
   virtual std::chrono::nanoseconds cpu_time() const { return {}; }
+  /// What it shows of itself at this moment. On any thread.
+  virtual std::vector<InterfaceTable> tables() const { return {}; }
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 

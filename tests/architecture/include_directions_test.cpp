@@ -21,7 +21,7 @@ struct Rule {
 
 /// A port sees the model and its own folder, never another port.
 std::vector<std::string> port(const std::string& folder) {
-  return {"proc",         "hal",       "app/model",        "app/log.h",
+  return {"proc",         "hal",       "app/model",        "app/log.h", "app/recent_log.h",
           "app/pictures", "app/state", "app/certificates", folder};
 }
 

@@ -47,12 +47,16 @@ class Appliance:
         (self.folder / "demo.toml").write_text(site, encoding="utf-8")
         self.daemon = None
 
+    def environment(self):
+        """Of the daemon, besides the test's own."""
+        return {}
+
     def start(self, is_up=None):
         """Until `is_up`, by default runs(), which needs no log-in as long as there are no users."""
         log = open(self.folder / "log", "ab")
         self.daemon = subprocess.Popen(
             [ROOT / "build/release/app/orbwatchd", "--config", self.folder / "demo.toml"],
-            stdout=log, stderr=log, env={**os.environ, "CYCLONEDDS_URI": ""})
+            stdout=log, stderr=log, env={**os.environ, "CYCLONEDDS_URI": "", **self.environment()})
         log.close()
         eventually("the daemon runs", is_up or self.runs)
 

@@ -284,6 +284,21 @@ DdsStatistics DdsSink::statistics() const {
   return statistics;
 }
 
+std::vector<InterfaceTable> DdsSink::tables() const {
+  InterfaceTable topics{"dds",
+                        "topics",
+                        {"topic", "readers", "written", "unread", "replaced", "limited", "blocked",
+                         "failed", "last_error"},
+                        {}};
+  for (const TopicStatistics& topic : statistics().topics) {
+    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
+    topics.rows.push_back({topic.topic, number(topic.readers), number(topic.written),
+                           number(topic.unread), number(topic.replaced), number(topic.limited),
+                           number(topic.blocked), number(topic.failed), topic.last_error});
+  }
+  return {std::move(topics)};
+}
+
 std::string commanders(const DdsSettings& settings) {
   if (!takes_commands(settings)) return {};
   return "over DDS from " + (settings.security

@@ -56,6 +56,9 @@ class DdsSink final : public Sink {
   bool works() const override { return joined_; }
   std::chrono::nanoseconds cpu_time() const override;
 
+  /// Topics with their readers.
+  std::vector<InterfaceTable> tables() const override;
+
   void accept_frames(const hal::FrameSet& set) override;
   PictureNeeds needs(std::size_t view, hal::TimePoint stamp) override;
   KeptViews keeps() const override;

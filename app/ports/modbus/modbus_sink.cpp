@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/ports/modbus/map/register_table.h"
 
 namespace orbwatch::app {
 
@@ -30,6 +31,7 @@ ModbusSink::~ModbusSink() { stop(); }
 
 Result<> ModbusSink::start() {
   if (!settings_.enabled || tcp_) return {};
+  const std::lock_guard lock(served_);
   if (auto made = make_responder(); !made) return made;
   if (auto opened = open_serial_line(); !opened) return opened;
   return open_tcp();
@@ -117,11 +119,25 @@ void ModbusSink::stop() {
   tcp_thread_.stop();
   serial_thread_.stop();
   command_thread_.stop();
+  const std::lock_guard lock(served_);
   tcp_.reset();
   serial_line_.reset();
   tcp_transport_.reset();
   responder_.reset();
   counters_.connections = 0;
+}
+
+std::vector<InterfaceTable> ModbusSink::tables() const {
+  const std::lock_guard lock(served_);
+  if (!responder_) return {};
+  const modbus::ProcessImage image = process_image();
+  InterfaceTable clients{"modbus", "clients", {"address", "may_write", "requests", "idle_s"}, {}};
+  for (const auto& client : tcp_ ? tcp_->clients() : std::vector<modbus::TcpServer::Client>()) {
+    const std::chrono::duration<double> idle = image.now - client.last_request;
+    clients.rows.push_back({modbus::text_of(client.host), client.may_write,
+                            static_cast<double>(client.requests), idle.count()});
+  }
+  return {modbus::register_table(map_, image), std::move(clients)};
 }
 
 std::chrono::nanoseconds ModbusSink::cpu_time() const {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "app/model/command.h"
 #include "app/model/sink.h"
@@ -39,6 +40,9 @@ class ModbusSink final : public Sink {
   bool works() const override { return !serial_is_lost_; }
   std::chrono::nanoseconds cpu_time() const override;
 
+  /// Registers with their values, and the clients on TCP.
+  std::vector<InterfaceTable> tables() const override;
+
   void accept(const ViewPtr&) override {}  // registers show no pictures
   void accept(const Status& status) override;
 
@@ -60,7 +64,8 @@ class ModbusSink final : public Sink {
   const std::shared_ptr<CommandRecord> record_;
   const modbus::RegisterMap map_;
   modbus::ServerCounters counters_;
-  mutable std::mutex mutex_;  ///< of these three, held only while they are copied
+  mutable std::mutex served_;  ///< held while what serves is made, ended or shown
+  mutable std::mutex mutex_;   ///< of these three, held only while they are copied
   modbus::StampedStatus newest_;
   hal::TimePoint received_at_;
   modbus::ResultQueue results_;

@@ -23,11 +23,15 @@ struct QueryArgument {
   bool is_number = true;
 };
 
-/// A text within the JSON object that is the body of a request.
+/// What a member of a request's body is: a text, texts by name, or a whole number.
+enum class BodyType { Text, Texts, Whole };
+
+/// A member of the JSON object that is the body of a request.
 struct BodyMember {
   std::string_view name;
   std::string_view description;
   bool is_required = true;
+  BodyType type = BodyType::Text;
 };
 
 /// What is served under one path, and to whom.

@@ -7,6 +7,8 @@
 #include "app/log.h"
 #include "app/model/condition.h"
 #include "app/ports/web/commands/command_body.h"
+#include "app/ports/web/interfaces/interface_routes.h"
+#include "app/ports/web/log/log_routes.h"
 #include "app/ports/web/page/page_files.h"
 #include "app/ports/web/status/openapi.h"
 #include "app/ports/web/status/status_text.h"
@@ -65,6 +67,9 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       audit_(context.state_folder),
       access_(context.state_folder, {settings_.session_idle, settings_.session_longest}),
       desk_(access_, audit_, settings_.session_longest),
+      configuration_(context.program.files, access_, audit_),
+      program_(context.program),
+      tables_(context.tables),
       routes_(make_routes()) {
   views_.reserve(names_.views.size());
   for (std::size_t i = 0; i < names_.views.size(); ++i) {
@@ -79,6 +84,7 @@ Result<> WebSink::start() {
   commands_.start();
   access_.start();
   desk_.start();
+  configuration_.start();
   const auto caller_of = [this](const web::Request& request) {
     return access_.caller(web::credentials_of(request));
   };
@@ -110,14 +116,16 @@ void WebSink::stop() {
   server_.reset();
   commands_.stop();
   look_around_.stop();
+  configuration_.stop();
   desk_.stop();
   access_.stop();
   for (const auto& view : views_) view->stop();
 }
 
 std::chrono::nanoseconds WebSink::cpu_time() const {
-  std::chrono::nanoseconds time =
-      thread_.cpu_time() + commands_.cpu_time() + look_around_.cpu_time() + desk_.cpu_time();
+  std::chrono::nanoseconds time = thread_.cpu_time() + commands_.cpu_time() +
+                                  look_around_.cpu_time() + desk_.cpu_time() +
+                                  configuration_.cpu_time();
   for (const auto& view : views_) time += view->cpu_time();
   return time;
 }
@@ -194,6 +202,9 @@ std::vector<web::Route> WebSink::make_routes() {
   };
   std::ranges::move(desk_.routes(), std::back_inserter(routes));
   std::ranges::move(look_around_.routes(), std::back_inserter(routes));
+  std::ranges::move(configuration_.routes(), std::back_inserter(routes));
+  std::ranges::move(web::log_routes(program_.log), std::back_inserter(routes));
+  std::ranges::move(web::interface_routes(tables_, program_), std::back_inserter(routes));
   std::ranges::move(align_.routes(), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
   std::ranges::move(page_routes(), std::back_inserter(routes));

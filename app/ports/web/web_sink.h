@@ -13,6 +13,7 @@
 #include "app/ports/web/access/audit.h"
 #include "app/ports/web/align/align_routes.h"
 #include "app/ports/web/commands/command_runner.h"
+#include "app/ports/web/configuration/configuration_desk.h"
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/look_around/look_around.h"
 #include "app/ports/web/routes.h"
@@ -94,6 +95,9 @@ class WebSink final : public Sink {
   web::Audit audit_;
   web::Access access_;
   web::AccessDesk desk_;
+  web::ConfigurationDesk configuration_;
+  const Program program_;
+  const std::function<std::vector<InterfaceTable>()> tables_;
   const std::vector<web::Route> routes_;
   std::unique_ptr<web::Server> server_;
   hal::Thread thread_;  ///< ends what is overdue, and reports to streams

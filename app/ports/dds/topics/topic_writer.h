@@ -20,6 +20,7 @@ struct TopicStatistics {
   std::uint64_t blocked = 0;  ///< abandoned after kMaxBlockingTime: a reader does not keep up
   std::uint64_t failed = 0;   ///< refused by DDS, or the writer could not be made
   std::string last_error{};   ///< of the newest failure; empty when there was none
+  std::uint32_t readers = 0;  ///< matched now
 };
 
 /// One topic and its writer, with statistics.

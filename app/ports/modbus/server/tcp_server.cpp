@@ -136,6 +136,7 @@ void TcpServer::run() {
       }
     }
     drop_overdue();
+    publish_clients();
     if (!accepting_ && hal::Clock::now() >= accept_again_) {
       accepting_ =
           watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, EPOLLIN) == 0;
@@ -193,7 +194,7 @@ bool TcpServer::has_room_for(Permission permission) {
     return std::ranges::count(connections_, connection.host, &Connection::host);
   };
   const auto least = std::ranges::min_element(connections_, {}, [&](const Connection& connection) {
-    return std::tuple(connection.may_write, connection.has_asked, -of_host(connection),
+    return std::tuple(connection.may_write, connection.requests > 0, -of_host(connection),
                       connection.last_request);
   });
   if (least->may_write && permission != Permission::Write) return false;
@@ -218,20 +219,19 @@ void TcpServer::serve(std::uint64_t id) {
 
 /// Answers the received whole frames; false when the connection must be closed.
 bool TcpServer::answer_frames(Connection& connection) {
-  bool any = false;
+  const std::uint64_t before = connection.requests;
   while (const auto frame = connection.framer.next()) {
     const Outcome outcome = answer_(connection.socket.get(), *frame, connection.may_write);
     if (outcome != Outcome::Answered && outcome != Outcome::NotSent) ++counters_.refused;
     if (outcome == Outcome::NotModbus || outcome == Outcome::NotSent) return false;
     ++counters_.answered;
-    any = true;
+    ++connection.requests;
   }
   if (connection.framer.is_broken()) {
     ++counters_.refused;
     return false;
   }
-  if (any) {
-    connection.has_asked = true;
+  if (connection.requests != before) {
     connection.last_request = connection.frame_begin = hal::Clock::now();
   }
   return true;
@@ -240,6 +240,20 @@ bool TcpServer::answer_frames(Connection& connection) {
 void TcpServer::drop(Connections::iterator connection) {
   connections_.erase(connection);  // closes the socket, which removes it from epoll
   counters_.connections = connections_.size();
+}
+
+void TcpServer::publish_clients() {
+  const std::lock_guard lock(clients_mutex_);
+  clients_.clear();
+  for (const Connection& connection : connections_) {
+    clients_.push_back(
+        {connection.host, connection.may_write, connection.requests, connection.last_request});
+  }
+}
+
+std::vector<TcpServer::Client> TcpServer::clients() const {
+  const std::lock_guard lock(clients_mutex_);
+  return clients_;
 }
 
 hal::TimePoint TcpServer::deadline(const Connection& connection) const {

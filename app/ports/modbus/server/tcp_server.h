@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -43,13 +44,23 @@ class TcpServer {
 
   void stop() { stop_.signal(); }
 
+  /// A client that is connected.
+  struct Client {
+    HostAddress host{};
+    bool may_write = false;
+    std::uint64_t requests = 0;
+    hal::TimePoint last_request{};  ///< or when it connected
+  };
+  /// Those of the newest round. Thread-safe.
+  std::vector<Client> clients() const;
+
  private:
   struct Connection {
     std::uint64_t id = 0;
     hal::FileDescriptor socket{};
     HostAddress host{};
     bool may_write = false;
-    bool has_asked = false;         ///< sent a whole request
+    std::uint64_t requests = 0;     ///< that were whole
     hal::TimePoint last_request{};  ///< or when it was opened
     hal::TimePoint frame_begin{};   ///< arrival of the first byte of an incomplete frame
     MbapFramer framer{};
@@ -71,6 +82,7 @@ class TcpServer {
   bool answer_frames(Connection& connection);
   void drop(Connections::iterator connection);
   void drop_overdue();
+  void publish_clients();
   hal::TimePoint deadline(const Connection& connection) const;
   hal::TimePoint next_deadline(hal::TimePoint next) const;
 
@@ -87,6 +99,8 @@ class TcpServer {
   hal::TimePoint accept_again_;  ///< while accepting is paused
   std::uint64_t next_id_ = 0;
   Connections connections_;
+  mutable std::mutex clients_mutex_;
+  std::vector<Client> clients_;  ///< under clients_mutex_
 };
 
 }  // namespace orbwatch::app::modbus

@@ -59,7 +59,7 @@ class AccessDesk {
   Access& access_;
   Audit& audit_;
   const std::chrono::seconds longest_;
-  SlowWork work_;
+  SlowWork work_{"web access", "others log in or change users at present; try again"};
 };
 
 }  // namespace orbwatch::app::web

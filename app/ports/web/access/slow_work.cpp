@@ -5,7 +5,7 @@
 namespace orbwatch::app::web {
 
 void SlowWork::start() {
-  thread_.start("web access", hal::ThreadRole::Background, [this] {
+  thread_.start(thread_name_, hal::ThreadRole::Background, [this] {
     while (thread_.wait()) work_all();
   });
 }
@@ -18,7 +18,7 @@ void SlowWork::run(const ExchangePtr& exchange, std::function<Response()> work) 
     if (!is_full) waiting_.push_back({exchange, std::move(work)});
   }
   if (!is_full) return thread_.wake();
-  Response response = error_response(503, "others log in or change users at present; try again");
+  Response response = error_response(503, busy_);
   response.headers.emplace_back("Retry-After", "1");
   exchange->answer(std::move(response));
 }

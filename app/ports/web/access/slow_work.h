@@ -10,13 +10,17 @@
 
 namespace orbwatch::app::web {
 
-/// Answers requests that wait for a hash of a password or for the disk, one after the other on a
-/// thread of its own in the background, so that a flood of them takes one core's spare time and no
-/// more memory than one hash. Thread rule: start and stop by one owner; run on any thread.
+/// Answers requests that wait for a hash of a password, for a check of a whole configuration or for
+/// the disk, one after the other on a thread of its own in the background, so that a flood of them
+/// takes one core's spare time and no more memory than one of them. Thread rule: start and stop by
+/// one owner; run on any thread.
 class SlowWork {
  public:
   /// One more is refused with 503.
   static constexpr std::size_t kMostWaiting = 8;
+
+  /// `thread` is its name; `busy` says why one more is refused. Both are kept as they are.
+  SlowWork(const char* thread, const char* busy) : thread_name_(thread), busy_(busy) {}
 
   void start();
   void stop() { thread_.stop(); }
@@ -34,6 +38,8 @@ class SlowWork {
 
   void work_all();
 
+  const char* const thread_name_;
+  const char* const busy_;
   std::mutex mutex_;
   std::deque<Waiting> waiting_;  ///< under mutex_
   hal::Thread thread_;

@@ -90,8 +90,12 @@ Json command_schema(const CommandInfo& info) {
 Json body_schema(const std::vector<BodyMember>& body) {
   Json properties = Json::object(), names = Json::array();
   for (const BodyMember& member : body) {
-    properties[std::string(member.name)] = {{"type", "string"},
-                                            {"description", std::string(member.description)}};
+    Json& property = properties[std::string(member.name)];
+    property["type"] = member.type == BodyType::Text    ? "string"
+                       : member.type == BodyType::Whole ? "integer"
+                                                        : "object";
+    if (member.type == BodyType::Texts) property["additionalProperties"] = {{"type", "string"}};
+    property["description"] = std::string(member.description);
     if (member.is_required) names.push_back(std::string(member.name));
   }
   Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};

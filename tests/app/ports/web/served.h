@@ -43,6 +43,8 @@ class Served : public testing::Test {
     SinkContext context = make_context();
     context.state_folder = state_folder;
     context.handler = handler;
+    context.program = program;
+    context.tables = tables;
     sink = std::make_unique<WebSink>(on_a_free_port(settings), context);
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;
@@ -68,6 +70,8 @@ class Served : public testing::Test {
 
   std::filesystem::path state_folder;  ///< empty: no users
   CommandHandler handler;
+  Program program;                                      ///< nothing
+  std::function<std::vector<InterfaceTable>()> tables;  ///< empty: none
   std::unique_ptr<WebSink> sink;
 };
 

@@ -1,8 +1,11 @@
 import { admit, askAgain } from "./access.js";
 import { Align } from "./align.js";
 import { describeFigures } from "./api.js";
+import { Configuration } from "./configuration.js";
 import { element, setText } from "./elements.js";
+import { Interfaces, showAbout } from "./interfaces.js";
 import { Live } from "./live.js";
+import { Log } from "./log.js";
 import { Look } from "./look.js";
 import { People } from "./people.js";
 import { Process } from "./process.js";
@@ -67,6 +70,12 @@ const look = new Look(document.getElementById("look"), choose);
 new Align(document.getElementById("align"));
 const process = new Process(document.getElementById("process"), figures);
 const system = new System(document.getElementById("system"), figures);
+if (role !== "viewer") new Log(document.getElementById("system"));
+showAbout(document.getElementById("system"));
+if (["integrator", "administrator"].includes(role)) {
+  new Interfaces(document.getElementById("system"));
+  new Configuration(document.getElementById("system"));
+}
 if (hasUsers && role === "administrator") new People(document.getElementById("system"));
 const stream = new Stream(
   (message) => {

@@ -1,9 +1,10 @@
 // Everything that is known about the appliance, its cameras and views.
 import { element } from "./elements.js";
 import { FigureTable, Keyed } from "./figures.js";
+import { Stages } from "./stages.js";
 
 // Shown elsewhere, or no component.
-const kElsewhere = new Set(["stamp", "age", "regions", "alarms"]);
+const kElsewhere = new Set(["stamp", "age", "regions", "alarms", "stages"]);
 
 export class System {
   constructor(root, figures) {
@@ -16,9 +17,11 @@ export class System {
         element("summary", {}, title), table.root);
       return { root: opened, show: (part) => opened.open && table.show(part) };
     });
+    this.stages = new Stages(root);
   }
 
   status(status) {
+    this.stages.show(status.stages, status.system.load);
     for (const [kind, part] of Object.entries(status)) {
       if (kElsewhere.has(kind)) continue;
       for (const one of [part].flat()) {

@@ -4,7 +4,9 @@
 #include <set>
 
 #include "app/ports/web/page/page_files.h"
+#include "app/recent_log.h"
 #include "tests/app/ports/web/access/access_served.h"
+#include "tests/app/ports/web/configuration/written_files.h"
 
 /// Every route with every role: what is declared is what happens.
 namespace orbwatch::app::web::tests {
@@ -23,6 +25,9 @@ class Roles : public AccessServed {
       ++carried_out;
       return CommandResult::Done;
     };
+    program.files = std::make_shared<WrittenFiles>();
+    program.log = std::make_shared<RecentLog>();
+    tables = [] { return std::vector<InterfaceTable>(); };
     add_one_of_each_role();
     WebSettings settings;
     settings.max_connections_per_address = 100;  // those that were closed count for a moment

@@ -1,0 +1,160 @@
+#include "app/daemon/installed_configuration.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "app/daemon/new_configuration.h"
+
+namespace orbwatch::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_of(const Resolved& site) {
+  std::vector<fs::path> files;
+  for (const auto& [file, text] : site.texts) files.push_back(file);
+  return files;
+}
+
+/// It is beside the configuration file, by the one name that it has: "./site.toml" would be another
+/// name for one that is guarded.
+bool may_be_changed(const fs::path& file, const fs::path& site) {
+  const auto name = name_beside(site, file);
+  return name && !name->empty() && fs::path(*name).lexically_normal() == *name &&
+         site.parent_path() / *name == file && fs::path(*name).has_filename() && *name != ".";
+}
+
+/// Before it is tried out, not when it is confirmed: a file is replaced by one in the same folder.
+Result<> check_writable(const fs::path& file) {
+  const fs::path parent = file.parent_path(), folder = parent.empty() ? "." : parent;
+  if (::access(folder.c_str(), W_OK) == 0) return {};
+  return fail(folder.string() + ": orbwatchd may not write there (" +
+              std::system_category().message(errno) +
+              "); let its user, or use `orbwatch configure` on the board");
+}
+
+}  // namespace
+
+InstalledConfiguration::InstalledConfiguration(fs::path file, const Chosen& chosen)
+    : file_(std::move(file)), refusal_(chosen.refusal), files_(files_of(chosen.site)) {}
+
+/// Those that run, and those that the files name at present.
+Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
+  std::set<fs::path> all(files_.begin(), files_.end());
+  all.insert(file_);
+  if (const auto present = resolve(file_)) {
+    for (const fs::path& file : files_of(*present)) all.insert(file);
+  }
+  State state{name_of(file_), {}, {}, refusal_};
+  for (const fs::path& file : all) {
+    TextFiles files;
+    auto text = files.read(file, "a file of the configuration");
+    std::error_code none;  // `text` says what is wrong
+    const bool is_to_be = !fs::exists(file, none) && !none;  // by a trial
+    if (!text && is_to_be) continue;
+    if (!text) return tl::unexpected(text.error());
+    (may_be_changed(file, file_) ? state.files : state.outside)[name_of(file)] = std::move(*text);
+  }
+  if (!folder_) return state;
+  auto trial = running_trial(*folder_);
+  if (trial && !*trial) trial = requested_trial(*folder_);
+  if (!trial) return tl::unexpected(trial.error());
+  if (!*trial) return state;
+  state.trial.emplace();
+  for (const auto& [file, text] : (*trial)->texts) (*state.trial)[name_of(file)] = text;
+  const hal::TimePoint end = trial_end_;
+  if (end != hal::TimePoint{}) {
+    state.seconds_left = std::chrono::duration<double>(end - hal::Clock::now()).count();
+  }
+  return state;
+}
+
+Result<ConfigurationFiles::Change> InstalledConfiguration::check(const Texts& texts) const {
+  return placed(texts)
+      .and_then([this](const FileTexts& there) { return checked_trial(file_, there, kUsualTrial); })
+      .map([this](const Trial& trial) { return change_of(trial); });
+}
+
+Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Texts& texts,
+                                                                   int seconds) {
+  const auto folder = trial_folder();
+  if (!folder) return tl::unexpected(folder.error());
+  const auto running = running_trial(*folder);
+  if (!running) return tl::unexpected(running.error());
+  if (*running || is_trial_requested(*folder)) {
+    return fail("another new configuration waits for its confirmation: confirm or revert it first");
+  }
+  if (const auto finished = finish_confirmed(*folder); !finished) {
+    return tl::unexpected(finished.error());
+  }
+  const auto there = placed(texts);
+  if (!there) return tl::unexpected(there.error());
+  const auto trial = checked_trial(file_, *there, seconds);
+  if (!trial) return tl::unexpected(trial.error());
+  Change change = change_of(*trial);
+  if (change.files.empty()) return fail("these texts change nothing");
+  for (const std::string& name : change.files) {
+    if (auto writable = check_writable(file_.parent_path() / name); !writable) {
+      return tl::unexpected(writable.error());
+    }
+  }
+  return request_trial(*folder, *trial).map([&] { return std::move(change); });
+}
+
+Result<std::vector<std::string>> InstalledConfiguration::confirm() {
+  return trial_folder()
+      .and_then([](const fs::path& folder) { return confirm_trial(folder); })
+      .map([this](const std::vector<fs::path>& written) {
+        std::vector<std::string> names;
+        for (const fs::path& file : written) names.push_back(name_of(file));
+        return names;
+      });
+}
+
+Result<> InstalledConfiguration::revert() {
+  return trial_folder().and_then([](const fs::path& folder) -> Result<> {
+    if (end_trial(folder)) return {};
+    return fail("no configuration waits for its confirmation");
+  });
+}
+
+/// By their places beside the configuration file.
+Result<FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
+  if (texts.empty()) return fail("no texts were sent");
+  FileTexts there;
+  for (const auto& [name, text] : texts) {
+    const fs::path file = file_.parent_path() / name;
+    if (!may_be_changed(file, file_) || name.find('\0') != std::string::npos) {
+      return fail(name + ": is no path from the folder of the configuration to a file inside it");
+    }
+    there[file] = text;
+  }
+  return there;
+}
+
+Result<fs::path> InstalledConfiguration::trial_folder() const {
+  if (folder_) return *folder_;
+  return fail(
+      "orbwatchd runs without STATE_DIRECTORY, in which a service keeps what it goes back to; "
+      "change the files and send the command restart");
+}
+
+ConfigurationFiles::Change InstalledConfiguration::change_of(const Trial& trial) const {
+  Change change;
+  for (const auto& [file, lines] : differences_from_files(trial.texts)) {
+    change.files.push_back(name_of(file));
+    change.difference += lines;
+  }
+  return change;
+}
+
+std::string InstalledConfiguration::name_of(const fs::path& file) const {
+  return name_beside(file_, file).value_or(file.string());
+}
+
+}  // namespace orbwatch::app

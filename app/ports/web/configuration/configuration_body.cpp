@@ -1,0 +1,43 @@
+#include "app/ports/web/configuration/configuration_body.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr const char* kForm = R"(the body must be {"files": {"NAME": "TEXT", ...}, "seconds": 60})";
+
+bool is_known(const std::string& member) {
+  return member == kFilesMember.name || member == kSecondsMember.name;
+}
+
+}  // namespace
+
+Result<ConfigurationBody> parse_configuration(std::string_view body) {
+  const auto sent = nlohmann::json::parse(body, nullptr, false);
+  const std::string files_name(kFilesMember.name), seconds_name(kSecondsMember.name);
+  if (!sent.is_object() || !sent.contains(files_name) || !sent[files_name].is_object()) {
+    return fail(std::string("there are no files: ") + kForm);
+  }
+  ConfigurationBody parsed;
+  for (const auto& [name, text] : sent[files_name].items()) {
+    if (!text.is_string()) return fail(name + " is no text: " + kForm);
+    parsed.files[name] = text.get<std::string>();
+  }
+  if (const auto seconds = sent.find(seconds_name); seconds != sent.end()) {
+    const bool is_right =
+        seconds->is_number_integer() && *seconds >= kShortestTrial && *seconds <= kLongestTrial;
+    if (!is_right) {
+      return fail("seconds is " + seconds->dump() + "; it must be a whole number from " +
+                  std::to_string(kShortestTrial) + " to " + std::to_string(kLongestTrial));
+    }
+    parsed.seconds = seconds->get<int>();
+  }
+  for (const auto& [member, value] : sent.items()) {
+    if (!is_known(member)) return fail("there is no " + member + ": " + kForm);
+  }
+  return parsed;
+}
+
+}  // namespace orbwatch::app::web

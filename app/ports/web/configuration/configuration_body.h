@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "app/model/configuration_files.h"
+#include "app/ports/web/routes.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::web {
+
+/// A new configuration as it is sent.
+struct ConfigurationBody {
+  ConfigurationFiles::Texts files;
+  int seconds = kUsualTrial;
+};
+
+inline constexpr BodyMember kFilesMember{
+    "files", "Texts by name of their file, of those that are to change", true, BodyType::Texts};
+inline constexpr BodyMember kSecondsMember{
+    "seconds", "Until it goes back unless it is confirmed, 10 to 3600; 60 if it is left out", false,
+    BodyType::Whole};
+
+/// {"files": {"rig.toml": "..."}, "seconds": 60}. Errors: it is none; a member is missing, too many
+/// or of another kind; the seconds are out of range. Reentrant.
+Result<ConfigurationBody> parse_configuration(std::string_view body);
+
+}  // namespace orbwatch::app::web

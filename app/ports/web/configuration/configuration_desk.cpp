@@ -1,0 +1,176 @@
+#include "app/ports/web/configuration/configuration_desk.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/ports/web/configuration/configuration_body.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kBadRequest = 400, kForbidden = 403, kConflict = 409;
+/// Of a difference in the audit, which keeps the newest megabyte.
+constexpr std::size_t kMostNoted = 4096;
+
+/// Bytes that are no UTF-8 have no place in JSON: they are replaced.
+Response answer(const Json& json) {
+  return json_response(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// A text that JSON would change is not to be sent back.
+bool is_utf8(const std::string& text) {
+  try {
+    return !Json(text).dump().empty();
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
+Json change_json(const ConfigurationFiles::Change& change) {
+  return {{"files", change.files}, {"difference", change.difference}};
+}
+
+void add(Json& list, const ConfigurationFiles::Texts& texts, bool may_change) {
+  for (const auto& [name, text] : texts) {
+    list.push_back({{"name", name}, {"may_change", may_change && is_utf8(text)}, {"text", text}});
+  }
+}
+
+}  // namespace
+
+/// A request to change something, with what the audit is to say.
+struct ConfigurationDesk::Sent {
+  Caller caller;
+  ConfigurationBody body;
+  std::string after{};
+};
+
+ConfigurationDesk::ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, Access& access,
+                                     Audit& audit)
+    : files_(std::move(files)), access_(access), audit_(audit) {}
+
+std::vector<Route> ConfigurationDesk::routes() {
+  if (!files_) return {};
+  std::vector<Route> routes;
+  routes.push_back({"GET", "/api/v1/configuration", Role::Integrator,
+                    "The files of the configuration as they are on the disk, and what runs instead",
+                    std::string(kJson), [this](const ExchangePtr& exchange) {
+                      work_.run(exchange, [this] { return show(); });
+                    }});
+  routes.push_back(changing("/api/v1/check_configuration",
+                            "Checks the configuration with these texts in place of some files, and "
+                            "says what they change",
+                            {kFilesMember}, &ConfigurationDesk::check));
+  routes.push_back(changing("/api/v1/try_configuration",
+                            "The same, and has it run until it is confirmed or goes back",
+                            {kFilesMember, kSecondsMember}, &ConfigurationDesk::try_out));
+  routes.push_back(changing("/api/v1/confirm_configuration",
+                            "Keeps the configuration that is tried out: writes its files", {},
+                            &ConfigurationDesk::confirm));
+  routes.push_back(changing("/api/v1/revert_configuration",
+                            "Goes back from the configuration that is tried out", {},
+                            &ConfigurationDesk::revert));
+  return routes;
+}
+
+Route ConfigurationDesk::changing(const char* path, const char* description,
+                                  std::vector<BodyMember> body, Handler handler) {
+  Route route{"POST", path, Role::Integrator, description, std::string(kJson), {}};
+  route.body = std::move(body);
+  route.serve = [this, handler](const ExchangePtr& exchange) {
+    work_.run(exchange, [this, handler, exchange] { return answer_and_note(exchange, handler); });
+  };
+  return route;
+}
+
+Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Handler handler) {
+  const web::Request& request = exchange->request();
+  Sent sent{access_.caller(credentials_of(request)), {}};
+  const std::string name = request.path.substr(request.path.rfind('/') + 1);
+  if (handler == &ConfigurationDesk::check || handler == &ConfigurationDesk::try_out) {
+    auto body = parse_configuration(request.body);
+    if (!body) return error_response(kBadRequest, body.error().message);
+    sent.body = std::move(*body);
+  }
+  Response response = (this->*handler)(sent);
+  if (handler != &ConfigurationDesk::check) {
+    constexpr int kDone = 200;
+    audit_.note({Access::utc_now(),
+                 sent.caller.name,
+                 request.peer,
+                 name,
+                 {},
+                 sent.after.substr(0, kMostNoted),
+                 response.status == kDone ? "done" : "refused"});
+  }
+  return response;
+}
+
+Response ConfigurationDesk::show() const {
+  const auto state = files_->read();
+  if (!state) return error_response(kConflict, state.error().message);
+  Json list = Json::array();
+  add(list, state->files, true);
+  add(list, state->outside, false);
+  Json trial;
+  if (state->trial) {
+    trial = {{"files", *state->trial},
+             {"seconds_left", state->seconds_left ? Json(*state->seconds_left) : Json()}};
+  }
+  return answer({{"site", state->site},
+                 {"files", std::move(list)},
+                 {"refusal", state->refusal},
+                 {"trial", std::move(trial)}});
+}
+
+/// Error: another configuration file, which is the administrator's.
+Result<> ConfigurationDesk::permit(const Sent& sent) const {
+  if (sent.caller.role >= Role::Administrator) return {};
+  const auto state = files_->read();
+  if (!state) return tl::unexpected(state.error());
+  const auto changed = sent.body.files.find(state->site);
+  const auto present = state->files.find(state->site);
+  const bool is_other = changed != sent.body.files.end() &&
+                        (present == state->files.end() || present->second != changed->second);
+  if (!is_other) return {};
+  return fail("another " + state->site +
+              " needs the role administrator: it says where users are kept and which camera "
+              "modules run");
+}
+
+Response ConfigurationDesk::check(Sent& sent) {
+  if (const auto permitted = permit(sent); !permitted) {
+    return error_response(kForbidden, permitted.error().message);
+  }
+  const auto change = files_->check(sent.body.files);
+  return change ? answer(change_json(*change)) : error_response(kConflict, change.error().message);
+}
+
+Response ConfigurationDesk::try_out(Sent& sent) {
+  if (const auto permitted = permit(sent); !permitted) {
+    return error_response(kForbidden, permitted.error().message);
+  }
+  const auto change = files_->try_out(sent.body.files, sent.body.seconds);
+  if (!change) return error_response(kConflict, change.error().message);
+  sent.after = change->difference;
+  Json json = change_json(*change);
+  json["seconds"] = sent.body.seconds;
+  return answer(json);
+}
+
+Response ConfigurationDesk::confirm(Sent& sent) {
+  const auto written = files_->confirm();
+  if (!written) return error_response(kConflict, written.error().message);
+  for (const std::string& name : *written) sent.after += (sent.after.empty() ? "" : ", ") + name;
+  return answer({{"files", *written}});
+}
+
+Response ConfigurationDesk::revert(Sent& /*sent*/) {
+  const auto reverted = files_->revert();
+  if (!reverted) return error_response(kConflict, reverted.error().message);
+  return answer({{"result_text", "done"}});
+}
+
+}  // namespace orbwatch::app::web

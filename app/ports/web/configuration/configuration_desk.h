@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/model/configuration_files.h"
+#include "app/ports/web/access/access.h"
+#include "app/ports/web/access/audit.h"
+#include "app/ports/web/access/slow_work.h"
+#include "app/ports/web/routes.h"
+
+namespace orbwatch::app::web {
+
+/// The routes by which the files of the configuration are read, checked, tried out and confirmed.
+/// The configuration file itself says where users are kept and which camera modules run: another
+/// one needs the administrator. Thread rule: start and stop by one owner; the routes on any thread.
+class ConfigurationDesk {
+ public:
+  /// `files` null: there are no routes. `access` and `audit` outlive it.
+  ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, Access& access, Audit& audit);
+
+  void start() { work_.start(); }
+  void stop() { work_.stop(); }
+
+  std::vector<Route> routes();
+
+  std::chrono::nanoseconds cpu_time() const { return work_.cpu_time(); }
+
+ private:
+  struct Sent;
+  using Handler = Response (ConfigurationDesk::*)(Sent&);
+
+  Route changing(const char* path, const char* description, std::vector<BodyMember> body,
+                 Handler handler);
+  Response answer_and_note(const ExchangePtr& exchange, Handler handler);
+
+  Response show() const;
+  Response check(Sent& sent);
+  Response try_out(Sent& sent);
+  Response confirm(Sent& sent);
+  Response revert(Sent& sent);
+  Result<> permit(const Sent& sent) const;
+
+  const std::shared_ptr<ConfigurationFiles> files_;
+  Access& access_;
+  Audit& audit_;
+  SlowWork work_{"web files", "others change the configuration at present; try again"};
+};
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/model/interface_table.h"
+#include "app/model/program.h"
+#include "app/ports/web/routes.h"
+
+namespace orbwatch::app::web {
+
+/// `{"modbus": {"registers": [{"name": ..., "value": ...}, ...]}, ...}`. Reentrant.
+std::string tables_json(const std::vector<InterfaceTable>& tables);
+
+/// The routes of what the interfaces show of themselves, and of the program's versions. `tables`
+/// may be called on any thread; empty: nothing is shown.
+std::vector<Route> interface_routes(std::function<std::vector<InterfaceTable>()> tables,
+                                    const Program& program);
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "app/log.h"
+
+namespace orbwatch::app {
+
+/// The newest lines of this process's log, for those who cannot read the journal. Thread-safe;
+/// allocates, so never on the frame path: that is the LogWriter's thread.
+class RecentLog {
+ public:
+  static constexpr std::size_t kMostLines = 1000;
+  /// Bytes of a line; the rest is cut.
+  static constexpr std::size_t kMostText = 1024;
+
+  struct Line {
+    std::uint64_t number = 0;  ///< counts from 1
+    std::chrono::system_clock::time_point time{};
+    LogLevel level = LogLevel::Info;
+    std::string text;
+    std::string camera;
+    std::string fault;
+    std::uint64_t trigger = 0;
+  };
+
+  /// What a reader wants of them.
+  struct Wanted {
+    std::size_t most = kMostLines;
+    LogLevel least = LogLevel::Info;  ///< and what is more severe
+    std::uint64_t after = 0;          ///< number of the newest line that it has
+  };
+
+  void add(const LogRecord& record);
+  /// Of the newest line; 0: there is none yet.
+  std::uint64_t newest_number() const;
+  /// The newest of them, oldest first.
+  std::vector<Line> newest(const Wanted& wanted) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::deque<Line> lines_;    ///< under mutex_
+  std::uint64_t number_ = 0;  ///< of the newest; under mutex_
+};
+
+}  // namespace orbwatch::app

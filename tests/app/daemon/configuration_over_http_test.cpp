@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/daemon/daemon_program.h"
+#include "tests/app/ports/web/http_client.h"
+#include "tests/support/notify_socket.h"
+
+/// The configuration of `orbwatchd`, changed over HTTP as with curl.
+namespace orbwatch::tests {
+namespace {
+
+using app::web::tests::Answer;
+using app::web::tests::request;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class ConfigurationOverHttp : public Daemon {
+ protected:
+  ConfigurationOverHttp() : manager(folder / "notify", std::chrono::seconds(10)) {
+    ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+    config = write_config(small_machine() +
+                          "[web]\nenabled = true\nport = " + std::to_string(web_port) + "\n");
+  }
+  ~ConfigurationOverHttp() override { ::unsetenv("STATE_DIRECTORY"); }
+
+  Answer ask(const std::string& what, const json& body) const {
+    return request(web_port, "POST", "/api/v1/" + what + "_configuration",
+                   "Content-Type: application/json\r\n", body.dump());
+  }
+  json shown() const { return json::parse(request(web_port, "GET", "/api/v1/configuration").body); }
+  static std::string contents(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  /// Of the installed recipe, with comments and another order.
+  std::string other_recipe() const {
+    return "# by hand \xC3\xA9\r\n" + kSmallRecipe + "# the end, without a line's";
+  }
+  json of_recipe(const std::string& text, int seconds = 60) const {
+    return {{"files", {{"recipe.toml", text}}}, {"seconds", seconds}};
+  }
+  /// The new recipe runs, and the files are the old ones.
+  void begin_trial(int seconds) {
+    manager.await("READY=1");
+    old_checksum = read("system_configuration_checksum");
+    const Answer tried = ask("try", of_recipe(other_recipe(), seconds));
+    ASSERT_EQ(tried.status, 200) << tried.body;
+    EXPECT_THAT(json::parse(tried.body)["difference"].get<std::string>(), HasSubstr("+# by hand"));
+    manager.await("READY=1");
+    EXPECT_NE(read("system_configuration_checksum"), old_checksum);
+    EXPECT_EQ(contents(folder / "recipe.toml"), kSmallRecipe);
+  }
+
+  NotifySocket manager;
+  const int web_port = free_port();
+  std::string config;
+  std::int64_t old_checksum = 0;
+};
+
+TEST_F(ConfigurationOverHttp, IsReadAsItIsOnTheDisk) {
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  std::map<std::string, std::string> texts;
+  const json all = shown();
+  for (const auto& file : all["files"]) {
+    EXPECT_TRUE(file["may_change"]) << file["name"];
+    texts[file["name"]] = file["text"];
+  }
+  for (const char* name : {"site.toml", "rig.toml", "recipe.toml"}) {
+    EXPECT_EQ(texts[name], contents(folder / name)) << name;
+  }
+  EXPECT_EQ(texts.size(), 3U);
+}
+
+TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
+  fs::permissions(folder / "recipe.toml", fs::perms(0640));
+  Subprocess daemon = start(config);
+  begin_trial(3600);
+  const auto left = shown()["trial"]["seconds_left"];
+  ASSERT_TRUE(left.is_number()) << shown();
+  EXPECT_GT(left, 3500);
+  EXPECT_LE(left, 3600);
+  EXPECT_EQ(ask("try", of_recipe(kSmallRecipe)).status, 409) << "one at a time";
+
+  const Answer confirmed = ask("confirm", json::object());
+  ASSERT_EQ(confirmed.status, 200) << confirmed.body;
+  EXPECT_THAT(json::parse(confirmed.body)["files"], ElementsAre("recipe.toml"));
+  EXPECT_EQ(contents(folder / "recipe.toml"), other_recipe());
+  EXPECT_EQ(fs::status(folder / "recipe.toml").permissions(), fs::perms(0640));
+  EXPECT_TRUE(shown()["trial"].is_null());
+  const auto checksum = read("system_configuration_checksum");
+  daemon.send(SIGHUP);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), checksum) << daemon.output();
+}
+
+TEST_F(ConfigurationOverHttp, GoesBackWithoutConfirmation) {
+  Subprocess daemon = start(config);
+  begin_trial(10);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
+  EXPECT_EQ(contents(folder / "recipe.toml"), kSmallRecipe);
+  EXPECT_TRUE(shown()["trial"].is_null());
+}
+
+TEST_F(ConfigurationOverHttp, GoesBackWhenAsked) {
+  Subprocess daemon = start(config);
+  begin_trial(3600);
+  EXPECT_EQ(ask("revert", json::object()).status, 200);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
+}
+
+/// Files change together or not at all, also when the power is cut between them.
+TEST_F(ConfigurationOverHttp, ThatWasConfirmedIsWrittenToTheEndAfterAPowerCut) {
+  {
+    Subprocess daemon = start(config);
+    begin_trial(3600);
+    daemon.send(SIGKILL);
+  }
+  fs::rename(folder / "trial-running.json", folder / "trial-confirmed.json");
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  EXPECT_EQ(contents(folder / "recipe.toml"), other_recipe());
+  EXPECT_NE(read("system_configuration_checksum"), old_checksum);
+  EXPECT_FALSE(fs::exists(folder / "trial-confirmed.json"));
+}
+
+TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  const auto refusal = [&](const std::string& what, const json& files) {
+    const Answer answer = ask(what, {{"files", files}});
+    EXPECT_EQ(answer.status, 409) << answer.body;
+    return json::parse(answer.body)["error"].get<std::string>();
+  };
+  for (const char* what : {"check", "try"}) {
+    EXPECT_THAT(refusal(what, {{"recipe.toml", "nonsense = "}}), HasSubstr("recipe.toml:1"));
+    EXPECT_THAT(refusal(what, {{"other.toml", "a = 1"}}),
+                HasSubstr("no file of the configuration"));
+    for (const char* name : {"../site.toml", "/etc/passwd", "", ".", "a/../recipe.toml", "./recipe.toml", "recipe.toml/"}) {
+      EXPECT_THAT(refusal(what, {{name, kSmallRecipe}}), HasSubstr("no path from the folder"))
+          << name;
+    }
+    EXPECT_THAT(refusal(what, json::object()), HasSubstr("no texts"));
+  }
+  EXPECT_THAT(refusal("try", {{"recipe.toml", kSmallRecipe}}), HasSubstr("change nothing"));
+  EXPECT_FALSE(fs::exists(folder / "trial.json"));
+}
+
+}  // namespace
+}  // namespace orbwatch::tests

@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "app/ports/modbus/modbus_sink.h"
+#include "tests/app/ports/modbus/clients.h"
+
+/// What the page shows of Modbus is what a PLC reads.
+namespace orbwatch::app {
+namespace {
+
+using tests::accept_all;
+using tests::address_of;
+using tests::eventually;
+using tests::loopback;
+using tests::Plc;
+
+const InterfaceTable& named(const std::vector<InterfaceTable>& tables, const std::string& name) {
+  const auto found = std::ranges::find(tables, name, &InterfaceTable::name);
+  if (found == tables.end()) throw std::out_of_range(name);
+  return *found;
+}
+
+/// By the column `key`, what stands in the column `value`.
+std::map<std::string, double> numbers(const InterfaceTable& table, const std::string& key,
+                                      const std::string& value) {
+  const auto place = [&table](const std::string& column) {
+    return static_cast<std::size_t>(std::ranges::find(table.columns, column) -
+                                    table.columns.begin());
+  };
+  std::map<std::string, double> all;
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(row.size(), table.columns.size());
+    all[std::get<std::string>(row[place(key)])] = std::get<double>(row[place(value)]);
+  }
+  return all;
+}
+
+TEST(ShownTables, HaveTheValuesInTheirUnits) {
+  ModbusSink sink(loopback(), accept_all);
+  EXPECT_TRUE(sink.tables().empty()) << "it does not serve";
+  ASSERT_TRUE(sink.start());
+  sink.accept(tests::example_status());
+  const auto tables = sink.tables();
+  const auto values = numbers(named(tables, "registers"), "name", "value");
+  EXPECT_EQ(values.at("system_configuration_checksum"), 0x89abcdefU);
+  EXPECT_NEAR(values.at("region_0_hot_spot_yaw"), -123.46, 1e-9);
+  EXPECT_NEAR(values.at("region_0_hot_spot_peak_temperature"), -20.0, 1e-9);
+  EXPECT_TRUE(std::isnan(values.at("region_0_hot_spot_mean_temperature")));
+  const modbus::RegisterMap map;
+  std::size_t mapped = 0;
+  for (const modbus::Row& row : map.rows()) mapped += row.read && !is_mirror(row) ? 1 : 0;
+  EXPECT_EQ(named(tables, "registers").rows.size(), mapped);
+  sink.stop();
+  EXPECT_TRUE(sink.tables().empty());
+}
+
+TEST(ShownTables, HaveTheClientsThatAreConnected) {
+  ModbusSink sink(loopback(), accept_all);
+  ASSERT_TRUE(sink.start());
+  const auto requests = [&sink] {
+    const auto tables = sink.tables();
+    return numbers(named(tables, "clients"), "address", "requests");
+  };
+  EXPECT_TRUE(requests().empty());
+  {
+    Plc plc(sink.port());
+    for (int n = 0; n < 3; ++n) ASSERT_EQ(plc.read_input(address_of("system_recipe"), 1), 0);
+    EXPECT_TRUE(eventually([&] {
+      return requests() == std::map<std::string, double>{{"127.0.0.1", 3}};
+    }));
+    const auto tables = sink.tables();
+    EXPECT_TRUE(std::get<bool>(named(tables, "clients").rows[0][1])) << "this host may write";
+  }
+  EXPECT_TRUE(eventually([&] { return requests().empty(); }));
+}
+
+}  // namespace
+}  // namespace orbwatch::app

@@ -1,0 +1,39 @@
+#include "app/ports/web/configuration/configuration_body.h"
+
+#include <gmock/gmock.h>
+
+namespace orbwatch::app::web {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ConfigurationBody, KeepsTextsByteForByte) {
+  const auto body =
+      parse_configuration(R"({"files": {"a.toml": "x = 1 # \u00e9\r\n\n", "b": ""}})");
+  ASSERT_TRUE(body) << body.error().message;
+  EXPECT_EQ(body->files,
+            (ConfigurationFiles::Texts{{"a.toml", "x = 1 # \xC3\xA9\r\n\n"}, {"b", ""}}));
+  EXPECT_EQ(body->seconds, 60);
+  EXPECT_EQ(parse_configuration(R"({"files": {}, "seconds": 10})")->seconds, 10);
+}
+
+TEST(ConfigurationBody, RefusesWhatIsNone) {
+  const auto refusal = [](std::string_view text) {
+    const auto body = parse_configuration(text);
+    return body ? "accepted" : body.error().message;
+  };
+  for (const char* text : {"", "{", "[]", "{}", R"({"files": []})", R"({"files": "a"})",
+                           "{\"files\": {\"a\": \"\xFF\"}}"}) {
+    EXPECT_THAT(refusal(text), HasSubstr("there are no files")) << text;
+  }
+  EXPECT_THAT(refusal(R"({"files": {"a": 1}})"), HasSubstr("a is no text"));
+  EXPECT_THAT(refusal(R"({"files": {}, "second": 60})"), HasSubstr("there is no second"));
+  for (const char* seconds : {"9", "3601", "60.5", "\"60\"", "null", "1e99", "-60"}) {
+    EXPECT_THAT(refusal(R"({"files": {}, "seconds": )" + std::string(seconds) + "}"),
+                HasSubstr("must be a whole number from 10 to 3600"))
+        << seconds;
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web

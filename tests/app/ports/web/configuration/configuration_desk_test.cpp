@@ -1,0 +1,150 @@
+#include "app/ports/web/configuration/configuration_desk.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/ports/web/access/access_served.h"
+#include "tests/app/ports/web/configuration/written_files.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Configuration : public AccessServed {
+ protected:
+  void SetUp() override {
+    AccessServed::SetUp();
+    program.files = written;
+    add_one_of_each_role();
+  }
+  Answer ask(const std::string& what, const json& body, Role role = Role::Integrator) const {
+    return post("/api/v1/" + what + "_configuration", body.dump(), by_token(role) + kJsonHeader);
+  }
+  json shown() const {
+    return json::parse(get(port(), "/api/v1/configuration", by_token(Role::Integrator)).body);
+  }
+  static std::string text_of(const json& configuration, const std::string& name) {
+    for (const auto& file : configuration["files"]) {
+      if (file["name"] == name) return file["text"];
+    }
+    return "there is no " + name;
+  }
+
+  const std::shared_ptr<WrittenFiles> written = std::make_shared<WrittenFiles>();
+};
+
+TEST_F(Configuration, IsReadByteForByte) {
+  const std::string text =
+      "# \xC3\xA9 \"quoted\"\\\r\n\tz = 1\n\n\na = 2  # last, without a line's end";
+  written->state.files["rig.toml"] = text;
+  written->state.outside["/srv/lens.yaml"] = "k1: \xFF";
+  start();
+  const json all = shown();
+  EXPECT_EQ(all["site"], "site.toml");
+  EXPECT_EQ(text_of(all, "rig.toml"), text);
+  EXPECT_EQ(all["refusal"], "");
+  EXPECT_TRUE(all["trial"].is_null());
+  for (const auto& file : all["files"]) {
+    EXPECT_EQ(file["may_change"], file["name"] != "/srv/lens.yaml") << file["name"];
+  }
+}
+
+TEST_F(Configuration, ThatIsNoUtf8IsNotToBeSentBack) {
+  written->state.files["rig.toml"] = "# \xFF";
+  start();
+  EXPECT_FALSE(shown()["files"][0]["may_change"]) << shown();
+}
+
+TEST_F(Configuration, IsTriedOutAndConfirmed) {
+  start();
+  const std::string text = "# kept\r\nb = 2\n";
+  const json body{{"files", {{"rig.toml", text}}}, {"seconds", 30}};
+  const json checked = json::parse(ask("check", {{"files", {{"rig.toml", text}}}}).body);
+  EXPECT_THAT(checked["files"], ElementsAre("rig.toml"));
+  EXPECT_EQ(checked["difference"], "+" + text);
+  EXPECT_TRUE(shown()["trial"].is_null()) << "a check changes nothing";
+
+  const Answer tried = ask("try", body);
+  ASSERT_EQ(tried.status, 200) << tried.body;
+  EXPECT_EQ(json::parse(tried.body)["seconds"], 30);
+  EXPECT_EQ(shown()["trial"]["files"]["rig.toml"], text);
+  EXPECT_EQ(shown()["trial"]["seconds_left"], 30);
+  EXPECT_EQ(text_of(shown(), "rig.toml"), "a = 1\n");
+
+  EXPECT_THAT(json::parse(ask("confirm", json::object()).body)["files"], ElementsAre("rig.toml"));
+  EXPECT_EQ(text_of(shown(), "rig.toml"), text);
+  EXPECT_EQ(ask("confirm", json::object()).status, 409);
+  EXPECT_EQ(ask("revert", json::object()).status, 409);
+}
+
+TEST_F(Configuration, GoesBackWhenAsked) {
+  start();
+  ASSERT_EQ(ask("try", {{"files", {{"rig.toml", "b = 2"}}}}).status, 200);
+  EXPECT_EQ(ask("revert", json::object()).status, 200);
+  EXPECT_TRUE(shown()["trial"].is_null());
+  EXPECT_EQ(text_of(shown(), "rig.toml"), "a = 1\n");
+}
+
+TEST_F(Configuration, ThatIsWrongIsRefusedWithItsLine) {
+  start();
+  for (const char* what : {"check", "try"}) {
+    const Answer answer = ask(what, {{"files", {{"rig.toml", "wrong"}}}});
+    EXPECT_EQ(answer.status, 409);
+    EXPECT_EQ(json::parse(answer.body)["error"], "rig.toml:1: nonsense");
+    EXPECT_EQ(ask(what, {{"files", 1}}).status, 400);
+  }
+  EXPECT_TRUE(shown()["trial"].is_null());
+}
+
+/// By another one the users could be others, or none.
+TEST_F(Configuration, OfTheSiteIsTheAdministrators) {
+  start();
+  const json other{{"files", {{"site.toml", "state_folder = \"/tmp\"\n"}}}};
+  const json same{{"files", {{"site.toml", "# mine\n"}, {"rig.toml", "b = 2"}}}};
+  for (const char* what : {"check", "try"}) {
+    const Answer refused = ask(what, other);
+    EXPECT_EQ(refused.status, 403);
+    EXPECT_THAT(refused.body, HasSubstr("another site.toml needs the role administrator"));
+  }
+  EXPECT_TRUE(shown()["trial"].is_null());
+  EXPECT_EQ(ask("try", same).status, 200) << "unchanged";
+  EXPECT_EQ(ask("revert", json::object()).status, 200);
+  EXPECT_EQ(ask("try", other, Role::Administrator).status, 200);
+}
+
+TEST_F(Configuration, ThatIsTooLargeIsRefused) {
+  WebSettings settings;
+  settings.max_body_bytes = 1024;
+  start(settings);
+  const Answer answer = ask("try", {{"files", {{"rig.toml", std::string(2000, '#')}}}});
+  EXPECT_EQ(answer.status, 413) << answer.body;
+  EXPECT_TRUE(shown()["trial"].is_null());
+}
+
+TEST_F(Configuration, IsNotedInTheAudit) {
+  start();
+  ask("try", {{"files", {{"rig.toml", "b = 2"}}}});
+  ask("confirm", json::object());
+  ask("confirm", json::object());
+  const json audit = json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body);
+  const json& entries = audit["entries"];
+  ASSERT_EQ(entries.size(), 3U) << audit;
+  EXPECT_EQ(entries[0]["what"], "try_configuration");
+  EXPECT_EQ(entries[0]["who"], "integrator");
+  EXPECT_EQ(entries[0]["after"], "+b = 2");
+  EXPECT_EQ(entries[1]["after"], "rig.toml");
+  EXPECT_EQ(entries[2]["result"], "refused");
+}
+
+TEST_F(Configuration, WithoutFilesHasNoRoutes) {
+  program.files = nullptr;
+  start();
+  EXPECT_EQ(get(port(), "/api/v1/configuration", by_token(Role::Administrator)).status, 404);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/model/configuration_files.h"
+
+namespace orbwatch::app::web::tests {
+
+/// Files of a configuration in memory, and what was asked of them.
+class WrittenFiles final : public ConfigurationFiles {
+ public:
+  Result<State> read() const override {
+    const std::lock_guard lock(mutex);
+    return state;
+  }
+  Result<Change> check(const Texts& texts) const override {
+    const std::lock_guard lock(mutex);
+    return change_of(texts);
+  }
+  Result<Change> try_out(const Texts& texts, int seconds) override {
+    const std::lock_guard lock(mutex);
+    auto change = change_of(texts);
+    if (change) {
+      state.trial = texts;
+      state.seconds_left = seconds;
+    }
+    return change;
+  }
+  Result<std::vector<std::string>> confirm() override {
+    const std::lock_guard lock(mutex);
+    if (!state.trial) return fail("none waits");
+    std::vector<std::string> names;
+    const Texts texts = *std::exchange(state.trial, std::nullopt);
+    for (const auto& [name, text] : texts) {
+      state.files[name] = text;
+      names.push_back(name);
+    }
+    return names;
+  }
+  Result<> revert() override {
+    const std::lock_guard lock(mutex);
+    if (!std::exchange(state.trial, std::nullopt)) return fail("none waits");
+    return {};
+  }
+
+  mutable std::mutex mutex;
+  State state{"site.toml", {{"site.toml", "# mine\n"}, {"rig.toml", "a = 1\n"}}, {}, "", {}, {}};
+
+ private:
+  Result<Change> change_of(const Texts& texts) const {
+    Change change;
+    for (const auto& [name, text] : texts) {
+      if (text == "wrong") return fail(name + ":1: nonsense");
+      change.files.push_back(name);
+      change.difference += "+" + text;
+    }
+    return change;
+  }
+};
+
+}  // namespace orbwatch::app::web::tests

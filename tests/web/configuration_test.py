@@ -1,0 +1,146 @@
+"""The files of the configuration, changed on the page of a running daemon."""
+
+import json
+import unittest
+import urllib.request
+
+from selenium.webdriver.common.by import By
+
+from appliance import Appliance, eventually
+from page_case import PageCase
+
+COMMENT = "# by hand: é, in its place\r\n"
+
+
+class Configured(Appliance):
+    """A service, which can go back; its recipe has a comment and ends of lines of its own."""
+
+    def __init__(self):
+        super().__init__()
+        self.recipe = self.folder / "demo-recipe.toml"
+        text = self.recipe.read_bytes().replace(b"\n", b"\r\n")
+        self.recipe.write_bytes(COMMENT.encode() + text)
+
+        (self.folder / "state").mkdir()
+
+    def environment(self):
+        return {"STATE_DIRECTORY": str(self.folder / "state")}
+
+    def configuration(self):
+        with urllib.request.urlopen(self.address + "api/v1/configuration", timeout=60) as answer:
+            return json.load(answer)
+
+    def checksum(self):
+        return self.status()["system"]["configuration_checksum"]
+
+
+class ConfigurationPage(PageCase):
+    @classmethod
+    def make_appliance(cls):
+        return Configured()
+
+    def setUp(self):
+        super().setUp()
+        self.recipe = self.appliance.recipe.read_bytes()
+        self.checksum = self.appliance.checksum()
+        self.browser.get(f"{self.appliance.address}#/system")
+        eventually("the part for the configuration", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "#configuration summary"))[0].click()
+        eventually("its files", lambda: len(self.areas()) == 3)
+
+    def areas(self):
+        return {area.get_attribute("aria-label"): area
+                for area in self.browser.find_elements(By.CSS_SELECTOR, "#configuration textarea")}
+
+    def press(self, label):
+        [button] = [one for one in self.browser.find_elements(
+            By.CSS_SELECTOR, "#configuration button") if one.text == label]
+        button.click()
+
+    def type_into(self, name, old, new):
+        """As somebody who types, but at once."""
+        self.browser.execute_script("""
+            const area = [...document.querySelectorAll('#configuration textarea')]
+              .find((one) => one.getAttribute('aria-label') === arguments[0]);
+            area.closest('details').open = true;
+            if (!area.value.includes(arguments[1])) throw new Error('there is no such text');
+            area.value = area.value.replace(arguments[1], arguments[2]);
+            area.dispatchEvent(new Event('input', { bubbles: true }));""", name, old, new)
+
+    def said(self):
+        return self.browser.text("#configuration [role=status]")
+
+    def try_another_name(self, old, new):
+        self.type_into("demo-recipe.toml", f'name = "{old}"', f'name = "{new}"')
+        self.press("Try out")
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != self.checksum
+            and self.appliance.configuration()["trial"]))
+        eventually("the page says so",
+                   lambda: "goes back in" in self.browser.text("#configuration [role=timer]"))
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
+    def test_configuration_is_checked(self):
+        self.type_into("demo-recipe.toml", "name = ", "nonsense ")
+        self.press("Check and show the difference")
+        eventually("the page says what is wrong and where",
+                   lambda: "demo-recipe.toml:" in self.said())
+        self.browser.keep_picture("configuration-wrong")
+        # That the check was answered with 409 is what the browser complains about.
+        self.assertEqual([one for one in self.browser.complaints() if "409" not in one["message"]],
+                         [])
+        self.assertIsNone(self.appliance.configuration()["trial"])
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
+    def test_configuration_is_kept_byte_for_byte(self):
+        self.try_another_name("cladding", "by_hand")
+        self.browser.keep_picture("configuration")
+        self.press("Keep it")
+        eventually("the file is written",
+                   lambda: self.appliance.recipe.read_bytes() != self.recipe)
+        self.assertEqual(self.appliance.recipe.read_bytes(),
+                         self.recipe.replace(b'name = "cladding"', b'name = "by_hand"', 1))
+        eventually("nothing waits",
+                   lambda: self.appliance.configuration()["trial"] is None)
+        self.assertNotEqual(self.appliance.checksum(), self.checksum)
+
+    def test_configuration_goes_back_when_asked(self):
+        name = [line for line in self.recipe.decode().splitlines()
+                if line.startswith("name = ")][0].split('"')[1]
+        self.try_another_name(name, "another")
+        self.press("Go back now")
+        eventually("the old one runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() == self.checksum))
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
+    def test_configuration_that_was_sent_goes_back_by_itself(self):
+        sent = self.appliance.folder / "sent" / "demo-recipe.toml"
+        sent.parent.mkdir()
+        sent.write_bytes(self.recipe.replace(b'name = "', b'name = "sent_', 1))
+        self.browser.find_element(By.CSS_SELECTOR, "#configuration [type=file]").send_keys(str(sent))
+        self.press("Check and show the difference")
+        eventually("the difference", lambda: '+name = "sent_' in self.browser.text("#configuration pre"))
+        seconds = self.browser.find_element(By.NAME, "seconds")
+        seconds.clear()
+        seconds.send_keys("10")
+        self.press("Try out")
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != self.checksum))
+        eventually("the old one runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() == self.checksum))
+        eventually("the page says so", lambda: "What the files say runs" in self.said())
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
+    def test_configuration_keeps_nobody_out(self):
+        self.browser.look_for_barriers()
+        self.browser.refresh()
+        eventually("the part for the configuration", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "#configuration summary"))[0].click()
+        eventually("its files", lambda: len(self.areas()) == 3)
+        self.browser.execute_script(
+            "document.querySelectorAll('#configuration details').forEach((d) => { d.open = true; })")
+        self.assertEqual(self.browser.barriers(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+"""Log, interfaces and versions on the page of a running daemon."""
+
+import json
+import socket
+import struct
+import unittest
+import urllib.request
+
+from selenium.webdriver.common.by import By
+
+from appliance import Appliance, eventually, free_port
+from page_case import PageCase
+
+
+class WithPlc(Appliance):
+    """With Modbus on a port of its own."""
+
+    def __init__(self):
+        super().__init__()
+        self.modbus_port = free_port()
+        self.site = self.folder / "demo.toml"
+        self.site.write_text(f'{self.site.read_text(encoding="utf-8")}'
+                             f'[modbus]\naddress = "127.0.0.1"\nport = {self.modbus_port}\n',
+                             encoding="utf-8")
+
+    def get(self, path):
+        with urllib.request.urlopen(f"{self.address}api/v1/{path}", timeout=60) as answer:
+            return json.load(answer)
+
+    def command(self, name):
+        request = urllib.request.Request(
+            f"{self.address}api/v1/command/{name}", data=b"{}",
+            headers={"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return json.load(answer)
+
+
+class SystemPage(PageCase):
+    @classmethod
+    def make_appliance(cls):
+        return WithPlc()
+
+    def open(self, part):
+        self.browser.get(f"{self.appliance.address}#/system")
+        eventually(part, lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, f"#{part} > summary"))[0].click()
+
+    def rows(self, selector):
+        return self.browser.execute_script(
+            "return [...document.querySelectorAll(arguments[0])].filter((row) => !row.hidden)"
+            ".map((row) => [...row.cells].map((cell) => cell.textContent))", f"{selector} tbody tr")
+
+    def test_log_is_that_of_the_interface(self):
+        self.open("log")
+        lines = self.appliance.get("log")["lines"]
+        self.assertTrue(any("runs with 2 cameras" in line["text"] for line in lines))
+        shown = eventually("the log", lambda: self.rows("#log"))
+        self.assertEqual([row[2] for row in shown][-len(lines):],
+                         [line["text"] for line in reversed(lines)])
+        self.browser.keep_picture("log")
+
+    def test_log_shows_what_is_logged_while_one_looks(self):
+        self.open("log")
+        self.browser.find_element(By.CSS_SELECTOR, "#log select").send_keys("error")
+        eventually("the lines of that level", lambda: self.rows("#log") == [])
+        text = self.appliance.site.read_text(encoding="utf-8")
+        self.appliance.site.write_text("nonsense = \n" + text, encoding="utf-8")
+        self.addCleanup(lambda: self.appliance.site.write_text(text, encoding="utf-8"))
+        self.appliance.command("restart")
+        eventually("why it does not restart", lambda: any(
+            row[1] == "error" and "demo.toml:1" in row[2] for row in self.rows("#log")))
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_interfaces_show_registers_clients_and_topics(self):
+        with socket.create_connection(("127.0.0.1", self.appliance.modbus_port), timeout=60) as plc:
+            # Read input register 0 of unit 1.
+            plc.sendall(struct.pack(">HHHBBHH", 1, 0, 6, 1, 4, 0, 1))
+            self.assertEqual(len(plc.recv(260)), 11)
+            self.open("interfaces")
+            parts = eventually("the interfaces", lambda: [
+                part for part in self.browser.find_elements(
+                    By.CSS_SELECTOR, "#interfaces details")
+                if part.text.startswith(("modbus: ", "dds: "))] or None)
+            for part in parts:
+                part.find_element(By.TAG_NAME, "summary").click()
+            modbus = self.appliance.get("interfaces")["modbus"]
+            self.assertEqual([(client["address"], client["may_write"], client["requests"])
+                              for client in modbus["clients"]], [("127.0.0.1", True, 1)])
+            names = {register["name"] for register in modbus["registers"]}
+            shown = eventually("the registers", lambda: {
+                row[4]: row[5] for row in self.rows("#interfaces") if len(row) == 8})
+            self.assertEqual(set(shown), names)
+            recipe = self.appliance.status()["system"]["recipe"]
+            self.assertEqual(shown["system_recipe"], str(recipe))
+            eventually("the client", lambda: any(
+                row[:3] == ["127.0.0.1", "true", "1"] for row in self.rows("#interfaces")))
+            eventually("the values move", lambda: {
+                row[4]: row[5] for row in self.rows("#interfaces") if len(row) == 8
+            }["system_heartbeat"] != shown["system_heartbeat"])
+        topics = {row[0] for row in self.rows("#interfaces") if len(row) == 9}
+        self.assertEqual(topics, {topic["topic"] for topic in
+                                  self.appliance.get("interfaces")["dds"]["topics"]})
+        self.browser.keep_picture("interfaces")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_stages_are_those_of_the_interface(self):
+        self.open("stages")
+        rows = eventually("the stages", lambda: self.browser.execute_script(
+            "return [...document.querySelectorAll('#stages tbody tr')]"
+            ".map((row) => [...row.cells].map((cell) => cell.textContent))"))
+        status = self.appliance.status()
+        self.assertEqual([row[0] for row in rows],
+                         [stage["name"] for stage in status["stages"]])
+        for row in rows:
+            for figure in row[1:4]:
+                self.assertRegex(figure, r"^([0-9.]+|–)$")
+        share = self.browser.text("#stages p span")
+        self.assertRegex(share, r"^[0-9]+ %$")
+        # Of other seconds, so nearly the same.
+        self.assertLess(abs(float(share[:-2]) / 100 - status["system"]["load"]), 0.5)
+        self.browser.keep_picture("stages")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_versions_are_those_of_the_interface(self):
+        self.open("about")
+        about = self.appliance.get("about")
+        shown = dict(eventually("the versions", lambda: self.rows("#about")))
+        self.assertEqual(shown, about["versions"])
+        self.assertIn(about["commanders"], self.browser.text("#about p"))
+
+    def test_system_keeps_nobody_out(self):
+        self.browser.look_for_barriers()
+        self.open("log")
+        for part in ("interfaces", "about"):
+            self.browser.find_element(By.CSS_SELECTOR, f"#{part} > summary").click()
+        eventually("the interfaces", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "#interfaces details"))
+        self.assertEqual(self.browser.barriers(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
