@@ -1,0 +1,51 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "tests/app/ports/web/served.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using nlohmann::json;
+
+/// Of the dashboard that is shipped: a query, and the panel that it is for.
+std::vector<std::pair<std::string, std::string>> queries() {
+  std::ifstream in(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/grafana/orbwatch.json");
+  std::vector<std::pair<std::string, std::string>> all;
+  const json dashboard = json::parse(in);
+  for (const auto& panel : dashboard["panels"]) {
+    const json targets = panel.value("targets", json::array());
+    for (const auto& target : targets) {
+      all.emplace_back(panel["title"], target["expr"]);
+    }
+  }
+  return all;
+}
+
+using Dashboard = Served;
+
+TEST_F(Dashboard, AsksForMetricsThatThereAre) {
+  start();
+  const std::string metrics = get(port(), "/metrics").body;
+  static const std::regex kSample(R"rx((^|\n)(orbwatch_\w+)(\{| ))rx"),
+      kName(R"rx(orbwatch_\w+)rx");
+  std::set<std::string> served;
+  for (std::sregex_iterator it(metrics.begin(), metrics.end(), kSample), end; it != end; ++it) {
+    served.insert((*it)[2]);
+  }
+  std::set<std::string> kinds;
+  for (const auto& [panel, query] : queries()) {
+    std::smatch name;
+    ASSERT_TRUE(std::regex_search(query, name, kName)) << panel << " asks for nothing: " << query;
+    EXPECT_TRUE(served.contains(name.str())) << panel << " asks for " << name.str();
+    kinds.insert(name.str().substr(0, name.str().find('_', sizeof("orbwatch_"))));
+  }
+  EXPECT_EQ(kinds, (std::set<std::string>{"orbwatch_alarm", "orbwatch_camera", "orbwatch_health",
+                                          "orbwatch_region", "orbwatch_stage", "orbwatch_system",
+                                          "orbwatch_view", "orbwatch_web"}));
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests
