@@ -5,6 +5,7 @@ import tomllib
 import unittest
 import urllib.request
 
+import cv2
 import numpy
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -25,7 +26,8 @@ class AlignCase(PageCase):
 
     def open(self, camera="colour"):
         self.browser.get(f"{self.appliance.address}#/align")
-        eventually("cameras", lambda: self.browser.find_elements(By.CSS_SELECTOR, "#align option"))
+        eventually("cameras", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, f"#align [name=camera] option[value={camera}]"))
         Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
                ).select_by_value(camera)
         eventually("a picture", lambda: self.browser.execute_script(
@@ -307,6 +309,82 @@ class Place(AlignCase):
         self.assertLess(degrees_between(rotation, numpy.reshape(truth["rotation"], (3, 3))), 0.2)
         self.assertLess(numpy.linalg.norm(numpy.subtract(entry["pose"]["position"],
                                                          truth["position"])), 3)
+        self.expect_no_complaint()
+
+
+class Judge(AlignCase):
+    def pixels(self, model):
+        """Of the canvas of a model, as one number each; None before it is drawn."""
+        return self.browser.execute_script("""
+            const canvas = [...document.querySelectorAll('#models canvas')]
+              .find((one) => one.ariaLabel === arguments[0]);
+            if (!canvas.dataset.number) return null;
+            const copy = new OffscreenCanvas(canvas.width, canvas.height)
+              .getContext('2d', { willReadFrequently: true });
+            copy.drawImage(canvas, 0, 0);
+            const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+            const grey = [];
+            for (let k = 0; k < pixels.length; k += 4) grey.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
+            return grey;""", model)
+
+    def served(self, **query):
+        """The view that the interface serves, as a picture."""
+        arguments = "&".join(f"{name}={value}" for name, value in query.items())
+        jpeg = self.answer(f"api/v1/alignment/view.jpg?{arguments}")
+        return cv2.imdecode(numpy.frombuffer(jpeg, numpy.uint8), cv2.IMREAD_COLOR)
+
+    def test_models_stand_side_by_side(self):
+        self.open("colour")
+        self.press("Show both")
+        exact = numpy.array(eventually("the exact one", lambda: self.pixels("Exact model")))
+        paper = numpy.array(eventually("the other", lambda: self.pixels("The paper's model")))
+        self.assertGreater(numpy.mean(numpy.abs(exact - paper)), 5)
+        self.browser.keep_picture("models")
+        self.expect_no_complaint()
+
+    def test_the_exact_model_shows_the_room_where_it_is_and_the_paper_s_does_not(self):
+        """By the edge between ceiling and front wall, in views of a camera that found its ball."""
+        for name, state in (("detect_ball", READY), ("accept_alignment", 0)):
+            self.answer(f"api/v1/command/{name}", {"camera": 0})
+            eventually(name, lambda state=state: (self.camera() or {}).get("state") == state)
+        eventually("it is in force", lambda: (self.camera() or {}).get("in_force", {}).get("number"))
+        self.assertLess(self.edge_error("exact"), 1.5)
+        self.assertGreater(self.edge_error("paper"), 8)
+
+    def edge_error(self, model):
+        """How far the edge is from where it belongs, median, px."""
+        side, yaw, pitch, h_fov = 800, 180, 20, 90
+        view = self.served(camera="colour", model=model, yaw=yaw, pitch=pitch, h_fov=h_fov,
+                           width=side, height=side)
+        a, b = numpy.radians([yaw, pitch])
+        right = numpy.array([numpy.cos(a), -numpy.sin(a), 0])
+        forward = numpy.array([numpy.sin(a) * numpy.cos(b), numpy.cos(a) * numpy.cos(b), numpy.sin(b)])
+        up = numpy.cross(right, forward)
+        scene = self.appliance.rig["scene"]
+        points = numpy.array([[x, scene["low"][1], scene["high"][2]] for x in range(-200, 400, 10)])
+        points = points - self.appliance.rig["ball"]["centre"]
+        focal = side / 2 / numpy.tan(numpy.radians(h_fov) / 2)
+        u = (side - 1) / 2 + focal * (points @ right) / (points @ forward)
+        v = (side - 1) / 2 - focal * (points @ up) / (points @ forward)
+        inside = (u > 0) & (u < side - 1)
+        # The wall has a colour, the ceiling has none.
+        saturation = cv2.cvtColor(view, cv2.COLOR_BGR2HSV)[:, :, 1]
+        rows = [numpy.argmax(saturation[:, int(round(one))] > 60) for one in u[inside]]
+        self.assertGreater(len(rows), 10)
+        return numpy.median(numpy.abs(numpy.array(rows) - v[inside]))
+
+    def test_drift_focus_and_dirt_are_shown_over_time(self):
+        self.open("colour")
+        def watched():
+            return next(camera for camera in self.appliance.status()["cameras"]
+                        if camera["name"] == "colour")
+        eventually("its drift is measured", lambda: watched()["drift_error"] is not None)
+        eventually("the page says so", lambda: watched()["alignment_text"]
+                   in self.browser.text("#watched p"))
+        eventually("the chart has it", lambda: "Error of the view directions in the last ten minutes"
+                   in self.browser.find_element(By.CSS_SELECTOR, "#watched canvas")
+                   .get_attribute("aria-label"))
+        self.browser.keep_picture("watched")
         self.expect_no_complaint()
 
 

@@ -2,9 +2,11 @@
 import { command } from "./api.js";
 import { BallEditor } from "./ball_editor.js";
 import { commandButton, element, setText } from "./elements.js";
+import { Models } from "./models.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";
 import { texts } from "./texts.js";
+import { Watched } from "./watched.js";
 
 const kPauseMs = 300;  // between two looks at the appliance
 const kReady = 2, kWorking = 1;
@@ -19,7 +21,8 @@ export class Align {
   #cameras = [];
   #isRunning = false;
 
-  constructor(root) {
+  // `descriptions` of a camera's figures.
+  constructor(root, descriptions) {
     this.root = root;
     this.choice = element("select", { name: "camera" });
     this.choice.addEventListener("change", () => this.#choose());
@@ -34,13 +37,19 @@ export class Align {
     ].map(([name, given]) => [name, commandButton(texts.align[name], given, give)]));
     this.facts = element("p", { className: "where" });
     this.register = new Register(give);
+    this.models = new Models();
+    this.watched = new Watched(descriptions);
     root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
       this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
       this.said, this.refused, this.facts, element("p", {}, texts.align.help),
-      this.register.root, this.place.root);
+      this.register.root, this.place.root, this.models.root, this.watched.root);
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
+  }
+
+  status({ cameras }, now) {
+    this.watched.status(cameras, this.choice.value, now);
   }
 
   get isShown() {
@@ -109,6 +118,7 @@ export class Align {
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
     this.place.show(camera, isWorking);
+    this.models.show(camera);
     this.register.show(this.#cameras, camera, isWorking);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;
     this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);

@@ -26,11 +26,16 @@ function axes({ angle }) {
   return { rx: [Math.cos(a), Math.sin(a)], ry: [-Math.sin(a), Math.cos(a)] };
 }
 
-// By handle: where it stands.
-function handlesOf(outline) {
-  const { u, v, rx, ry } = outline, along = axes(outline);
-  return { centre: [u, v], rx: [u + rx * along.rx[0], v + rx * along.rx[1]],
-           ry: [u + ry * along.ry[0], v + ry * along.ry[1]] };
+// By handle: where it stands; of a radius, at that end of the axis which the picture shows.
+function handlesOf(outline, { width, height }) {
+  const { u, v } = outline;
+  const isShown = ([x, y]) => x >= 0 && y >= 0 && x < width && y < height;
+  const end = (name) => {
+    const [x, y] = axes(outline)[name], r = outline[name];
+    const ends = [[u + r * x, v + r * y], [u - r * x, v - r * y]];
+    return ends.find(isShown) ?? ends[0];
+  };
+  return { centre: [u, v], rx: end("rx"), ry: end("ry") };
 }
 
 // What an outline is once its handle is at [u, v]. The first radius turns the ellipse, too.
@@ -93,7 +98,7 @@ export class BallEditor {
     handle.focus();
     handle.setPointerCapture(event.pointerId);
     const before = this.#outline;
-    const from = this.pixelAt(event), at = handlesOf(before)[name];
+    const from = this.pixelAt(event), at = handlesOf(before, this.canvas)[name];
     this.#isHeld = true;
     let isMoved = false;
     const move = (moved) => {
@@ -208,7 +213,7 @@ export class BallEditor {
     place(this.ellipse, ellipse(this.#outline));
     const inForce = this.camera.in_force?.outline;
     if (inForce) place(this.before, ellipse(inForce));
-    for (const [name, [cx, cy]] of Object.entries(handlesOf(this.#outline))) {
+    for (const [name, [cx, cy]] of Object.entries(handlesOf(this.#outline, this.canvas))) {
       place(this.#handles[name], { cx, cy, r: kHandlePx * this.#scale(),
         "aria-label": texts.align.handle[name](this.#outline) });
     }

@@ -67,7 +67,7 @@ const figures = await figuresOfAppliance();
 const choose = () => stream.choose(look.isShown ? look.views : live.views);
 const live = new Live(document.getElementById("live"), choose);
 const look = new Look(document.getElementById("look"), choose);
-new Align(document.getElementById("align"));
+const align = new Align(document.getElementById("align"), figures.cameras ?? {});
 const process = new Process(document.getElementById("process"), figures);
 const system = new System(document.getElementById("system"), figures);
 if (role !== "viewer") new Log(document.getElementById("system"));
@@ -84,6 +84,7 @@ const stream = new Stream(
     showCondition(status);
     live.status(status);
     look.status(status);
+    align.status(status, message.received);
     process.status(status, message.received);
     system.status(status);
   },

@@ -151,6 +151,23 @@ export const texts = {
     residual: "Marked minus shown, px",
     outlier: "contradicts the others",
   },
+  models: {
+    title: "What the ball's model does",
+    help: "One view by the exact model and by that of the paper. What is straight in the machine is " +
+      "straight in a right view: lay the line along it.",
+    show: "Show both",
+    exact: "Exact model",
+    paper: "The paper's model",
+    angle: "Line turned by",
+    offset: "moved by",
+  },
+  watched: {
+    title: "Since this page was opened",
+    drift_error: "Error of the view directions",
+    blur: "Blur",
+    contamination: "Dirt on the ball",
+    now: (name, value, unit, level) => `${name}: ${value} ${unit}, ${level}`,
+  },
   compare: {
     canvas: "One view by both cameras",
     way: "Compare by",
