@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
@@ -13,7 +14,7 @@ namespace orbwatch::app {
 namespace {
 
 constexpr const char* kUsage =
-    "Usage: orbwatch calibration history [--config SITE]\n"
+    "Usage: orbwatch calibration history [--config SITE] [--json]\n"
     "       orbwatch calibration restore NUMBER [--config SITE]\n"
     "       orbwatch calibration reset CAMERA [--config SITE]\n"
     "\n"
@@ -22,6 +23,12 @@ constexpr const char* kUsage =
     "lists them; `restore` puts an earlier one in force again; `reset` goes back to the rig file.\n"
     "A running orbwatchd takes it up by the command restart, or SIGHUP.\n"
     "\n";
+
+constexpr const char* kNotes =
+    "\n"
+    "--json prints one object: alignments [{number, time (UTC), camera, state (in force, earlier, "
+    "for\n"
+    "another rig file), method, quality}], the oldest first.\n";
 
 /// The alignments of a site.
 struct Calibrations {
@@ -44,21 +51,39 @@ Result<Calibrations> read(const std::filesystem::path& config) {
   return calibrations;
 }
 
-std::string history(const Calibrations& all) {
-  if (all.entries.empty()) return "no alignment was accepted: the rig file counts\n";
+/// Whether an alignment counts now, in words.
+std::string state_of(const CalibrationEntry& entry, const Calibrations& all) {
   const auto current = in_force(all.entries, all.rig);
+  if (std::ranges::count(current, entry.number, &CalibrationEntry::number) > 0) return "in force";
+  return entry.rig == all.rig ? "earlier" : "for another rig file";
+}
+
+std::string history_text(const Calibrations& all) {
+  if (all.entries.empty()) return "no alignment was accepted: the rig file counts\n";
   std::vector<Fields> records;
   for (const CalibrationEntry& entry : all.entries) {
-    const bool counts = std::ranges::count(current, entry.number, &CalibrationEntry::number) > 0;
-    const char* const before = entry.rig == all.rig ? "earlier" : "for another rig file";
     records.push_back({{"number", std::to_string(entry.number)},
                        {"time", entry.time},
                        {"camera", camera_of(entry).camera},
-                       {"state", counts ? "in force" : before},
+                       {"state", state_of(entry, all)},
                        {"method", entry.method},
                        {"quality", entry.quality}});
   }
   return record_lines(records);
+}
+
+std::string history_json(const Calibrations& all) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"alignments", Json::array()}};
+  for (const CalibrationEntry& entry : all.entries) {
+    json["alignments"].push_back({{"number", entry.number},
+                                  {"time", entry.time},
+                                  {"camera", camera_of(entry).camera},
+                                  {"state", state_of(entry, all)},
+                                  {"method", entry.method},
+                                  {"quality", entry.quality}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Result<std::string> accepted(Calibrations& all, CalibrationEntry entry) {
@@ -98,17 +123,18 @@ Result<std::string> reset(Calibrations& all, const std::string& camera) {
   return accepted(all, std::move(entry));
 }
 
-Result<std::string> run(const std::filesystem::path& config,
+Result<std::string> run(const std::filesystem::path& config, bool json,
                         const std::vector<std::string>& words) {
   const std::string what = words.empty() ? "" : words.front();
   const bool is_right = (what == "history" && words.size() == 1) ||
                         ((what == "restore" || what == "reset") && words.size() == 2);
   if (!is_right) return usage_error("say history, restore NUMBER or reset CAMERA");
+  if (json && what != "history") return usage_error("--json is for history");
   const auto number = what == "restore" ? parse_whole(what, words[1]) : Result<int>(0);
   if (!number) return usage_error(number.error().message);
   auto all = read(config);
   if (!all) return tl::unexpected(all.error());
-  if (what == "history") return history(*all);
+  if (what == "history") return json ? history_json(*all) : history_text(*all);
   return what == "restore" ? restore(*all, *number) : reset(*all, words[1]);
 }
 
@@ -116,13 +142,16 @@ Result<std::string> run(const std::filesystem::path& config,
 
 Result<std::string> calibration_command(const std::vector<std::string>& arguments) {
   std::filesystem::path config;
+  bool json = false;
   return run_command(
       arguments,
       {.usage = kUsage,
        .options = {{"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
-                    text_option(config)}},
-       .takes_words = true},
-      [&](const auto& words) { return run(site_file(config), words); });
+                    text_option(config)},
+                   {"json", 0, "", "history for programs", flag_option(json)}},
+       .takes_words = true,
+       .notes = kNotes},
+      [&](const auto& words) { return run(site_file(config), json, words); });
 }
 
 }  // namespace orbwatch::app

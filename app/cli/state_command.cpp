@@ -76,7 +76,12 @@ Result<std::string> state_command(const std::vector<std::string>& arguments) {
       arguments,
       {.usage = "Usage: orbwatch state [options]\n\n"
                 "Prints the newest process state of a running orbwatchd, received over DDS.\n\n",
-       .options = declare(o)},
+       .options = declare(o),
+       .notes = "\n--json prints one object on a line: stamp (UTC), frame_set, trigger, result, "
+                "recipe,\nconfiguration_checksum, system_state, heartbeat; system, health and "
+                "commands {figures};\ncameras, views, regions, alarms, stages [{name, figures}]. A "
+                "code has its number, and as NAME_text\nits "
+                "meaning; what is not valid is null. Units are those of the table without it.\n"},
       [&](const auto&) {
         StateReader reader(o.prefix);
         return reader.open(o.domain, o.security)

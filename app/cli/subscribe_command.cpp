@@ -24,11 +24,21 @@ std::vector<Option> declare(SubscribeOptions& o) {
        number_option("count", o.count)},
       {"stats", 0, "", "print rate, size, latency and gaps every second", flag_option(o.stats)},
       {"each", 0, "", "print a line for each sample", flag_option(o.each)},
+      {"json", 0, "", "these lines for programs", flag_option(o.json)},
   };
 }
 
+constexpr const char* kNotes =
+    "\n"
+    "--json prints one object on each line. --stats: topic, seconds (that the figures are of),\n"
+    "samples, rate (1/s), longest_gap_ms (between two samples), since_write_ms and\n"
+    "since_exposure_ms (mean latencies), newest (content; these are null without a sample), lost,\n"
+    "refused (since the beginning) and refusal (why the newest one was; empty: none was). --each:\n"
+    "topic, content, since_exposure_ms.\n";
+
 /// Prints as it reads.
 Result<std::string> read_topics(const SubscribeOptions& o) {
+  if (o.json && !o.stats && !o.each) return usage_error("--json needs --stats or --each");
   const auto reports = subscribe(o, cancelled_by_signal(), std::cout);
   if (!reports) return tl::unexpected(reports.error());
   for (const TopicReport& report : *reports) {
@@ -46,7 +56,8 @@ Result<std::string> subscribe_command(const std::vector<std::string>& arguments)
       arguments,
       {.usage = "Usage: orbwatch subscribe [options]\n\n"
                 "Reads views and process state over DDS. Fails when a topic brought nothing.\n\n",
-       .options = declare(o)},
+       .options = declare(o),
+       .notes = kNotes},
       [&](const auto&) { return read_topics(o); });
 }
 

@@ -13,6 +13,17 @@ namespace {
 
 constexpr double kShortest = 1, kLongest = 3600;  // s
 
+constexpr const char* kJson =
+    "\n"
+    "--json prints one object: fits, used (share of what the computer can do), verdict,\n"
+    "seconds, wanted_rate (frame sets per second), frame_sets, overruns, cores, realtime, "
+    "memory_locked,\n"
+    "busy {p50_ms, p99_ms}, stages [{name, p50_ms, p99_ms, mean_ms}], cameras [{name, format, "
+    "dropped}],\n"
+    "views [{name, width, height, published, skipped, latency {p50_ms, p99_ms}}], threads [{id, "
+    "name,\n"
+    "load (of one core, 0 to 1)}], memory_mib {resident, peak, anonymous, file, shared, locked}.\n";
+
 struct BenchOptions {
   std::filesystem::path config;
   BenchSettings run;
@@ -72,7 +83,8 @@ Result<std::string> bench_command(const std::vector<std::string>& arguments) {
        .notes = "\nStop orbwatchd first: it has the cameras. What nobody reads is not encoded: let "
                 "the\ncontroller, or `orbwatch subscribe`, read the topics that it will read. "
                 "With --simulated,\nlines are simulated, Modbus is not served, and the topics "
-                "are those of \"<prefix>_bench\".\n"},
+                "are those of \"<prefix>_bench\".\n" +
+                std::string(kJson)},
       [&](const auto&) { return bench(o); });
 }
 

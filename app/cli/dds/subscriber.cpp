@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <ostream>
 #include <set>
@@ -94,6 +95,11 @@ bool has_enough(const Subscriptions& subscriptions, int count) {
 Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
               const SubscribeOptions& options, const std::atomic<bool>& cancelled,
               std::ostream& out) {
+  const auto print = [&](const auto& item) {
+    out << (options.json ? topic_json(item) : topic_line(item)) << '\n';
+  };
+  std::function<void(const TopicSample&)> each;
+  if (options.each) each = print;
   Schedule schedule(options.seconds);
   for (bool last = false; !last;) {
     const auto now = hal::Clock::now();
@@ -102,13 +108,12 @@ Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
     const auto waited = wait_for_data(wait_set, last ? kNoTime : schedule.wait(now));
     if (!waited) return tl::unexpected(waited.error());
     for (const auto& subscription : subscriptions) {
-      if (const auto taken = subscription->take(options.each ? &out : nullptr); !taken)
-        return taken;
+      if (const auto taken = subscription->take(each); !taken) return taken;
     }
     if (options.each) out.flush();
     const auto seconds = schedule.line_due(hal::Clock::now());
     if (!seconds || !options.stats) continue;
-    for (const auto& subscription : subscriptions) out << subscription->line(*seconds) << '\n';
+    for (const auto& subscription : subscriptions) print(subscription->figures(*seconds));
     out.flush();
   }
   return {};

@@ -24,6 +24,7 @@ struct SubscribeOptions {
   int count = 0;                 ///< samples of each topic that are enough; 0: never
   bool stats = false;            ///< a line per topic and second
   bool each = false;             ///< a line per sample
+  bool json = false;             ///< of these lines, for programs
 };
 
 /// Reads topics until the time is over, each has brought `count` or `cancelled` is set, and saves

@@ -1,9 +1,6 @@
 #include "app/cli/dds/subscription.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <ostream>
 #include <span>
 #include <vector>
 
@@ -163,7 +160,7 @@ Subscription::Subscription(const dds_topic_descriptor_t& type, std::string topic
   report_.topic = std::move(topic);
 }
 
-Result<> Subscription::take(std::ostream* each) {
+Result<> Subscription::take(const std::function<void(const TopicSample&)>& each) {
   const auto taken =
       take_samples(reader_.get(), [&](const void* sample, const dds_sample_info_t& info) {
         const auto content = accept(sample);
@@ -172,8 +169,8 @@ Result<> Subscription::take(std::ostream* each) {
           report_.refusal = content.error().message;
           return;
         }
-        count(*content, info.source_timestamp);
-        if (each != nullptr) *each << report_.topic << ": " << content->text << '\n';
+        const TopicSample valid = count(*content, info.source_timestamp);
+        if (each) each(valid);
       });
   if (!taken) return fail(taken.error().message + " (" + report_.topic + ")");
   dds_sample_lost_status_t lost{};
@@ -183,7 +180,7 @@ Result<> Subscription::take(std::ostream* each) {
   return {};
 }
 
-void Subscription::count(const Content& content, dds_time_t written) {
+TopicSample Subscription::count(const Content& content, dds_time_t written) {
   ++report_.received;
   ++interval_.samples;
   newest_ = content.text;
@@ -195,29 +192,24 @@ void Subscription::count(const Content& content, dds_time_t written) {
   last_written_ = written;
   const dds_time_t now = dds_time();
   interval_.since_write_ms += milliseconds_between(written, now);
-  interval_.since_exposure_ms += milliseconds_between(since_epoch(content.stamp).count(), now);
+  const double age = milliseconds_between(since_epoch(content.stamp).count(), now);
+  interval_.since_exposure_ms += age;
+  return {report_.topic, content.text, age};
 }
 
-std::string Subscription::line(double seconds) {
+TopicFigures Subscription::figures(double seconds) {
   const Interval interval = std::exchange(interval_, {});
-  std::string text = report_.topic + ": ";
-  if (interval.samples == 0) {
-    text += "nothing";
-  } else {
-    const auto count = static_cast<double>(interval.samples);
-    std::array<char, 160> figures{};
-    std::snprintf(figures.data(), figures.size(),
-                  "%.1f/s, longest gap %.0f ms, latency %.1f ms from writing, %.1f ms from "
-                  "exposure, ",
-                  count / seconds, interval.longest_gap_ms, interval.since_write_ms / count,
-                  interval.since_exposure_ms / count);
-    text += figures.data() + newest_;
-  }
-  text += ", lost " + std::to_string(report_.lost);
-  if (report_.refused > 0) {
-    text += ", refused " + std::to_string(report_.refused) + " (" + report_.refusal + ")";
-  }
-  return text;
+  const double count = std::max<double>(static_cast<double>(interval.samples), 1);
+  return {.topic = report_.topic,
+          .seconds = seconds,
+          .samples = interval.samples,
+          .longest_gap_ms = interval.longest_gap_ms,
+          .since_write_ms = interval.since_write_ms / count,
+          .since_exposure_ms = interval.since_exposure_ms / count,
+          .newest = newest_,
+          .lost = report_.lost,
+          .refused = report_.refused,
+          .refusal = report_.refusal};
 }
 
 Result<> Subscription::save(const std::filesystem::path& folder, const std::string& prefix) {

@@ -2,12 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "app/cli/dds/topic_text.h"
 #include "app/ports/dds/participant/entity.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/topics/topic_reader.h"
@@ -55,12 +56,12 @@ class Subscription {
   Result<> open(const Entity& participant) { return reader_.open(participant, qos_); }
   const TopicReader& reader() const { return reader_; }
 
-  /// Takes the samples that DDS holds now, without waiting; writes a line on each sample to `each`
-  /// unless that is null. Error: DDS refuses.
-  Result<> take(std::ostream* each);
+  /// Takes the samples that DDS holds now, without waiting, and calls `each`, unless it is empty,
+  /// with every valid one. Error: DDS refuses.
+  Result<> take(const std::function<void(const TopicSample&)>& each);
 
-  /// One line on the time since the last call, `seconds` long: rate, latest content, latency.
-  std::string line(double seconds);
+  /// What came in the time since the last call, `seconds` long.
+  TopicFigures figures(double seconds);
 
   /// Saves the newest picture as PNG into `folder`; does nothing for other content, or without a
   /// picture.
@@ -83,9 +84,10 @@ class Subscription {
   virtual Result<> write_png(const std::filesystem::path& /*path*/) const { return {}; }
 
  private:
-  void count(const Content& content, dds_time_t written);
+  /// Returns the sample.
+  TopicSample count(const Content& content, dds_time_t written);
 
-  /// Sums over the samples since the last line().
+  /// Sums over the samples since the last figures().
   struct Interval {
     std::uint64_t samples = 0;
     double since_write_ms = 0;

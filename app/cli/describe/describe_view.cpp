@@ -23,19 +23,22 @@ namespace {
 /// Of the resolution map's picture.
 constexpr double kCountsPerPixelPerDegree = 100;
 
-enum class Format { Markdown, Json };
+constexpr const char* kNotes =
+    "\n"
+    "--json prints one object: view {kind, width, height, h_fov, v_fov (degrees; null: the "
+    "projection\n"
+    "ends before the edge)}, cameras [{name, pixels_per_degree {min, median, max} (null: it sees\n"
+    "nothing), seen, blind, outside (shares of the view's pixels)}].\n";
 
 struct DescribeViewOptions {
   CameraOptions cameras;
   std::optional<Size> picture_size;
   optics::ViewSpec view = kDefaultView;
-  Format format = Format::Markdown;
+  bool json = false;
   std::filesystem::path output;
 };
 
 std::vector<Option> declare(DescribeViewOptions& o) {
-  static constexpr std::array kFormats{Word{"markdown", Format::Markdown},
-                                       Word{"json", Format::Json}};
   std::vector<Option> options = camera_options(o.cameras);
   options.push_back({"size-of-picture", 0, "WxH", "without a rig: of the camera's picture",
                      [&o](const std::string& value) {
@@ -45,8 +48,7 @@ std::vector<Option> declare(DescribeViewOptions& o) {
                      }});
   auto view = view_options(o.view);
   std::move(view.begin(), view.end(), std::back_inserter(options));
-  options.push_back({"format", 0, joined(kFormats), "(default markdown)",
-                     word_option("format", kFormats, o.format)});
+  options.push_back({"json", 0, "", "for programs", flag_option(o.json)});
   options.push_back({"output", 'o', "FILE.png",
                      "write the best camera's resolution as 16-bit grey\npicture, in 1/100 pixel "
                      "per degree; 0: not seen",
@@ -213,7 +215,7 @@ Result<std::string> describe(const DescribeViewOptions& o) {
     if (auto written = write_map(o.output, best, *view); !written)
       return tl::unexpected(written.error());
   }
-  return o.format == Format::Json ? json(*view, figures) : markdown(*view, figures);
+  return o.json ? json(*view, figures) : markdown(*view, figures);
 }
 
 }  // namespace
@@ -227,7 +229,8 @@ Result<std::string> describe_view(const std::vector<std::string>& arguments) {
            "       orbwatch describe view --ball CX,CY,R --size-of-picture WxH\n"
            "                (--alpha DEG | --distance RADII) [options]\n\n"
            "Prints how many of a camera's pixels a degree of the view really has.\n\n",
-       .options = declare(o)},
+       .options = declare(o),
+       .notes = kNotes},
       [&](const auto&) { return describe(o); });
 }
 

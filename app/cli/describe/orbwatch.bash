@@ -5,13 +5,13 @@ _orbwatch() {
     " ") words="project advise setup detect register place drift calibration subscribe state command password dds-keys list doctor configure lines bench describe --help --version" ;;
     "project "*) words="--output --rig --camera --ball --alpha --distance --rotation --model --view --yaw --pitch --roll --h-fov --v-fov --size --undefined --interpolation --sharpness --match --camera-info --help" ;;
     "advise "*) words="--ball-diameter --distance --focal --pixel --sensor --target-distance --smallest --json --help" ;;
-    "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --force --help" ;;
+    "setup "*) words="--output --ball-diameter --camera --calibration --distance --pose --ball-centre --box --obstacle --force --json --help" ;;
     "detect "*) words="--json --overlay --calibration --help" ;;
     "register "*) words="--rig --method --detect --refine-outline --json --output --help" ;;
     "place "*) words="--rig --camera --point --view-point --image --tag --tags --focal --ball-centre --sigma-px --sigma-mm --outline-sigma --json --output --view --yaw --pitch --roll --h-fov --v-fov --size --help" ;;
     "drift "*) words="--rig --rate --reference --warning --alarm --json --help" ;;
-    "calibration "*) words="--config --help" ;;
-    "subscribe "*) words="--topic --domain --prefix --security --save --seconds --count --stats --each --help" ;;
+    "calibration "*) words="--config --json --help" ;;
+    "subscribe "*) words="--topic --domain --prefix --security --save --seconds --count --stats --each --json --help" ;;
     "state "*) words="--json --follow --domain --prefix --security --timeout --help" ;;
     "command "*) words="--domain --prefix --security --timeout --help select_view pulse start stop select_recipe point_view mix_sources trigger acknowledge_alarm snapshot set_process_active restart detect_ball register_camera correct_alignment accept_alignment discard_alignment learn_clean_ball mark_point forget_points place_camera move_outline shape_outline turn_camera undo_alignment revert_alignment pick_pixel" ;;
     "password "*) words="--config --role --help" ;;
@@ -25,8 +25,8 @@ _orbwatch() {
     "describe rig"*) words="--help" ;;
     "describe recipe"*) words="--help" ;;
     "describe registers"*) words="--format --help" ;;
-    "describe view"*) words="--rig --camera --ball --alpha --distance --rotation --model --size-of-picture --view --yaw --pitch --roll --h-fov --v-fov --size --format --output --help" ;;
-    "describe camera"*) words="--rig --camera --format --help" ;;
+    "describe view"*) words="--rig --camera --ball --alpha --distance --rotation --model --size-of-picture --view --yaw --pitch --roll --h-fov --v-fov --size --json --output --help" ;;
+    "describe camera"*) words="--rig --camera --format --json --help" ;;
     "describe man"*) words="--help" ;;
     "describe completion"*) words="--help" ;;
     "describe "*) words="config rig recipe registers view camera man completion" ;;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
 #include "app/cli/setup/setup.h"
 #include "app/cli/setup/setup_options.h"
+#include "app/cli/setup/setup_text.h"
 #include "app/cli/setup/site_files.h"
 #include "app/daemon/cameras.h"
 
@@ -32,7 +32,11 @@ constexpr const char* kNotes =
     "\n"
     "DIR gets site.toml, rig.toml, recipe.toml, and for each camera NAME.png, in which the "
     "outline\n"
-    "is drawn, and NAME.yaml, its calibration. Run it by `orbwatchd --config DIR/site.toml`.\n";
+    "is drawn, and NAME.yaml, its calibration. Run it by `orbwatchd --config DIR/site.toml`.\n"
+    "\n"
+    "--json prints one object: site (its file), cameras [{name, outline {centre [u, v], radii [rx, "
+    "ry]\n"
+    "in pixels, angle in degrees}, confidence [0, 1], registered}], missing [text].\n";
 
 /// Enough light of a process to register by, at any usual rate within the patience.
 constexpr std::size_t kPictures = 24;
@@ -89,22 +93,6 @@ Result<> record_cameras(const SetupOptions& o, Setup& setup) {
   return {};
 }
 
-std::string report(const Setup& setup, const SetupOptions& o) {
-  std::string text;
-  for (const SetupCamera& camera : setup.cameras) {
-    char line[200];
-    const optics::Outline& limb = camera.ball.outline;
-    std::snprintf(line, sizeof line,
-                  "%-12s ball at %.1f, %.1f px, radius %.1f px, confidence %.2f%s\n",
-                  camera.name.c_str(), limb.centre.u, limb.centre.v, (limb.rx + limb.ry) / 2,
-                  camera.ball.confidence, camera.is_registered ? ", registered" : "");
-    text += line;
-  }
-  for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
-  return text + "written and checked: run orbwatchd --config " + (o.folder / kSiteFile).string() +
-         "\n";
-}
-
 Result<std::string> set_up(const SetupOptions& o) {
   if (o.folder.empty()) return usage_error("give the site's folder, -o DIR");
   Setup setup;
@@ -114,7 +102,10 @@ Result<std::string> set_up(const SetupOptions& o) {
       .and_then([&] { return read_cameras(o, setup); })
       .and_then([&] { return align_cameras(setup, o.folder); })
       .and_then([&] { return place_site(setup, o.folder); })
-      .map([&] { return report(setup, o); });
+      .map([&] {
+        const auto site = o.folder / kSiteFile;
+        return o.json ? setup_json(setup, site) : setup_text(setup, site);
+      });
 }
 
 }  // namespace

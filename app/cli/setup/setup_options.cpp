@@ -122,6 +122,7 @@ std::vector<Option> setup_options(SetupOptions& o) {
       {"obstacle", 0, "[NAME=]X,Y,Z,X,Y,Z", "a box within: table, spindle; repeatable",
        list_option(o.obstacles)},
       {"force", 0, "", "overwrite the files of DIR", flag_option(o.force)},
+      {"json", 0, "", "for programs", flag_option(o.json)},
   };
 }
 

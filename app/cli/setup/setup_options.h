@@ -17,6 +17,7 @@ struct SetupOptions {
   std::vector<std::string> cameras, calibrations, poses, distances, obstacles;
   std::string ball_centre, box;
   bool force = false;
+  bool json = false;
 };
 
 /// The options; they write into `options`, which outlives them.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 
 /// `orbwatch advise` as a user runs it.
 namespace orbwatch::tests {
@@ -36,6 +37,8 @@ TEST_F(Advise, PrintsTheSameForPrograms) {
   EXPECT_EQ(json["sights"].size(), 5U);
   EXPECT_GT(json["sights"][0]["pixels_per_degree"], json["sights"][4]["pixels_per_degree"]);
   EXPECT_FALSE(json["changes"].empty());
+  ASSERT_EQ(run({"advise", "--help"}), 0);
+  expect_documented(json, said);
 }
 
 TEST_F(Advise, RefusesMistakesWithTheReason) {

@@ -2,6 +2,7 @@
 
 #include "app/files/calibration_file.h"
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/app/files/machine_files.h"
 
 /// `orbwatch calibration` as a user runs it.
@@ -45,6 +46,21 @@ TEST_F(Calibration, ShowsWhatCountsNow) {
   const std::size_t first = said.find("earlier"), second = said.find("in force");
   ASSERT_NE(first, std::string::npos) << said;
   EXPECT_LT(first, second) << said;
+}
+
+TEST_F(Calibration, TellsProgramsTheSame) {
+  ASSERT_EQ(run({"history", "--json"}), 0) << said;
+  const auto json = parsed(said);
+  ASSERT_EQ(json["alignments"].size(), 2U) << said;
+  EXPECT_EQ(json["alignments"][0]["state"], "earlier");
+  EXPECT_EQ(json["alignments"][1]["number"], 2);
+  EXPECT_EQ(json["alignments"][1]["camera"], "a");
+  EXPECT_EQ(json["alignments"][1]["state"], "in force");
+  EXPECT_EQ(json["alignments"][1]["method"], "detect");
+  ASSERT_EQ(run({"--help"}), 0);
+  expect_documented(json, said);
+  EXPECT_EQ(run({"restore", "1", "--json"}), 2);
+  EXPECT_EQ(radius(), 32) << "nothing was restored";
 }
 
 TEST_F(Calibration, RestoresAnEarlierOneAndGoesBackToTheRig) {

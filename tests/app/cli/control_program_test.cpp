@@ -4,10 +4,12 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <sstream>
 #include <thread>
 
 #include "app/ports/dds/dds_sink.h"
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/app/cli/equal_json.h"
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/support/loopback_dds.h"
@@ -97,6 +99,45 @@ TEST_F(Control, StateIsPrintedForPeopleAndForPrograms) {
   expect_equal_json(said, said);
   EXPECT_THAT(said, HasSubstr("\"heartbeat\":" + std::to_string(status.heartbeat)));
   expect_refused("state", {"Argument", {"now"}, {"unexpected argument now"}});
+}
+
+TEST_F(Control, TheStateIsDocumented) {
+  sink.accept(app::tests::make_status());
+  ASSERT_EQ(ask("state", {"--json"}), 0) << said;
+  nlohmann::json top;  // the figures within are those of the appliance
+  const auto state = parsed(said);
+  for (const auto& [key, value] : state.items()) top[key] = nullptr;
+  EXPECT_GT(top.size(), 10U);
+  ASSERT_EQ(run({"state", "--help"}), 0);
+  expect_documented(top, said);
+}
+
+TEST_F(Control, SubscribePrintsObjectsForPrograms) {
+  Subprocess subscriber({ORBWATCH_PROGRAM, "subscribe", "--topic", "orbwatch/process_state",
+                         "--stats", "--each", "--json", "--domain", std::to_string(domain)},
+                        folder.path() / "lines");
+  app::Status status = app::tests::make_status();
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto has_both = [&] {
+    const std::string text = subscriber.output();
+    return text.find("\"samples\"") < text.rfind('\n') &&
+           text.find("\"content\"") < text.rfind('\n');
+  };
+  while (!has_both() && std::chrono::steady_clock::now() < give_up) {
+    ++status.heartbeat;
+    sink.accept(status);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polls another process
+  }
+  subscriber.send(SIGINT);
+  ASSERT_EQ(subscriber.wait(), 0) << subscriber.output();
+  ASSERT_EQ(run({"subscribe", "--help"}), 0);
+  std::istringstream lines(subscriber.output());
+  for (std::string line; std::getline(lines, line);) {
+    const auto json = parsed(line);
+    EXPECT_EQ(json["topic"], "rt/orbwatch/process_state") << line;
+    expect_documented(json, said);
+  }
+  EXPECT_EQ(run({"subscribe", "--json"}), 2);
 }
 
 TEST_F(Control, FollowPrintsEachStateUntilItIsEnded) {

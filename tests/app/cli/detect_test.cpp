@@ -7,6 +7,7 @@
 #include "proc/optics/lens.h"
 #include "proc/optics/outline.h"
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/detect/painted_ball.h"
 
 /// `orbwatch detect` as a user runs it.
@@ -56,6 +57,8 @@ TEST_F(Detect, WithACalibrationItKnowsThePlace) {
   ASSERT_TRUE(lens);
   const auto sight = optics::sight_from_outline(kLimb, *lens);
   ASSERT_TRUE(sight);
+  ASSERT_EQ(run({"detect", "--help"}), 0);
+  expect_documented(ball, said);
   EXPECT_NEAR(ball["ball"]["distance"].get<double>(), sight->distance, 0.1);
   EXPECT_NEAR(ball["ball"]["centre"][2].get<double>(), sight->axis.z * sight->distance, 0.1);
   EXPECT_NEAR(ball["ball"]["alpha"].get<double>(),

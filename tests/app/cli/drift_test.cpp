@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 
 /// `orbwatch drift` as a user runs it.
 namespace orbwatch::tests {
@@ -69,6 +70,10 @@ TEST_F(DriftCommand, NamesThePictureOfAJumpAndTheCorrectedOutline) {
   EXPECT_NEAR(state["outline"]["centre"][0].get<double>(), 169, 0.1);
   EXPECT_NEAR(state["outline"]["radii"][0].get<double>(), 90, 0.1);
   EXPECT_GT(state["direction_error_deg"].get<double>(), 10);
+  ASSERT_EQ(run({"drift", "--help"}), 0);
+  auto documented = state;
+  documented["not_measured"].clear();  // its keys are reasons
+  expect_documented(documented, said);
 }
 
 TEST_F(DriftCommand, ComparesWithAReferenceAndOtherLimits) {

@@ -7,6 +7,7 @@
 #include "app/files/rig_file.h"
 #include "proc/optics/view_projection.h"
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/place/mirrored_rig.h"
 #include "tests/proc/align/place/mirrored_tags.h"
 
@@ -93,6 +94,8 @@ TEST_F(Place, PlacesCamerasTogether) {
     EXPECT_LT(std::abs(camera["points"][0]["residual"][0].get<double>()), 0.01);
     EXPECT_EQ(camera["points"][0]["outlier"], false);
   }
+  ASSERT_EQ(run({"place", "--help"}), 0);
+  expect_documented(json, said);
 }
 
 TEST_F(Place, WritesTheRigAndKeepsWhatAPersonWrote) {

@@ -7,6 +7,7 @@
 #include "app/files/rig_file.h"
 #include "proc/align/register/rotation_fit.h"
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/register/camera_pair.h"
 
 /// `orbwatch register` as a user runs it.
@@ -107,6 +108,8 @@ TEST_F(Register, SaysHowOneCameraStandsToTheOther) {
   EXPECT_GT(json["inliers"], 15);
   EXPECT_EQ(json["sigma_deg"].size(), 3U);
   EXPECT_EQ(json["covariance"].size(), 9U);
+  ASSERT_EQ(run({"register", "--help"}), 0);
+  expect_documented(json, said);
   const auto rig = app::load_rig(path("new.toml"));
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_LT(align::angle_between(rig->cameras[1].registration, found), 1e-6);

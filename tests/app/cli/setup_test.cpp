@@ -4,6 +4,7 @@
 
 #include "app/files/rig_file.h"
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/detect/painted_ball.h"
 
 /// `orbwatch setup` as an installer runs it, on recorded pictures.
@@ -57,6 +58,20 @@ TEST_F(Setup, SaysWhatIsMissingAndWhatAddsIt) {
   EXPECT_NE(said.find("orbwatch place --rig " + path("site/rig.toml") + " --camera colour"),
             std::string::npos)
       << said;
+}
+
+TEST_F(Setup, TellsProgramsTheSame) {
+  ASSERT_EQ(set_up({"--camera", "colour=" + picture(), "--json"}), 0) << said;
+  const auto json = parsed(said);
+  EXPECT_EQ(json["site"], path("site/site.toml"));
+  ASSERT_EQ(json["cameras"].size(), 1U);
+  EXPECT_EQ(json["cameras"][0]["name"], "colour");
+  EXPECT_NEAR(json["cameras"][0]["outline"]["radii"][0].get<double>(), kLimb.rx, 1.2);
+  EXPECT_GE(json["cameras"][0]["confidence"].get<double>(), 0.5);
+  EXPECT_EQ(json["cameras"][0]["registered"], false);
+  EXPECT_NE(json["missing"].dump().find("--distance colour=MM"), std::string::npos) << said;
+  ASSERT_EQ(run({"setup", "--help"}), 0);
+  expect_documented(json, said);
 }
 
 TEST_F(Setup, WithAPoseItKnowsWhereTheBallIs) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/app/cli/documented_json.h"
 #include "tests/app/daemon/daemon_program.h"
 
 /// `orbwatch bench` as its users call it.
@@ -19,9 +20,10 @@ class BenchProgram : public Daemon {
     const int code = program.wait();
     return {code, program.output()};
   }
-  void expect_refused(const std::vector<std::string>& arguments, const std::string& said) {
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& said,
+                      int status = 1) {
     const auto [code, output] = bench(arguments);
-    EXPECT_EQ(code, 1) << output;
+    EXPECT_EQ(code, status) << output;
     EXPECT_NE(output.find(said), std::string::npos) << output;
   }
 };
@@ -53,6 +55,7 @@ TEST_F(BenchProgram, RunsTheConfigurationWithItsCamerasAndWithTestPatterns) {
     EXPECT_GT(figures["memory_mib"]["resident"].get<double>(), 1);
     const std::string format = figures["cameras"][0]["format"];
     EXPECT_EQ(format.find("rgb 200x200 at 20"), 0U) << format;
+    expect_documented(figures, bench({"--help"}).second);
   }
 }
 
@@ -60,8 +63,8 @@ TEST_F(BenchProgram, SaysWhatIsWrong) {
   const std::string config = write_config(small_machine());
   expect_refused({}, "/etc/orbwatch/site.toml");
   expect_refused({"--config", (folder.path() / "none.toml").string()}, "none.toml");
-  expect_refused({"--config", config, "--seconds", "0"}, "it must be from 1 to 3600");
-  expect_refused({"--config", config, "--seconds", "3601"}, "it must be from 1 to 3600");
+  expect_refused({"--config", config, "--seconds", "0"}, "it must be from 1 to 3600", 2);
+  expect_refused({"--config", config, "--seconds", "3601"}, "it must be from 1 to 3600", 2);
 }
 
 TEST_F(BenchProgram, SaysWhichCameraIsNotThere) {

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 #include "tests/app/cli/painted_machine.h"
 
 /// `orbwatch describe` as a user runs it.
@@ -27,7 +28,7 @@ class Describe : public CommandLine {
     return said;
   }
   cv::FileStorage json(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--format", "json"});
+    arguments.push_back("--json");
     return {described(std::move(arguments)),
             cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON};
   }
@@ -112,6 +113,35 @@ TEST_F(Describe, ACameraIsToldInText) {
                {"plain", "12 ball radii", "350.4396"});
 }
 
+TEST_F(Describe, ACameraIsToldToPrograms) {
+  const auto side =
+      parsed(described({"camera", "--rig", path("rig.toml"), "--camera", "side", "--json"}));
+  EXPECT_EQ(side["camera"], "side");
+  EXPECT_EQ(side["picture"]["width"], 300);
+  EXPECT_NEAR(side["facing"]["yaw"].get<double>(), -60, 1e-9);
+  EXPECT_NEAR(side["distance_mm"].get<double>(), 600, 1e-6);
+  EXPECT_NEAR(side["alpha"].get<double>(), 350.4396, 1e-4);
+  const optics::Vec3 at = PaintedCamera::kCentre + PaintedCamera{"side", -60}.facing() * 600;
+  EXPECT_NEAR(side["position"][0].get<double>(), at.x, 1e-6);
+  EXPECT_NEAR(side["position"][1].get<double>(), at.y, 1e-6);
+  EXPECT_NEAR(side["outline"]["radii"][0].get<double>(), 140, 0.01);
+  EXPECT_NEAR(side["lens"]["focal_lengths"][1].get<double>(), PaintedCamera::focal_length(), 1e-9);
+  EXPECT_EQ(side["lens"]["distortion"], "none");
+  EXPECT_TRUE(side["lens"]["coefficients"].empty());
+  const auto plain =
+      parsed(described({"camera", "--rig", path("rig.toml"), "--camera", "plain", "--json"}));
+  EXPECT_TRUE(plain["lens"].is_null());
+  expect_documented(side, described({"camera", "--help"}));
+  EXPECT_EQ(run({"describe", "camera", "--rig", path("rig.toml"), "--camera", "side", "--json",
+                 "--format", "ros"}),
+            2);
+}
+
+TEST_F(Describe, WhatAViewResolvesIsDocumented) {
+  const auto view = parsed(described(of_view({"--h-fov", "60", "--size", "32x32", "--json"})));
+  expect_documented(view, described({"view", "--help"}));
+}
+
 TEST_F(Describe, ACamerasCalibrationIsWhatOpenCvReads) {
   const std::string yaml =
       described({"camera", "--rig", path("rig.toml"), "--camera", "front", "--format", "opencv"});
@@ -132,7 +162,7 @@ TEST_F(Describe, PrintsTheManuals) {
   expect_parts(described({"config"}), {"[[camera]]"});
   EXPECT_NE(described({"registers"}), described({"registers", "--format", "csv"}));
   expect_parts(described({"--help"}), {"config", "rig", "registers", "view", "camera"});
-  for (const char* subject : {"registers", "view", "camera"}) {
+  for (const char* subject : {"registers", "camera"}) {
     expect_parts(described({subject, "--help"}), {"--format"});
   }
 }

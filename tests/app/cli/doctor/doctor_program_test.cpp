@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 
 /// `orbwatch doctor` as an installer runs it, on whatever machine this is.
 namespace orbwatch::tests {
@@ -22,9 +24,13 @@ class Doctor : public CommandLine {
     return write("site.toml", "state_folder = \"" + path("state") + "\"\n" + text);
   }
 
-  void expect_levels(const std::string& worst) const {
+  void expect_levels(const std::string& worst) {
     const auto report = nlohmann::json::parse(said.substr(0, said.rfind('}') + 1), nullptr, false);
+    const std::string printed = said;
+    ASSERT_EQ(run({"doctor", "--help"}), 0);
+    const std::string help = std::exchange(said, printed);
     ASSERT_TRUE(report.is_object()) << said;
+    expect_documented(report, help);
     EXPECT_TRUE(worst.empty() || report["worst"] == worst) << said;
     for (const auto& check : report["checks"]) {
       const bool is_ok = check["level"] == "ok";

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/cli/command_line.h"
+#include "tests/app/cli/documented_json.h"
 
 /// `orbwatch list` as a user runs it, on whatever machine this is.
 namespace orbwatch::tests {
@@ -13,6 +14,8 @@ TEST_F(List, PrintsBothKindsInBothForms) {
   const auto inventory = nlohmann::json::parse(said, nullptr, false);
   EXPECT_TRUE(inventory.contains("cameras") && inventory["cameras"].is_array()) << said;
   EXPECT_TRUE(inventory.contains("chips") && inventory["chips"].is_array()) << said;
+  EXPECT_EQ(run({"list", "--help"}), 0);
+  expect_documented(inventory, said);
   EXPECT_EQ(run({"list"}), 0);
   EXPECT_FALSE(said.empty());
   EXPECT_EQ(said.find('{'), std::string::npos) << said;

@@ -1,0 +1,39 @@
+#include "app/cli/setup/setup_text.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace orbwatch::app {
+
+std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
+  std::string text;
+  for (const SetupCamera& camera : setup.cameras) {
+    char line[200];
+    const optics::Outline& limb = camera.ball.outline;
+    std::snprintf(line, sizeof line,
+                  "%-12s ball at %.1f, %.1f px, radius %.1f px, confidence %.2f%s\n",
+                  camera.name.c_str(), limb.centre.u, limb.centre.v, (limb.rx + limb.ry) / 2,
+                  camera.ball.confidence, camera.is_registered ? ", registered" : "");
+    text += line;
+  }
+  for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
+  return text + "written and checked: run orbwatchd --config " + site.string() + "\n";
+}
+
+std::string setup_json(const Setup& setup, const std::filesystem::path& site) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"site", site.string()}, {"cameras", Json::array()}, {"missing", setup.missing}};
+  for (const SetupCamera& camera : setup.cameras) {
+    const optics::Outline& limb = camera.ball.outline;
+    json["cameras"].push_back({{"name", camera.name},
+                               {"outline",
+                                {{"centre", {limb.centre.u, limb.centre.v}},
+                                 {"radii", {limb.rx, limb.ry}},
+                                 {"angle", limb.angle}}},
+                               {"confidence", camera.ball.confidence},
+                               {"registered", camera.is_registered}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace orbwatch::app

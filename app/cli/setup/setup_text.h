@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/cli/setup/setup.h"
+
+namespace orbwatch::app {
+
+/// What was found out for a site and what is missing, for people. Both reentrant.
+std::string setup_text(const Setup& setup, const std::filesystem::path& site);
+
+/// The same as one JSON document.
+std::string setup_json(const Setup& setup, const std::filesystem::path& site);
+
+}  // namespace orbwatch::app
