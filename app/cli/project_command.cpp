@@ -10,6 +10,7 @@
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/options.h"
 #include "app/cli/options/view_options.h"
+#include "app/cli/progress.h"
 #include "app/files/camera_calibration.h"
 #include "app/pictures/colour_maps.h"
 #include "app/pictures/picture_file.h"
@@ -104,9 +105,11 @@ std::string depth_and_channels(const Picture& picture) {
          (info(picture.format).channels() == 1 ? "grey" : "colour");
 }
 
-Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenCamera>& cameras) {
+Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenCamera>& cameras,
+                                                       Progress& progress) {
   std::vector<hal::DecodedPicture> pictures;
   for (const ChosenCamera& camera : cameras) {
+    progress.count("reading", pictures.size() + 1, cameras.size(), "pictures");
     auto read = hal::read_picture(camera.picture);
     if (!read) return tl::unexpected(read.error());
     const Picture& picture = read->picture;
@@ -159,9 +162,12 @@ struct MergedView {
   MutablePicture picture;
 };
 
-void merge(const ProjectOptions& o, const optics::ViewProjection& projection,
-           const std::vector<ChosenCamera>& cameras,
-           const std::vector<hal::DecodedPicture>& pictures, MergedView& merged) {
+/// Returns how the cameras' exposures were matched, nothing where they were not.
+std::vector<remap::PhotometricMatch> merge(const ProjectOptions& o,
+                                           const optics::ViewProjection& projection,
+                                           const std::vector<ChosenCamera>& cameras,
+                                           const std::vector<hal::DecodedPicture>& pictures,
+                                           MergedView& merged) {
   const remap::ColourMap unused(colour_map_table("grey"), 0, 255);  // the picture keeps its format
   ViewPlan plan{0, "view", projection, {}, Combine::Sharpest, o.interpolation, std::nullopt};
   std::vector<hal::StreamFormat> formats;
@@ -179,8 +185,10 @@ void merge(const ProjectOptions& o, const optics::ViewProjection& projection,
   renderer.add_use(uses);
   FramePyramids pyramids(formats, uses);
   pyramids.build(set, uses, workers);
-  if (o.match && cameras.size() > 1) report(renderer.match_photometry(pyramids), cameras);
+  std::vector<remap::PhotometricMatch> matches;
+  if (o.match && cameras.size() > 1) matches = renderer.match_photometry(pyramids);
   renderer.render(pyramids, {merged.picture, merged.validity_plane(), {}, true}, workers);
+  return matches;
 }
 
 Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
@@ -197,13 +205,17 @@ Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone)
   if (auto assigned = assign_pictures(alone, *cameras); !assigned) return assigned;
   const auto view = optics::ViewProjection::make(o.view, cameras->front().ball);
   if (!view) return tl::unexpected(view.error());
-  const auto pictures = read_pictures(*cameras);
+  Progress progress;
+  const auto pictures = read_pictures(*cameras, progress);
   if (!pictures) return tl::unexpected(pictures.error());
   const PixelFormat format = pictures->front().picture.format;
   if (auto named = check_picture_name(o.output, format, o.transparent); !named) return named;
 
   MergedView merged(format, view->width(), view->height());
-  merge(o, *view, *cameras, *pictures, merged);
+  progress.begin("making the view");
+  const auto matches = merge(o, *view, *cameras, *pictures, merged);
+  progress.erase();
+  report(matches, *cameras);
   if (auto written = write_camera_info(o, *view); !written) return written;
   return write_picture(o.output, merged.picture,
                        o.transparent ? merged.validity_plane() : ImageView<std::uint8_t>{});

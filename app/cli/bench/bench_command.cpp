@@ -59,7 +59,8 @@ Result<std::string> bench(const BenchOptions& o) {
   silence_console(*site);
   std::vector<std::string> notes;
   if (o.simulated) notes = simulate_cameras(*site);
-  auto figures = run_bench(*site, notes, o.run, cancelled_by_signal());
+  Progress progress;
+  auto figures = run_bench(*site, notes, o.run, {cancelled_by_signal(), progress});
   if (!figures) return tl::unexpected(figures.error());
   const Verdict verdict = judge(*figures);
   std::string text = o.json ? bench_json(*figures, verdict) : bench_text(*figures, verdict);

@@ -27,6 +27,10 @@ bool wait_until(const std::function<bool()>& done, hal::TimePoint end,
   return false;
 }
 
+std::size_t whole_seconds(hal::Clock::duration time) {
+  return static_cast<std::size_t>(std::chrono::floor<std::chrono::seconds>(time).count());
+}
+
 std::string format_text(const hal::StreamFormat& format) {
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.4g", format.frame_rate);
@@ -80,7 +84,8 @@ double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
 }  // namespace
 
 Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
-                               const BenchSettings& settings, const std::atomic<bool>& cancelled) {
+                               const BenchSettings& settings, const BenchWatch& watch) {
+  const auto& cancelled = watch.cancelled;
   BenchSink sink(settings.seconds);
   auto made = Appliance::make(site, [] {});
   if (!made) return tl::unexpected(made.error());
@@ -90,6 +95,7 @@ Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::stri
   const auto has_news = [&sink] {
     return sink.newest().frame_set > 0 || sink.newest().state == SystemState::Fault;
   };
+  watch.progress.begin("waiting for the first frames");
   wait_until(has_news, hal::Clock::now() + settings.patience, cancelled);
   if (cancelled) return fail("cancelled before there were figures");
   if (sink.newest().frame_set == 0) {
@@ -98,6 +104,7 @@ Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::stri
     return fail("no frame within " + std::to_string(settings.patience.count() / 1000) +
                 " s, although no camera has a fault; does a trigger come?");
   }
+  watch.progress.begin("warming up");
   wait_until([] { return false; }, hal::Clock::now() + kWarmUp, cancelled);
   const Status status = sink.newest();
   if (const auto faults = faults_of(site, status); !faults.empty()) {
@@ -110,7 +117,13 @@ Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::stri
   sink.record();
   const auto length = std::chrono::duration_cast<hal::Clock::duration>(
       std::chrono::duration<double>(settings.seconds));
-  wait_until([] { return false; }, begin + length, cancelled);
+  const auto show = [&] {
+    watch.progress.count("measuring", whole_seconds(hal::Clock::now() - begin),
+                         whole_seconds(length), "s");
+    return false;
+  };
+  wait_until(show, begin + length, cancelled);
+  watch.progress.erase();
   sink.report(figures);
   figures.seconds = std::chrono::duration<double>(hal::Clock::now() - begin).count();
   figures.threads = since(before, thread_loads());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/bench/bench_figures.h"
+#include "app/cli/progress.h"
 #include "app/files/resolve.h"
 #include "proc/image/result.h"
 
@@ -16,10 +17,16 @@ struct BenchSettings {
   std::chrono::milliseconds patience{10000};  ///< until the first frame set
 };
 
+/// What a run tells of itself, and how it is ended.
+struct BenchWatch {
+  const std::atomic<bool>& cancelled;
+  Progress& progress;
+};
+
 /// Runs the appliance of a site, as orbwatchd does, and returns what it took. It warms up for a
 /// second first. `notes`, by camera, are for people. Errors: those of Appliance, a camera that
 /// cannot be opened, no frame within the patience, `cancelled` before a frame set was measured.
 Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
-                               const BenchSettings& settings, const std::atomic<bool>& cancelled);
+                               const BenchSettings& settings, const BenchWatch& watch);
 
 }  // namespace orbwatch::app

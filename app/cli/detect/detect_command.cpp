@@ -5,6 +5,7 @@
 #include "app/cli/detect/detect_text.h"
 #include "app/cli/detect/overlay.h"
 #include "app/cli/options/options.h"
+#include "app/cli/progress.h"
 #include "app/files/camera_calibration.h"
 #include "app/pictures/picture_file.h"
 #include "hal/replay/picture_decoder.h"
@@ -74,7 +75,10 @@ Result<std::string> detect(const DetectOptions& o, const std::filesystem::path& 
     const auto named = check_picture_name(o.overlay, PixelFormat::Rgb, false);
     if (!named) return tl::unexpected(named.error());
   }
+  Progress progress;
+  progress.begin("looking for the ball in " + file.filename().string());
   const auto detection = align::detect_ball(picture);
+  progress.erase();
   if (!detection) return fail(file.string() + ": " + detection.error().message);
   DetectedBall ball{picture.width, picture.height, *detection, std::nullopt};
   if (!o.calibration.empty()) {

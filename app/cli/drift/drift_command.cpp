@@ -71,7 +71,8 @@ Result<std::string> drift(DriftOptions o, const std::string& word) {
   if (!camera) return fail(o.rig.string() + ": " + camera.error().message);
   const auto subject = align::drift_subject(*rig, *camera);
   if (!subject) return fail(o.rig.string() + ": " + subject.error().message);
-  const auto run = watch(*subject, o.limits, o.sequence);
+  Progress progress;
+  const auto run = watch(*subject, o.limits, o.sequence, progress);
   if (!run) return tl::unexpected(run.error());
   return o.json ? drift_json(*run, subject->outline) : drift_text(*run, subject->outline);
 }

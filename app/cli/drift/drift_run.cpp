@@ -42,7 +42,7 @@ void note(const align::DriftState& state, const fs::path& file, DriftRun& run) {
 }  // namespace
 
 Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLimits& limits,
-                       const DriftSequence& sequence) {
+                       const DriftSequence& sequence, Progress& progress) {
   auto monitor = DriftMonitor::make(subject, limits);
   if (!monitor) return tl::unexpected(monitor.error());
   const auto files = hal::pictures_in(sequence.folder);
@@ -53,6 +53,7 @@ Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLim
   }
   DriftRun run;
   for (const fs::path& file : *files) {
+    progress.count("watching", run.frames + 1, files->size(), "pictures");
     const auto decoded = hal::read_picture(file);
     if (!decoded) return tl::unexpected(decoded.error());
     const std::chrono::duration<double> time(static_cast<double>(run.frames) / sequence.rate);

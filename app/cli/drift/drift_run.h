@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/cli/progress.h"
 #include "proc/align/drift/drift_monitor.h"
 
 namespace orbwatch::app {
@@ -36,6 +37,6 @@ struct DriftRun {
 /// Watches the whole sequence: every JPEG and PNG of the folder, in natural order of their names.
 /// Errors: no pictures, one that cannot be read, another size, those of DriftMonitor.
 Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLimits& limits,
-                       const DriftSequence& sequence);
+                       const DriftSequence& sequence, Progress& progress);
 
 }  // namespace orbwatch::app

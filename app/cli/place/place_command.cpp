@@ -59,9 +59,12 @@ Result<std::string> place(const PlaceOptions& o) {
   if (o.cameras.empty()) return usage_error("--camera is missing");
   const auto rig = load_rig(o.rig);
   if (!rig) return tl::unexpected(rig.error());
-  const auto request = place_request(o, *rig);
+  Progress progress;
+  const auto request = place_request(o, *rig, progress);
   if (!request) return tl::unexpected(request.error());
+  progress.begin("placing the cameras");
   const auto placement = align::place(*request);
+  progress.erase();
   if (!placement) return tl::unexpected(placement.error());
   if (!o.output.empty()) {
     const auto written =

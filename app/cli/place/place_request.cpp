@@ -70,7 +70,7 @@ Result<> mark_in_view(const PlaceOptions& o, const PlaceCameraOptions& options,
 
 Result<align::UnplacedCamera> unplaced(const PlaceOptions& o, const PlaceCameraOptions& options,
                                        const optics::Rig& rig, const optics::RigCamera& camera,
-                                       PlaceRequest& request) {
+                                       PlaceRequest& request, Progress& progress) {
   auto begun = unplaced_camera(camera, options.focal_unknown);
   if (!begun) return tl::unexpected(begun.error());
   align::UnplacedCamera out = std::move(*begun);
@@ -79,6 +79,7 @@ Result<align::UnplacedCamera> unplaced(const PlaceOptions& o, const PlaceCameraO
     auto read = picture_of(options.image, camera);
     if (!read) return tl::unexpected(read.error());
     picture = std::move(*read);
+    progress.begin("looking for the ball in " + options.image.filename().string());
   }
   const auto outline = outline_of(options, camera, picture ? &picture->picture : nullptr);
   if (!outline) return tl::unexpected(outline.error());
@@ -93,6 +94,7 @@ Result<align::UnplacedCamera> unplaced(const PlaceOptions& o, const PlaceCameraO
     }
   }
   if (picture && !o.tags.empty()) {
+    progress.begin("looking for tags in " + options.image.filename().string());
     if (auto marked = align::mark_tags(picture->picture, o.tags, out, request); !marked) {
       return tl::unexpected(marked.error());
     }
@@ -102,10 +104,11 @@ Result<align::UnplacedCamera> unplaced(const PlaceOptions& o, const PlaceCameraO
 
 }  // namespace
 
-Result<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& rig) {
+Result<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& rig,
+                                   Progress& progress) {
   const auto has_image = [](const PlaceCameraOptions& camera) { return !camera.image.empty(); };
   if (!o.tags.empty() && std::ranges::none_of(o.cameras, has_image)) {
-    return fail("tags are found in pictures: give --image after its --camera");
+    return usage_error("tags are found in pictures: give --image after its --camera");
   }
   PlaceRequest request;
   request.centre = {o.centre, rig.ball.centre, o.centre_sigma};
@@ -115,7 +118,7 @@ Result<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& rig
   for (const PlaceCameraOptions& options : o.cameras) {
     const auto camera = find_camera(rig, options.name);
     if (!camera) return tl::unexpected(camera.error());
-    auto out = unplaced(o, options, rig, *camera, request);
+    auto out = unplaced(o, options, rig, *camera, request, progress);
     if (!out) return tl::unexpected(out.error());
     request.cameras.push_back(std::move(*out));
   }

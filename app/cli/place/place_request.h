@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/cli/place/place_options.h"
+#include "app/cli/progress.h"
 #include "proc/align/place/placement.h"
 #include "proc/optics/rig.h"
 
@@ -10,6 +11,7 @@ namespace orbwatch::app {
 /// the tags, and outlines that it lacks, as pictures show them. Points with the same coordinates
 /// are one point. Error: unknown cameras, no lens, no outline, pictures that cannot be read, are of
 /// another size or show no ball for certain.
-Result<align::PlaceRequest> place_request(const PlaceOptions& options, const optics::Rig& rig);
+Result<align::PlaceRequest> place_request(const PlaceOptions& options, const optics::Rig& rig,
+                                          Progress& progress);
 
 }  // namespace orbwatch::app

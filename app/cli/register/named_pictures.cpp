@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/cli/options/options.h"
 #include "hal/replay/picture_folder.h"
 
 namespace orbwatch::app {
@@ -14,7 +15,7 @@ std::vector<Picture> NamedPictures::views() const {
 Result<NamedPictures> read_named_pictures(const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == word.size()) {
-    return fail("\"" + word + "\" is not CAMERA=PATH");
+    return usage_error("\"" + word + "\" is not CAMERA=PATH");
   }
   NamedPictures named{word.substr(0, equals), {}};
   auto files = hal::pictures_in(word.substr(equals + 1));

@@ -1,10 +1,10 @@
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/options.h"
+#include "app/cli/progress.h"
 #include "app/cli/register/named_pictures.h"
 #include "app/cli/register/register_text.h"
 #include "app/files/rig_edit.h"
@@ -144,9 +144,11 @@ Result<std::string> register_cameras(const RegisterOptions& o, const std::string
   if (!ball) return tl::unexpected(ball.error());
   const auto sought = sought_camera(o, *rig, *b);
   if (!sought) return tl::unexpected(sought.error());
-  const auto found = align::register_camera(
-      {a->views(), b->views()}, *ball, *sought, o.method,
-      [](const std::string& doing) { std::fprintf(stderr, "%s\n", doing.c_str()); });
+  Progress progress;
+  const auto found =
+      align::register_camera({a->views(), b->views()}, *ball, *sought, o.method,
+                             [&](const std::string& doing) { progress.begin(doing); });
+  progress.erase();
   if (!found) return fail(b->name + " on " + a->name + ": " + found.error().message);
   if (!o.out.empty()) {
     const auto aligned = alignment(*rig, b->name, *sought, found->registration);

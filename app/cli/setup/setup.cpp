@@ -35,9 +35,10 @@ Result<align::BallDetection> detect(const CameraRecord& record) {
 std::string in_rig(const std::filesystem::path& folder) { return (folder / kRigFile).string(); }
 
 /// Detects in every camera, and drops those without a ball.
-Result<> detect_balls(Setup& setup, const std::filesystem::path& folder) {
+Result<> detect_balls(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
   std::vector<SetupCamera> seeing;
   for (SetupCamera& camera : setup.cameras) {
+    progress.begin("looking for the ball of " + camera.name);
     const auto ball = detect(camera.record);
     if (!ball) {
       setup.missing.push_back(camera.name + " is left out: " + ball.error().message);
@@ -128,7 +129,7 @@ align::SimultaneousPictures together(const CameraRecord& reference, const Camera
 }
 
 /// How a camera stands to the first one.
-Result<optics::Mat3> registration(const Setup& setup, std::size_t camera) {
+Result<optics::Mat3> registration(const Setup& setup, std::size_t camera, Progress& progress) {
   const optics::Rig rig = rig_of(setup);
   const auto reference = optics::ball_projection(rig, rig.cameras.front());
   if (!reference) return tl::unexpected(reference.error());
@@ -136,16 +137,18 @@ Result<optics::Mat3> registration(const Setup& setup, std::size_t camera) {
   if (pictures.camera.empty()) return fail("no pictures of the same moment");
   const align::SoughtCamera sought{pictures.camera.front(), rig, rig.cameras[camera]};
   return align::register_camera(pictures, *reference, sought, align::RegistrationMethod::Auto,
-                                [](const auto&) {})
+                                [&](const std::string& doing) {
+                                  progress.begin(setup.cameras[camera].name + ": " + doing);
+                                })
       .map([](const align::CameraRegistration& found) { return found.registration.rotation; });
 }
 
-void register_cameras(Setup& setup, const std::filesystem::path& folder) {
+void register_cameras(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
   const std::string first = setup.cameras.front().name;
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     SetupCamera& camera = setup.cameras[n];
     if (camera.pose) continue;
-    const auto found = registration(setup, n);
+    const auto found = registration(setup, n, progress);
     camera.is_registered = found.has_value();
     if (found) {
       camera.registration = *found;
@@ -185,11 +188,12 @@ std::string sentence(const optics::Box& box, const std::string& first, const std
 }
 
 /// The first box on the floor that cameras prove, and their registrations with it.
-void find_obstacle(Setup& setup, const std::filesystem::path& folder) {
+void find_obstacle(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
   if (!setup.walls || !setup.cameras.front().pose) return;
   const std::string first = setup.cameras.front().name;
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     if (!setup.cameras[n].is_registered && !setup.cameras[n].pose) continue;
+    progress.begin("looking for a box on the floor");
     const auto box = found_box(setup, n);
     if (!box) continue;
     const std::string what = sentence(*box, first, setup.cameras[n].name);
@@ -201,7 +205,7 @@ void find_obstacle(Setup& setup, const std::filesystem::path& folder) {
   if (setup.obstacles.empty() || setup.obstacles.back().remark.empty()) return;
   for (std::size_t n = 1; n < setup.cameras.size(); ++n) {
     if (!setup.cameras[n].is_registered) continue;
-    const auto again = registration(setup, n);
+    const auto again = registration(setup, n, progress);
     if (again) setup.cameras[n].registration = *again;
   }
 }
@@ -222,12 +226,12 @@ optics::Rig rig_of(const Setup& setup) {
   return rig;
 }
 
-Result<> align_cameras(Setup& setup, const std::filesystem::path& folder) {
-  if (auto found = detect_balls(setup, folder); !found) return found;
+Result<> align_cameras(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
+  if (auto found = detect_balls(setup, folder, progress); !found) return found;
   if (auto found = find_ball(setup, folder); !found) return found;
   say_what_lenses_lack(setup);
-  register_cameras(setup, folder);
-  find_obstacle(setup, folder);
+  register_cameras(setup, folder, progress);
+  find_obstacle(setup, folder, progress);
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/progress.h"
 #include "app/cli/setup/connected_camera.h"
 #include "app/cli/setup/recording.h"
 #include "proc/align/detect/ball_detector.h"
@@ -56,6 +57,6 @@ optics::Rig rig_of(const Setup& setup);
 /// registers the others to the first one, and looks for a box on the floor that is not stated.
 /// Cameras without a ball are left out. `folder`: the site's, for the commands in `missing`. Error:
 /// no camera shows a ball, or what is known contradicts itself.
-Result<> align_cameras(Setup& setup, const std::filesystem::path& folder);
+Result<> align_cameras(Setup& setup, const std::filesystem::path& folder, Progress& progress);
 
 }  // namespace orbwatch::app

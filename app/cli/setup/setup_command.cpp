@@ -1,11 +1,9 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
+#include "app/cli/progress.h"
 #include "app/cli/setup/setup.h"
 #include "app/cli/setup/setup_options.h"
 #include "app/cli/setup/setup_text.h"
@@ -67,7 +65,7 @@ std::string name_of(const CameraSource& source, const CameraRecord& record, cons
   return name;
 }
 
-Result<> record_cameras(const SetupOptions& o, Setup& setup) {
+Result<> record_cameras(const SetupOptions& o, Setup& setup, Progress& progress) {
   auto found = sources(o);
   if (!found) return tl::unexpected(found.error());
   std::vector<std::unique_ptr<hal::Camera>> cameras;
@@ -77,7 +75,7 @@ Result<> record_cameras(const SetupOptions& o, Setup& setup) {
     settings.back_end = source.back_end;
     cameras.push_back(make_camera(settings, nullptr));
   }
-  if (::isatty(STDERR_FILENO) != 0) std::cerr << "records, and looks for the ball ...\n";
+  progress.begin("recording");
   auto records = record(cameras, kPictures, kPatience);
   for (std::size_t n = 0; n < records.size(); ++n) {
     if (!records[n]) return tl::unexpected(records[n].error());
@@ -96,11 +94,12 @@ Result<> record_cameras(const SetupOptions& o, Setup& setup) {
 Result<std::string> set_up(const SetupOptions& o) {
   if (o.folder.empty()) return usage_error("give the site's folder, -o DIR");
   Setup setup;
+  Progress progress;
   return check_place(o.folder, o.force)
       .and_then([&] { return read_machine(o, setup); })
-      .and_then([&] { return record_cameras(o, setup); })
+      .and_then([&] { return record_cameras(o, setup, progress); })
       .and_then([&] { return read_cameras(o, setup); })
-      .and_then([&] { return align_cameras(setup, o.folder); })
+      .and_then([&] { return align_cameras(setup, o.folder, progress); })
       .and_then([&] { return place_site(setup, o.folder); })
       .map([&] {
         const auto site = o.folder / kSiteFile;

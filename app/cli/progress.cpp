@@ -1,0 +1,66 @@
+#include "app/cli/progress.h"
+
+#include <sys/ioctl.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace orbwatch::app {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{100};
+constexpr std::size_t kUsualColumns = 80;
+
+/// A line that fills the last column could wrap, and would not be rewritten.
+std::size_t usable_columns(int terminal) {
+  winsize size{};
+  const bool is_known = ::ioctl(terminal, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return (is_known ? size.ws_col : kUsualColumns) - 1;
+}
+
+/// File names may hold anything; a terminal would obey control characters.
+void disarm(std::string& line) {
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+}
+
+}  // namespace
+
+Progress::Progress(int output) : output_(output), is_terminal_(::isatty(output) != 0) {}
+
+void Progress::begin(const std::string& step) {
+  if (!is_terminal_) return;
+  step_ = step;
+  shown_ = Clock::now();
+  write(step + " ...");
+}
+
+void Progress::count(const std::string& step, std::size_t done, std::size_t of,
+                     const std::string& unit) {
+  if (!is_terminal_) return;
+  const auto now = Clock::now();
+  if (step == step_ && now - shown_ < kPeriod) return;
+  step_ = step;
+  shown_ = now;
+  write(step + ": " + std::to_string(done) + " of " + std::to_string(of) + " " + unit);
+}
+
+void Progress::erase() {
+  if (written_ == 0) return;
+  write("");
+  step_.clear();
+}
+
+void Progress::write(std::string line) {
+  disarm(line);
+  line.resize(std::min(line.size(), usable_columns(output_)));
+  const std::size_t columns = line.size();
+  if (written_ > columns) line.append(written_ - columns, ' ');
+  line.insert(line.begin(), '\r');
+  if (columns == 0) line += '\r';
+  written_ = columns;
+  // A terminal that went away loses what nobody reads.
+  static_cast<void>(::write(output_, line.data(), line.size()) < 0);
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "hal/thread/file_descriptor.h"
+
+namespace orbwatch::tests {
+
+/// A terminal of so many columns whose user is the test.
+class PseudoTerminal {
+ public:
+  explicit PseudoTerminal(unsigned short columns = 80) {
+    winsize size{24, columns, 0, 0};
+    int user = -1, program = -1;
+    EXPECT_EQ(openpty(&user, &program, nullptr, nullptr, &size), 0);
+    user_ = hal::FileDescriptor(user);
+    program_ = hal::FileDescriptor(program);
+  }
+
+  /// The side of a program.
+  int program_side() const { return program_.get(); }
+
+  /// Closes the program's side, and reads until nobody else has it open.
+  std::string read_to_end() {
+    program_ = hal::FileDescriptor();
+    std::string text;
+    char bytes[4096];
+    for (ssize_t count = 0; (count = ::read(user_.get(), bytes, sizeof bytes)) > 0;) {
+      text.append(bytes, static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  hal::FileDescriptor user_, program_;
+};
+
+/// What the last line of such a terminal held, one after the other, where a program rewrites it
+/// with carriage returns; without trailing spaces.
+inline std::vector<std::string> rewritten_lines(const std::string& text) {
+  std::vector<std::string> lines(1);
+  std::string shown;
+  std::size_t column = 0;
+  const auto look = [&] {
+    const std::string line = shown.substr(0, shown.find_last_not_of(' ') + 1);
+    if (line != lines.back()) lines.push_back(line);
+  };
+  for (const char c : text) {
+    if (c == '\r') {
+      look();
+      column = 0;
+    } else if (c == '\n') {
+      shown.clear();
+    } else {
+      if (shown.size() <= column) shown.resize(column + 1, ' ');
+      shown[column++] = c;
+    }
+  }
+  look();
+  return lines;
+}
+
+}  // namespace orbwatch::tests
