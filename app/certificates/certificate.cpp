@@ -5,6 +5,7 @@
 #include <openssl/pem.h>
 #include <openssl/x509v3.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <optional>
@@ -13,6 +14,8 @@ namespace orbwatch::app {
 namespace {
 
 using Extension = std::unique_ptr<X509_EXTENSION, OpensslDeleter<X509_EXTENSION_free>>;
+using GeneralName = std::unique_ptr<GENERAL_NAME, OpensslDeleter<GENERAL_NAME_free>>;
+using GeneralNames = std::unique_ptr<GENERAL_NAMES, OpensslDeleter<GENERAL_NAMES_free>>;
 using BigNumber = std::unique_ptr<BIGNUM, OpensslDeleter<BN_free>>;
 using Store = std::unique_ptr<X509_STORE, OpensslDeleter<X509_STORE_free>>;
 using StoreContext = std::unique_ptr<X509_STORE_CTX, OpensslDeleter<X509_STORE_CTX_free>>;
@@ -28,22 +31,27 @@ struct ExtensionText {
 
 /// RFC 5280, 4.2.1. A signer of documents would not need to issue certificates, but verifiers look
 /// up its own certificate as if it had.
-std::array<ExtensionText, 3> extensions_for(CertificateUse use) {
+std::vector<ExtensionText> extensions_for(CertificateUse use) {
   switch (use) {
     case CertificateUse::IssueIdentities:
-      return {{{NID_basic_constraints, "critical,CA:TRUE,pathlen:0"},
-               {NID_key_usage, "critical,keyCertSign,cRLSign"},
-               {NID_subject_key_identifier, "hash"}}};
+      return {{NID_basic_constraints, "critical,CA:TRUE,pathlen:0"},
+              {NID_key_usage, "critical,keyCertSign,cRLSign"},
+              {NID_subject_key_identifier, "hash"}};
     case CertificateUse::SignDocuments:
-      return {{{NID_basic_constraints, "critical,CA:TRUE,pathlen:0"},
-               {NID_key_usage, "critical,keyCertSign,digitalSignature"},
-               {NID_subject_key_identifier, "hash"}}};
+      return {{NID_basic_constraints, "critical,CA:TRUE,pathlen:0"},
+              {NID_key_usage, "critical,keyCertSign,digitalSignature"},
+              {NID_subject_key_identifier, "hash"}};
+    case CertificateUse::Serve:
+      return {{NID_basic_constraints, "critical,CA:FALSE"},
+              {NID_key_usage, "critical,digitalSignature"},
+              {NID_ext_key_usage, "serverAuth"},
+              {NID_subject_key_identifier, "hash"}};
     case CertificateUse::Authenticate:
       break;
   }
-  return {{{NID_basic_constraints, "critical,CA:FALSE"},
-           {NID_key_usage, "critical,digitalSignature"},
-           {NID_ext_key_usage, "clientAuth,serverAuth"}}};
+  return {{NID_basic_constraints, "critical,CA:FALSE"},
+          {NID_key_usage, "critical,digitalSignature"},
+          {NID_ext_key_usage, "clientAuth,serverAuth"}};
 }
 
 bool add_extension(X509* certificate, X509* issuer, const ExtensionText& text) {
@@ -51,6 +59,33 @@ bool add_extension(X509* certificate, X509* issuer, const ExtensionText& text) {
   X509V3_set_ctx(&context, issuer, certificate, nullptr, nullptr, 0);
   const Extension extension(X509V3_EXT_nconf_nid(nullptr, &context, text.nid, text.value));
   return extension && X509_add_ext(certificate, extension.get(), -1) == 1;
+}
+
+bool add_host(GENERAL_NAMES* names, const std::string& host) {
+  ASN1_OCTET_STRING* const address = a2i_IPADDRESS(host.c_str());
+  ASN1_STRING* const text = address ? address : ASN1_IA5STRING_new();
+  GeneralName name(GENERAL_NAME_new());
+  if (!text || !name) {
+    ASN1_STRING_free(text);
+    return false;
+  }
+  GENERAL_NAME_set0_value(name.get(), address ? GEN_IPADD : GEN_DNS, text);
+  if (!address && ASN1_STRING_set(text, host.data(), static_cast<int>(host.size())) != 1) {
+    return false;
+  }
+  if (sk_GENERAL_NAME_push(names, name.get()) < 1) return false;
+  static_cast<void>(name.release());
+  return true;
+}
+
+/// RFC 5280, 4.2.1.6.
+bool add_hosts(X509* certificate, const std::vector<std::string>& hosts) {
+  if (hosts.empty()) return true;
+  const GeneralNames names(sk_GENERAL_NAME_new_null());
+  return names &&
+         std::ranges::all_of(hosts,
+                             [&](const auto& host) { return add_host(names.get(), host); }) &&
+         X509_add1_ext_i2d(certificate, NID_subject_alt_name, names.get(), 0, 0) == 1;
 }
 
 bool set_serial(X509* certificate) {
@@ -93,7 +128,8 @@ std::string date_text(std::chrono::sys_seconds time, const char* format) {
 }
 
 Result<Credential> make_credential(const std::string& name, CertificateUse use,
-                                   const Validity& validity, const Credential* issuer) {
+                                   const Validity& validity, const Credential* issuer,
+                                   const std::vector<std::string>& hosts) {
   Credential made{Key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256")), Certificate(X509_new())};
   X509* const certificate = made.certificate.get();
   if (!made.key || !certificate) return tl::unexpected(openssl_error("no new key"));
@@ -105,8 +141,10 @@ Result<Credential> make_credential(const std::string& name, CertificateUse use,
   for (const ExtensionText& extension : extensions_for(use)) {
     good = good && add_extension(certificate, issuer_certificate, extension);
   }
-  good = good && add_extension(certificate, issuer_certificate,
-                               {NID_authority_key_identifier, "keyid:always"});
+  good = good &&
+         add_extension(certificate, issuer_certificate,
+                       {NID_authority_key_identifier, "keyid:always"}) &&
+         add_hosts(certificate, hosts);
   EVP_PKEY* const signer = issuer ? issuer->key.get() : made.key.get();
   if (!good || X509_sign(certificate, signer, EVP_sha256()) == 0) {
     return tl::unexpected(openssl_error("no certificate for " + name));
@@ -169,6 +207,27 @@ bool is_issued_by(const Certificate& certificate, const Certificate& authority) 
 
 bool is_key_of(const Key& key, const Certificate& certificate) {
   return X509_check_private_key(certificate.get(), key.get()) == 1;
+}
+
+bool is_for_host(const Certificate& certificate, const std::string& host) {
+  X509* const x509 = certificate.get();
+  return X509_check_ip_asc(x509, host.c_str(), 0) == 1 ||
+         X509_check_host(x509, host.data(), host.size(), X509_CHECK_FLAG_NEVER_CHECK_SUBJECT,
+                         nullptr) == 1;
+}
+
+std::string fingerprint_of(const Certificate& certificate) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  X509_digest(certificate.get(), EVP_sha256(), digest.data(), &size);
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (unsigned i = 0; i < size; ++i) {
+    if (i > 0) text += ':';
+    text += kDigits[digest.at(i) >> 4U];
+    text += kDigits[digest.at(i) & 15U];
+  }
+  return text;
 }
 
 }  // namespace orbwatch::app

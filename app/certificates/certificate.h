@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/certificates/openssl.h"
 #include "proc/image/result.h"
@@ -36,13 +37,16 @@ struct Credential {
 enum class CertificateUse {
   IssueIdentities,  ///< signs certificates, itself included
   SignDocuments,    ///< signs governance and permissions, and its own certificate
-  Authenticate      ///< authenticates a participant; its signature on anything else is void
+  Authenticate,     ///< authenticates a participant; its signature on anything else is void
+  Serve             ///< authenticates a server
 };
 
 /// A new P-256 key with a certificate of subject CN=`name`, signed by `issuer`, or by itself when
-/// there is none. Error: OpenSSL refuses, out of entropy for example.
+/// there is none. `hosts`: names and numeric addresses of a server. Error: OpenSSL refuses, out of
+/// entropy for example.
 Result<Credential> make_credential(const std::string& name, CertificateUse use,
-                                   const Validity& validity, const Credential* issuer = nullptr);
+                                   const Validity& validity, const Credential* issuer = nullptr,
+                                   const std::vector<std::string>& hosts = {});
 
 /// PEM, the key as PKCS #8 without a password.
 Result<std::string> to_pem(const Certificate& certificate);
@@ -59,5 +63,9 @@ Result<Validity> validity_of(const Certificate& certificate);
 /// Whether `certificate` was issued by `authority`; dates are not checked.
 bool is_issued_by(const Certificate& certificate, const Certificate& authority);
 bool is_key_of(const Key& key, const Certificate& certificate);
+/// Whether a server with this name or numeric address may show it (RFC 9110, 4.3.4).
+bool is_for_host(const Certificate& certificate, const std::string& host);
+/// SHA-256 as browsers show it: "01:23:AB...".
+std::string fingerprint_of(const Certificate& certificate);
 
 }  // namespace orbwatch::app

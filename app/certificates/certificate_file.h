@@ -1,18 +1,14 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <optional>
 
 #include "app/certificates/certificate.h"
+#include "app/certificates/dates.h"
 #include "proc/image/result.h"
 
 /// Keys and certificates in PEM files that people name; errors name file and reason. All reentrant;
 /// they wait for the disk.
 namespace orbwatch::app {
-
-/// Nullopt: dates are not checked.
-using Now = std::optional<std::chrono::sys_seconds>;
 
 /// The reason of `result` with its file before it.
 template <class Value>

@@ -10,14 +10,14 @@
 #include "app/cli/options/options.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
+#include "app/ports/web/access/first_code.h"
 #include "app/ports/web/access/secret.h"
 #include "app/ports/web/access/users.h"
+#include "app/ports/web/tls/server_certificate.h"
 #include "app/state/state_folder.h"
 
 namespace orbwatch::app {
 namespace {
-
-constexpr const char* kFirstUser = "admin";
 
 constexpr const char* kUsage =
     "Usage: orbwatch password [NAME] [options]\n\n"
@@ -25,11 +25,15 @@ constexpr const char* kUsage =
     "the user; with the first one there, nobody sees or does anything there without logging in.\n"
     "A forgotten password is replaced in this way, without loss of anything else. It is asked\n"
     "for twice on a terminal, or is a line of standard input. A running orbwatchd takes it up\n"
-    "by itself.\n\n";
+    "by itself.\n\n"
+    "With --show it changes nothing, and prints the fingerprint of the certificate of HTTPS, to\n"
+    "compare with the browser's, and while no password is set the code with which a browser on\n"
+    "another computer sets the first one.\n\n";
 
 struct PasswordOptions {
   std::filesystem::path config;
   std::optional<Role> role;
+  bool show = false;
 };
 
 /// A terminal that shows nothing of what is typed, and passes Ctrl-C on as a character.
@@ -84,6 +88,39 @@ std::optional<Role> role_of_new(const web::Users& users) {
   return users.users.empty() ? std::optional(Role::Administrator) : std::nullopt;
 }
 
+Result<std::string> certificate_line(const WebSettings& web, const std::filesystem::path& folder) {
+  if (!https_port_of(web)) return "HTTPS: not served; `address` of [web] is one of loopback\n";
+  if (!web.certificate.empty()) {
+    return web::named_certificate(web, now_for(Dates::Ignored)).map([](const auto& named) {
+      return "HTTPS: " + certificate_text(named) + "\n";
+    });
+  }
+  return web::kept_certificate(folder).map([](const auto& kept) {
+    return "HTTPS: " + (kept ? certificate_text(*kept) : "no certificate yet; orbwatchd makes it") +
+           "\n";
+  });
+}
+
+Result<std::string> first_password_line(const std::filesystem::path& folder) {
+  const auto users = web::load_users(web::users_file(folder));
+  if (!users) return tl::unexpected(users.error());
+  if (*users) return "first password: set\n";
+  return web::kept_code(folder).map([](const auto& code) {
+    return "first password: not set; " +
+           (code ? "code for another computer " + *code : "no code for other computers") + "\n";
+  });
+}
+
+Result<std::string> show(const PasswordOptions& o) {
+  const auto site = read_site(site_file(o.config));
+  if (!site) return tl::unexpected(site.error());
+  const auto folder = state_folder(site->state_folder);
+  const auto certificate = certificate_line(std::get<WebSettings>(site->sinks), folder);
+  if (!certificate) return certificate;
+  return first_password_line(folder).map(
+      [&](const std::string& password) { return *certificate + password; });
+}
+
 Result<std::string> set_password(const PasswordOptions& o, const std::string& name) {
   if (auto named = web::check_name(name); !named) return tl::unexpected(named.error());
   const auto site = read_site(site_file(o.config));
@@ -123,11 +160,13 @@ Result<std::string> password_command(const std::vector<std::string>& arguments) 
                     text_option(o.config)},
                    {"role", 'r', "ROLE",
                     joined(kRoles) + "\n(default: as before; the first user is administrator)",
-                    set_role}},
+                    set_role},
+                   {"show", 0, "", "print fingerprint and code only", flag_option(o.show)}},
        .takes_words = true},
       [&](const std::vector<std::string>& words) -> Result<std::string> {
         if (words.size() > 1) return usage_error("say one NAME only");
-        return set_password(o, words.empty() ? kFirstUser : words.front());
+        if (o.show) return show(o);
+        return set_password(o, words.empty() ? std::string(web::kFirstUser) : words.front());
       });
 }
 

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "app/pictures/colour_maps.h"
+#include "app/ports/dds/security/participant_security.h"
+#include "app/ports/web/tls/server_certificate.h"
 #include "hal/thread/scheduling.h"
 #include "proc/optics/rotation.h"
 
@@ -247,8 +249,11 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
 
 Result<> check_keys(const Resolved& site, Dates dates) {
   const auto& dds = std::get<DdsSettings>(site.site.sinks);
-  return dds.enabled && dds.security ? check_security(*dds.security, dds.domain, dates)
-                                     : Result<>();
+  const auto& web = std::get<WebSettings>(site.site.sinks);
+  const Result<> checked =
+      dds.enabled && dds.security ? check_security(*dds.security, dds.domain, dates) : Result<>();
+  if (!checked || !web.enabled || web.certificate.empty()) return checked;
+  return web::named_certificate(web, now_for(dates)).map([](const auto&) {});
 }
 
 Result<> check_site(const Resolved& site, Dates dates) {

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "app/certificates/dates.h"
 #include "app/files/resolve.h"
 #include "app/pipeline/pipeline.h"
-#include "app/ports/dds/security/participant_security.h"
 #include "hal/camera.h"
 
 namespace orbwatch::app {
@@ -24,7 +24,7 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
 Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> formats,
                            std::size_t camera);
 
-/// Checks the keys for DDS; without security there are none.
+/// Checks the keys for DDS, and certificate and key of the page, as far as files are named.
 Result<> check_keys(const Resolved& site, Dates dates);
 
 /// Checks what build() would refuse with the formats that are expected, and the keys. Opens no

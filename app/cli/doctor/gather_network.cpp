@@ -74,7 +74,9 @@ void gather_ports(const Sources& sources, Facts& facts) {
     }
   }
   const auto& web = std::get<WebSettings>(facts.site->sinks);
-  if (web.enabled) add_port(sources, "web", web.address, web.port, facts);
+  if (!web.enabled) return;
+  add_port(sources, "web", web.address, web.port, facts);
+  if (const auto https = https_port_of(web)) add_port(sources, "web", web.address, *https, facts);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ bool is_from_foreign_page(const Request& request) {
   if (site && *site != "same-origin" && *site != "none") return true;
   const std::string* origin = request.header("Origin");
   const std::string* host = request.header("Host");
-  return origin && (!host || (*origin != "http://" + *host && *origin != "https://" + *host));
+  return origin && (!host || *origin != (request.is_secure ? "https://" : "http://") + *host);
 }
 
 /// Nullopt: the caller may do this.
@@ -41,7 +41,7 @@ std::optional<Response> refusal_of_post(const Request& request) {
     return error_response(403, "a page of another host caused this request");
   }
   // No page of another host can make a browser send this header.
-  if (request.cookie(kSessionCookie) && !request.header(kOwnPageHeader)) {
+  if (request.cookie(session_cookie(request)) && !request.header(kOwnPageHeader)) {
     return error_response(403, "with a session's cookie the header " + std::string(kOwnPageHeader) +
                                    " must be there, with any value");
   }

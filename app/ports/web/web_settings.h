@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +22,11 @@ struct WebSettings {
   bool enabled = false;
   /// The numeric IPv4 or IPv6 address to listen on; only this computer by default.
   std::string address = "127.0.0.1";
-  int port = 8080;  ///< 0: any free port
+  int port = 8080;                  ///< of HTTP, only for this computer; 0: any free port
+  std::optional<int> https_port{};  ///< 0: any free port; see https_port_of()
+  /// In PEM, with those of its issuers behind it; empty: made and kept by the appliance itself.
+  std::filesystem::path certificate{};
+  std::filesystem::path key{};
   /// Host names of this appliance. A request under any other name is refused, so that no foreign
   /// page reaches it by a name of its own (DNS rebinding). Numeric addresses and localhost are
   /// always right.
@@ -44,21 +50,43 @@ struct WebSettings {
   std::chrono::milliseconds status_timeout{2000};
 };
 
+/// Nullopt: no HTTPS, and nobody is served but this computer.
+inline std::optional<int> https_port_of(const WebSettings& web) {
+  constexpr int kHttpsPort = 8443;
+  const bool is_needed = !web::is_loopback(web.address) || !web.certificate.empty();
+  return web.https_port || !is_needed ? web.https_port : kHttpsPort;
+}
+
 template <class Visitor>
 void visit(Visitor& v, WebSettings& web) {
   using Minutes = DurationRange<std::ratio<60>>;
-  v.optional("enabled", web.enabled, "Serve HTTP");
-  v.optional("address", web.address, "Numeric address to listen on; it must be one of loopback");
-  v.require(web::is_loopback(web.address), "address",
-            "is no address of loopback, as 127.0.0.1 or ::1: passwords would cross the network "
-            "unencrypted");
-  v.optional("port", web.port, Range::between(0, 65535), "0: any free port");
+  v.optional("enabled", web.enabled, "Serve the page and its interface");
+  v.optional("address", web.address,
+             "Numeric address to listen on; 0.0.0.0 or :: for every network, over HTTPS only");
+  v.require(web::parse_address(web.address, 0).has_value(), "address",
+            "is no numeric address, as 192.168.1.20, 0.0.0.0 or ::1");
+  v.optional("port", web.port, Range::between(0, 65535),
+             "Of HTTP for this computer; others are redirected to HTTPS. 0: any free port");
+  v.optional("https_port", web.https_port, Range::between(0, 65535),
+             "Of HTTPS; without the key 8443 if `address` is not one of loopback or there is a "
+             "certificate, else none");
+  v.require(web.port == 0 || https_port_of(web) != web.port, "https_port",
+            "is the port of HTTP; say another, as https_port = 8443");
+  v.optional(
+      "certificate", web.certificate,
+      "Of HTTPS, in PEM, those of its issuers behind it; else the appliance makes one, whose "
+      "fingerprint `orbwatch password --show` prints");
+  v.optional("key", web.key, "Of the certificate, in PEM without a password; not for everybody");
+  v.require(web.certificate.empty() == web.key.empty(), "certificate",
+            "stands alone; say both `certificate` and `key`, or none");
   v.optional("names", web.names,
-             "Host names under which browsers reach it, besides addresses and localhost");
+             "Host names under which browsers reach it, besides addresses and localhost; the "
+             "appliance's own certificate has them, and addresses that are here");
   v.optional("max_connections", web.max_connections, Range::between(4, 1000),
-             "One more waits until another ends");
+             "Of HTTP, and as many of HTTPS; one more waits until another ends");
   v.optional("max_connections_per_address", web.max_connections_per_address,
-             Range::between(1, 1000), "One more from the same host is closed at once");
+             Range::between(1, 1000),
+             "One more from the same host, or the same IPv6 network of 64 bits, is closed at once");
   v.optional("max_streams", web.max_streams, Range::between(1, 1000),
              "Streams of pictures; one more is refused");
   v.optional("max_body_bytes", web.max_body_bytes, Range::between(1024, 1e7),
@@ -74,7 +102,11 @@ void visit(Visitor& v, WebSettings& web) {
 
 /// Who may command over HTTP, in words; empty: nobody. Reentrant.
 inline std::string commanders(const WebSettings& settings) {
-  return settings.enabled ? "over HTTP from this host only, by role once there are users" : "";
+  if (!settings.enabled) return "";
+  return web::is_loopback(settings.address)
+             ? "over HTTP from this host only, by role once there are users"
+             : "over HTTP from this host and over HTTPS on " + settings.address +
+                   ", by role once there are users";
 }
 
 std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context);

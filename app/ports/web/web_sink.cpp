@@ -70,7 +70,10 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       configuration_(context.program.files, access_, audit_),
       program_(context.program),
       tables_(context.tables),
-      routes_(make_routes()) {
+      routes_(make_routes()),
+      listeners_(
+          settings_, context.state_folder,
+          [this](const ExchangePtr& exchange) { pass_on(exchange); }, server_counts_) {
   views_.reserve(names_.views.size());
   for (std::size_t i = 0; i < names_.views.size(); ++i) {
     views_.push_back(std::make_unique<web::ViewEncoder>(settings_.jpeg, threads_));
@@ -80,30 +83,30 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
 WebSink::~WebSink() { stop(); }
 
 Result<> WebSink::start() {
-  if (!settings_.enabled || server_) return {};
+  if (!settings_.enabled) return {};
+  if (!is_running_) begin();
+  return listeners_.open();
+}
+
+void WebSink::begin() {
   commands_.start();
-  access_.start();
+  access_.start(https_port_of(settings_).has_value());
   desk_.start();
   configuration_.start();
+  is_running_ = true;
+  thread_.start("web", [this] { watch(); });
+}
+
+void WebSink::pass_on(const ExchangePtr& exchange) {
   const auto caller_of = [this](const web::Request& request) {
     return access_.caller(web::credentials_of(request));
   };
-  auto server = web::Server::open(
-      settings_,
-      [this, caller_of](const ExchangePtr& exchange) { web::serve(routes_, caller_of, exchange); },
-      server_counts_);
-  if (!server) return tl::unexpected(server.error());
-  server_ = std::move(*server);
-  is_running_ = true;
-  thread_.start("web", [this] { watch(); });
-  log_line(LogLevel::Info,
-           "web: serves " + settings_.address + " port " + std::to_string(server_->port()));
-  return {};
+  web::serve(routes_, caller_of, exchange);
 }
 
 void WebSink::watch() {
   while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
-    server_->end_overdue();
+    listeners_.watch();
     access_.refresh();
     if (!status_feed_->is_wanted()) continue;
     status_feed_->publish(std::make_shared<const std::string>(newest_as_json()), hal::Clock::now());
@@ -113,7 +116,7 @@ void WebSink::watch() {
 void WebSink::stop() {
   is_running_ = false;
   thread_.stop();
-  server_.reset();
+  listeners_.close();
   commands_.stop();
   look_around_.stop();
   configuration_.stop();
@@ -167,6 +170,8 @@ web::WebStatistics WebSink::statistics() const {
   all.requests = server_counts_.requests;
   all.refused = server_counts_.refused;
   all.overdue = server_counts_.overdue;
+  all.turned_away = server_counts_.turned_away;
+  all.certificate_days = listeners_.certificate_days();
   all.pictures_sent = stream_counts_.sent;
   all.pictures_skipped = stream_counts_.skipped;
   all.commands_done = commands_.done();
@@ -204,8 +209,8 @@ std::vector<web::Route> WebSink::make_routes() {
   std::ranges::move(look_around_.routes(), std::back_inserter(routes));
   std::ranges::move(configuration_.routes(), std::back_inserter(routes));
   std::ranges::move(web::log_routes(program_.log), std::back_inserter(routes));
-  std::ranges::move(web::interface_routes(tables_, program_), std::back_inserter(routes));
   std::ranges::move(align_.routes(), std::back_inserter(routes));
+  std::ranges::move(web::interface_routes(tables_, program_), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
   std::ranges::move(page_routes(), std::back_inserter(routes));
   return routes;

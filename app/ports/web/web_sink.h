@@ -15,6 +15,7 @@
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/configuration/configuration_desk.h"
 #include "app/ports/web/http/server.h"
+#include "app/ports/web/listeners.h"
 #include "app/ports/web/look_around/look_around.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/status/web_statistics.h"
@@ -34,7 +35,7 @@ class WebSink final : public Sink {
   WebSink(WebSettings settings, const SinkContext& context);
   ~WebSink() override;
 
-  /// Does nothing when disabled or running. Error: the address cannot be listened on.
+  /// Does nothing when disabled or running. Errors: as Listeners::open(); it may be repeated.
   Result<> start() override;
   void stop() override;
   std::chrono::nanoseconds cpu_time() const override;
@@ -44,7 +45,8 @@ class WebSink final : public Sink {
   void accept(const ViewPtr& view) override;
   void accept(const Status& status) override;
 
-  int port() const { return server_ ? server_->port() : 0; }
+  int port() const { return listeners_.port(); }
+  int https_port() const { return listeners_.https_port(); }
   web::WebStatistics statistics() const;
   const std::vector<web::Route>& routes() const { return routes_; }
 
@@ -58,6 +60,8 @@ class WebSink final : public Sink {
   std::vector<web::Route> make_routes();
   std::vector<web::Route> make_command_routes();
   void run_command(const CommandInfo& info, const web::ExchangePtr& exchange);
+  void begin();
+  void pass_on(const web::ExchangePtr& exchange);
   void watch();
   std::string newest_as_json() const;
   NewestStatus newest() const;
@@ -99,7 +103,7 @@ class WebSink final : public Sink {
   const Program program_;
   const std::function<std::vector<InterfaceTable>()> tables_;
   const std::vector<web::Route> routes_;
-  std::unique_ptr<web::Server> server_;
+  web::Listeners listeners_;
   hal::Thread thread_;  ///< ends what is overdue, and reports to streams
 };
 

@@ -50,6 +50,21 @@ may_write = false
   EXPECT_FALSE(modbus.serial->may_write);
 }
 
+TEST_F(ConfigurationFile, SaysWhereThePageIsServed) {
+  const auto web_of = [&](const std::string& more) {
+    const auto c = parse(kValid + "[web]\nenabled = true\n" + more);
+    EXPECT_TRUE(c) << c.error().message;
+    return c ? std::get<WebSettings>(c->site.sinks) : WebSettings{};
+  };
+  EXPECT_EQ(https_port_of(web_of("")), std::nullopt) << "on this computer only";
+  EXPECT_EQ(https_port_of(web_of("https_port = 443\n")), 443);
+  EXPECT_EQ(https_port_of(web_of("address = \"0.0.0.0\"\n")), 8443);
+  EXPECT_EQ(https_port_of(web_of("address = \"::\"\nport = 80\nhttps_port = 443\n")), 443);
+  const WebSettings own = web_of("certificate = \"own.pem\"\nkey = \"own.key\"\n");
+  EXPECT_EQ(own.certificate, folder / "own.pem") << "from the file's folder";
+  EXPECT_EQ(https_port_of(own), 8443);
+}
+
 TEST_F(ConfigurationFile, MayRepeatTheSizeThatTheRigStates) {
   const auto c = parse(replaced("name = \"a\"", "name = \"a\"\nwidth = 100\nheight = 80"));
   ASSERT_TRUE(c) << c.error().message;
@@ -142,6 +157,15 @@ INSTANTIATE_TEST_SUITE_P(
                 triggered("", kLines + "[[line]]\nname = \"out\"\nuse = \"trigger_out\"\n"
                                        "line_name = \"OUT\"\nrate = 100\nwidth_us = 10000\n"),
                 {"line.width_us", "period"}},
+        Refusal{"PageOnAName",
+                kValid + "[web]\naddress = \"ball.example\"\n",
+                {"web.address", "no numeric address", "0.0.0.0"}},
+        Refusal{"CertificateWithoutKey",
+                kValid + "[web]\ncertificate = \"own.pem\"\n",
+                {"web.certificate", "stands alone", "`key`"}},
+        Refusal{"HttpsOnThePortOfHttp",
+                kValid + "[web]\nport = 8443\naddress = \"0.0.0.0\"\n",
+                {"web", "the port of HTTP"}},
         Refusal{"UnknownKey",
                 replaced("width = 64", "width = 64\nwidht = 3"),
                 {"site.toml:12:", "view.widht", "width"}},

@@ -3,8 +3,6 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <chrono>
-#include <optional>
 #include <string>
 #include <system_error>
 
@@ -81,11 +79,7 @@ Result<> set_plugins(const Qos& qos) {
 }  // namespace
 
 Result<> check_security(const SecuritySettings& settings, int domain, Dates dates) {
-  std::optional<std::chrono::sys_seconds> now;
-  if (dates == Dates::Checked) {
-    now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  }
-  return check_enclave(EnclaveFiles(settings.folder), domain, now)
+  return check_enclave(EnclaveFiles(settings.folder), domain, now_for(dates))
       .map_error([](const Error& error) { return Error{"DDS security: " + error.message}; });
 }
 

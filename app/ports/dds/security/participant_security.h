@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/certificates/dates.h"
 #include "app/ports/dds/participant/entity.h"
 #include "proc/image/result.h"
 
@@ -11,10 +12,6 @@ namespace orbwatch::app {
 struct SecuritySettings {
   std::filesystem::path folder;  ///< holds the files of EnclaveFiles
 };
-
-/// Whether certificates and permissions must be valid now. A board without a battery has a wrong
-/// clock until a time server is reached.
-enum class Dates { Checked, Ignored };
 
 /// Checks the files, as check_enclave().
 Result<> check_security(const SecuritySettings& settings, int domain, Dates dates);

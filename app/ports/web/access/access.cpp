@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/ports/web/access/first_code.h"
 #include "app/ports/web/access/kept_logins.h"
 #include "app/ports/web/access/secret.h"
 #include "app/ports/web/http/address.h"
@@ -28,7 +29,7 @@ Utc Access::utc_now() {
 Access::Access(std::filesystem::path state_folder, Sessions::Limits limits, ClockOfUtc clock)
     : folder_(std::move(state_folder)), clock_(std::move(clock)), sessions_(limits) {}
 
-void Access::start() {
+void Access::start(bool gives_code) {
   if (folder_.empty()) return;
   {
     const std::lock_guard lock(mutex_);
@@ -36,6 +37,7 @@ void Access::start() {
     if (!loaded) log_line(LogLevel::Error, "web: " + loaded.error().message);
   }
   const std::lock_guard files(files_mutex_);
+  gives_code_ = gives_code;
   load();
 }
 
@@ -59,10 +61,33 @@ void Access::load() {
   auto loaded = load_users(users_file(folder_));
   const std::string fault = loaded ? "" : loaded.error().message;
   if (!fault.empty()) log_line(LogLevel::Error, "web: nobody can log in: " + fault);
+  const std::string code = code_for(loaded);
   const std::lock_guard lock(mutex_);
+  code_ = code;
   fault_ = fault;
   state_ = !loaded ? State::Unusable : *loaded ? State::Users : State::Nobody;
   users_ = loaded && *loaded ? std::move(**loaded) : Users{};
+}
+
+/// Empty: there is none. It ends with the first password.
+std::string Access::code_for(const Result<std::optional<Users>>& loaded) const {
+  if (!loaded) return "";
+  if (*loaded) {
+    const auto forgotten = forget_code(folder_);
+    if (!forgotten) log_line(LogLevel::Error, "web: " + forgotten.error().message);
+    return "";
+  }
+  if (!gives_code_) return "";
+  const auto code = keep_code(folder_);
+  if (!code) {
+    log_line(LogLevel::Error, "web: no code for the first password: " + code.error().message);
+    return "";
+  }
+  log_line(LogLevel::Warning,
+           "web: no password is set; another computer sets the first one with "
+           "the code " +
+               *code);
+  return *code;
 }
 
 /// Without the file only a restart would forget.
@@ -185,6 +210,48 @@ Access::Token Access::change_password(const std::string& name, const std::string
   });
   if (!changed) return tl::unexpected(Refusal{409, changed.error().message});
   return begin({user->name, user->role, *hash});
+}
+
+tl::expected<void, Access::Refusal> Access::judge_code(const std::string& code,
+                                                       const std::string& peer) {
+  // No user's name, so that its failures count by themselves.
+  static const std::string kCode = "(first code)";
+  const std::string address = address_key(peer);
+  {
+    const std::lock_guard lock(mutex_);
+    if (code_.empty()) {
+      return tl::unexpected(Refusal{409,
+                                    "no code is valid: a password is set, or only this "
+                                    "computer is served"});
+    }
+    if (const auto wait = limits_.wait(kCode, address, clock_()); wait.count() > 0) {
+      return tl::unexpected(Refusal{
+          429, "too many wrong codes; try again in " + std::to_string(wait.count()) + " s", wait});
+    }
+    if (is_code(code_, code)) return {};
+    limits_.failed(kCode, address, clock_());
+  }
+  keep();
+  return tl::unexpected(Refusal{403, "the code is wrong"});
+}
+
+Access::Token Access::set_first_password(const std::string& code, const std::string& password,
+                                         const std::string& peer) {
+  refresh();
+  if (auto right = judge_code(code, peer); !right) return tl::unexpected(right.error());
+  if (auto right = check_password(password); !right) {
+    return tl::unexpected(Refusal{400, right.error().message});
+  }
+  const auto hash = hash_password(password);
+  if (!hash) return tl::unexpected(Refusal{503, hash.error().message});
+  const User first{std::string(kFirstUser), Role::Administrator, *hash};
+  const auto changed = change([&first](Users& all) -> Result<> {
+    if (!all.users.empty()) return fail("somebody else has set the first password meanwhile");
+    all.users.push_back(first);
+    return {};
+  });
+  if (!changed) return tl::unexpected(Refusal{409, changed.error().message});
+  return begin(first);
 }
 
 Result<> Access::change(const std::function<Result<>(Users&)>& change) {

@@ -36,8 +36,9 @@ class Access {
   /// `state_folder` empty: nobody can set a password.
   Access(std::filesystem::path state_folder, Sessions::Limits limits, ClockOfUtc clock = utc_now);
 
-  /// Reads the files. Complains in the log.
-  void start();
+  /// Reads the files. Complains in the log. `gives_code`: as long as there are no users it logs the
+  /// code with which another computer sets the first password.
+  void start(bool gives_code = false);
   /// Keeps when sessions were used last.
   void stop();
   /// Reads the users again when their file has changed.
@@ -52,6 +53,9 @@ class Access {
   /// Of whoever knows the present one; ends the sessions of the user and begins a new one.
   Token change_password(const std::string& name, const std::string& old_password,
                         const std::string& new_password, const std::string& peer);
+  /// Makes the first user, kFirstUser, for whoever knows the code, and begins a session.
+  Token set_first_password(const std::string& code, const std::string& password,
+                           const std::string& peer);
   /// Errors: as change_users().
   Result<> change(const std::function<Result<>(Users&)>& change);
   /// As they are now; nobody when the file is absent or cannot be used.
@@ -69,6 +73,8 @@ class Access {
 
   FileMark mark() const;
   void load();  ///< under files_mutex_
+  std::string code_for(const Result<std::optional<Users>>& loaded) const;
+  tl::expected<void, Refusal> judge_code(const std::string& code, const std::string& peer);
   void keep();
   std::string begin(const User& user);
   tl::expected<User, Refusal> judge(const std::string& name, const std::string& password,
@@ -76,14 +82,16 @@ class Access {
 
   const std::filesystem::path folder_;
   const ClockOfUtc clock_;
-  std::mutex files_mutex_;  ///< also while the users file is read; before mutex_
-  FileMark mark_;           ///< of the users file as it was read; under files_mutex_
+  std::mutex files_mutex_;   ///< also while the users file is read; before mutex_
+  FileMark mark_;            ///< of the users file as it was read; under files_mutex_
+  bool gives_code_ = false;  ///< under files_mutex_
 
   mutable std::mutex
       mutex_;  ///< of what follows; never held while the disk or a hash is waited for
   State state_ = State::Nobody;
   std::string fault_;
   Users users_;
+  std::string code_;  ///< for the first password; empty: there is none
   Sessions sessions_;
   LoginLimits limits_;
 };

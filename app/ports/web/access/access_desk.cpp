@@ -26,9 +26,11 @@ Response done_or(const Result<>& result) {
   return result ? done() : error_response(409, result.error().message);
 }
 
-std::string cookie(const std::string& token, std::chrono::seconds age) {
-  return std::string(kSessionCookie) + "=" + token +
-         "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(age.count());
+std::string cookie(const web::Request& request, const std::string& token,
+                   std::chrono::seconds age) {
+  return std::string(session_cookie(request)) + "=" + token +
+         "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(age.count()) +
+         (request.is_secure ? "; Secure" : "");
 }
 
 template <class One>
@@ -103,6 +105,12 @@ std::vector<Route> AccessDesk::routes() {
   routes.push_back(changing("/api/v1/login", Role::Nobody, "Begins a session, kept in a cookie",
                             {user, password}, &AccessDesk::login));
   routes.push_back(
+      changing("/api/v1/set_first_password", Role::Nobody,
+               "Makes the first administrator, admin, while there are no users, and "
+               "begins a session",
+               {{"code", "As the log and `orbwatch password --show` have it"}, password},
+               &AccessDesk::set_first_password));
+  routes.push_back(
       changing("/api/v1/logout", Role::Viewer, "Ends the session", {}, &AccessDesk::logout));
   routes.push_back(changing("/api/v1/set_password", Role::Viewer,
                             "Changes the password of whoever is logged in; other sessions end",
@@ -152,10 +160,10 @@ Response AccessDesk::users(const web::Request& /*request*/) const {
   return json_response(Json{{"users", list_of(all.users)}, {"tokens", list_of(all.tokens)}}.dump());
 }
 
-Response AccessDesk::logged_in(const Access::Token& token) const {
+Response AccessDesk::logged_in(const web::Request& request, const Access::Token& token) const {
   if (!token) return refused(token.error());
   Response response = done();
-  response.headers.emplace_back("Set-Cookie", cookie(*token, longest_));
+  response.headers.emplace_back("Set-Cookie", cookie(request, *token, longest_));
   return response;
 }
 
@@ -165,19 +173,31 @@ Response AccessDesk::login(Request& request) {
   if (token) request.user = user;
   // Only a known name: a password may have been typed in its place.
   request.after = role_of(user);
-  return logged_in(token);
+  return logged_in(request.sent, token);
 }
 
 Response AccessDesk::logout(Request& request) {
-  if (const std::string* session = request.sent.cookie(kSessionCookie)) access_.logout(*session);
+  const std::string* session = request.sent.cookie(session_cookie(request.sent));
+  if (session) access_.logout(*session);
   Response response = done();
-  response.headers.emplace_back("Set-Cookie", cookie("", std::chrono::seconds(0)));
+  response.headers.emplace_back("Set-Cookie", cookie(request.sent, "", std::chrono::seconds(0)));
   return response;
 }
 
 Response AccessDesk::set_password(Request& request) {
-  return logged_in(access_.change_password(request.user, request.members.at("old"),
+  return logged_in(request.sent,
+                   access_.change_password(request.user, request.members.at("old"),
                                            request.members.at("new"), request.sent.peer));
+}
+
+Response AccessDesk::set_first_password(Request& request) {
+  const auto token = access_.set_first_password(request.members.at("code"),
+                                                request.members.at("password"), request.sent.peer);
+  if (token) {
+    request.user = kFirstUser;
+    request.after = role_of(request.user);
+  }
+  return logged_in(request.sent, token);
 }
 
 Response AccessDesk::set_user(Request& request) {

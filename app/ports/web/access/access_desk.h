@@ -47,6 +47,7 @@ class AccessDesk {
   Response login(Request& request);
   Response logout(Request& request);
   Response set_password(Request& request);
+  Response set_first_password(Request& request);
   Response set_user(Request& request);
   Response remove_user(Request& request);
   Response create_token(Request& request);
@@ -54,7 +55,7 @@ class AccessDesk {
   Response answer_and_note(const ExchangePtr& exchange, const Members& members, Handler handler);
   void show_audit(const ExchangePtr& exchange);
   std::string role_of(const std::string& user) const;
-  Response logged_in(const Access::Token& token) const;
+  Response logged_in(const web::Request& request, const Access::Token& token) const;
 
   Access& access_;
   Audit& audit_;

@@ -1,9 +1,6 @@
 #include "app/ports/web/access/login_limits.h"
 
-#include <arpa/inet.h>
-
 #include <algorithm>
-#include <array>
 
 namespace orbwatch::app::web {
 namespace {
@@ -60,16 +57,6 @@ void LoginLimits::succeeded(const std::string& name) {
 void LoginLimits::restore(std::vector<Entry> names, std::vector<Entry> addresses) {
   names_ = std::move(names);
   addresses_ = std::move(addresses);
-}
-
-std::string address_key(const std::string& peer) {
-  in6_addr address{};
-  if (::inet_pton(AF_INET6, peer.c_str(), &address) != 1) return peer;
-  constexpr std::size_t kNetworkBytes = 8;
-  std::fill(std::begin(address.s6_addr) + kNetworkBytes, std::end(address.s6_addr), 0);
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  ::inet_ntop(AF_INET6, &address, text.data(), text.size());
-  return std::string(text.data()) + "/64";
 }
 
 }  // namespace orbwatch::app::web

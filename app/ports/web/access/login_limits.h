@@ -44,8 +44,4 @@ class LoginLimits {
   std::vector<Entry> addresses_;
 };
 
-/// What an address counts as: an IPv6 one as its network of 64 bits, of which one host may have
-/// every address. Reentrant.
-std::string address_key(const std::string& peer);
-
 }  // namespace orbwatch::app::web

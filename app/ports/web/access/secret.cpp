@@ -74,6 +74,15 @@ std::string random_token() {
   return as_text(bytes);
 }
 
+std::uint32_t random_below(std::uint32_t end) {
+  need_library();
+  return ::randombytes_uniform(end);
+}
+
+bool equal_secrets(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && ::sodium_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
 std::string token_hash(std::string_view token) {
   need_library();
   std::array<unsigned char, crypto_generichash_BYTES> hash{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,12 @@ bool is_password(const std::string& hash, std::string_view password);
 
 /// 256 random bits, of letters, digits, - and _.
 std::string random_token();
+
+/// 0 to `end` - 1, each as likely.
+std::uint32_t random_below(std::uint32_t end);
+
+/// Takes as long wherever they differ.
+bool equal_secrets(std::string_view a, std::string_view b);
 
 /// By which a token is kept. Reveals nothing of it, since all of its bits are random.
 std::string token_hash(std::string_view token);

@@ -35,6 +35,9 @@ struct Users {
   const ApiToken* find_token(std::string_view hash) const;
 };
 
+/// The administrator who is there first, unless another name is chosen.
+inline constexpr std::string_view kFirstUser = "admin";
+
 inline constexpr std::size_t kMostUsers = 64;  ///< and as many tokens
 
 std::filesystem::path users_file(const std::filesystem::path& state_folder);

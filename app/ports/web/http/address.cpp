@@ -22,20 +22,6 @@ bool is_port(std::string_view text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// The host of a Host header; nullopt: it is malformed.
-std::optional<std::string_view> host_of(std::string_view header) {
-  const bool is_bracketed = header.starts_with('[');
-  const std::size_t end = is_bracketed ? header.find(']') : header.find(':');
-  if (is_bracketed && end == std::string_view::npos) return std::nullopt;
-  const std::string_view host = is_bracketed ? header.substr(1, end - 1) : header.substr(0, end);
-  std::string_view rest = end == std::string_view::npos ? "" : header.substr(end);
-  if (is_bracketed) rest.remove_prefix(1);
-  if (!rest.empty() && (rest.front() != ':' || !is_port(rest.substr(1)))) return std::nullopt;
-  // What follows would not be seen by functions for C strings.
-  if (host.find('\0') != std::string_view::npos) return std::nullopt;
-  return host;
-}
-
 }  // namespace
 
 std::optional<SocketAddress> parse_address(const std::string& text, int port) {
@@ -80,14 +66,35 @@ bool is_loopback(const std::string& host) {
   return plain.starts_with("127.") || plain == "::1";
 }
 
+std::string address_key(const std::string& peer) {
+  in6_addr address{};
+  if (::inet_pton(AF_INET6, peer.c_str(), &address) != 1) return peer;
+  constexpr std::size_t kNetworkBytes = 8;
+  std::fill(std::begin(address.s6_addr) + kNetworkBytes, std::end(address.s6_addr), 0);
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET6, &address, text.data(), text.size());
+  return std::string(text.data()) + "/64";
+}
+
+std::optional<std::string_view> host_in(std::string_view header) {
+  const bool is_bracketed = header.starts_with('[');
+  const std::size_t bracket = is_bracketed ? header.find(']') : 0;
+  if (bracket == std::string_view::npos) return std::nullopt;
+  const std::size_t end = is_bracketed ? bracket + 1 : std::min(header.find(':'), header.size());
+  const std::string_view host = header.substr(0, end), rest = header.substr(end);
+  if (!rest.empty() && (rest.front() != ':' || !is_port(rest.substr(1)))) return std::nullopt;
+  // What follows would not be seen by functions for C strings.
+  if (host.find('\0') != std::string_view::npos) return std::nullopt;
+  return host;
+}
+
 bool is_own_host(std::string_view header, const std::vector<std::string>& names) {
-  const auto host = host_of(header);
+  const auto host = host_in(header);
   if (!host || host->empty()) return false;
   std::array<std::byte, sizeof(in6_addr)> number;
-  const std::string text(*host);
-  if (::inet_pton(header.front() == '[' ? AF_INET6 : AF_INET, text.c_str(), number.data()) == 1) {
-    return true;
-  }
+  const bool is_v6 = host->front() == '[';
+  const std::string text(is_v6 ? host->substr(1, host->size() - 2) : *host);
+  if (::inet_pton(is_v6 ? AF_INET6 : AF_INET, text.c_str(), number.data()) == 1) return true;
   return equal_in_any_case(*host, "localhost") || std::ranges::any_of(names, [&](const auto& name) {
            return equal_in_any_case(*host, name);
          });

@@ -29,6 +29,14 @@ std::string host_text(const sockaddr* address);
 /// A numeric address of this computer alone: 127.0.0.0/8 or ::1.
 bool is_loopback(const std::string& host);
 
+/// What an address counts as: an IPv6 one as its network of 64 bits, of which one host may have
+/// every address.
+std::string address_key(const std::string& peer);
+
+/// The host of a Host header (RFC 9110, 7.2) as it stands in one, without a port; nullopt: it is
+/// malformed.
+std::optional<std::string_view> host_in(std::string_view header);
+
 /// Whether a Host header (RFC 9110, 7.2) names this appliance: a numeric address, localhost or one
 /// of `names`, in any case, with or without a port.
 bool is_own_host(std::string_view header, const std::vector<std::string>& names);

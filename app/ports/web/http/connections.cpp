@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "app/ports/web/http/address.h"
+
 namespace orbwatch::app::web {
 namespace {
 
@@ -32,9 +34,18 @@ struct Ends {
 
 }  // namespace
 
-Connections::Connection* Connections::add(int socket, std::string peer) {
+bool Connections::has_room(const std::string& peer, std::size_t most) {
+  const std::string key = address_key(peer);
   const std::lock_guard lock(mutex_);
-  all_.push_back({socket, std::move(peer), hal::Clock::now() + timeout_, {}, {}, {}});
+  return static_cast<std::size_t>(std::ranges::count_if(
+             all_, [&](const Connection& one) { return one.key == key; })) < most;
+}
+
+Connections::Connection* Connections::add(int socket, std::string peer) {
+  std::string key = address_key(peer);
+  const std::lock_guard lock(mutex_);
+  all_.push_back(
+      {socket, std::move(peer), std::move(key), hal::Clock::now() + timeout_, {}, {}, {}});
   return &all_.back();
 }
 

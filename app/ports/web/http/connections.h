@@ -21,6 +21,7 @@ class Connections {
   struct Connection {
     int socket = -1;
     std::string peer;
+    std::string key;          ///< the peer's address_key()
     hal::TimePoint deadline;  ///< max(): none
     std::weak_ptr<Exchange> exchange;
     std::weak_ptr<StreamSender> stream;
@@ -29,6 +30,8 @@ class Connections {
 
   explicit Connections(std::chrono::milliseconds timeout) : timeout_(timeout) {}
 
+  /// Whether the address has fewer connections than `most`.
+  bool has_room(const std::string& peer, std::size_t most);
   Connection* add(int socket, std::string peer);
   void remove(Connection* connection);
 

@@ -17,12 +17,14 @@ using Values = std::vector<std::pair<std::string, std::string>>;
 /// A request as it arrived, whole.
 struct Request {
   std::string method;
-  std::string path;  ///< decoded, without the query
-  Values query;      ///< decoded
+  std::string target;  ///< as sent, with the query
+  std::string path;    ///< decoded, without the query
+  Values query;        ///< decoded
   Values headers;
   Values cookies;
   std::string body;
-  std::string peer;  ///< the client's numeric address
+  std::string peer;        ///< the client's numeric address
+  bool is_secure = false;  ///< it came over HTTPS
 
   /// The first value of that name, compared exactly; null: none.
   const std::string* argument(std::string_view name) const;

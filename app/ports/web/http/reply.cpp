@@ -25,15 +25,15 @@ constexpr std::array<std::pair<const char*, const char*>, 9> kHeaders{
      {"Server", "orbwatch"}}};
 
 /// Null if there is no memory for the headers.
-Reply with_headers(Reply reply, const Response& response) {
+Reply with_headers(Reply reply, const Response& response, const Values& more) {
   const auto add = [&reply](const char* name, const char* value) {
     return ::MHD_add_response_header(reply.get(), name, value) == MHD_YES;
   };
   if (!reply) return reply;
   bool added = add(MHD_HTTP_HEADER_CONTENT_TYPE, response.type.c_str());
   for (const auto& [name, value] : kHeaders) added = added && add(name, value);
-  for (const auto& [name, value] : response.headers) {
-    added = added && add(name.c_str(), value.c_str());
+  for (const Values* headers : {&response.headers, &more}) {
+    for (const auto& [name, value] : *headers) added = added && add(name.c_str(), value.c_str());
   }
   return added ? std::move(reply) : nullptr;
 }
@@ -56,20 +56,21 @@ void release_bytes(void* bytes) { delete static_cast<Bytes*>(bytes); }
 
 }  // namespace
 
-Reply make_reply(const Response& response) {
+Reply make_reply(const Response& response, const Values& more) {
   if (!response.body) {
     return with_headers(
-        Reply(::MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT)), response);
+        Reply(::MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT)), response,
+        more);
   }
   auto owned = std::make_unique<Bytes>(response.body);
   // The C API takes no const pointer, but reads only.
   Reply reply(::MHD_create_response_from_buffer_with_free_callback_cls(
       response.body->size(), const_cast<char*>(response.body->data()), release_bytes, owned.get()));
   if (reply) static_cast<void>(owned.release());
-  return with_headers(std::move(reply), response);
+  return with_headers(std::move(reply), response, more);
 }
 
-Reply make_reply(const Response& response, std::shared_ptr<StreamSender> sender,
+Reply make_reply(const Response& response, const Values& more, std::shared_ptr<StreamSender> sender,
                  std::function<void()> on_end) {
   auto owned = std::make_unique<StreamBody>(StreamBody{std::move(sender), std::move(on_end)});
   Reply reply(::MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kStreamBlock, read_stream,
@@ -81,7 +82,7 @@ Reply make_reply(const Response& response, std::shared_ptr<StreamSender> sender,
   static_cast<void>(owned.release());
   // Chunks would be cut to the connection's small pool, and players of MJPEG expect none.
   ::MHD_set_response_options(reply.get(), MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
-  return with_headers(std::move(reply), response);
+  return with_headers(std::move(reply), response, more);
 }
 
 }  // namespace orbwatch::app::web

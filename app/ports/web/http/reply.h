@@ -15,10 +15,10 @@ struct ReplyDeleter {
 };
 using Reply = std::unique_ptr<MHD_Response, ReplyDeleter>;
 
-/// An answer with its headers and those that every answer has. Null: out of memory.
-Reply make_reply(const Response& response);
+/// An answer with its headers, `more` and those that every answer has. Null: out of memory.
+Reply make_reply(const Response& response, const Values& more);
 /// The same whose body is what `sender` passes on, until `on_end` is called.
-Reply make_reply(const Response& response, std::shared_ptr<StreamSender> sender,
+Reply make_reply(const Response& response, const Values& more, std::shared_ptr<StreamSender> sender,
                  std::function<void()> on_end);
 
 }  // namespace orbwatch::app::web

@@ -10,7 +10,10 @@
 #include <charconv>
 #include <cstdarg>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
+#include "app/ports/web/http/address.h"
 #include "app/ports/web/http/reply.h"
 
 namespace orbwatch::app::web {
@@ -22,6 +25,9 @@ constexpr std::size_t kHeadBytes = 32 * 1024;
 /// Not sent yet by the kernel for a client: what is beyond it would only age (measured: at 2 MB/s
 /// a picture of 200 kB arrives 0.2 s old instead of 1.9 s).
 constexpr int kUnsentBytes = 128 * 1024;
+
+/// GnuTLS's: TLS 1.2 and 1.3 with keys of each connection's own, 128 bits or more.
+constexpr const char* kTlsPriorities = "SECURE128:-VERS-ALL:+VERS-TLS1.3:+VERS-TLS1.2:-RSA";
 
 /// Of the thread that opens a server: why libmicrohttpd refuses. Later complaints are about
 /// clients, who could flood the log with them.
@@ -55,8 +61,8 @@ Connections::Connection* connection_of(MHD_Connection* connection) {
 
 /// A request whose body may still be on its way.
 struct Arriving {
-  bool has_zero = false;  ///< encoded in its target, which the library's C strings would cut there
-  ExchangePtr exchange;   ///< null: its head is still on its way
+  std::string target;
+  ExchangePtr exchange;  ///< null: its head is still on its way
   bool is_too_large = false;
   bool was_handled = false;
 };
@@ -70,6 +76,7 @@ void set_option(int socket, int level, int option, int value) {
 
 /// What libmicrohttpd calls, on its threads; `self` is the server.
 struct Server::Callbacks {
+  static MHD_Result accept(void* self, const sockaddr* peer, socklen_t length);
   static void connection(void* self, MHD_Connection* connection, void** context,
                          MHD_ConnectionNotificationCode code);
   static void* target(void* self, const char* target, MHD_Connection* connection);
@@ -86,6 +93,14 @@ struct Server::Callbacks {
   static MHD_Result send_stream(Server& server, MHD_Connection* connection,
                                 const Response& response);
 };
+
+MHD_Result Server::Callbacks::accept(void* self, const sockaddr* peer, socklen_t /*length*/) {
+  auto& server = *static_cast<Server*>(self);
+  const auto most = static_cast<std::size_t>(server.settings_.max_connections_per_address);
+  if (server.connections_.has_room(host_text(peer), most)) return MHD_YES;
+  ++server.counts_.turned_away;
+  return MHD_NO;
+}
 
 void Server::Callbacks::connection(void* self, MHD_Connection* connection, void** context,
                                    MHD_ConnectionNotificationCode code) {
@@ -133,7 +148,7 @@ MHD_Result Server::Callbacks::request(void* self, MHD_Connection* connection, co
 void* Server::Callbacks::target(void* /*self*/, const char* target,
                                 MHD_Connection* /*connection*/) {
   auto arriving = std::make_unique<Arriving>();
-  arriving->has_zero = std::string_view(target).find("%00") != std::string_view::npos;
+  arriving->target = target;
   return arriving.release();
 }
 
@@ -141,11 +156,13 @@ void Server::Callbacks::begin(const Server& server, MHD_Connection* connection, 
                               const char* method, Arriving& arriving) {
   Request request;
   request.method = method;
+  request.target = std::move(arriving.target);
   request.path = url;
   request.query = values_of(connection, MHD_GET_ARGUMENT_KIND);
   request.headers = values_of(connection, MHD_HEADER_KIND);
   request.cookies = values_of(connection, MHD_COOKIE_KIND);
   request.peer = connection_of(connection)->peer;
+  request.is_secure = server.endpoint_.pem.has_value();
   if (const std::string* length = request.header(MHD_HTTP_HEADER_CONTENT_LENGTH)) {
     std::size_t bytes = 0;
     const auto parsed = std::from_chars(length->data(), length->data() + length->size(), bytes);
@@ -162,7 +179,8 @@ void Server::Callbacks::handle(Server& server, Connections::Connection& connecti
   const std::string* host = exchange.request().header(MHD_HTTP_HEADER_HOST);
   if (!server.connections_.begin_answer(&connection, arriving.exchange)) {
     exchange.answer(error_response(503, "shuts down"));
-  } else if (arriving.has_zero) {
+  } else if (exchange.request().target.find("%00") != std::string::npos) {
+    // The library's C strings were cut there.
     ++server.counts_.refused;
     exchange.answer(error_response(400, "a zero byte has no place in a path or a query"));
   } else if (arriving.is_too_large) {
@@ -186,7 +204,7 @@ MHD_Result Server::Callbacks::send(Server& server, MHD_Connection* connection, A
   if (!response) return MHD_YES;
   if (response->stream) return send_stream(server, connection, *response);
   server.connections_.begin_sending(&own);
-  const Reply reply = make_reply(*response);
+  const Reply reply = make_reply(*response, server.endpoint_.headers);
   if (!reply) return MHD_NO;
   return ::MHD_queue_response(connection, static_cast<unsigned>(response->status), reply.get());
 }
@@ -200,48 +218,57 @@ MHD_Result Server::Callbacks::send_stream(Server& server, MHD_Connection* connec
   if (!server.connections_.begin_stream(connection_of(connection), sender, response.may_go_on))
     return MHD_NO;
   ++server.counts_.streams;
-  const Reply reply =
-      make_reply(response, std::move(sender), [&counts = server.counts_] { --counts.streams; });
+  const Reply reply = make_reply(response, server.endpoint_.headers, std::move(sender),
+                                 [&counts = server.counts_] { --counts.streams; });
   if (!reply) return MHD_NO;
   return ::MHD_queue_response(connection, static_cast<unsigned>(response.status), reply.get());
 }
 
-Server::Server(const WebSettings& settings, Handler handler, ServerCounts& counts)
+Server::Server(const WebSettings& settings, Endpoint endpoint, Handler handler,
+               ServerCounts& counts)
     : settings_(settings),
+      endpoint_(std::move(endpoint)),
       handler_(std::move(handler)),
       counts_(counts),
       connections_(settings.request_timeout) {}
 
-Result<std::unique_ptr<Server>> Server::open(const WebSettings& settings, Handler handler,
-                                             ServerCounts& counts) {
-  std::unique_ptr<Server> server(new Server(settings, std::move(handler), counts));
+Result<std::unique_ptr<Server>> Server::open(const WebSettings& settings, Endpoint endpoint,
+                                             Handler handler, ServerCounts& counts) {
+  std::unique_ptr<Server> server(
+      new Server(settings, std::move(endpoint), std::move(handler), counts));
   if (auto listens = server->listen(); !listens) return tl::unexpected(listens.error());
   return server;
 }
 
 Result<> Server::listen() {
-  auto address = parse_address(settings_.address, settings_.port);
-  const std::string where = settings_.address + " port " + std::to_string(settings_.port);
+  auto address = parse_address(settings_.address, endpoint_.port);
+  const std::string where = settings_.address + " port " + std::to_string(endpoint_.port);
   if (!address) return fail("web: " + where + ": is no numeric address");
-  const bool is_v6 = address->get()->sa_family == AF_INET6;
+  const bool is_v6 = address->get()->sa_family == AF_INET6, is_secure = endpoint_.pem.has_value();
   const unsigned flags =
       static_cast<unsigned>(MHD_USE_EPOLL_INTERNAL_THREAD) | static_cast<unsigned>(MHD_USE_ITC) |
       static_cast<unsigned>(MHD_ALLOW_SUSPEND_RESUME) | static_cast<unsigned>(MHD_USE_ERROR_LOG) |
-      (is_v6 ? static_cast<unsigned>(MHD_USE_DUAL_STACK) : 0U);
+      (is_v6 ? static_cast<unsigned>(MHD_USE_DUAL_STACK) : 0U) |
+      (is_secure ? static_cast<unsigned>(MHD_USE_TLS) : 0U);
+  std::vector<MHD_OptionItem> tls;
+  if (is_secure) {
+    tls.push_back({MHD_OPTION_HTTPS_MEM_CERT, 0, endpoint_.pem->certificate.data()});
+    tls.push_back({MHD_OPTION_HTTPS_MEM_KEY, 0, endpoint_.pem->key.data()});
+    tls.push_back({MHD_OPTION_HTTPS_PRIORITIES, 0, const_cast<char*>(kTlsPriorities)});
+  }
+  tls.push_back({MHD_OPTION_END, 0, nullptr});
   // Of silence: what arrives too slowly is for end_overdue().
   const auto silence = std::chrono::ceil<std::chrono::seconds>(settings_.request_timeout);
   complaint.clear();
   daemon_ = ::MHD_start_daemon(
-      flags, 0, nullptr, nullptr, Callbacks::request, this, MHD_OPTION_EXTERNAL_LOGGER,
+      flags, 0, Callbacks::accept, this, Callbacks::request, this, MHD_OPTION_EXTERNAL_LOGGER,
       keep_complaint, this, MHD_OPTION_SOCK_ADDR, address->get(), MHD_OPTION_THREAD_POOL_SIZE,
       kThreads, MHD_OPTION_CONNECTION_LIMIT, static_cast<unsigned>(settings_.max_connections),
-      MHD_OPTION_PER_IP_CONNECTION_LIMIT,
-      static_cast<unsigned>(settings_.max_connections_per_address),
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeadBytes, MHD_OPTION_CONNECTION_TIMEOUT,
       static_cast<unsigned>(silence.count()), MHD_OPTION_STRICT_FOR_CLIENT, 1,
       MHD_OPTION_NOTIFY_CONNECTION, Callbacks::connection, this, MHD_OPTION_URI_LOG_CALLBACK,
       Callbacks::target, this, MHD_OPTION_NOTIFY_COMPLETED, Callbacks::completed, this,
-      MHD_OPTION_END);
+      MHD_OPTION_ARRAY, tls.data(), MHD_OPTION_END);
   if (!daemon_) return fail("web: cannot listen on " + where + ": " + complaint);
   port_ = ::MHD_get_daemon_info(daemon_, MHD_DAEMON_INFO_BIND_PORT)->port;
   return {};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/ports/web/http/connections.h"
@@ -20,12 +21,26 @@ struct ServerCounts {
   std::atomic<std::uint64_t> requests{0};     ///< that arrived whole
   std::atomic<std::uint64_t> refused{0};      ///< because of their form, size or host name
   std::atomic<std::uint64_t> overdue{0};      ///< connections ended because they were too slow
+  std::atomic<std::uint64_t> turned_away{0};  ///< connections of addresses that had enough
   std::atomic<std::uint64_t> connections{0};  ///< open now
   std::atomic<std::uint64_t> streams{0};      ///< open now
 };
 
-/// HTTP/1.1 by libmicrohttpd on two threads of its own, which wait for sockets only.
-/// Thread rule: one owner; end_overdue on any thread.
+/// A certificate, with those of its issuers, and its key.
+struct PemPair {
+  std::string certificate;
+  std::string key;
+};
+
+/// Where and how a server listens, at the address of the settings.
+struct Endpoint {
+  int port = 0;                ///< 0: any free port
+  std::optional<PemPair> pem;  ///< of HTTPS; none: HTTP
+  Values headers;              ///< of every answer, besides others
+};
+
+/// HTTP/1.1, plain or within TLS 1.2 or 1.3, by libmicrohttpd on two threads of its own, which wait
+/// for sockets only. Thread rule: one owner; end_overdue on any thread.
 class Server {
  public:
   /// Called on a thread of the server with each request that is whole. Must not wait; it answers
@@ -33,8 +48,8 @@ class Server {
   using Handler = std::function<void(const ExchangePtr&)>;
 
   /// Listens. `settings` and `counts` outlive it. Error: address and reason.
-  static Result<std::unique_ptr<Server>> open(const WebSettings& settings, Handler handler,
-                                              ServerCounts& counts);
+  static Result<std::unique_ptr<Server>> open(const WebSettings& settings, Endpoint endpoint,
+                                              Handler handler, ServerCounts& counts);
   /// Ends all connections.
   ~Server();
   Server(const Server&) = delete;
@@ -48,10 +63,11 @@ class Server {
  private:
   struct Callbacks;
 
-  Server(const WebSettings& settings, Handler handler, ServerCounts& counts);
+  Server(const WebSettings& settings, Endpoint endpoint, Handler handler, ServerCounts& counts);
   Result<> listen();
 
   const WebSettings& settings_;
+  Endpoint endpoint_;
   const Handler handler_;
   ServerCounts& counts_;
   Connections connections_;

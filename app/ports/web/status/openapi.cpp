@@ -160,21 +160,23 @@ std::string openapi_json(const std::vector<Route>& routes) {
     paths[route.path][route.method == "GET" ? "get" : "post"] = operation_of(route);
   }
   const Json text{{"type", "string"}};
-  const Json all{
-      {"openapi", "3.0.3"},
-      {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
-      {"paths", std::move(paths)},
-      {"components",
-       {{"securitySchemes",
-         {{"session",
-           {{"type", "apiKey"}, {"in", "cookie"}, {"name", std::string(kSessionCookie)}}},
-          {"token", {{"type", "http"}, {"scheme", "bearer"}}}}},
-        {"schemas",
-         {{"Status", status_schema()},
-          {"CommandAnswer",
-           {{"type", "object"},
-            {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
-          {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
+  const Json all{{"openapi", "3.0.3"},
+                 {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
+                 {"paths", std::move(paths)},
+                 {"components",
+                  {{"securitySchemes",
+                    {{"session",
+                      {{"type", "apiKey"},
+                       {"in", "cookie"},
+                       {"name", std::string(kSessionCookie)},
+                       {"description", "Over HTTPS " + std::string(kSecureSessionCookie)}}},
+                     {"token", {{"type", "http"}, {"scheme", "bearer"}}}}},
+                   {"schemas",
+                    {{"Status", status_schema()},
+                     {"CommandAnswer",
+                      {{"type", "object"},
+                       {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
+                     {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
   return all.dump();
 }
 

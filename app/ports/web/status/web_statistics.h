@@ -7,6 +7,8 @@
 
 namespace orbwatch::app::web {
 
+inline constexpr Quantity kDays{"d", 0.01, -100000, 100000};
+
 #define ORBWATCH_WEB_FIGURES(FIELD)                                                                \
   FIELD(std::uint64_t, connections, kCount, "Connections that are open")                           \
   FIELD(std::uint64_t, streams, kCount, "Streams of pictures that are open")                       \
@@ -18,7 +20,11 @@ namespace orbwatch::app::web {
         "Pictures not sent to readers of streams that were slower")                                \
   FIELD(std::uint64_t, pictures_replaced, kCount, "Pictures replaced before they were compressed") \
   FIELD(std::uint64_t, commands_done, kCount, "Commands carried out")                              \
-  FIELD(std::uint64_t, commands_refused, kCount, "Commands answered with another result than done")
+  FIELD(std::uint64_t, commands_refused, kCount,                                                   \
+        "Commands answered with another result than done")                                         \
+  FIELD(std::uint64_t, turned_away, kCount,                                                        \
+        "Connections closed because their address had max_connections_per_address")                \
+  FIELD(double, certificate_days, kDays, "Until the certificate of HTTPS ends; NaN: no HTTPS")
 
 /// Of the web interface itself, since start. Reported as a component of kind "web".
 struct WebStatistics {

@@ -116,6 +116,7 @@ TEST_F(Hostile, OneAddressTakesNoMoreThanItsShare) {
   // Those beyond are closed at once, the others after their time.
   for (const auto& client : clients) EXPECT_EQ(client->rest(), "");
   EXPECT_LE(sink->statistics().overdue, 8U);
+  EXPECT_EQ(sink->statistics().overdue + sink->statistics().turned_away, 100U);
 }
 
 TEST_F(Hostile, StreamsAreLimited) {

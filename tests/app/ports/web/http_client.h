@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,11 +24,11 @@ struct Answer {
   std::string body;
 };
 
-/// A client that sends exactly what it is told over one connection to 127.0.0.1. Gives a read up
-/// after 20 s.
+/// A client that sends exactly what it is told over one connection, by default to 127.0.0.1. Gives
+/// a read up after 20 s.
 class Client {
  public:
-  explicit Client(int port, int receive_buffer = 0)
+  explicit Client(int port, int receive_buffer = 0, const char* host = "127.0.0.1")
       : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     if (receive_buffer > 0) {
       ::setsockopt(get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
@@ -37,14 +38,17 @@ class Client {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::inet_pton(AF_INET, host, &address.sin_addr), 1);
     EXPECT_EQ(::connect(get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   }
+  virtual ~Client() = default;
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
 
   /// False: the server has closed.
   bool send(std::string_view bytes) const {
     while (!bytes.empty()) {
-      const ssize_t sent = ::send(get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      const ssize_t sent = write(bytes);
       if (sent <= 0) return false;
       bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
@@ -103,10 +107,17 @@ class Client {
 
   int get() const { return socket_.get(); }
 
+ protected:
+  /// How much; 0 or less: the server has closed.
+  virtual ssize_t write(std::string_view bytes) const {
+    return ::send(get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  }
+  virtual ssize_t read(std::span<char> out) { return ::recv(get(), out.data(), out.size(), 0); }
+
  private:
   bool receive() {
     std::array<char, 65536> block;
-    const ssize_t count = ::recv(get(), block.data(), block.size(), 0);
+    const ssize_t count = read(block);
     if (count <= 0) return false;
     received_.append(block.data(), static_cast<std::size_t>(count));
     return true;

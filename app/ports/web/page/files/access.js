@@ -43,12 +43,30 @@ function showLogin() {
   ], texts.logIn, (values) => post("/api/v1/login", values));
 }
 
-function showFirstPassword() {
+function newPasswordFields() {
   const properties = { type: "password", autocomplete: "new-password", minLength: kLeastCharacters };
-  showForm(texts.firstPasswordTitle, [
-    field(texts.user, { name: "user", value: kFirstUser, autocomplete: "username" }),
+  return [
     field(texts.newPassword(kLeastCharacters), { name: "password", ...properties }),
     field(texts.passwordAgain, { name: "again", ...properties }),
+  ];
+}
+
+// On another computer than the appliance.
+function showFirstCode() {
+  showForm(texts.firstPasswordTitle, [
+    element("p", {}, texts.whereTheCodeIs(kFirstUser)),
+    field(texts.code, { name: "code", autocomplete: "one-time-code" }),
+    ...newPasswordFields(),
+  ], texts.setPassword, async ({ code, password, again }) => {
+    if (password !== again) return texts.passwordsDiffer;
+    return post("/api/v1/set_first_password", { code, password });
+  });
+}
+
+function showFirstPassword() {
+  showForm(texts.firstPasswordTitle, [
+    field(texts.user, { name: "user", value: kFirstUser, autocomplete: "username" }),
+    ...newPasswordFields(),
   ], texts.setPassword, async ({ user, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
     const refused = await post("/api/v1/set_user", { user, role: "administrator", password });
@@ -78,7 +96,8 @@ export async function admit(onNoAnswer) {
         showAccount(present);
         return present;
       }
-      showLogin();
+      if (present.has_users) showLogin();
+      else showFirstCode();
       return new Promise(() => {});
     } catch {
       onNoAnswer();

@@ -11,6 +11,9 @@ export const texts = {
   logOut: "Log out",
   firstPasswordTitle: "The first password",
   setPassword: "Set a password",
+  code: "Code",
+  whereTheCodeIs: (user) => `For the administrator ${user}. The appliance's log has the code, and ` +
+    "“sudo orbwatch password --show” there prints it.",
   noPassword: "No password is set.",
   peopleTitle: "People, programs, and who did what",
   people: "People",

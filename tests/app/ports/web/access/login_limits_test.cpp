@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/ports/web/http/address.h"
+
 namespace orbwatch::app::web::tests {
 namespace {
 

@@ -26,8 +26,8 @@ class Roles : public AccessServed {
       return CommandResult::Done;
     };
     program.files = std::make_shared<WrittenFiles>();
-    program.log = std::make_shared<RecentLog>();
     tables = [] { return std::vector<InterfaceTable>(); };
+    program.log = std::make_shared<RecentLog>();
     add_one_of_each_role();
     WebSettings settings;
     settings.max_connections_per_address = 100;  // those that were closed count for a moment
@@ -89,7 +89,8 @@ TEST_F(Roles, OnlyThePageAndTheWayInAreForEverybody) {
     }
   }
   EXPECT_THAT(open,
-              testing::ElementsAre("GET /api/v1/session", "GET /healthz", "POST /api/v1/login"));
+              testing::ElementsAre("GET /api/v1/session", "GET /healthz", "POST /api/v1/login",
+                                   "POST /api/v1/set_first_password"));
 }
 
 TEST_F(Roles, EachCommandHasTheRoleOfTheList) {

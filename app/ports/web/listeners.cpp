@@ -1,0 +1,112 @@
+#include "app/ports/web/listeners.h"
+
+#include <limits>
+#include <utility>
+
+#include "app/log.h"
+#include "app/ports/web/http/address.h"
+#include "app/ports/web/tls/redirect.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr auto kRenewalPause = std::chrono::minutes(1);
+
+std::chrono::sys_seconds utc_now() { return *now_for(Dates::Checked); }
+
+}  // namespace
+
+Listeners::Listeners(const WebSettings& settings, std::filesystem::path state_folder,
+                     Server::Handler handler, ServerCounts& counts)
+    : settings_(settings),
+      state_folder_(std::move(state_folder)),
+      handler_(std::move(handler)),
+      counts_(counts) {}
+
+Result<> Listeners::open() {
+  const std::lock_guard lock(mutex_);
+  if (!http_) {
+    auto server = Server::open(
+        settings_, {settings_.port, std::nullopt, {}},
+        [this](const ExchangePtr& exchange) { serve_http(exchange); }, counts_);
+    if (!server) return tl::unexpected(server.error());
+    http_ = std::move(*server);
+    port_ = http_->port();
+    log_line(LogLevel::Info, "web: serves HTTP for this computer on " + settings_.address +
+                                 " port " + std::to_string(port_));
+  }
+  if (!https_port_of(settings_) || https_) return {};
+  return certificate().and_then(
+      [this](ServerCertificate shown) { return open_https(std::move(shown)); });
+}
+
+Result<ServerCertificate> Listeners::certificate() const {
+  return settings_.certificate.empty()
+             ? self_made_certificate(state_folder_, own_hosts(settings_), utc_now())
+             : named_certificate(settings_, now_for(Dates::Checked));
+}
+
+/// A port that the kernel chose stays.
+Result<> Listeners::open_https(ServerCertificate certificate) {
+  const int chosen = https_port_;
+  auto server = Server::open(
+      settings_,
+      {chosen > 0 ? chosen : *https_port_of(settings_), certificate.pem, https_headers(settings_)},
+      handler_, counts_);
+  if (!server) return tl::unexpected(server.error());
+  https_ = std::move(*server);
+  https_port_ = https_->port();
+  certificate_ends_ = certificate.validity.until.time_since_epoch().count();
+  certificate_ = std::move(certificate);
+  log_line(LogLevel::Info, "web: serves HTTPS on " + settings_.address + " port " +
+                               std::to_string(https_port_) + ": " +
+                               certificate_text(*certificate_));
+  return {};
+}
+
+void Listeners::close() {
+  const std::lock_guard lock(mutex_);
+  https_.reset();
+  http_.reset();
+  https_port_ = 0;
+  certificate_.reset();
+}
+
+void Listeners::watch() {
+  const std::lock_guard lock(mutex_);
+  if (http_) http_->end_overdue();
+  if (https_) https_->end_overdue();
+  if (certificate_ && is_due(*certificate_, utc_now())) renew();
+}
+
+/// What fails is tried again, since the old one stays due. Without a new one it is shown.
+void Listeners::renew() {
+  if (hal::Clock::now() < next_renewal_) return;
+  next_renewal_ = hal::Clock::now() + kRenewalPause;
+  auto renewed = certificate();
+  Result<> opened;
+  if (renewed) {
+    https_.reset();
+    opened = open_https(std::move(*renewed));
+  } else {
+    opened = tl::unexpected(renewed.error());
+  }
+  if (!opened) log_line(LogLevel::Error, opened.error().message);
+}
+
+void Listeners::serve_http(const ExchangePtr& exchange) const {
+  const auto https = https_port_of(settings_);
+  const Request& request = exchange->request();
+  if (!https || is_loopback(request.peer)) return handler_(exchange);
+  const int open = https_port_;
+  exchange->answer(to_https(request, open > 0 ? open : *https));
+}
+
+double Listeners::certificate_days() const {
+  const std::int64_t ends = certificate_ends_;
+  if (ends == 0) return std::numeric_limits<double>::quiet_NaN();
+  constexpr double kSecondsOfDay = 86400;
+  return static_cast<double>(ends - utc_now().time_since_epoch().count()) / kSecondsOfDay;
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "app/ports/web/http/server.h"
+#include "app/ports/web/tls/server_certificate.h"
+#include "app/ports/web/web_settings.h"
+#include "hal/clock.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::web {
+
+/// The servers of HTTP and HTTPS. Over HTTP only this computer is served; where there is HTTPS
+/// others are redirected to it. Thread-safe; what is called by a server calls only ports and
+/// certificate_days.
+class Listeners {
+ public:
+  /// `settings` and `counts` outlive it.
+  Listeners(const WebSettings& settings, std::filesystem::path state_folder,
+            Server::Handler handler, ServerCounts& counts);
+
+  /// Opens what is not open yet: HTTP does not wait for a certificate. Errors: as Server::open(),
+  /// named_certificate(), self_made_certificate().
+  Result<> open();
+  /// Ends all connections.
+  void close();
+
+  /// Ends connections that are overdue, and replaces a self-made certificate before it ends, which
+  /// ends those of HTTPS; called several times a second.
+  void watch();
+
+  int port() const { return port_; }
+  int https_port() const { return https_port_; }  ///< 0: not open
+  /// Until the certificate ends, negative afterwards; NaN: there is none.
+  double certificate_days() const;
+
+ private:
+  Result<ServerCertificate> certificate() const;
+  Result<> open_https(ServerCertificate certificate);
+  void renew();
+  void serve_http(const ExchangePtr& exchange) const;
+
+  const WebSettings& settings_;
+  const std::filesystem::path state_folder_;
+  const Server::Handler handler_;
+  ServerCounts& counts_;
+  std::atomic<int> port_{0}, https_port_{0};
+  std::atomic<std::int64_t> certificate_ends_{0};  ///< s since 1970; 0: there is none
+
+  std::mutex mutex_;  ///< of what follows, also while a server starts or stops
+  std::unique_ptr<Server> http_, https_;
+  std::optional<ServerCertificate> certificate_;  ///< that https_ shows, or showed last
+  hal::TimePoint next_renewal_;                   ///< not tried before
+};
+
+}  // namespace orbwatch::app::web

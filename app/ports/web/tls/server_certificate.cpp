@@ -1,0 +1,148 @@
+#include "app/ports/web/tls/server_certificate.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <climits>
+
+#include "app/certificates/certificate_file.h"
+#include "app/log.h"
+#include "app/state/private_file.h"
+#include "hal/regular_file.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::sys_seconds;
+
+/// Clocks of browsers differ.
+constexpr std::chrono::days kClockDifference{1};
+/// RFC 5280's limit of a common name.
+constexpr std::size_t kLongestName = 64;
+
+/// Key and certificate in one file, so that they are replaced together.
+fs::path self_made_file(const fs::path& folder) { return folder / "certificate.pem"; }
+
+Result<ServerCertificate> server_certificate(PemPair pem, const Certificate& certificate) {
+  return validity_of(certificate).map([&](const Validity& validity) {
+    return ServerCertificate{std::move(pem), validity, fingerprint_of(certificate), false};
+  });
+}
+
+Result<ServerCertificate> parse(const std::string& pem) {
+  const auto certificate = certificate_from_pem(pem);
+  if (!certificate) return tl::unexpected(certificate.error());
+  const auto key = key_from_pem(pem);
+  if (!key) return tl::unexpected(key.error());
+  if (!is_key_of(*key, *certificate)) return fail("key and certificate do not belong together");
+  return server_certificate({pem, pem}, *certificate).map([](ServerCertificate made) {
+    made.is_self_made = true;
+    return made;
+  });
+}
+
+std::string host_name() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// Nothing but what DNS and addresses consist of.
+bool is_host(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '-' || c == '_' || c == ':';
+  });
+}
+
+bool is_for_all(const ServerCertificate& kept, const std::vector<std::string>& hosts) {
+  const auto certificate = certificate_from_pem(kept.pem.certificate);
+  return certificate && std::ranges::all_of(hosts, [&](const std::string& host) {
+           return is_for_host(*certificate, host);
+         });
+}
+
+Result<ServerCertificate> make(const fs::path& file, const std::vector<std::string>& hosts,
+                               sys_seconds now) {
+  const Validity validity{now - kClockDifference, now - kClockDifference + kSelfMadeDays};
+  const std::string host = host_name();
+  const auto made = make_credential(host.empty() ? "orbwatch" : host.substr(0, kLongestName),
+                                    CertificateUse::Serve, validity, nullptr, hosts);
+  if (!made) return tl::unexpected(made.error());
+  const auto certificate = to_pem(made->certificate), key = to_pem(made->key);
+  if (!certificate) return tl::unexpected(certificate.error());
+  if (!key) return tl::unexpected(key.error());
+  const std::string text = *certificate + *key;
+  return write_private(file, text).and_then([&] { return parse(text); });
+}
+
+}  // namespace
+
+Result<ServerCertificate> named_certificate(const WebSettings& settings, const Now& now) {
+  const auto key = read_key(settings.key);
+  if (!key) return tl::unexpected(key.error());
+  const auto key_pem = to_pem(*key);
+  if (!key_pem) return tl::unexpected(key_pem.error());
+  auto pem = hal::read_regular_file(settings.certificate);
+  if (!pem) return tl::unexpected(pem.error());
+  const auto certificate = of_file(settings.certificate, certificate_from_pem(*pem));
+  if (!certificate) return tl::unexpected(certificate.error());
+  return check_pair(settings.key, *key, settings.certificate, *certificate)
+      .and_then([&] { return check_dates(settings.certificate, *certificate, now); })
+      .and_then([&] {
+        return server_certificate({std::move(*pem), *key_pem}, *certificate);
+      })
+      .map_error([](const Error& error) { return Error{"web: " + error.message}; });
+}
+
+Result<std::optional<ServerCertificate>> kept_certificate(const fs::path& folder) {
+  const fs::path file = self_made_file(folder);
+  const auto text = read_private(file);
+  if (!text) return tl::unexpected(text.error());
+  if (!*text) return std::nullopt;
+  return of_file(file, parse(**text)).map([](ServerCertificate kept) {
+    return std::optional(std::move(kept));
+  });
+}
+
+Result<ServerCertificate> self_made_certificate(const fs::path& folder,
+                                                const std::vector<std::string>& hosts,
+                                                sys_seconds now) {
+  if (folder.empty()) return fail("web: there is no state folder to keep a certificate in");
+  auto kept = kept_certificate(folder);
+  if (!kept) log_line(LogLevel::Warning, "web: makes another certificate: " + kept.error().message);
+  if (kept && *kept && !is_due(**kept, now) && is_for_all(**kept, hosts)) {
+    return std::move(**kept);
+  }
+  return make(self_made_file(folder), hosts, now).map_error([](const Error& error) {
+    return Error{"web: no certificate: " + error.message};
+  });
+}
+
+bool is_due(const ServerCertificate& certificate, sys_seconds now) {
+  return certificate.is_self_made && now >= certificate.validity.until - kRenewedBefore;
+}
+
+std::vector<std::string> own_hosts(const WebSettings& settings) {
+  std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
+  const auto add = [&hosts](const std::string& host) {
+    if (is_host(host) && std::ranges::find(hosts, host) == hosts.end()) hosts.push_back(host);
+  };
+  if (settings.address != "0.0.0.0" && settings.address != "::") add(settings.address);
+  for (const std::string& name : settings.names) add(name);
+  if (const std::string name = host_name(); !name.empty()) {
+    add(name);
+    // As multicast DNS has it.
+    if (name.find('.') == std::string::npos) add(name + ".local");
+  }
+  return hosts;
+}
+
+std::string certificate_text(const ServerCertificate& certificate) {
+  return std::string(certificate.is_self_made ? "self-made" : "own") +
+         " certificate, valid until " + date_text(certificate.validity.until, "%Y-%m-%d") +
+         ", SHA-256 fingerprint " + certificate.fingerprint;
+}
+
+}  // namespace orbwatch::app::web
