@@ -111,6 +111,7 @@ Result<std::vector<std::string>> InstalledConfiguration::confirm() {
       .and_then([](const fs::path& folder) { return confirm_trial(folder); })
       .map([this](const std::vector<fs::path>& written) {
         std::vector<std::string> names;
+        names.reserve(written.size());
         for (const fs::path& file : written) names.push_back(name_of(file));
         return names;
       });
