@@ -78,9 +78,14 @@ class ProgressOf : public CommandLine {
     write("ball.png", ball);
     std::filesystem::create_directory(path("pictures"));
     for (int n = 0; n < 8; ++n) write("pictures/" + std::to_string(n) + ".png", ball);
-    write("rig.toml",
-          "[[camera]]\nname = \"A\"\nwidth = 400\nheight = 320\n[camera.outline]\n"
-          "centre = [202.3, 161.7]\nradii = [115, 115]\ndistance = 12\n");
+    std::string rig;
+    for (const char* name : {"A", "B"}) {
+      rig += "[[camera]]\nname = \"" + std::string(name) +
+             "\"\nwidth = 400\nheight = 320\n[camera.intrinsics]\nfx = 900\nfy = 900\n"
+             "cx = 199.5\ncy = 159.5\n[camera.outline]\ncentre = [202.3, 161.7]\n"
+             "radii = [115, 115]\n";
+    }
+    write("rig.toml", rig);
   }
 
   /// What a terminal shows on standard error while the program runs; its output goes to a file.
@@ -135,6 +140,20 @@ TEST_F(ProgressOf, Setup) {
   expect_progress({"setup", "-o", path("site"), "--force", "--ball-diameter", "80", "--camera",
                    "A=" + path("ball.png")},
                   "looking for the ball of A ...");
+}
+
+TEST_F(ProgressOf, Register) {
+  expect_progress(
+      {"register", "--rig", path("rig.toml"), "A=" + path("ball.png"), "B=" + path("ball.png")},
+      "matching features ...");
+}
+
+TEST_F(ProgressOf, Place) {
+  // Whatever points these are: they are placed, or contradict each other.
+  const auto lines = seen_by_people({"place", "--rig", path("rig.toml"), "--camera", "A", "--point",
+                                     "150,120=900,0,500", "--point", "250,160=-900,100,400",
+                                     "--point", "200,220=100,800,-300"});
+  EXPECT_THAT(lines, Contains("placing the cameras ..."));
 }
 
 TEST_F(ProgressOf, Bench) {
