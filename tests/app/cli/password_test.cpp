@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "app/ports/web/access/first_code.h"
 #include "app/ports/web/access/secret.h"
 #include "app/ports/web/access/users.h"
+#include "app/ports/web/tls/server_certificate.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/files/machine_files.h"
 
@@ -10,7 +12,9 @@
 namespace orbwatch::tests {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class Password : public CommandLine {
  protected:
@@ -66,6 +70,29 @@ TEST_F(Password, WhatIsWrongChangesNothingAndIsNotRepeated) {
   EXPECT_THAT(said, HasSubstr("somebody must be administrator"));
   EXPECT_NE(set("a second long one", {"Kim Lee", "--role", "viewer"}), 0);
   EXPECT_EQ(app::web::users_text(users()), before);
+}
+
+TEST_F(Password, ShowsFingerprintAndCodeAsTheyAreAndChangesNothing) {
+  const auto show = [&] {
+    EXPECT_EQ(set("never read", {"--show"}), 0) << said;
+    return said;
+  };
+  EXPECT_THAT(show(), HasSubstr("HTTPS: not served"));
+  write("site.toml", "state_folder = \"state\"\n" + app::kValid +
+                         "[web]\nenabled = true\naddress = \"0.0.0.0\"\n");
+  EXPECT_THAT(show(), AllOf(HasSubstr("no certificate yet"), HasSubstr("no code")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "state/certificate.pem"));
+
+  // As orbwatchd makes them.
+  const auto state = folder.path() / "state";
+  const std::string code = app::web::keep_code(state).value();
+  const auto now = *app::now_for(app::Dates::Checked);
+  const auto made = app::web::self_made_certificate(state, {"localhost"}, now);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_THAT(show(), AllOf(HasSubstr("self-made"), HasSubstr(made->fingerprint), HasSubstr(code)));
+
+  ASSERT_EQ(set("correct horse battery"), 0) << said;
+  EXPECT_THAT(show(), AllOf(HasSubstr("first password: set"), Not(HasSubstr(code))));
 }
 
 TEST_F(Password, ADamagedFileIsLeftAlone) {
