@@ -141,6 +141,18 @@ class ConfigurationPage(PageCase):
             "document.querySelectorAll('#configuration details').forEach((d) => { d.open = true; })")
         self.assertEqual(self.browser.barriers(), [])
 
+    def test_configuration_fits_a_phone(self):
+        self.browser.set_window_size(500, 844)
+        self.browser.execute_script(
+            "document.querySelectorAll('#configuration details').forEach((d) => { d.open = true; })")
+        self.type_into("demo-recipe.toml", "# by hand", "# by another hand")
+        self.press("Check and show the difference")
+        eventually("the difference", lambda: "another" in self.browser.text("#configuration pre"))
+        widths = self.browser.execute_script(
+            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+        self.assertLessEqual(widths[0], widths[1])
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
+
 
 if __name__ == "__main__":
     unittest.main()
