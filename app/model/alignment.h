@@ -67,6 +67,11 @@ class AlignmentSource {
 
   virtual ~AlignmentSource() = default;
   virtual AlignmentReport report(std::size_t camera) const = 0;
+  /// Where that lies which the camera's picture shows at a pixel, by the proposed alignment or, if
+  /// there is none, by that in force: a unit vector from the ball's centre, machine frame. Nullopt:
+  /// the ball is elsewhere.
+  virtual std::optional<optics::Vec3> direction(std::size_t camera,
+                                                const optics::Vec2& pixel) const = 0;
   /// Of the camera's next picture; does not wait. Of 16 bit luminance the range that is there is
   /// stretched to 8. Error: the camera is not watched, too many pictures are asked for, an
   /// alignment that is impossible with this model. While the camera delivers nothing, `on_picture`

@@ -79,9 +79,7 @@ CommandResult AlignmentDesk::mark(std::size_t camera, const optics::Vec3& point)
 CommandResult AlignmentDesk::pick(std::size_t camera, const optics::Vec2& pixel) {
   if (!has(camera)) return CommandResult::ArgumentOutOfRange;
   const std::lock_guard lock(mutex_);
-  const auto rig = proposed_rig(camera);
-  const auto ball = rig ? optics::ball_projection(*rig, rig->cameras[site_.rig_cameras[camera]])
-                        : Result<optics::BallProjection>(tl::unexpected(rig.error()));
+  const auto ball = proposed_ball(camera);
   if (!ball || !ball->ray(pixel)) return CommandResult::ArgumentOutOfRange;
   desks_[camera].picked = pixel;
   return CommandResult::Done;
@@ -146,6 +144,12 @@ Result<optics::Rig> AlignmentDesk::proposed_rig(std::size_t camera) const {
   const std::vector<AlignmentProposal>& steps = desks_[camera].steps;
   if (steps.empty()) return rig;
   return apply({.cameras = {steps.back().alignment}}, rig).map([&] { return rig; });
+}
+
+Result<optics::BallProjection> AlignmentDesk::proposed_ball(std::size_t camera) const {
+  return proposed_rig(camera).and_then([&](const optics::Rig& rig) {
+    return optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
+  });
 }
 
 void AlignmentDesk::add_step(std::size_t camera, AlignmentProposal proposal) {
@@ -362,6 +366,14 @@ AlignmentReport AlignmentDesk::report(std::size_t camera) const {
     report.proposed->direction_sigma = step->direction_sigma;
   }
   return report;
+}
+
+std::optional<optics::Vec3> AlignmentDesk::direction(std::size_t camera,
+                                                     const optics::Vec2& pixel) const {
+  if (!has(camera)) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  const auto ball = proposed_ball(camera);
+  return ball ? ball->direction(pixel) : std::nullopt;
 }
 
 Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_picture) {

@@ -81,6 +81,8 @@ class AlignmentDesk : public AlignmentSource {
   void report(std::array<CameraWatchStatus, kMaxCameras>& figures) const;
 
   AlignmentReport report(std::size_t camera) const override;
+  std::optional<optics::Vec3> direction(std::size_t camera,
+                                        const optics::Vec2& pixel) const override;
   Result<> request(const AlignmentPicture& picture, OnPicture on_picture) override;
 
   /// Begins to correct cameras whose settings ask for that.
@@ -114,6 +116,7 @@ class AlignmentDesk : public AlignmentSource {
 
   // Under mutex_.
   Result<optics::Rig> proposed_rig(std::size_t camera) const;
+  Result<optics::BallProjection> proposed_ball(std::size_t camera) const;
   void add_step(std::size_t camera, AlignmentProposal proposal);
   void show_steps(std::size_t camera);
   void forget_proposal(std::size_t camera);

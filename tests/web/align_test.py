@@ -17,6 +17,7 @@ from misaligned_machine import MisalignedMachine, degrees_between, rotation_of, 
 from page_case import PageCase
 
 READY = 2
+CLICK_PX = 5  # below that a drag may be taken for a click
 
 
 class AlignCase(PageCase):
@@ -72,6 +73,14 @@ class AlignCase(PageCase):
         eventually("it is in force", lambda: (self.camera(name) or {}).get("in_force", {}).get(
             "number") == entry["number"])
         return entry
+
+    def pointer_at(self, u, v, width=1000, height=1000):
+        """Moves there in the picture, to a pixel of the screen."""
+        picture = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg")
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
+        scale = picture.size["width"] / width
+        return ActionChains(self.browser).move_to_element_with_offset(
+            picture, (u + 0.5 - width / 2) * scale, (v + 0.5 - height / 2) * scale)
 
     def handle(self, name):
         return self.browser.find_element(By.CSS_SELECTOR, f"#align [data-handle={name}]")
@@ -268,14 +277,6 @@ class Place(AlignCase):
         rig = self.appliance.rig
         return [seen_at(rig["camera"][0], rig["ball"], point) for point in self.POINTS]
 
-    def click_at(self, u, v):
-        """There in the picture, to a pixel of the screen."""
-        picture = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg")
-        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
-        scale = picture.size["width"] / 1000
-        ActionChains(self.browser).move_to_element_with_offset(
-            picture, (u + 0.5 - 500) * scale, (v + 0.5 - 500) * scale).click().perform()
-
     def test_a_camera_is_placed_by_points_that_are_clicked(self):
         self.open("colour")
         self.press("Find the ball")
@@ -285,7 +286,7 @@ class Place(AlignCase):
         pixels = self.pixels()
         for count, (point, (u, v)) in enumerate(zip(self.POINTS, pixels), start=1):
             if count == 1:
-                self.click_at(u, v)
+                self.pointer_at(u, v).click().perform()
                 clicked = float(self.browser.find_element(By.NAME, "u").get_property("value"))
                 self.assertAlmostEqual(clicked, u, delta=2)
             self.fill("#point", u=round(u, 1), v=round(v, 1),
@@ -310,6 +311,43 @@ class Place(AlignCase):
         self.assertLess(numpy.linalg.norm(numpy.subtract(entry["pose"]["position"],
                                                          truth["position"])), 3)
         self.expect_no_complaint()
+
+
+class Edges(AlignCase):
+    def test_an_edge_that_is_dragged_onto_the_machine_s_turns_the_camera(self):
+        """By turns at two corners, until nothing is left to be dragged on the screen."""
+        self.open("colour")
+        self.press("Find the ball")
+        eventually("a proposal", lambda: self.camera()["state"] == READY)
+        self.answer("api/v1/command/turn_camera", {"camera": 0, "yaw": 6, "pitch": -4, "roll": 5})
+        truth = self.appliance.truth["colour"][1]
+        wrong = degrees_between(rotation_of(self.proposed()["rotation"]), truth)
+        self.assertGreater(wrong, 8)
+        rig = self.appliance.rig
+        scale = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg").size["width"] / 1000
+        for point in [(-600, -500, 800), (600, -500, 0)] * 3:
+            target = seen_at(rig["camera"][0], rig["ball"], point)
+            u, v = self.corner_near(target)
+            by = [round((target[0] - u) * scale), round((target[1] - v) * scale)]
+            if numpy.hypot(*by) < CLICK_PX:
+                continue
+            steps = self.camera()["steps"]
+            eventually("the page draws it", lambda u=u: str(u) in self.browser.execute_script(
+                "return document.querySelector('#align .edges').innerHTML"))
+            self.pointer_at(u, v).click_and_hold().move_by_offset(*by).release().perform()
+            eventually("it is turned", lambda steps=steps: self.camera()["steps"] == steps + 1)
+        self.browser.keep_picture("edges")
+        # A pixel of the screen is 0.3 degrees.
+        self.assertLess(degrees_between(rotation_of(self.proposed()["rotation"]), truth),
+                        0.3 * CLICK_PX)
+        self.press("Discard")
+        eventually("nothing is proposed", lambda: not self.proposed())
+        self.expect_no_complaint()
+
+    def corner_near(self, pixel):
+        """The end of an edge, as it is drawn, that is next to a pixel."""
+        ends = [end for line in self.proposed()["edges"] for end in (line[0], line[-1])]
+        return min(ends, key=lambda end: numpy.hypot(*numpy.subtract(end, pixel)))
 
 
 class Judge(AlignCase):

@@ -87,7 +87,16 @@ std::vector<Route> AlignRoutes::routes() {
                 {"height", "px; 480"},
                 {"model", "exact, paper or classical instead of the rig's", false, false}};
   view.serve = [this](const ExchangePtr& exchange) { serve_picture(exchange, true); };
-  return {std::move(state), std::move(ball), std::move(view)};
+  Route direction = state;
+  direction.path = "/api/v1/alignment/direction";
+  direction.description =
+      "Where that lies which a camera's picture shows at a pixel, seen from the ball's centre, by "
+      "the "
+      "proposed alignment if there is one; deg";
+  direction.query = {
+      kCamera, {"u", "px, to the right, pixel centres at integers", true}, {"v", "px, down", true}};
+  direction.serve = [this](const ExchangePtr& exchange) { serve_direction(exchange); };
+  return {std::move(state), std::move(ball), std::move(view), std::move(direction)};
 }
 
 void AlignRoutes::serve_alignment(const ExchangePtr& exchange) const {
@@ -96,14 +105,39 @@ void AlignRoutes::serve_alignment(const ExchangePtr& exchange) const {
   exchange->answer(json_response(alignment_json(cameras_, reports)));
 }
 
-Result<AlignmentPicture> AlignRoutes::picture_of(const Request& request, bool is_view) const {
-  AlignmentPicture picture;
+Result<std::size_t> AlignRoutes::camera_of(const Request& request) const {
   const std::string* name = request.argument(kCamera.name);
   const auto camera = name ? std::ranges::find(cameras_, *name) : cameras_.end();
-  if (camera == cameras_.end()) {
-    return fail("say as ?camera=NAME which of the cameras that /api/v1/alignment lists");
+  if (camera != cameras_.end()) return static_cast<std::size_t>(camera - cameras_.begin());
+  return fail("say as ?camera=NAME which of the cameras that /api/v1/alignment lists");
+}
+
+void AlignRoutes::serve_direction(const ExchangePtr& exchange) const {
+  const auto camera = camera_of(exchange->request());
+  const auto u = number_of(exchange->request(), "u", NAN, -kMaxSide, kMaxSide);
+  const auto v = number_of(exchange->request(), "v", NAN, -kMaxSide, kMaxSide);
+  if (!camera || !u || !v) {
+    const Error& error = !camera ? camera.error() : !u ? u.error() : v.error();
+    exchange->answer(error_response(400, error.message));
+    return;
   }
-  picture.camera = static_cast<std::size_t>(camera - cameras_.begin());
+  if (std::isnan(*u) || std::isnan(*v)) {
+    exchange->answer(error_response(400, "say the pixel, as &u=PX&v=PX"));
+    return;
+  }
+  const auto seen = source_ ? source_->direction(*camera, {*u, *v}) : std::nullopt;
+  if (!seen) {
+    exchange->answer(error_response(404, "the ball is elsewhere in the picture"));
+    return;
+  }
+  exchange->answer(json_response(direction_json(*seen)));
+}
+
+Result<AlignmentPicture> AlignRoutes::picture_of(const Request& request, bool is_view) const {
+  AlignmentPicture picture;
+  const auto camera = camera_of(request);
+  if (!camera) return tl::unexpected(camera.error());
+  picture.camera = *camera;
   if (!is_view) return picture;
   const std::string* which = request.argument(kWhich.name);
   picture.is_proposed = which && *which == "proposed";

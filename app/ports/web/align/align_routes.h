@@ -21,7 +21,9 @@ class AlignRoutes {
 
  private:
   void serve_alignment(const ExchangePtr& exchange) const;
+  void serve_direction(const ExchangePtr& exchange) const;
   void serve_picture(const ExchangePtr& exchange, bool is_view) const;
+  Result<std::size_t> camera_of(const Request& request) const;
   Result<AlignmentPicture> picture_of(const Request& request, bool is_view) const;
 
   const std::vector<std::string> cameras_;

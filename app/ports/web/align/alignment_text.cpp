@@ -1,5 +1,7 @@
 #include "app/ports/web/align/alignment_text.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/model/json.h"
@@ -79,6 +81,12 @@ std::string alignment_json(const std::vector<std::string>& cameras,
     list.push_back(json_of(cameras[i], i, reports[i]));
   }
   return Json{{"cameras", std::move(list)}}.dump();
+}
+
+std::string direction_json(const optics::Vec3& direction) {
+  return Json{{"yaw", optics::degrees(std::atan2(direction.x, direction.y))},
+              {"pitch", optics::degrees(std::asin(std::clamp(direction.z, -1.0, 1.0)))}}
+      .dump();
 }
 
 }  // namespace orbwatch::app::web

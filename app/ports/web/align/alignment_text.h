@@ -12,4 +12,7 @@ namespace orbwatch::app::web {
 std::string alignment_json(const std::vector<std::string>& cameras,
                            const std::vector<AlignmentReport>& reports);
 
+/// {"yaw": ..., "pitch": ...} of a unit vector, degrees. Reentrant.
+std::string direction_json(const optics::Vec3& direction);
+
 }  // namespace orbwatch::app::web

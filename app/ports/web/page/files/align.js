@@ -2,6 +2,7 @@
 import { command } from "./api.js";
 import { BallEditor } from "./ball_editor.js";
 import { commandButton, element, setText } from "./elements.js";
+import { turnOfPull } from "./edge_pull.js";
 import { Models } from "./models.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";
@@ -10,11 +11,22 @@ import { Watched } from "./watched.js";
 
 const kPauseMs = 300;  // between two looks at the appliance
 const kReady = 2, kWorking = 1;
+const kNudgeDeg = 0.05;
 
 async function fetched(path) {
   const answer = await fetch(path);
   if (!answer.ok) throw new Error((await answer.json().catch(() => ({}))).error ?? answer.status);
   return answer;
+}
+
+// By hand about the machine's axes.
+function nudges(give) {
+  return ["yaw", "pitch", "roll"].flatMap((axis) => [-kNudgeDeg, kNudgeDeg].map((step) => {
+    const button = element("button", { type: "button" }, texts.align.nudge(axis, step));
+    button.addEventListener("click", () =>
+      give("turn_camera", { yaw: 0, pitch: 0, roll: 0, [axis]: step }));
+    return button;
+  }));
 }
 
 export class Align {
@@ -30,7 +42,8 @@ export class Align {
     this.refused = element("p", { role: "alert", className: "wrong" });
     const give = (name, values) => this.#give(name, values);
     this.place = new Place(give);
-    this.editor = new BallEditor(give, (pixel) => this.place.pick(pixel));
+    this.editor = new BallEditor(give, (pixel) => this.place.pick(pixel),
+      (from, to) => this.#pull(from, to));
     this.buttons = Object.fromEntries([
       ["detect", "detect_ball"], ["undo", "undo_alignment"], ["accept", "accept_alignment"],
       ["discard", "discard_alignment"], ["revert", "revert_alignment"],
@@ -41,6 +54,7 @@ export class Align {
     this.watched = new Watched(descriptions);
     root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
       this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
+      element("p", { className: "buttons" }, ...nudges(give)),
       this.said, this.refused, this.facts, element("p", {}, texts.align.help),
       this.register.root, this.place.root, this.models.root, this.watched.root);
     addEventListener("hashchange", () => this.#run());
@@ -66,6 +80,14 @@ export class Align {
     await this.#look().catch((error) => this.#waitAfter(error));
     setText(this.refused, why ? texts.refused(this.#camera.refusal || why) : "");
     return why;
+  }
+
+  async #pull(from, to) {
+    try {
+      await this.#give("turn_camera", await turnOfPull(this.#camera.name, from, to));
+    } catch (error) {
+      setText(this.refused, texts.refused(error.message));
+    }
   }
 
   // One after the other as long as somebody looks; after a failure it tries again.

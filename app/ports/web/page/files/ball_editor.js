@@ -7,7 +7,7 @@ const kSvg = "http://www.w3.org/2000/svg";
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
-const kHandlePx = 11, kMarkPx = 6;  // on the screen
+const kHandlePx = 11, kMarkPx = 6, kClickPx = 3;  // on the screen
 const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 function drawn(tag, attributes = {}) {
@@ -58,20 +58,25 @@ export class BallEditor {
   #handles = {};
 
   // `onChange(command, values)` has the appliance take over what was changed; a promise.
-  // `onPick([u, v])`: somebody pointed there, beside the handles.
-  constructor(onChange, onPick) {
+  // `onPick([u, v])`: somebody pointed there, beside the handles. `onPull(from, to)`: an edge was
+  // dragged from one pixel to another; a promise.
+  constructor(onChange, onPick, onPull) {
     this.onChange = onChange;
+    this.onPull = onPull;
     this.canvas = element("canvas", { role: "img", "aria-label": texts.align.picture });
     this.svg = drawn("svg", { role: "group", "aria-label": texts.align.outlineGroup });
     this.edges = drawn("g", { class: "edges" });
     this.marks = drawn("g", { class: "marks" });
     this.before = drawn("ellipse", { class: "before" });
     this.ellipse = drawn("ellipse", { class: "limb" });
-    this.svg.append(this.edges, this.before, this.ellipse, this.marks);
+    this.svg.append(this.before, this.ellipse, this.marks, this.edges);
     for (const name of ["centre", "rx", "ry"]) this.#addHandle(name);
+    this.onPick = onPick;
     this.svg.addEventListener("click", (event) => {
-      if (!event.target.hasAttribute("data-handle")) onPick(this.pixelAt(event));
+      const isOther = event.target.hasAttribute("data-handle") || event.target.tagName === "polyline";
+      if (!isOther) onPick(this.pixelAt(event));
     });
+    this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
     this.root = element("figure", { className: "ball" },
       element("div", { className: "picture" }, this.canvas, this.svg));
     new ResizeObserver(() => this.#draw()).observe(this.svg);
@@ -118,6 +123,30 @@ export class BallEditor {
     handle.addEventListener("pointermove", move);
     handle.addEventListener("pointerup", end);
     handle.addEventListener("pointercancel", end);
+  }
+
+  // A line shows how far; whoever only clicks on an edge points at a place.
+  #pull(event) {
+    if (event.button !== 0) return;
+    event.preventDefault();
+    const from = this.pixelAt(event), line = drawn("path");
+    this.#isHeld = true;
+    this.svg.append(line);
+    this.edges.setPointerCapture(event.pointerId);
+    const move = (moved) => place(line, { class: "pull", d: `M${from}L${this.pixelAt(moved)}` });
+    const end = async (ended) => {
+      for (const [name, listener] of Object.entries(listeners)) {
+        this.edges.removeEventListener(name, listener);
+      }
+      const to = this.pixelAt(ended);
+      const isFar = Math.hypot(to[0] - from[0], to[1] - from[1]) > kClickPx * this.#scale();
+      if (ended.type === "pointerup") await (isFar ? this.onPull(from, to) : this.onPick(from));
+      line.remove();
+      this.#isHeld = false;
+      this.#refresh();
+    };
+    const listeners = { pointermove: move, pointerup: end, pointercancel: end };
+    for (const [name, listener] of Object.entries(listeners)) this.edges.addEventListener(name, listener);
   }
 
   // Of a radius, right and up are larger, left and down smaller.
@@ -199,8 +228,10 @@ export class BallEditor {
     this.#markPoints(this.camera);
     const shown = this.camera.proposed ?? this.camera.in_force;
     this.#outline = shown?.outline ?? null;
-    this.edges.replaceChildren(...(shown?.edges ?? []).map((line) =>
-      drawn("polyline", { points: line.map((pixel) => pixel.join(",")).join(" ") })));
+    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap((line) => {
+      const points = line.map((pixel) => pixel.join(",")).join(" ");
+      return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];
+    }));
     this.#draw();
   }
 

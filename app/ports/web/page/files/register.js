@@ -1,9 +1,8 @@
-// How a camera stands to the first one: found, compared by what both show, turned by hand.
+// How a camera stands to the first one: found, and compared by what both show.
 import { Comparison, Gaze, pictureOf } from "./compare.js";
 import { commandButton, element, setText } from "./elements.js";
 import { texts } from "./texts.js";
 
-const kNudgeDeg = 0.05;
 const kDeg = Math.PI / 180;
 
 function direction({ yaw, pitch }) {
@@ -33,17 +32,8 @@ export class Register {
     this.refused = element("p", { role: "alert", className: "wrong" });
     this.root = element("section", { id: "register" }, element("h3", {}, texts.register.title),
       element("p", {}, texts.register.help),
-      element("p", { className: "buttons" }, this.button, ...this.#nudges()), this.refused,
+      element("p", { className: "buttons" }, this.button), this.refused,
       this.gaze.root, this.comparison.root);
-  }
-
-  #nudges() {
-    return ["yaw", "pitch", "roll"].flatMap((axis) => [-kNudgeDeg, kNudgeDeg].map((step) => {
-      const button = element("button", { type: "button" }, texts.register.nudge(axis, step));
-      button.addEventListener("click", () =>
-        this.give("turn_camera", { yaw: 0, pitch: 0, roll: 0, [axis]: step }));
-      return button;
-    }));
   }
 
   show(cameras, camera, isWorking) {

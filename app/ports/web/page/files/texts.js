@@ -74,8 +74,11 @@ export const texts = {
     picture: "What the camera sees",
     outlineGroup: "The ball's outline and the scene's edges",
     help: "Drag the middle of the ball or one of its radii onto the limb; arrow keys move them by 0.1 " +
-      "pixel, with shift by 1. Thin lines show the machine's edges as the alignment has them, the " +
-      "dashed ellipse what is in force. Accept writes the calibration and restarts with it.",
+      "pixel, with shift by 1. Thin lines show the machine's edges as the alignment has them: drag one " +
+      "onto the edge that it stands for, or turn the camera by the buttons. The dashed ellipse is in " +
+      "force. Accept writes the calibration and restarts with it.",
+    nudge: (axis, step) => `${{ yaw: "Yaw", pitch: "Pitch", roll: "Roll" }[axis]} ` +
+      `${step < 0 ? "−" : "+"}${Math.abs(step)}°`,
     handle: {
       centre: ({ u, v }) => `Middle of the ball, at ${u.toFixed(1)}, ${v.toFixed(1)} pixels`,
       rx: ({ rx, angle }) => `First radius, ${rx.toFixed(1)} pixels, at ${angle.toFixed(1)} degrees`,
@@ -130,8 +133,6 @@ export const texts = {
     run: "Register",
     help: "Found by what both cameras see. Judge it by one view that both show, one over the other, " +
       "and turn it by hand where they do not agree.",
-    nudge: (axis, step) => `${{ yaw: "Yaw", pitch: "Pitch", roll: "Roll" }[axis]} ` +
-      `${step < 0 ? "−" : "+"}${Math.abs(step)}°`,
   },
   place: {
     title: "Where it stands in the machine",

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -34,6 +35,11 @@ class Source : public AlignmentSource {
     report.proposed->edges = {{{1, 2}, {3, 4}}};
     report.points = {{{1, 2, 3}, {4, 5}, optics::Vec2{0.5, -0.25}, false}, {{7, 8, 9}, {6, 5}}};
     return report;
+  }
+  std::optional<optics::Vec3> direction(std::size_t camera,
+                                        const optics::Vec2& pixel) const override {
+    if (camera != 0 || pixel.u != 10.5) return std::nullopt;
+    return normalized(optics::Vec3{1, 1, std::sqrt(2)});
   }
   Result<> request(const AlignmentPicture& picture, OnPicture on_picture) override {
     if (picture.camera == 1) return fail("the camera is not watched");
@@ -142,6 +148,19 @@ TEST_F(ServedAlignment, WhatIsWrongIsNamed) {
   const Answer blind = get(port(), "/api/v1/alignment/ball.jpg?camera=" + names[1]);
   EXPECT_EQ(blind.status, 409);
   EXPECT_THAT(blind.body, HasSubstr("not watched"));
+}
+
+TEST_F(ServedAlignment, APixelShowsADirection) {
+  const auto at = [&](const std::string& pixel) {
+    return get(port(), "/api/v1/alignment/direction?camera=" + names[0] + pixel);
+  };
+  const Answer seen = at("&u=10.5&v=-3");
+  ASSERT_EQ(seen.status, 200) << seen.body;
+  EXPECT_NEAR(json::parse(seen.body)["yaw"].get<double>(), 45, 1e-9);
+  EXPECT_NEAR(json::parse(seen.body)["pitch"].get<double>(), 45, 1e-9);
+  EXPECT_EQ(at("&u=11&v=-3").status, 404);
+  EXPECT_EQ(at("&u=11").status, 400);
+  EXPECT_EQ(at("&u=11&v=x").status, 400);
 }
 
 TEST_F(ServedAlignment, ArgumentsAreDescribed) {
