@@ -80,7 +80,8 @@ std::optional<Arguments> parse(int argc, char** argv, ExitStatus& status) {
     log_line(LogLevel::Error, std::string("unexpected argument ") + argv[optind]);
     status = ExitStatus::WrongUsage;
   }
-  arguments.config = site_file(arguments.config);
+  // As `orbwatch configure` names it in a trial.
+  arguments.config = std::filesystem::absolute(site_file(arguments.config)).lexically_normal();
   return status == ExitStatus::Done ? std::optional(arguments) : std::nullopt;
 }
 

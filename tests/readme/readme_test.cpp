@@ -14,6 +14,7 @@
 
 #include "tests/readme/readme_commands.h"
 #include "tests/readme/readme_site.h"
+#include "tests/support/comes_true.h"
 #include "tests/support/loopback_dds.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
@@ -36,12 +37,12 @@ constexpr std::array<std::string_view, 13> kRun{
     "orbwatch detect ball.jpg --overlay seen.png",
     "orbwatch drift --rig rig.toml A=FOLDER",
     "orbwatch place --rig rig.toml --camera left --image left.png --tags tags.txt -o rig.toml",
-    "orbwatch configure machine/site.toml",
     "orbwatch calibration history",
     "orbwatch list",
     "orbwatch doctor",
     "orbwatchd --config FILE --check",
     "orbwatch state",
+    "orbwatch configure machine/site.toml",  // the service starts again for it
 };
 
 struct NotRun {
@@ -58,7 +59,7 @@ constexpr std::array kNotRun{
     NotRun{"systemctl status orbwatch", "the service; tests/platform/packages/run has it"},
     NotRun{"orbwatch subscribe --count 1 --save pictures", "a running orbwatchd; below"},
     NotRun{"orbwatchd --config machine.toml", "runs until a signal; below"},
-    NotRun{"orbwatch configure --confirm", "the service; tests/app/daemon/service_test.cpp"},
+    NotRun{"orbwatch configure --confirm", "a configuration on trial; below"},
     NotRun{"orbwatch setup -o machine --ball-diameter 100 --calibration colour.yaml",
            "connected cameras; tests/app/cli/setup_test.cpp gives it pictures"},
     NotRun{"orbwatch register --rig rig.toml A=a.png B=b.png",
@@ -69,6 +70,7 @@ constexpr std::array kNotRun{
     NotRun{"orbwatch subscribe --stats", "runs until Ctrl-C; control_program_test.cpp"},
     NotRun{"orbwatch lines --safe", "GPIO lines; tests/hil"},
     NotRun{"sudo orbwatch password", "root; tests/app/cli/password_test.cpp"},
+    NotRun{"sudo orbwatch password --show", "as the one before"},
 };
 
 std::vector<ReadmeCommand> all_commands() {
@@ -173,6 +175,10 @@ TEST_F(Readme, TheCommandsRun) {
   }
   Subprocess subscriber = start("orbwatch subscribe --count 1 --save pictures");
   EXPECT_EQ(subscriber.wait(), 0) << subscriber.output();
+  EXPECT_TRUE(comes_true([&] {
+    Subprocess confirmation = start("orbwatch configure --confirm");
+    return confirmation.wait() == 0;
+  })) << service.output();
   for (const char* made : {"view.jpg", "all.png", "seen.png", "pictures"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / made)) << made;
   }
