@@ -284,7 +284,8 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   web::Response response;
   response.type = kMetrics;
   response.body = std::make_shared<const std::string>(
-      web::metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, statistics()));
+      web::metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, statistics(),
+                        program_.versions.empty() ? "" : program_.versions.front().second));
   exchange->answer(std::move(response));
 }
 

@@ -83,13 +83,18 @@ std::string status_json(const StatusReport& report, const WebStatistics& web, do
   return all.dump();
 }
 
-std::string metrics_text(const StatusReport& report, const WebStatistics& web) {
+std::string metrics_text(const StatusReport& report, const WebStatistics& web,
+                         std::string_view version) {
   Metrics metrics;
   for_each_component(report, [&](const Component& component, const auto& part) {
     metrics.add(component, part, report.now);
   });
   metrics.add(kWeb, web, report.now);
-  return metrics.text();
+  const std::string build =
+      "# HELP orbwatch_build_info Version of orbwatchd\n# TYPE orbwatch_build_info gauge\n"
+      "orbwatch_build_info{version=\"" +
+      escaped(version) + "\"} 1\n";
+  return build + metrics.text();
 }
 
 }  // namespace orbwatch::app::web

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/model/status_report.h"
 #include "app/ports/web/status/web_statistics.h"
@@ -13,7 +14,8 @@ namespace orbwatch::app::web {
 std::string status_json(const StatusReport& report, const WebStatistics& web, double age);
 
 /// Prometheus' text format 0.0.4: each figure as orbwatch_KIND_FIGURE with the component's name as
-/// label "name"; NaN where it is not valid.
-std::string metrics_text(const StatusReport& report, const WebStatistics& web);
+/// label "name", NaN where it is not valid; and orbwatch_build_info with the label "version".
+std::string metrics_text(const StatusReport& report, const WebStatistics& web,
+                         std::string_view version);
 
 }  // namespace orbwatch::app::web

@@ -87,11 +87,12 @@ TEST_F(Served, HealthFollowsThePipeline) {
 }
 
 TEST_F(Served, MetricsAreInPrometheusFormat) {
+  program.versions = {{"orbwatchd", "1.2.3"}};
   start();
   const Answer answer = get(port(), "/metrics");
   ASSERT_EQ(answer.status, 200);
   static const std::regex kSample(
-      R"rx([a-z_][a-z0-9_]*(\{name="([^"\\]|\\.)*"\})? (NaN|[+-]Inf|-?[0-9.]+(e[+-]?[0-9]+)?))rx");
+      R"rx([a-z_][a-z0-9_]*(\{(name|version)="([^"\\]|\\.)*"\})? (NaN|[+-]Inf|-?[0-9.]+(e[+-]?[0-9]+)?))rx");
   std::istringstream lines(answer.body);
   std::set<std::string> seen;
   std::string metric;
@@ -109,6 +110,7 @@ TEST_F(Served, MetricsAreInPrometheusFormat) {
   EXPECT_GT(samples, 100);
   EXPECT_THAT(answer.body, HasSubstr("orbwatch_camera_frames{name=\"thermal\"} 1000000000"));
   EXPECT_THAT(answer.body, HasSubstr("\norbwatch_web_requests 1\n"));
+  EXPECT_THAT(answer.body, HasSubstr("\norbwatch_build_info{version=\"1.2.3\"} 1\n"));
 }
 
 TEST_F(Served, EveryAnswerHasTheStrictHeaders) {
