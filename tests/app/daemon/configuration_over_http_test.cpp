@@ -143,7 +143,8 @@ TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
     EXPECT_THAT(refusal(what, {{"recipe.toml", "nonsense = "}}), HasSubstr("recipe.toml:1"));
     EXPECT_THAT(refusal(what, {{"other.toml", "a = 1"}}),
                 HasSubstr("no file of the configuration"));
-    for (const char* name : {"../site.toml", "/etc/passwd", "", ".", "a/../recipe.toml", "./recipe.toml", "recipe.toml/"}) {
+    for (const char* name : {"../site.toml", "/etc/passwd", "", ".", "a/../recipe.toml",
+                             "./recipe.toml", "recipe.toml/"}) {
       EXPECT_THAT(refusal(what, {{name, kSmallRecipe}}), HasSubstr("no path from the folder"))
           << name;
     }
@@ -151,6 +152,20 @@ TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
   }
   EXPECT_THAT(refusal("try", {{"recipe.toml", kSmallRecipe}}), HasSubstr("change nothing"));
   EXPECT_FALSE(fs::exists(folder / "trial.json"));
+}
+
+/// There would be nothing to go back to.
+TEST_F(ConfigurationOverHttp, IsNotTriedOutWithoutAServicesFolder) {
+  ::unsetenv("STATE_DIRECTORY");
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  EXPECT_EQ(ask("check", of_recipe(other_recipe())).status, 200);
+  for (const char* what : {"try", "confirm", "revert"}) {
+    const Answer answer = ask(what, of_recipe(other_recipe()));
+    EXPECT_EQ(answer.status, 409) << what;
+    EXPECT_THAT(answer.body, HasSubstr("without STATE_DIRECTORY")) << what;
+  }
+  EXPECT_EQ(contents(folder / "recipe.toml"), kSmallRecipe);
 }
 
 }  // namespace
