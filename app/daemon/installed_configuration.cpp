@@ -54,7 +54,7 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
   for (const fs::path& file : all) {
     TextFiles files;
     auto text = files.read(file, "a file of the configuration");
-    std::error_code none;  // `text` says what is wrong
+    std::error_code none;                                    // `text` says what is wrong
     const bool is_to_be = !fs::exists(file, none) && !none;  // by a trial
     if (!text && is_to_be) continue;
     if (!text) return tl::unexpected(text.error());
