@@ -12,6 +12,12 @@ namespace {
 
 constexpr auto kRenewalPause = std::chrono::minutes(1);
 
+/// An address of one network alone does not reach this computer's own programs.
+std::vector<std::string> http_addresses(const std::string& address) {
+  if (address == "0.0.0.0" || address == "::" || is_loopback(address)) return {address};
+  return {address, address.find(':') == std::string::npos ? "127.0.0.1" : "::1"};
+}
+
 std::chrono::sys_seconds utc_now() { return *now_for(Dates::Checked); }
 
 }  // namespace
@@ -25,19 +31,27 @@ Listeners::Listeners(const WebSettings& settings, std::filesystem::path state_fo
 
 Result<> Listeners::open() {
   const std::lock_guard lock(mutex_);
-  if (!http_) {
-    auto server = Server::open(
-        settings_, {settings_.port, std::nullopt, {}},
-        [this](const ExchangePtr& exchange) { serve_http(exchange); }, counts_);
-    if (!server) return tl::unexpected(server.error());
-    http_ = std::move(*server);
-    port_ = http_->port();
-    log_line(LogLevel::Info, "web: serves HTTP for this computer on " + settings_.address +
-                                 " port " + std::to_string(port_));
+  if (http_.empty()) {
+    if (auto opened = open_http(); !opened) return opened;
   }
   if (!https_port_of(settings_) || https_) return {};
   return certificate().and_then(
       [this](ServerCertificate shown) { return open_https(std::move(shown)); });
+}
+
+Result<> Listeners::open_http() {
+  std::vector<std::unique_ptr<Server>> servers;
+  for (const std::string& address : http_addresses(settings_.address)) {
+    auto server = Server::open(
+        settings_, {address, settings_.port, std::nullopt, {}},
+        [this](const ExchangePtr& exchange) { serve_http(exchange); }, counts_);
+    if (!server) return tl::unexpected(server.error());
+    servers.push_back(std::move(*server));
+  }
+  http_ = std::move(servers);
+  port_ = http_.back()->port();
+  log_line(LogLevel::Info, "web: serves HTTP for this computer on port " + std::to_string(port_));
+  return {};
 }
 
 Result<ServerCertificate> Listeners::certificate() const {
@@ -49,10 +63,10 @@ Result<ServerCertificate> Listeners::certificate() const {
 /// A port that the kernel chose stays.
 Result<> Listeners::open_https(ServerCertificate certificate) {
   const int chosen = https_port_;
-  auto server = Server::open(
-      settings_,
-      {chosen > 0 ? chosen : *https_port_of(settings_), certificate.pem, https_headers(settings_)},
-      handler_, counts_);
+  auto server = Server::open(settings_,
+                             {settings_.address, chosen > 0 ? chosen : *https_port_of(settings_),
+                              certificate.pem, https_headers(settings_)},
+                             handler_, counts_);
   if (!server) return tl::unexpected(server.error());
   https_ = std::move(*server);
   https_port_ = https_->port();
@@ -67,14 +81,14 @@ Result<> Listeners::open_https(ServerCertificate certificate) {
 void Listeners::close() {
   const std::lock_guard lock(mutex_);
   https_.reset();
-  http_.reset();
+  http_.clear();
   https_port_ = 0;
   certificate_.reset();
 }
 
 void Listeners::watch() {
   const std::lock_guard lock(mutex_);
-  if (http_) http_->end_overdue();
+  for (const auto& server : http_) server->end_overdue();
   if (https_) https_->end_overdue();
   if (certificate_ && is_due(*certificate_, utc_now())) renew();
 }

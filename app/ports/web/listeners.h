@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/tls/server_certificate.h"
@@ -41,6 +42,7 @@ class Listeners {
 
  private:
   Result<ServerCertificate> certificate() const;
+  Result<> open_http();
   Result<> open_https(ServerCertificate certificate);
   void renew();
   void serve_http(const ExchangePtr& exchange) const;
@@ -53,7 +55,8 @@ class Listeners {
   std::atomic<std::int64_t> certificate_ends_{0};  ///< s since 1970; 0: there is none
 
   std::mutex mutex_;  ///< of what follows, also while a server starts or stops
-  std::unique_ptr<Server> http_, https_;
+  std::vector<std::unique_ptr<Server>> http_;
+  std::unique_ptr<Server> https_;
   std::optional<ServerCertificate> certificate_;  ///< that https_ shows, or showed last
   hal::TimePoint next_renewal_;                   ///< not tried before
 };

@@ -172,6 +172,8 @@ web::WebStatistics WebSink::statistics() const {
   all.overdue = server_counts_.overdue;
   all.turned_away = server_counts_.turned_away;
   all.certificate_days = listeners_.certificate_days();
+  all.streams_refused = server_counts_.full;
+  all.logins_failed = access_.failures();
   all.pictures_sent = stream_counts_.sent;
   all.pictures_skipped = stream_counts_.skipped;
   all.commands_done = commands_.done();
@@ -333,6 +335,7 @@ void WebSink::serve_live(const ExchangePtr& exchange) {
 void WebSink::start_stream(const ExchangePtr& exchange, std::string_view type,
                            std::shared_ptr<web::Stream> stream) {
   if (server_counts_.streams >= static_cast<std::uint64_t>(settings_.max_streams)) {
+    ++server_counts_.full;
     exchange->answer(web::error_response(503, "all streams are taken: max_streams of [web]"));
     return;
   }

@@ -163,6 +163,7 @@ tl::expected<User, Access::Refusal> Access::judge(const std::string& name,
     }
   }
   if (is_right) return user;
+  ++failures_;
   keep();
   return tl::unexpected(Refusal{401, "name or password is wrong"});
 }
@@ -231,6 +232,7 @@ tl::expected<void, Access::Refusal> Access::judge_code(const std::string& code,
     if (is_code(code_, code)) return {};
     limits_.failed(kCode, address, clock_());
   }
+  ++failures_;
   keep();
   return tl::unexpected(Refusal{403, "the code is wrong"});
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -19,9 +21,9 @@ namespace orbwatch::app::web {
 /// there, whoever is on this computer is administrator and nobody else is anything; a file that
 /// cannot be used makes everybody nobody.
 ///
-/// Thread rule: caller, has_users and users on any thread, they wait for nothing; refresh on any
-/// thread, too, it waits for the disk; the rest on one thread at a time, it waits for the disk,
-/// login and change_password for a hash, too.
+/// Thread rule: caller, has_users, failures and users on any thread, they wait for nothing; refresh
+/// on any thread, too, it waits for the disk; the rest on one thread at a time, it waits for the
+/// disk, login and change_password for a hash, too.
 class Access {
  public:
   /// Why somebody was not let in.
@@ -46,6 +48,8 @@ class Access {
 
   Caller caller(const Credentials& credentials);
   bool has_users() const;
+  /// Wrong passwords and codes since start.
+  std::uint64_t failures() const { return failures_; }
 
   /// The token of a new session.
   Token login(const std::string& name, const std::string& password, const std::string& peer);
@@ -85,6 +89,8 @@ class Access {
   std::mutex files_mutex_;   ///< also while the users file is read; before mutex_
   FileMark mark_;            ///< of the users file as it was read; under files_mutex_
   bool gives_code_ = false;  ///< under files_mutex_
+
+  std::atomic<std::uint64_t> failures_{0};
 
   mutable std::mutex
       mutex_;  ///< of what follows; never held while the disk or a hash is waited for

@@ -241,8 +241,8 @@ Result<std::unique_ptr<Server>> Server::open(const WebSettings& settings, Endpoi
 }
 
 Result<> Server::listen() {
-  auto address = parse_address(settings_.address, endpoint_.port);
-  const std::string where = settings_.address + " port " + std::to_string(endpoint_.port);
+  auto address = parse_address(endpoint_.address, endpoint_.port);
+  const std::string where = endpoint_.address + " port " + std::to_string(endpoint_.port);
   if (!address) return fail("web: " + where + ": is no numeric address");
   const bool is_v6 = address->get()->sa_family == AF_INET6, is_secure = endpoint_.pem.has_value();
   const unsigned flags =

@@ -9,6 +9,7 @@
 
 #include "app/ports/web/http/connections.h"
 #include "app/ports/web/http/exchange.h"
+#include "app/ports/web/http/pem_pair.h"
 #include "app/ports/web/web_settings.h"
 #include "proc/image/result.h"
 
@@ -24,16 +25,12 @@ struct ServerCounts {
   std::atomic<std::uint64_t> turned_away{0};  ///< connections of addresses that had enough
   std::atomic<std::uint64_t> connections{0};  ///< open now
   std::atomic<std::uint64_t> streams{0};      ///< open now
+  std::atomic<std::uint64_t> full{0};         ///< streams refused because of max_streams
 };
 
-/// A certificate, with those of its issuers, and its key.
-struct PemPair {
-  std::string certificate;
-  std::string key;
-};
-
-/// Where and how a server listens, at the address of the settings.
+/// Where and how a server listens.
 struct Endpoint {
+  std::string address;         ///< numeric
   int port = 0;                ///< 0: any free port
   std::optional<PemPair> pem;  ///< of HTTPS; none: HTTP
   Values headers;              ///< of every answer, besides others

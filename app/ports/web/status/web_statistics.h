@@ -24,7 +24,9 @@ inline constexpr Quantity kDays{"d", 0.01, -100000, 100000};
         "Commands answered with another result than done")                                         \
   FIELD(std::uint64_t, turned_away, kCount,                                                        \
         "Connections closed because their address had max_connections_per_address")                \
-  FIELD(double, certificate_days, kDays, "Until the certificate of HTTPS ends; NaN: no HTTPS")
+  FIELD(double, certificate_days, kDays, "Until the certificate of HTTPS ends; NaN: no HTTPS")     \
+  FIELD(std::uint64_t, streams_refused, kCount, "Streams refused because max_streams were open")   \
+  FIELD(std::uint64_t, logins_failed, kCount, "Wrong passwords, and wrong codes for the first one")
 
 /// Of the web interface itself, since start. Reported as a component of kind "web".
 struct WebStatistics {

@@ -8,7 +8,7 @@
 
 #include "app/certificates/certificate.h"
 #include "app/certificates/dates.h"
-#include "app/ports/web/http/server.h"
+#include "app/ports/web/http/pem_pair.h"
 #include "app/ports/web/web_settings.h"
 #include "proc/image/result.h"
 

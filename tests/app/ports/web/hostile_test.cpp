@@ -129,6 +129,7 @@ TEST_F(Hostile, StreamsAreLimited) {
     client->take_until("\r\n\r\n");
   }
   EXPECT_EQ(get(port(), "/stream.mjpg?view=front").status, 503);
+  EXPECT_EQ(sink->statistics().streams_refused, 1U);
 }
 
 /// The pipeline's thread only leaves pictures behind, and a fast reader gets every one of them,

@@ -26,12 +26,18 @@ class BeyondLoopback : public AccessServed {
     const orbwatch::tests::NetworkNamespace network;
     network.run([&] {
       orbwatch::tests::ip(std::string("address add ") + kOther + "/32 dev lo");
-      settings.address = "0.0.0.0";
+      if (settings.address == WebSettings{}.address) settings.address = "0.0.0.0";
       settings.https_port = 0;
       start(settings);
       rest();
       sink.reset();
     });
+  }
+  /// Whether somebody listens on 127.0.0.1.
+  static bool connects(int port) {
+    const auto address = parse_address("127.0.0.1", port);
+    const hal::FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    return ::connect(socket.get(), address->get(), address->length) == 0;
   }
   static Answer ask(int port, std::string_view method, std::string_view target,
                     const std::string& headers = "", std::string_view body = "") {
@@ -60,6 +66,18 @@ TEST_F(BeyondLoopback, HttpOnlyLeadsToHttps) {
     EXPECT_FALSE(login.headers.contains("Set-Cookie"));
     EXPECT_THAT(login.body, HasSubstr("HTTPS only"));
   });
+}
+
+TEST_F(BeyondLoopback, TheAddressOfANetworkLeavesThisComputerNotOut) {
+  WebSettings settings;
+  settings.address = kOther;
+  served(
+      [&] {
+        EXPECT_EQ(get(port(), "/api/v1/status").status, 200);
+        EXPECT_EQ(ask_https("GET", "/api/v1/status").status, 401);
+        EXPECT_FALSE(connects(sink->https_port())) << "HTTPS is on the one network only";
+      },
+      settings);
 }
 
 TEST_F(BeyondLoopback, HttpsServesByRole) {
@@ -131,6 +149,7 @@ TEST_F(BeyondLoopback, TheCodeIsNotGuessed) {
     EXPECT_LE(answers[403], LoginLimits::kFree + 4) << "were judged";
     EXPECT_GT(answers[429], 0);
     EXPECT_EQ(answers[403] + answers[429], 3 * LoginLimits::kFree);
+    EXPECT_EQ(sink->statistics().logins_failed, static_cast<std::uint64_t>(answers[403]));
     EXPECT_FALSE(std::filesystem::exists(users_file(state_folder)));
     for (const Route& route : sink->routes()) {
       if (route.method != "GET" || route.view != ViewArgument::None) continue;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace orbwatch::app::web {
+
+/// A certificate, with those of its issuers, and its key.
+struct PemPair {
+  std::string certificate;
+  std::string key;
+};
+
+}  // namespace orbwatch::app::web
