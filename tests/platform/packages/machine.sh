@@ -42,8 +42,13 @@ boot() {
   wait_for "$patience" is_up || { cat "$work/console"; inside systemctl --no-pager --failed; return 1; }
 }
 
+# The first process of the system's own numbering, not the one that starts it and ends.
 has_a_first_process() {
-  leader=$(pgrep --parent "$container" | head -n 1)
+  local process
+  leader=""
+  for process in $(pgrep --parent "$container"); do
+    [[ $(awk '/^NSpid:/ {print $NF}' "/proc/$process/status") != 1 ]] || leader=$process
+  done
   [[ -n $leader ]]
 }
 
