@@ -24,6 +24,7 @@ test_service() {
 
 test_programs() {
   check "orbwatchd --check as the service's user" as_service orbwatchd --check
+  check "the service may write its configuration" writes_configuration
   check "orbwatch doctor --json" doctor_speaks
   check "the manual pages" inside sh -c 'zcat /usr/share/man/man1/orbwatch.1.gz /usr/share/man/man8/orbwatchd.8.gz | grep -q "\.TH"'
   check "its exposure is at most 2.0 of 10" inside systemd-analyze security --threshold=20 --no-pager orbwatch.service
@@ -32,6 +33,12 @@ test_programs() {
   inside systemctl stop orbwatch.service
   check "orbwatch bench --simulated as the service's user" bench_speaks
   inside systemctl start orbwatch.service
+}
+
+# In the service's view of the files.
+writes_configuration() {
+  inside nsenter --mount --target "$(property MainPID)" -- setpriv --reuid orbwatch --regid orbwatch --init-groups \
+    sh -c 'cp /etc/orbwatch/site.toml /etc/orbwatch/tried && rm /etc/orbwatch/tried'
 }
 
 # Its exit status depends on the board.
