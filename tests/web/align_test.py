@@ -174,21 +174,9 @@ class Outline(AlignCase):
 
 
 class Register(AlignCase):
-    def brightness_rows(self):
-        """The pixels of the comparison, as one number each."""
-        return self.browser.execute_script("""
-            const canvas = document.querySelector('#register canvas');
-            const copy = new OffscreenCanvas(canvas.width, canvas.height)
-              .getContext('2d', { willReadFrequently: true });
-            copy.drawImage(canvas, 0, 0);
-            const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
-            const grey = [];
-            for (let k = 0; k < pixels.length; k += 4) grey.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
-            return grey;""")
-
     def compared(self, way):
         Select(self.browser.find_element(By.NAME, "way")).select_by_value(way)
-        return numpy.reshape(self.brightness_rows(), (480, 480))
+        return numpy.reshape(self.browser.pixels("#register canvas"), (480, 480))
 
     def number(self):
         return int(self.browser.execute_script(
@@ -240,18 +228,13 @@ class Register(AlignCase):
         self.expect_no_complaint()
 
     def test_nothing_keeps_anybody_out(self):
-        self.browser.look_for_barriers()
-        for scheme in ("light", "dark"):
-            with self.subTest(scheme=scheme):
-                self.browser.show_in(scheme)
-                self.browser.get("about:blank")
-                self.open("thermal")
-                eventually("a comparison", self.number)
-                self.assertEqual(self.browser.barriers(), [])
+        def show():
+            self.open("thermal")
+            eventually("a comparison", self.number)
+
+        self.expect_no_barriers(show)
         self.browser.set_window_size(500, 844)
-        widths = self.browser.execute_script(
-            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
-        self.assertLessEqual(widths[0], widths[1])
+        self.expect_fits_its_width()
         self.browser.keep_picture("align-phone")
 
     def registration_error(self):
@@ -352,18 +335,8 @@ class Edges(AlignCase):
 
 class Judge(AlignCase):
     def pixels(self, model):
-        """Of the canvas of a model, as one number each; None before it is drawn."""
-        return self.browser.execute_script("""
-            const canvas = [...document.querySelectorAll('#models canvas')]
-              .find((one) => one.ariaLabel === arguments[0]);
-            if (!canvas.dataset.number) return null;
-            const copy = new OffscreenCanvas(canvas.width, canvas.height)
-              .getContext('2d', { willReadFrequently: true });
-            copy.drawImage(canvas, 0, 0);
-            const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
-            const grey = [];
-            for (let k = 0; k < pixels.length; k += 4) grey.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
-            return grey;""", model)
+        """Of the canvas of a model; None before it is drawn."""
+        return self.browser.pixels(f'#models canvas[aria-label="{model}"][data-number]')
 
     def served(self, **query):
         """The view that the interface serves, as a picture."""

@@ -78,6 +78,19 @@ class Browser(webdriver.Chrome):
             raise unittest.SkipTest("skipped, missing: axe-core, which npm installs")
         self.execute_cdp_cmd("Page.setBypassCSP", {"enabled": True})
 
+    def pixels(self, selector):
+        """The pixels of a canvas, as one number each; None where there is no such canvas."""
+        return self.execute_script("""
+            const canvas = document.querySelector(arguments[0]);
+            if (!canvas) return null;
+            const copy = new OffscreenCanvas(canvas.width, canvas.height)
+              .getContext('2d', { willReadFrequently: true });
+            copy.drawImage(canvas, 0, 0);
+            const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+            const sums = [];
+            for (let k = 0; k < pixels.length; k += 4) sums.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
+            return sums;""", selector)
+
     def barriers(self):
         """What axe-core finds serious."""
         self.execute_script(AXE.read_text(encoding="utf-8"))

@@ -148,9 +148,7 @@ class ConfigurationPage(PageCase):
         self.type_into("demo-recipe.toml", "# by hand", "# by another hand")
         self.press("Check and show the difference")
         eventually("the difference", lambda: "another" in self.browser.text("#configuration pre"))
-        widths = self.browser.execute_script(
-            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
-        self.assertLessEqual(widths[0], widths[1])
+        self.expect_fits_its_width()
         self.assertEqual(self.appliance.recipe.read_bytes(), self.recipe)
 
 

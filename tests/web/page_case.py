@@ -22,3 +22,18 @@ class PageCase(unittest.TestCase):
     def setUp(self):
         self.browser = Browser(self.ARGUMENTS)
         self.addCleanup(self.browser.close_all)
+
+    def expect_no_barriers(self, show):
+        """In light and in dark. `show` brings the page to what is judged."""
+        self.browser.look_for_barriers()
+        for scheme in ("light", "dark"):
+            with self.subTest(scheme=scheme):
+                self.browser.show_in(scheme)
+                self.browser.get("about:blank")
+                show()
+                self.assertEqual(self.browser.barriers(), [])
+
+    def expect_fits_its_width(self):
+        widths = self.browser.execute_script(
+            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+        self.assertLessEqual(widths[0], widths[1])
