@@ -88,9 +88,8 @@ TEST_F(Roles, OnlyThePageAndTheWayInAreForEverybody) {
       EXPECT_EQ(route.method, "GET") << route.path;
     }
   }
-  EXPECT_THAT(open,
-              testing::ElementsAre("GET /api/v1/session", "GET /healthz", "POST /api/v1/login",
-                                   "POST /api/v1/set_first_password"));
+  EXPECT_THAT(open, testing::ElementsAre("GET /api/v1/session", "GET /healthz",
+                                         "POST /api/v1/login", "POST /api/v1/set_first_password"));
 }
 
 TEST_F(Roles, EachCommandHasTheRoleOfTheList) {
