@@ -20,6 +20,8 @@ inline const std::string kPageHeaders = kJsonHeader + "X-Orbwatch: page\r\n";
 class AccessServed : public Served {
  protected:
   void SetUp() override { state_folder = folder.path(); }
+  /// The sink writes to the folder until it ends.
+  ~AccessServed() override { sink.reset(); }
 
   /// The user and the token of a role have its name.
   void add_one_of_each_role() {
