@@ -9,6 +9,7 @@
 #include "app/watch/placed_alignment.h"
 #include "proc/align/detect/ball_detector.h"
 #include "proc/align/register/camera_registration.h"
+#include "proc/settings/settings.h"
 
 namespace orbwatch::app {
 namespace {
@@ -70,12 +71,10 @@ Result<AlignmentProposal> AlignmentFinder::register_to_first(const optics::Rig& 
                                             align::RegistrationMethod::Auto, [](const auto&) {});
   if (!found) return tl::unexpected(found.error());
   const align::Registration& best = found->registration;
-  const auto* const method = std::ranges::find(align::kRegistrationMethods, found->method,
-                                               [](const auto& word) { return word.value; });
   const double sigma = std::ranges::max(align::sigmas(best));
   return AlignmentProposal{
       {.camera = turnable->name, .outline = best.outline, .registration = best.rotation},
-      "register by " + std::string(method->name),
+      "register by " + std::string(word_for(align::kRegistrationMethods, found->method)),
       two_digits("residual %.2f deg rms", best.residual) + two_digits(", sigma %.2f deg", sigma),
       sigma};
 }

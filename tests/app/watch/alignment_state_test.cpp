@@ -5,21 +5,12 @@
 #include <cmath>
 
 #include "proc/align/register/registration.h"
+#include "tests/app/watch/rig_with_pose.h"
 
 namespace orbwatch::app {
 namespace {
 
-optics::Rig rig_with_pose() {
-  optics::Rig rig;
-  rig.ball = {{120, 60, 430}, 50};
-  optics::RigCamera camera;
-  camera.name = "a";
-  camera.width = camera.height = 800;
-  camera.intrinsics = optics::Intrinsics{800, 800, 4200, 4200, 399.5, 399.5, {}, {}};
-  camera.pose = optics::Pose{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {120, -540, 430}};
-  rig.cameras.push_back(camera);
-  return rig;
-}
+optics::Rig rig_with_pose() { return tests::rig_with_pose({120, -540, 430}); }
 
 TEST(AlignmentState, OfAPoseIsItsOutlineAndItsRotation) {
   const optics::Rig rig = rig_with_pose();

@@ -6,23 +6,14 @@
 
 #include "app/files/rig_alignment.h"
 #include "proc/align/register/registration.h"
+#include "tests/app/watch/rig_with_pose.h"
 
 namespace orbwatch::app {
 namespace {
 
 const optics::Vec3 kSeen = optics::normalized(optics::Vec3{-0.4, -0.8, 0.3});
 
-optics::Rig rig_with_pose() {
-  optics::Rig rig;
-  rig.ball = {{120, 60, 430}, 50};
-  optics::RigCamera camera;
-  camera.name = "a";
-  camera.width = camera.height = 800;
-  camera.intrinsics = optics::Intrinsics{800, 800, 4200, 4200, 399.5, 399.5, {}, {}};
-  camera.pose = optics::Pose{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {100, -540, 440}};
-  rig.cameras.push_back(camera);
-  return rig;
-}
+optics::Rig rig_with_pose() { return tests::rig_with_pose({100, -540, 440}); }
 
 /// A small turn about the camera's x axis, then its z axis.
 optics::Mat3 turn() {

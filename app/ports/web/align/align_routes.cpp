@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/ports/web/align/alignment_text.h"
+#include "proc/settings/settings.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -49,13 +50,6 @@ Result<optics::ViewSpec> view_of(const Request& request) {
   return view;
 }
 
-template <class Words>
-std::string listed(const Words& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + std::string(word.name);
-  return text;
-}
-
 }  // namespace
 
 std::vector<Route> AlignRoutes::routes() {
@@ -65,8 +59,7 @@ std::vector<Route> AlignRoutes::routes() {
   state.role = Role::Viewer;
   state.description =
       "Of each camera where it has the ball, how it stands, what is proposed, its points with "
-      "their "
-      "residuals, and where its picture shows the scene's edges; px, deg, mm";
+      "their residuals, and where its picture shows the scene's edges; px, deg, mm";
   state.type = kJson;
   state.serve = [this](const ExchangePtr& exchange) { serve_alignment(exchange); };
   Route ball = state;
@@ -145,12 +138,11 @@ Result<AlignmentPicture> AlignRoutes::picture_of(const Request& request, bool is
     return fail("which is " + *which + "; it must be proposed or in_force");
   }
   if (const std::string* model = request.argument("model")) {
-    const auto* const known =
-        std::ranges::find(optics::kBallModels, *model, [](const auto& word) { return word.name; });
-    if (known == optics::kBallModels.end()) {
-      return fail("model is " + *model + "; it must be one of " + listed(optics::kBallModels));
+    const auto* const known = find_word(optics::kBallModels, *model);
+    if (!known) {
+      return fail("model is " + *model + "; it must be one of " + joined(optics::kBallModels));
     }
-    picture.model = known->value;
+    picture.model = *known;
   }
   return view_of(request).map([&](const optics::ViewSpec& view) {
     picture.view = view;
