@@ -72,16 +72,6 @@ std::span<const std::byte> V4l2Stream::Captured::samples(std::size_t number) con
   return all.subspan(offset, size);
 }
 
-void ReturnedBuffers::put(std::size_t index) {
-  returned_.fetch_or(1U << index);
-  wake();
-}
-
-std::uint32_t ReturnedBuffers::take() {
-  woken_.clear();
-  return returned_.exchange(0);
-}
-
 tl::unexpected<FaultReport> V4l2Stream::failed(const std::string& message) const {
   return fail(Fault::ReadError, device_.path() + ": " + message);
 }

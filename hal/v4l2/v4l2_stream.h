@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,7 +12,7 @@
 #include "hal/frame/buffer_pool.h"
 #include "hal/frame/frame.h"
 #include "hal/frame/frame_memory.h"
-#include "hal/thread/file_descriptor.h"
+#include "hal/frame/returned_buffers.h"
 #include "hal/v4l2/device/v4l2_device.h"
 #include "hal/v4l2/format/v4l2_format.h"
 
@@ -44,24 +43,6 @@ struct DriverFrame : FrameBuffer {
   Result<> synchronise(Result<> (DmaBuffer::*moment)() const);
 
   bool is_read_ = false;
-};
-
-/// Buffers whose last frame was released: the camera's thread, which alone talks to the device,
-/// queues them again. Outlives the stream for as long as frames are held. Thread-safe, lock-free.
-class ReturnedBuffers {
- public:
-  bool is_open() const { return woken_.is_open(); }
-  int descriptor() const { return woken_.get(); }  ///< readable after put() or wake(), until take()
-  void put(std::size_t index);
-  void wake() { woken_.signal(); }
-  /// One bit per returned buffer, of kMaxBuffers.
-  std::uint32_t take();
-
- private:
-  static_assert(kMaxBuffers <= 32, "one bit each");
-
-  EventFd woken_;
-  std::atomic<std::uint32_t> returned_{0};
 };
 
 /// A device that streams into mapped buffers, its own or imported ones. Its end stops the device

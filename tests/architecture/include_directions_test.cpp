@@ -43,7 +43,7 @@ const std::vector<Rule> kRules{
      {"proc/image", "proc/settings", "hal"},
      {"tl/expected", "libcamera/", "linux/"}},
     {"hal/replay", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "opencv2/"}},
-    {"hal/v4l2", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "linux/", "opencv2/"}},
+    {"hal/mosaic", {"proc/image", "hal/mosaic"}, {"tl/expected", "opencv2/"}},
     {"app",
      {"proc", "hal", "app"},
      {"opencv2/", "toml++/", "yaml-cpp/", "dds/", "modbus/", "tl/expected"}},

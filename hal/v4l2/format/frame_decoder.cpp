@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstring>
 
-#include "hal/v4l2/format/demosaic.h"
+#include "hal/mosaic/demosaic.h"
 
 namespace orbwatch::hal {
 namespace {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "hal/mosaic/mosaic.h"
 #include "proc/image/pixel_format.h"
 
 namespace orbwatch::hal {
@@ -19,9 +20,6 @@ enum class Packing : std::uint8_t {
   BigEndian,  ///< 16 bit, high byte first
   Jpeg,       ///< one JPEG picture per frame
 };
-
-/// A Bayer pattern: the colours of the first two pixels of the first two rows.
-enum class Mosaic : std::uint8_t { None, Rggb, Grbg, Gbrg, Bggr };
 
 /// A supported pixel format of V4L2.
 struct PixelCoding {

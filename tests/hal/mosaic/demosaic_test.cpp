@@ -1,4 +1,4 @@
-#include "hal/v4l2/format/demosaic.h"
+#include "hal/mosaic/demosaic.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hal/v4l2/format/pixel_coding.h"
+#include "hal/mosaic/mosaic.h"
 #include "proc/image/image_view.h"
 #include "proc/image/result.h"
 

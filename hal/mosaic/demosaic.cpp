@@ -1,4 +1,4 @@
-#include "hal/v4l2/format/demosaic.h"
+#include "hal/mosaic/demosaic.h"
 
 #include <algorithm>
 #include <opencv2/core.hpp>
