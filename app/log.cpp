@@ -44,7 +44,11 @@ bool is_journal_on_stderr() {
 
 void write_text(const LogRecord& record) {
   std::string line;
-  if (is_journal_on_stderr()) line = "<" + std::to_string(static_cast<int>(record.level)) + ">";
+  if (is_journal_on_stderr()) {
+    line = "<" + std::to_string(static_cast<int>(record.level)) + ">";
+  } else if (::isatty(STDERR_FILENO) != 0) {
+    line = "\r\x1b[K";  // a command may show how far it is, on a line that has no end yet
+  }
   line += "orbwatch: ";
   line += record.text;
   line += '\n';

@@ -35,7 +35,8 @@ void log_camera(LogLevel level, std::string_view camera, std::string_view text);
 void log_soon(LogLevel level, std::initializer_list<std::string_view> text,
               const LogFields& fields = {});
 
-/// Writes one line to stderr. Where that is the journal's, "<n>" in front is its level.
+/// Writes one line to stderr. Where that is the journal's, "<n>" in front is its level; on a
+/// terminal it takes the place of a line that has no end yet.
 void write_text(const LogRecord& record);
 
 /// Whether stderr is connected to the journal, by the rule of systemd.exec(5) for JOURNAL_STREAM.

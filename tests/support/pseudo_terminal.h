@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/thread/file_descriptor.h"
@@ -42,7 +44,7 @@ class PseudoTerminal {
 };
 
 /// What the last line of such a terminal held, one after the other, where a program rewrites it
-/// with carriage returns; without trailing spaces.
+/// with carriage returns, or erases it from there on (CSI K); without trailing spaces.
 inline std::vector<std::string> rewritten_lines(const std::string& text) {
   std::vector<std::string> lines(1);
   std::string shown;
@@ -51,8 +53,13 @@ inline std::vector<std::string> rewritten_lines(const std::string& text) {
     const std::string line = shown.substr(0, shown.find_last_not_of(' ') + 1);
     if (line != lines.back()) lines.push_back(line);
   };
-  for (const char c : text) {
-    if (c == '\r') {
+  constexpr std::string_view kErase = "\x1b[K";
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const char c = text[n];
+    if (text.compare(n, kErase.size(), kErase) == 0) {
+      shown.resize(std::min(column, shown.size()));
+      n += kErase.size() - 1;
+    } else if (c == '\r') {
       look();
       column = 0;
     } else if (c == '\n') {

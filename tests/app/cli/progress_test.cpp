@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "app/log.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/proc/align/detect/painted_ball.h"
 #include "tests/support/pseudo_terminal.h"
@@ -55,6 +56,22 @@ TEST(ProgressLine, IsAsWideAsTheTerminalAndHarmless) {
     progress.begin("looking for \x1b[2J in a very long name");
   }
   EXPECT_THAT(rewritten_lines(terminal.read_to_end()), ElementsAre("", "looking for ?[2J in", ""));
+}
+
+TEST(ProgressLine, MakesRoomForTheLog) {
+  PseudoTerminal terminal;
+  const hal::FileDescriptor usual(dup(STDERR_FILENO));
+  ASSERT_EQ(dup2(terminal.program_side(), STDERR_FILENO), STDERR_FILENO);
+  {
+    Progress progress;
+    progress.begin("waiting for the first frames");
+    app::log_line(app::LogLevel::Warning, "camera A: slow");
+    progress.begin("measuring");
+  }
+  ASSERT_EQ(dup2(usual.get(), STDERR_FILENO), STDERR_FILENO);
+  EXPECT_THAT(rewritten_lines(terminal.read_to_end()),
+              ElementsAre("", "waiting for the first frames ...", "", "orbwatch: camera A: slow",
+                          "measuring ...", ""));
 }
 
 TEST(ProgressLine, IsNotWrittenWhereNobodyLooks) {
