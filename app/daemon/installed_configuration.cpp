@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <set>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "app/daemon/new_configuration.h"
+#include "app/files/recipe_edit.h"
 
 namespace orbwatch::app {
 namespace {
@@ -72,6 +74,28 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
     state.seconds_left = std::chrono::duration<double>(end - hal::Clock::now()).count();
   }
   return state;
+}
+
+Result<ConfigurationFiles::Texts> InstalledConfiguration::with_changed_recipe(
+    int number, const RecipeChange& change) const {
+  const auto site = read_site(file_);
+  if (!site) return tl::unexpected(site.error());
+  const auto recipe = std::ranges::find(site->recipes, number, &RecipeFile::number);
+  if (recipe == site->recipes.end()) {
+    return fail(file_.string() + ": names no recipe " + std::to_string(number));
+  }
+  const fs::path& file = recipe->file.path;
+  if (!may_be_changed(file, file_)) {
+    return fail(file.string() +
+                ": is outside of the configuration's folder; change it on the board");
+  }
+  TextFiles files;
+  return files.read(file, "a TOML file")
+      .and_then(
+          [&](const std::string& text) { return changed_recipe(text, name_of(file), change); })
+      .map([&](const std::string& text) {
+        return Texts{{name_of(file), text}};
+      });
 }
 
 Result<ConfigurationFiles::Change> InstalledConfiguration::check(const Texts& texts) const {

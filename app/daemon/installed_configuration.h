@@ -22,6 +22,7 @@ class InstalledConfiguration final : public ConfigurationFiles {
   void set_trial_end(hal::TimePoint end) { trial_end_ = end; }
 
   Result<State> read() const override;
+  Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const override;
   Result<Change> check(const Texts& texts) const override;
   Result<Change> try_out(const Texts& texts, int seconds) override;
   Result<std::vector<std::string>> confirm() override;

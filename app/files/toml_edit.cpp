@@ -42,8 +42,10 @@ Result<TomlEdit> TomlEdit::make(const std::string& text, const std::string& name
 }
 
 TomlEdit::TomlEdit(std::string text, toml::table root)
-    : text_(std::move(text)), root_(std::move(root)) {
-  if (!text_.empty() && text_.back() != '\n') text_ += '\n';
+    : text_(std::move(text)),
+      lacks_end_(!text_.empty() && text_.back() != '\n'),
+      root_(std::move(root)) {
+  if (lacks_end_) text_ += '\n';
   lines_.push_back(0);
   for (std::size_t n = 0; n < text_.size(); ++n) {
     if (text_[n] == '\n') lines_.push_back(n + 1);
@@ -52,15 +54,19 @@ TomlEdit::TomlEdit(std::string text, toml::table root)
   std::ranges::sort(headers_);
 }
 
+std::string_view TomlEdit::text_of(const toml::node& value) const {
+  const std::size_t begin = offset(value.source().begin);
+  return std::string_view(text_).substr(begin, offset(value.source().end) - begin);
+}
+
+void TomlEdit::replace(const toml::node& value, const std::string& text) {
+  changes_.push_back({offset(value.source().begin), offset(value.source().end), text});
+}
+
 void TomlEdit::set(const toml::table& table, std::string_view key, const std::string& value) {
-  if (const toml::node* old = table.get(key)) {
-    const toml::source_region& place = old->source();
-    changes_.push_back({offset(place.begin), offset(place.end), value});
-    return;
-  }
+  if (const toml::node* old = table.get(key)) return replace(*old, value);
   const std::size_t header = line_of_header(table);
-  const std::size_t end = end_of_values(header, next_header(header));
-  changes_.push_back({end, end, std::string(key) + " = " + value + "\n"});
+  add_lines(end_of_values(header, next_header(header)), std::string(key) + " = " + value + "\n");
 }
 
 void TomlEdit::remove(const toml::table& table, std::string_view key) {
@@ -76,8 +82,16 @@ void TomlEdit::remove(const toml::table& table, std::string_view key) {
 }
 
 void TomlEdit::append(const toml::table& table, const std::string& lines) {
-  const std::size_t end = end_of(table);
-  changes_.push_back({end, end, lines});
+  add_lines(end_of(table), lines);
+}
+
+/// With ends as the text's first line has one.
+void TomlEdit::add_lines(std::size_t at, const std::string& lines) {
+  const std::size_t end = text_.find('\n');
+  const bool has_return = end != std::string::npos && end > 0 && text_[end - 1] == '\r';
+  std::string added;
+  for (const char c : lines) added += c == '\n' && has_return ? "\r\n" : std::string(1, c);
+  changes_.push_back({at, at, added});
 }
 
 std::string TomlEdit::text() const {
@@ -89,7 +103,10 @@ std::string TomlEdit::text() const {
     out += text_.substr(done, change.begin - done) + change.text;
     done = change.end;
   }
-  return out + text_.substr(done);
+  out += text_.substr(done);
+  const bool ends_as_before = done < text_.size();
+  if (lacks_end_ && ends_as_before) out.pop_back();
+  return out;
 }
 
 /// toml++ counts columns in characters, from 1.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/recipe_change.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -40,6 +41,11 @@ class ConfigurationFiles {
 
   /// Error: a file cannot be read.
   virtual Result<State> read() const = 0;
+
+  /// The text of the file of the recipe of that number with changes, by its name; nothing else is
+  /// done. Errors: there is no such recipe, its file is not to be changed here, cannot be read or
+  /// has no place for a change.
+  virtual Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const = 0;
 
   /// Checks the files with these texts in place of some of them. Errors: with file, line, key, what
   /// is wrong and what is allowed; a name is not inside the folder; no file names it.

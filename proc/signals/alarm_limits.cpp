@@ -16,12 +16,12 @@ struct NamedLimit {
   std::optional<double> value;
 };
 
-/// From low to high.
-std::array<NamedLimit, 4> listed(const AlarmLimits& limits) {
-  return {{{"low alarm", false, limits.low_alarm},
-           {"low warning", false, limits.low_warning},
-           {"high warning", true, limits.high_warning},
-           {"high alarm", true, limits.high_alarm}}};
+std::array<NamedLimit, kLimits.size()> listed(const AlarmLimits& limits) {
+  std::array<NamedLimit, kLimits.size()> all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = {kLimits[i].words, kLimits[i].is_high, limits.*kLimits[i].value};
+  }
+  return all;
 }
 
 std::string text(double number) {

@@ -30,6 +30,24 @@ struct AlarmLimits {
   bool only_while_active = true;  ///< suppressed while the process is not active
 };
 
+/// One of the limits that a signal can reach.
+struct LimitInfo {
+  const char* name;   ///< of its key
+  const char* words;  ///< for messages
+  bool is_high;       ///< reached from below
+  std::optional<double> AlarmLimits::*value;
+};
+
+/// From low to high.
+inline constexpr std::array kLimits{
+    LimitInfo{"low_alarm", "low alarm", false, &AlarmLimits::low_alarm},
+    LimitInfo{"low_warning", "low warning", false, &AlarmLimits::low_warning},
+    LimitInfo{"high_warning", "high warning", true, &AlarmLimits::high_warning},
+    LimitInfo{"high_alarm", "high alarm", true, &AlarmLimits::high_alarm}};
+
+/// Name of the key of how far back from a limit its condition ends.
+inline constexpr const char* kHysteresis = "hysteresis";
+
 inline constexpr std::chrono::nanoseconds kLongestDelay = std::chrono::hours(1);
 
 /// Every signal's index by its name.
@@ -44,11 +62,10 @@ template <class Visitor>
 void visit(Visitor& v, AlarmLimits& limits) {
   const Seconds delay{Range::between(0, std::chrono::duration<double>(kLongestDelay).count())};
   v.required("signal", limits.signal, kSignalWords, "What is watched");
-  v.optional("low_alarm", limits.low_alarm, kAnyNumber, "In the signal's unit");
-  v.optional("low_warning", limits.low_warning, kAnyNumber, "In the signal's unit");
-  v.optional("high_warning", limits.high_warning, kAnyNumber, "In the signal's unit");
-  v.optional("high_alarm", limits.high_alarm, kAnyNumber, "In the signal's unit");
-  v.optional("hysteresis", limits.hysteresis, Range::between(0, 1e9),
+  for (const LimitInfo& limit : kLimits) {
+    v.optional(limit.name, limits.*limit.value, kAnyNumber, "In the signal's unit");
+  }
+  v.optional(kHysteresis, limits.hysteresis, Range::between(0, 1e9),
              "How far the signal must come back from a limit to end its alarm");
   v.optional("on_delay", limits.on_delay, delay,
              "A limit counts once it was reached for so long, s");

@@ -23,8 +23,8 @@ struct QueryArgument {
   bool is_number = true;
 };
 
-/// What a member of a request's body is: a text, texts by name, or a whole number.
-enum class BodyType { Text, Texts, Whole };
+/// What a member of a request's body is: a text, texts by name, a whole number, or a list.
+enum class BodyType { Text, Texts, Whole, List };
 
 /// A member of the JSON object that is the body of a request.
 struct BodyMember {

@@ -30,8 +30,8 @@ const toml::table& second(const TomlEdit& edit, std::size_t n) {
   return *edit.root()["second"].as_array()->get(n)->as_table();
 }
 
-TEST(TomlEdit, WithoutChangesIsTheTextWithAnEndOfLine) {
-  EXPECT_EQ(edit_of(kText).text(), kText + "\n");
+TEST(TomlEdit, WithoutChangesIsTheText) {
+  EXPECT_EQ(edit_of(kText).text(), kText);
   EXPECT_EQ(edit_of("").text(), "");
 }
 
@@ -58,6 +58,20 @@ TEST(TomlEdit, AddsAValueBehindTheTablesLastOne) {
   EXPECT_NE(text.find("  2]  # two\nc = 3\n\n# about the second\n"), std::string::npos) << text;
 }
 
+TEST(TomlEdit, AddsLinesWithTheEndsThatTheTextHas) {
+  TomlEdit edit = edit_of("[a]\r\nb = 1\r\n# end");
+  edit.set(*edit.root()["a"].as_table(), "c", "2");
+  EXPECT_EQ(edit.text(), "[a]\r\nb = 1\r\nc = 2\r\n# end");
+}
+
+TEST(TomlEdit, ReplacesAPartOfAList) {
+  TomlEdit edit = edit_of("a = [[1, 2], # ä\n  [ 3,4 ]] # end\n");
+  const toml::node& second = *edit.root()["a"].as_array()->get(1);
+  EXPECT_EQ(edit.text_of(second), "[ 3,4 ]");
+  edit.replace(second, "[5, 6]");
+  EXPECT_EQ(edit.text(), "a = [[1, 2], # ä\n  [5, 6]] # end\n");
+}
+
 TEST(TomlEdit, RemovesValuesAndTables) {
   TomlEdit edit = edit_of(kText);
   edit.remove(*edit.root()["first"].as_table(), "b");
@@ -65,7 +79,7 @@ TEST(TomlEdit, RemovesValuesAndTables) {
   edit.remove(second(edit, 0), "never");
   EXPECT_EQ(edit.text(),
             "# of the machine\n[first]\na = 1   # one\n\n# about the second\n[[second]]\n"
-            "name = \"Grüße\"\n[[second]]\nname = \"other\"\n");
+            "name = \"Grüße\"\n[[second]]\nname = \"other\"");
 }
 
 TEST(TomlEdit, AppendsBehindTheTablesWithin) {

@@ -14,9 +14,19 @@ bool is_known(const std::string& member) {
 
 }  // namespace
 
+Result<int> seconds_of(const nlohmann::json& sent) {
+  const auto seconds = sent.find(kSecondsMember.name);
+  if (seconds == sent.end()) return kUsualTrial;
+  const bool is_right =
+      seconds->is_number_integer() && *seconds >= kShortestTrial && *seconds <= kLongestTrial;
+  if (is_right) return seconds->get<int>();
+  return fail("seconds is " + seconds->dump() + "; it must be a whole number from " +
+              std::to_string(kShortestTrial) + " to " + std::to_string(kLongestTrial));
+}
+
 Result<ConfigurationBody> parse_configuration(std::string_view body) {
   const auto sent = nlohmann::json::parse(body, nullptr, false);
-  const std::string files_name(kFilesMember.name), seconds_name(kSecondsMember.name);
+  const std::string files_name(kFilesMember.name);
   if (!sent.is_object() || !sent.contains(files_name) || !sent[files_name].is_object()) {
     return fail(std::string("there are no files: ") + kForm);
   }
@@ -25,15 +35,9 @@ Result<ConfigurationBody> parse_configuration(std::string_view body) {
     if (!text.is_string()) return fail(name + " is no text: " + kForm);
     parsed.files[name] = text.get<std::string>();
   }
-  if (const auto seconds = sent.find(seconds_name); seconds != sent.end()) {
-    const bool is_right =
-        seconds->is_number_integer() && *seconds >= kShortestTrial && *seconds <= kLongestTrial;
-    if (!is_right) {
-      return fail("seconds is " + seconds->dump() + "; it must be a whole number from " +
-                  std::to_string(kShortestTrial) + " to " + std::to_string(kLongestTrial));
-    }
-    parsed.seconds = seconds->get<int>();
-  }
+  const auto seconds = seconds_of(sent);
+  if (!seconds) return tl::unexpected(seconds.error());
+  parsed.seconds = *seconds;
   for (const auto& [member, value] : sent.items()) {
     if (!is_known(member)) return fail("there is no " + member + ": " + kForm);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
-#include <vector>
 
 #include "app/model/configuration_files.h"
 #include "app/ports/web/routes.h"
@@ -24,5 +24,9 @@ inline constexpr BodyMember kSecondsMember{
 /// {"files": {"rig.toml": "..."}, "seconds": 60}. Errors: it is none; a member is missing, too many
 /// or of another kind; the seconds are out of range. Reentrant.
 Result<ConfigurationBody> parse_configuration(std::string_view body);
+
+/// What kSecondsMember says of an object that was sent. Errors: as parse_configuration().
+/// Reentrant.
+Result<int> seconds_of(const nlohmann::json& sent);
 
 }  // namespace orbwatch::app::web

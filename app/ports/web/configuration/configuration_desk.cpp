@@ -1,9 +1,11 @@
 #include "app/ports/web/configuration/configuration_desk.h"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "app/ports/web/configuration/configuration_body.h"
+#include "app/ports/web/configuration/recipe_body.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -38,13 +40,35 @@ void add(Json& list, const ConfigurationFiles::Texts& texts, bool may_change) {
   }
 }
 
+/// The lines of one side of a difference, "-" or "+", and what has no side.
+std::string side_of(const std::string& difference, char side) {
+  const char other = side == '+' ? '-' : '+';
+  std::istringstream in(difference);
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with(other)) continue;
+    text += line.substr(line.starts_with(side) ? 1 : 0) + "\n";
+  }
+  return text.substr(0, kMostNoted);
+}
+
 }  // namespace
 
 /// A request to change something, with what the audit is to say.
 struct ConfigurationDesk::Sent {
   Caller caller;
-  ConfigurationBody body;
+  ConfigurationBody body{};
+  RecipeBody recipe{};
+  std::string before{};
   std::string after{};
+
+  static Result<> read_nothing(std::string_view /*body*/, Sent& /*sent*/) { return {}; }
+  static Result<> read_files(std::string_view text, Sent& sent) {
+    return parse_configuration(text).map([&](ConfigurationBody body) { sent.body = body; });
+  }
+  static Result<> read_recipe(std::string_view text, Sent& sent) {
+    return parse_recipe_change(text).map([&](RecipeBody body) { sent.recipe = body; });
+  }
 };
 
 ConfigurationDesk::ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, Access& access,
@@ -62,47 +86,52 @@ std::vector<Route> ConfigurationDesk::routes() {
   routes.push_back(changing("/api/v1/check_configuration",
                             "Checks the configuration with these texts in place of some files, and "
                             "says what they change",
-                            {kFilesMember}, &ConfigurationDesk::check));
-  routes.push_back(changing("/api/v1/try_configuration",
-                            "The same, and has it run until it is confirmed or goes back",
-                            {kFilesMember, kSecondsMember}, &ConfigurationDesk::try_out));
+                            {kFilesMember}, &Sent::read_files, &ConfigurationDesk::check));
+  routes.push_back(changing(
+      "/api/v1/try_configuration", "The same, and has it run until it is confirmed or goes back",
+      {kFilesMember, kSecondsMember}, &Sent::read_files, &ConfigurationDesk::try_out));
+  routes.push_back(changing("/api/v1/check_recipe",
+                            "Checks the configuration with these limits and regions in the file of "
+                            "a recipe, which keeps all else, and says what they change",
+                            {kRecipeMember, kLimitsMember, kRegionsMember}, &Sent::read_recipe,
+                            &ConfigurationDesk::check_recipe));
+  routes.push_back(changing("/api/v1/try_recipe",
+                            "The same, and has it run until it is confirmed or goes back, as "
+                            "try_configuration",
+                            {kRecipeMember, kLimitsMember, kRegionsMember, kSecondsMember},
+                            &Sent::read_recipe, &ConfigurationDesk::try_recipe));
   routes.push_back(changing("/api/v1/confirm_configuration",
                             "Keeps the configuration that is tried out: writes its files", {},
-                            &ConfigurationDesk::confirm));
+                            &Sent::read_nothing, &ConfigurationDesk::confirm));
   routes.push_back(changing("/api/v1/revert_configuration",
                             "Goes back from the configuration that is tried out", {},
-                            &ConfigurationDesk::revert));
+                            &Sent::read_nothing, &ConfigurationDesk::revert));
   return routes;
 }
 
 Route ConfigurationDesk::changing(const char* path, const char* description,
-                                  std::vector<BodyMember> body, Handler handler) {
+                                  std::vector<BodyMember> body, Read read, Handler handler) {
   Route route{"POST", path, Role::Integrator, description, std::string(kJson), {}};
   route.body = std::move(body);
-  route.serve = [this, handler](const ExchangePtr& exchange) {
-    work_.run(exchange, [this, handler, exchange] { return answer_and_note(exchange, handler); });
+  route.serve = [this, read, handler](const ExchangePtr& exchange) {
+    work_.run(exchange,
+              [this, read, handler, exchange] { return answer_and_note(exchange, read, handler); });
   };
   return route;
 }
 
-Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Handler handler) {
+Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read read,
+                                            Handler handler) {
   const web::Request& request = exchange->request();
-  Sent sent{access_.caller(credentials_of(request)), {}};
+  Sent sent{access_.caller(credentials_of(request))};
   const std::string name = request.path.substr(request.path.rfind('/') + 1);
-  if (handler == &ConfigurationDesk::check || handler == &ConfigurationDesk::try_out) {
-    auto body = parse_configuration(request.body);
-    if (!body) return error_response(kBadRequest, body.error().message);
-    sent.body = std::move(*body);
+  if (const auto right = read(request.body, sent); !right) {
+    return error_response(kBadRequest, right.error().message);
   }
   Response response = (this->*handler)(sent);
-  if (handler != &ConfigurationDesk::check) {
+  if (handler != &ConfigurationDesk::check && handler != &ConfigurationDesk::check_recipe) {
     constexpr int kDone = 200;
-    audit_.note({Access::utc_now(),
-                 sent.caller.name,
-                 request.peer,
-                 name,
-                 {},
-                 sent.after.substr(0, kMostNoted),
+    audit_.note({Access::utc_now(), sent.caller.name, request.peer, name, sent.before, sent.after,
                  response.status == kDone ? "done" : "refused"});
   }
   return response;
@@ -154,10 +183,29 @@ Response ConfigurationDesk::try_out(Sent& sent) {
   }
   const auto change = files_->try_out(sent.body.files, sent.body.seconds);
   if (!change) return error_response(kConflict, change.error().message);
-  sent.after = change->difference;
+  sent.before = side_of(change->difference, '-');
+  sent.after = side_of(change->difference, '+');
   Json json = change_json(*change);
   json["seconds"] = sent.body.seconds;
   return answer(json);
+}
+
+/// The text with the changes that were sent is what is sent.
+Result<> ConfigurationDesk::apply_changes(Sent& sent) const {
+  return files_->with_changed_recipe(sent.recipe.recipe, sent.recipe.change)
+      .map([&](ConfigurationFiles::Texts texts) {
+        sent.body = {std::move(texts), sent.recipe.seconds};
+      });
+}
+
+Response ConfigurationDesk::check_recipe(Sent& sent) {
+  const auto applied = apply_changes(sent);
+  return applied ? check(sent) : error_response(kConflict, applied.error().message);
+}
+
+Response ConfigurationDesk::try_recipe(Sent& sent) {
+  const auto applied = apply_changes(sent);
+  return applied ? try_out(sent) : error_response(kConflict, applied.error().message);
 }
 
 Response ConfigurationDesk::confirm(Sent& sent) {

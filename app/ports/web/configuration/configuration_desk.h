@@ -13,7 +13,8 @@
 
 namespace orbwatch::app::web {
 
-/// The routes by which the files of the configuration are read, checked, tried out and confirmed.
+/// The routes by which the files of the configuration are read, checked, tried out and confirmed,
+/// and single limits and regions of a recipe within its file.
 /// The configuration file itself says where users are kept and which camera modules run: another
 /// one needs the administrator. Thread rule: start and stop by one owner; the routes on any thread.
 class ConfigurationDesk {
@@ -31,17 +32,22 @@ class ConfigurationDesk {
  private:
   struct Sent;
   using Handler = Response (ConfigurationDesk::*)(Sent&);
+  /// Takes a request's body into what was sent.
+  using Read = Result<> (*)(std::string_view body, Sent& sent);
 
-  Route changing(const char* path, const char* description, std::vector<BodyMember> body,
+  Route changing(const char* path, const char* description, std::vector<BodyMember> body, Read read,
                  Handler handler);
-  Response answer_and_note(const ExchangePtr& exchange, Handler handler);
+  Response answer_and_note(const ExchangePtr& exchange, Read read, Handler handler);
 
   Response show() const;
   Response check(Sent& sent);
   Response try_out(Sent& sent);
+  Response check_recipe(Sent& sent);
+  Response try_recipe(Sent& sent);
   Response confirm(Sent& sent);
   Response revert(Sent& sent);
   Result<> permit(const Sent& sent) const;
+  Result<> apply_changes(Sent& sent) const;
 
   const std::shared_ptr<ConfigurationFiles> files_;
   Access& access_;

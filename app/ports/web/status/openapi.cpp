@@ -87,14 +87,27 @@ Json command_schema(const CommandInfo& info) {
   return schema;
 }
 
+const char* json_type(BodyType type) {
+  switch (type) {
+    case BodyType::Text:
+      return "string";
+    case BodyType::Texts:
+      return "object";
+    case BodyType::Whole:
+      return "integer";
+    case BodyType::List:
+      return "array";
+  }
+  return "object";
+}
+
 Json body_schema(const std::vector<BodyMember>& body) {
   Json properties = Json::object(), names = Json::array();
   for (const BodyMember& member : body) {
     Json& property = properties[std::string(member.name)];
-    property["type"] = member.type == BodyType::Text    ? "string"
-                       : member.type == BodyType::Whole ? "integer"
-                                                        : "object";
+    property["type"] = json_type(member.type);
     if (member.type == BodyType::Texts) property["additionalProperties"] = {{"type", "string"}};
+    if (member.type == BodyType::List) property["items"] = {{"type", "object"}};
     property["description"] = std::string(member.description);
     if (member.is_required) names.push_back(std::string(member.name));
   }

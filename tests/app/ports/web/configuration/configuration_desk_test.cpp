@@ -135,9 +135,35 @@ TEST_F(Configuration, IsNotedInTheAudit) {
   ASSERT_EQ(entries.size(), 3U) << audit;
   EXPECT_EQ(entries[0]["what"], "try_configuration");
   EXPECT_EQ(entries[0]["who"], "integrator");
-  EXPECT_EQ(entries[0]["after"], "+b = 2");
+  EXPECT_EQ(entries[0]["after"], "b = 2\n");
   EXPECT_EQ(entries[1]["after"], "rig.toml");
   EXPECT_EQ(entries[2]["result"], "refused");
+}
+
+TEST_F(Configuration, OfALimitIsAnotherTextOfTheRecipesFile) {
+  start();
+  const json limit{{"alarm", 2}, {"region", "pool"}, {"signal", "hot_spot_width"}};
+  json higher = limit, none = limit;
+  higher.update({{"limit", "high_alarm"}, {"value", 30.5}});
+  none.update({{"limit", "low_alarm"}, {"value", nullptr}});
+  const json body{{"recipe", 1}, {"limits", {higher, none}}};
+  const auto recipe = [&](const std::string& what, const json& sent) {
+    return post("/api/v1/" + what + "_recipe", sent.dump(),
+                by_token(Role::Integrator) + kJsonHeader);
+  };
+  const std::string lines =
+      "pool hot_spot_width 2 high_alarm 30.500000\npool hot_spot_width 2 low_alarm\n";
+  EXPECT_EQ(json::parse(recipe("check", body).body)["difference"], "+a = 1\n" + lines);
+  EXPECT_TRUE(shown()["trial"].is_null()) << "a check changes nothing";
+  ASSERT_EQ(recipe("try", body).status, 200);
+  EXPECT_EQ(shown()["trial"]["files"]["rig.toml"], "a = 1\n" + lines);
+  EXPECT_EQ(shown()["trial"]["seconds_left"], 60);
+  EXPECT_EQ(recipe("try", {{"recipe", 2}}).status, 409);
+  EXPECT_EQ(recipe("try", {{"recipe", 1}, {"limits", {limit}}}).status, 400);
+  const json audit = json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body);
+  EXPECT_EQ(audit["entries"][0]["what"], "try_recipe");
+  EXPECT_THAT(audit["entries"][0]["after"].get<std::string>(), HasSubstr(lines));
+  EXPECT_EQ(audit["entries"][1]["result"], "refused");
 }
 
 TEST_F(Configuration, WithoutFilesHasNoRoutes) {

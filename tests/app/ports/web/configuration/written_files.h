@@ -17,6 +17,20 @@ class WrittenFiles final : public ConfigurationFiles {
     const std::lock_guard lock(mutex);
     return state;
   }
+  /// A line for each change behind the rig's.
+  Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const override {
+    const std::lock_guard lock(mutex);
+    if (number != 1) return fail("there is no recipe " + std::to_string(number));
+    std::string text = state.files.at("rig.toml");
+    for (const LimitChange& limit : change.limits) {
+      text += limit.region + " " + limit.signal + " " + std::to_string(limit.alarm) + " " +
+              limit.limit + (limit.value ? " " + std::to_string(*limit.value) : "") + "\n";
+    }
+    for (const RegionChange& region : change.regions) {
+      text += region.name + " " + std::to_string(region.points.size()) + "\n";
+    }
+    return Texts{{"rig.toml", text}};
+  }
   Result<Change> check(const Texts& texts) const override {
     const std::lock_guard lock(mutex);
     return change_of(texts);

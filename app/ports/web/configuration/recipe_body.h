@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string_view>
+
+#include "app/model/configuration_files.h"
+#include "app/model/recipe_change.h"
+#include "app/ports/web/routes.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app::web {
+
+/// Changes of a recipe as they are sent.
+struct RecipeBody {
+  int recipe = 0;  ///< its number
+  RecipeChange change;
+  int seconds = kUsualTrial;
+};
+
+inline constexpr BodyMember kRecipeMember{"recipe", "Number of the recipe", true, BodyType::Whole};
+inline constexpr BodyMember kLimitsMember{
+    "limits",
+    "Of alarms, each {\"alarm\": its number, \"region\", \"signal\", \"limit\": low_alarm, "
+    "low_warning, high_warning, high_alarm or hysteresis, \"value\": in the signal's unit, null "
+    "for "
+    "none}",
+    false, BodyType::List};
+inline constexpr BodyMember kRegionsMember{
+    "regions",
+    "Each {\"name\", and \"directions\": corners [yaw, pitch] in deg or \"points\": corners [x, y, "
+    "z] in the machine frame in mm}; a new one also has \"view\" and \"hot_spot_threshold\"",
+    false, BodyType::List};
+
+/// {"recipe": 1, "limits": [...], "regions": [...], "seconds": 60}, of which one list may be
+/// missing, as may the seconds. Errors: it is none; a member is missing, too many or of another
+/// kind; numbers out of range. Reentrant.
+Result<RecipeBody> parse_recipe_change(std::string_view body);
+
+}  // namespace orbwatch::app::web
