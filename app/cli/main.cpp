@@ -34,7 +34,7 @@ constexpr std::array kCommandTable{
     Subcommand{"password", "set a password of the page, or replace a forgotten one",
                password_command},
     Subcommand{"dds-keys", "make the keys of a secured DDS domain", dds_keys_command},
-    Subcommand{"list", "show the cameras and GPIO lines that are connected", list_command},
+    Subcommand{"list", "show the cameras and GPIO lines that are connected, or a domain's appliances", list_command},
     Subcommand{"doctor", "check this board: what is wrong, and what mends it", doctor_command},
     Subcommand{"configure", "check, try and keep a new configuration", configure_command},
     Subcommand{"lines", "set the GPIO outputs of a configuration inactive", lines_command},

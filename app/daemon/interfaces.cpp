@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/model/fleet.h"
 #include "app/state/state_folder.h"
 
 namespace orbwatch::app {
@@ -73,6 +74,20 @@ Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
   context.tables = [this] { return tables(); };
   std::size_t next = 0;
   std::apply(
+/// Who is heard over DDS, for the page.
+std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
+  const bool is_wanted =
+      std::get<DdsSettings>(sinks).enabled && std::get<WebSettings>(sinks).enabled;
+  return is_wanted ? std::make_shared<Fleet>() : nullptr;
+}
+
+/// Where other computers reach the page.
+PageAddress page_of(const WebSettings& web) {
+  const auto port = https_port_of(web);
+  if (!web.enabled || !port || web::is_loopback(web.address)) return {};
+  return {web.address, static_cast<std::uint16_t>(*port)};
+}
+
       [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },
       site.site.sinks);
   for (std::size_t i = 0; i < kMade; ++i) all_[i < kSnapshotBit ? i : i + 1] = made_[i].get();
@@ -91,6 +106,8 @@ void Interfaces::start(Attempts& attempts, hal::TimePoint now) {
 
 void Interfaces::stop() {
   for (Sink* sink : sinks()) sink->stop();
+  context.page = page_of(std::get<WebSettings>(site.site.sinks));
+  context.fleet = make_fleet(site.site.sinks);
 }
 
 std::vector<Sink*> Interfaces::sinks() const {

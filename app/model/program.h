@@ -19,4 +19,9 @@ struct Program {
   std::string commanders{};                                     ///< who may command, in words
 };
 
+/// That of the program itself; empty where there is none.
+inline std::string version_of(const Program& program) {
+  return program.versions.empty() ? "" : program.versions.front().second;
+}
+
 }  // namespace orbwatch::app

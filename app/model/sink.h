@@ -8,6 +8,7 @@
 
 #include "app/model/command.h"
 #include "app/model/interface_table.h"
+#include "app/model/appliance_notice.h"
 #include "app/model/picture_needs.h"
 #include "app/model/program.h"
 #include "app/model/status.h"
@@ -46,6 +47,7 @@ struct SinkContext {
   Program program;                                 ///< around the appliance
   /// What all sinks show of themselves, on any thread while they run; empty: nothing.
   std::function<std::vector<InterfaceTable>()> tables = nullptr;
+class Fleet;
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses
@@ -62,6 +64,8 @@ class Sink {
   /// False: what it serves is missing although it started, the network for example. On any thread.
   virtual bool works() const { return true; }
   /// Processor time of its threads since the start. On any thread.
+  PageAddress page{};  ///< of the appliance, as configured
+  std::shared_ptr<Fleet> fleet = nullptr;  ///< who is heard over DDS; null: nobody
   virtual std::chrono::nanoseconds cpu_time() const { return {}; }
   /// What it shows of itself at this moment. On any thread.
   virtual std::vector<InterfaceTable> tables() const { return {}; }

@@ -198,7 +198,7 @@ Result<Folders> make_keystore(const KeystoreRequest& request, std::chrono::sys_s
   return folders;
 }
 
-/// Whether the appliance of a keystore subscribes to the topics that new subscribers may write.
+/// Whether the appliance of a keystore has the pictures that new subscribers may read.
 Result<> check_appliance(const KeystoreRequest& request, const Authorities& authorities) {
   const fs::path folder = enclave_folder(request.folder, kApplianceEnclave);
   const auto grants =
@@ -206,11 +206,11 @@ Result<> check_appliance(const KeystoreRequest& request, const Authorities& auth
           .and_then(read_permissions);
   if (!grants) return tl::unexpected(grants.error());
   const auto takes = [&](const Grant& grant) {
-    const auto& taken = grant.topics.subscribe;
+    const auto& published = grant.topics.publish;
     return contains(grant.domains, request.domains.first) &&
            contains(grant.domains, request.domains.last) &&
-           std::ranges::all_of(request.appliance.subscribe, [&](const std::string& topic) {
-             return std::ranges::find(taken, topic) != taken.end();
+           std::ranges::all_of(request.bulk_topics, [&](const std::string& topic) {
+             return std::ranges::find(published, topic) != published.end();
            });
   };
   if (std::ranges::any_of(*grants, takes)) return {};
@@ -260,7 +260,8 @@ constexpr const char* kDiscovery = "ros_discovery_info";
 std::vector<std::string> published(std::string_view prefix) {
   std::vector<std::string> topics = bulk_topics(prefix);
   topics.insert(topics.end(), {process_state_topic(prefix), event_topic(prefix),
-                               command_result_topic(prefix), "rt/diagnostics", kDiscovery});
+                               command_result_topic(prefix), "rt/diagnostics", kDiscovery,
+                               std::string(kApplianceTopic), std::string(kThumbnailTopic)});
   return topics;
 }
 
@@ -273,7 +274,9 @@ std::vector<std::string> bulk_topics(std::string_view prefix) {
 }
 
 TopicAccess appliance_access(std::string_view prefix) {
-  return {published(prefix), {command_topic(prefix), kDiscovery}};
+  return {published(prefix),
+          {command_topic(prefix), kDiscovery, std::string(kApplianceTopic),
+           std::string(kThumbnailTopic)}};
 }
 
 TopicAccess reader_access(std::string_view prefix) { return {{kDiscovery}, published(prefix)}; }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/text_table.h"
+#include "app/model/fleet_json.h"
 #include "app/model/json.h"
 
 namespace orbwatch::app {
@@ -115,6 +116,25 @@ std::string list_table(const hal::Inventory& inventory) {
     if (entries.empty()) text += "no " + kind + "\n";
   }
   return text;
+}
+
+std::string list_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now) {
+  return Json{{"appliances", to_json(appliances, now)}}.dump(2) + "\n";
+}
+
+std::string list_table(const std::vector<Fleet::Entry>& appliances) {
+  std::vector<Fields> records;
+  for (const Fleet::Entry& entry : appliances) {
+    const ApplianceNotice& notice = entry.notice;
+    records.push_back({{"name", notice.name},
+                       {"state", entry.is_gone ? "gone" : std::string(name_of(notice.state))},
+                       {"alarms", std::to_string(notice.alarms)},
+                       {"alarm", notice.alarm.text.empty() ? kNoValue : notice.alarm.text},
+                       {"page", notice.page.address.empty() ? kNoValue : url_of(notice.page)},
+                       {"version", notice.version},
+                       {"prefix", notice.prefix}});
+  }
+  return record_lines(records);
 }
 
 }  // namespace orbwatch::app

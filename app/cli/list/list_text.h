@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "app/model/fleet.h"
 #include "hal/inventory.h"
 
 namespace orbwatch::app {
@@ -11,5 +13,9 @@ std::string list_json(const hal::Inventory& inventory);
 
 /// An inventory as text for people. Control characters become question marks.
 std::string list_table(const hal::Inventory& inventory);
+
+/// Appliances as one JSON document, and as a table. Reentrant.
+std::string list_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now);
+std::string list_table(const std::vector<Fleet::Entry>& appliances);
 
 }  // namespace orbwatch::app

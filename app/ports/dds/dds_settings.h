@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/model/appliance_notice.h"
 #include "app/model/sink.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/dds/ros/ros_node.h"
@@ -24,6 +25,7 @@ struct DdsSettings {
   bool enabled = true;
   int domain = 0;                   ///< DDS domain, ROS_DOMAIN_ID of ROS 2; 0 to 230
   std::string prefix = "orbwatch";  ///< topics are rt/<prefix>/...
+  std::string name{};  ///< in the list of the domain's appliances; empty: that of the host
   std::optional<SecuritySettings>
       security{};                  ///< none: every participant of the domain is admitted
   std::optional<bool> commands{};  ///< accept them; not stated: if there is security
@@ -55,6 +57,11 @@ void visit(Visitor& v, DdsSettings& dds) {
   v.optional("enabled", dds.enabled, "Publish views and process state over DDS");
   v.optional("domain", dds.domain, Range::between(0, 230), "ROS_DOMAIN_ID of ROS 2");
   v.optional("prefix", dds.prefix, "Topics are rt/<prefix>/...");
+  v.optional("name", dds.name,
+             "Of this appliance in the list of all that are in the domain; without the key the "
+             "host's");
+  v.require(dds.name.size() <= ApplianceIdentity::kLongestName, "name",
+            "has more than 64 bytes; say a shorter one");
   v.optional("profile", dds.profile,
              "Settings of the network for Cyclone DDS, as in platform/dds; else those that "
              "CYCLONEDDS_URI names");

@@ -19,6 +19,14 @@ PixelFormat encoding(const DdsSettings& settings, const std::string& camera) {
   return found == settings.cameras.end() ? PixelFormat::Rgb : found->second;
 }
 
+/// One by which other computers reach this one, if there is any.
+std::string reachable(const std::set<std::string>& addresses) {
+  const auto other = std::ranges::find_if(
+      addresses, [](const std::string& address) { return !address.starts_with("127."); });
+  if (other != addresses.end()) return *other;
+  return addresses.empty() ? "" : *addresses.begin();
+}
+
 }  // namespace
 
 DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera,
@@ -29,7 +37,8 @@ DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::stri
 
 DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
                  Addresses addresses, std::shared_ptr<CommandRecord> record,
-                 const std::shared_ptr<hal::SharedThreads>& threads)
+                 const std::shared_ptr<hal::SharedThreads>& threads, ApplianceIdentity identity,
+                 std::shared_ptr<Fleet> fleet)
     : settings_(std::move(settings)),
       names_(std::move(names)),
       threads_(threads),
@@ -37,6 +46,7 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
       selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg,
                 threads),
       status_topics_(settings_.prefix, names_),
+      fleet_(std::move(identity), std::move(fleet), threads),
       takes_commands_(takes_commands(settings_) && handler),
       record_(std::move(record)),
       commands_(settings_.prefix, std::move(handler), *record_, [this] { thread_.wake(); }) {
@@ -105,6 +115,7 @@ Result<> DdsSink::join() {
   for (const auto& camera : cameras_) {
     if (const auto opened = camera->ball.open(entity); !opened) return opened;
   }
+  fleet_.open(entity, reachable(bound_addresses()));
   return selected_.open(entity)
       .and_then([&] { return status_topics_.open(entity); })
       .and_then([&] { return takes_commands_ ? commands_.open(entity) : Result<>(); })
@@ -114,7 +125,7 @@ Result<> DdsSink::join() {
 }
 
 std::chrono::nanoseconds DdsSink::cpu_time() const {
-  std::chrono::nanoseconds time = thread_.cpu_time() + selected_.cpu_time();
+  std::chrono::nanoseconds time = thread_.cpu_time() + selected_.cpu_time() + fleet_.cpu_time();
   for (const auto& view : views_) time += view->cpu_time();
   for (const auto& camera : cameras_) time += camera->ball.cpu_time();
   return time;
@@ -129,6 +140,7 @@ std::vector<const TopicWriter*> DdsSink::writers() const {
   for (const auto& camera : cameras_) add(camera->ball.writers());
   add(selected_.writers());
   add(status_topics_.writers());
+  add(fleet_.writers());
   if (takes_commands_) add({&commands_.results()});
   return all;
 }
@@ -157,6 +169,7 @@ void DdsSink::leave() {
   for (const auto& camera : cameras_) camera->ball.close();
   selected_.close();
   status_topics_.close();
+  fleet_.close();
   participant_.leave();
 }
 
@@ -217,15 +230,15 @@ void DdsSink::accept_frames(const hal::FrameSet& set) {
 PictureNeeds DdsSink::needs(std::size_t view, hal::TimePoint stamp) {
   if (!running_ || view >= views_.size()) return {};
   PictureNeeds needs = views_[view]->ask(utc(stamp));
-  if (view == selected_view_) needs |= selected_.ask(utc(stamp));
+  if (view == selected_view_) needs |= selected_.ask(utc(stamp)) |= fleet_.needs(utc(stamp));
   return needs;
 }
 
 /// Those of all topics of a view are the same but for the rate. Those that wait to be written as
-/// the selected view may be of the one that was selected before.
+/// the selected view, or as the thumbnail, may be of the one that was selected before.
 KeptViews DdsSink::keeps() const {
   const std::size_t waiting = PictureTopics::waiting(settings_.jpeg);
-  return {waiting, waiting + threads_->count()};
+  return {waiting, waiting + 1 + threads_->count()};
 }
 
 void DdsSink::accept(const ViewPtr& view) {
@@ -236,7 +249,9 @@ void DdsSink::accept(const ViewPtr& view) {
   }
   ViewTopics& topics = *views_[view->index];
   const StampedPicture picture{view, view->picture, utc(view->stamp), &topics.name()};
-  topics.accept(view, picture, view->index == selected_view_ ? &selected_ : nullptr);
+  const bool is_selected = view->index == selected_view_;
+  topics.accept(view, picture, is_selected ? &selected_ : nullptr);
+  if (is_selected) fleet_.accept(picture);
 }
 
 void DdsSink::accept(const Status& status) {
@@ -261,6 +276,7 @@ void DdsSink::run() {
     for (const auto& view : views_) view->publish_info();
     if (const auto status = status_.try_take()) {
       status_topics_.publish(*status, commands_.counts(), [this] { return statistics(); });
+      fleet_.publish({status->status, names_, hal::Clock::now(), to_utc(status->stamp)});
     }
   }
 }
@@ -273,6 +289,7 @@ DdsStatistics DdsSink::statistics() const {
   for (const TopicWriter* topic : status_topics_.writers()) {
     statistics.topics.push_back(topic->statistics());
   }
+  fleet_.report(statistics.topics);
   statistics.topics.push_back(commands_.results().statistics());
   statistics.joins = joins_;
   statistics.dropped_states = status_.drops();
@@ -315,8 +332,11 @@ std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context
   for (std::size_t i = 0; i < names.cameras.size(); ++i) {
     settings.cameras[names.cameras[i]] = context.camera_encodings[i];
   }
+  ApplianceIdentity identity{settings.name, version_of(context.program), settings.prefix,
+                             context.page};
   return std::make_unique<DdsSink>(std::move(settings), names, context.handler, network_addresses,
-                                   context.record, context.background);
+                                   context.record, context.background, std::move(identity),
+                                   context.fleet);
 }
 
 }  // namespace orbwatch::app

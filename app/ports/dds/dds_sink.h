@@ -13,6 +13,7 @@
 #include "app/ports/dds/commands/bounded_queue.h"
 #include "app/ports/dds/commands/command_service.h"
 #include "app/ports/dds/dds_settings.h"
+#include "app/ports/dds/fleet/fleet_member.h"
 #include "app/ports/dds/participant/network_addresses.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/pictures/picture_topic.h"
@@ -42,10 +43,12 @@ class DdsSink final : public Sink {
   /// `names` in the order of View::index and of FrameSet::frames; the name of a view or camera is a
   /// topic part and the frame_id of its images. `handler` carries commands out, on a thread of the
   /// sink; without one there is no command topic. `addresses` are checked once a second.
+  /// `identity` and `fleet` as FleetMember.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
           Addresses addresses = network_addresses,
           std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
-          const std::shared_ptr<hal::SharedThreads>& threads = hal::SharedThreads::alone());
+          const std::shared_ptr<hal::SharedThreads>& threads = hal::SharedThreads::alone(),
+          ApplianceIdentity identity = {}, std::shared_ptr<Fleet> fleet = nullptr);
   ~DdsSink() override;
 
   /// Starts the sink's thread. Does nothing when disabled or running. Errors: a domain or name that
@@ -122,6 +125,7 @@ class DdsSink final : public Sink {
   hal::BackOff back_off_;
   std::string refusal_;  ///< why the newest attempt failed; empty: it succeeded
   StatusTopics status_topics_;
+  FleetMember fleet_;
   DiscoveryInfo discovery_;
   TypeWatch type_watch_;
   hal::Thread thread_;

@@ -7,6 +7,7 @@
 #include "app/log.h"
 #include "app/model/condition.h"
 #include "app/ports/web/commands/command_body.h"
+#include "app/ports/web/fleet/fleet_routes.h"
 #include "app/ports/web/interfaces/interface_routes.h"
 #include "app/ports/web/log/log_routes.h"
 #include "app/ports/web/page/page_files.h"
@@ -71,6 +72,7 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       program_(context.program),
       tables_(context.tables),
       routes_(make_routes()),
+      fleet_(context.fleet),
       listeners_(
           settings_, context.state_folder,
           [this](const ExchangePtr& exchange) { pass_on(exchange); }, server_counts_) {
@@ -225,6 +227,7 @@ std::vector<web::Route> WebSink::make_command_routes() {
   for (const CommandInfo& info : kCommands) {
     const auto serve = [this, &info](const ExchangePtr& exchange) { run_command(info, exchange); };
     routes.push_back({"POST", "/api/v1/command/" + std::string(info.name), info.role,
+  std::ranges::move(web::fleet_routes(fleet_), std::back_inserter(routes));
                       std::string(info.description), std::string(web::kJson), serve,
                       web::ViewArgument::None, &info});
   }
@@ -287,7 +290,7 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   response.type = kMetrics;
   response.body = std::make_shared<const std::string>(
       web::metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, statistics(),
-                        program_.versions.empty() ? "" : program_.versions.front().second));
+                        version_of(program_)));
   exchange->answer(std::move(response));
 }
 

@@ -105,6 +105,7 @@ class WebSink final : public Sink {
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
   hal::Thread thread_;  ///< ends what is overdue, and reports to streams
+  const std::shared_ptr<Fleet> fleet_;
 };
 
 }  // namespace orbwatch::app

@@ -1,23 +1,14 @@
 #include "app/ports/dds/status/status_topics.h"
 
-#include <unistd.h>
-
-#include <array>
 #include <chrono>
 
+#include "app/ports/dds/participant/host_name.h"
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {
 namespace {
 
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
-
-/// Empty when the system does not know it.
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) != 0) return {};
-  return name.data();
-}
 
 }  // namespace
 

@@ -23,6 +23,8 @@ inline std::string ros_topic(std::string_view prefix, std::string_view name) {
 ///   rt/<prefix>/event                         events
 ///   rt/<prefix>/command                       requests to orbwatch
 ///   rt/<prefix>/command_result                answers to them
+///   rt/orbwatch_appliance                     the appliances of the domain, whatever their prefix
+///   rt/orbwatch_thumbnail                     what they see
 inline std::string image_topic(std::string_view prefix, std::string_view view) {
   return ros_topic(prefix, view) + "/image_raw";
 }
@@ -47,6 +49,9 @@ inline std::string command_topic(std::string_view prefix) { return ros_topic(pre
 inline std::string command_result_topic(std::string_view prefix) {
   return ros_topic(prefix, "command_result");
 }
+
+inline constexpr std::string_view kApplianceTopic = "rt/orbwatch_appliance";
+inline constexpr std::string_view kThumbnailTopic = "rt/orbwatch_thumbnail";
 
 /// Stands for a view's name in the topics of the selected view.
 inline constexpr std::string_view kSelectedView = "selected";

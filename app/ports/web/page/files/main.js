@@ -3,6 +3,7 @@ import { Align } from "./align.js";
 import { describeFigures } from "./api.js";
 import { Configuration } from "./configuration.js";
 import { element, setText } from "./elements.js";
+import { Fleet } from "./fleet.js";
 import { Interfaces, showAbout } from "./interfaces.js";
 import { Live } from "./live.js";
 import { Log } from "./log.js";
@@ -77,6 +78,7 @@ if (["integrator", "administrator"].includes(role)) {
   new Configuration(document.getElementById("system"));
 }
 if (hasUsers && role === "administrator") new People(document.getElementById("system"));
+new Fleet(document.getElementById("fleet"), role !== "viewer");
 const stream = new Stream(
   (message) => {
     if (message.head.kind === "view") return (look.isShown ? look : live).picture(message);

@@ -1,6 +1,7 @@
 // Every text that the page itself says; names and descriptions of figures come from the appliance.
 export const texts = {
-  pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System" },
+  pages: { live: "Live", look: "Look around", align: "Align", process: "Process", system: "System",
+    fleet: "Appliances" },
   user: "User",
   password: "Password",
   newPassword: (characters) => `New password, at least ${characters} characters`,
@@ -197,6 +198,21 @@ export const texts = {
   meaning: "Meaning",
   region: (name) => `Region ${name}`,
   noRegions: "The recipe measures no region.",
+  fleet: {
+    count: (all, gone, alarming, isFull) => [
+      all === 1 ? "1 appliance" : `${all} appliances`,
+      gone > 0 ? `${gone} gone` : "",
+      alarming > 0 ? `${alarming} with alarms` : "",
+      isFull ? "there are more than the list holds" : ""].filter(Boolean).join(", "),
+    missing: (what) => `Other appliances are found by DDS: ${what}.`,
+    self: "(this appliance)",
+    gone: (since) => `Gone since ${since.toLocaleString()}`,
+    alarms: (count, worst) => (count === 0 ? "No alarm" : count === 1 ? `Alarm ${worst}`
+      : `${count} alarms; the worst: ${worst}`),
+    about: (version, prefix) => [version, `topics ${prefix}/…`].filter(Boolean).join(", "),
+    picture: (name) => `What ${name} sees`,
+    forget: "Forget those that are gone",
+  },
   chartOf: "Signal in the chart",
   chart: (name, low, high, unit) =>
     `${name} in the last ten minutes: ${low} to ${high}${unit ? " " + unit : ""}`,

@@ -38,11 +38,15 @@ class ReaderTest(unittest.TestCase):
             self.assertEqual((member.name, member.type_id, member.msg, member.nested),
                              ("member", number, msg, ""))
 
-    def test_reads_arrays_sequences_and_bounded_strings(self):
-        k, data, name, names = fields("double k[9];\nsequence<uint8> data;\nstring<256> name;\n"
-                                      "sequence<string<7>> names;")
+    def test_reads_arrays_sequences_and_bounds(self):
+        k, data, few, name, names, two = fields(
+            "double k[9];\nsequence<uint8> data;\nsequence<uint8, 5> few;\nstring<256> name;\n"
+            "sequence<string<7>> names;\nsequence<string<7>, 2> two;")
         self.assertEqual((k.type_id, k.capacity, k.msg), (48 + 11, 9, "float64[9]"))
         self.assertEqual((data.type_id, data.capacity, data.msg), (144 + 3, 0, "uint8[]"))
+        self.assertEqual((few.type_id, few.capacity, few.msg), (96 + 3, 5, "uint8[<=5]"))
+        self.assertEqual((two.type_id, two.capacity, two.string_capacity, two.msg),
+                         (96 + 21, 2, 7, "string<=7[<=2]"))
         self.assertEqual((name.type_id, name.string_capacity, name.msg), (21, 256, "string<=256"))
         self.assertEqual((names.type_id, names.string_capacity, names.msg),
                          (144 + 21, 7, "string<=7[]"))
@@ -72,7 +76,7 @@ class ReaderTest(unittest.TestCase):
                 ("};", "without a module"),
                 (in_module("struct T_ {\nlong a;\n};"), "line 3: type long is not known"),
                 (in_module("struct T_ {\nT_ a;\n};"), "not known"),
-                (in_module("struct T_ {\nsequence<int8, 3> a;\n};"), "no member"),
+                (in_module("struct T_ {\nsequence<int8, 0> a;\n};"), "no member"),
                 (in_module("struct T_ {\nint8 a[0];\n};"), "no member"),
                 (in_module("struct T_ {\nint8 a[3][3];\n};"), "no member"),
                 (in_module("struct T_ {\nint8<3> a;\n};"), "no bound"),
@@ -136,19 +140,23 @@ class CommittedTest(unittest.TestCase):
         # What idlc leaves out of a type is missing here.
         c_types = {"bool": "bool", "float64": "double", "string": "char *", "uint8": "uint8_t",
                    "uint16": "uint16_t", "uint32": "uint32_t", "uint64": "uint64_t",
-                   "float64[]": "dds_sequence_double",
+                   "float64[]": "dds_sequence_double", "uint8[]": "dds_sequence_uint8",
                    "std_msgs/Header": "std_msgs_msg_dds__Header_"}
         headers = "".join(p.read_text() for p in (PORT / "generated").glob("*.h"))
         for path in self.messages:
             struct = f"orbwatch_msgs_msg_dds__{path.stem}_"
             body = re.search(r"typedef struct %s\n\{([^}]*)\}" % struct, headers)
             self.assertTrue(body, path.stem)
-            made = re.findall(r"(?:struct )?(\w+(?: \*)?) ?(\w+);", body[1])
+            made = re.findall(r"(?:struct )?(\w+(?: \*)?) ?(\w+)(?:\[(\d+)\])?;", body[1])
             expected = []
             for kind, name in msg_fields(path):
+                if bounded := re.fullmatch(r"string<=(\d+)", kind):
+                    expected.append(("char", name, str(int(bounded[1]) + 1)))
+                    continue
+                kind = re.sub(r"\[<=\d+\]", "[]", kind)
                 own = "orbwatch_msgs_msg_dds__" + kind.removesuffix("[]") + "_"
                 own = "dds_sequence_" + own if kind.endswith("[]") else own
-                expected.append((c_types.get(kind, own), name))
+                expected.append((c_types.get(kind, own), name, ""))
             self.assertEqual(made, expected, path.stem)
 
     def test_messages_hash_to_what_our_endpoints_announce(self):
@@ -158,12 +166,15 @@ class CommittedTest(unittest.TestCase):
         for path in self.messages:
             struct = generate.Struct("", f"orbwatch_msgs/msg/{path.stem}")
             for kind, name in msg_fields(path):
-                base = kind.removesuffix("[]")
+                base, length, sequence, most = re.fullmatch(
+                    r"([\w/]+)(?:<=(\d+))?(\[(?:<=(\d+))?\])?", kind).groups()
                 package, _, last = base.rpartition("/")
                 nested = "" if base in numbers else f"{package or 'orbwatch_msgs'}/msg/{last}"
-                number = numbers.get(base, generate.NESTED)
-                number += generate.SEQUENCE if kind.endswith("[]") else 0
-                struct.fields.append(generate.Field(name, number, kind, nested=nested))
+                number = generate.BOUNDED_STRING if length else numbers.get(base, generate.NESTED)
+                if sequence:
+                    number += generate.BOUNDED_SEQUENCE if most else generate.SEQUENCE
+                struct.fields.append(generate.Field(name, number, kind, int(most or 0),
+                                                    int(length or 0), nested))
             structs[struct.name] = struct
         committed = (PORT / "generated/type_hashes.h").read_text()
         for path in self.messages:

@@ -1,0 +1,32 @@
+#include "app/cli/dds/heard_appliances.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "app/ports/dds/fleet/fleet_reader.h"
+#include "app/ports/dds/participant/dds_log.h"
+#include "app/ports/dds/participant/participant.h"
+
+namespace orbwatch::app {
+namespace {
+
+constexpr std::chrono::milliseconds kPollPeriod{100};
+
+}  // namespace
+
+Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& security,
+                         std::chrono::nanoseconds duration, const std::atomic<bool>& cancelled,
+                         Fleet& fleet) {
+  limit_dds_log();
+  const auto end = hal::Clock::now() + duration;
+  const auto participant = Participant::join(domain, security);
+  if (!participant) return tl::unexpected(participant.error());
+  FleetReader reader(fleet);
+  if (const auto opened = reader.open(participant->entity()); !opened) return opened;
+  for (auto now = hal::Clock::now(); now < end && !cancelled; now = hal::Clock::now()) {
+    std::this_thread::sleep_for(std::min<hal::Clock::duration>(kPollPeriod, end - now));
+  }
+  return {};
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/model/fleet.h"
+
+namespace orbwatch::app {
+
+/// A list of objects, one for each appliance; `age` in seconds since it was heard. Reentrant.
+nlohmann::ordered_json to_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "proc/image/picture.h"
+
+namespace orbwatch::app {
+
+/// A small picture of a large one. Thread-bound; reuses its memory.
+class Thumbnail {
+ public:
+  /// Pixels.
+  static constexpr int kLongestSide = 160;
+
+  /// Rgb, or Grey of luminance, each pixel the mean of those that it stands for, neither side above
+  /// kLongestSide; valid until the next call. A picture that is small enough keeps its size.
+  Picture of(const Picture& picture);
+
+ private:
+  std::vector<std::byte> converted_, small_;
+};
+
+}  // namespace orbwatch::app

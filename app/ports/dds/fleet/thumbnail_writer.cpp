@@ -1,0 +1,19 @@
+#include "app/ports/dds/fleet/thumbnail_writer.h"
+
+namespace orbwatch::app {
+
+void ThumbnailWriter::write(StampedPicture stamped, TopicWriter& topic) {
+  const Picture small = thumbnail_.of(stamped.picture);
+  stamped.owner.reset();
+  auto jpeg = encoder_.encode(small, quality_.current());
+  while (jpeg && quality_.adapt(jpeg->size())) jpeg = encoder_.encode(small, quality_.current());
+  if (!jpeg) {
+    topic.count_failure(jpeg.error().message);
+    return;
+  }
+  const auto length = static_cast<std::uint32_t>(jpeg->size());
+  const orbwatch_msgs_msg_dds__Thumbnail_ message{{length, length, jpeg->data(), false}};
+  topic.write(&message);
+}
+
+}  // namespace orbwatch::app
