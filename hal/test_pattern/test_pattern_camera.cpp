@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "hal/test_pattern/painted_number.h"
+
 namespace orbwatch::hal {
 namespace {
 
-// Shares of a sample's full scale; of a radiometric camera of 0.04 K per count 20 and 1700 degC.
-constexpr double kBackground = 0.112, kDisc = 0.75;
-constexpr double kNoise = 0.002;
+constexpr double kNoise = 0.002;           ///< share of a sample's full scale
 constexpr int kMaxTestPatternSide = 8192;  ///< pixels: ten buffers of it are drawn
 constexpr int kDiscShare = 40;             ///< of the picture's height: the disc's radius
 
@@ -28,7 +28,7 @@ void draw(const BasicPicture<std::byte>::Plane& plane, int samples, int rows, in
       const int dx = (x - samples / 2) / per_column, dy = y - rows / 2;
       const bool is_disc = dx * dx + dy * dy <= radius * radius;
       const double noise = kNoise * static_cast<double>(random() % 1000) / 1000;
-      row[x] = static_cast<Sample>(full * ((is_disc ? kDisc : kBackground) + noise));
+      row[x] = static_cast<Sample>(full * ((is_disc ? kBrightLevel : kDarkLevel) + noise));
     }
   }
 }
@@ -114,6 +114,7 @@ void TestPatternCamera::run(const std::stop_token&) {
     const auto buffer = pool_->acquire();
     if (!buffer) continue;  // lost: all buffers are in use
     buffer->metadata = metadata;
+    if (settings_.numbered) paint_number(*buffer, n);
     deliver(buffer);
   }
 }

@@ -8,9 +8,9 @@
 
 namespace orbwatch::hal {
 
-/// Delivers noisy pictures with a bright disc, which were drawn before the start: what remains is
-/// the work of those who read them. Exposure n is at start + n / rate on the steady clock; it is
-/// lost, a gap in the sequence, when all buffers are lent.
+/// Delivers noisy pictures with a bright disc, which were drawn before the start: what remains, but
+/// for the number if that is asked for, is the work of those who read them. Exposure n is at start
+/// + n / rate on the steady clock; it is lost, a gap in the sequence, when all buffers are lent.
 class TestPatternCamera : public Camera {
  public:
   explicit TestPatternCamera(TestPatternSettings settings);

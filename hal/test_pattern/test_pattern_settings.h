@@ -23,6 +23,7 @@ struct TestPatternSettings {
   int width = 0;          ///< unless configure() asks for another size
   int height = 0;         ///< the same
   double frame_rate = 0;  ///< per second; 0: kTestPatternRate
+  bool numbered = false;  ///< see paint_number()
   std::vector<ScriptedFault> faults = {};
 };
 
@@ -41,6 +42,8 @@ inline constexpr auto kPixelFormatWords = [] {
 template <class Visitor>
 void visit(Visitor& v, TestPatternSettings& settings) {
   v.required("pixel_format", settings.pixel_format, kPixelFormatWords, "Of its frames");
+  v.optional("numbered", settings.numbered,
+             "Paint each frame's number into it, to tell which of them is seen");
 }
 
 std::unique_ptr<Camera> make_camera(TestPatternSettings settings, const CameraContext& context);
