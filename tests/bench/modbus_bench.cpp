@@ -44,7 +44,7 @@ double quantile(const std::vector<double>& sorted, double part) {
 
 /// A new server for each, so that none inherits what another left. With the settings of the
 /// product, apart from the PLC's being the writer.
-std::vector<double> measured(const tests::Abuse* abuse, std::chrono::seconds duration) {
+std::vector<double> measured(const orbwatch::tests::Abuse* abuse, std::chrono::seconds duration) {
   ModbusSettings settings;
   settings.address = "127.0.0.1";
   settings.port = 0;
@@ -53,8 +53,8 @@ std::vector<double> measured(const tests::Abuse* abuse, std::chrono::seconds dur
   if (const auto started = sink.start(); !started) {
     throw std::runtime_error(started.error().message);
   }
-  std::unique_ptr<tests::Abused> abused;
-  if (abuse != nullptr) abused = std::make_unique<tests::Abused>(*abuse, sink.port());
+  std::unique_ptr<orbwatch::tests::Abused> abused;
+  if (abuse != nullptr) abused = std::make_unique<orbwatch::tests::Abused>(*abuse, sink.port());
   return request_times(sink.port(), duration);
 }
 
@@ -73,7 +73,7 @@ int run(std::chrono::seconds duration) {
       "|---|---:|---:|---:|---:|---:|\n");
   const double without = report("none", measured(nullptr, duration), 0);
   double worst = without;
-  for (const tests::Abuse& abuse : tests::abuses()) {
+  for (const orbwatch::tests::Abuse& abuse : tests::abuses()) {
     worst = std::max(worst, report(abuse.name, measured(&abuse, duration), without));
   }
   if (worst <= kAim) return 0;

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "app/ports/modbus/modbus_sink.h"
-#include "hal/thread/file_descriptor.h"
+#include "tests/support/raw_client.h"
 
 struct _modbus;  // libmodbus' own name
 
 namespace orbwatch::app::tests {
 
-using Bytes = std::vector<std::uint8_t>;
+using orbwatch::tests::Bytes;
+using orbwatch::tests::RawClient;
+using orbwatch::tests::Unconnected;
 using Words = std::vector<std::uint16_t>;
 
 /// A loopback server on a free port. Time-outs are as good as off, so that a slow machine cannot
@@ -79,35 +81,8 @@ class Plc {
   std::unique_ptr<_modbus, Close> context_;
 };
 
-struct Unconnected {};
-
-/// Any other client: sends bytes over TCP, right or wrong.
-class RawClient {
- public:
-  /// `from`: the client's own loopback address. `receive_buffer`: in bytes; 0 leaves it.
-  explicit RawClient(int port, const std::string& from = "127.0.0.1", int receive_buffer = 0);
-  explicit RawClient(Unconnected);
-
-  void connect(int port);
-
-  bool send(const Bytes& bytes);
-  /// Sends as much as is possible without waiting; -1 when the connection is broken.
-  long send_some(const Bytes& bytes);
-  /// Discards the received bytes and returns their number; -1 when the connection ended.
-  long discard();
-  /// Waits until all of this can be sent, or the connection is broken.
-  void wait_writable();
-  /// Exactly so many bytes, or fewer when the connection ended.
-  Bytes receive(std::size_t count);
-  /// One whole answer without its MBAP header and unit; empty when the connection ended.
-  Bytes receive_pdu();
-  /// Waits for the server to end the connection; false when it sends something instead.
-  bool is_closed_by_server();
-  void finish_sending();
-
- private:
-  hal::FileDescriptor socket_;
-};
+/// One whole answer without its MBAP header and unit; empty when the connection ended.
+Bytes receive_pdu(RawClient& client);
 
 /// A frame with its MBAP header.
 Bytes frame(const Bytes& pdu, std::uint8_t unit = 1, std::uint16_t transaction = 0x1234);

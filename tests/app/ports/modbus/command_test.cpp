@@ -303,12 +303,12 @@ TEST(ModbusWriters, OthersMayOnlyRead) {
   testing::internal::CaptureStderr();
   RawClient stranger(sink.port());
   ASSERT_TRUE(stranger.send(tests::frame(write)));
-  EXPECT_EQ(stranger.receive_pdu(), (tests::Bytes{0x90, 1}));
+  EXPECT_EQ(tests::receive_pdu(stranger), (tests::Bytes{0x90, 1}));
   ASSERT_TRUE(stranger.send(tests::frame({3, 0, acknowledged, 0, 1})));
-  EXPECT_EQ(stranger.receive_pdu(), (tests::Bytes{3, 2, 0, 0}));
+  EXPECT_EQ(tests::receive_pdu(stranger), (tests::Bytes{3, 2, 0, 0}));
   RawClient again(sink.port());
   ASSERT_TRUE(again.send(tests::frame(write)));
-  EXPECT_EQ(again.receive_pdu(), (tests::Bytes{0x90, 1}));
+  EXPECT_EQ(tests::receive_pdu(again), (tests::Bytes{0x90, 1}));
   // Once, and as the site file wants it.
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "orbwatch: modbus: refuses to let 127.0.0.1 write; if it may, the line for [modbus] of "
@@ -316,7 +316,7 @@ TEST(ModbusWriters, OthersMayOnlyRead) {
 
   RawClient writer(sink.port(), "127.0.0.2");
   ASSERT_TRUE(writer.send(tests::frame(write)));
-  EXPECT_EQ(writer.receive_pdu(), (tests::Bytes{16, 0, command, 0, 2}));
+  EXPECT_EQ(tests::receive_pdu(writer), (tests::Bytes{16, 0, command, 0, 2}));
   sink.stop();
   EXPECT_EQ(carried_out, 1);
 }

@@ -267,7 +267,7 @@ TEST(ModbusSink, StartsAndStopsAgain) {
     ASSERT_TRUE(sink.start());
     tests::RawClient client(sink.port());
     ASSERT_TRUE(client.send(tests::frame({4, 0, 0, 0, 1})));
-    EXPECT_EQ(client.receive_pdu(), (tests::Bytes{4, 2, 0, modbus::kMapVersion}));
+    EXPECT_EQ(tests::receive_pdu(client), (tests::Bytes{4, 2, 0, modbus::kMapVersion}));
     sink.stop();
     EXPECT_TRUE(client.is_closed_by_server());
     EXPECT_EQ(sink.statistics().connections, 0U);

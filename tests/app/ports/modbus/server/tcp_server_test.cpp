@@ -71,7 +71,7 @@ TEST_F(ModbusAbuse, FramesCutAnywhereAreAnswered) {
     ASSERT_TRUE(client.send(Bytes(kRead.begin(), kRead.begin() + static_cast<long>(cut))));
     ASSERT_TRUE(plc_is_served());  // the server received the first part alone
     ASSERT_TRUE(client.send(Bytes(kRead.begin() + static_cast<long>(cut), kRead.end())));
-    EXPECT_EQ(client.receive_pdu(), kAnswer) << cut;
+    EXPECT_EQ(tests::receive_pdu(client), kAnswer) << cut;
   }
 }
 
@@ -124,7 +124,7 @@ TEST_F(ModbusAbuse, HalfAFrameIsDroppedInTime) {
   Bytes bytes = kRead;
   bytes.insert(bytes.end(), kRead.begin(), kRead.begin() + 9);
   ASSERT_TRUE(half.send(bytes));
-  EXPECT_EQ(half.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(half), kAnswer);
   EXPECT_TRUE(half.is_closed_by_server());
   EXPECT_TRUE(plc_is_served());
 }
@@ -142,7 +142,7 @@ TEST_F(ModbusAbuse, AStreamOfRequestsThatIsNeverAtRestIsNoPartialFrame) {
   const auto end = hal::Clock::now() + std::chrono::milliseconds(2500);
   while (hal::Clock::now() < end) {
     ASSERT_TRUE(streaming.send(next));
-    ASSERT_EQ(streaming.receive_pdu(), kAnswer);
+    ASSERT_EQ(tests::receive_pdu(streaming), kAnswer);
   }
 }
 
@@ -154,7 +154,7 @@ TEST_F(ModbusAbuse, QuietConnectionsAreDropped) {
   RawClient never_asked(port());
   RawClient asked_once(port());
   ASSERT_TRUE(asked_once.send(kRead));
-  EXPECT_EQ(asked_once.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(asked_once), kAnswer);
   EXPECT_TRUE(never_asked.is_closed_by_server());
   EXPECT_TRUE(asked_once.is_closed_by_server());
   EXPECT_TRUE(eventually([&] { return statistics().connections == 0; }));
@@ -184,15 +184,15 @@ TEST_F(ModbusAbuse, WhenThereAreTooManyTheOneThatWasQuietLongestGoes) {
   RawClient third(port());
   for (RawClient* client : {&second, &third}) {
     ASSERT_TRUE(client->send(kRead));
-    ASSERT_EQ(client->receive_pdu(), kAnswer);
+    ASSERT_EQ(tests::receive_pdu(*client), kAnswer);
   }
   ASSERT_TRUE(plc_is_served());  // so the first is not the quietest any more
   RawClient fourth(port());
   ASSERT_TRUE(fourth.send(kRead));
-  EXPECT_EQ(fourth.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(fourth), kAnswer);
   EXPECT_TRUE(second.is_closed_by_server());
   ASSERT_TRUE(third.send(kRead));
-  EXPECT_EQ(third.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(third), kAnswer);
   EXPECT_TRUE(plc_is_served());
   EXPECT_EQ(statistics().dropped, 1U);
   EXPECT_EQ(statistics().connections, 3U);
@@ -208,11 +208,11 @@ TEST_F(ModbusAbuse, ReadersDoNotPushWritersOut) {
   for (int i = 0; i < 20; ++i) {
     readers.push_back(std::make_unique<RawClient>(port(), "127.0.0.2"));
     ASSERT_TRUE(readers.back()->send(kRead));
-    EXPECT_EQ(readers.back()->receive_pdu(), kAnswer);
+    EXPECT_EQ(tests::receive_pdu(*readers.back()), kAnswer);
   }
   EXPECT_TRUE(plc_is_served());
   ASSERT_TRUE(silent_writer.send(kRead));
-  EXPECT_EQ(silent_writer.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(silent_writer), kAnswer);
   EXPECT_EQ(statistics().dropped, 19U);
 }
 
@@ -224,11 +224,11 @@ TEST_F(ModbusAbuse, AServerFullOfWritersTakesNoReader) {
   ASSERT_TRUE(plc_is_served());
   RawClient silent_writer(port());
   ASSERT_TRUE(silent_writer.send(kRead));
-  ASSERT_EQ(silent_writer.receive_pdu(), kAnswer);
+  ASSERT_EQ(tests::receive_pdu(silent_writer), kAnswer);
   RawClient reader(port(), "127.0.0.2");
   EXPECT_TRUE(reader.is_closed_by_server());
   ASSERT_TRUE(silent_writer.send(kRead));
-  EXPECT_EQ(silent_writer.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(silent_writer), kAnswer);
   EXPECT_TRUE(plc_is_served());
 }
 
@@ -241,7 +241,7 @@ TEST_F(ModbusAbuse, AMachineWithManyConnectionsPushesNobodyElseOut) {
   for (int i = 0; i < 20; ++i) {
     many.push_back(std::make_unique<RawClient>(port(), "127.0.0.2"));
     ASSERT_TRUE(many.back()->send(kRead));
-    EXPECT_EQ(many.back()->receive_pdu(), kAnswer);
+    EXPECT_EQ(tests::receive_pdu(*many.back()), kAnswer);
   }
   EXPECT_TRUE(plc_is_served()) << "the quietest of all";
   EXPECT_EQ(statistics().dropped, 17U);
@@ -255,7 +255,7 @@ TEST_F(ModbusAbuse, StrangersAreNotLetIn) {
   start(settings);
   RawClient writer(port(), "127.0.0.4");
   ASSERT_TRUE(writer.send(kRead));
-  EXPECT_EQ(writer.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(writer), kAnswer);
   for (int i = 0; i < 20; ++i) {
     RawClient stranger(port(), "127.0.0.2");
     EXPECT_TRUE(stranger.is_closed_by_server());
@@ -263,7 +263,7 @@ TEST_F(ModbusAbuse, StrangersAreNotLetIn) {
   EXPECT_TRUE(eventually([&] { return statistics().dropped == 20; }));
   EXPECT_TRUE(plc_is_served());
   ASSERT_TRUE(writer.send(kRead)) << "strangers take nobody's place";
-  EXPECT_EQ(writer.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(writer), kAnswer);
   EXPECT_EQ(plc_->write(3, 1), 1);
 }
 
@@ -304,7 +304,7 @@ TEST_F(ModbusAbuse, RunningOutOfFilesDelaysOnlyTheNewcomer) {
     for (int i = 0; i < 100; ++i) ASSERT_TRUE(plc_is_served());
     EXPECT_EQ(statistics().connections, 1U);
   }
-  EXPECT_EQ(newcomer.receive_pdu(), kAnswer);
+  EXPECT_EQ(tests::receive_pdu(newcomer), kAnswer);
 }
 
 }  // namespace

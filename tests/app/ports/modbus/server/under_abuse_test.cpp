@@ -22,7 +22,7 @@ using tests::Plc;
 
 /// The abuse, and whether its clients may write like the PLC, as everybody may unless configured
 /// otherwise.
-using Case = std::tuple<tests::Abuse, bool>;
+using Case = std::tuple<orbwatch::tests::Abuse, bool>;
 
 /// Random frames come for a minute, or the share of it that runs.
 seconds duration(const Case& abuse) {
@@ -71,7 +71,7 @@ TEST_P(ModbusUnderAbuse, AHealthyClientIsAlwaysAnsweredAndNothingIsKept) {
   };
   modbus::ServerStatus statistics;
   {
-    tests::Abused abused(abuse, sink.port());
+    orbwatch::tests::Abused abused(abuse, sink.port());
     ASSERT_NO_FATAL_FAILURE(ask_for(seconds(1)));
     const long before = resident();
     ASSERT_NO_FATAL_FAILURE(ask_for(duration(GetParam())));

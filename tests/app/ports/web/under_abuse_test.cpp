@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/app/ports/dds/fastdds/pace.h"
+#include "tests/app/ports/web/abuses.h"
+#include "tests/app/ports/web/served.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+class SmallPictures final : public app::tests::Pace {
+ public:
+  explicit SmallPictures(WebSink& sink) : sink_(sink) {}
+
+ private:
+  void hand_over_now(std::uint64_t number) override {
+    app::tests::hand_over(sink_, make_view(0, "front", number, 320, 240));
+  }
+  WebSink& sink_;
+};
+
+class WebUnderAbuse : public Served, public testing::WithParamInterface<orbwatch::tests::Abuse> {
+ protected:
+  ~WebUnderAbuse() override { sink.reset(); }  // it writes to the folder until it ends
+  const orbwatch::tests::TemporaryFolder folder_;
+};
+
+TEST_P(WebUnderAbuse, OthersAreAnsweredAndThePipelineDoesNotWait) {
+  WebSettings settings;
+  settings.request_timeout = std::chrono::milliseconds(400);
+  settings.max_connections = 400;
+  settings.max_connections_per_address = 300;
+  settings.max_streams = 200;
+  state_folder = folder_.path();
+  const std::string header = add_users(state_folder);
+  start(settings);
+  SmallPictures pictures(*sink);
+  {
+    orbwatch::tests::Abused abused(GetParam(), port());
+    for (int round = 0; round < 10; ++round) {
+      pictures.hand_over(3);
+      EXPECT_EQ(get(port(), "/healthz").status, 200);
+      EXPECT_EQ(get(port(), "/api/v1/status", header).status, 200);
+      sink->accept(app::tests::make_status());
+    }
+    EXPECT_TRUE(eventually([&] { return abused.acts() > 10; }));
+  }
+  // Another thread may hold a lock for a moment when the scheduler takes its processor away.
+  EXPECT_LE(pictures.waits(), pictures.accepted() / 20);
+  EXPECT_TRUE(eventually([&] { return sink->statistics().connections == 0; }));
+}
+
+INSTANTIATE_TEST_SUITE_P(, WebUnderAbuse, testing::ValuesIn(abuses()), [](const auto& abuse) {
+  std::string name(abuse.param.name);
+  std::erase(name, ' ');
+  return name;
+});
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests
