@@ -66,6 +66,13 @@ struct FrameQuality {
   std::uint64_t flawed = 0;   ///< delivered: see FrameStatus
 };
 
+/// What the link to a camera lost since the camera was made; zeros where nothing counts it.
+struct LinkCounts {
+  std::uint64_t missing_packets = 0;  ///< that never came: their frames are damaged
+  std::uint64_t resent_packets = 0;   ///< that came when they were asked for again
+  std::uint64_t underruns = 0;        ///< packets for which there was no buffer
+};
+
 /// A source of frames: real, replayed or simulated. This class is the shell that guards the
 /// invariants; back-ends implement the protected part.
 ///
@@ -73,7 +80,7 @@ struct FrameQuality {
 /// while stopped. Frames and faults arrive on the camera's own thread, one at a time.
 /// A damaged frame costs itself and its trigger; many are a fault: see DamageWatch.
 /// Thread rule: configure, start and stop are thread-bound (one owner); stop may also be called
-/// inside a callback; trigger, set and quality and capture_time are thread-safe.
+/// inside a callback; trigger, set, quality, link_counts and capture_time are thread-safe.
 class Camera {
  public:
   using OnFrame = std::function<void(Frame)>;
@@ -119,6 +126,7 @@ class Camera {
   virtual Result<> trigger();
 
   FrameQuality quality() const { return {damaged_, flawed_}; }
+  virtual LinkCounts link_counts() const { return {}; }
 
   /// Processor time of capture since the start; 0 of a camera that computes its own pictures, whose
   /// work no real one has.

@@ -33,7 +33,7 @@ struct CameraEntry {
   std::string model;
   std::string driver;
   std::string bus;                 ///< the port that it is connected to
-  std::vector<std::string> paths;  ///< all its device nodes and links
+  std::vector<std::string> paths;  ///< all its device nodes and links, or its other names
   std::string problem;             ///< why the rest is unknown; else empty
   std::vector<CameraMode> modes;
   std::vector<CameraControl> controls;

@@ -3,12 +3,13 @@
 #include <array>
 #include <string_view>
 
+#include "hal/genicam/genicam_settings.h"
 #include "hal/libcamera/libcamera_settings.h"
 
 namespace orbwatch::hal {
 
 /// The back-ends that are modules: one line each. The module of NAME is the file camera-NAME.so in
 /// the package orbwatch-camera-NAME.
-inline constexpr std::array kModuleBackEnds{LibcameraSettings::kName};
+inline constexpr std::array kModuleBackEnds{LibcameraSettings::kName, GenicamSettings::kName};
 
 }  // namespace orbwatch::hal

@@ -45,14 +45,16 @@ TEST_F(ModuleCamera, IsAbsentWithoutTheModuleAndSaysWhatToInstall) {
                                          "installed: apt install orbwatch-camera-libcamera"),
                                HasSubstr(folder_.path().string())));
   EXPECT_THAT(list_module_cameras(), IsEmpty());
-  EXPECT_THAT(module_versions(), testing::ElementsAre(Pair("libcamera", "not installed")));
+  EXPECT_THAT(module_versions(), testing::ElementsAre(Pair("libcamera", "not installed"),
+                                                      Pair("genicam", "not installed")));
 }
 
 TEST_F(ModuleCamera, IsTheModules) {
   install("fitting_module");
   EXPECT_EQ(refusal(), "was configured");
   EXPECT_EQ(list_module_cameras().size(), 1U);
-  EXPECT_THAT(module_versions(), testing::ElementsAre(Pair("libcamera", "1.0")));
+  EXPECT_THAT(module_versions(),
+              testing::ElementsAre(Pair("libcamera", "1.0"), Pair("genicam", "not installed")));
 }
 
 TEST_F(ModuleCamera, IsAbsentWithAModuleThatDoesNotFit) {
@@ -62,7 +64,8 @@ TEST_F(ModuleCamera, IsAbsentWithAModuleThatDoesNotFit) {
   ASSERT_EQ(cameras.size(), 1U);
   EXPECT_THAT(cameras[0].problem, HasSubstr("has module interface 0"));
   EXPECT_THAT(module_versions(),
-              testing::ElementsAre(Pair("libcamera", HasSubstr("has module interface 0"))));
+              testing::ElementsAre(Pair("libcamera", HasSubstr("has module interface 0")),
+                                   Pair("genicam", "not installed")));
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ test_others() {
   check "the other packages" inside sh -c 'apt-get install -y /packages/*.deb'
   check "the service runs on" wait_for "$patience" measures
   check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera v?[0-9]"'
+  check "and that for GenICam" inside sh -c 'orbwatch --version | grep -E "^genicam 0\.8\."'
   check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
     -a -e /usr/share/orbwatch-msgs/modbus/registers.csv
 }

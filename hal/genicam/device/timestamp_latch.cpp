@@ -1,0 +1,53 @@
+#include "hal/genicam/device/timestamp_latch.h"
+
+#include <array>
+#include <cstdint>
+
+namespace orbwatch::hal {
+namespace {
+
+/// As Aravis converts the stamps of frames: whole seconds first, so that no digit is lost.
+std::chrono::nanoseconds to_ns(std::uint64_t ticks, double ns_per_tick) {
+  if (ns_per_tick == 1) return std::chrono::nanoseconds(static_cast<std::int64_t>(ticks));
+  const auto frequency = static_cast<std::uint64_t>(1e9 / ns_per_tick + 0.5);
+  return std::chrono::seconds(ticks / frequency) +
+         std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(ticks % frequency) *
+                                                            1e9 / static_cast<double>(frequency)));
+}
+
+}  // namespace
+
+std::optional<TimestampLatch> TimestampLatch::find(ArvCamera* camera) {
+  constexpr std::array kKinds{
+      Names{"TimestampLatch", "TimestampLatchValue", false},
+      Names{"GevTimestampControlLatch", "GevTimestampValue", true},
+  };
+  ArvDevice* const device = arv_camera_get_device(camera);
+  for (const Names& names : kKinds) {
+    if (!ARV_IS_GC_COMMAND(arv_device_get_feature(device, names.command)) ||
+        !arv_device_is_feature_available(device, names.value, nullptr)) {
+      continue;
+    }
+    if (!names.in_ticks) return TimestampLatch(device, names, 1);
+    if (!ARV_IS_GV_DEVICE(device)) continue;
+    const guint64 frequency =
+        arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device), nullptr);
+    if (frequency > 0) return TimestampLatch(device, names, 1e9 / static_cast<double>(frequency));
+  }
+  return std::nullopt;
+}
+
+std::optional<TimestampLatch::Reading> TimestampLatch::read() const {
+  AravisError error;
+  Reading reading{};
+  reading.before = Clock::now();
+  arv_device_execute_command(device_, names_.command, error.out());
+  reading.after = Clock::now();
+  if (error) return std::nullopt;
+  const gint64 value = arv_device_get_integer_feature_value(device_, names_.value, error.out());
+  if (error || value <= 0) return std::nullopt;
+  reading.device = to_ns(static_cast<std::uint64_t>(value), ns_per_unit_);
+  return reading;
+}
+
+}  // namespace orbwatch::hal

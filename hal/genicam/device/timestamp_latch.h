@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "hal/clock.h"
+#include "hal/genicam/device/aravis.h"
+
+namespace orbwatch::hal {
+
+/// Asks a camera what time it is: SFNC's TimestampLatch, or GevTimestampControlLatch of older GigE
+/// Vision cameras. The camera outlives it. Under the lock of the camera's features.
+class TimestampLatch {
+ public:
+  struct Reading {
+    std::chrono::nanoseconds device;  ///< latched between the two:
+    TimePoint before, after;
+  };
+
+  /// Nullopt: the camera has none.
+  static std::optional<TimestampLatch> find(ArvCamera* camera);
+
+  /// Nullopt: the camera did not answer.
+  std::optional<Reading> read() const;
+
+ private:
+  struct Names {
+    const char* command;
+    const char* value;
+    bool in_ticks;  ///< of the camera's frequency, else ns
+  };
+
+  TimestampLatch(ArvDevice* device, const Names& names, double ns_per_unit)
+      : device_(device), names_(names), ns_per_unit_(ns_per_unit) {}
+
+  ArvDevice* device_;
+  Names names_;
+  double ns_per_unit_;
+};
+
+}  // namespace orbwatch::hal

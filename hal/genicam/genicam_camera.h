@@ -1,0 +1,92 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/device_camera.h"
+#include "hal/genicam/clock/block_counter.h"
+#include "hal/genicam/clock/device_clock.h"
+#include "hal/genicam/device/found_camera.h"
+#include "hal/genicam/device/timestamp_latch.h"
+#include "hal/genicam/format/genicam_decoder.h"
+#include "hal/genicam/genicam_settings.h"
+#include "hal/genicam/genicam_stream.h"
+
+namespace orbwatch::hal {
+
+/// A GigE Vision or USB3 Vision camera. Frames are forwarded in the buffer that was received, or
+/// decoded where the pipeline does not read their format. Incomplete ones are withheld and counted.
+/// From configure() on it controls the camera, which no other host can then, until stop() or the
+/// loss of the connection. Silence while it waits for a trigger is no fault.
+class GenicamCamera : public DeviceCamera {
+ public:
+  explicit GenicamCamera(GenicamSettings settings);
+  ~GenicamCamera() override;
+
+  /// The command TriggerSoftware. Errors: the camera does not run, or refuses.
+  Result<> trigger() override;
+
+  LinkCounts link_counts() const override;
+
+ protected:
+  /// See set_feature(). The value is set again after each reconnection.
+  Result<> do_set(std::string_view control, double value) override;
+  /// Sensors take exposure and gain on up to 2 exposures later; one more, as the frame that is
+  /// being sent began before.
+  std::size_t control_delay() const override { return 3; }
+  /// Errors: no such camera, or several; another host has it; size or format not offered; a stored
+  /// control that cannot be set.
+  Result<StreamFormat> do_configure(const StreamRequest& request) override;
+  DeviceResult<double> open_stream() override;
+  DeviceResult<std::size_t> capture(TimePoint deadline) override;
+  bool may_be_silent() const override { return stream_->is_starved() || triggered_; }
+  void interrupt() override { stream_->wake(); }
+  DeviceResult<> close_stream() override;
+
+ private:
+  using Control = std::pair<std::string, double>;
+
+  DeviceResult<> open();
+  DeviceResult<> set_up(std::string_view pixel_format, const StreamRequest& request);
+  Result<> set_now(const std::string& control, double value);
+  void read_features();
+  tl::unexpected<FaultReport> silence();
+  void read_clock();
+  void count_link();
+  FrameMetadata metadata_of(const GenicamStream::Captured& captured);
+  void forward_intact(const GenicamStream::Captured& captured);
+  DeviceResult<std::size_t> intact_stride(const GenicamStream::Captured& captured) const;
+  Result<std::shared_ptr<FrameBuffer>> frame_of(const GenicamStream::Captured& captured,
+                                                std::size_t stride);
+
+  GenicamSettings settings_;
+  std::mutex device_mutex_;  ///< of the five that follow, and of the camera's features
+  FoundCamera found_;
+  OwnedObject<ArvCamera> camera_;  ///< while it is controlled
+  bool is_set_up_ = false;         ///< with format and controls
+  std::vector<Control> controls_;  ///< the stored ones, in the order of their first setting
+  bool runs_ = false;
+  GenicamStreamFormat format_;
+  std::size_t buffers_ = kFreeRunningBuffers;  ///< of the stream
+  std::unique_ptr<GenicamDecoder> decoder_;    ///< for formats that are not zero-copy
+  std::unique_ptr<GenicamStream> stream_;      ///< while open
+  mutable std::mutex counts_mutex_;
+  LinkCounts counts_;  ///< of all streams
+  LinkCounts ended_;   ///< of those that ended
+  BlockCounter blocks_;
+  DeviceClock clock_;
+  std::optional<TimestampLatch> latch_;  ///< nullopt: the clock is that of arrivals
+  TimePoint latch_due_;
+  TimePoint newest_;                                        ///< stamp of the last frame
+  std::atomic<bool> triggered_ = false;                     ///< it waits for triggers
+  std::atomic<std::chrono::microseconds> exposure_time_{};  ///< as exposure_time()
+};
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "hal/camera.h"
+#include "hal/frame/frame.h"
+#include "proc/image/picture.h"
+#include "proc/settings/settings.h"
+
+namespace orbwatch::hal {
+
+/// Which GigE Vision or USB3 Vision camera, and how. Needs no header of Aravis.
+struct GenicamSettings {
+  static constexpr std::string_view kName = "genicam";
+  static constexpr int kAutomatic = 0;  ///< of packet_size
+
+  /// Serial number, user-defined name, address, or the id that `orbwatch list` shows.
+  std::string camera;
+  std::string pixel_format = "auto";  ///< "auto" or a name of kGenicamFormats
+  bool colour = true;                 ///< see frame_format()
+  int binning = 1;                    ///< pixels of the sensor per pixel, in both directions
+  int offset_x = 0;                   ///< of the picture on the sensor, binned px
+  int offset_y = 0;
+  std::string trigger_source = "Software";
+  /// What the camera's stamps mark, of its data sheet.
+  StampSource stamps_mark = StampSource::ExposureStart;
+  int packet_size = kAutomatic;  ///< bytes with the headers of IP and UDP; of GigE Vision
+};
+
+inline constexpr std::array kStampMarks{Word{"exposure_start", StampSource::ExposureStart},
+                                        Word{"readout_start", StampSource::ReadoutStart},
+                                        Word{"frame_end", StampSource::FrameEnd}};
+
+template <class Visitor>
+void visit(Visitor& v, GenicamSettings& settings) {
+  v.required("camera", settings.camera,
+             "Its serial number, the name that was given to it, its IP address, or the id that "
+             "`orbwatch list` shows");
+  v.optional("pixel_format", settings.pixel_format,
+             "auto, or GenICam's name: Mono16, BayerRG8, ...; of Mono14 the counts are kept");
+  v.optional("colour", settings.colour,
+             "Make colour of a sensor's mosaic; else the mosaic stays as it is");
+  v.optional("binning", settings.binning, Range::between(1, 16),
+             "Pixels of the sensor that become one, in both directions; width and height count "
+             "what becomes of them");
+  v.optional("offset_x", settings.offset_x, Range::between(0, kMaxSide),
+             "Of the picture on the sensor, px: only the ball needs to be sent");
+  v.optional("offset_y", settings.offset_y, Range::between(0, kMaxSide), "The same, downwards");
+  v.optional("trigger_source", settings.trigger_source,
+             "What the camera waits for when its control TriggerMode is 1: its own word, as "
+             "Software or Line1");
+  v.optional(
+      "stamps_mark", settings.stamps_mark, kStampMarks,
+      "What the camera's time stamps mark, of its data sheet; for cameras whose clock can be "
+      "read (TimestampLatch), others are taken for stamped when the readout starts");
+  v.optional("packet_size", settings.packet_size, Range::between(0, 16384),
+             "Of GigE Vision, bytes; 0: the largest that the network carries");
+}
+
+std::unique_ptr<Camera> make_camera(const GenicamSettings& settings, const CameraContext& context);
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/camera.h"
+#include "hal/genicam/device/gige_identity.h"
+#include "hal/genicam/genicam_settings.h"
+#include "proc/image/picture.h"
+#include "tests/support/comes_true.h"
+#include "tests/support/network_namespace.h"
+#include "tests/support/subprocess.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::tests {
+
+/// Aravis' fake GigE Vision camera: a program that listens on an interface of the calling thread's
+/// network. There is one in a network.
+class FakeGigeCamera {
+ public:
+  static constexpr const char* kAddress = "127.0.0.1";
+  static constexpr const char* kSerial = "FAKE7";
+
+  struct Options {
+    double lost_per_thousand = 0;  ///< packets
+    std::string interface = "lo";
+    std::string address = kAddress;  ///< of that interface
+  };
+
+  explicit FakeGigeCamera(Options options) : options_(std::move(options)) { start(); }
+
+  void kill() { program_.reset(); }
+
+  void start() {
+    program_.emplace(
+        std::vector<std::string>{"/usr/bin/arv-fake-gv-camera-0.8", "-i", options_.interface, "-s",
+                                 kSerial, "-r", std::to_string(options_.lost_per_thousand)},
+        folder_ / "fake.log");
+    ASSERT_TRUE(
+        comes_true([this] { return hal::read_gige_identity(options_.address).has_value(); }));
+  }
+
+  /// Starts it again after its interface has got another address.
+  void move_to(const std::string& address) {
+    kill();
+    options_.address = address;
+    start();
+  }
+
+ private:
+  TemporaryFolder folder_;
+  Options options_;
+  std::optional<Subprocess> program_;
+};
+
+/// Samples of the fake camera's frame `id` of 16 bits, as its source makes them of its factory
+/// settings (arvfakecamera.c, arv_fake_camera_diagonal_ramp).
+inline std::uint16_t fake_sample_16(std::uint64_t id, int x, int y) {
+  return static_cast<std::uint16_t>(
+      (256 * static_cast<std::uint64_t>(x) + 256 * id + 256 * static_cast<std::uint64_t>(y)) %
+      65535);
+}
+inline std::uint8_t fake_sample_8(std::uint64_t id, int x, int y) {
+  return static_cast<std::uint8_t>(
+      (static_cast<std::uint64_t>(x) + id + static_cast<std::uint64_t>(y)) % 255);
+}
+
+/// Receives a camera's frames and faults, and keeps what a test asks of each.
+template <class Kept>
+class Receiver {
+ public:
+  using Keep = std::function<Kept(const hal::FrameBuffer&)>;
+
+  explicit Receiver(Keep keep) : keep_(std::move(keep)) {}
+
+  void start(hal::Camera& camera) {
+    const auto started =
+        camera.start([this](const hal::Frame& frame) { add(kept_, keep_(*frame)); },
+                     [this](const hal::FaultReport& fault) { add(faults_, fault); });
+    ASSERT_TRUE(started) << started.error().message;
+  }
+
+  std::vector<Kept> wait_for(std::size_t count) { return wait(kept_, count); }
+  std::vector<hal::FaultReport> wait_for_faults(std::size_t count) { return wait(faults_, count); }
+  std::size_t count() const {
+    const std::lock_guard lock(mutex_);
+    return kept_.size();
+  }
+
+ private:
+  template <class T>
+  void add(std::vector<T>& list, T value) {
+    {
+      const std::lock_guard lock(mutex_);
+      list.push_back(std::move(value));
+    }
+    changed_.notify_all();
+  }
+  template <class T>
+  std::vector<T> wait(const std::vector<T>& list, std::size_t count) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(
+        changed_.wait_for(lock, std::chrono::minutes(1), [&] { return list.size() >= count; }))
+        << list.size() << " of " << count;
+    return list;
+  }
+
+  const Keep keep_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Kept> kept_;
+  std::vector<hal::FaultReport> faults_;
+};
+
+}  // namespace orbwatch::tests

@@ -1,0 +1,346 @@
+#include "hal/genicam/genicam_camera.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "hal/genicam/device/features.h"
+#include "hal/genicam/device/open_camera.h"
+#include "hal/genicam/genicam_list.h"
+#include "tests/hal/genicam/fake_gige_camera.h"
+#include "tests/support/share.h"
+
+/// On Aravis' fake camera, in a network of its own.
+namespace orbwatch::hal {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using tests::FakeGigeCamera;
+using tests::Receiver;
+
+class OnFakeCamera : public testing::Test {
+ protected:
+  void SetUp() override { ORBWATCH_REQUIRE_NETWORK_NAMESPACES(); }
+
+  /// Does `work` in a network with the fake camera.
+  void run(const std::function<void(FakeGigeCamera&)>& work, double lost_per_thousand = 0) {
+    network_.emplace();
+    network_->run([&] {
+      FakeGigeCamera fake({.lost_per_thousand = lost_per_thousand});
+      work(fake);
+    });
+  }
+
+  static GenicamSettings settings(const std::string& pixel_format = "Mono8") {
+    GenicamSettings settings;
+    settings.camera = FakeGigeCamera::kAddress;
+    settings.pixel_format = pixel_format;
+    return settings;
+  }
+
+  static StreamFormat configure(Camera& camera, const StreamRequest& request = {64, 48, 100}) {
+    const auto format = camera.configure(request);
+    EXPECT_TRUE(format) << format.error().message;
+    return format.value_or(StreamFormat{});
+  }
+
+  static std::string refusal(const Result<>& done) { return done ? "" : done.error().message; }
+  static std::string refusal(const GenicamSettings& settings, const StreamRequest& request) {
+    const auto format = GenicamCamera(settings).configure(request);
+    return format ? "" : format.error().message;
+  }
+
+  std::optional<tests::NetworkNamespace> network_;
+};
+
+/// The number that the fake camera gave to a frame; nullopt when a sample is another than it sent.
+std::optional<std::uint64_t> id_of(const Picture& picture) {
+  const auto samples = picture.samples<std::uint16_t>();
+  std::uint64_t id = 1;
+  while (id < 65535 && tests::fake_sample_16(id, 0, 0) != samples.row(0)[0]) ++id;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (samples.row(y)[x] != tests::fake_sample_16(id, x, y)) return std::nullopt;
+    }
+  }
+  return id;
+}
+
+struct Numbered {
+  std::uint64_t sequence;
+  std::optional<std::uint64_t> id;
+
+  /// Whether as many frames were sent since `first` as the sequence says. The ids wrap after 65535
+  /// to 1, which the fake camera's do soon.
+  bool follows(const Numbered& first) const {
+    return (*first.id + sequence - first.sequence) % 65535 == *id % 65535;
+  }
+};
+Numbered numbered(const FrameBuffer& frame) {
+  return {frame.metadata.sequence, id_of(frame.picture)};
+}
+
+TEST_F(OnFakeCamera, EverySampleOf16BitIsAsItWasSent) {
+  run([](FakeGigeCamera&) {
+    GenicamCamera camera(settings("Mono16"));
+    const StreamFormat format = configure(camera, {320, 240, 100});
+    EXPECT_EQ(format.format, PixelFormat::Y16);
+    Receiver<Numbered> receiver(numbered);
+    receiver.start(camera);
+    const auto frames = receiver.wait_for(50);
+    camera.stop();
+    ASSERT_TRUE(frames.front().id);
+    for (const Numbered& frame : frames) {
+      ASSERT_TRUE(frame.id) << "frame " << frame.sequence;
+      EXPECT_TRUE(frame.follows(frames.front())) << "frame " << frame.sequence;
+    }
+  });
+}
+
+TEST_F(OnFakeCamera, EveryFormatThatItHasBecomesAPicture) {
+  struct Case {
+    const char* name;
+    bool colour;
+    PixelFormat format;
+  };
+  run([](FakeGigeCamera&) {
+    for (const Case& c : {Case{"Mono8", true, PixelFormat::Grey},
+                          {"RGB8", true, PixelFormat::Rgb},
+                          {"BayerRG8", true, PixelFormat::Bgr},
+                          {"BayerGB8", false, PixelFormat::Grey},
+                          {"auto", true, PixelFormat::Rgb}}) {
+      GenicamSettings wanted = settings(c.name);
+      wanted.colour = c.colour;
+      GenicamCamera camera(wanted);
+      EXPECT_EQ(configure(camera).format, c.format) << c.name;
+      Receiver<PixelFormat> receiver([](const FrameBuffer& frame) { return frame.picture.format; });
+      receiver.start(camera);
+      EXPECT_EQ(receiver.wait_for(3).back(), c.format) << c.name;
+    }
+  });
+}
+
+TEST_F(OnFakeCamera, IsFoundByItsAddressIdAndSerialNumber) {
+  run([](FakeGigeCamera&) {
+    const auto cameras = find_cameras();
+    ASSERT_EQ(cameras.size(), 1U);
+    EXPECT_EQ(cameras[0].serial, FakeGigeCamera::kSerial);
+    EXPECT_EQ(cameras[0].address, FakeGigeCamera::kAddress);
+    for (const std::string& name : {cameras[0].id, cameras[0].serial, cameras[0].address}) {
+      GenicamSettings wanted = settings();
+      wanted.camera = name;
+      EXPECT_EQ(refusal(wanted, {}), "") << name;
+    }
+    GenicamSettings missing = settings();
+    missing.camera = "24512";
+    EXPECT_THAT(refusal(missing, {}), AllOf(HasSubstr("\"24512\" does not answer; there are: \""),
+                                            HasSubstr("FAKE7\" at 127.0.0.1")));
+    missing.camera = "127.0.0.9";
+    EXPECT_THAT(refusal(missing, {}), HasSubstr("no camera answers at 127.0.0.9"));
+  });
+}
+
+TEST_F(OnFakeCamera, IsListedWithFormatsAndFeatures) {
+  run([](FakeGigeCamera&) {
+    const auto entries = list_genicam_cameras();
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_EQ(entries[0].problem, "");
+    EXPECT_EQ(entries[0].driver, "GigEVision");
+    EXPECT_THAT(entries[0].paths, testing::ElementsAre("FAKE7", "127.0.0.1"));
+    EXPECT_THAT(entries[0].modes, Contains(AllOf(Field(&CameraMode::format, "Mono16"),
+                                                 Field(&CameraMode::size, "1..2048x1..2048"))));
+    EXPECT_THAT(
+        entries[0].controls,
+        Contains(AllOf(Field(&CameraControl::name, "TriggerMode"),
+                       Field(&CameraControl::values, testing::ElementsAre("0 = Off", "1 = On")))));
+  });
+}
+
+TEST_F(OnFakeCamera, RefusesWhatTheCameraHasNotAndSaysWhatItHas) {
+  run([](FakeGigeCamera&) {
+    EXPECT_THAT(refusal(settings("Mono11"), {}), HasSubstr("must be one of auto, RGB8"));
+    EXPECT_THAT(refusal(settings("Mono12p"), {}),
+                AllOf(HasSubstr("cannot send Mono12p; it offers"), HasSubstr("Mono16")));
+    EXPECT_THAT(refusal(settings(), {4096, 48}),
+                HasSubstr("control Width cannot be 4096; it takes 1 to 2048"));
+    GenicamSettings outside = settings();
+    outside.offset_x = 3000;
+    EXPECT_THAT(refusal(outside, {64, 48}), HasSubstr("OffsetX cannot be 3000"));
+  });
+}
+
+TEST_F(OnFakeCamera, FeaturesHaveTheCamerasLimits) {
+  run([](FakeGigeCamera&) {
+    GenicamCamera camera(settings());
+    configure(camera);
+    EXPECT_EQ(refusal(camera.set("ExposureTime", 5000)), "");
+    EXPECT_EQ(refusal(camera.set("Gain", 2)), "");
+    EXPECT_EQ(refusal(camera.set("GainAuto", 1)), "");
+    EXPECT_EQ(refusal(camera.set("BinningHorizontal", 2)), "");
+    EXPECT_THAT(refusal(camera.set("ExposureTime", 1)),
+                HasSubstr("ExposureTime cannot be 1; it takes 10 to 10000000"));
+    EXPECT_THAT(refusal(camera.set("GainRaw", 11)), HasSubstr("it takes 0 to 10"));
+    EXPECT_THAT(refusal(camera.set("GainAuto", 2)), HasSubstr("it takes 0 = Off, 1 = Continuous"));
+    EXPECT_THAT(refusal(camera.set("TriggerActivation", 9)), HasSubstr("it takes 0 = RisingEdge"));
+    EXPECT_THAT(refusal(camera.set("SensorWidth", 9)), HasSubstr("SensorWidth is read only"));
+    EXPECT_THAT(
+        refusal(camera.set("Emissivity", 1)),
+        AllOf(HasSubstr("no control \"Emissivity\"; there are: "), HasSubstr("ExposureTimeAbs")));
+  });
+}
+
+TEST_F(OnFakeCamera, EachSoftwareTriggerExposesOneFrame) {
+  run([](FakeGigeCamera&) {
+    GenicamCamera camera(settings("Mono16"));
+    configure(camera);
+    ASSERT_EQ(refusal(camera.set("TriggerMode", 1)), "");
+    EXPECT_THAT(refusal(camera.trigger()), HasSubstr("does not run"));
+    Receiver<Numbered> receiver(numbered);
+    receiver.start(camera);
+    ASSERT_TRUE(tests::comes_true([&] { return camera.trigger().has_value(); }));
+    const std::size_t triggers = static_cast<std::size_t>(tests::share_of(1000));
+    for (std::size_t n = 1; n <= triggers; ++n) {
+      ASSERT_EQ(receiver.wait_for(n).size(), n);
+      if (n == triggers) break;
+      ASSERT_EQ(refusal(camera.trigger()), "");
+    }
+    camera.stop();
+    const auto frames = receiver.wait_for(triggers);
+    EXPECT_EQ(frames.size(), triggers);
+    EXPECT_EQ(frames.back().sequence - frames.front().sequence, triggers - 1);
+  });
+}
+
+/// Every frame that the camera sent, by its number.
+class Witnessed {
+ public:
+  explicit Witnessed(Camera& camera) {
+    camera.set_gate([this](FrameMetadata& metadata) {
+      {
+        const std::lock_guard lock(mutex_);
+        sequences_.push_back(metadata.sequence);
+      }
+      changed_.notify_all();
+      return true;
+    });
+  }
+
+  std::vector<std::uint64_t> wait_for(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, 60s, [&] { return sequences_.size() >= count; }));
+    return sequences_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::uint64_t> sequences_;
+};
+
+class LostPackets : public OnFakeCamera, public testing::WithParamInterface<double> {};
+
+TEST_P(LostPackets, CostTheirFramesWhichAreCountedAndNeverDelivered) {
+  constexpr std::size_t kFrames = 200;
+  constexpr int kPackets = 30;  // of a frame, with its first and last one
+  run(
+      [&](FakeGigeCamera&) {
+        GenicamCamera camera(settings("Mono16"));
+        configure(camera, {160, 120, 250});
+        Witnessed witnessed(camera);
+        Receiver<Numbered> receiver(numbered);
+        receiver.start(camera);
+        const auto sequences = witnessed.wait_for(kFrames);
+        camera.stop();
+        for (std::size_t i = 1; i < sequences.size(); ++i) {
+          EXPECT_EQ(sequences[i], sequences[i - 1] + 1) << "a frame is neither there nor counted";
+        }
+        const auto frames = receiver.wait_for(0);
+        for (const Numbered& frame : frames) {
+          ASSERT_TRUE(frame.id) << "an incomplete frame was delivered";
+          EXPECT_TRUE(frame.follows(frames.front())) << "frame " << frame.sequence;
+        }
+        const double expected = kFrames * (1 - std::pow(1 - GetParam() / 1000, kPackets));
+        const auto damaged = static_cast<double>(camera.quality().damaged);
+        EXPECT_NEAR(damaged, expected, 4 * std::sqrt(expected) + 2);
+        EXPECT_EQ(camera.link_counts().missing_packets > 0, damaged > 0);
+        EXPECT_EQ(camera.link_counts().underruns, 0U);
+      },
+      GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(PerThousand, LostPackets, testing::Values(0, 1, 10, 100));
+
+TEST_F(OnFakeCamera, AnotherHostsCameraIsRefused) {
+  run([](FakeGigeCamera&) {
+    GenicamCamera camera(settings());
+    configure(camera);
+    EXPECT_THAT(refusal(settings(), {}), HasSubstr("under the control of another host"));
+  });
+}
+
+TEST(OverACable, IsFoundBySerialNumberAndComesBackWhenItIsPluggedOrMoves) {
+  ORBWATCH_REQUIRE_NETWORK_NAMESPACES();
+  const tests::NetworkNamespace ours, theirs;
+  const tests::Cable cable(ours, theirs);
+  std::optional<FakeGigeCamera> fake;
+  theirs.run([&] { fake.emplace(FakeGigeCamera::Options{0, "wire", tests::Cable::kRight}); });
+  ours.run([&] {
+    GenicamSettings settings;
+    settings.camera = FakeGigeCamera::kSerial;
+    settings.pixel_format = "Mono16";
+    GenicamCamera camera(settings);
+    const auto format = camera.configure({160, 120, 100});
+    ASSERT_TRUE(format) << format.error().message;
+    Receiver<Numbered> receiver(numbered);
+    receiver.start(camera);
+    for (const Numbered& frame : receiver.wait_for(20)) EXPECT_TRUE(frame.id);
+    // Aravis takes five seconds to close a camera that does not answer.
+    if (!tests::acceptance_mode()) return;
+    cable.pull();
+    EXPECT_EQ(receiver.wait_for_faults(1)[0].fault, Fault::Unplugged);
+    cable.plug();
+    EXPECT_EQ(receiver.wait_for_faults(2)[1].fault, Fault::None);
+    theirs.run([&] {
+      tests::ip("address flush dev wire");
+      tests::ip("address add 10.77.0.9/24 dev wire");
+      fake->move_to("10.77.0.9");
+    });
+    EXPECT_EQ(receiver.wait_for_faults(4)[3].fault, Fault::None);
+    EXPECT_TRUE(receiver.wait_for(receiver.count() + 1).back().id);
+  });
+}
+
+std::size_t open_files() {
+  const std::filesystem::directory_iterator first("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(first), end(first)));
+}
+
+TEST_F(OnFakeCamera, ComesBackWithItsFeaturesWhenTheCameraWasRestarted) {
+  run([](FakeGigeCamera& fake) {
+    GenicamCamera camera(settings("Mono16"));
+    configure(camera);
+    ASSERT_EQ(refusal(camera.set("ExposureTime", 20000)), "");
+    Receiver<std::chrono::microseconds> receiver(
+        [](const FrameBuffer& frame) { return frame.metadata.exposure_time; });
+    receiver.start(camera);
+    receiver.wait_for(1);
+    const std::size_t files = open_files();
+    const auto restarts = static_cast<std::size_t>(tests::share_of(20));
+    for (std::size_t round = 1; round <= restarts; ++round) {
+      fake.kill();
+      const auto faults = receiver.wait_for_faults(2 * round - 1);
+      EXPECT_NE(faults.back().fault, Fault::None);
+      fake.start();
+      EXPECT_EQ(receiver.wait_for_faults(2 * round).back().fault, Fault::None);
+      EXPECT_EQ(receiver.wait_for(receiver.count() + 1).back(), 20ms);
+      EXPECT_EQ(open_files(), files);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace orbwatch::hal

@@ -1,0 +1,21 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hal/module/load_module.h"
+
+namespace orbwatch::hal {
+namespace {
+
+/// The module as it was built.
+TEST(GenicamModule, LoadsIntoAProgramWithoutAravis) {
+  const auto module =
+      load_module(std::filesystem::path(ORBWATCH_BUILT_MODULES) / "camera-genicam.so", "genicam");
+  ASSERT_TRUE(module) << module.error().message;
+  EXPECT_THAT((*module)->library_version(), testing::ContainsRegex("0\\.8\\.[0-9]+"));
+  for (const CameraEntry& camera : (*module)->list_cameras()) {
+    EXPECT_EQ(camera.back_end, "genicam");
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::hal
