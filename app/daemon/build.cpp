@@ -68,7 +68,8 @@ class Builder {
       auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
       if (!ball) return tl::unexpected(ball.error());
       sources.push_back({camera, formats_[camera], std::move(*ball), source.weight,
-                         colour_map(source), source.sharpness});
+                         colour_map(source), source.sharpness,
+                         site_.site.cameras[camera].radiometry.kelvin_per_count});
     }
     auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
     if (!projection) return fail("view " + view.name + ": " + projection.error().message);
@@ -110,7 +111,7 @@ class Builder {
   remap::ColourMap colour_map(const SourceSettings& source) const {
     const auto& camera = site_.site.cameras[source.camera.index];
     const auto& format = formats_[source.camera.index];
-    const auto range = source.range.value_or(std::array<double, 2>{0, 100});
+    const auto range = range_of(source);
     return {colour_map_table(source.colour_map), counts(range[0], camera, format),
             counts(range[1], camera, format)};
   }

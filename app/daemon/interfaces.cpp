@@ -15,7 +15,7 @@ namespace {
 /// As PublishedView has it. Null for other views; what the rig makes impossible, build() refuses.
 std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
                                                       const ViewSettings& view) {
-  if (view.kind != optics::ViewKind::Ball || view.sources.size() != 1) return nullptr;
+  if (view.kind != optics::ViewKind::Ball) return nullptr;
   const SourceSettings& source = view.sources.front();
   const auto ball = optics::ball_projection(site.rig, site.rig_camera(source.camera.index));
   if (!ball) return nullptr;
@@ -24,34 +24,68 @@ std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
   return std::make_shared<const optics::ViewProjection>(std::move(*projection));
 }
 
+PublishedSource published(const Resolved& site, const SourceSettings& source) {
+  const CameraSettings& camera = site.site.cameras[source.camera.index];
+  return {camera.name, source.colour_map, range_of(source), camera.radiometry.kelvin_per_count > 0};
+}
+
+/// As a measured view.
+PublishedView published(const Resolved& site, const ViewSettings& view) {
+  PublishedView published_view;
+  published_view.encoding = view.encoding;
+  published_view.spec = view.spec();
+  published_view.ball = ball_of(site, view);
+  for (const SourceSettings& source : view.sources) {
+    published_view.sources.push_back(published(site, source));
+  }
+  return published_view;
+}
+
 SinkContext make_context(const Resolved& site, CommandHandler handler,
                          std::shared_ptr<CommandRecord> record,
                          std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
                          Program program) {
-  SinkContext context{site.names,
-                      {},
-                      {},
-                      std::move(handler),
-                      std::move(record),
-                      std::move(background),
-                      state_folder(site.site.state_folder),
-                      alignment,
-                      std::move(program),
-                      nullptr};
+  SinkContext context;
+  context.names = site.names;
+  context.handler = std::move(handler);
+  context.record = std::move(record);
+  context.background = std::move(background);
+  context.state_folder = state_folder(site.site.state_folder);
+  context.alignment = alignment;
+  context.program = std::move(program);
+  context.ball = site.rig.ball;
+  // Files that make an impossible scene were refused by build().
+  context.scene =
+      optics::SceneProxy::make(site.rig.scene, site.rig.ball).value_or(optics::SceneProxy());
   context.views.resize(site.names.views.size());
-  const auto publish = [&context, &site](const ViewSettings& view, bool measured) {
-    const bool perspective = view.kind == optics::ViewKind::Perspective;
-    context.views[view.index] = {view.encoding, perspective, measured,
-                                 measured ? nullptr : ball_of(site, view)};
-  };
-  for (const ViewSettings& view : site.site.views) publish(view, false);
+  for (const ViewSettings& view : site.site.views) {
+    PublishedView& display = context.views[view.index];
+    display = published(site, view);
+    display.measured = false;
+    display.is_own_picture = view.kind == optics::ViewKind::Ball && view.sources.size() == 1;
+    display.mixes = view.combine != Combine::Switch && view.sources.size() > 1;
+  }
   for (const Recipe& recipe : site.recipes) {
-    for (const ViewSettings& view : recipe.views) publish(view, true);
+    for (const ViewSettings& view : recipe.views) context.views[view.index] = published(site, view);
   }
   for (const CameraSettings& camera : site.site.cameras) {
     context.camera_encodings.push_back(camera.encoding);
   }
   return context;
+}
+
+/// Who is heard over DDS, for the page.
+std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
+  const bool is_wanted =
+      std::get<DdsSettings>(sinks).enabled && std::get<WebSettings>(sinks).enabled;
+  return is_wanted ? std::make_shared<Fleet>() : nullptr;
+}
+
+/// Where other computers reach the page.
+PageAddress page_of(const WebSettings& web) {
+  const auto port = https_port_of(web);
+  if (!web.enabled || !port || web::is_loopback(web.address)) return {};
+  return {web.address, static_cast<std::uint16_t>(*port)};
 }
 
 }  // namespace
@@ -72,22 +106,10 @@ Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
   SinkContext context = make_context(site, std::move(handler), std::move(record),
                                      std::move(background), alignment, std::move(program));
   context.tables = [this] { return tables(); };
+  context.page = page_of(std::get<WebSettings>(site.site.sinks));
+  context.fleet = make_fleet(site.site.sinks);
   std::size_t next = 0;
   std::apply(
-/// Who is heard over DDS, for the page.
-std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
-  const bool is_wanted =
-      std::get<DdsSettings>(sinks).enabled && std::get<WebSettings>(sinks).enabled;
-  return is_wanted ? std::make_shared<Fleet>() : nullptr;
-}
-
-/// Where other computers reach the page.
-PageAddress page_of(const WebSettings& web) {
-  const auto port = https_port_of(web);
-  if (!web.enabled || !port || web::is_loopback(web.address)) return {};
-  return {web.address, static_cast<std::uint16_t>(*port)};
-}
-
       [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },
       site.site.sinks);
   for (std::size_t i = 0; i < kMade; ++i) all_[i < kSnapshotBit ? i : i + 1] = made_[i].get();
@@ -106,8 +128,6 @@ void Interfaces::start(Attempts& attempts, hal::TimePoint now) {
 
 void Interfaces::stop() {
   for (Sink* sink : sinks()) sink->stop();
-  context.page = page_of(std::get<WebSettings>(site.site.sinks));
-  context.fleet = make_fleet(site.site.sinks);
 }
 
 std::vector<Sink*> Interfaces::sinks() const {

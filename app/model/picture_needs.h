@@ -12,12 +12,14 @@ struct PictureNeeds {
   bool bgr = false;
   bool grey = false;
   bool jpeg = false;
+  bool counts = false;  ///< of temperature, beside the picture: see View::counts
 
   constexpr PictureNeeds& operator|=(const PictureNeeds& other) {
     rgb = rgb || other.rgb;
     bgr = bgr || other.bgr;
     grey = grey || other.grey;
     jpeg = jpeg || other.jpeg;
+    counts = counts || other.counts;
     return *this;
   }
 };
@@ -25,7 +27,7 @@ struct PictureNeeds {
 /// The need of a reader of pictures of one encoding: Rgb, Bgr or Grey.
 constexpr PictureNeeds need_of(PixelFormat encoding) {
   return {encoding == PixelFormat::Rgb, encoding == PixelFormat::Bgr, encoding == PixelFormat::Grey,
-          false};
+          false, false};
 }
 
 /// The format in which a picture of that size serves them all with the least work: JPEG compresses

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "app/model/appliance_notice.h"
 #include "app/model/command.h"
 #include "app/model/interface_table.h"
-#include "app/model/appliance_notice.h"
 #include "app/model/picture_needs.h"
 #include "app/model/program.h"
 #include "app/model/status.h"
@@ -18,27 +20,42 @@
 #include "hal/thread/shared_threads.h"
 #include "proc/image/pixel_format.h"
 #include "proc/image/result.h"
+#include "proc/optics/scene_proxy.h"
 #include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
 
+/// One camera of a view, and how that shows it if it has one channel.
+struct PublishedSource {
+  std::string camera;
+  std::string colour_map;
+  std::array<double, 2> range{};  ///< first and last colour, degC or % of full scale
+  bool is_radiometric = false;    ///< degC
+};
+
 /// How a view is offered to the outside.
 struct PublishedView {
   PixelFormat encoding = PixelFormat::Rgb;  ///< or Bgr or Grey
-  bool perspective = true;                  ///< a pinhole camera describes it
   bool measured = true;                     ///< it has a plane that is measured
-  /// Of a display view, one camera's own picture of its ball: where that shows the room; else null.
+  optics::ViewSpec spec;                    ///< as configured
+  /// Of kind Ball: where its first camera's picture of the ball shows the room; else null.
   std::shared_ptr<const optics::ViewProjection> ball = nullptr;
+  bool is_own_picture = false;  ///< a display view of kind Ball, of one camera
+  bool mixes = false;           ///< a display view whose sources are blended by weight
+  std::vector<PublishedSource> sources;
 };
 
 class AlignmentSource;
 class CommandRecord;
+class Fleet;
 
 /// What every sink is made with, besides its own settings.
 struct SinkContext {
   StatusNames names;
   std::vector<PublishedView> views;           ///< by place in names.views
   std::vector<PixelFormat> camera_encodings;  ///< Rgb, Bgr or Grey, by place in names.cameras
+  optics::Ball ball;                          ///< machine frame, mm
+  optics::SceneProxy scene;                   ///< around it
   CommandHandler handler;
   std::shared_ptr<CommandRecord> record;           ///< of the commands that go to `handler`
   std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
@@ -47,7 +64,8 @@ struct SinkContext {
   Program program;                                 ///< around the appliance
   /// What all sinks show of themselves, on any thread while they run; empty: nothing.
   std::function<std::vector<InterfaceTable>()> tables = nullptr;
-class Fleet;
+  PageAddress page{};                      ///< of the appliance, as configured
+  std::shared_ptr<Fleet> fleet = nullptr;  ///< who is heard over DDS; null: nobody
 };
 
 /// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses
@@ -64,8 +82,6 @@ class Sink {
   /// False: what it serves is missing although it started, the network for example. On any thread.
   virtual bool works() const { return true; }
   /// Processor time of its threads since the start. On any thread.
-  PageAddress page{};  ///< of the appliance, as configured
-  std::shared_ptr<Fleet> fleet = nullptr;  ///< who is heard over DDS; null: nobody
   virtual std::chrono::nanoseconds cpu_time() const { return {}; }
   /// What it shows of itself at this moment. On any thread.
   virtual std::vector<InterfaceTable> tables() const { return {}; }

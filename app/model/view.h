@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "proc/image/picture.h"
 #include "proc/image/untouched_memory.h"
 #include "proc/optics/view_projection.h"
+#include "proc/remap/remap.h"
 
 namespace orbwatch::app {
 
@@ -28,6 +30,8 @@ struct View {
   hal::TimePoint stamp;        ///< exposure start of the frame set
   std::uint64_t pointing = 0;  ///< number of the request that it shows; 0: as configured
   optics::ViewSpec spec;       ///< where it looks
+  /// Of its sources, in their order; 0 beyond the last one.
+  std::array<double, remap::kMaxSources> weights{};
 
   /// What people look at, blended and colour-mapped, in a format that serves those who read it (see
   /// PictureNeeds): Rgb, Bgr, I420 as JPEG has it, or Grey. No data: nobody does.
@@ -37,9 +41,13 @@ struct View {
   /// What is measured, one of the two, raw and never colour-mapped; empty unless the view measures.
   ImageView<std::uint8_t> luminance;     ///< 8 bit
   ImageView<std::uint16_t> radiometric;  ///< 16 bit counts as the camera gave them
+  /// Counts of temperature beside the picture, also where another camera is shown; 0 where the
+  /// radiometric one does not see. Empty unless measured, or somebody needs them.
+  ImageView<std::uint16_t> counts;
+  double kelvin_per_count = 0;  ///< of `counts`
 
   UntouchedVector<std::uint8_t> bytes;   ///< behind picture and validity
-  UntouchedVector<std::uint16_t> words;  ///< behind luminance or radiometric
+  UntouchedVector<std::uint16_t> words;  ///< behind luminance, or radiometric and counts
 };
 
 using ViewPtr = std::shared_ptr<const View>;

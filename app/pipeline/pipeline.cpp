@@ -226,7 +226,7 @@ void Pipeline::ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp) {
     PictureNeeds needs;
     for (Sink* sink : sinks_) needs |= sink->needs(view.plan().index, stamp);
     const optics::ViewProjection& projection = view.plan().projection;
-    view.set_format(format_for(needs, projection.width(), projection.height()));
+    view.set_reading(format_for(needs, projection.width(), projection.height()), needs.counts);
   }
 }
 

@@ -25,6 +25,11 @@ YawPitchRoll yaw_pitch_roll(const Mat3& rotation) {
           degrees(std::atan2(-right.z, up.z))};
 }
 
+YawPitchRoll yaw_pitch(const Vec3& direction) {
+  return {degrees(std::atan2(direction.x, direction.y)),
+          degrees(std::asin(std::clamp(direction.z, -1.0, 1.0))), 0};
+}
+
 Result<Mat3> checked_rotation(const Mat3& matrix) {
   constexpr double kTolerance = 1e-6;
   const Mat3 product = matrix * transposed(matrix);

@@ -20,6 +20,9 @@ Mat3 rotation(const YawPitchRoll& angles);
 /// rotation().
 YawPitchRoll yaw_pitch_roll(const Mat3& rotation);
 
+/// Where a unit vector points: roll is 0.
+YawPitchRoll yaw_pitch(const Vec3& direction);
+
 /// `matrix` itself if it is a rotation: orthonormal and right-handed to 1e-6. Error otherwise.
 Result<Mat3> checked_rotation(const Mat3& matrix);
 

@@ -97,6 +97,10 @@ Result<> check_view(const ViewSpec& spec) {
   });
 }
 
+double h_fov_of(const ViewSpec& spec) {
+  return spec.h_fov.value_or(field_of_view(spec.kind).h_default);
+}
+
 Result<ViewProjection> ViewProjection::make(const ViewSpec& spec) {
   if (auto ok = check_view(spec); !ok) return tl::unexpected(ok.error());
   if (spec.kind == ViewKind::Ball) {
@@ -116,8 +120,7 @@ Result<ViewProjection> ViewProjection::make(const ViewSpec& spec, const BallProj
 ViewProjection::ViewProjection(const ViewSpec& spec)
     : spec_(spec), orientation_(rotation(spec.orientation)) {
   if (spec_.kind == ViewKind::Ball) return;
-  const double h_fov = spec.h_fov.value_or(field_of_view(spec_.kind).h_default);
-  step_u_ = 2 * reach(spec_.kind, false, h_fov) / spec_.width;
+  step_u_ = 2 * reach(spec_.kind, false, h_fov_of(spec)) / spec_.width;
   if (spec.v_fov || spec_.kind == ViewKind::Equirectangular) {
     step_v_ = 2 * reach(spec_.kind, true, spec.v_fov.value_or(180)) / spec_.height;
   } else {

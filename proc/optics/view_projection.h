@@ -32,6 +32,9 @@ struct ViewSpec {
 /// cannot have, any angle for Ball.
 Result<> check_view(const ViewSpec& spec);
 
+/// Its horizontal field of view, stated or by its kind, degrees; 0: Ball has none. Reentrant.
+double h_fov_of(const ViewSpec& spec);
+
 /// From a view's pixels to directions in the reference frame and back. Reentrant, immutable.
 ///
 /// Straight ahead is the picture's middle, ((W-1)/2, (H-1)/2). With x right and y up from there:

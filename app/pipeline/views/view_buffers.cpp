@@ -45,6 +45,11 @@ struct Demand {
   }
 };
 
+ImageView<std::uint16_t> words_of(View& view) {
+  const int width = view.validity.width;
+  return {view.words.data(), width, view.validity.height, 1, width};
+}
+
 }  // namespace
 
 View make_view(int width, int height) {
@@ -62,14 +67,19 @@ void set_plan(View& view, const ViewPlan& plan) {
   view.picture = {};
   view.luminance = {};
   view.radiometric = {};
+  view.counts = {};
   if (!plan.measured) return;
-  const int width = view.validity.width, height = view.validity.height;
-  if (info(plan.sources[*plan.measured].format.format).bytes_per_sample() == 2) {
-    view.radiometric = {view.words.data(), width, height, 1, width};
+  const ViewSource& measured = plan.sources[*plan.measured];
+  if (info(measured.format.format).bytes_per_sample() == 2) {
+    view.radiometric = words_of(view);
+    if (counts_temperature(measured)) view.counts = view.radiometric;
   } else {
+    const int width = view.validity.width, height = view.validity.height;
     view.luminance = {reinterpret_cast<std::uint8_t*>(view.words.data()), width, height, 1, width};
   }
 }
+
+void add_counts(View& view) { view.counts = words_of(view); }
 
 void set_format(View& view, std::optional<PixelFormat> format) {
   if (!format) {

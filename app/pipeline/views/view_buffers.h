@@ -17,6 +17,8 @@ namespace orbwatch::app {
 View make_view(int width, int height);
 /// Makes a view of the plan's size the plan's: with planes for what is measured, without a picture.
 void set_plan(View& view, const ViewPlan& plan);
+/// Gives a view that does not measure a plane for counts of temperature.
+void add_counts(View& view);
 /// Gives a view a picture in a format of up to three bytes per pixel, or none.
 void set_format(View& view, std::optional<PixelFormat> format);
 

@@ -9,7 +9,9 @@ const View* ViewChannel::render(const hal::FrameSet& set, const FramePyramids& p
   is_shared_ = rendered_ != nullptr;
   if (!rendered_ && plan_->measured) rendered_ = buffers.acquire_unshared(*plan_);
   if (!rendered_) return nullptr;
-  app::set_format(*rendered_, format_);
+  set_format(*rendered_, format_);
+  // A camera that came after the start may deliver another format than the channel's plan says.
+  if (reads_counts_ && !plan_->measured && renderer_->has_counts()) add_counts(*rendered_);
   renderer_->render(set, pyramids, *rendered_, workers);
   return rendered_.get();
 }

@@ -24,8 +24,12 @@ class ViewChannel {
 
   const ViewPlan& plan() const { return *plan_; }
 
-  /// What render() makes of the picture from now on; nullopt: none.
-  void set_format(std::optional<PixelFormat> format) { format_ = format; }
+  /// What render() makes from now on: of the picture, nullopt: none; and whether a display view has
+  /// the counts of its radiometric camera.
+  void set_reading(std::optional<PixelFormat> format, bool counts) {
+    format_ = format;
+    reads_counts_ = counts;
+  }
   /// Adds what render() samples.
   void add_use(PictureUses& uses) const { renderer_->add_use(uses, format_.has_value()); }
 
@@ -43,6 +47,7 @@ class ViewChannel {
   const ViewPlan* plan_;
   std::unique_ptr<ViewRenderer> renderer_;
   std::optional<PixelFormat> format_;
+  bool reads_counts_ = false;
   std::shared_ptr<View> rendered_;
   bool is_shared_ = false;  ///< sinks get rendered_
 };

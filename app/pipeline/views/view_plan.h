@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -30,10 +31,15 @@ struct ViewSource {
   /// How much the picture is sharpened to be shown, 0..remap::kMaxSharpness, if its format is and
   /// pixels are interpolated; 0: not at all.
   double sharpness = 0;
+  double kelvin_per_count = 0;  ///< of 16 bit counts; 0: they are no temperatures
 };
 
 inline bool is_colour(const ViewSource& source) {
   return info(source.format.format).colour != ColourModel::Luminance;
+}
+
+inline bool counts_temperature(const ViewSource& source) {
+  return source.kelvin_per_count > 0 && info(source.format.format).bytes_per_sample() == 2;
 }
 
 /// A view, ready to be compiled into a ViewRenderer.
@@ -48,6 +54,17 @@ struct ViewPlan {
   std::optional<std::size_t> measured;
   std::uint64_t pointing = 0;  ///< see View::pointing
   bool match = true;           ///< brings its colour cameras together: see ExposureMatch
+
+  /// The source whose raw plane may lie beside the picture: the measured one; of a display view the
+  /// first that counts temperature. nullopt: none.
+  std::optional<std::size_t> raw() const;
 };
+
+inline std::optional<std::size_t> ViewPlan::raw() const {
+  if (measured) return measured;
+  const auto found = std::ranges::find_if(sources, counts_temperature);
+  if (found == sources.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - sources.begin());
+}
 
 }  // namespace orbwatch::app

@@ -15,6 +15,7 @@ bool ViewRenderer::is_supported(PixelFormat format) { return format != PixelForm
 ViewRenderer::ViewRenderer(ViewPlan plan)
     : kernel_(&remap::default_kernel()),
       plan_(std::move(plan)),
+      raw_(plan_.raw()),
       grids_(make_grids()),
       blend_(make_blend()),
       sharpened_(find_sharpened()),
@@ -93,13 +94,16 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   view.stamp = set.stamp;
   view.pointing = plan_.pointing;
   view.spec = plan_.projection.spec();
+  for (std::size_t n = 0; n < view.weights.size(); ++n) {
+    view.weights[n] = n < plan_.sources.size() ? plan_.sources[n].weight : 0;
+  }
+  view.kelvin_per_count = raw_ ? plan_.sources[*raw_].kelvin_per_count : 0;
 
   MutablePicture measured;
   if (!view.luminance.empty()) measured = picture_of(PixelFormat::Grey, view.luminance);
-  if (!view.radiometric.empty()) {
-    measured = picture_of(plan_.sources[*plan_.measured].format.format, view.radiometric);
-  }
-  if (view.picture.planes[0].data == nullptr && !plan_.measured) return;
+  const auto& words = view.radiometric.empty() ? view.counts : view.radiometric;
+  if (!words.empty()) measured = picture_of(plan_.sources[*raw_].format.format, words);
+  if (view.picture.planes[0].data == nullptr && measured.planes[0].data == nullptr) return;
   render(pyramids, {view.picture, view.validity, measured}, workers);
 }
 
@@ -120,7 +124,7 @@ void ViewRenderer::render(const FramePyramids& pyramids, const RenderTarget& tar
     sources[n].grid = &grids_[n];
     if (!target.is_raw) sources[n].colours = &plan_.sources[n].colour_map;
     sources[n].pictures = pictures_of(n, pyramids, sharpness(n));
-    if (plan_.measured == n) {
+    if (raw_ == n) {
       sources[n].measured = target.measured;
       sources[n].measured_pictures = pictures_of(n, pyramids, 0);
     }

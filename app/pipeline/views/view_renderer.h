@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,8 @@ struct RenderTarget {
   /// Rgb, Bgr, Grey; or raw, the one format of all sources: Grey, Y16, Rgb or Rgb16. No data: none.
   MutablePicture picture;
   ImageView<std::uint8_t> validity;  ///< one Validity per pixel
-  /// Where the measured source goes, raw, beside the picture: its luminance as Grey, or its counts
-  /// in its own 16 bit format. No data: nowhere.
+  /// Where the source of the raw plane goes beside the picture: its luminance as Grey, or its
+  /// counts in its own 16 bit format. No data: nowhere.
   MutablePicture measured;
   bool is_raw = false;  ///< the picture: one-channel sources are not colour-mapped
 };
@@ -37,6 +38,9 @@ class ViewRenderer {
 
   /// Adds what this view samples; without a picture only what is measured.
   void add_use(PictureUses& uses, bool with_picture = true) const;
+
+  /// Whether its sources count temperature: then render() fills View::counts, too.
+  bool has_counts() const { return raw_ && counts_temperature(plan_.sources[*raw_]); }
 
   /// Fills `view`, its picture in the format that it has, from the frames of `set`, of which
   /// `pyramids` were built with add_use(); a missing frame leaves its part blind. Does not
@@ -67,6 +71,7 @@ class ViewRenderer {
 
   const remap::Kernel* kernel_;
   ViewPlan plan_;
+  std::optional<std::size_t> raw_;            ///< see ViewPlan::raw()
   std::vector<remap::CoordinateGrid> grids_;  ///< by source
   remap::BlendGrid blend_;
   std::vector<remap::SourceArea> sharpened_;  ///< by source, what of it is sampled sharpened

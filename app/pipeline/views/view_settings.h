@@ -29,6 +29,11 @@ struct SourceSettings {
   std::optional<std::array<double, 2>> range;  ///< first and last colour; nullopt: 0 to 100
 };
 
+/// First and last colour: degC for a radiometric camera, else percent of full scale.
+inline std::array<double, 2> range_of(const SourceSettings& source) {
+  return source.range.value_or(std::array<double, 2>{0, 100});
+}
+
 /// A view as files state it: degrees, and names of cameras.
 struct ViewSettings {
   std::string name;

@@ -61,6 +61,8 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
     : settings_(std::move(settings)),
       names_(context.names),
       threads_(context.background),
+      list_(context),
+      pixels_(context),
       asked_(names_.views.size()),
       commands_(context.handler, context.record),
       look_around_(context.names, context.views, context.background),
@@ -70,15 +72,18 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       desk_(access_, audit_, settings_.session_longest),
       configuration_(context.program.files, access_, audit_),
       program_(context.program),
+      fleet_(context.fleet),
       tables_(context.tables),
       routes_(make_routes()),
-      fleet_(context.fleet),
       listeners_(
           settings_, context.state_folder,
           [this](const ExchangePtr& exchange) { pass_on(exchange); }, server_counts_) {
+  const auto show = [this](const ViewPtr& view, std::uint64_t number) {
+    pixels_.show(view, number);
+  };
   views_.reserve(names_.views.size());
   for (std::size_t i = 0; i < names_.views.size(); ++i) {
-    views_.push_back(std::make_unique<web::ViewEncoder>(settings_.jpeg, threads_));
+    views_.push_back(std::make_unique<web::ViewEncoder>(settings_.jpeg, threads_, show));
   }
 }
 
@@ -110,6 +115,7 @@ void WebSink::watch() {
   while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
     listeners_.watch();
     access_.refresh();
+    pixels_.release_unwanted(hal::Clock::now());
     if (!status_feed_->is_wanted()) continue;
     status_feed_->publish(std::make_shared<const std::string>(newest_as_json()), hal::Clock::now());
   }
@@ -125,6 +131,7 @@ void WebSink::stop() {
   desk_.stop();
   access_.stop();
   for (const auto& view : views_) view->stop();
+  pixels_.stop();
 }
 
 std::chrono::nanoseconds WebSink::cpu_time() const {
@@ -137,16 +144,19 @@ std::chrono::nanoseconds WebSink::cpu_time() const {
 
 PictureNeeds WebSink::needs(std::size_t view, hal::TimePoint stamp) {
   if (view >= views_.size()) return {};
-  asked_[view] = is_running_ && views_[view]->wants(stamp);
+  const bool is_pointed = pixels_.wants(view, stamp);
+  asked_[view] = is_running_ && views_[view]->wants(stamp, is_pointed);
   PictureNeeds needs;
   needs.jpeg = asked_[view];
+  needs.counts = asked_[view] && is_pointed;
   return needs;
 }
 
-/// One of each view waits, and as many as there are threads are being compressed.
-KeptViews WebSink::keeps() const { return {1, threads_->count()}; }
+/// One of each view waits, as many as there are threads are being compressed, and some are kept.
+KeptViews WebSink::keeps() const { return {1, threads_->count() + web::RecentViews::kMost}; }
 
 void WebSink::accept(const ViewPtr& view) {
+  list_.accept(*view);
   if (view->index < views_.size() && asked_[view->index]) views_[view->index]->accept(view);
 }
 
@@ -209,12 +219,15 @@ std::vector<web::Route> WebSink::make_routes() {
        "and how many bytes follow",
        std::string(web::LiveStream::kType), by(&WebSink::serve_live), web::ViewArgument::Any},
   };
+  routes.push_back(list_.route());
+  routes.push_back(pixels_.route());
   std::ranges::move(desk_.routes(), std::back_inserter(routes));
   std::ranges::move(look_around_.routes(), std::back_inserter(routes));
   std::ranges::move(configuration_.routes(), std::back_inserter(routes));
   std::ranges::move(web::log_routes(program_.log), std::back_inserter(routes));
   std::ranges::move(align_.routes(), std::back_inserter(routes));
   std::ranges::move(web::interface_routes(tables_, program_), std::back_inserter(routes));
+  std::ranges::move(web::fleet_routes(fleet_), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));
   std::ranges::move(page_routes(), std::back_inserter(routes));
   return routes;
@@ -227,7 +240,6 @@ std::vector<web::Route> WebSink::make_command_routes() {
   for (const CommandInfo& info : kCommands) {
     const auto serve = [this, &info](const ExchangePtr& exchange) { run_command(info, exchange); };
     routes.push_back({"POST", "/api/v1/command/" + std::string(info.name), info.role,
-  std::ranges::move(web::fleet_routes(fleet_), std::back_inserter(routes));
                       std::string(info.description), std::string(web::kJson), serve,
                       web::ViewArgument::None, &info});
   }
@@ -288,9 +300,8 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   const NewestStatus newest = this->newest();
   web::Response response;
   response.type = kMetrics;
-  response.body = std::make_shared<const std::string>(
-      web::metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, statistics(),
-                        version_of(program_)));
+  response.body = std::make_shared<const std::string>(web::metrics_text(
+      {newest.status, names_, hal::Clock::now(), newest.utc}, statistics(), version_of(program_)));
   exchange->answer(std::move(response));
 }
 

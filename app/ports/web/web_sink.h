@@ -17,10 +17,12 @@
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/listeners.h"
 #include "app/ports/web/look_around/look_around.h"
+#include "app/ports/web/pixels/pixel_route.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/status/web_statistics.h"
 #include "app/ports/web/streams/mjpeg_stream.h"
 #include "app/ports/web/streams/view_encoder.h"
+#include "app/ports/web/views/view_list.h"
 #include "app/ports/web/web_settings.h"
 #include "hal/thread/thread.h"
 
@@ -82,6 +84,8 @@ class WebSink final : public Sink {
   const std::shared_ptr<hal::SharedThreads> threads_;
   std::atomic<bool> is_running_{false};
 
+  web::ViewList list_;
+  web::PixelRoute pixels_;
   std::vector<std::unique_ptr<web::ViewEncoder>> views_;  ///< by View::index
   std::vector<bool> asked_;  ///< by view: the next picture is read; accept's thread
 
@@ -101,11 +105,11 @@ class WebSink final : public Sink {
   web::AccessDesk desk_;
   web::ConfigurationDesk configuration_;
   const Program program_;
+  const std::shared_ptr<Fleet> fleet_;
   const std::function<std::vector<InterfaceTable>()> tables_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
   hal::Thread thread_;  ///< ends what is overdue, and reports to streams
-  const std::shared_ptr<Fleet> fleet_;
 };
 
 }  // namespace orbwatch::app

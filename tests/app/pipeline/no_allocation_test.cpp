@@ -79,7 +79,7 @@ TEST(FramePath, DoesNotAllocate) {
   ViewBuffers buffers = buffers_for(recipe->plan().views[0], {1, 0});
   PictureUses uses;
   for (ViewChannel& view : recipe->views()) {
-    view.set_format(PixelFormat::Rgb);
+    view.set_reading(PixelFormat::Rgb, false);
     view.add_use(uses);
   }
   ASSERT_EQ(uses[1].sharpened().size(), 1U);

@@ -48,5 +48,15 @@ TEST(Rotation, RefusesOtherMatrices) {
   EXPECT_FALSE(checked_rotation({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
 }
 
+TEST(Rotation, YawAndPitchOfADirectionPointThere) {
+  for (const YawPitchRoll angles : {YawPitchRoll{30, 40, 0}, YawPitchRoll{-170, -80, 0}}) {
+    const YawPitchRoll found = yaw_pitch(rotation(angles) * Vec3{0, 1, 0});
+    EXPECT_NEAR(found.yaw, angles.yaw, 1e-9);
+    EXPECT_NEAR(found.pitch, angles.pitch, 1e-9);
+    EXPECT_EQ(found.roll, 0);
+  }
+  EXPECT_NEAR(yaw_pitch({0, 0, 1 + 1e-16}).pitch, 90, 1e-6);
+}
+
 }  // namespace
 }  // namespace orbwatch::optics

@@ -22,7 +22,7 @@ ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& view,
     measured_.emplace(radiometric_topic(settings.prefix, view),
                       std::make_unique<RawPictureWriter>(PixelFormat::Grey), threads);
   }
-  if (published(settings, view).perspective) {
+  if (published(settings, view).spec.kind == optics::ViewKind::Perspective) {
     info_.emplace(sensor_msgs_msg_dds__CameraInfo__desc, camera_info_topic(settings.prefix, view));
   }
 }

@@ -1,11 +1,10 @@
 #include "app/ports/web/align/align_routes.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <memory>
 
 #include "app/ports/web/align/alignment_text.h"
+#include "app/ports/web/query.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app::web {
@@ -18,20 +17,6 @@ constexpr int kLargestSide = 1920;
 
 const QueryArgument kCamera{"camera", "Name of the camera", true, false};
 const QueryArgument kWhich{"which", "proposed or, by default, in_force", false, false};
-
-Result<double> number_of(const Request& request, std::string_view name, double otherwise,
-                         double lowest, double highest) {
-  const std::string* text = request.argument(name);
-  if (!text) return otherwise;
-  double value = NAN;
-  const char* const end = text->data() + text->size();
-  const auto parsed = std::from_chars(text->data(), end, value);
-  if (parsed.ec == std::errc() && parsed.ptr == end && value >= lowest && value <= highest) {
-    return value;
-  }
-  return fail(std::string(name) + " is " + *text + "; it must be " +
-              range_text({name, "", 0.001, lowest, highest, ""}));
-}
 
 Result<optics::ViewSpec> view_of(const Request& request) {
   optics::ViewSpec view;
@@ -107,15 +92,11 @@ Result<std::size_t> AlignRoutes::camera_of(const Request& request) const {
 
 void AlignRoutes::serve_direction(const ExchangePtr& exchange) const {
   const auto camera = camera_of(exchange->request());
-  const auto u = number_of(exchange->request(), "u", NAN, -kMaxSide, kMaxSide);
-  const auto v = number_of(exchange->request(), "v", NAN, -kMaxSide, kMaxSide);
+  const auto u = number_of(exchange->request(), "u", -kMaxSide, kMaxSide);
+  const auto v = number_of(exchange->request(), "v", -kMaxSide, kMaxSide);
   if (!camera || !u || !v) {
     const Error& error = !camera ? camera.error() : !u ? u.error() : v.error();
     exchange->answer(error_response(400, error.message));
-    return;
-  }
-  if (std::isnan(*u) || std::isnan(*v)) {
-    exchange->answer(error_response(400, "say the pixel, as &u=PX&v=PX"));
     return;
   }
   const auto seen = source_ ? source_->direction(*camera, {*u, *v}) : std::nullopt;

@@ -1,7 +1,5 @@
 #include "app/ports/web/align/alignment_text.h"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/model/json.h"
@@ -84,9 +82,8 @@ std::string alignment_json(const std::vector<std::string>& cameras,
 }
 
 std::string direction_json(const optics::Vec3& direction) {
-  return Json{{"yaw", optics::degrees(std::atan2(direction.x, direction.y))},
-              {"pitch", optics::degrees(std::asin(std::clamp(direction.z, -1.0, 1.0)))}}
-      .dump();
+  const optics::YawPitchRoll angles = optics::yaw_pitch(direction);
+  return Json{{"yaw", angles.yaw}, {"pitch", angles.pitch}}.dump();
 }
 
 }  // namespace orbwatch::app::web

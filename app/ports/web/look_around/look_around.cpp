@@ -29,10 +29,10 @@ LookAround::LookAround(const StatusNames& names, const std::vector<PublishedView
     : work_(std::move(threads), [this] { compute(); }) {
   nlohmann::ordered_json spheres = nlohmann::ordered_json::array(), pointed = spheres;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].ball) {
+    if (views[i].is_own_picture) {
       spheres.push_back(names.views[i]);
       spheres_.push_back({names.views[i], views[i].ball, {}, {}, {}});
-    } else if (views[i].perspective && !views[i].measured) {
+    } else if (views[i].spec.kind == optics::ViewKind::Perspective && !views[i].measured) {
       pointed.push_back({{"name", names.views[i]}, {"index", i}});
     }
   }

@@ -35,12 +35,12 @@ void Feed::answer_next(ExchangePtr exchange) {
   count_wanted();
 }
 
-void Feed::publish(Bytes bytes, hal::TimePoint stamp) {
+void Feed::publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& aim) {
   std::vector<Wake> readers;
   std::vector<ExchangePtr> waiting;
   {
     const std::lock_guard lock(mutex_);
-    newest_ = {std::move(bytes), newest_.number + 1, stamp};
+    newest_ = {std::move(bytes), newest_.number + 1, stamp, aim};
     readers = readers_;
     waiting = std::exchange(waiting_, {});
     count_wanted();
@@ -53,6 +53,11 @@ void Feed::publish(Bytes bytes, hal::TimePoint stamp) {
     exchange->answer(std::move(response));
   }
   for (const Wake& wake : readers) (*wake)();
+}
+
+std::uint64_t Feed::next_number() const {
+  const std::lock_guard lock(mutex_);
+  return newest_.number + 1;
 }
 
 void Feed::count_wanted() { wanted_ = readers_.size() + waiting_.size(); }

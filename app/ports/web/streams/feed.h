@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/ports/web/http/exchange.h"
+#include "app/ports/web/views/aim.h"
 #include "hal/clock.h"
 
 namespace orbwatch::app::web {
@@ -18,6 +19,7 @@ struct Item {
   Bytes bytes;
   std::uint64_t number = 0;  ///< counts the items of its feed from 1
   hal::TimePoint stamp;      ///< of the exposure, or of the report
+  std::optional<Aim> aim;    ///< of a picture
 };
 
 /// The newest item of one source for any number of readers, each at its own pace: one that is slow
@@ -53,7 +55,9 @@ class Feed {
   /// Answers `exchange` with the next item, a picture, if it is not answered before.
   void answer_next(ExchangePtr exchange);
 
-  void publish(Bytes bytes, hal::TimePoint stamp);
+  void publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& aim = std::nullopt);
+  /// Of the item that is published next. For the publisher, of which there is one.
+  std::uint64_t next_number() const;
 
  private:
   using Wake = std::shared_ptr<const std::function<void()>>;

@@ -26,6 +26,7 @@ void LiveStream::begin(const Source& source, Item item) {
   head["number"] = item.number;
   head["stamp"] = utc_text(hal::to_utc(item.stamp)).value_or("");
   head["age_ms"] = Milliseconds(hal::Clock::now() - item.stamp).count();
+  if (item.aim) head["aim"] = json_of(*item.aim);
   head["bytes"] = item.bytes->size();
   head_ = head.dump() + "\n";
   body_ = std::move(item.bytes);

@@ -17,8 +17,8 @@ namespace orbwatch::app::web {
 
 /// Several feeds over one connection, by turns, because browsers open few connections to a host. Of
 /// each message first a line of JSON that says whose it is, its number, UTC stamp, age when it is
-/// sent and how many bytes follow the line:
-///   {"kind":"view","name":"front","number":7,"stamp":"...","age_ms":31.5,"bytes":20480}
+/// sent, where the view looks (see Aim) and how many bytes follow the line:
+///   {"kind":"view","name":"front","number":7,"stamp":"...","age_ms":31.5,"aim":{...},"bytes":20480}
 /// The feed of kind "status" has no name and JSON as of /api/v1/status.
 class LiveStream final : public Stream {
  public:

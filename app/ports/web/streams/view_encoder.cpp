@@ -6,14 +6,16 @@
 
 namespace orbwatch::app::web {
 
-ViewEncoder::ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads)
+ViewEncoder::ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads,
+                         OnPicture on_picture)
     : period_(hal::period_of(jpeg.rate)),
       quality_(jpeg),
+      on_picture_(std::move(on_picture)),
       work_(std::move(threads), [this] { encode(); }) {}
 
 /// Tolerates jitter of a quarter period.
-bool ViewEncoder::wants(hal::TimePoint stamp) const {
-  return feed_->is_wanted() && stamp >= due_ - period_ / 4;
+bool ViewEncoder::wants(hal::TimePoint stamp, bool is_wanted) const {
+  return (is_wanted || feed_->is_wanted()) && stamp >= due_ - period_ / 4;
 }
 
 void ViewEncoder::accept(const ViewPtr& view) {
@@ -36,12 +38,14 @@ void ViewEncoder::encode() {
     jpeg = encoder_.encode((*view)->picture, quality_.current());
   }
   const hal::TimePoint stamp = (*view)->stamp;
-  view.reset();
+  const Aim aim = aim_of(**view);
   if (!jpeg) {
     log_line(LogLevel::Error, "web: " + jpeg.error().message);
     return;
   }
-  feed_->publish(std::make_shared<const std::string>(jpeg->begin(), jpeg->end()), stamp);
+  on_picture_(*view, feed_->next_number());
+  view.reset();
+  feed_->publish(std::make_shared<const std::string>(jpeg->begin(), jpeg->end()), stamp, aim);
 }
 
 }  // namespace orbwatch::app::web

@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "app/model/view.h"
@@ -17,10 +19,15 @@ namespace orbwatch::app::web {
 /// Thread rule: wants and accept by the pipeline's thread; the rest by the owner.
 class ViewEncoder {
  public:
-  ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads);
+  /// A view and the number under which its picture is sent next.
+  using OnPicture = std::function<void(const ViewPtr&, std::uint64_t number)>;
 
-  /// Whether the picture of this moment is read.
-  bool wants(hal::TimePoint stamp) const;
+  /// `on_picture` runs on the shared threads, before any reader has the picture.
+  ViewEncoder(const JpegSettings& jpeg, std::shared_ptr<hal::SharedThreads> threads,
+              OnPicture on_picture);
+
+  /// Whether the picture of this moment is read, or wanted all the same.
+  bool wants(hal::TimePoint stamp, bool is_wanted) const;
   /// Queues the picture and returns at once; the newest wins.
   void accept(const ViewPtr& view);
   /// Waits for the present picture and keeps none.
@@ -39,6 +46,7 @@ class ViewEncoder {
   hal::Mailbox<ViewPtr> mailbox_;
   JpegQuality quality_;
   JpegEncoder encoder_;
+  const OnPicture on_picture_;
   const std::shared_ptr<Feed> feed_ = std::make_shared<Feed>();
   hal::SharedThreads::Work work_;
 };

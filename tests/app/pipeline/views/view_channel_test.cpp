@@ -85,6 +85,35 @@ TEST_F(ViewChannelTest, AMeasuredViewIsRenderedEvenThen) {
   EXPECT_TRUE(channel.take());
 }
 
+TEST_F(ViewChannelTest, ADisplayViewHasCountsOfTemperatureWhileTheyAreNeeded) {
+  plan.sources[0].kelvin_per_count = 0.04;
+  buffers.emplace(buffers_for(plan));
+  ViewChannel channel(plan);
+  channel.set_reading(PixelFormat::Rgb, true);
+  const View* const view = render(channel);
+  ASSERT_TRUE(view);
+  ASSERT_FALSE(view->counts.empty());
+  EXPECT_EQ(*view->counts.at(48, 32), 0x0101);
+  EXPECT_EQ(view->kelvin_per_count, 0.04);
+  EXPECT_TRUE(view->radiometric.empty()) << "it does not measure";
+  channel.take();
+  channel.set_reading(PixelFormat::Rgb, false);
+  EXPECT_TRUE(render(channel)->counts.empty());
+}
+
+TEST_F(ViewChannelTest, AMeasuredViewHasThemIfItsCameraCountsTemperature) {
+  plan.measured = 0;
+  buffers.emplace(buffers_for(plan));
+  ViewChannel unknown(plan);
+  EXPECT_TRUE(render(unknown)->counts.empty()) << "they may be anything";
+  unknown.take();
+  plan.sources[0].kelvin_per_count = 0.04;
+  ViewChannel thermal(plan);
+  const View* const view = render(thermal);
+  ASSERT_FALSE(view->counts.empty());
+  EXPECT_EQ(view->counts.data, view->radiometric.data);
+}
+
 /// Recipes of views of one size follow each other.
 TEST_F(ViewChannelTest, AChannelKeepsNothingOfWhatWasTaken) {
   plan.measured = 0;

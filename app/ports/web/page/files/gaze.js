@@ -12,11 +12,14 @@ export class Gaze {
   yaw = 0; // degrees, as everywhere in orbwatch: from +Y towards +X
   pitch = 0;
   fov = 90; // horizontal
+  roll = 0; // of the picture that is turned
 
   #home = null;
 
-  constructor(onChange) {
+  constructor(onChange, { narrowest = kNarrowest, widest = kWidest } = {}) {
     this.onChange = onChange;
+    this.narrowest = narrowest;
+    this.widest = widest;
   }
 
   // Looks where the camera sees best, unless somebody has turned it already.
@@ -24,6 +27,9 @@ export class Gaze {
     if (this.#home) return;
     this.#home = { yaw: Math.atan2(x, y) / kRadians, pitch: Math.asin(z) / kRadians, fov: 90 };
     this.reset();
+  }
+  set home({ yaw, pitch, fov }) {
+    this.#home = { yaw, pitch, fov };
   }
   reset() {
     const { yaw, pitch, fov } = this.#home ?? { yaw: 0, pitch: 0, fov: 90 };
@@ -33,11 +39,16 @@ export class Gaze {
   look(yaw, pitch, fov) {
     this.yaw = ((((yaw + 180) % 360) + 360) % 360) - 180;
     this.pitch = clamp(pitch, -90, 90);
-    this.fov = clamp(fov, kNarrowest, kWidest);
+    this.fov = clamp(fov, this.narrowest, this.widest);
     this.onChange();
   }
   turn(yaw, pitch) {
     this.look(this.yaw + yaw, this.pitch + pitch, this.fov);
+  }
+  // As if the picture were moved, degrees in its own directions.
+  drag(right, up) {
+    const roll = this.roll * kRadians, c = Math.cos(roll), s = Math.sin(roll);
+    this.turn(-(right * c + up * s), -(up * c - right * s));
   }
   zoom(factor) {
     this.look(this.yaw, this.pitch, this.fov / factor);
@@ -55,6 +66,13 @@ export class Gaze {
 }
 
 export function followGestures(canvas, gaze) {
+  followFingers(canvas, gaze);
+  followWheel(canvas, gaze);
+  followKeys(canvas, gaze);
+}
+
+// Mouse, pen and fingers.
+export function followFingers(canvas, gaze) {
   const fingers = new Map(); // by pointer
   const spread = () => {
     const [a, b] = [...fingers.values()];
@@ -71,16 +89,25 @@ export function followGestures(canvas, gaze) {
     const here = { x: event.offsetX, y: event.offsetY };
     fingers.set(event.pointerId, here);
     const share = gaze.fov / canvas.clientWidth / fingers.size;
-    gaze.turn((last.x - here.x) * share, (here.y - last.y) * share);
+    gaze.drag((here.x - last.x) * share, (last.y - here.y) * share);
     if (before > 0 && spread() > 0) gaze.zoom(spread() / before);
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => fingers.delete(event.pointerId));
   }
+}
+
+// `isMeant()`: else the wheel scrolls the page.
+export function followWheel(canvas, gaze, isMeant = () => true) {
   canvas.addEventListener("wheel", (event) => {
+    if (!isMeant()) return;
     event.preventDefault();
     gaze.zoom(Math.exp(-event.deltaY * kWheelZoom));
   }, { passive: false });
+}
+
+// `withShift`: arrows turn with shift only.
+export function followKeys(canvas, gaze, withShift = false) {
   canvas.addEventListener("keydown", (event) => {
     const step = gaze.fov * kKeyShare;
     const done = {
@@ -93,6 +120,7 @@ export function followGestures(canvas, gaze) {
       Home: () => gaze.reset(),
     }[event.key];
     if (!done || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (withShift && event.key.startsWith("Arrow") && !event.shiftKey) return;
     event.preventDefault();
     done();
   });

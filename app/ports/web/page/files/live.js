@@ -1,72 +1,34 @@
-// Views, tiled, each with the age of what is seen.
-import { element, setText } from "./elements.js";
+// Views, tiled.
+import { element } from "./elements.js";
 import { Keyed } from "./figures.js";
-import { NewestPicture } from "./newest_picture.js";
 import { texts } from "./texts.js";
-
-const kStaleMs = 2000;
-
-class Tile {
-  #latest = null; // {age_ms, received} of the picture that is shown
-  #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
-
-  constructor(name) {
-    this.name = name;
-    this.canvas = element("canvas", { role: "img", "aria-label": texts.pictureOf(name) });
-    this.canvas.width = 320;
-    this.canvas.height = 180;
-    this.overlay = element("p", { className: "overlay" });
-    this.age = element("span", { className: "age" }, texts.noPicture);
-    const full = element("button", { type: "button" }, texts.fullScreen);
-    full.addEventListener("click", () => this.root.requestFullscreen());
-    this.root = element("figure", {},
-      element("div", { className: "picture" }, this.canvas, this.overlay),
-      element("figcaption", {}, element("strong", {}, name), this.age,
-        element("a", { className: "button", download: `${name}.jpg`,
-          href: `/snapshot.jpg?view=${encodeURIComponent(name)}` }, texts.snapshot), full));
-  }
-
-  show(message) {
-    return this.#pictures.show(message);
-  }
-
-  #draw(picture, { head, received }) {
-    if (this.canvas.width !== picture.width) this.canvas.width = picture.width;
-    if (this.canvas.height !== picture.height) this.canvas.height = picture.height;
-    this.canvas.getContext("2d").drawImage(picture, 0, 0);
-    this.canvas.dataset.number = head.number;
-    this.#latest = { age_ms: head.age_ms, received };
-  }
-
-  tick(faults) {
-    if (!this.#latest) return setText(this.overlay, faults);
-    const age = this.#latest.age_ms + performance.now() - this.#latest.received;
-    setText(this.age, texts.age(age));
-    this.age.classList.toggle("wrong", age > kStaleMs);
-    const old = age > kStaleMs ? texts.stale(age) : "";
-    setText(this.overlay, [old, faults].filter(Boolean).join(". "));
-  }
-}
+import { Tile } from "./tile.js";
 
 export class Live {
   #chosen = null; // by name, null before the first status
   #faults = "";
+  #isStale = true; // what is known of the views may be of before a restart
 
-  constructor(root, onChoice) {
+  // `mayCommand`: turn and mix views.
+  constructor(root, onChoice, mayCommand) {
     this.onChoice = onChoice;
     this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
     const tiles = element("div", { id: "tiles" });
-    this.tiles = new Keyed(tiles, (name) => new Tile(name));
-    root.append(this.choices, tiles);
+    this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand));
+    root.append(this.choices, tiles, element("p", {}, texts.liveHelp));
     setInterval(() => this.#tick(), 250);
   }
 
   status(status) {
     const faults = status.cameras.filter((c) => c.fault !== 0);
     this.#faults = faults.map((c) => `${c.name}: ${c.fault_text}`).join(". ");
-    if (this.#chosen) return;
+    if (!this.#chosen) this.#begin(status.views);
+    if (this.#isStale) this.#describe();
+  }
+
+  #begin(views) {
     this.#chosen = new Map();
-    for (const { name } of status.views) {
+    for (const { name } of views) {
       this.#chosen.set(name, true);
       const box = element("input", { type: "checkbox", checked: true, name });
       box.addEventListener("change", () => this.#choose(name, box.checked));
@@ -74,6 +36,24 @@ export class Live {
       this.tiles.get(name);
     }
     this.onChoice();
+  }
+
+  async #describe() {
+    this.#isStale = false;
+    try {
+      const answer = await fetch("/api/v1/views");
+      if (!answer.ok) throw new Error(`status ${answer.status}`);
+      for (const view of (await answer.json()).views) {
+        if (this.#chosen.has(view.name)) this.tiles.get(view.name).describe(view);
+      }
+    } catch (error) {
+      console.info(`views: ${error.message}`);
+      this.#isStale = true; // with the next status
+    }
+  }
+
+  lost() {
+    this.#isStale = true;
   }
 
   get views() {

@@ -66,7 +66,7 @@ const { role, has_users: hasUsers } = await admit(() => say(texts.connecting, tr
 addPages();
 const figures = await figuresOfAppliance();
 const choose = () => stream.choose(look.isShown ? look.views : live.views);
-const live = new Live(document.getElementById("live"), choose);
+const live = new Live(document.getElementById("live"), choose, role !== "viewer");
 const look = new Look(document.getElementById("look"), choose);
 const align = new Align(document.getElementById("align"), figures.cameras ?? {});
 const process = new Process(document.getElementById("process"), figures);
@@ -92,6 +92,7 @@ const stream = new Stream(
   },
   () => {
     say(texts.connecting, true);
+    live.lost();
     look.lost();
     askAgain();
   },

@@ -1,14 +1,11 @@
 // Looking around where the browser has no WebGL: the appliance points one of its views, for all who
 // look at it.
-import { command } from "./api.js";
 import { element, setText } from "./elements.js";
+import { NewestCommand } from "./newest_command.js";
 import { NewestPicture } from "./newest_picture.js";
 import { texts } from "./texts.js";
 
 export class ServerLook {
-  #isSending = false;
-  #hasMore = false;
-
   // `pointed`: the views that can be pointed, {name, index}; `onPicture({age_ms, received})`.
   constructor(canvas, gaze, pointed, onPicture) {
     this.gaze = gaze;
@@ -16,6 +13,8 @@ export class ServerLook {
     this.choice = element("select", { name: "pointed" },
       ...pointed.map(({ name }) => element("option", { value: name }, name)));
     this.said = element("p", { className: "wrong", role: "alert" });
+    this.command = new NewestCommand("point_view", (why) =>
+      setText(this.said, why ? texts.refused(why) : ""));
     gaze.onChange = () => this.#point();
     this.pictures = new NewestPicture((picture, { head, received }) => {
       canvas.width = picture.width;
@@ -39,19 +38,10 @@ export class ServerLook {
     if (message.head.name === this.choice.value) this.pictures.show(message);
   }
 
-  // One command at a time; while it is carried out only the newest direction waits.
-  async #point() {
-    this.#hasMore = true;
-    if (this.#isSending) return;
-    this.#isSending = true;
-    while (this.#hasMore) {
-      this.#hasMore = false;
-      const view = this.pointed.find(({ name }) => name === this.choice.value)?.index;
-      if (view === undefined) break;
-      const { yaw, pitch, fov: h_fov } = this.gaze;
-      const why = await command("point_view", { view, yaw, pitch, h_fov });
-      setText(this.said, why ? texts.refused(why) : "");
-    }
-    this.#isSending = false;
+  #point() {
+    const view = this.pointed.find(({ name }) => name === this.choice.value)?.index;
+    if (view === undefined) return;
+    const { yaw, pitch, fov: h_fov } = this.gaze;
+    this.command.send({ view, yaw, pitch, h_fov });
   }
 }

@@ -44,7 +44,21 @@ export const texts = {
   stale: (ms) => `No new picture for ${Math.round(ms / 1000)} s`,
   snapshot: "Snapshot",
   fullScreen: "Full screen",
-  pictureOf: (name) => `Picture of view ${name}`,
+  pictureOf: (name) => `Picture of view ${name}: arrow keys move a crosshair`,
+  liveHelp: "Point at a picture, or tap it, to read what it shows there; arrow keys move a crosshair, with " +
+    "Ctrl by one pixel, Escape removes it. Drag a picture, or press Shift and arrow keys, to turn its view " +
+    "for everybody; + and -, two fingers or, once it was clicked, the wheel zoom, Home looks back.",
+  staysPut: (isMeasured, mayCommand) => (!mayCommand ? "An operator may turn views; you may look."
+    : isMeasured ? "This view is measured: it stays where the recipe has it."
+      : "A ball's own picture cannot be turned; turn it under Look around."),
+  shareOf: (camera, other) => `Share of ${camera} beside ${other}`,
+  amount: (value, unit) => `${value} ${unit === "degC" ? "°C" : unit}`,
+  pixel: ({ yaw, pitch, seen, intensity, temperature, distance, point }) => [
+    yaw === null ? "beside the ball" : `yaw ${yaw.toFixed(2)}°, pitch ${pitch.toFixed(2)}°`,
+    seen ? `${intensity.toFixed(0)} %` : "no camera sees this",
+    temperature === null ? "" : `${temperature.toFixed(1)} °C`,
+    point === null ? "" : `X ${point[0].toFixed(0)}, Y ${point[1].toFixed(0)}, Z ${point[2].toFixed(0)} mm, ` +
+      `${distance.toFixed(0)} mm from the ball`].filter(Boolean).join("; "),
   lookCanvas: "The room as seen from the ball: arrow keys turn, plus and minus zoom, Home looks back",
   lookHelp: "Drag or arrow keys turn, the wheel, two fingers or + and - zoom, Home looks back to " +
     "where the camera sees best.",
@@ -184,20 +198,6 @@ export const texts = {
     pitch: "Pitch, °",
     h_fov: "Width, °",
   },
-  alarms: "Alarms",
-  noAlarms: "There are no alarms.",
-  alarm: "Alarm",
-  state: "State",
-  level: "Level",
-  acknowledge: "Acknowledge",
-  acknowledgeAll: "Acknowledge all",
-  refused: (what) => `Refused: ${what}`,
-  signal: "Signal",
-  value: "Value",
-  unit: "Unit",
-  meaning: "Meaning",
-  region: (name) => `Region ${name}`,
-  noRegions: "The recipe measures no region.",
   fleet: {
     count: (all, gone, alarming, isFull) => [
       all === 1 ? "1 appliance" : `${all} appliances`,
@@ -213,6 +213,20 @@ export const texts = {
     picture: (name) => `What ${name} sees`,
     forget: "Forget those that are gone",
   },
+  alarms: "Alarms",
+  noAlarms: "There are no alarms.",
+  alarm: "Alarm",
+  state: "State",
+  level: "Level",
+  acknowledge: "Acknowledge",
+  acknowledgeAll: "Acknowledge all",
+  refused: (what) => `Refused: ${what}`,
+  signal: "Signal",
+  value: "Value",
+  unit: "Unit",
+  meaning: "Meaning",
+  region: (name) => `Region ${name}`,
+  noRegions: "The recipe measures no region.",
   chartOf: "Signal in the chart",
   chart: (name, low, high, unit) =>
     `${name} in the last ten minutes: ${low} to ${high}${unit ? " " + unit : ""}`,

@@ -25,8 +25,10 @@ class ServedSphere : public Served {
         ViewProjection::make({optics::ViewKind::Ball, {}, {}, {}, 640, 480}, ball).value());
     SinkContext context = make_context();
     context.state_folder = state_folder;
-    context.views[0] = {PixelFormat::Rgb, false, false, view};
-    context.views[1] = {PixelFormat::Rgb, true, false, nullptr};
+    context.views[0].measured = context.views[1].measured = false;
+    context.views[0].spec = view->spec();
+    context.views[0].ball = view;
+    context.views[0].is_own_picture = true;
     sink = std::make_unique<WebSink>(on_a_free_port(), context);
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;

@@ -1,0 +1,26 @@
+// Commands that follow somebody's hand: one at a time, and while it is carried out only the newest
+// waits.
+import { command } from "./api.js";
+
+export class NewestCommand {
+  #isSending = false;
+  #waiting = null;
+
+  // `onAnswer(why)`: empty when it was done.
+  constructor(name, onAnswer) {
+    this.name = name;
+    this.onAnswer = onAnswer;
+  }
+
+  async send(body) {
+    this.#waiting = body;
+    if (this.#isSending) return;
+    this.#isSending = true;
+    while (this.#waiting) {
+      const next = this.#waiting;
+      this.#waiting = null;
+      this.onAnswer(await command(this.name, next));
+    }
+    this.#isSending = false;
+  }
+}

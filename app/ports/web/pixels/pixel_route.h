@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/model/sink.h"
+#include "app/ports/web/http/exchange.h"
+#include "app/ports/web/routes.h"
+#include "app/ports/web/streams/recent_views.h"
+
+namespace orbwatch::app::web {
+
+/// Says what a pixel of a picture that was sent shows. Whoever asks points into the view, whose
+/// pictures are kept from then on: without a number the next one answers. Thread-safe.
+class PixelRoute {
+ public:
+  explicit PixelRoute(const SinkContext& context);
+
+  Route route();
+
+  /// Whether somebody points into a view. Takes no lock.
+  bool wants(std::size_t view, hal::TimePoint now) const { return recent_.wants(view, now); }
+  /// A picture is about to be sent under this number.
+  void show(const ViewPtr& view, std::uint64_t number);
+
+  /// Releases views into which nobody points any more.
+  void release_unwanted(hal::TimePoint now) { recent_.release_unwanted(now); }
+  /// Leaves what waits to its deadline.
+  void stop();
+
+ private:
+  struct Question {
+    ExchangePtr exchange;
+    std::size_t view;
+    std::optional<std::uint64_t> number;  ///< none: of the next picture
+    optics::Vec2 pixel;
+  };
+
+  void serve(const ExchangePtr& exchange);
+  Result<Question> question_of(const ExchangePtr& exchange, std::size_t view) const;
+  void wait(Question question);
+  void answer(const Question& question, const View& view, std::uint64_t number) const;
+
+  const std::vector<std::string> names_;
+  const std::vector<PublishedView> views_;
+  const optics::Ball ball_;
+  const optics::SceneProxy scene_;
+  RecentViews recent_;
+  std::mutex mutex_;
+  std::vector<Question> waiting_;  ///< for the next picture; under mutex_
+};
+
+}  // namespace orbwatch::app::web

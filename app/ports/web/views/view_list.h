@@ -1,0 +1,35 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/model/sink.h"
+#include "app/ports/web/http/exchange.h"
+#include "app/ports/web/routes.h"
+#include "app/ports/web/views/aim.h"
+
+namespace orbwatch::app::web {
+
+/// Says of all views what they show, whether they may be pointed and mixed, and how they are at
+/// present. Thread rule: accept by the pipeline's thread, which holds a lock for a copy only; the
+/// route on any.
+class ViewList {
+ public:
+  explicit ViewList(const SinkContext& context);
+
+  Route route();
+
+  void accept(const View& view);
+
+ private:
+  void serve(const ExchangePtr& exchange) const;
+
+  const std::vector<std::string> names_;
+  const std::vector<PublishedView> views_;
+  mutable std::mutex mutex_;
+  std::vector<std::optional<Aim>> aims_;  ///< of the newest picture, by view; under mutex_
+};
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,257 @@
+"""What a picture shows where one points, beside the machine's truth; a view turned and mixed by hand."""
+
+import json
+import math
+import pathlib
+import statistics
+import tempfile
+import unittest
+import urllib.error
+import urllib.parse
+import urllib.request
+
+import cv2
+import numpy
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from appliance import PATIENCE_S, Appliance, eventually
+from page_case import PageCase
+
+BALL = (120, 60, 430)  # of demo-rig.toml, mm
+TABLE_TOP = 140
+TABLE_DEGC = (35, 42)  # of the simulated machine: 40, its slots 37, and noise
+# Of "heat" in demo.toml.
+YAW, PITCH, H_FOV, WIDTH, HEIGHT = -115, -40, 80, 320, 240
+ON_THE_TABLE = (-220, 60, TABLE_TOP)  # beside work piece and nozzle
+
+
+def pixel_of(point):
+    """Where "heat" shows a point of the machine."""
+    x, y, z = (a - b for a, b in zip(point, BALL))
+    a, b = math.radians(YAW), math.radians(PITCH)
+    right = x * math.cos(a) - y * math.sin(a)
+    level = x * math.sin(a) + y * math.cos(a)
+    forward = level * math.cos(b) + z * math.sin(b)
+    up = z * math.cos(b) - level * math.sin(b)
+    focal = WIDTH / 2 / math.tan(math.radians(H_FOV) / 2)
+    return (WIDTH - 1) / 2 + focal * right / forward, (HEIGHT - 1) / 2 - focal * up / forward
+
+
+class MixingAppliance(Appliance):
+    """With a view of both cameras to look at, `both`, besides the demo's."""
+
+    def __init__(self):
+        super().__init__()
+        with (self.folder / "demo.toml").open("a", encoding="utf-8") as site:
+            site.write(f"""
+[[view]]
+name = "both"
+yaw = {YAW}
+pitch = {PITCH}
+h_fov = {H_FOV}
+width = {WIDTH}
+height = {HEIGHT}
+[[view.source]]
+camera = "colour"
+[[view.source]]
+camera = "thermal"
+colour_map = "inferno"
+range = [15, 60]
+""")
+
+
+class Live(PageCase):
+    make_appliance = staticmethod(MixingAppliance)
+
+    def open(self):
+        self.browser.get(f"{self.appliance.address}#/live")
+        eventually("pictures are shown",
+                   lambda: all(self.browser.picture_numbers().values() or [0]))
+        eventually("what their colours mean is known",
+                   lambda: self.browser.find_elements(By.CSS_SELECTOR, "#tiles .legend"))
+
+    def tile(self, view):
+        return self.browser.execute_script("""
+            return [...document.querySelectorAll('#tiles figure')]
+              .find((f) => f.querySelector('strong').textContent === arguments[0]);""", view)
+
+    def canvas(self, view):
+        canvas = self.tile(view).find_element(By.TAG_NAME, "canvas")
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+        return canvas
+
+    def reading(self, view):
+        """What the tile says of a pixel, and of which: {text, u, v, number}, or nothing yet."""
+        return self.browser.execute_script("""
+            const { textContent: text, dataset } = arguments[0].querySelector('.reading');
+            return dataset.number ? { text, ...dataset } : null;""", self.tile(view))
+
+    def get(self, path):
+        with urllib.request.urlopen(self.appliance.address + path, timeout=PATIENCE_S) as answer:
+            return json.load(answer)
+
+    def read_with_the_interface(self, view):
+        """What the page says of a pixel, and the interface of the same one of the same picture."""
+        def both():
+            said = self.reading(view)
+            if not said:
+                return None
+            pixel = {name: said[name] for name in ("number", "u", "v")}
+            query = urllib.parse.urlencode({"view": view, **pixel})
+            try:
+                return said, self.get(f"api/v1/live/pixel?{query}")
+            except urllib.error.HTTPError as error:
+                self.assertEqual(error.code, 410)  # the picture is older than those that are kept
+                return None
+        return eventually("the same picture is read by page and interface", both)
+
+    def expect_the_table(self, said, known):
+        """By the geometry of the machine alone."""
+        u, v = pixel_of(known["point"])
+        self.assertAlmostEqual(u, float(said["u"]), delta=0.01)
+        self.assertAlmostEqual(v, float(said["v"]), delta=0.01)
+        self.assertAlmostEqual(known["point"][2], TABLE_TOP, delta=0.01)
+        self.assertAlmostEqual(known["distance"], math.dist(known["point"], BALL), delta=0.01)
+        self.assertGreater(known["temperature"], TABLE_DEGC[0])
+        self.assertLess(known["temperature"], TABLE_DEGC[1])
+
+    def test_pointing_reads_the_picture_that_is_seen(self):
+        self.open()
+        canvas = self.canvas("heat")
+        u, v = pixel_of(ON_THE_TABLE)
+        width, height = canvas.size["width"], canvas.size["height"]
+        ActionChains(self.browser).move_to_element_with_offset(
+            canvas, round((u + 0.5) / WIDTH * width - width / 2),
+            round((v + 0.5) / HEIGHT * height - height / 2)).perform()
+        said, known = self.read_with_the_interface("heat")
+        self.assertAlmostEqual(float(said["u"]), u, delta=2)
+        self.assertAlmostEqual(float(said["v"]), v, delta=2)
+        self.expect_the_table(said, known)
+        for shown in (f"yaw {known['yaw']:.2f}°", f"pitch {known['pitch']:.2f}°",
+                      f"{known['temperature']:.1f} °C", f"{known['distance']:.0f} mm"):
+            self.assertIn(shown, said["text"])
+        # It goes on with the picture.
+        eventually("a newer picture is read",
+                   lambda: int(self.reading("heat")["number"]) > int(said["number"]))
+        self.browser.keep_picture("pointing")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_keys_move_a_crosshair(self):
+        self.open()
+        canvas = self.canvas("heat")
+        self.browser.execute_script("arguments[0].focus()", canvas)
+        ActionChains(self.browser).send_keys(
+            Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ARROW_DOWN).perform()
+        said, known = self.read_with_the_interface("heat")
+        self.assertEqual((said["u"], said["v"]), ("174", "127"))
+        self.assertIn(f"yaw {known['yaw']:.2f}°", said["text"])
+        mark = self.tile("heat").find_element(By.CLASS_NAME, "crosshair")
+        self.assertTrue(mark.is_displayed())
+        self.assertIn("yaw", self.tile("heat").find_element(By.CLASS_NAME, "spoken").text)
+        ActionChains(self.browser).send_keys(Keys.ESCAPE).perform()
+        self.assertFalse(mark.is_displayed())
+        self.assertEqual(self.browser.complaints(), [])
+
+    def view(self, name):
+        return next(view for view in self.get("api/v1/views")["views"] if view["name"] == name)
+
+    def expect_aim(self, view, yaw, pitch, h_fov):
+        def aims():
+            aim = self.view(view)["aim"]
+            return all(abs(aim[name] - value) < 0.2 for name, value in
+                       [("yaw", yaw), ("pitch", pitch), ("h_fov", h_fov)])
+        eventually(f"{view} looks to {yaw:.2f}, {pitch:.2f}, {h_fov:.2f} wide", aims)
+
+    def command(self, name, **arguments):
+        """Status and answer."""
+        request = urllib.request.Request(
+            f"{self.appliance.address}api/v1/command/{name}", json.dumps(arguments).encode(),
+            {"Content-Type": "application/json"})
+        try:
+            with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
+                return answer.status, json.load(answer)
+        except urllib.error.HTTPError as error:
+            return error.code, json.load(error)
+
+    def test_hand_wheel_and_keys_turn_a_view(self):
+        self.open()
+        canvas = self.canvas("heat")
+        degrees = H_FOV / canvas.size["width"]
+        ActionChains(self.browser).drag_and_drop_by_offset(canvas, 60, 30).perform()
+        yaw, pitch = YAW - 60 * degrees, PITCH + 30 * degrees
+        self.expect_aim("heat", yaw, pitch, H_FOV)
+        # Clicked, it has the wheel; without that the page scrolls.
+        ActionChains(self.browser).scroll_from_origin(
+            ScrollOrigin.from_element(canvas), 0, -200).perform()
+        h_fov = H_FOV * math.exp(-200 * 0.0015)
+        self.expect_aim("heat", yaw, pitch, h_fov)
+        ActionChains(self.browser).key_down(Keys.SHIFT).send_keys(Keys.ARROW_RIGHT).key_up(
+            Keys.SHIFT).perform()
+        self.expect_aim("heat", yaw + h_fov / 20, pitch, h_fov)
+        ActionChains(self.browser).send_keys(Keys.HOME).perform()
+        self.expect_aim("heat", YAW, PITCH, H_FOV)
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_what_is_measured_stays_put(self):
+        self.open()
+        before = self.view("process")
+        ActionChains(self.browser).drag_and_drop_by_offset(self.canvas("process"), 40, 0).perform()
+        said = self.tile("process").find_element(By.CSS_SELECTOR, "[role=alert]").text
+        self.assertIn("measured", said)
+        status, answer = self.command("point_view", view=before["index"], yaw=0, pitch=0, h_fov=0)
+        self.assertEqual((status, answer["result_text"]),
+                         (409, "not possible with this configuration"))
+        self.assertEqual(self.view("process")["aim"], before["aim"])
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_a_slider_mixes_two_cameras(self):
+        self.open()
+        seen = {}
+        for share in (0, 100):
+            slider = self.tile("both").find_element(By.NAME, "share-thermal")
+            self.browser.execute_script("""
+                arguments[0].value = arguments[1];
+                arguments[0].dispatchEvent(new Event('input'));""", slider, share)
+
+            def is_mixed(share=share):
+                colour, thermal = self.view("both")["aim"]["weights"]
+                return abs(thermal / (colour + thermal) - share / 100) < 0.01
+            eventually(f"the thermal camera has {share} %", is_mixed)
+            number = self.browser.picture_numbers()["both"]
+            eventually("newer pictures are shown",
+                       lambda number=number: self.browser.picture_numbers()["both"] > number + 2)
+            place = self.view("both")["index"] + 1
+            seen[share] = statistics.mean(
+                self.browser.pixels(f"#tiles figure:nth-child({place}) canvas"))
+        self.assertGreater(abs(seen[100] - seen[0]), 20)
+        self.assertEqual(slider.get_attribute("value"), "100")
+        self.browser.keep_picture("mixing")
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_colours_have_a_legend_in_tile_and_snapshot(self):
+        self.open()
+        legend = self.tile("heat").find_element(By.CLASS_NAME, "legend").text
+        self.assertEqual(legend, "thermal 15 °C200 °C")
+        self.assertFalse(self.tile("door").find_elements(By.CLASS_NAME, "legend"))
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.execute_cdp_cmd("Browser.setDownloadBehavior",
+                                         {"behavior": "allow", "downloadPath": folder})
+            self.tile("heat").find_element(By.XPATH, ".//button[text()='Snapshot']").click()
+            file = eventually("the file is there", lambda: next(
+                pathlib.Path(folder).glob("heat-*.jpg"), None))
+            picture = cv2.imread(str(file))  # it has this name once it is whole
+        self.assertEqual(picture.shape[1], WIDTH)
+        self.assertGreater(picture.shape[0], HEIGHT)
+        # The ramp below the picture goes from turbo's dark blue over green to its dark red.
+        ramp = picture[-13].astype(int)
+        ramp -= numpy.median(ramp, axis=1, keepdims=True).astype(int)  # grey, as text is, is 0
+        blue, green, red = (ramp[:, channel].argmax() for channel in range(3))
+        self.assertTrue(blue < green < red, (blue, green, red))
+        self.assertEqual(self.browser.complaints(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
