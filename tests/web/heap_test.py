@@ -1,0 +1,68 @@
+"""Twelve views in one page for long: as many connections as for one, and nothing that grows."""
+
+import os
+import pathlib
+import time
+import unittest
+
+from appliance import Appliance, eventually
+from page_case import PageCase
+
+VIEWS = 12
+# An hour with ORBWATCH_SHARE=1, as the long gates of the other tests; else two minutes.
+SECONDS = 3600 if os.environ.get("ORBWATCH_SHARE") == "1" else 120
+PAUSE_S = 10  # between two looks at the memory
+SHARE = 0.25  # of the time: until caches are full
+BROWSER_MAY_GROW = 1_000_000  # bytes, of some 3 MB that the page holds
+DAEMON_MAY_GROW = 4_000_000  # bytes, of some 150 MB
+
+
+class TwelveViews(Appliance):
+    def __init__(self):
+        super().__init__()
+        file = self.folder / "demo.toml"
+        views = "".join(f'[[view]]\nname = "view_{n}"\nyaw = {30 * n}\nh_fov = 60\nwidth = 320\n'
+                        'height = 240\n[[view.source]]\ncamera = "colour"\n'
+                        for n in range(VIEWS - 4))
+        file.write_text(file.read_text(encoding="utf-8") + views, encoding="utf-8")
+
+    def resident(self):
+        """Bytes of the daemon."""
+        fields = pathlib.Path(f"/proc/{self.daemon.pid}/statm").read_text(encoding="ascii").split()
+        return int(fields[1]) * os.sysconf("SC_PAGESIZE")
+
+
+class Heap(PageCase):
+    @classmethod
+    def make_appliance(cls):
+        return TwelveViews()
+
+    def used(self):
+        """Bytes that the page holds, without what is garbage."""
+        self.browser.execute_cdp_cmd("HeapProfiler.collectGarbage", {})
+        return self.browser.execute_cdp_cmd("Runtime.getHeapUsage", {})["usedSize"]
+
+    def test_twelve_views_take_two_connections_and_no_more_memory(self):
+        self.browser.get(self.appliance.address)
+        eventually("all views are seen", lambda: len(
+            numbers := self.browser.picture_numbers()) == VIEWS and all(numbers.values()))
+        eventually("the page's connection and the one that asks are left",
+                   lambda: self.appliance.status()["web"]["connections"] <= 2)
+        self.assertEqual(self.appliance.status()["web"]["streams"], 1)
+        page, daemon = [], []
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            time.sleep(PAUSE_S)  # what is tested is time that passes
+            page.append(self.used())
+            daemon.append(self.appliance.resident())
+        first = max(1, round(SHARE * len(page)))
+        self.assertLess(min(page[-first:]) - min(page[:first]), BROWSER_MAY_GROW, page)
+        self.assertLess(daemon[-1] - daemon[first], DAEMON_MAY_GROW, daemon)
+        before = self.browser.picture_numbers()
+        eventually("pictures still come", lambda: all(
+            number > before[view] for view, number in self.browser.picture_numbers().items()))
+        self.assertEqual(self.browser.complaints(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
