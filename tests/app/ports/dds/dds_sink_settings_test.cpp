@@ -26,8 +26,8 @@ class DdsSinkSettingsTest : public testing::Test {
 
 TEST_F(DdsSinkSettingsTest, EncodingIsThatOfTheView) {
   DdsSettings chosen = settings();
-  chosen.views = {{"front", {.encoding = PixelFormat::Bgr}},
-                  {"wide", {.encoding = PixelFormat::Grey}}};
+  chosen.views["front"].encoding = PixelFormat::Bgr;
+  chosen.views["wide"].encoding = PixelFormat::Grey;
   DdsSink sink(chosen, tests::make_names(), nullptr);
   ASSERT_TRUE(sink.start());
   const ImageReader front("rt/orbwatch/front/image_raw"), wide("rt/orbwatch/wide/image_raw");
