@@ -11,6 +11,7 @@
 #include "app/watch/watch_settings.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
+#include "hal/genicam/genicam_settings.h"
 #include "hal/libcamera/libcamera_settings.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/replay/replay_settings.h"
@@ -29,6 +30,7 @@ using BackEndSettings = std::variant<simulation::SimulatedCameraSettings,  //
                                      hal::ReplaySettings,                  //
                                      hal::V4l2Settings,                    //
                                      hal::LibcameraSettings,               //
+                                     hal::GenicamSettings,                 //
                                      hal::TestPatternSettings>;
 
 /// A control of a camera and its value, applied when the camera is opened.
@@ -65,10 +67,11 @@ inline constexpr std::array kTriggerActivations{
 
 template <class Visitor>
 void visit(Visitor& v, ControlSettings& control) {
-  v.required("name", control.name,
-             "GenICam's, for v4l2 and libcamera: ExposureTime (us), Gain, and ExposureAuto and "
-             "BalanceWhiteAuto (0 off, 1 on), for v4l2 GainAuto and TriggerMode, too; or the "
-             "camera's own, as `orbwatch list` shows it");
+  v.required(
+      "name", control.name,
+      "GenICam's, for v4l2, libcamera and genicam: ExposureTime (us), Gain, and ExposureAuto "
+      "and BalanceWhiteAuto (0 off, 1 on), for v4l2 and genicam GainAuto and TriggerMode, "
+      "too; or the camera's own, as `orbwatch list` shows it");
   v.required("value", control.value, kAnyNumber,
              "In the camera's units; for a menu, the entry's number");
 }
@@ -120,7 +123,7 @@ void visit(Visitor& v, CameraSettings& camera) {
              "Of its own pictures over DDS; 16-bit ones go out as mono16");
   v.table("watch", camera.watch, "Whether it still sees the ball where it was aligned");
   v.tables("control", camera.controls, 0, 64,
-           "Settings of the camera, applied in this order, for v4l2 and libcamera");
+           "Settings of the camera, applied in this order, for v4l2, libcamera and genicam");
   v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
   v.require(!std::holds_alternative<simulation::SimulatedCameraSettings>(camera.back_end) ||
                 (camera.stream.width && camera.stream.height),

@@ -274,9 +274,18 @@ struct CameraWatchStatus {
   FIELD(std::uint64_t, flawed, kCount,                                                           \
         "Frames used although their JPEG data has padding before a marker, or no end marker")
 
+#define ORBWATCH_LINK_FIGURES(FIELD)                                                 \
+  FIELD(std::uint64_t, missing_packets, kCount,                                      \
+        "Packets of a GigE Vision camera that never came; their frames are damaged") \
+  FIELD(std::uint64_t, resent_packets, kCount,                                       \
+        "Packets of a GigE Vision camera that came when they were asked for again")  \
+  FIELD(std::uint64_t, underruns, kCount,                                            \
+        "Packets of a GigE Vision camera, or frames of a USB3 Vision one, without a buffer")
+
 /// One camera.
 struct CameraStatus : CameraWatchStatus {
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
+  ORBWATCH_LINK_FIGURES(ORBWATCH_FIELD_MEMBER)
 };
 
 #define ORBWATCH_VIEW_FIGURES(FIELD)                                                           \
@@ -372,6 +381,7 @@ constexpr void for_each_field(std::type_identity<CameraStatus>, Visit&& visit) {
   using Part = CameraStatus;
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
   ORBWATCH_WATCH_FIGURES(ORBWATCH_VISIT_FIELD)
+  ORBWATCH_LINK_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 
 template <class Visit>

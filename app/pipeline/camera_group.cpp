@@ -197,6 +197,10 @@ void CameraGroup::report(Status& status, std::optional<hal::Clock::duration> ela
     camera.unmatched = counts.unmatched;
     camera.damaged = quality.damaged;
     camera.flawed = quality.flawed;
+    const hal::LinkCounts link = member.camera->link_counts();
+    camera.missing_packets = link.missing_packets;
+    camera.resent_packets = link.resent_packets;
+    camera.underruns = link.underruns;
     camera.last_frame = member.last_frame;
     if (member.trigger) {
       const hal::TriggerCounts triggers = member.trigger->counts();

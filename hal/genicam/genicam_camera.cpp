@@ -159,13 +159,17 @@ DeviceResult<double> GenicamCamera::open_stream() {
   clock_ = {};
   latch_ = TimestampLatch::find(camera_.get());
   latch_due_ = Clock::now();
+  is_lost_ = false;
   runs_ = true;
   return format_.stream.frame_rate;
 }
 
 DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
   const auto captured = stream_->next(deadline);
-  if (!captured) return tl::unexpected(captured.error());
+  if (!captured) {
+    is_lost_ = true;
+    return tl::unexpected(captured.error());
+  }
   if (*captured) {
     read_clock();
     forward_intact(**captured);
@@ -178,6 +182,7 @@ DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
 /// No frame came in time. Reported before the stream is closed, which takes seconds when the camera
 /// does not answer.
 tl::unexpected<FaultReport> GenicamCamera::silence() {
+  is_lost_ = true;
   const std::string who = "genicam: camera " + found_.id;
   FaultReport fault{Fault::Stalled, who + ": sends no frames, but answers"};
   if (found_.is_gige() && !read_gige_identity(found_.address)) {
@@ -195,7 +200,7 @@ DeviceResult<> GenicamCamera::close_stream() {
   count_link();
   ended_ = counts_;
   stream_.reset();
-  camera_.reset();
+  if (is_lost_) camera_.reset();
   return {};
 }
 

@@ -23,7 +23,7 @@ namespace orbwatch::hal {
 
 /// A GigE Vision or USB3 Vision camera. Frames are forwarded in the buffer that was received, or
 /// decoded where the pipeline does not read their format. Incomplete ones are withheld and counted.
-/// From configure() on it controls the camera, which no other host can then, until stop() or the
+/// From configure() on it controls the camera, which no other host can then, until its end or the
 /// loss of the connection. Silence while it waits for a trigger is no fault.
 class GenicamCamera : public DeviceCamera {
  public:
@@ -77,6 +77,7 @@ class GenicamCamera : public DeviceCamera {
   std::size_t buffers_ = kFreeRunningBuffers;  ///< of the stream
   std::unique_ptr<GenicamDecoder> decoder_;    ///< for formats that are not zero-copy
   std::unique_ptr<GenicamStream> stream_;      ///< while open
+  bool is_lost_ = false;                       ///< a fault ended the stream
   mutable std::mutex counts_mutex_;
   LinkCounts counts_;  ///< of all streams
   LinkCounts ended_;   ///< of those that ended

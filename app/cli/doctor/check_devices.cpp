@@ -48,7 +48,7 @@ Diagnosis camera_diagnosis(const CameraFacts& camera, const BoardFacts& board) {
     case Presence::Closed:
       return fault(who + ": " + camera.error, join_group("video"));
     case Presence::NoModule:
-      return fault(who + ": " + camera.error, "sudo apt install orbwatch-camera-libcamera");
+      return fault(who + ": " + camera.error, "sudo apt install orbwatch-camera-" + camera.module);
     case Presence::Missing:
       break;
   }

@@ -54,6 +54,7 @@ struct CameraFacts {
   Presence presence = Presence::There;
   std::string error{};                ///< why it is not There
   std::vector<std::string> others{};  ///< ids of the cameras that are
+  std::string module{};               ///< that is not installed: a back-end's word
 };
 
 /// Of the service if it runs, else of this program.

@@ -48,10 +48,15 @@ class Search {
   }
   CameraFacts operator()(const hal::V4l2Settings& v4l2) const;
   CameraFacts operator()(const hal::LibcameraSettings& camera) const;
+  CameraFacts operator()(const hal::GenicamSettings& camera) const;
 
  private:
   CameraFacts missing(const std::string& address, std::string error,
                       const std::vector<hal::CameraEntry>& there) const;
+  /// A camera of a back-end that is a module; `is_named` says which of its cameras it is.
+  template <class IsNamed>
+  CameraFacts in_module(std::string_view back_end, const std::string& wanted,
+                        const IsNamed& is_named) const;
 
   const Sources& sources_;
   std::string name_;
@@ -78,23 +83,41 @@ CameraFacts Search::operator()(const hal::V4l2Settings& v4l2) const {
   return missing(address, device.error().detail, hal::list_v4l2_cameras(dev));
 }
 
-CameraFacts Search::operator()(const hal::LibcameraSettings& camera) const {
-  const auto cameras = sources_.module_cameras(hal::LibcameraSettings::kName);
-  if (!cameras) return {name_, camera.camera, Presence::NoModule, cameras.error().message};
-  // As libcamera's module chooses: the whole id, or a part of id or model that one camera has.
-  const auto named = [&](const hal::CameraEntry& entry) {
-    return entry.problem.empty() && (entry.id.find(camera.camera) != std::string::npos ||
-                                     entry.model.find(camera.camera) != std::string::npos);
-  };
-  const auto whole = std::ranges::count(*cameras, camera.camera, &hal::CameraEntry::id);
-  const auto fitting = std::ranges::count_if(*cameras, named);
-  if (whole == 1 || fitting == 1) return {name_, camera.camera, Presence::There};
+template <class IsNamed>
+CameraFacts Search::in_module(std::string_view back_end, const std::string& wanted,
+                              const IsNamed& is_named) const {
+  const auto cameras = sources_.module_cameras(back_end);
+  if (!cameras) {
+    CameraFacts facts{name_, wanted, Presence::NoModule, cameras.error().message};
+    facts.module = back_end;
+    return facts;
+  }
+  const auto whole = std::ranges::count(*cameras, wanted, &hal::CameraEntry::id);
+  const auto fitting = std::ranges::count_if(*cameras, is_named);
+  if (whole == 1 || fitting == 1) return {name_, wanted, Presence::There};
   const auto broken = std::ranges::find_if(
       *cameras, [](const hal::CameraEntry& entry) { return !entry.problem.empty(); });
   std::string error =
-      fitting > 1 ? "several cameras have this name" : "libcamera has none so named";
+      fitting > 1 ? "several cameras have this name" : std::string(back_end) + " has none so named";
   if (broken != cameras->end()) error = broken->problem;
-  return missing(camera.camera, std::move(error), *cameras);
+  return missing(wanted, std::move(error), *cameras);
+}
+
+CameraFacts Search::operator()(const hal::LibcameraSettings& camera) const {
+  // As libcamera's module chooses: the whole id, or a part of id or model that one camera has.
+  return in_module(
+      hal::LibcameraSettings::kName, camera.camera, [&camera](const hal::CameraEntry& entry) {
+        return entry.problem.empty() && (entry.id.find(camera.camera) != std::string::npos ||
+                                         entry.model.find(camera.camera) != std::string::npos);
+      });
+}
+
+CameraFacts Search::operator()(const hal::GenicamSettings& camera) const {
+  // A camera that orbwatchd controls answers, but cannot be opened: it is there.
+  return in_module(hal::GenicamSettings::kName, camera.camera,
+                   [&camera](const hal::CameraEntry& entry) {
+                     return std::ranges::find(entry.paths, camera.camera) != entry.paths.end();
+                   });
 }
 
 }  // namespace

@@ -18,9 +18,18 @@ namespace fs = std::filesystem;
 
 hal::V4l2Settings v4l2(const std::string& device) { return {.device = device}; }
 hal::LibcameraSettings libcamera(const std::string& id) { return {.camera = id}; }
+hal::GenicamSettings genicam(const std::string& name) {
+  hal::GenicamSettings settings;
+  settings.camera = name;
+  return settings;
+}
 
 std::vector<hal::CameraEntry> libcamera_cameras() {
   return hal::list_module_cameras(hal::LibcameraSettings::kName);
+}
+
+std::vector<hal::CameraEntry> genicam_cameras() {
+  return hal::list_module_cameras(hal::GenicamSettings::kName);
 }
 
 bool is_usb(const hal::CameraEntry& camera) {
@@ -53,6 +62,12 @@ Result<CameraSource> camera_source(const std::string& word) {
     source.back_end = libcamera(place);
     return source;
   }
+  if (std::ranges::any_of(genicam_cameras(), [&](const auto& c) {
+        return c.id == place || std::ranges::find(c.paths, place) != c.paths.end();
+      })) {
+    source.back_end = genicam(place);
+    return source;
+  }
   return fail(place +
               ": is no folder, no picture and no camera; `orbwatch list` shows the cameras");
 }
@@ -69,6 +84,9 @@ Result<std::vector<CameraSource>> connected_cameras() {
     if (!is_usable(camera) || camera.modes.empty()) continue;
     if (is_usb(camera) || !has_sensors) sources.push_back({"", v4l2(camera.id)});
   }
+  for (const auto& camera : genicam_cameras()) {
+    if (is_usable(camera)) sources.push_back({"", genicam(camera.id)});
+  }
   if (!sources.empty()) return sources;
   return fail("no camera is connected; name pictures by --camera IMAGE, or see `orbwatch list`");
 }
@@ -83,7 +101,8 @@ std::string back_end_text(const BackEndSettings& back_end) {
           return head + table + "source = " + toml_string(settings.source.string()) + "\n";
         } else if constexpr (std::is_same_v<Settings, hal::V4l2Settings>) {
           return head + table + "device = " + toml_string(settings.device) + "\n";
-        } else if constexpr (std::is_same_v<Settings, hal::LibcameraSettings>) {
+        } else if constexpr (std::is_same_v<Settings, hal::LibcameraSettings> ||
+                             std::is_same_v<Settings, hal::GenicamSettings>) {
           return head + table + "camera = " + toml_string(settings.camera) + "\n";
         } else {
           return head;

@@ -15,7 +15,8 @@ struct CameraSource {
 };
 
 /// `word` as [NAME=]SOURCE: a folder of pictures, a picture or a video, which are replayed; a V4L2
-/// device or its place on a bus; a camera of libcamera by its id. Error: none of these.
+/// device or its place on a bus; a camera of libcamera by its id, one of genicam by
+/// any of its names. Error: none of these.
 Result<CameraSource> camera_source(const std::string& word);
 
 /// Every camera that is connected, without names. Those of libcamera that V4L2 shows, too, are

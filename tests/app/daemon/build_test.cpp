@@ -224,8 +224,8 @@ TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
 }
 
 TEST(Check, WhatIsShippedCanRunAndTheReferenceMachine) {
-  for (const char* file :
-       {"demo.toml", "usb-camera.toml", "../../tests/bench/reference/site.toml"}) {
+  for (const char* file : {"demo.toml", "usb-camera.toml", "gige-camera.toml",
+                           "../../tests/bench/reference/site.toml"}) {
     const auto checked = resolve(kShipped / file).and_then([](const Resolved& site) {
       return check_site(site, Dates::Checked);
     });

@@ -125,13 +125,13 @@ TEST_F(OnFakeCamera, EveryFormatThatItHasBecomesAPicture) {
   });
 }
 
-TEST_F(OnFakeCamera, IsFoundByItsAddressIdAndSerialNumber) {
+TEST_F(OnFakeCamera, IsFoundByItsAddressAndSerialNumber) {
   run([](FakeGigeCamera&) {
     const auto cameras = find_cameras();
     ASSERT_EQ(cameras.size(), 1U);
     EXPECT_EQ(cameras[0].serial, FakeGigeCamera::kSerial);
     EXPECT_EQ(cameras[0].address, FakeGigeCamera::kAddress);
-    for (const std::string& name : {cameras[0].id, cameras[0].serial, cameras[0].address}) {
+    for (const std::string& name : {cameras[0].serial, cameras[0].address}) {
       GenicamSettings wanted = settings();
       wanted.camera = name;
       EXPECT_EQ(refusal(wanted, {}), "") << name;

@@ -157,7 +157,9 @@ TEST_F(Checks, Cameras) {
   found.error = "no permission";
   expect(check_cameras(facts), Level::Fault, "no permission", "usermod -aG video");
   found.presence = Presence::NoModule;
-  expect(check_cameras(facts), Level::Fault, "no permission", "orbwatch-camera-libcamera");
+  found.module = "genicam";
+  expect(check_cameras(facts), Level::Fault, "no permission",
+         "sudo apt install orbwatch-camera-genicam");
 }
 
 TEST_F(Checks, AMissingCameraComesWithTheOthersAndItsOverlay) {

@@ -167,6 +167,7 @@ hal::CameraEntry named(const std::string& id, const std::string& model) {
 TEST_F(Gather, ModuleCameras) {
   module_cameras = fail("not installed");
   EXPECT_EQ(with_libcamera().cameras.at(0).presence, Presence::NoModule);
+  EXPECT_EQ(with_libcamera().cameras.at(0).module, "libcamera");
   module_cameras = std::vector{named("/base/i2c@1/imx296@1a", "imx296"),
                                named("/base/i2c@2/imx219@10", "imx219")};
   EXPECT_EQ(with_libcamera().cameras.at(0).presence, Presence::There);
@@ -176,6 +177,23 @@ TEST_F(Gather, ModuleCameras) {
   EXPECT_THAT(with_libcamera("imx2").cameras.at(0).error, HasSubstr("several"));
   module_cameras->front().problem = "libcamera cannot start";
   EXPECT_THAT(with_libcamera("imx708").cameras.at(0).error, HasSubstr("cannot start"));
+}
+
+TEST_F(Gather, GenicamCamerasByAnyOfTheirNames) {
+  const auto presence = [this](const std::string& name) {
+    return of("back_end = \"genicam\"\n[camera.genicam]\ncamera = \"" + name + "\"\n")
+        .cameras.at(0)
+        .presence;
+  };
+  hal::CameraEntry camera = named("Maker-Thermal-24512", "Thermal");
+  camera.paths = {"24512", "192.168.7.20", "left"};
+  // orbwatchd has it.
+  camera.problem = "is under the control of another host or program";
+  module_cameras = std::vector{camera};
+  for (const char* name : {"Maker-Thermal-24512", "24512", "192.168.7.20", "left"}) {
+    EXPECT_EQ(presence(name), Presence::There) << name;
+  }
+  EXPECT_EQ(presence("245"), Presence::Missing);
 }
 
 TEST_F(Gather, HeapsBatteryClockAndWatchdog) {

@@ -1,0 +1,150 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/app/daemon/daemon_program.h"
+#include "tests/hal/genicam/fake_gige_camera.h"
+#include "tests/support/network_namespace.h"
+#include "tests/support/reference_data.h"
+#include "tests/support/share.h"
+
+/// orbwatchd with Aravis' fake GigE Vision camera, in a network of their own.
+namespace orbwatch::tests {
+namespace {
+
+const std::string kRig = kMachine + R"(
+[[camera]]
+name = "thermal"
+width = 160
+height = 120
+[camera.outline]
+centre = [79.5, 59.5]
+radius = 55
+alpha = 343.571
+)";
+
+const std::string kRecipe = R"(
+name = "ramp"
+[[view]]
+name = "front"
+measured = "thermal"
+width = 64
+height = 48
+[[view.source]]
+camera = "thermal"
+[[region]]
+name = "front"
+view = "front"
+hot_spot_threshold = 100
+)";
+
+std::string site(const std::string& keys) {
+  return R"(
+[[camera]]
+name = "thermal"
+back_end = "genicam"
+width = 160
+height = 120
+frame_rate = 100
+kelvin_per_count = 0.04
+)" + keys +
+         R"([camera.genicam]
+camera = "127.0.0.1"
+pixel_format = "Mono16"
+)";
+}
+
+class GenicamDaemon : public Daemon {
+ protected:
+  void SetUp() override {
+    ORBWATCH_REQUIRE_NETWORK_NAMESPACES();
+    setenv("ORBWATCH_MODULES", ORBWATCH_BUILT_MODULES, 1);
+  }
+  void TearDown() override { unsetenv("ORBWATCH_MODULES"); }
+
+  /// Does `work` while a daemon measures what the camera sends.
+  void run(const std::string& keys, const std::function<void(Subprocess&, FakeGigeCamera&)>& work) {
+    const NetworkNamespace network;
+    network.run([&] {
+      FakeGigeCamera fake({});
+      Subprocess daemon = start(write_config(site(keys), kRig, kRecipe));
+      ASSERT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") > 0; }))
+          << daemon.output();
+      work(daemon, fake);
+      daemon.send(SIGTERM);
+      EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+    });
+  }
+
+  bool delivers(Subprocess& daemon) {
+    return eventually(daemon, [&] { return read("camera_0_fault") == 0; }) &&
+           eventually(daemon, [&, before = read("camera_0_frames")] {
+             return read("camera_0_frames") > before;
+           });
+  }
+};
+
+/// `whole` rounds of what mostly waits, in acceptance mode, else `few`.
+int whole_or(int whole, int few) { return acceptance_mode() ? share_of(whole) : few; }
+
+std::size_t open_files(const Subprocess& program) {
+  const std::filesystem::directory_iterator first("/proc/" + std::to_string(program.pid()) + "/fd");
+  return static_cast<std::size_t>(std::distance(begin(first), end(first)));
+}
+
+/// Resident memory, KiB.
+long resident(const Subprocess& program) {
+  std::ifstream status("/proc/" + std::to_string(program.pid()) + "/status");
+  std::string word;
+  long size = 0;
+  while (status >> word && word != "VmRSS:") continue;
+  status >> size;
+  return size;
+}
+
+TEST_F(GenicamDaemon, MeasuresAgainAfterEachReturnOfTheCameraAndNothingGrows) {
+  run("", [&](Subprocess& daemon, FakeGigeCamera& fake) {
+    ASSERT_TRUE(delivers(daemon)) << daemon.output();
+    std::size_t files = 0;
+    long memory = 0;
+    const int restarts = whole_or(100, 3);
+    for (int round = 0; round < restarts; ++round) {
+      fake.kill();
+      ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_fault") != 0; }))
+          << daemon.output();
+      fake.start();
+      ASSERT_TRUE(delivers(daemon)) << daemon.output();
+      if (round > 0) continue;
+      // Libraries keep something after the first time.
+      files = open_files(daemon);
+      memory = resident(daemon);
+    }
+    EXPECT_TRUE(eventually(daemon, [&] { return open_files(daemon) <= files; }))
+        << open_files(daemon) << ", before " << files;
+    constexpr long kNoise = 4096;
+    EXPECT_LE(resident(daemon), memory + kNoise + 16L * restarts);
+    EXPECT_EQ(read("camera_0_underruns"), 0);
+  });
+}
+
+TEST_F(GenicamDaemon, EachSoftwareTriggerGivesOneResult) {
+  // The fake camera states 10 ms of exposure and does not take them before it sends.
+  run("trigger_mode = \"software\"\ntrigger_source = \"software\"\nstamp_offset_us = -10000\n",
+      [&](Subprocess& daemon, FakeGigeCamera&) {
+        const int triggers = whole_or(1000, 30);
+        for (int n = 1; n <= triggers; ++n) {
+          ASSERT_EQ(command(daemon, app::CommandCode::Trigger), app::CommandResult::Done) << n;
+          ASSERT_TRUE(eventually(daemon, [&] { return read("system_result") >= n; }))
+              << n << ": " << daemon.output();
+        }
+        EXPECT_EQ(read("system_result"), triggers);
+        EXPECT_EQ(read("camera_0_triggers"), triggers);
+        EXPECT_EQ(read("camera_0_missed"), 0);
+        EXPECT_EQ(read("camera_0_frames"), triggers);
+      });
+}
+
+}  // namespace
+}  // namespace orbwatch::tests
