@@ -9,6 +9,7 @@
 #include "hal/genicam/device/open_camera.h"
 #include "hal/genicam/genicam_list.h"
 #include "tests/hal/genicam/fake_gige_camera.h"
+#include "tests/hal/genicam/resending_proxy.h"
 #include "tests/support/share.h"
 
 /// On Aravis' fake camera, in a network of its own.
@@ -281,6 +282,42 @@ TEST_F(OnFakeCamera, AnotherHostsCameraIsRefused) {
     EXPECT_THAT(refusal(settings(), {}), HasSubstr("under the control of another host"));
   });
 }
+
+class SentAgain : public testing::TestWithParam<double> {};
+
+TEST_P(SentAgain, EveryFrameIsWhole) {
+  ORBWATCH_REQUIRE_NETWORK_NAMESPACES();
+  constexpr std::size_t kFrames = 80;
+  const tests::NetworkNamespace ours, theirs;
+  const tests::Cable cable(ours, theirs);
+  std::optional<FakeGigeCamera> fake;
+  std::optional<tests::ResendingProxy> proxy;
+  theirs.run([&] {
+    fake.emplace(FakeGigeCamera::Options{});
+    proxy.emplace(tests::Cable::kRight, GetParam());
+  });
+  ours.run([&] {
+    GenicamSettings settings;
+    settings.camera = tests::Cable::kRight;
+    settings.pixel_format = "Mono16";
+    GenicamCamera camera(settings);
+    const auto format = camera.configure({320, 240, 50});
+    ASSERT_TRUE(format) << format.error().message;
+    Receiver<Numbered> receiver(numbered);
+    receiver.start(camera);
+    const auto frames = receiver.wait_for(kFrames);
+    camera.stop();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      ASSERT_TRUE(frames[i].id) << "frame " << frames[i].sequence;
+      EXPECT_EQ(frames[i].sequence - frames[0].sequence, i);
+    }
+    EXPECT_EQ(camera.quality().damaged, 0U);
+    EXPECT_GT(proxy->lost(), 0) << "of " << kFrames << " frames of 115 packets";
+    EXPECT_GT(camera.link_counts().resent_packets, 0U);
+    EXPECT_EQ(camera.link_counts().missing_packets, 0U);
+  });
+}
+INSTANTIATE_TEST_SUITE_P(PerThousand, SentAgain, testing::Values(1, 10));
 
 TEST(OverACable, IsFoundBySerialNumberAndComesBackWhenItIsPluggedOrMoves) {
   ORBWATCH_REQUIRE_NETWORK_NAMESPACES();

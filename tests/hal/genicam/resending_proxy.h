@@ -1,0 +1,64 @@
+#pragma once
+
+#include <netinet/in.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "hal/thread/file_descriptor.h"
+
+namespace orbwatch::tests {
+
+/// Stands in front of Aravis' fake camera, which listens on the loopback interface and sends no
+/// packet again: keeps the packets of its stream, loses some on their way, and sends them again on
+/// request (GigE Vision's PACKETRESEND), where they may be lost once more. Lives in the network of
+/// the thread that makes it.
+class ResendingProxy {
+ public:
+  /// Listens at `address`; loses so many of a thousand packets.
+  ResendingProxy(const std::string& address, double lost_per_thousand);
+  ResendingProxy(const ResendingProxy&) = delete;
+  ResendingProxy& operator=(const ResendingProxy&) = delete;
+  ~ResendingProxy();
+
+  int lost() const { return lost_; }    ///< packets, those that were asked for among them
+  int asked() const { return asked_; }  ///< for so many packets
+
+ private:
+  using Bytes = std::span<std::byte>;
+  using PacketId = std::pair<std::uint16_t, std::uint32_t>;  ///< of a frame, and in it
+
+  void serve();
+  void on_request(Bytes packet, const sockaddr_in& client);
+  void on_answer(Bytes packet);
+  void on_stream(Bytes packet);
+  void redirect(std::uint32_t address, Bytes value);
+  void resend(Bytes request);
+  void send_or_lose(std::span<const std::byte> packet);
+
+  std::bernoulli_distribution loses_;
+  std::mt19937 random_{11};
+  hal::FileDescriptor control_;   ///< towards the client
+  hal::FileDescriptor upstream_;  ///< towards the camera
+  hal::FileDescriptor stream_;    ///< from the camera, and to the client
+  std::uint16_t stream_port_ = 0;
+  sockaddr_in client_{};  ///< that asked last
+  sockaddr_in sink_{};    ///< where the client wants the stream
+  bool asked_capabilities_ = false;
+  std::map<PacketId, std::vector<std::byte>> kept_;
+  std::atomic<int> lost_ = 0;
+  std::atomic<int> asked_ = 0;
+  hal::EventFd end_;
+  std::thread thread_;
+};
+
+}  // namespace orbwatch::tests
