@@ -97,10 +97,11 @@ void PixelRoute::show(const ViewPtr& view, std::uint64_t number) {
   std::vector<Question> answered;
   {
     const std::lock_guard lock(mutex_);
-    const auto rest = std::ranges::stable_partition(
-        waiting_, [&](const Question& question) { return question.view != view->index; });
-    answered.assign(std::move_iterator(rest.begin()), std::move_iterator(rest.end()));
-    waiting_.erase(rest.begin(), rest.end());
+    const auto rest = std::stable_partition(
+        waiting_.begin(), waiting_.end(),
+        [&](const Question& question) { return question.view != view->index; });
+    answered.assign(std::move_iterator(rest), std::move_iterator(waiting_.end()));
+    waiting_.erase(rest, waiting_.end());
   }
   for (const Question& question : answered) answer(question, *view, number);
 }
