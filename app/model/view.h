@@ -44,7 +44,7 @@ struct View {
   /// Counts of temperature beside the picture, also where another camera is shown; 0 where the
   /// radiometric one does not see. Empty unless measured, or somebody needs them.
   ImageView<std::uint16_t> counts;
-  double kelvin_per_count = 0;  ///< of `counts`
+  double kelvin_per_count = 0;  ///< of `counts`, also while nobody needs them; 0: it has none
 
   UntouchedVector<std::uint8_t> bytes;   ///< behind picture and validity
   UntouchedVector<std::uint16_t> words;  ///< behind luminance, or radiometric and counts

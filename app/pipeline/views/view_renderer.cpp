@@ -97,7 +97,7 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   for (std::size_t n = 0; n < view.weights.size(); ++n) {
     view.weights[n] = n < plan_.sources.size() ? plan_.sources[n].weight : 0;
   }
-  view.kelvin_per_count = raw_ ? plan_.sources[*raw_].kelvin_per_count : 0;
+  view.kelvin_per_count = has_counts() ? plan_.sources[*raw_].kelvin_per_count : 0;
 
   MutablePicture measured;
   if (!view.luminance.empty()) measured = picture_of(PixelFormat::Grey, view.luminance);

@@ -92,7 +92,9 @@ void PixelRoute::wait(Question question) {
 }
 
 void PixelRoute::show(const ViewPtr& view, std::uint64_t number) {
-  if (!recent_.wants(view->index, hal::Clock::now())) return;
+  // One that was made before anybody pointed has no counts.
+  const bool lacks_counts = view->kelvin_per_count > 0 && view->counts.empty();
+  if (lacks_counts || !recent_.wants(view->index, hal::Clock::now())) return;
   recent_.keep(view, number);
   std::vector<Question> answered;
   {

@@ -43,8 +43,9 @@ class ServedPixels : public Served {
     live.emplace(port(), "/api/v1/live?view=front&view=wide");
   }
 
-  /// Passes a view on as the pipeline does: with counts if they are needed.
-  void pass_on(std::size_t index, double yaw) {
+  /// Passes a view on as the pipeline does: with counts if they are needed, unless it was begun
+  /// before.
+  void pass_on(std::size_t index, double yaw, bool is_late = false) {
     const auto view =
         make_view(index, index == 0 ? "front" : "wide", ++frame_set, kWidth, kHeight, true);
     const auto pixels = static_cast<std::size_t>(kWidth) * kHeight;
@@ -54,7 +55,7 @@ class ServedPixels : public Served {
     *view->validity.at(kBlindColumn, 7) = static_cast<std::uint8_t>(orbwatch::Validity::Blind);
     *view->radiometric.at(kUncountedColumn, 7) = 0;
     EXPECT_TRUE(eventually([&] { return sink->needs(index, view->stamp).jpeg; }));
-    if (sink->needs(index, view->stamp).counts) view->counts = view->radiometric;
+    if (sink->needs(index, view->stamp).counts && !is_late) view->counts = view->radiometric;
     view->kelvin_per_count = kKelvinPerCount;
     sent = view;
     sink->accept(view);
@@ -109,6 +110,14 @@ TEST_F(ServedPixels, WithoutANumberAreOfTheNextPictureAlsoIfNobodyElseReadsIt) {
   EXPECT_EQ(json::parse(answer.body)["number"], 1);
   EXPECT_FALSE(json::parse(answer.body)["temperature"].is_null());
   EXPECT_EQ(seen(1, 4, 5)["temperature"], json::parse(answer.body)["temperature"]);
+}
+
+TEST_F(ServedPixels, AreNeverOfAPictureThatWasBegunBeforeSomebodyPointed) {
+  pixel(1, "&u=0&v=0");
+  pass_on(0, 0, true);
+  const std::uint64_t late = live->next("view").head["number"];
+  EXPECT_EQ(pixel(late, "&u=0&v=0").status, 410);
+  EXPECT_FALSE(seen(send(), 4, 5)["temperature"].is_null());
 }
 
 TEST_F(ServedPixels, LieWhereTheViewOfThatMomentLooks) {
