@@ -91,6 +91,27 @@ class Browser(webdriver.Chrome):
             for (let k = 0; k < pixels.length; k += 4) sums.push(pixels[k] + pixels[k + 1] + pixels[k + 2]);
             return sums;""", selector)
 
+    def touch(self, kind, points):
+        self.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [
+            {"x": x, "y": y, "id": finger} for finger, (x, y) in enumerate(points)]})
+
+    def middle_of(self, shown):
+        """Of an element, where fingers find it."""
+        return self.execute_script("""
+            const box = arguments[0].getBoundingClientRect();
+            return [box.x + box.width / 2, box.y + box.height / 2];""", shown)
+
+    def tap(self, shown):
+        self.touch("touchStart", [self.middle_of(shown)])
+        self.touch("touchEnd", [])
+
+    def pinch(self, shown):
+        """Two fingers twice as far apart."""
+        x, y = self.middle_of(shown)
+        for kind, distance in [("touchStart", 50), ("touchMove", 75), ("touchMove", 100)]:
+            self.touch(kind, [(x - distance, y), (x + distance, y)])
+        self.touch("touchEnd", [])
+
     def barriers(self):
         """What axe-core finds serious."""
         self.execute_script(AXE.read_text(encoding="utf-8"))

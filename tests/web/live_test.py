@@ -195,6 +195,20 @@ class Live(PageCase):
         self.expect_aim("heat", YAW, PITCH, H_FOV)
         self.assertEqual(self.browser.complaints(), [])
 
+    def test_fingers_read_and_turn_a_view(self):
+        self.open()
+        canvas = self.canvas("heat")
+        self.browser.tap(canvas)
+        said, known = self.read_with_the_interface("heat")
+        self.assertIn(f"{known['temperature']:.1f} °C", said["text"])
+        self.assertTrue(self.tile("heat").find_element(By.CLASS_NAME, "crosshair").is_displayed())
+        self.browser.pinch(canvas)
+        eventually("it is zoomed to a half", lambda: abs(
+            self.view("heat")["aim"]["h_fov"] - H_FOV / 2) < 0.2)
+        canvas.send_keys(Keys.HOME)
+        self.expect_aim("heat", YAW, PITCH, H_FOV)
+        self.assertEqual(self.browser.complaints(), [])
+
     def test_what_is_measured_stays_put(self):
         self.open()
         before = self.view("process")

@@ -151,21 +151,9 @@ class WebGl(LookingAround):
             ScrollOrigin.from_element(self.canvas), 0, -200).perform()
         self.assertLess(self.gaze()[2], fov)
         self.canvas.send_keys(Keys.HOME)
-        self.pinch()
+        self.browser.pinch(self.canvas)
         self.assertLess(self.gaze()[2], fov / 1.5)
         self.assertAlmostEqual(self.gaze()[0], yaw, 0)
-
-    def pinch(self):
-        """Two fingers twice as far apart."""
-        box = self.canvas.rect
-        scroll = self.browser.execute_script("return window.scrollY")
-        x, y = box["x"] + box["width"] / 2, box["y"] - scroll + box["height"] / 2
-        for kind, distance in [("touchStart", 50), ("touchMove", 75), ("touchMove", 100),
-                               ("touchEnd", None)]:
-            points = [] if distance is None else [{"x": x - distance, "y": y, "id": 0},
-                                                  {"x": x + distance, "y": y, "id": 1}]
-            self.browser.execute_cdp_cmd("Input.dispatchTouchEvent",
-                                         {"type": kind, "touchPoints": points})
 
     def test_marks_are_drawn(self):
         self.open()
