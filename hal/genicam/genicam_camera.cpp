@@ -12,6 +12,9 @@ namespace {
 /// Between readings of the camera's clock: crystals drift by some 50 us in it.
 constexpr std::chrono::seconds kLatchPeriod{1};
 
+/// Of the line through them the log says once how straight it is.
+constexpr std::size_t kTellingMoments = 10;
+
 std::string_view text_of(ArvBufferStatus status) {
   switch (status) {
     case ARV_BUFFER_STATUS_TIMEOUT:
@@ -160,6 +163,7 @@ DeviceResult<double> GenicamCamera::open_stream() {
   latch_ = TimestampLatch::find(camera_.get());
   latch_due_ = Clock::now();
   is_lost_ = false;
+  clock_is_told_ = false;
   runs_ = true;
   return format_.stream.frame_rate;
 }
@@ -173,6 +177,7 @@ DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
   if (*captured) {
     read_clock();
     forward_intact(**captured);
+    tell_of_clock();
   }
   count_link();
   if (!*captured && Clock::now() >= deadline && !may_be_silent()) return silence();
@@ -210,6 +215,15 @@ void GenicamCamera::read_clock() {
   const std::lock_guard lock(device_mutex_);
   if (const auto now = latch_->read()) clock_.add_latched(now->device, now->before, now->after);
   latch_due_ = Clock::now() + kLatchPeriod;
+}
+
+void GenicamCamera::tell_of_clock() {
+  if (clock_is_told_ || clock_.moments() < kTellingMoments) return;
+  clock_is_told_ = true;
+  const auto residual = clock_.residual().value_or(std::chrono::nanoseconds(0));
+  notify("time stamps by the camera's clock, " +
+         std::string(latch_ ? "read every second" : "as frames arrive") + ": within " +
+         std::to_string(residual / std::chrono::microseconds(1)) + " us rms");
 }
 
 FrameMetadata GenicamCamera::metadata_of(const GenicamStream::Captured& captured) {

@@ -59,6 +59,7 @@ class GenicamCamera : public DeviceCamera {
   void read_features();
   tl::unexpected<FaultReport> silence();
   void read_clock();
+  void tell_of_clock();
   void count_link();
   FrameMetadata metadata_of(const GenicamStream::Captured& captured);
   void forward_intact(const GenicamStream::Captured& captured);
@@ -85,6 +86,7 @@ class GenicamCamera : public DeviceCamera {
   DeviceClock clock_;
   std::optional<TimestampLatch> latch_;  ///< nullopt: the clock is that of arrivals
   TimePoint latch_due_;
+  bool clock_is_told_ = false;                              ///< of this stream, to the log
   TimePoint newest_;                                        ///< stamp of the last frame
   std::atomic<bool> triggered_ = false;                     ///< it waits for triggers
   std::atomic<std::chrono::microseconds> exposure_time_{};  ///< as exposure_time()

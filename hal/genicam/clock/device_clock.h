@@ -29,6 +29,9 @@ class DeviceClock {
   /// known.
   std::optional<std::chrono::nanoseconds> residual() const;
 
+  /// How many moments the line goes through.
+  std::size_t moments() const { return known(); }
+
   /// How often the camera's clock was found set.
   std::size_t jumps() const { return jumps_; }
 

@@ -123,7 +123,7 @@ TEST_F(GenicamDaemon, MeasuresAgainAfterEachReturnOfTheCameraAndNothingGrows) {
     }
     EXPECT_TRUE(eventually(daemon, [&] { return open_files(daemon) <= files; }))
         << open_files(daemon) << ", before " << files;
-    constexpr long kNoise = 4096;
+    constexpr long kNoise = 16384;
     EXPECT_LE(resident(daemon), memory + kNoise + 16L * restarts);
     EXPECT_EQ(read("camera_0_underruns"), 0);
   });

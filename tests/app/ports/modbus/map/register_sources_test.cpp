@@ -298,6 +298,9 @@ void RegisterSources::expect_cameras_and_views() {
     expect_of("proposal", [](C c) { c.proposal = ProposalState::Ready; });
     expect_of("proposal_error", [](C c) { c.proposal_error = 1; });
     expect_of("marked_points", [](C c) { ++c.marked_points; });
+    expect_of("missing_packets", [](C c) { ++c.missing_packets; });
+    expect_of("resent_packets", [](C c) { ++c.resent_packets; });
+    expect_of("underruns", [](C c) { ++c.underruns; });
   }
   for (std::size_t i = 0; i < kMaxViews; ++i) {
     const auto expect_of = [&](const std::string& what, auto change) {
