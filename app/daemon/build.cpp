@@ -54,6 +54,24 @@ class Builder {
   }
 
   /// Errors: as compile().
+  Result<MeasuredRecipe> measured(std::size_t recipe) const {
+    return named(recipe, plan_recipe(recipe).map([&](const RecipePlan& plan) {
+      const Recipe& stated = site_.recipes[recipe];
+      MeasuredRecipe measured{plan.number, stated.name, {}, {}, plan.alarms};
+      for (const ViewPlan& view : plan.views) {
+        measured.views.push_back(
+            {view.name, std::make_shared<const optics::ViewProjection>(view.projection)});
+      }
+      for (std::size_t i = 0; i < plan.regions.size(); ++i) {
+        const RegionPlan& region = plan.regions[i];
+        measured.regions.push_back({region.name, region.view, stated.regions[i].directions,
+                                    stated.regions[i].points, region.settings.outline});
+      }
+      return measured;
+    }));
+  }
+
+  /// Errors: as compile().
   Result<> check(std::size_t recipe) const {
     return named(recipe, plan_recipe(recipe).and_then([this](const RecipePlan& plan) {
       return CompiledRecipe::check(plan, scene_);
@@ -187,6 +205,14 @@ bool uses(const Recipe& recipe, std::size_t camera) {
   });
 }
 
+std::vector<hal::StreamFormat> expected_formats(const Resolved& site) {
+  std::vector<hal::StreamFormat> formats;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    formats.push_back(expected_format(site, i));
+  }
+  return formats;
+}
+
 }  // namespace
 
 hal::StreamFormat expected_format(const Resolved& site, std::size_t camera) {
@@ -248,6 +274,20 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
   return recompiled;
 }
 
+Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site) {
+  const auto formats = expected_formats(site);
+  auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
+  if (!proxy) return tl::unexpected(proxy.error());
+  const Builder builder(site, formats, std::move(*proxy));
+  std::vector<MeasuredRecipe> recipes;
+  for (std::size_t i = 0; i < site.recipes.size(); ++i) {
+    auto recipe = builder.measured(i);
+    if (!recipe) return tl::unexpected(recipe.error());
+    recipes.push_back(std::move(*recipe));
+  }
+  return recipes;
+}
+
 Result<> check_keys(const Resolved& site, Dates dates) {
   const auto& dds = std::get<DdsSettings>(site.site.sinks);
   const auto& web = std::get<WebSettings>(site.site.sinks);
@@ -258,10 +298,7 @@ Result<> check_keys(const Resolved& site, Dates dates) {
 }
 
 Result<> check_site(const Resolved& site, Dates dates) {
-  std::vector<hal::StreamFormat> formats;
-  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    formats.push_back(expected_format(site, i));
-  }
+  const auto formats = expected_formats(site);
   auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
   if (!proxy) return tl::unexpected(proxy.error());
   const Builder builder(site, formats, std::move(*proxy));

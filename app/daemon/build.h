@@ -5,6 +5,7 @@
 
 #include "app/certificates/dates.h"
 #include "app/files/resolve.h"
+#include "app/model/measured_recipe.h"
 #include "app/pipeline/pipeline.h"
 #include "hal/camera.h"
 
@@ -23,6 +24,10 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
 /// expected. Errors: as build().
 Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> formats,
                            std::size_t camera);
+
+/// What the recipes measure, with the outlines and projections that build() measures by. Errors: as
+/// build().
+Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site);
 
 /// Checks the keys for DDS, and certificate and key of the page, as far as files are named.
 Result<> check_keys(const Resolved& site, Dates dates);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/daemon/build.h"
 #include "app/model/fleet.h"
 #include "app/state/state_folder.h"
 
@@ -53,8 +54,9 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
   context.state_folder = state_folder(site.site.state_folder);
   context.alignment = alignment;
   context.program = std::move(program);
+  // Files that make an impossible scene or recipe were refused by build().
+  context.recipes = measured_recipes(site).value_or(std::vector<MeasuredRecipe>());
   context.ball = site.rig.ball;
-  // Files that make an impossible scene were refused by build().
   context.scene =
       optics::SceneProxy::make(site.rig.scene, site.rig.ball).value_or(optics::SceneProxy());
   context.views.resize(site.names.views.size());

@@ -11,6 +11,7 @@
 #include "app/model/appliance_notice.h"
 #include "app/model/command.h"
 #include "app/model/interface_table.h"
+#include "app/model/measured_recipe.h"
 #include "app/model/picture_needs.h"
 #include "app/model/program.h"
 #include "app/model/status.h"
@@ -62,6 +63,7 @@ struct SinkContext {
   std::filesystem::path state_folder;              ///< of what must outlast a restart
   AlignmentSource* alignment = nullptr;            ///< outlives the sinks' run; null: none
   Program program;                                 ///< around the appliance
+  std::vector<MeasuredRecipe> recipes;             ///< what is measured
   /// What all sinks show of themselves, on any thread while they run; empty: nothing.
   std::function<std::vector<InterfaceTable>()> tables = nullptr;
   PageAddress page{};                      ///< of the appliance, as configured

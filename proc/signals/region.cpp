@@ -6,72 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "proc/signals/spherical_polygon.h"
+
 namespace orbwatch::signals {
 namespace {
-
-using optics::Vec2;
-using optics::Vec3;
-
-/// A spherical polygon. Seen in the gnomonic projection around its middle, where great circles are
-/// straight lines, it is a plane one.
-class SphericalPolygon {
- public:
-  static Result<SphericalPolygon> make(std::span<const Vec3> outline) {
-    if (outline.size() < 3) {
-      return fail("region: an outline has at least 3 corners, not " +
-                  std::to_string(outline.size()));
-    }
-    Vec3 sum;
-    for (const Vec3& corner : outline) {
-      const double length = optics::norm(corner);
-      if (!(length > 0) || !std::isfinite(length)) {
-        return fail("region: a corner of the outline has no direction");
-      }
-      sum = sum + corner * (1 / length);
-    }
-    SphericalPolygon polygon(sum);
-    for (const Vec3& corner : outline) {
-      const auto place = polygon.project(optics::normalized(corner));
-      if (!place) return fail("region: the outline must fit into half of the sphere");
-      polygon.corners_.push_back(*place);
-    }
-    return polygon;
-  }
-
-  /// `direction`: unit vector. By the parity of edges that a ray to the right crosses.
-  bool contains(const Vec3& direction) const {
-    const auto place = project(direction);
-    if (!place) return false;
-    bool inside = false;
-    for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size(); j = i++) {
-      const Vec2 &a = corners_[i], &b = corners_[j];
-      if ((a.v > place->v) == (b.v > place->v)) continue;
-      const double crossing = a.u + (place->v - a.v) / (b.v - a.v) * (b.u - a.u);
-      inside = inside != (place->u < crossing);
-    }
-    return inside;
-  }
-
- private:
-  explicit SphericalPolygon(const Vec3& sum) {
-    const double length = optics::norm(sum);
-    if (!(length > 0)) return;  // then no corner has a place
-    middle_ = sum * (1 / length);
-    const Vec3 aside = std::abs(middle_.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    right_ = optics::normalized(optics::cross(middle_, aside));
-    up_ = optics::cross(right_, middle_);
-  }
-
-  std::optional<Vec2> project(const Vec3& direction) const {
-    constexpr double kHorizon = 1e-3;  // cosine; beyond it places run to infinity
-    const double depth = optics::dot(direction, middle_);
-    if (!(depth > kHorizon)) return std::nullopt;
-    return Vec2{optics::dot(direction, right_) / depth, optics::dot(direction, up_) / depth};
-  }
-
-  Vec3 middle_, right_, up_;
-  std::vector<Vec2> corners_;
-};
 
 using optics::Vec3;
 

@@ -120,7 +120,7 @@ class ConfigurationPage(PageCase):
         self.browser.find_element(By.CSS_SELECTOR, "#configuration [type=file]").send_keys(str(sent))
         self.press("Check and show the difference")
         eventually("the difference", lambda: '+name = "sent_' in self.browser.text("#configuration pre"))
-        seconds = self.browser.find_element(By.NAME, "seconds")
+        seconds = self.browser.find_element(By.CSS_SELECTOR, "#configuration [name=seconds]")
         seconds.clear()
         seconds.send_keys("10")
         self.press("Try out")

@@ -67,6 +67,8 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       commands_(context.handler, context.record),
       look_around_(context.names, context.views, context.background),
       align_(context.names.cameras, context.alignment),
+      recipe_(context.recipes, {context.ball, context.scene},
+              [this] { return newest().status.recipe; }),
       audit_(context.state_folder),
       access_(context.state_folder, {settings_.session_idle, settings_.session_longest}),
       desk_(access_, audit_, settings_.session_longest),
@@ -226,6 +228,7 @@ std::vector<web::Route> WebSink::make_routes() {
   std::ranges::move(configuration_.routes(), std::back_inserter(routes));
   std::ranges::move(web::log_routes(program_.log), std::back_inserter(routes));
   std::ranges::move(align_.routes(), std::back_inserter(routes));
+  std::ranges::move(recipe_.routes(), std::back_inserter(routes));
   std::ranges::move(web::interface_routes(tables_, program_), std::back_inserter(routes));
   std::ranges::move(web::fleet_routes(fleet_), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));

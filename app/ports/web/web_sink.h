@@ -18,6 +18,7 @@
 #include "app/ports/web/listeners.h"
 #include "app/ports/web/look_around/look_around.h"
 #include "app/ports/web/pixels/pixel_route.h"
+#include "app/ports/web/process/recipe_routes.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/status/web_statistics.h"
 #include "app/ports/web/streams/mjpeg_stream.h"
@@ -100,6 +101,7 @@ class WebSink final : public Sink {
   web::CommandRunner commands_;
   web::LookAround look_around_;
   web::AlignRoutes align_;
+  web::RecipeRoutes recipe_;
   web::Audit audit_;
   web::Access access_;
   web::AccessDesk desk_;

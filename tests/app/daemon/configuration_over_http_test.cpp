@@ -154,6 +154,37 @@ TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
   EXPECT_FALSE(fs::exists(folder / "trial.json"));
 }
 
+/// Limits and regions of a recipe become lines of its file; all else there stays.
+TEST_F(ConfigurationOverHttp, OfARecipeIsChangedWithinItsFile) {
+  const std::string alarm =
+      "[[region.alarm]]  # the weld\nsignal = \"hot_spot_pixels\"\nhigh_alarm = 400   # too hot\n";
+  const std::string text = kSmallRecipe + alarm + "# the end";
+  config = write_config(
+      small_machine() + "[web]\nenabled = true\nport = " + std::to_string(web_port) + "\n",
+      kSmallRig, text);
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  const json limit{{"alarm", 1},
+                   {"region", "pool"},
+                   {"signal", "hot_spot_pixels"},
+                   {"limit", "high_alarm"},
+                   {"value", 450}};
+  const auto recipe = [&](const std::string& what, int number) {
+    const json body{{"recipe", number}, {"limits", {limit}}};
+    return request(web_port, "POST", "/api/v1/" + what + "_recipe",
+                   "Content-Type: application/json\r\n", body.dump());
+  };
+  EXPECT_THAT(recipe("check", 2).body, HasSubstr("names no recipe 2"));
+  const Answer tried = recipe("try", 1);
+  ASSERT_EQ(tried.status, 200) << tried.body;
+  manager.await("READY=1");
+  const json runs = json::parse(request(web_port, "GET", "/api/v1/recipe").body);
+  EXPECT_EQ(runs["alarms"][0]["high_alarm"], 450) << runs;
+  ASSERT_EQ(ask("confirm", json::object()).status, 200);
+  std::string expected = text;
+  EXPECT_EQ(contents(folder / "recipe.toml"), expected.replace(expected.find("= 400"), 5, "= 450"));
+}
+
 /// There would be nothing to go back to.
 TEST_F(ConfigurationOverHttp, IsNotTriedOutWithoutAServicesFolder) {
   ::unsetenv("STATE_DIRECTORY");

@@ -1,24 +1,13 @@
 // A camera's picture with the ball's outline over it as an ellipse, moved by its handles with
 // pointer, touch or keys, and the scene's edges as the alignment has them.
 import { element } from "./elements.js";
+import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "./shapes.js";
 import { texts } from "./texts.js";
 
-const kSvg = "http://www.w3.org/2000/svg";
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
 const kHandlePx = 11, kMarkPx = 6, kClickPx = 3;  // on the screen
-const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-
-function drawn(tag, attributes = {}) {
-  const made = document.createElementNS(kSvg, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  return made;
-}
-
-function place(shape, attributes) {
-  for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
-}
 
 // Unit vectors along the axes.
 function axes({ angle }) {
@@ -90,63 +79,45 @@ export class BallEditor {
     this.svg.append(handle);
   }
 
-  // In pixels of the camera, whose centres are at integers.
-  pixelAt({ clientX, clientY }) {
-    const box = this.svg.getBoundingClientRect();
-    return [(clientX - box.left) / box.width * this.canvas.width - 0.5,
-            (clientY - box.top) / box.height * this.canvas.height - 0.5];
+  pixelAt(event) {
+    return pixelAt(this.svg, this.canvas, event);
   }
 
   #drag(event, handle, name) {
     if (!this.#outline || event.button !== 0) return;
-    event.preventDefault();
     handle.focus();
-    handle.setPointerCapture(event.pointerId);
     const before = this.#outline;
     const from = this.pixelAt(event), at = handlesOf(before, this.canvas)[name];
     this.#isHeld = true;
     let isMoved = false;
-    const move = (moved) => {
+    followDrag(handle, event, (moved) => {
       isMoved = true;
       const to = this.pixelAt(moved);
       this.#outline = pulled(before, name, [at[0] + to[0] - from[0], at[1] + to[1] - from[1]]);
       this.#draw();
-    };
-    const end = (ended) => {
-      handle.removeEventListener("pointermove", move);
-      handle.removeEventListener("pointerup", end);
-      handle.removeEventListener("pointercancel", end);
-      if (ended.type === "pointercancel") this.#outline = before;
+    }, (ended, isDone) => {
+      if (!isDone) this.#outline = before;
       else if (isMoved) this.#change(name);
       this.#apply();
-    };
-    handle.addEventListener("pointermove", move);
-    handle.addEventListener("pointerup", end);
-    handle.addEventListener("pointercancel", end);
+    });
   }
 
   // A line shows how far; whoever only clicks on an edge points at a place.
   #pull(event) {
     if (event.button !== 0) return;
-    event.preventDefault();
     const from = this.pixelAt(event), line = drawn("path");
     this.#isHeld = true;
     this.svg.append(line);
-    this.edges.setPointerCapture(event.pointerId);
-    const move = (moved) => place(line, { class: "pull", d: `M${from}L${this.pixelAt(moved)}` });
-    const end = async (ended) => {
-      for (const [name, listener] of Object.entries(listeners)) {
-        this.edges.removeEventListener(name, listener);
-      }
-      const to = this.pixelAt(ended);
-      const isFar = Math.hypot(to[0] - from[0], to[1] - from[1]) > kClickPx * this.#scale();
-      if (ended.type === "pointerup") await (isFar ? this.onPull(from, to) : this.onPick(from));
-      line.remove();
-      this.#isHeld = false;
-      this.#refresh();
-    };
-    const listeners = { pointermove: move, pointerup: end, pointercancel: end };
-    for (const [name, listener] of Object.entries(listeners)) this.edges.addEventListener(name, listener);
+    followDrag(this.edges, event,
+      (moved) => place(line, { class: "pull", d: `M${from}L${this.pixelAt(moved)}` }),
+      async (ended, isDone) => {
+        const to = this.pixelAt(ended);
+        const isFar = Math.hypot(to[0] - from[0], to[1] - from[1]) > kClickPx * this.#scale();
+        if (isDone) await (isFar ? this.onPull(from, to) : this.onPick(from));
+        line.remove();
+        this.#isHeld = false;
+        this.#refresh();
+      });
   }
 
   // Of a radius, right and up are larger, left and down smaller.
@@ -229,7 +200,7 @@ export class BallEditor {
     const shown = this.camera.proposed ?? this.camera.in_force;
     this.#outline = shown?.outline ?? null;
     this.edges.replaceChildren(...(shown?.edges ?? []).flatMap((line) => {
-      const points = line.map((pixel) => pixel.join(",")).join(" ");
+      const points = pointsText(line);
       return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];
     }));
     this.#draw();

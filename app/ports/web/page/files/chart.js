@@ -3,6 +3,7 @@ import { figureText } from "./figures.js";
 import { texts } from "./texts.js";
 
 export const kHistoryMs = 600000;
+const kLinePx = 16;  // of text
 
 export class History {
   #points = []; // {at: ms, value}, oldest first
@@ -16,36 +17,55 @@ export class History {
   }
 }
 
-export function drawChart(canvas, history, name, unit, now) {
-  const scale = window.devicePixelRatio || 1;
-  const width = (canvas.width = canvas.clientWidth * scale);
-  const height = (canvas.height = canvas.clientHeight * scale);
-  const points = history.points.filter((p) => p.value !== null);
-  if (points.length === 0) {
-    canvas.setAttribute("aria-label", texts.chartEmpty(name));
-    return;
+// Where values stand in a chart: shares of its height from its top, with room for a line of text
+// above and below.
+export class Scale {
+  constructor(values, height) {
+    this.low = Math.min(...values);
+    this.high = Math.max(...values);
+    this.span = this.high - this.low || 1;
+    this.height = height;
   }
-  const values = points.map((p) => p.value);
-  const low = Math.min(...values), high = Math.max(...values), span = high - low || 1;
-  canvas.setAttribute("aria-label", texts.chart(name, figureText(low), figureText(high), unit));
+  y(value) {
+    return this.height - kLinePx - (value - this.low) / this.span * (this.height - 2 * kLinePx);
+  }
+  value(y) {
+    return this.low + (this.height - kLinePx - y) / (this.height - 2 * kLinePx) * this.span;
+  }
+}
+
+// Of what was measured, and `more` values that are to be seen; null: nothing was measured.
+export function scaleOf(canvas, history, more = []) {
+  const measured = history.points.map(({ value }) => value).filter((value) => value !== null);
+  return measured.length === 0 && more.length === 0 ? null
+    : new Scale([...measured, ...more], canvas.clientHeight);
+}
+
+export function drawChart(canvas, history, name, unit, now, scale = scaleOf(canvas, history)) {
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = canvas.clientWidth * ratio;
+  canvas.height = canvas.clientHeight * ratio;
+  const values = history.points.map(({ value }) => value).filter((value) => value !== null);
+  canvas.setAttribute("aria-label", values.length === 0 ? texts.chartEmpty(name)
+    : texts.chart(name, figureText(Math.min(...values)), figureText(Math.max(...values)), unit));
+  if (!scale) return;
   const brush = canvas.getContext("2d");
+  brush.scale(ratio, ratio);
   const style = getComputedStyle(canvas);
-  const line = 16 * scale;
-  const y = (value) => height - line - ((value - low) / span) * (height - 2 * line);
   brush.strokeStyle = style.color;
-  brush.lineWidth = 2 * scale;
+  brush.lineWidth = 2;
   brush.beginPath();
   let isDown = false;
   for (const { at, value } of history.points) {
-    const x = width * (1 + (at - now) / kHistoryMs);
+    const x = canvas.clientWidth * (1 + (at - now) / kHistoryMs);
     if (value === null) isDown = false;
-    else if (isDown) brush.lineTo(x, y(value));
-    else brush.moveTo(x, y(value));
+    else if (isDown) brush.lineTo(x, scale.y(value));
+    else brush.moveTo(x, scale.y(value));
     isDown = value !== null;
   }
   brush.stroke();
   brush.fillStyle = getComputedStyle(document.body).color;
-  brush.font = `${12 * scale}px system-ui, sans-serif`;
-  brush.fillText(`${figureText(high)} ${unit}`, 4 * scale, line - 3 * scale);
-  brush.fillText(`${figureText(low)} ${unit}`, 4 * scale, height - 4 * scale);
+  brush.font = "12px system-ui, sans-serif";
+  brush.fillText(`${figureText(scale.high)} ${unit}`, 4, kLinePx - 3);
+  brush.fillText(`${figureText(scale.low)} ${unit}`, 4, scale.height - 4);
 }

@@ -38,8 +38,7 @@ export class FigureTable {
   }
 }
 
-// Makes something once for each name that is seen, in `root`; nothing is removed while the
-// appliance runs one configuration.
+// Makes something once for each name that is seen, in `root`.
 export class Keyed {
   #made = new Map();
 
@@ -54,6 +53,14 @@ export class Keyed {
       this.root.append(made.root);
     }
     return this.#made.get(name);
+  }
+  // Removes the others.
+  keep(names) {
+    for (const [name, made] of this.#made) {
+      if (names.includes(name)) continue;
+      made.root.remove();
+      this.#made.delete(name);
+    }
   }
   get size() {
     return this.#made.size;

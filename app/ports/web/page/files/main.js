@@ -65,15 +65,17 @@ function showCondition(status) {
 const { role, has_users: hasUsers } = await admit(() => say(texts.connecting, true));
 addPages();
 const figures = await figuresOfAppliance();
-const choose = () => stream.choose(look.isShown ? look.views : live.views);
+const mayChange = ["integrator", "administrator"].includes(role);
+const shown = () => [look, process].find(({ isShown }) => isShown) ?? live;
+const choose = () => stream.choose(shown().views);
 const live = new Live(document.getElementById("live"), choose, role !== "viewer");
 const look = new Look(document.getElementById("look"), choose);
 const align = new Align(document.getElementById("align"), figures.cameras ?? {});
-const process = new Process(document.getElementById("process"), figures);
+const process = new Process(document.getElementById("process"), figures, mayChange, choose);
 const system = new System(document.getElementById("system"), figures);
 if (role !== "viewer") new Log(document.getElementById("system"));
 showAbout(document.getElementById("system"));
-if (["integrator", "administrator"].includes(role)) {
+if (mayChange) {
   new Interfaces(document.getElementById("system"));
   new Configuration(document.getElementById("system"));
 }
@@ -81,7 +83,7 @@ if (hasUsers && role === "administrator") new People(document.getElementById("sy
 new Fleet(document.getElementById("fleet"), role !== "viewer");
 const stream = new Stream(
   (message) => {
-    if (message.head.kind === "view") return (look.isShown ? look : live).picture(message);
+    if (message.head.kind === "view") return shown().picture(message);
     const status = JSON.parse(new TextDecoder().decode(message.body));
     showCondition(status);
     live.status(status);

@@ -1,9 +1,14 @@
-// Alarms, signals of the regions and their last ten minutes.
+// Alarms, signals of the regions and their last ten minutes, and by what limits and where they are
+// measured.
 import { command } from "./api.js";
-import { drawChart, History } from "./chart.js";
+import { drawChart, History, scaleOf } from "./chart.js";
 import { element, setText, table } from "./elements.js";
 import { FigureTable, Keyed } from "./figures.js";
+import { LimitLines } from "./limit_lines.js";
+import { Recipe } from "./recipe.js";
+import { RegionEditor } from "./region_editor.js";
 import { texts } from "./texts.js";
+import { Trial } from "./trial.js";
 
 const kFirstSignal = "hot_spot_peak_temperature";
 
@@ -57,14 +62,29 @@ class Alarms {
 class Region {
   #histories = new Map();
 
-  constructor(name, descriptions) {
+  constructor(name, descriptions, recipe, mayChange) {
+    this.name = name;
     this.descriptions = descriptions;
     this.table = new FigureTable(descriptions);
     this.table.root.setAttribute("aria-label", texts.region(name));
-    this.choice = element("select");
+    this.choice = element("select", { name: "signal" });
+    this.choice.addEventListener("change", () => this.#choose());
     this.canvas = element("canvas", { className: "chart", role: "img" });
-    this.root = element("div", {}, element("h3", {}, texts.region(name)),
-      element("label", {}, `${texts.chartOf} `, this.choice), this.canvas, this.table.root);
+    this.limits = new LimitLines(recipe, mayChange);
+    recipe.addEventListener("change", () => this.#isEdited() || this.#choose());
+    this.root = element("div", { "data-region": name }, element("h3", {}, texts.region(name)),
+      element("label", {}, `${texts.chartOf} `, this.choice),
+      element("div", { className: "strip" }, this.canvas, this.limits.svg), this.limits.fields,
+      this.table.root);
+  }
+
+  // What somebody holds is not made anew under his hands.
+  #isEdited() {
+    return [this.limits.svg, this.limits.fields].some((part) => part.contains(document.activeElement));
+  }
+
+  #choose() {
+    this.limits.choose(this.name, this.choice.value);
   }
 
   show(region, now) {
@@ -74,30 +94,62 @@ class Region {
       if (!this.#histories.has(name)) this.#addSignal(name);
       this.#histories.get(name).add(now, value);
     }
-    const name = this.choice.value;
+    const name = this.choice.value, history = this.#histories.get(name);
     if (this.root.offsetParent === null) return; // not shown
-    drawChart(this.canvas, this.#histories.get(name), name,
-      this.descriptions[name]?.unit ?? "", now);
+    const scale = this.limits.scale(scaleOf(this.canvas, history, this.limits.values));
+    drawChart(this.canvas, history, name, this.descriptions[name]?.unit ?? "", now, scale);
+    this.limits.draw(scale, this.canvas.clientWidth);
   }
 
   #addSignal(name) {
     this.#histories.set(name, new History());
     this.choice.append(element("option", { value: name, selected: name === kFirstSignal }, name));
+    if (this.choice.value === name) this.#choose();
   }
 }
 
 export class Process {
-  constructor(root, figures) {
+  // `mayChange`: limits and regions. `onChoice()`: another view is needed.
+  constructor(root, figures, mayChange, onChoice) {
+    this.root = root;
+    this.recipe = new Recipe();
     this.alarms = new Alarms(root);
     this.none = element("p", {}, texts.noRegions);
     const list = element("div");
-    root.append(this.none, list);
-    this.regions = new Keyed(list, (name) => new Region(name, figures.regions ?? {}));
+    this.editor = new RegionEditor(this.recipe, mayChange, onChoice);
+    root.append(this.editor.root, ...(mayChange ? [this.#makeTrial()] : []), this.none, list);
+    this.regions = new Keyed(list, (name) =>
+      new Region(name, figures.regions ?? {}, this.recipe, mayChange));
+  }
+
+  #makeTrial() {
+    const trial = new Trial("recipe", () => this.recipe.body, () => this.isShown,
+      { onTried: () => this.recipe.forget() });
+    const forget = element("button", { type: "button" }, texts.process.forget);
+    forget.addEventListener("click", () => this.recipe.forget());
+    this.recipe.addEventListener("change", () => { forget.disabled = !this.recipe.body; });
+    addEventListener("hashchange", () => trial.refresh());
+    trial.refresh();
+    return element("section", { id: "recipe" }, element("h3", {}, texts.process.changes), trial.head,
+      trial.foot, forget);
+  }
+
+  get isShown() {
+    return !this.root.hidden;
+  }
+  get views() {
+    return this.editor.views;
+  }
+  picture(message) {
+    this.editor.picture(message);
   }
 
   status(status, now) {
+    this.recipe.status(status);
     this.alarms.show(status.alarms ?? []);
-    for (const region of status.regions ?? []) this.regions.get(region.name).show(region, now);
+    const regions = status.regions ?? [];
+    this.regions.keep(regions.map(({ name }) => name));
+    for (const region of regions) this.regions.get(region.name).show(region, now);
     this.none.hidden = this.regions.size > 0;
   }
 }

@@ -230,5 +230,31 @@ export const texts = {
   chartOf: "Signal in the chart",
   chart: (name, low, high, unit) =>
     `${name} in the last ten minutes: ${low} to ${high}${unit ? " " + unit : ""}`,
+  process: {
+    limits: "Limits in the chart",
+    limitsOf: (alarm, unit) => `Limits of alarm ${alarm}${unit ? `, ${unit}` : ""}`,
+    limitOf: (limit, alarm) => `${limit} of alarm ${alarm}`,
+    low_alarm: "Low alarm",
+    low_warning: "Low warning",
+    high_warning: "High warning",
+    high_alarm: "High alarm",
+    hysteresis: "Hysteresis",
+    regions: "Regions of the recipe",
+    view: "View",
+    region: "Region to change",
+    body: (name) => `Region ${name}: arrow keys move it, plus and minus resize it`,
+    corner: (number, u, v) => `Corner ${number}, at ${u.toFixed(0)}, ${v.toFixed(0)} pixels`,
+    help: "Drag the region or its corners; arrow keys move them by one pixel, with shift by 10, plus and " +
+      "minus resize the region. A new region, and one that is the whole view, is drawn by dragging over " +
+      "the picture. Limits are dragged in the charts, or typed below them. Nothing counts until it is " +
+      "tried out and kept; the recipe's file keeps its comments.",
+    newName: "New region",
+    threshold: "its hot spot begins at, °C or % of full scale",
+    add: "Add a region",
+    isThere: (name) => `there is a region ${name} already`,
+    noSurface: "the view shows no surface of the scene there",
+    changes: "Changes of the recipe",
+    forget: "Forget the changes",
+  },
   chartEmpty: (name) => `${name}: not measured in the last ten minutes`,
 };

@@ -1,0 +1,252 @@
+// The regions of the recipe over a live view: shown, and by integrators moved, resized and drawn with
+// pointer, touch or keys.
+import { element, field, setText } from "./elements.js";
+import { NewestPicture } from "./newest_picture.js";
+import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "./shapes.js";
+import { texts } from "./texts.js";
+
+const kStepPx = 1, kLargeStepPx = 10;
+const kGrowth = 1.05;   // of a key
+const kSettleMs = 250;  // keys that are held down become one change
+const kHandlePx = 11;   // on the screen
+const kLeastPx = 4;     // a smaller rectangle is a click
+const kNewShare = 4;    // a new region is that part of the view
+
+const rectangle = ([x, y], [u, v]) => [[x, y], [u, y], [u, v], [x, v]];
+const option = (name) => element("option", { value: name }, name);
+
+export class RegionEditor {
+  #pixels = null;  // of the chosen region's corners while somebody changes them
+  #settle = 0;
+  #handles = [];
+  #pictures = new NewestPicture((picture, { head }) => {
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    this.canvas.dataset.number = head.number;
+  });
+
+  // `onView()`: another view is shown.
+  constructor(recipe, mayChange, onView) {
+    Object.assign(this, { recipe, mayChange, onView });
+    this.view = element("select", { name: "view" });
+    this.view.addEventListener("change", () => this.#chooseView());
+    this.choice = element("select", { name: "region" });
+    this.choice.addEventListener("change", () => this.#draw());
+    this.refused = element("p", { role: "alert", className: "wrong" });
+    this.canvas = element("canvas", { role: "img" });
+    this.svg = drawn("svg", { role: "group", "aria-label": texts.process.regions });
+    this.lines = drawn("g");
+    this.body = drawn("polygon", { class: "body", tabindex: 0, role: "button" });
+    this.body.addEventListener("pointerdown", (event) => this.#move(event));
+    this.body.addEventListener("keydown", (event) => this.#press(event));
+    this.svg.append(this.lines, this.body);
+    this.svg.addEventListener("pointerdown", (event) => this.#span(event));
+    this.root = element("section", { id: "regions" }, element("h3", {}, texts.process.regions),
+      element("p", {}, element("label", {}, texts.process.view, " ", this.view), " ",
+        ...(mayChange ? [element("label", {}, texts.process.region, " ", this.choice)] : [])),
+      element("figure", { className: "ball" }, element("div", { className: "picture" }, this.canvas, this.svg)),
+      ...(mayChange ? [element("p", {}, texts.process.help), this.#makeForm()] : []), this.refused);
+    recipe.addEventListener("change", () => this.#refresh());
+    new ResizeObserver(() => this.#draw()).observe(this.svg);
+  }
+
+  #makeForm() {
+    this.form = element("form", {}, field(texts.process.newName, { name: "name", pattern: "[A-Za-z0-9_]+" }),
+      field(texts.process.threshold, { name: "threshold", type: "number", step: "any" }),
+      element("button", {}, texts.process.add));
+    this.form.addEventListener("submit", (event) => this.#add(event));
+    return this.form;
+  }
+
+  get views() {
+    return this.view.value ? [this.view.value] : [];
+  }
+  get #region() {
+    return this.recipe.regions.find(({ name }) => name === this.choice.value);
+  }
+
+  picture(message) {
+    if (message.head.name === this.view.value) this.#pictures.show(message);
+  }
+
+  #chooseView() {
+    const view = this.recipe.stated.views.find(({ name }) => name === this.view.value);
+    if (view) {
+      this.canvas.width = view.width;
+      this.canvas.height = view.height;
+      this.canvas.setAttribute("aria-label", texts.pictureOf(view.name));
+      place(this.svg, { viewBox: `-0.5 -0.5 ${view.width} ${view.height}` });
+    }
+    this.#listRegions();
+    this.#draw();
+    this.onView();
+  }
+
+  #listRegions() {
+    const names = this.recipe.regions.filter(({ view }) => view === this.view.value).map(({ name }) => name);
+    if ([...this.choice.options].map(({ value }) => value).join("\n") === names.join("\n")) return;
+    const chosen = this.choice.value;
+    this.choice.replaceChildren(...names.map(option));
+    if (names.includes(chosen)) this.choice.value = chosen;
+  }
+
+  #refresh() {
+    const names = this.recipe.stated.views.map(({ name }) => name);
+    if ([...this.view.options].map(({ value }) => value).join("\n") !== names.join("\n")) {
+      this.view.replaceChildren(...names.map(option));
+      this.#chooseView();
+    }
+    this.#listRegions();
+    this.#draw();
+  }
+
+  // Corners that the view does not show are nobody's to drag.
+  #cornersOf(region) {
+    const pixels = this.#pixels ?? region?.corners.map(({ pixel }) => pixel) ?? [];
+    return pixels.every((pixel) => pixel !== null) ? pixels : [];
+  }
+
+  #draw() {
+    const shown = this.recipe.regions.filter(({ view }) => view === this.view.value);
+    const chosen = this.mayChange ? this.#region : null;
+    this.lines.replaceChildren(...shown.flatMap((region) => {
+      const isChanging = region.name === chosen?.name && this.#pixels;
+      const lines = isChanging ? [[...this.#pixels, this.#pixels[0]]] : region.lines;
+      const at = lines[0]?.[0] ?? [0, 0];
+      const text = drawn("text", { x: at[0] + 6 * this.#scale(), y: at[1] + 16 * this.#scale(),
+        "font-size": 14 * this.#scale() }, region.name);
+      const kind = region.name === chosen?.name ? "limb" : "edges";
+      return [...lines.map((line) => drawn("polyline", { points: pointsText(line), class: kind })), text];
+    }));
+    const pixels = chosen ? this.#cornersOf(chosen) : [];
+    place(this.body, { points: pointsText(pixels), visibility: pixels.length > 0 ? "visible" : "hidden",
+      "aria-label": texts.process.body(chosen?.name ?? "") });
+    this.svg.classList.toggle("drawing", Boolean(chosen && this.#isDrawable(chosen)));
+    while (this.#handles.length > pixels.length) this.#handles.pop().remove();
+    pixels.forEach(([cx, cy], index) => place(this.#handles[index] ?? this.#addHandle(), {
+      cx, cy, r: kHandlePx * this.#scale(), "data-corner": index,
+      "aria-label": texts.process.corner(index + 1, cx, cy) }));
+  }
+
+  #addHandle() {
+    const index = this.#handles.length;
+    const handle = drawn("circle", { tabindex: 0, role: "button" });
+    const moved = (du, dv) => (pixels) =>
+      pixels.map(([u, v], k) => (k === index ? [u + du, v + dv] : [u, v]));
+    handle.addEventListener("pointerdown", (event) => this.#drag(event, handle, moved));
+    handle.addEventListener("keydown", (event) => this.#pressArrow(event, moved));
+    this.svg.append(handle);
+    this.#handles.push(handle);
+    return handle;
+  }
+
+  // Of a pixel on the screen.
+  #scale() {
+    return this.canvas.width / (this.svg.clientWidth || this.canvas.width);
+  }
+
+  // A rectangle may be drawn over the picture.
+  #isDrawable({ kind, threshold }) {
+    return kind === "whole_view" || threshold !== undefined;
+  }
+
+  #drag(event, shape, moved) {
+    if (event.button !== 0) return;
+    event.stopPropagation();
+    shape.focus();
+    const from = pixelAt(this.svg, this.canvas, event), before = this.#cornersOf(this.#region);
+    followDrag(shape, event, (now) => {
+      const to = pixelAt(this.svg, this.canvas, now);
+      this.#pixels = moved(to[0] - from[0], to[1] - from[1])(before);
+      this.#draw();
+    }, (ended, isDone) => (isDone ? this.#apply() : this.#forget()));
+  }
+
+  #move(event) {
+    this.#drag(event, this.body, (du, dv) => (pixels) => pixels.map(([u, v]) => [u + du, v + dv]));
+  }
+
+  #span(event) {
+    const region = this.mayChange ? this.#region : null;
+    if (event.button !== 0 || !region || !this.#isDrawable(region)) return;
+    const from = pixelAt(this.svg, this.canvas, event);
+    followDrag(this.svg, event, (now) => {
+      this.#pixels = rectangle(from, pixelAt(this.svg, this.canvas, now));
+      this.#draw();
+    }, (ended, isDone) => {
+      const to = pixelAt(this.svg, this.canvas, ended);
+      const isLarge = to.every((part, k) => Math.abs(part - from[k]) > kLeastPx);
+      if (isDone && isLarge) this.#apply();
+      else this.#forget();
+    });
+  }
+
+  #change(change) {
+    this.#pixels = change(this.#cornersOf(this.#region));
+    this.#draw();
+    clearTimeout(this.#settle);
+    this.#settle = setTimeout(() => this.#apply(), kSettleMs);
+  }
+
+  #pressArrow(event, moved) {
+    const key = kKeys[event.key];
+    if (!key) return;
+    event.preventDefault();
+    const step = event.shiftKey ? kLargeStepPx : kStepPx;
+    this.#change(moved(key[0] * step, key[1] * step));
+  }
+
+  // About the middle of its corners.
+  #press(event) {
+    this.#pressArrow(event, (du, dv) => (pixels) => pixels.map(([u, v]) => [u + du, v + dv]));
+    const factor = { "+": kGrowth, "-": 1 / kGrowth }[event.key];
+    if (!factor) return;
+    event.preventDefault();
+    this.#change((pixels) => {
+      const middle = [0, 1].map((k) => pixels.reduce((sum, pixel) => sum + pixel[k], 0) / pixels.length);
+      return pixels.map((pixel) => pixel.map((part, k) => middle[k] + (part - middle[k]) * factor));
+    });
+  }
+
+  #forget() {
+    this.#pixels = null;
+    this.#draw();
+  }
+
+  async #apply() {
+    const pixels = this.#pixels;
+    if (!pixels) return;
+    await this.#give(this.#region, pixels);
+    if (this.#pixels === pixels) this.#forget(); // nobody went on meanwhile
+  }
+
+  // Whether the appliance has places for them.
+  async #give(region, pixels) {
+    try {
+      await this.recipe.setRegion(region, pixels);
+      setText(this.refused, "");
+      return true;
+    } catch (error) {
+      setText(this.refused, texts.refused(error.message));
+      return false;
+    }
+  }
+
+  // In the middle of the view.
+  async #add(event) {
+    event.preventDefault();
+    const { name, threshold } = this.form.elements, { width, height } = this.canvas;
+    const away = 0.5 - 0.5 / kNewShare;
+    const added = { name: name.value, view: this.view.value, kind: "whole_view", corners: [], lines: [],
+      threshold: Number(threshold.value) };
+    if (this.recipe.regions.some((region) => region.name === added.name)) {
+      return setText(this.refused, texts.refused(texts.process.isThere(added.name)));
+    }
+    const isPlaced = await this.#give(added, rectangle([width * away, height * away],
+      [width * (1 - away), height * (1 - away)]));
+    if (!isPlaced) return;
+    this.choice.value = added.name;
+    this.form.reset();
+    this.#draw();
+    this.body.focus();
+  }
+}

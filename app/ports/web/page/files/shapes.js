@@ -1,0 +1,36 @@
+// Shapes over a picture or a chart, and what drags them.
+const kSvg = "http://www.w3.org/2000/svg";
+
+export const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+export function drawn(tag, attributes = {}, ...children) {
+  const made = document.createElementNS(kSvg, tag);
+  place(made, attributes);
+  made.append(...children);
+  return made;
+}
+
+export function place(shape, attributes) {
+  for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
+}
+
+// From `event` on, which pressed `shape`. `onEnd(event, isDone)`: not done when it was taken away.
+export function followDrag(shape, event, onMove, onEnd) {
+  event.preventDefault();
+  shape.setPointerCapture(event.pointerId);
+  const end = (ended) => {
+    for (const [name, listener] of Object.entries(listeners)) shape.removeEventListener(name, listener);
+    onEnd(ended, ended.type === "pointerup");
+  };
+  const listeners = { pointermove: onMove, pointerup: end, pointercancel: end };
+  for (const [name, listener] of Object.entries(listeners)) shape.addEventListener(name, listener);
+}
+
+// In pixels of what `svg` lies over, whose centres are at integers.
+export function pixelAt(svg, { width, height }, { clientX, clientY }) {
+  const box = svg.getBoundingClientRect();
+  return [(clientX - box.left) / box.width * width - 0.5,
+          (clientY - box.top) / box.height * height - 0.5];
+}
+
+export const pointsText = (pixels) => pixels.map((pixel) => pixel.join(",")).join(" ");

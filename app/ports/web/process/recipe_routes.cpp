@@ -1,0 +1,117 @@
+#include "app/ports/web/process/recipe_routes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+
+#include "app/ports/web/process/recipe_text.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+const QueryArgument kNumber{"number", "Of the recipe; the one in force", false};
+const QueryArgument kPixels{
+    "pixels", "u,v,u,v,...: px to the right and down, pixel centres at integers", true, false};
+
+/// A recipe's file has no more corners of a region.
+constexpr std::size_t kMostCorners = 64;
+/// Beside the view, for corners that are dragged out of it.
+constexpr double kFarthest = kMaxSide;
+
+/// Error: not all of the text is numbers in pairs.
+Result<std::vector<optics::Vec2>> pixels_of(const std::string& text) {
+  std::vector<double> numbers;
+  const char *next = text.data(), *const end = next + text.size();
+  while (next <= end && numbers.size() <= 2 * kMostCorners) {
+    double number = 0;
+    const auto parsed = std::from_chars(next, end, number);
+    const bool is_right = parsed.ec == std::errc() && std::abs(number) <= kFarthest &&
+                          (parsed.ptr == end || *parsed.ptr == ',');
+    if (!is_right) break;
+    numbers.push_back(number);
+    next = parsed.ptr + 1;
+  }
+  if (next <= end || numbers.size() % 2 != 0 || numbers.size() > 2 * kMostCorners) {
+    return fail("pixels is " + text.substr(0, 100) + "; it must be u,v,u,v,... of at most " +
+                std::to_string(kMostCorners) + " corners");
+  }
+  std::vector<optics::Vec2> pixels;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    pixels.push_back({numbers[i], numbers[i + 1]});
+  }
+  return pixels;
+}
+
+void answer(const ExchangePtr& exchange, const Result<std::string>& json, int refused = 400) {
+  exchange->answer(json ? json_response(*json) : error_response(refused, json.error().message));
+}
+
+}  // namespace
+
+std::vector<Route> RecipeRoutes::routes() {
+  Route recipe;
+  recipe.method = "GET";
+  recipe.path = "/api/v1/recipe";
+  recipe.role = Role::Viewer;
+  recipe.description =
+      "What a recipe measures: regions with their corners and outlines in their views, and limits "
+      "of "
+      "alarms; px, deg, mm";
+  recipe.type = kJson;
+  recipe.query = {kNumber};
+  recipe.serve = [this](const ExchangePtr& exchange) { serve_recipe(exchange); };
+  Route polygon = recipe;
+  polygon.path = "/api/v1/recipe/polygon";
+  polygon.description =
+      "The polygon whose corners one of the recipe's views shows at these pixels: as directions, "
+      "as "
+      "points on the scene's surface, and its outline in the view; px, deg, mm";
+  polygon.view = ViewArgument::One;
+  polygon.query = {kPixels, kNumber};
+  polygon.serve = [this](const ExchangePtr& exchange) { serve_polygon(exchange); };
+  return {std::move(recipe), std::move(polygon)};
+}
+
+/// Before the pipeline's first report it is the first one, with which that starts.
+Result<const MeasuredRecipe*> RecipeRoutes::recipe_of(const Request& request) const {
+  if (recipes_.empty()) return fail("there is no recipe");
+  const std::string* asked = request.argument(kNumber.name);
+  const std::string number = asked ? *asked : std::to_string(selected_());
+  const auto found = std::ranges::find_if(recipes_, [&](const MeasuredRecipe& recipe) {
+    return std::to_string(recipe.number) == number;
+  });
+  if (found != recipes_.end()) return &*found;
+  if (!asked) return &recipes_.front();
+  std::string numbers;
+  for (const MeasuredRecipe& recipe : recipes_) {
+    numbers += (numbers.empty() ? "" : ", ") + std::to_string(recipe.number);
+  }
+  return fail("there is no recipe " + number.substr(0, 20) + "; there are: " + numbers);
+}
+
+void RecipeRoutes::serve_recipe(const ExchangePtr& exchange) const {
+  constexpr int kNotFound = 404;
+  answer(exchange, recipe_of(exchange->request()).map([](const auto* recipe) {
+    return recipe_json(*recipe);
+  }),
+         kNotFound);
+}
+
+void RecipeRoutes::serve_polygon(const ExchangePtr& exchange) const {
+  const Request& request = exchange->request();
+  const auto polygon = [&](const MeasuredRecipe* recipe) -> Result<std::string> {
+    const std::string *name = request.argument("view"), *text = request.argument(kPixels.name);
+    const auto view = name ? std::ranges::find(recipe->views, *name, &MeasuredRecipe::View::name)
+                           : recipe->views.end();
+    if (view == recipe->views.end()) {
+      return fail("say as ?view=NAME which of the views that /api/v1/recipe lists");
+    }
+    if (!text) return fail("say the corners, as &pixels=u,v,u,v,...");
+    return pixels_of(*text).and_then([&](const std::vector<optics::Vec2>& pixels) {
+      return polygon_json(*view->projection, scene_, pixels);
+    });
+  };
+  answer(exchange, recipe_of(request).and_then(polygon));
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,141 @@
+"""Limits and regions of the recipe, changed on the page of a running daemon."""
+
+import difflib
+import json
+import tomllib
+import unittest
+import urllib.request
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.select import Select
+
+from appliance import PATIENCE_S, eventually
+from configuration_test import Configured
+from page_case import PageCase
+
+
+class RecipeOnThePage(PageCase):
+    @classmethod
+    def make_appliance(cls):
+        return Configured()
+
+    def setUp(self):
+        super().setUp()
+        self.before = self.appliance.recipe.read_bytes()
+        self.browser.get(f"{self.appliance.address}#/process")
+        eventually("regions over a picture", lambda: self.browser.execute_script(
+            "return document.querySelectorAll('#regions polyline').length > 1"
+            " && document.querySelector('#regions canvas').dataset.number"))
+
+    def recipe(self):
+        """What the interface says of the recipe in force."""
+        with urllib.request.urlopen(self.appliance.address + "api/v1/recipe",
+                                    timeout=PATIENCE_S) as answer:
+            return json.load(answer)
+
+    def region(self, name):
+        return next(one for one in self.recipe()["regions"] if one["name"] == name)
+
+    def find(self, selector):
+        element = self.browser.find_element(By.CSS_SELECTOR, selector)
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        return element
+
+    def press(self, label):
+        self.find("#recipe").find_element(By.XPATH, f".//button[text()='{label}']").click()
+
+    def said(self):
+        return self.browser.text("#recipe [role=status]")
+
+    def drag_a_limit(self):
+        """That of the width's high warning, upwards; what it is then, as the page has it."""
+        Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
+        eventually("its lines", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
+        self.find("[data-region=pool] .strip")
+        grip = self.browser.find_element(By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip")
+        ActionChains(self.browser).move_to_element(grip).click_and_hold().move_by_offset(
+            0, -7).release().perform()
+        dragged = self.shown("high_warning")
+        self.assertGreater(dragged, 26)
+        line = self.browser.find_element(By.CSS_SELECTOR, "[data-limit='1 high_warning']")
+        line.send_keys(Keys.ARROW_UP)
+        pressed = self.shown("high_warning")
+        self.assertGreater(pressed, dragged)
+        return pressed
+
+    def shown(self, limit):
+        return float(self.find(f"[data-region=pool] .limits [name={limit}]").get_property("value"))
+
+    def move_a_corner(self):
+        """The pool's first one, by keys; how the others stand."""
+        Select(self.find("#regions [name=region]")).select_by_value("pool")
+        corner = self.find("#regions [data-corner='0']")
+        corner.send_keys(Keys.SHIFT + Keys.ARROW_LEFT)
+        eventually("it is settled", lambda: self.browser.execute_script(
+            "return !document.querySelector('#recipe > button').disabled"))
+
+    def draw_a_region(self):
+        for name, value in (("name", "seam"), ("threshold", "900")):
+            self.find(f"#regions form [name={name}]").send_keys(value)
+        self.find("#regions form button").click()
+        eventually("it is there", lambda: Select(self.find(
+            "#regions [name=region]")).first_selected_option.text == "seam")
+        picture = self.find("#regions svg")
+        ActionChains(self.browser).move_to_element_with_offset(picture, -200, -150).click_and_hold(
+            ).move_by_offset(80, 60).release().perform()
+        eventually("it has an outline there", lambda: self.browser.execute_script(
+            "return document.querySelector(\"#regions [data-corner='0']\").getAttribute('cx') < 200"))
+
+    def difference(self):
+        """Lines of the file that are no more, and those that are new."""
+        lines = [text.decode().splitlines(keepends=True)
+                 for text in (self.before, self.appliance.recipe.read_bytes())]
+        changes = list(difflib.ndiff(*lines))
+        return [[line[2:] for line in changes if line[0] == sign] for sign in "-+"]
+
+    def test_limits_and_regions_are_kept_in_the_recipe(self):
+        checksum, pool = self.appliance.checksum(), self.region("pool")
+        limit = self.drag_a_limit()
+        self.move_a_corner()
+        self.draw_a_region()
+        self.browser.keep_picture("process-recipe")
+        self.press("Check and show the difference")
+        eventually("the difference",
+                   lambda: '+name = "seam"' in self.browser.text("#recipe pre"))
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
+        self.press("Try out")
+        eventually("it runs", lambda: self.appliance.says(
+            lambda: self.appliance.checksum() != checksum
+            and self.appliance.configuration()["trial"]))
+        self.assertEqual(self.recipe()["alarms"][0]["high_warning"], limit)
+        eventually("the page says so",
+                   lambda: "goes back in" in self.browser.text("#recipe [role=timer]"))
+        eventually("the new region is measured", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-region=seam]"))
+        self.assertEqual(self.appliance.recipe.read_bytes(), self.before)
+        self.press("Keep it")
+        eventually("the file is written",
+                   lambda: self.appliance.recipe.read_bytes() != self.before)
+
+        gone, new = self.difference()
+        self.assertEqual([line.split(" ")[0] for line in gone], ["points", "high_warning"])
+        self.assertEqual(new[1], f"high_warning = {limit:g}\r\n")
+        self.assertTrue(new[0].endswith("[-30, -130, 178], [-30, 30, 178], [-190, 30, 178]]  # the workpiece\r\n"))
+        self.assertEqual([line.split(" ")[0].strip() for line in new[2:]],
+                         ["", "[[region]]", "name", "view", "points", "hot_spot_threshold"])
+        kept = tomllib.loads(self.appliance.recipe.read_text(encoding="utf-8"))
+        self.assertEqual(kept["region"][-1]["name"], "seam")
+        # Ten pixels to the left, where the view shows the work piece's top or the room beside it.
+        moved = self.region("pool")["corners"]
+        self.assertAlmostEqual(moved[0]["pixel"][0], pool["corners"][0]["pixel"][0] - 10, delta=0.01)
+        self.assertAlmostEqual(moved[0]["pixel"][1], pool["corners"][0]["pixel"][1], delta=0.01)
+        self.assertEqual(moved[1:], pool["corners"][1:])
+        # That the appliance restarts is what the browser complains about.
+        self.assertEqual([one for one in self.browser.complaints() if "ERR_" not in one["message"]], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
