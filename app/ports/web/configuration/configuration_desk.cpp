@@ -64,10 +64,12 @@ struct ConfigurationDesk::Sent {
 
   static Result<> read_nothing(std::string_view /*body*/, Sent& /*sent*/) { return {}; }
   static Result<> read_files(std::string_view text, Sent& sent) {
-    return parse_configuration(text).map([&](ConfigurationBody body) { sent.body = body; });
+    return parse_configuration(text).map(
+        [&](ConfigurationBody parsed) { sent.body = std::move(parsed); });
   }
   static Result<> read_recipe(std::string_view text, Sent& sent) {
-    return parse_recipe_change(text).map([&](RecipeBody body) { sent.recipe = body; });
+    return parse_recipe_change(text).map(
+        [&](RecipeBody parsed) { sent.recipe = std::move(parsed); });
   }
 };
 
