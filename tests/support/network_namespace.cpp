@@ -27,20 +27,6 @@ constexpr const char* kInterface = "wire";
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// Until the interface carries packets: the system says so up to a second after both ends are up,
-/// and who looks for interfaces before does not see it.
-void wait_for_carrier() {
-  const hal::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  ifreq request{};
-  std::strncpy(request.ifr_name, kInterface, sizeof request.ifr_name - 1);
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while ((request.ifr_flags & IFF_RUNNING) == 0) {
-    if (ioctl(socket.get(), SIOCGIFFLAGS, &request) != 0) fail_with_errno(kInterface);
-    if (std::chrono::steady_clock::now() > give_up) throw std::runtime_error("no carrier");
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // polls the system
-  }
-}
-
 }  // namespace
 
 bool NetworkNamespace::allowed() {
@@ -101,6 +87,18 @@ void Cable::readdress(const std::string& address) const {
     ip("address flush" + device);
     ip("address add " + address + "/24" + device);
   });
+}
+
+void wait_for_carrier() {
+  const hal::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  ifreq request{};
+  std::strncpy(request.ifr_name, kInterface, sizeof request.ifr_name - 1);
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while ((request.ifr_flags & IFF_RUNNING) == 0) {
+    if (ioctl(socket.get(), SIOCGIFFLAGS, &request) != 0) fail_with_errno(kInterface);
+    if (std::chrono::steady_clock::now() > give_up) throw std::runtime_error("no carrier");
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // polls the system
+  }
 }
 
 void ip(const std::string& arguments) {

@@ -53,6 +53,11 @@ class Cable {
   const NetworkNamespace& right_;
 };
 
+/// Until the interface `wire` of the calling thread's namespace carries packets: the system says so
+/// up to a second after both ends are up, and who looks for interfaces before does not see it.
+/// Throws std::runtime_error when it never does.
+void wait_for_carrier();
+
 /// Runs a command line of `ip` in the namespace of the calling thread. Throws std::runtime_error
 /// when it fails.
 void ip(const std::string& arguments);

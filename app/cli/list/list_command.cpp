@@ -86,7 +86,7 @@ Result<std::string> list_appliances(const ListOptions& o) {
     return fail("DDS: no appliance is heard in domain " + std::to_string(o.domain) +
                 "; does an orbwatchd run there, and are the keys right?");
   }
-  return o.json ? list_json(appliances, now) : list_table(appliances);
+  return o.json ? appliances_json(appliances, now) : appliances_table(appliances);
 }
 
 }  // namespace

@@ -118,11 +118,11 @@ std::string list_table(const hal::Inventory& inventory) {
   return text;
 }
 
-std::string list_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now) {
+std::string appliances_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now) {
   return Json{{"appliances", to_json(appliances, now)}}.dump(2) + "\n";
 }
 
-std::string list_table(const std::vector<Fleet::Entry>& appliances) {
+std::string appliances_table(const std::vector<Fleet::Entry>& appliances) {
   std::vector<Fields> records;
   for (const Fleet::Entry& entry : appliances) {
     const ApplianceNotice& notice = entry.notice;

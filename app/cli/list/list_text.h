@@ -15,7 +15,7 @@ std::string list_json(const hal::Inventory& inventory);
 std::string list_table(const hal::Inventory& inventory);
 
 /// Appliances as one JSON document, and as a table. Reentrant.
-std::string list_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now);
-std::string list_table(const std::vector<Fleet::Entry>& appliances);
+std::string appliances_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now);
+std::string appliances_table(const std::vector<Fleet::Entry>& appliances);
 
 }  // namespace orbwatch::app

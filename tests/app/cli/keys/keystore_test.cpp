@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/ports/dds/security/enclave.h"
+#include "app/ports/dds/topics/topic_names.h"
 #include "tests/app/ports/dds/security/openssl_program.h"
 #include "tests/app/ports/dds/security/test_keystore.h"
 
@@ -218,7 +219,7 @@ TEST_F(KeystoreTest, RefusesWhatDoesNotFit) {
   expect_refused(other, "another domain or prefix");
   other = request();
   other.subscribers = {"plc"};
-  other.appliance = appliance_access("other");
+  other.bulk_topics = bulk_topics("other");
   expect_refused(other, "another domain or prefix");
   for (const std::string name : {"", "a/b", "..", "a b", "<", "\xC3\xA9", "appliance"}) {
     other = request();
@@ -233,6 +234,19 @@ TEST_F(KeystoreTest, RefusesWhatDoesNotFit) {
   fs::remove(file("private/permissions_ca.key.pem"));
   other.subscribers = {"plc"};
   expect_refused(other, "permissions_ca.key.pem: cannot be read: No such file");
+}
+
+TEST_F(KeystoreTest, AddsSubscribersToOneOfAnEarlierVersion) {
+  auto earlier = request();
+  for (auto* topics : {&earlier.appliance.publish, &earlier.appliance.subscribe}) {
+    std::erase(*topics, kApplianceTopic);
+    std::erase(*topics, kThumbnailTopic);
+  }
+  make_keystore(earlier);
+  auto more = request();
+  more.subscribers = {"plc"};
+  const auto made = make_keys(more, tests::this_second());
+  EXPECT_TRUE(made) << made.error().message;
 }
 
 TEST_F(KeystoreTest, LeavesOtherFilesAlone) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tests/app/cli/equal_json.h"
 
@@ -116,6 +118,50 @@ TEST(ListTable, OfNothingAndOfTextsThatATerminalWouldObey) {
   hal::Inventory inventory;
   inventory.cameras.emplace_back().id = "\x1b[2Jcam\n";
   EXPECT_EQ(list_table(inventory), "camera  ?[2Jcam?\n\nno chips\n");
+}
+
+std::vector<Fleet::Entry> two_appliances(hal::TimePoint now) {
+  Fleet::Entry cell{"01", {}, now, now, false, false, 0};
+  cell.notice.name = "cell 3";
+  cell.notice.version = "1.2.3";
+  cell.notice.prefix = "orbwatch";
+  cell.notice.page = {"10.0.0.7", 443};
+  cell.notice.state = SystemState::Running;
+  cell.notice.condition = {Severity::None, "running: every camera delivers"};
+  cell.notice.alarms = 2;
+  cell.notice.alarm = {Severity::Alarm, "1, pool: hot_spot_width: high alarm"};
+  Fleet::Entry gone{"02", {}, now, now - std::chrono::seconds(9), true, false, 4};
+  gone.notice.name = "cell 4";
+  return {cell, gone};
+}
+
+TEST(AppliancesJson, HasEveryFieldOfEveryAppliance) {
+  const auto now = hal::Clock::now();
+  const auto json = nlohmann::json::parse(appliances_json(two_appliances(now), now));
+  ASSERT_EQ(json["appliances"].size(), 2U);
+  auto cell = json["appliances"][0];
+  EXPECT_TRUE(cell["newest"].is_string());
+  cell.erase("newest");
+  expect_equal_json(cell.dump(), R"({
+    "id": "01", "name": "cell 3", "is_self": false, "is_gone": false, "age": 0, "state": 1,
+    "state_text": "running: every camera delivers",
+    "condition": "running: every camera delivers", "severity": 0, "alarms": 2,
+    "alarm": "1, pool: hot_spot_width: high alarm", "alarm_severity": 2, "version": "1.2.3",
+    "prefix": "orbwatch", "page": "https://10.0.0.7:443/", "pictures": 0
+  })");
+  EXPECT_EQ(json["appliances"][1]["is_gone"], true);
+  EXPECT_EQ(json["appliances"][1]["age"], 9);
+  EXPECT_TRUE(json["appliances"][1]["page"].is_null());
+}
+
+TEST(AppliancesTable, SaysWhoIsGone) {
+  const std::string table = appliances_table(two_appliances(hal::Clock::now()));
+  EXPECT_EQ(table,
+            "  name    state    alarms  alarm                                page"
+            "                   version  prefix\n"
+            "  cell 3  running  2       1, pool: hot_spot_width: high alarm  https://10.0.0.7:443/"
+            "  1.2.3    orbwatch\n"
+            "  cell 4  gone     0       -                                    -\n");
 }
 
 }  // namespace

@@ -22,12 +22,13 @@ class ForeignWriter {
     writer_ = make_writer(participant_.entity(), topic_, qos).value();
   }
 
+  bool has_reader() const {
+    dds_publication_matched_status_t status{};
+    EXPECT_EQ(dds_get_publication_matched_status(writer_.get(), &status), DDS_RETCODE_OK);
+    return status.current_count > 0;
+  }
   bool wait_for_reader() const {
-    return eventually([this] {
-      dds_publication_matched_status_t status{};
-      EXPECT_EQ(dds_get_publication_matched_status(writer_.get(), &status), DDS_RETCODE_OK);
-      return status.current_count > 0;
-    });
+    return eventually([this] { return has_reader(); });
   }
   void write(const void* sample) const {
     EXPECT_EQ(dds_write(writer_.get(), sample), DDS_RETCODE_OK);

@@ -91,7 +91,7 @@ class KeptViewsTest : public testing::Test {
 TEST_F(KeptViewsTest, TheNewestOfEachAndTheOneSelectedBefore) {
   start(settings());
   EXPECT_EQ(sink_->keeps().of_each, 1U);
-  EXPECT_EQ(sink_->keeps().besides, 1U + 1) << "one is written";
+  EXPECT_EQ(sink_->keeps().besides, 1U + 1 + 1) << "one is the thumbnail's, one is written";
   std::optional<ImageReader> own(std::in_place, kOwn);
   const ImageReader measured(radiometric_topic("orbwatch", "front")),
       wide("rt/orbwatch/wide/image_raw"), selected(kSelected);
@@ -134,7 +134,7 @@ TEST_F(KeptViewsTest, AJpegThatWasDueWaitsBesideTheNewest) {
   chosen.jpeg.rate = 1;
   start(chosen);
   EXPECT_EQ(sink_->keeps().of_each, 2U);
-  EXPECT_EQ(sink_->keeps().besides, 2U + 1);
+  EXPECT_EQ(sink_->keeps().besides, 2U + 1 + 1);
   const ImageReader own(kOwn);
   const CompressedReader own_jpeg(kOwnJpeg);
   wait_for_readers({kOwn, kOwnJpeg});

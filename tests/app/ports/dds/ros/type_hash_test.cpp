@@ -7,6 +7,7 @@
 #include <regex>
 #include <string>
 
+#include "app/ports/dds/generated/appliance.h"
 #include "app/ports/dds/generated/camera_info.h"
 #include "app/ports/dds/generated/command.h"
 #include "app/ports/dds/generated/compressed_image.h"
@@ -71,6 +72,8 @@ TEST(TypeHash, IsTheOneThatRos2Publishes) {
 /// The types are final: another hash is another type, which no reader in the field knows.
 TEST(TypeHash, OfOurTypesNeverChanges) {
   for (const Published& ours : {
+           Published{"orbwatch_msgs/msg/Appliance",
+                     "579b3977ddc8aec2bb7a3250fe21518c719b3770dab5d0619498143a4d96261f"},
            Published{"orbwatch_msgs/msg/Command",
                      "0356d1102374daad29460dfab9e13c77a5549a916e1a324fe49bbbe78117cf45"},
            Published{"orbwatch_msgs/msg/CommandResult",
@@ -83,6 +86,8 @@ TEST(TypeHash, OfOurTypesNeverChanges) {
                      "05990ddf8cd3157538d46edf6988b40c524ea136c940dddc07681dc04c0fc7b2"},
            Published{"orbwatch_msgs/msg/ProcessState",
                      "21bc9d345313d44da760e364ce40241ebcc8b10fa0cc693db5af25395d9c9f8d"},
+           Published{"orbwatch_msgs/msg/Thumbnail",
+                     "a8e64787d0ea3d15de355983eb3f54ae90016c7bfe8fa251e63dc9b1cccaf903"},
        }) {
     const auto found = std::ranges::find(kTypeHashes, ours.type,
                                          [](const TypeHash& hash) { return ros_name(hash.type); });
@@ -107,7 +112,8 @@ TEST(TypeHash, EveryTopicTypeAnnouncesOne) {
         &sensor_msgs_msg_dds__CameraInfo__desc, &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
         &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
         &orbwatch_msgs_msg_dds__ProcessState__desc, &orbwatch_msgs_msg_dds__Event__desc,
-        &orbwatch_msgs_msg_dds__Command__desc, &orbwatch_msgs_msg_dds__CommandResult__desc}) {
+        &orbwatch_msgs_msg_dds__Command__desc, &orbwatch_msgs_msg_dds__CommandResult__desc,
+        &orbwatch_msgs_msg_dds__Appliance__desc, &orbwatch_msgs_msg_dds__Thumbnail__desc}) {
     const Qos qos(dds_create_qos());
     const auto announced = announce_type_hash(qos, *type);
     ASSERT_TRUE(announced) << announced.error().message;

@@ -10,6 +10,7 @@
 #include "app/cli/dds/received_state.h"
 #include "app/cli/dds/subscription.h"
 #include "app/ports/dds/dds_sink.h"
+#include "app/ports/dds/fleet/appliance_message.h"
 #include "app/ports/dds/pictures/camera_info.h"
 #include "app/ports/dds/pictures/image_message.h"
 #include "app/ports/dds/security/enclave.h"
@@ -138,6 +139,8 @@ const dds_topic_descriptor_t& type_of(const std::string& topic) {
   if (topic == command_result_topic("orbwatch")) {
     return orbwatch_msgs_msg_dds__CommandResult__desc;
   }
+  if (topic == kApplianceTopic) return orbwatch_msgs_msg_dds__Appliance__desc;
+  if (topic == kThumbnailTopic) return orbwatch_msgs_msg_dds__Thumbnail__desc;
   if (topic == kDiagnosticsTopic) return diagnostic_msgs_msg_dds__DiagnosticArray__desc;
   if (topic.ends_with("/camera_info")) return sensor_msgs_msg_dds__CameraInfo__desc;
   if (is_compressed_topic(topic)) return sensor_msgs_msg_dds__CompressedImage__desc;
@@ -273,6 +276,44 @@ TEST_F(SecureNetwork, KeysOfAnotherAuthorityAreWorthNothing) {
   show_until_seen(insider, [&] {
     stranger.take([](const ImageMessage& image) { ADD_FAILURE() << image.header.frame_id; });
   });
+}
+
+TEST_F(SecureNetwork, WithKeysOfAnEarlierVersionTheSinkDoesAllButTheFleet) {
+  auto earlier = keystore_request(folder_ / "earlier");
+  for (auto* topics : {&earlier.appliance.publish, &earlier.appliance.subscribe}) {
+    std::erase(*topics, kApplianceTopic);
+    std::erase(*topics, kThumbnailTopic);
+  }
+  make_keystore(earlier);
+  DdsSink sink({.domain = kSecondPeer, .security = keys_of(folder_ / "earlier", "appliance")},
+               {{}, {"front"}, {}}, nullptr);
+  ASSERT_TRUE(sink.start());
+  EXPECT_TRUE(sink.works());
+  StateReader states("orbwatch");
+  ASSERT_TRUE(states.open(kThirdPeer, keys_of(folder_ / "earlier", "subscriber")));
+  sink.accept(tests::make_status());
+  const auto state = states.next(std::chrono::minutes(1), [](const ReceivedState&) {});
+  ASSERT_TRUE(state) << state.error().message;
+  EXPECT_TRUE(*state);
+  EXPECT_EQ(sink.statistics().joins, 1U);
+}
+
+TEST_F(SecureNetwork, AppliancesAndReadersHearEachOther) {
+  const auto fleet = std::make_shared<Fleet>();
+  const auto participant = Participant::join(DdsNetwork::kReaderDomain, subscriber());
+  ASSERT_TRUE(participant) << participant.error().message;
+  FleetReader reader(*fleet);
+  ASSERT_TRUE(reader.open(participant->entity()));
+  DdsSink other({.domain = kSecondPeer, .security = keys_of(keystore_, "appliance")},
+                {{}, {"front"}, {}}, nullptr, network_addresses, std::make_shared<CommandRecord>(),
+                hal::SharedThreads::alone(), {"other", "", "orbwatch", {}},
+                std::make_shared<Fleet>());
+  ASSERT_TRUE(other.start());
+  EXPECT_TRUE(eventually([&] {
+    sink_.accept(tests::make_status());
+    other.accept(tests::make_status());
+    return fleet->list(hal::Clock::now()).size() == 2;
+  }));
 }
 
 TEST_F(SecureNetwork, TheSinkDoesNotStartWithoutItsKeys) {
