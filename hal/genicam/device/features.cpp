@@ -101,6 +101,7 @@ std::vector<Entry> entries_of(ArvGcEnumeration* menu) {
 /// As `orbwatch list` shows it: "1 = Line1".
 std::vector<std::string> entry_texts(const std::vector<Entry>& entries) {
   std::vector<std::string> texts;
+  texts.reserve(entries.size());
   for (const Entry& entry : entries) {
     texts.push_back(std::to_string(entry.number) + " = " + entry.name);
   }

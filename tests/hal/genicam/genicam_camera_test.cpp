@@ -287,7 +287,7 @@ class SentAgain : public testing::TestWithParam<double> {};
 
 TEST_P(SentAgain, EveryFrameIsWhole) {
   ORBWATCH_REQUIRE_NETWORK_NAMESPACES();
-  constexpr std::size_t kFrames = 80;
+  constexpr std::size_t kFrames = 50;
   const tests::NetworkNamespace ours, theirs;
   const tests::Cable cable(ours, theirs);
   std::optional<FakeGigeCamera> fake;
@@ -366,7 +366,7 @@ TEST_F(OnFakeCamera, ComesBackWithItsFeaturesWhenTheCameraWasRestarted) {
     receiver.start(camera);
     receiver.wait_for(1);
     const std::size_t files = open_files();
-    const auto restarts = static_cast<std::size_t>(tests::share_of(20));
+    const auto restarts = static_cast<std::size_t>(tests::share_of(10));
     for (std::size_t round = 1; round <= restarts; ++round) {
       fake.kill();
       const auto faults = receiver.wait_for_faults(2 * round - 1);
