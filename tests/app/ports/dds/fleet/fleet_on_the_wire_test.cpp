@@ -167,7 +167,7 @@ TEST_F(FleetOnTheWire, ThumbnailsAreMadeOnlyForThoseWhoLook) {
   ASSERT_TRUE(live_until([&] { return here_.fleet->picture(id) != nullptr; }, &there));
   const auto jpeg = *here_.fleet->picture(id);
   EXPECT_LT(jpeg.size(), 8000U);
-  EXPECT_GT(written(), 0U);
+  EXPECT_TRUE(eventually([&] { return written() > 0; })) << "counted behind the write";
   EXPECT_EQ(here_.fleet->counts().refused, 0U);
   EXPECT_EQ(there.fleet->picture(id), nullptr) << "nobody looked there";
 }
@@ -183,11 +183,15 @@ TEST_F(FleetOnTheWire, WhatIsTooLongOrWrongIsDropped) {
         name.data(), empty.data(), empty.data(), empty.data(), 1, state, 0, empty.data(), 0,
         0,           alarm.data()};
   };
-  for (const LooseAppliance& wrong : {sample(longer, empty, 1), sample(huge, empty, 1),
-                                      sample(sound, huge, 1), sample(sound, empty, 77)}) {
-    stranger.write(&wrong);
-  }
-  ASSERT_TRUE(live_until([&] { return here_.fleet->counts().refused > 0; }));
+  std::uint64_t rounds = 0;
+  ASSERT_TRUE(live_until([&] {  // the first ones come before the reader knows the writer
+    ++rounds;
+    for (const LooseAppliance& wrong : {sample(longer, empty, 1), sample(huge, empty, 1),
+                                        sample(sound, huge, 1), sample(sound, empty, 77)}) {
+      stranger.write(&wrong);
+    }
+    return here_.fleet->counts().refused > 0;
+  }));
   const auto said = [&](const std::string& name) {
     const auto names = here_.names();
     return std::ranges::find(names, name) != names.end();
@@ -198,7 +202,7 @@ TEST_F(FleetOnTheWire, WhatIsTooLongOrWrongIsDropped) {
     stranger.write(&strange);
     return said("??]0;");
   }));
-  EXPECT_EQ(here_.fleet->counts().refused, 1U) << "Cyclone DDS drops the others";
+  EXPECT_LE(here_.fleet->counts().refused, rounds) << "Cyclone DDS drops the others";
   EXPECT_EQ(here_.names().size(), 2U);
 }
 
@@ -209,14 +213,18 @@ TEST_F(FleetOnTheWire, PicturesOfStrangersAreSmallAndWholeOrNotThere) {
                                frame_qos());
   ASSERT_TRUE(live_until([&] { return stranger.has_reader(); }));
   std::vector<std::uint8_t> bytes(500'000, 0xd8);
-  for (const std::size_t length :
-       {std::size_t{0}, std::size_t{16}, std::size_t{16384}, std::size_t{16385}, bytes.size()}) {
-    const auto size = static_cast<std::uint32_t>(length);
-    const ThumbnailMessage message{{size, size, bytes.data(), false}};
-    stranger.write(&message);
-  }
-  ASSERT_TRUE(live_until([&] { return here_.fleet->counts().refused >= 3; }));
-  EXPECT_EQ(here_.fleet->counts().refused, 3U);
+  std::uint64_t rounds = 0;
+  ASSERT_TRUE(live_until([&] {
+    ++rounds;
+    for (const std::size_t length :
+         {std::size_t{0}, std::size_t{16}, std::size_t{16384}, std::size_t{16385}, bytes.size()}) {
+      const auto size = static_cast<std::uint32_t>(length);
+      const ThumbnailMessage message{{size, size, bytes.data(), false}};
+      stranger.write(&message);
+    }
+    return here_.fleet->counts().refused >= 3;
+  }));
+  EXPECT_LE(here_.fleet->counts().refused, 3 * rounds) << "Cyclone DDS drops what is too large";
 }
 
 }  // namespace
