@@ -45,6 +45,7 @@ class Served : public testing::Test {
     context.handler = handler;
     context.program = program;
     context.tables = tables;
+    context.fleet = fleet;
     sink = std::make_unique<WebSink>(on_a_free_port(settings), context);
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;
@@ -72,6 +73,7 @@ class Served : public testing::Test {
   CommandHandler handler;
   Program program;                                      ///< nothing
   std::function<std::vector<InterfaceTable>()> tables;  ///< empty: none
+  std::shared_ptr<Fleet> fleet;                         ///< null: no DDS
   std::unique_ptr<WebSink> sink;
 };
 

@@ -1,0 +1,63 @@
+#include "app/ports/web/fleet/fleet_routes.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/ports/web/served.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using nlohmann::json;
+
+class FleetRoutes : public Served {
+ protected:
+  void hear(const std::string& id, const std::string& name, hal::TimePoint now) const {
+    ApplianceNotice notice;
+    notice.name = name;
+    notice.page = {"10.0.0.7", 8443};
+    fleet->hear(id, notice, now);
+  }
+  json list() const { return json::parse(get(port(), "/api/v1/appliances").body); }
+};
+
+TEST_F(FleetRoutes, ListAppliancesAndMarkThoseThatAreGone) {
+  fleet = std::make_shared<Fleet>();
+  start();
+  hear("02", "cell 2", hal::Clock::now());
+  hear("01", "cell 1", hal::Clock::now() - std::chrono::minutes(1));
+  const json all = list();
+  EXPECT_TRUE(all["missing"].is_null());
+  ASSERT_EQ(all["appliances"].size(), 2U);
+  EXPECT_EQ(all["appliances"][0]["name"], "cell 1");
+  EXPECT_EQ(all["appliances"][0]["is_gone"], true);
+  EXPECT_EQ(all["appliances"][1]["is_gone"], false);
+  EXPECT_EQ(all["appliances"][1]["page"], "https://10.0.0.7:8443/");
+  EXPECT_TRUE(fleet->is_looked_at(hal::Clock::now())) << "pictures are fetched from now on";
+  EXPECT_EQ(fleet->forget_gone(hal::Clock::now()), 1U);
+  EXPECT_EQ(list()["appliances"].size(), 1U);
+}
+
+TEST_F(FleetRoutes, ShowThePictureOfOneThatIsListed) {
+  fleet = std::make_shared<Fleet>();
+  start();
+  hear("01", "cell 1", hal::Clock::now());
+  EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg?appliance=01").status, 404);
+  fleet->show("01", "a picture");
+  const Answer picture = get(port(), "/api/v1/appliances/picture.jpg?appliance=01");
+  EXPECT_EQ(picture.status, 200);
+  EXPECT_EQ(picture.body, "a picture");
+  EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg?appliance=02").status, 404);
+  EXPECT_EQ(get(port(), "/api/v1/appliances/picture.jpg").status, 404);
+}
+
+TEST_F(FleetRoutes, SayWhichKeyIsMissingWithoutDds) {
+  start();
+  const json all = list();
+  EXPECT_EQ(all["appliances"], json::array());
+  EXPECT_THAT(all["missing"].get<std::string>(), testing::HasSubstr("enabled = true in [dds]"));
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests
