@@ -6,13 +6,13 @@
 namespace orbwatch::hal {
 namespace {
 
+constexpr std::uint64_t kNanoseconds = 1'000'000'000;  // per second
+
 /// As Aravis converts the stamps of frames: whole seconds first, so that no digit is lost.
-std::chrono::nanoseconds to_ns(std::uint64_t ticks, double ns_per_tick) {
-  if (ns_per_tick == 1) return std::chrono::nanoseconds(static_cast<std::int64_t>(ticks));
-  const auto frequency = static_cast<std::uint64_t>(1e9 / ns_per_tick + 0.5);
+std::chrono::nanoseconds to_ns(std::uint64_t ticks, std::uint64_t frequency) {
+  const std::uint64_t rest = ticks % frequency * kNanoseconds / frequency;
   return std::chrono::seconds(ticks / frequency) +
-         std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(ticks % frequency) *
-                                                            1e9 / static_cast<double>(frequency)));
+         std::chrono::nanoseconds(static_cast<std::int64_t>(rest));
 }
 
 }  // namespace
@@ -28,11 +28,14 @@ std::optional<TimestampLatch> TimestampLatch::find(ArvCamera* camera) {
         !arv_device_is_feature_available(device, names.value, nullptr)) {
       continue;
     }
-    if (!names.in_ticks) return TimestampLatch(device, names, 1);
+    if (!names.in_ticks) return TimestampLatch(device, names, kNanoseconds);
     if (!ARV_IS_GV_DEVICE(device)) continue;
     const guint64 frequency =
         arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device), nullptr);
-    if (frequency > 0) return TimestampLatch(device, names, 1e9 / static_cast<double>(frequency));
+    // Beyond 10 GHz it is none, and would not fit the conversion.
+    if (frequency > 0 && frequency <= 10 * kNanoseconds) {
+      return TimestampLatch(device, names, frequency);
+    }
   }
   return std::nullopt;
 }
@@ -46,7 +49,7 @@ std::optional<TimestampLatch::Reading> TimestampLatch::read() const {
   if (error) return std::nullopt;
   const gint64 value = arv_device_get_integer_feature_value(device_, names_.value, error.out());
   if (error || value <= 0) return std::nullopt;
-  reading.device = to_ns(static_cast<std::uint64_t>(value), ns_per_unit_);
+  reading.device = to_ns(static_cast<std::uint64_t>(value), frequency_);
   return reading;
 }
 

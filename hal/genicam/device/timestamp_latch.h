@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "hal/clock.h"
@@ -30,12 +31,12 @@ class TimestampLatch {
     bool in_ticks;  ///< of the camera's frequency, else ns
   };
 
-  TimestampLatch(ArvDevice* device, const Names& names, double ns_per_unit)
-      : device_(device), names_(names), ns_per_unit_(ns_per_unit) {}
+  TimestampLatch(ArvDevice* device, const Names& names, std::uint64_t frequency)
+      : device_(device), names_(names), frequency_(frequency) {}
 
   ArvDevice* device_;
   Names names_;
-  double ns_per_unit_;
+  std::uint64_t frequency_;  ///< of its units, per second
 };
 
 }  // namespace orbwatch::hal
