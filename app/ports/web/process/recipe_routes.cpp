@@ -55,8 +55,7 @@ std::vector<Route> RecipeRoutes::routes() {
   recipe.role = Role::Viewer;
   recipe.description =
       "What a recipe measures: regions with their corners and outlines in their views, and limits "
-      "of "
-      "alarms; px, deg, mm";
+      "of alarms; px, deg, mm. Its number is 0 if there is none";
   recipe.type = kJson;
   recipe.query = {kNumber};
   recipe.serve = [this](const ExchangePtr& exchange) { serve_recipe(exchange); };
@@ -72,16 +71,17 @@ std::vector<Route> RecipeRoutes::routes() {
   return {std::move(recipe), std::move(polygon)};
 }
 
-/// Before the pipeline's first report it is the first one, with which that starts.
+/// Before the pipeline's first report it is the first one, with which that starts; without recipes
+/// an empty one.
 Result<const MeasuredRecipe*> RecipeRoutes::recipe_of(const Request& request) const {
-  if (recipes_.empty()) return fail("there is no recipe");
+  static const MeasuredRecipe kNone;
   const std::string* asked = request.argument(kNumber.name);
   const std::string number = asked ? *asked : std::to_string(selected_());
   const auto found = std::ranges::find_if(recipes_, [&](const MeasuredRecipe& recipe) {
     return std::to_string(recipe.number) == number;
   });
   if (found != recipes_.end()) return &*found;
-  if (!asked) return &recipes_.front();
+  if (!asked) return recipes_.empty() ? &kNone : &recipes_.front();
   std::string numbers;
   for (const MeasuredRecipe& recipe : recipes_) {
     numbers += (numbers.empty() ? "" : ", ") + std::to_string(recipe.number);

@@ -92,6 +92,14 @@ TEST_F(ServedRecipe, HasLimitsAndRegionsInItsViews) {
   EXPECT_EQ(all["regions"][2]["lines"][0][2], json::parse("[64.5, 48.5]"));
 }
 
+TEST_F(Served, WithoutRecipesTheRecipeIsEmpty) {
+  start();
+  const json none = json::parse(get(port(), kRecipe).body);
+  EXPECT_EQ(none["number"], 0);
+  EXPECT_TRUE(none["regions"].empty() && none["alarms"].empty() && none["views"].empty());
+  EXPECT_EQ(get(port(), std::string(kRecipe) + "?number=1").status, 404);
+}
+
 /// What is shown at a pixel is the corner that is shown there.
 TEST_F(ServedRecipe, GivesPlacesBackForPixels) {
   std::string pixels;
@@ -137,11 +145,6 @@ TEST_F(ServedRecipe, RefusesWhatIsNoPolygon) {
   EXPECT_THAT(refusal("?view=process&pixels=1,2,3,4"), HasSubstr("at least 3 corners"));
   EXPECT_THAT(refusal("?view=process&number=9&pixels=1,2"), HasSubstr("there is no recipe 9"));
   EXPECT_EQ(get(port(), std::string(kRecipe) + "?number=9").status, 404);
-}
-
-TEST_F(Served, WithoutRecipesSaysSo) {
-  start();
-  EXPECT_EQ(get(port(), kRecipe).status, 404);
 }
 
 }  // namespace
