@@ -5,15 +5,36 @@ import { texts } from "./texts.js";
 export const kHistoryMs = 600000;
 const kLinePx = 16;  // of text
 
+// Of as many values as the appliance reports in that time, four a second, and some more; takes its memory
+// at once.
 export class History {
-  #points = []; // {at: ms, value}, oldest first
+  static #most = 3000;
+  #at = new Float64Array(History.#most); // ms; a ring, as the values are
+  #values = new Float64Array(History.#most); // NaN: not measured
+  #oldest = 0;
+  #count = 0;
 
+  // `value` null: not measured.
   add(at, value) {
-    this.#points.push({ at, value });
-    while (this.#points[0].at < at - kHistoryMs) this.#points.shift();
+    if (this.#count === History.#most) this.#forgetOldest();
+    const place = (this.#oldest + this.#count) % History.#most;
+    this.#at[place] = at;
+    this.#values[place] = value ?? NaN;
+    ++this.#count;
+    while (this.#at[this.#oldest] < at - kHistoryMs) this.#forgetOldest();
   }
+
+  #forgetOldest() {
+    this.#oldest = (this.#oldest + 1) % History.#most;
+    --this.#count;
+  }
+
+  // {at, value or null}, oldest first.
   get points() {
-    return this.#points;
+    return Array.from({ length: this.#count }, (_, index) => {
+      const place = (this.#oldest + index) % History.#most, value = this.#values[place];
+      return { at: this.#at[place], value: Number.isNaN(value) ? null : value };
+    });
   }
 }
 
