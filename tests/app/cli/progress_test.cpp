@@ -70,7 +70,7 @@ TEST(ProgressLine, MakesRoomForTheLog) {
   }
   ASSERT_EQ(dup2(usual.get(), STDERR_FILENO), STDERR_FILENO);
   EXPECT_THAT(rewritten_lines(terminal.read_to_end()),
-              ElementsAre("", "waiting for the first frames ...", "", "orbwatch: camera A: slow",
+              ElementsAre("", "waiting for the first frames ...", "orbwatch: camera A: slow", "",
                           "measuring ...", ""));
 }
 
