@@ -26,7 +26,7 @@ namespace {
 constexpr std::array kPages{"README.md", "platform/README.md", "app/cli/README.md"};
 
 /// Run by this test, as they stand, and end with 0.
-constexpr std::array<std::string_view, 13> kRun{
+constexpr std::array<std::string_view, 14> kRun{
     "orbwatch project ball.jpg -o view.jpg --ball 2048,2048,1970 --alpha 346 --yaw 25 --h-fov 100 "
     "--size 1280x800",
     "orbwatch project --rig rig.toml --camera left=left.png --camera right=right.png --view "
@@ -39,6 +39,7 @@ constexpr std::array<std::string_view, 13> kRun{
     "orbwatch place --rig rig.toml --camera left --image left.png --tags tags.txt -o rig.toml",
     "orbwatch calibration history",
     "orbwatch list",
+    "orbwatch list --appliances",
     "orbwatch doctor",
     "orbwatchd --config FILE --check",
     "orbwatch state",

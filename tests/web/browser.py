@@ -1,5 +1,6 @@
 """Debian's Chromium without a screen."""
 
+import base64
 import os
 import pathlib
 import tempfile
@@ -122,4 +123,5 @@ class Browser(webdriver.Chrome):
 
     def keep_picture(self, name):
         PICTURES.mkdir(parents=True, exist_ok=True)
-        self.save_screenshot(str(PICTURES / f"{name}.png"))
+        shot = self.execute_cdp_cmd("Page.captureScreenshot", {"format": "jpeg", "quality": 70})
+        (PICTURES / f"{name}.jpg").write_bytes(base64.b64decode(shot["data"]))
