@@ -258,8 +258,9 @@ Result<> Server::listen() {
     tls.push_back({MHD_OPTION_HTTPS_PRIORITIES, 0, const_cast<char*>(kTlsPriorities)});
   }
   tls.push_back({MHD_OPTION_END, 0, nullptr});
-  // Of silence: what arrives too slowly is for end_overdue().
-  const auto silence = std::chrono::ceil<std::chrono::seconds>(settings_.request_timeout);
+  // The library's own limit of silence; end_overdue() comes before it, and counts.
+  const auto silence =
+      std::chrono::ceil<std::chrono::seconds>(settings_.request_timeout) + std::chrono::seconds(1);
   complaint.clear();
   daemon_ = ::MHD_start_daemon(
       flags, 0, Callbacks::accept, this, Callbacks::request, this, MHD_OPTION_EXTERNAL_LOGGER,

@@ -2,24 +2,33 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "tests/app/ports/dds/fastdds/pace.h"
 #include "tests/app/ports/web/abuses.h"
 #include "tests/app/ports/web/served.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
 namespace {
 
+/// Made before, so that whoever hands over waits for no memory.
 class SmallPictures final : public app::tests::Pace {
  public:
-  explicit SmallPictures(WebSink& sink) : sink_(sink) {}
+  explicit SmallPictures(WebSink& sink) : sink_(sink) {
+    for (std::uint64_t n = 0; n < 30; ++n) {
+      views_.push_back(make_view(0, "front", n, 320, 240));
+    }
+  }
 
  private:
   void hand_over_now(std::uint64_t number) override {
-    app::tests::hand_over(sink_, make_view(0, "front", number, 320, 240));
+    app::tests::hand_over(sink_, views_[number % views_.size()]);
   }
+
   WebSink& sink_;
+  std::vector<ViewPtr> views_;
 };
 
 class WebUnderAbuse : public Served, public testing::WithParamInterface<orbwatch::tests::Abuse> {
@@ -48,8 +57,11 @@ TEST_P(WebUnderAbuse, OthersAreAnsweredAndThePipelineDoesNotWait) {
     }
     EXPECT_TRUE(eventually([&] { return abused.acts() > 10; }));
   }
-  // Another thread may hold a lock for a moment when the scheduler takes its processor away.
-  EXPECT_LE(pictures.waits(), pictures.accepted() / 20);
+  // Another thread may hold a lock for a moment when the scheduler takes its processor away; under
+  // sanitizers threads also wait for each other's memory.
+  if (!orbwatch::tests::kIsSanitized) {
+    EXPECT_LE(pictures.waits(), pictures.accepted() / 20);
+  }
   EXPECT_TRUE(eventually([&] { return sink->statistics().connections == 0; }));
 }
 
