@@ -169,6 +169,7 @@ DeviceResult<double> GenicamCamera::open_stream() {
 }
 
 DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
+  const bool silence_is_normal = may_be_silent();  // before the wait, in which buffers may return
   const auto captured = stream_->next(deadline);
   if (!captured) {
     is_lost_ = true;
@@ -180,7 +181,7 @@ DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
     tell_of_clock();
   }
   count_link();
-  if (!*captured && Clock::now() >= deadline && !may_be_silent()) return silence();
+  if (!*captured && Clock::now() >= deadline && !silence_is_normal) return silence();
   return *captured ? 1 : 0;
 }
 

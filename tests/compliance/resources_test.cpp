@@ -28,7 +28,9 @@ TEST_F(Compliance, TwentyStreamsLeaveNoFileAndNoThread) {
     // Libraries may keep resources after their first use.
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
-  EXPECT_EQ(open_files(), files_before);
+  // Threads of libraries may close what they had a moment later.
+  EXPECT_TRUE(comes_true([&] { return open_files() <= files_before; }))
+      << open_files() << ", before " << files_before;
   EXPECT_TRUE(comes_true([&] { return threads() <= threads_before; }))
       << threads() << ", before " << threads_before;
 }
@@ -45,7 +47,9 @@ TEST_F(Compliance, TwentyCamerasLeaveNoFileAndNoThread) {
     }
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
-  EXPECT_EQ(open_files(), files_before);
+  // Threads of libraries may close what they had a moment later.
+  EXPECT_TRUE(comes_true([&] { return open_files() <= files_before; }))
+      << open_files() << ", before " << files_before;
   EXPECT_TRUE(comes_true([&] { return threads() <= threads_before; }))
       << threads() << ", before " << threads_before;
 }
