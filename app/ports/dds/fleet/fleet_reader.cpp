@@ -34,7 +34,6 @@ std::string writer_of(dds_entity_t reader, const dds_sample_info_t& info) {
 /// Calls `accept(id, message)` with all that is there; `refuses` when it returns false.
 template <class Message, class Accept>
 void take_all(dds_entity_t reader, Fleet& fleet, const Accept& accept) {
-  show_order_of_calls();
   const auto take = [&](const void* sample, const dds_sample_info_t& info) {
     const std::string id = writer_of(reader, info);
     if (!id.empty() && !accept(id, *static_cast<const Message*>(sample))) fleet.refuse();
@@ -94,6 +93,7 @@ Result<> FleetReader::read_thumbnails(const Entity& participant, bool wanted) {
 }
 
 void FleetReader::on_notices(dds_entity_t reader, void* self) {
+  show_order_of_calls();
   Fleet& fleet = static_cast<FleetReader*>(self)->fleet_;
   take_all<ApplianceMessage>(reader, fleet, [&](const std::string& id, const auto& message) {
     const auto notice = check_appliance(message);
@@ -103,6 +103,7 @@ void FleetReader::on_notices(dds_entity_t reader, void* self) {
 }
 
 void FleetReader::on_thumbnails(dds_entity_t reader, void* self) {
+  show_order_of_calls();
   Fleet& fleet = static_cast<FleetReader*>(self)->fleet_;
   take_all<ThumbnailMessage>(reader, fleet, [&](const std::string& id, const auto& message) {
     if (!check_thumbnail(message)) return false;
