@@ -75,7 +75,8 @@ void ViewList::accept(const View& view) {
 }
 
 void ViewList::serve(const ExchangePtr& exchange) const {
-  std::vector<std::optional<Aim>> aims;
+  // Has its memory before the lock, on which the pipeline's thread would wait for it.
+  std::vector<std::optional<Aim>> aims(names_.size());
   {
     const std::lock_guard lock(mutex_);
     aims = aims_;
