@@ -100,7 +100,7 @@ bool set_subject(X509* certificate, const std::string& name) {
                                     MBSTRING_UTF8, text, static_cast<int>(name.size()), -1, 0) == 1;
 }
 
-bool set_validity(X509* certificate, const Validity& validity) {
+bool set_validity(X509* certificate, const ValidityPeriod& validity) {
   const auto set = [](ASN1_TIME* field, std::chrono::sys_seconds time) {
     return ASN1_TIME_set(field, time.time_since_epoch().count()) != nullptr;
   };
@@ -128,7 +128,7 @@ std::string date_text(std::chrono::sys_seconds time, const char* format) {
 }
 
 Result<Credential> make_credential(const std::string& name, CertificateUse use,
-                                   const Validity& validity, const Credential* issuer,
+                                   const ValidityPeriod& validity, const Credential* issuer,
                                    const std::vector<std::string>& hosts) {
   Credential made{Key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256")), Certificate(X509_new())};
   X509* const certificate = made.certificate.get();
@@ -187,11 +187,11 @@ std::string subject_of(const Certificate& certificate) {
   return text_of(out);
 }
 
-Result<Validity> validity_of(const Certificate& certificate) {
+Result<ValidityPeriod> validity_of(const Certificate& certificate) {
   const auto from = time_of(X509_get0_notBefore(certificate.get()));
   const auto until = time_of(X509_get0_notAfter(certificate.get()));
   if (!from || !until) return fail("has no valid dates");
-  return Validity{*from, *until};
+  return ValidityPeriod{*from, *until};
 }
 
 bool is_issued_by(const Certificate& certificate, const Certificate& authority) {

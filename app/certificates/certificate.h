@@ -19,7 +19,7 @@ using Key = std::unique_ptr<EVP_PKEY, OpensslDeleter<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, OpensslDeleter<X509_free>>;
 
 /// UTC.
-struct Validity {
+struct ValidityPeriod {
   std::chrono::sys_seconds from{};
   std::chrono::sys_seconds until{};
 };
@@ -45,7 +45,8 @@ enum class CertificateUse {
 /// there is none. `hosts`: names and numeric addresses of a server. Error: OpenSSL refuses, out of
 /// entropy for example.
 Result<Credential> make_credential(const std::string& name, CertificateUse use,
-                                   const Validity& validity, const Credential* issuer = nullptr,
+                                   const ValidityPeriod& validity,
+                                   const Credential* issuer = nullptr,
                                    const std::vector<std::string>& hosts = {});
 
 /// PEM, the key as PKCS #8 without a password.
@@ -59,7 +60,7 @@ Result<Key> key_from_pem(std::string_view pem);
 /// RFC 2253, "CN=subscriber", as in permissions.
 std::string subject_of(const Certificate& certificate);
 /// Error: a date that no calendar has.
-Result<Validity> validity_of(const Certificate& certificate);
+Result<ValidityPeriod> validity_of(const Certificate& certificate);
 /// Whether `certificate` was issued by `authority`; dates are not checked.
 bool is_issued_by(const Certificate& certificate, const Certificate& authority);
 bool is_key_of(const Key& key, const Certificate& certificate);

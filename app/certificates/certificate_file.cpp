@@ -13,7 +13,7 @@ std::string day(std::chrono::sys_seconds time) { return date_text(time, "%Y-%m-%
 
 }  // namespace
 
-Result<> check_dates(const fs::path& file, const Validity& validity, const Now& now) {
+Result<> check_dates(const fs::path& file, const ValidityPeriod& validity, const Now& now) {
   if (!now) return {};
   if (now >= validity.until) {
     return fail(file.string() + ": expired on " + day(validity.until) + "; it must be made anew");
@@ -26,7 +26,7 @@ Result<> check_dates(const fs::path& file, const Validity& validity, const Now& 
 }
 
 Result<> check_dates(const fs::path& file, const Certificate& certificate, const Now& now) {
-  return of_file(file, validity_of(certificate)).and_then([&](const Validity& validity) {
+  return of_file(file, validity_of(certificate)).and_then([&](const ValidityPeriod& validity) {
     return check_dates(file, validity, now);
   });
 }

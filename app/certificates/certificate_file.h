@@ -18,7 +18,8 @@ Result<Value> of_file(const std::filesystem::path& file, Result<Value> result) {
 }
 
 /// Error: `now` lies outside.
-Result<> check_dates(const std::filesystem::path& file, const Validity& validity, const Now& now);
+Result<> check_dates(const std::filesystem::path& file, const ValidityPeriod& validity,
+                     const Now& now);
 /// The same of the certificate that is in `file`.
 Result<> check_dates(const std::filesystem::path& file, const Certificate& certificate,
                      const Now& now);

@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kCalibrationUsage =
     "Usage: orbwatch calibration history [--config SITE] [--json]\n"
     "       orbwatch calibration restore NUMBER [--config SITE]\n"
     "       orbwatch calibration reset CAMERA [--config SITE]\n"
@@ -24,7 +24,7 @@ constexpr const char* kUsage =
     "A running orbwatchd takes it up by the command restart, or SIGHUP.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kCalibrationNotes =
     "\n"
     "--json prints one object: alignments [{number, time (UTC), camera, state (in force, earlier, "
     "for\n"
@@ -145,12 +145,12 @@ Result<std::string> calibration_command(const std::vector<std::string>& argument
   bool json = false;
   return run_command(
       arguments,
-      {.usage = kUsage,
+      {.usage = kCalibrationUsage,
        .options = {{"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
                     text_option(config)},
                    {"json", 0, "", "history for programs", flag_option(json)}},
        .takes_words = true,
-       .notes = kNotes},
+       .notes = kCalibrationNotes},
       [&](const auto& words) { return run(site_file(config), json, words); });
 }
 

@@ -44,7 +44,7 @@ std::vector<Option> declare(KeysOptions& o) {
   };
 }
 
-constexpr const char* kUsage =
+constexpr const char* kDdsKeysUsage =
     "Usage: orbwatch dds-keys FOLDER [options]\n\n"
     "Makes keys, certificates and signed permissions for a DDS domain that nobody else can\n"
     "read or command. FOLDER/enclaves/appliance is for orbwatchd ([dds.security] of its\n"
@@ -76,7 +76,8 @@ Result<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& wo
 
 Result<std::string> dds_keys_command(const std::vector<std::string>& arguments) {
   KeysOptions o;
-  return run_command(arguments, {.usage = kUsage, .options = declare(o), .takes_words = true},
+  return run_command(arguments,
+                     {.usage = kDdsKeysUsage, .options = declare(o), .takes_words = true},
                      [&](const auto& words) { return make_keys(o, words); });
 }
 

@@ -19,7 +19,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kPasswordUsage =
     "Usage: orbwatch password [NAME] [options]\n\n"
     "Sets the password of a user of the page and its HTTP interface (default: admin), or makes\n"
     "the user; with the first one there, nobody sees or does anything there without logging in.\n"
@@ -155,7 +155,7 @@ Result<std::string> password_command(const std::vector<std::string>& arguments) 
   };
   return run_command(
       arguments,
-      {.usage = kUsage,
+      {.usage = kPasswordUsage,
        .options = {{"config", 'c', "SITE", "the file that orbwatchd runs (default: as orbwatchd)",
                     text_option(o.config)},
                    {"role", 'r', "ROLE",

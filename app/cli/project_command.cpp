@@ -21,7 +21,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kProjectUsage =
     "Usage: orbwatch project IN -o OUT --ball CX,CY,R (--alpha DEG | --distance RADII) [options]\n"
     "       orbwatch project IN -o OUT --rig RIG --camera NAME [options]\n"
     "       orbwatch project -o OUT --rig RIG --camera NAME=IN [--camera NAME=IN ...] [options]\n"
@@ -226,7 +226,7 @@ Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone)
 Result<std::string> project_command(const std::vector<std::string>& arguments) {
   ProjectOptions o;
   return run_command(
-      arguments, {.usage = kUsage, .options = declare(o), .takes_words = true},
+      arguments, {.usage = kProjectUsage, .options = declare(o), .takes_words = true},
       [&](const auto& alone) { return project(o, alone).map([] { return std::string(); }); });
 }
 

@@ -28,7 +28,7 @@ std::vector<Option> declare(SubscribeOptions& o) {
   };
 }
 
-constexpr const char* kNotes =
+constexpr const char* kSubscribeNotes =
     "\n"
     "--json prints one object on each line. --stats: topic, seconds (that the figures are of),\n"
     "samples, rate (1/s), longest_gap_ms (between two samples), since_write_ms and\n"
@@ -57,7 +57,7 @@ Result<std::string> subscribe_command(const std::vector<std::string>& arguments)
       {.usage = "Usage: orbwatch subscribe [options]\n\n"
                 "Reads views and process state over DDS. Fails when a topic brought nothing.\n\n",
        .options = declare(o),
-       .notes = kNotes},
+       .notes = kSubscribeNotes},
       [&](const auto&) { return read_topics(o); });
 }
 

@@ -1,7 +1,10 @@
 #include "app/cli/text_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iomanip>
+#include <sstream>
 
 #include "app/files/finding.h"
 
@@ -68,6 +71,13 @@ std::vector<Row> transposed(const std::vector<Row>& rows) {
 }
 
 }  // namespace
+
+std::string fixed_text(double value, int digits) {
+  if (!std::isfinite(value)) return kNoValue;
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
 
 std::string field_lines(const Fields& fields) {
   std::vector<Row> rows;

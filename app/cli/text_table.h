@@ -10,6 +10,9 @@ namespace orbwatch::app {
 
 inline constexpr const char* kNoValue = "-";
 
+/// With so many digits after the point; kNoValue for what is not finite.
+std::string fixed_text(double value, int digits);
+
 /// The fields of one thing: names and cells.
 using Fields = std::vector<std::pair<std::string, std::string>>;
 

@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr double kPercentOfOne = 100;
+constexpr double kPercentOfRadius = 100;
 
 WatchLevel level_of(align::DriftLevel level) {
   switch (level) {
@@ -68,11 +68,11 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
   drift_ = *drift;
   figures.alignment = level_of(drift_.level);
   const bool is_measured = drift_.level != align::DriftLevel::NotMeasured;
-  const double radius = (drift_.outline.rx + drift_.outline.ry) / 2;
+  const double radius = optics::mean_radius(drift_.outline);
   figures.drift_error = is_measured ? drift_.direction_error : signals::kNotValid;
-  figures.drift_shift = is_measured
-                            ? kPercentOfOne * std::hypot(drift_.motion.u, drift_.motion.v) / radius
-                            : signals::kNotValid;
+  figures.drift_shift =
+      is_measured ? kPercentOfRadius * std::hypot(drift_.motion.u, drift_.motion.v) / radius
+                  : signals::kNotValid;
   if (!is_referred_ && drift_.level == align::DriftLevel::Good) keep(picture);
   log_level(figures.alignment);
 }

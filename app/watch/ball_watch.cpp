@@ -12,7 +12,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr double kPercentOfOne = 100;
+constexpr double kPercentOfBall = 100;
 
 /// Limits of 0 are none.
 WatchLevel level_of(double value, const WatchLimits& limits) {
@@ -101,7 +101,7 @@ void BallWatch::look_at_dirt(const Picture& picture, hal::TimePoint stamp) {
   if (!is_referred_) learn();
   const auto& dirt = dirt_.dirt();
   const bool is_measured = is_referred_ && dirt.has_value();
-  seen_.contamination = is_measured ? kPercentOfOne * dirt->contamination : signals::kNotValid;
+  seen_.contamination = is_measured ? kPercentOfBall * dirt->contamination : signals::kNotValid;
   seen_.cleanliness = is_measured ? level_of(seen_.contamination, settings_.contamination)
                                   : WatchLevel::NotMeasured;
   log_level("ball's dirt", seen_.cleanliness, logged_dirt_);

@@ -15,7 +15,7 @@ constexpr std::chrono::seconds kLatchPeriod{1};
 /// Of the line through them the log says once how straight it is.
 constexpr std::size_t kTellingMoments = 10;
 
-std::string_view text_of(ArvBufferStatus status) {
+std::string_view words_of(ArvBufferStatus status) {
   switch (status) {
     case ARV_BUFFER_STATUS_TIMEOUT:
     case ARV_BUFFER_STATUS_MISSING_PACKETS:
@@ -267,7 +267,7 @@ void GenicamCamera::forward_intact(const GenicamStream::Captured& captured) {
 DeviceResult<std::size_t> GenicamCamera::intact_stride(
     const GenicamStream::Captured& captured) const {
   if (captured.status != ARV_BUFFER_STATUS_SUCCESS) {
-    return fail(Fault::CorruptFrame, std::string(text_of(captured.status)));
+    return fail(Fault::CorruptFrame, std::string(words_of(captured.status)));
   }
   ArvBuffer* const buffer = captured.frame->buffer.get();
   const ArvBufferPayloadType payload = arv_buffer_get_payload_type(buffer);

@@ -16,6 +16,9 @@ struct Outline {
   double angle = 0;
 };
 
+/// The mean of both half axes, px.
+constexpr double mean_radius(const Outline& outline) { return (outline.rx + outline.ry) / 2; }
+
 /// Error: numbers that are not finite, axes that are not above 0.
 Result<> check_ellipse(const Outline& outline);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // In ball radii. What is further has no parallax in double precision; squares stay finite.
-constexpr double kFarthest = 1e9;
+constexpr double kLargestCoordinate = 1e9;
 
 constexpr int kWalls = 6;
 constexpr int kFaces = 6;
@@ -22,7 +22,8 @@ Axes by_axis(const Vec3& v) { return {v.x, v.y, v.z}; }
 Vec3 vector(const Axes& v) { return {v[0], v[1], v[2]}; }
 
 bool is_usable(const Vec3& v) {
-  return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
+  return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
+         std::abs(v.z) <= kLargestCoordinate;
 }
 
 Result<> check_numbers(const std::string& part, bool usable) {
@@ -160,7 +161,7 @@ Result<SceneProxy> SceneProxy::make(const Scene& scene, const Ball& ball) {
 
 Result<> SceneProxy::set_sphere(const Vec3& centre, double radius) {
   const std::string part = "the room's sphere";
-  const bool usable = is_usable(centre) && std::abs(radius) <= kFarthest;
+  const bool usable = is_usable(centre) && std::abs(radius) <= kLargestCoordinate;
   if (auto numbers = check_numbers(part, usable); !numbers) return numbers;
   if (!(radius > 0)) return fail(part + ": its radius must be above 0");
   centre_ = centre;

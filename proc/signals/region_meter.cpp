@@ -12,13 +12,13 @@ namespace {
 
 using optics::Vec3;
 
-Result<> check(const std::string& name, double value, double full_scale) {
+Result<> check_counts(const std::string& name, double value, double full_scale) {
   if (value > 0 && value <= full_scale) return {};
   return fail("region: the " + name + " is " + std::to_string(value) +
               " counts; it must be above 0 and at most full scale, " + std::to_string(full_scale));
 }
 
-Result<> check(const HotSpotLimits& limits) {
+Result<> check_hot_spot(const HotSpotLimits& limits) {
   if (!(limits.min_area >= 0 && std::isfinite(limits.min_area))) {
     return fail("region: the hot spot's least area is " + std::to_string(limits.min_area) +
                 " mm2; it must be 0 or more");
@@ -28,16 +28,16 @@ Result<> check(const HotSpotLimits& limits) {
               " mm/s; it must be above 0");
 }
 
-Result<> check(const RegionSettings& s) {
+Result<> check_settings(const RegionSettings& s) {
   if (!(s.full_scale > 0 && s.full_scale <= 65535)) {
     return fail("region: full scale is " + std::to_string(s.full_scale) +
                 " counts; it must be above 0 and at most 65535");
   }
-  auto checked = check("hot spot threshold", s.hot_spot_threshold, s.full_scale);
+  auto checked = check_counts("hot spot threshold", s.hot_spot_threshold, s.full_scale);
   if (checked && s.plume_threshold)
-    checked = check("plume threshold", *s.plume_threshold, s.full_scale);
+    checked = check_counts("plume threshold", *s.plume_threshold, s.full_scale);
   if (checked && s.spatter_threshold) {
-    checked = check("spatter threshold", *s.spatter_threshold, s.full_scale);
+    checked = check_counts("spatter threshold", *s.spatter_threshold, s.full_scale);
   }
   if (!checked) return checked;
   if (s.plume_threshold && *s.plume_threshold >= s.hot_spot_threshold) {
@@ -46,7 +46,7 @@ Result<> check(const RegionSettings& s) {
   if (s.width_set_point && !(*s.width_set_point > 0 && std::isfinite(*s.width_set_point))) {
     return fail("region: the width's set-point must be above 0 mm");
   }
-  return check(s.hot_spot_limits);
+  return check_hot_spot(s.hot_spot_limits);
 }
 
 /// The full axis of the ellipse whose variance along it is `variance`.
@@ -84,7 +84,7 @@ Result<RegionMeter::Parts> RegionMeter::make_parts(const optics::ViewProjection&
                                                    const RegionScene& scene,
                                                    const RegionSettings& settings,
                                                    const RegionMask::Sees& sees) {
-  if (auto checked = signals::check(settings); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_settings(settings); !checked) return tl::unexpected(checked.error());
   if (auto checked = optics::check_ball(scene.ball); !checked) {
     return tl::unexpected(checked.error());
   }

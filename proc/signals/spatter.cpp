@@ -26,7 +26,7 @@ constexpr double kBinWidth = 50;       // deg/s
 Vec3 down(const Vec3& direction) { return direction * direction.z - Vec3{0, 0, 1}; }
 
 /// The angle of a chord between two unit vectors, to 1e-4 of it up to 40 degrees.
-double angle_of(double chord) { return chord * (1 + chord * chord / 24); }
+double angle_of_chord(double chord) { return chord * (1 + chord * chord / 24); }
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double length = optics::norm(v);
@@ -167,7 +167,7 @@ void SpatterTracker::extend(Track& track, const Vec3& spark, double now) {
 
 /// Adds the segment up to the last detection.
 void SpatterTracker::measure_path(Track& track) {
-  track.path += angle_of(optics::norm(track.direction - track.measured_from));
+  track.path += angle_of_chord(optics::norm(track.direction - track.measured_from));
   track.measured_from = track.direction;
   track.measured = track.seen;
 }

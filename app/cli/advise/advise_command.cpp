@@ -7,7 +7,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kAdviseUsage =
     "Usage: orbwatch advise --ball-diameter MM --distance MM --focal MM --pixel UM --sensor WxH\n"
     "                       --target-distance MM [options]\n"
     "\n"
@@ -16,7 +16,7 @@ constexpr const char* kUsage =
     "change.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kAdviseNotes =
     "\n"
     "The lens is taken for thin and free of distortion. The depth of field reaches from the "
     "mirror\n"
@@ -68,7 +68,8 @@ Result<std::string> advise(const AdviseOptions& o) {
 
 Result<std::string> advise_command(const std::vector<std::string>& arguments) {
   AdviseOptions o;
-  return run_command(arguments, {.usage = kUsage, .options = declare(o), .notes = kNotes},
+  return run_command(arguments,
+                     {.usage = kAdviseUsage, .options = declare(o), .notes = kAdviseNotes},
                      [&](const auto&) { return advise(o); });
 }
 

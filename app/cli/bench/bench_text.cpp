@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -13,15 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string number(double value, int digits) {
-  if (!std::isfinite(value)) return kNoValue;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
-std::string milliseconds(double value) { return number(value, 2); }
-std::string mebibytes(double value) { return number(value, 1); }
+std::string ms_text(double value) { return fixed_text(value, 2); }
+std::string mebibytes(double value) { return fixed_text(value, 1); }
 
 /// Share of one core, in percent.
 double load_of(const ThreadLoad& thread, const BenchFigures& figures) {
@@ -45,7 +36,7 @@ std::vector<Fields> thread_records(const BenchFigures& figures) {
   for (const auto& [name, figure] : sorted) {
     records.push_back({{"thread", name},
                        {"threads", std::to_string(figure.first)},
-                       {"load_%", number(figure.second, 1)}});
+                       {"load_%", fixed_text(figure.second, 1)}});
   }
   return records;
 }
@@ -54,9 +45,9 @@ std::vector<Fields> stage_records(const BenchFigures& figures) {
   std::vector<Fields> records;
   for (std::size_t i = 0; i < kStages; ++i) {
     records.push_back({{"stage", std::string(name_of(static_cast<Stage>(i)))},
-                       {"p50_ms", milliseconds(figures.stages[i].p50)},
-                       {"p99_ms", milliseconds(figures.stages[i].p99)},
-                       {"mean_ms", milliseconds(figures.means[i])}});
+                       {"p50_ms", ms_text(figures.stages[i].p50)},
+                       {"p99_ms", ms_text(figures.stages[i].p99)},
+                       {"mean_ms", ms_text(figures.means[i])}});
   }
   return records;
 }
@@ -68,8 +59,8 @@ std::vector<Fields> view_records(const BenchFigures& figures) {
                        {"size", std::to_string(view.width) + "x" + std::to_string(view.height)},
                        {"published", std::to_string(view.published)},
                        {"skipped", std::to_string(view.skipped)},
-                       {"latency_p50_ms", milliseconds(view.latency.p50)},
-                       {"latency_p99_ms", milliseconds(view.latency.p99)}});
+                       {"latency_p50_ms", ms_text(view.latency.p50)},
+                       {"latency_p99_ms", ms_text(view.latency.p99)}});
   }
   return records;
 }
@@ -82,7 +73,7 @@ Json json_of(const Percentiles& percentiles) {
 
 std::string bench_text(const BenchFigures& figures, const Verdict& verdict) {
   std::string text = std::to_string(figures.frame_sets) + " frame sets in " +
-                     number(figures.seconds, 1) + " s, " + number(figures.wanted_rate, 2) +
+                     fixed_text(figures.seconds, 1) + " s, " + fixed_text(figures.wanted_rate, 2) +
                      " per second wanted, " + std::to_string(figures.overruns) + " late; " +
                      std::to_string(figures.cores) + " cores, " +
                      (figures.realtime ? "real-time" : "no real-time") + " priorities, memory " +
@@ -93,7 +84,7 @@ std::string bench_text(const BenchFigures& figures, const Verdict& verdict) {
   }
   text += "\nProcessor time per frame set, of all threads together:\n" +
           record_lines(stage_records(figures)) + "of it the pipeline's thread: p50 " +
-          milliseconds(figures.busy.p50) + " ms, p99 " + milliseconds(figures.busy.p99) +
+          ms_text(figures.busy.p50) + " ms, p99 " + ms_text(figures.busy.p99) +
           " ms\n\nExposure start to publication:\n" + record_lines(view_records(figures)) +
           "\nLoad of the threads, of one core:\n" + record_lines(thread_records(figures));
   const MemoryFigures& memory = figures.memory;

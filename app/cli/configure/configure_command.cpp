@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kUsage =
+constexpr const char* kConfigureUsage =
     "Usage: orbwatch configure FILE [--seconds N] [--dry-run]\n"
     "       orbwatch configure --confirm | --cancel\n"
     "\n"
@@ -116,7 +116,7 @@ Result<std::string> configure_command(const std::vector<std::string>& arguments)
   Options o;
   return run_command(
       arguments,
-      {.usage = kUsage,
+      {.usage = kConfigureUsage,
        .options = {{"config", 'c', "FILE", "the installed file (default: as orbwatchd)",
                     text_option(o.config)},
                    {"seconds", 0, "N", "until it goes back, 10 to 3600 (default 60)",

@@ -10,7 +10,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr std::chrono::milliseconds kPollPeriod{100};
+constexpr std::chrono::milliseconds kListenPeriod{100};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& secu
   FleetReader reader(fleet);
   if (const auto opened = reader.open(participant->entity()); !opened) return opened;
   for (auto now = hal::Clock::now(); now < end && !cancelled; now = hal::Clock::now()) {
-    std::this_thread::sleep_for(std::min<hal::Clock::duration>(kPollPeriod, end - now));
+    std::this_thread::sleep_for(std::min<hal::Clock::duration>(kListenPeriod, end - now));
   }
   return {};
 }

@@ -17,7 +17,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kDescribeCameraNotes =
     "\n"
     "--json prints one object: camera, picture {width, height}, model, facing {yaw, pitch} (from "
     "the\n"
@@ -198,7 +198,7 @@ Result<std::string> describe_camera(const std::vector<std::string>& arguments) {
       {.usage = "Usage: orbwatch describe camera --rig RIG --camera NAME [options]\n\n"
                 "Prints what follows from a rig for one camera.\n\n",
        .options = declare(o),
-       .notes = kNotes},
+       .notes = kDescribeCameraNotes},
       [&](const auto&) { return describe(o); });
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -9,6 +8,7 @@
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/view_options.h"
+#include "app/cli/text_table.h"
 #include "app/model/json.h"
 #include "app/pictures/picture_file.h"
 #include "app/pipeline/views/view_settings.h"
@@ -23,7 +23,7 @@ namespace {
 /// Of the resolution map's picture.
 constexpr double kCountsPerPixelPerDegree = 100;
 
-constexpr const char* kNotes =
+constexpr const char* kDescribeViewNotes =
     "\n"
     "--json prints one object: view {kind, width, height, h_fov, v_fov (degrees; null: the "
     "projection\n"
@@ -114,14 +114,8 @@ Fov fov_of(const optics::ViewProjection& view) {
           span(view.direction(u, -0.5), view.direction(u, view.height() - 0.5))};
 }
 
-std::string number(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
-std::string number(const std::optional<double>& value, int digits, const char* none) {
-  return value ? number(*value, digits) : none;
+std::string angle_text(const std::optional<double>& degrees) {
+  return degrees ? fixed_text(*degrees, 2) : kNoValue;
 }
 
 std::string markdown(const optics::ViewProjection& view,
@@ -129,20 +123,21 @@ std::string markdown(const optics::ViewProjection& view,
   const Fov fov = fov_of(view);
   std::ostringstream out;
   out << "View: " << word_for(kViewKinds, view.kind()) << ", " << view.width() << "x"
-      << view.height() << " px, h_fov " << number(fov.horizontal, 2, "-") << ", v_fov "
-      << number(fov.vertical, 2, "-") << " deg\n\n"
+      << view.height() << " px, h_fov " << angle_text(fov.horizontal) << ", v_fov "
+      << angle_text(fov.vertical) << " deg\n\n"
       << "Source pixels per degree where the camera sees, and shares of the view's pixels:\n\n"
       << "| camera | min | median | max | seen | blind | outside |\n"
       << "|---|---|---|---|---|---|---|\n";
   for (const CameraFigures& c : cameras) {
     out << "| " << c.name << " | ";
     if (const auto& r = c.resolution) {
-      out << number(r->least, 2) << " | " << number(r->median, 2) << " | " << number(r->most, 2);
+      out << fixed_text(r->least, 2) << " | " << fixed_text(r->median, 2) << " | "
+          << fixed_text(r->most, 2);
     } else {
       out << "- | - | -";
     }
     for (const double share : {c.seen, c.blind, c.outside}) {
-      out << " | " << number(100 * share, 1) << " %";
+      out << " | " << fixed_text(100 * share, 1) << " %";
     }
     out << " |\n";
   }
@@ -230,7 +225,7 @@ Result<std::string> describe_view(const std::vector<std::string>& arguments) {
            "                (--alpha DEG | --distance RADII) [options]\n\n"
            "Prints how many of a camera's pixels a degree of the view really has.\n\n",
        .options = declare(o),
-       .notes = kNotes},
+       .notes = kDescribeViewNotes},
       [&](const auto&) { return describe(o); });
 }
 

@@ -13,14 +13,14 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kDetectUsage =
     "Usage: orbwatch detect IMAGE [options]\n"
     "\n"
     "Finds the mirror ball in a picture: the outline of its limb, also where the picture cuts it.\n"
     "IMAGE is a JPEG or PNG, 8 or 16 bit, grey, colour or thermal.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kDetectNotes =
     "\n"
     "Pixels have their centres at integers. A confidence of 0.5 or more is seldom wrong; below, "
     "the\n"
@@ -97,12 +97,13 @@ Result<std::string> detect(const DetectOptions& o, const std::filesystem::path& 
 
 Result<std::string> detect_command(const std::vector<std::string>& arguments) {
   DetectOptions o;
-  return run_command(arguments,
-                     {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
-                     [&](const auto& words) -> Result<std::string> {
-                       if (words.size() == 1) return detect(o, words.front());
-                       return usage_error("name one picture");
-                     });
+  return run_command(
+      arguments,
+      {.usage = kDetectUsage, .options = declare(o), .takes_words = true, .notes = kDetectNotes},
+      [&](const auto& words) -> Result<std::string> {
+        if (words.size() == 1) return detect(o, words.front());
+        return usage_error("name one picture");
+      });
 }
 
 }  // namespace orbwatch::app

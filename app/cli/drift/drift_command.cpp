@@ -8,7 +8,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kDriftUsage =
     "Usage: orbwatch drift --rig RIG CAMERA=FOLDER [options]\n"
     "\n"
     "Says whether a camera or the ball has moved against the rig file: how far the ball's picture\n"
@@ -16,7 +16,7 @@ constexpr const char* kUsage =
     "the camera's pictures, JPEG or PNG, in the order of their names.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kDriftNotes =
     "\n"
     "The direction error is the rms over all directions up to 150 degrees from the one towards "
     "the\n"
@@ -81,12 +81,13 @@ Result<std::string> drift(DriftOptions o, const std::string& word) {
 
 Result<std::string> drift_command(const std::vector<std::string>& arguments) {
   DriftOptions o;
-  return run_command(arguments,
-                     {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
-                     [&](const auto& words) -> Result<std::string> {
-                       if (words.size() == 1) return drift(o, words.front());
-                       return usage_error("name one CAMERA=FOLDER");
-                     });
+  return run_command(
+      arguments,
+      {.usage = kDriftUsage, .options = declare(o), .takes_words = true, .notes = kDriftNotes},
+      [&](const auto& words) -> Result<std::string> {
+        if (words.size() == 1) return drift(o, words.front());
+        return usage_error("name one CAMERA=FOLDER");
+      });
 }
 
 }  // namespace orbwatch::app

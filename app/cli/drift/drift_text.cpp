@@ -17,7 +17,7 @@ struct Shift {
   Shift(const align::PictureMotion& motion, const Outline& stored)
       : u(motion.u),
         v(motion.v),
-        stored_radius((stored.rx + stored.ry) / 2),
+        stored_radius(optics::mean_radius(stored)),
         radius(motion.growth * stored_radius) {}
 
   double centre_percent() const { return 100 * std::hypot(u, v) / stored_radius; }

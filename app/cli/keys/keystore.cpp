@@ -65,7 +65,7 @@ Result<> make_folder(const fs::path& folder) {
   return fail(folder.string() + ": cannot be made: " + std::strerror(errno));
 }
 
-Validity validity_from(std::chrono::sys_seconds now, int days) {
+ValidityPeriod validity_from(std::chrono::sys_seconds now, int days) {
   return {now - kClockDifference, now + std::chrono::days(days)};
 }
 
@@ -88,7 +88,7 @@ Result<> write_key(const fs::path& file, const Key& key) {
 }
 
 Result<Credential> make_authority(const fs::path& keystore, const std::string& authority,
-                                  CertificateUse use, const Validity& validity) {
+                                  CertificateUse use, const ValidityPeriod& validity) {
   auto made = make_credential("orbwatch_" + authority, use, validity);
   if (!made) return made;
   const auto written =
@@ -99,7 +99,7 @@ Result<Credential> make_authority(const fs::path& keystore, const std::string& a
   return made;
 }
 
-Result<Authorities> make_authorities(const fs::path& keystore, const Validity& validity) {
+Result<Authorities> make_authorities(const fs::path& keystore, const ValidityPeriod& validity) {
   return make_folder(keystore / kPrivate)
       .and_then([&] { return make_folder(keystore / kEnclaves); })
       .and_then([&] {
@@ -148,7 +148,7 @@ Result<> write_document(const fs::path& document, const std::string& text,
 
 /// Writes all files of the participant `name` into an existing folder.
 Result<> write_enclave(const fs::path& folder, const std::string& name, const TopicAccess& topics,
-                       const KeystoreRequest& request, const Validity& validity,
+                       const KeystoreRequest& request, const ValidityPeriod& validity,
                        const Authorities& authorities) {
   const EnclaveFiles files(folder);
   const auto made =
@@ -177,7 +177,7 @@ using Folders = std::vector<fs::path>;
 Result<Folders> make_keystore(const KeystoreRequest& request, std::chrono::sys_seconds now) {
   auto staged = StagedFolder::beside(request.folder);
   if (!staged) return tl::unexpected(staged.error());
-  const Validity validity = validity_from(now, request.days);
+  const ValidityPeriod validity = validity_from(now, request.days);
   const auto authorities = make_authorities(staged->path(), validity);
   if (!authorities) return tl::unexpected(authorities.error());
   std::vector<std::string> names = request.subscribers;
@@ -219,7 +219,7 @@ Result<> check_appliance(const KeystoreRequest& request, const Authorities& auth
 }
 
 Result<fs::path> add_enclave(const KeystoreRequest& request, const std::string& name,
-                             const Validity& validity, const Authorities& authorities) {
+                             const ValidityPeriod& validity, const Authorities& authorities) {
   const fs::path folder = enclave_folder(request.folder, name);
   auto staged = StagedFolder::beside(folder);
   if (!staged) return tl::unexpected(staged.error());
@@ -239,7 +239,7 @@ Result<Folders> add_subscribers(const KeystoreRequest& request, std::chrono::sys
   if (!authorities) return tl::unexpected(authorities.error());
   const auto until = validity_of(authorities->identity.certificate);
   if (!until) return tl::unexpected(until.error());
-  Validity validity = validity_from(now, request.days);
+  ValidityPeriod validity = validity_from(now, request.days);
   validity.until = std::min(validity.until, until->until);
   if (const auto checked = check_appliance(request, *authorities); !checked) {
     return tl::unexpected(checked.error());

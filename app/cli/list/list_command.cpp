@@ -44,7 +44,7 @@ std::vector<Option> declare(ListOptions& o) {
   };
 }
 
-constexpr const char* kNotes =
+constexpr const char* kListNotes =
     "\n"
     "--json prints one object: cameras [{camera (its id), back_end, model, driver, bus, paths, "
     "problem\n"
@@ -100,7 +100,7 @@ Result<std::string> list_command(const std::vector<std::string>& arguments) {
                 "controls, and the\nGPIO chips with their lines; or the appliances "
                 "of a DDS domain.\n\n",
        .options = declare(o),
-       .notes = kNotes},
+       .notes = kListNotes},
       [&](const auto&) { return o.appliances ? list_appliances(o) : list_devices(o); });
 }
 

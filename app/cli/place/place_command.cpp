@@ -9,7 +9,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kPlaceUsage =
     "Usage: orbwatch place --rig RIG --camera NAME --point U,V=X,Y,Z ...\n"
     "                      [--camera NAME --point ...] [options]\n"
     "       orbwatch place --rig RIG --camera NAME --view-point U,V=X,Y,Z ... [--view KIND ...]\n"
@@ -21,7 +21,7 @@ constexpr const char* kUsage =
     "the tool's tip, moved to known coordinates by the machine itself.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kPlaceNotes =
     "\n"
     "Coordinates are in mm in the machine frame. U to the right and V down are measured from the\n"
     "centre of the top left pixel: of the camera's whole picture for --point, of the view's for\n"
@@ -80,7 +80,8 @@ Result<std::string> place(const PlaceOptions& o) {
 
 Result<std::string> place_command(const std::vector<std::string>& arguments) {
   PlaceOptions o;
-  return run_command(arguments, {.usage = kUsage, .options = place_options(o), .notes = kNotes},
+  return run_command(arguments,
+                     {.usage = kPlaceUsage, .options = place_options(o), .notes = kPlaceNotes},
                      [&](const auto&) { return place(o); });
 }
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
 
 #include "app/cli/text_table.h"
@@ -17,15 +16,8 @@ using align::PlaceRequest;
 using optics::Vec3;
 using Json = nlohmann::ordered_json;
 
-std::string number(double value, int digits) {
-  std::ostringstream out;
-  out.precision(digits);
-  out << std::fixed << value;
-  return out.str();
-}
-
 std::string listed(const Vec3& v, int digits) {
-  return number(v.x, digits) + ", " + number(v.y, digits) + ", " + number(v.z, digits);
+  return fixed_text(v.x, digits) + ", " + fixed_text(v.y, digits) + ", " + fixed_text(v.z, digits);
 }
 
 /// The rms length of the deviation, mm.
@@ -41,14 +33,14 @@ double centre_sigma(const Placement& placement) {
 std::string pose_text(const PlacedCamera& camera, const std::string& name) {
   const optics::Mat3& r = camera.pose.rotation;
   std::string text = "camera " + name + "\n  position    " + listed(camera.pose.position, 2) +
-                     " mm, +- " + number(position_sigma(camera), 2) + "\n  rotation    " +
+                     " mm, +- " + fixed_text(position_sigma(camera), 2) + "\n  rotation    " +
                      listed(r.row0, 6) + ",  " + listed(r.row1, 6) + ",  " + listed(r.row2, 6) +
-                     "\n              +- " + number(camera.rotation_sigma, 3) +
+                     "\n              +- " + fixed_text(camera.rotation_sigma, 3) +
                      " deg\n  directions  of its views are known to " +
-                     number(camera.direction_sigma, 3) + " deg, rms over the view\n";
+                     fixed_text(camera.direction_sigma, 3) + " deg, rms over the view\n";
   if (camera.focal_sigma) {
-    text += "  focal       " + number(camera.lens.fx, 1) + " px, +- " +
-            number(*camera.focal_sigma, 1) + "\n";
+    text += "  focal       " + fixed_text(camera.lens.fx, 1) + " px, +- " +
+            fixed_text(*camera.focal_sigma, 1) + "\n";
   }
   return text;
 }
@@ -60,13 +52,13 @@ std::string points_text(const PlaceRequest& request, const align::UnplacedCamera
     const align::PointMark& mark = camera.marks[m];
     const PlacedMark& found = placed.marks[m];
     const Vec3& p = request.points[mark.point];
-    rows.push_back({{"x_mm", number(p.x, 1)},
-                    {"y_mm", number(p.y, 1)},
-                    {"z_mm", number(p.z, 1)},
-                    {"u", number(mark.pixel.u, 1)},
-                    {"v", number(mark.pixel.v, 1)},
-                    {"off_u", found.residual ? number(found.residual->u, 2) : kNoValue},
-                    {"off_v", found.residual ? number(found.residual->v, 2) : kNoValue},
+    rows.push_back({{"x_mm", fixed_text(p.x, 1)},
+                    {"y_mm", fixed_text(p.y, 1)},
+                    {"z_mm", fixed_text(p.z, 1)},
+                    {"u", fixed_text(mark.pixel.u, 1)},
+                    {"v", fixed_text(mark.pixel.v, 1)},
+                    {"off_u", found.residual ? fixed_text(found.residual->u, 2) : kNoValue},
+                    {"off_v", found.residual ? fixed_text(found.residual->v, 2) : kNoValue},
                     {"note", found.is_outlier ? "WRONG: left out" : ""}});
   }
   return record_lines(rows);
@@ -118,8 +110,8 @@ std::string place_text(const PlaceRequest& request, const Placement& placement) 
   }
   const double sigma = centre_sigma(placement);
   text += "ball centre   " + listed(placement.ball_centre, 2) + " mm" +
-          (sigma > 0 ? ", +- " + number(sigma, 2) : ", taken for exact") + "\n";
-  text += "chi-square    " + number(placement.reduced_chi_square, 2) + ", reduced, of " +
+          (sigma > 0 ? ", +- " + fixed_text(sigma, 2) : ", taken for exact") + "\n";
+  text += "chi-square    " + fixed_text(placement.reduced_chi_square, 2) + ", reduced, of " +
           std::to_string(placement.redundancy) +
           " equations more than unknowns; about 1 if the sigmas are right\n";
   return text;

@@ -15,7 +15,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kRegisterUsage =
     "Usage: orbwatch register --rig RIG A=PATH B=PATH [options]\n"
     "\n"
     "Finds the rotation of camera B to camera A from what both see in the ball. A's alignment in\n"
@@ -26,7 +26,7 @@ constexpr const char* kUsage =
     "rooms.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kRegisterNotes =
     "\n"
     "Methods: features (SIFT; cameras of the same kind, no start), gradients (edges; also thermal\n"
     "on colour; B's rotation in the rig is right to 9 degrees), light (sparks and melt pool of a\n"
@@ -165,7 +165,10 @@ Result<std::string> register_cameras(const RegisterOptions& o, const std::string
 Result<std::string> register_command(const std::vector<std::string>& arguments) {
   RegisterOptions o;
   return run_command(arguments,
-                     {.usage = kUsage, .options = declare(o), .takes_words = true, .notes = kNotes},
+                     {.usage = kRegisterUsage,
+                      .options = declare(o),
+                      .takes_words = true,
+                      .notes = kRegisterNotes},
                      [&](const auto& words) -> Result<std::string> {
                        if (words.size() == 2) return register_cameras(o, words[0], words[1]);
                        return usage_error("name two cameras with their pictures, A=PATH B=PATH");

@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* kSetupUsage =
     "Usage: orbwatch setup -o DIR --ball-diameter MM [options]\n"
     "\n"
     "Writes a site, a rig and a recipe for the cameras that are connected, or for pictures: finds\n"
@@ -22,7 +22,7 @@ constexpr const char* kUsage =
     "it could not find out, and which command adds it.\n"
     "\n";
 
-constexpr const char* kNotes =
+constexpr const char* kSetupNotes =
     "\n"
     "SOURCE is a device, a camera's id of `orbwatch list`, a folder of pictures, a picture or a\n"
     "video. NAME= may be left out where there is one camera. A process that runs while several\n"
@@ -111,7 +111,8 @@ Result<std::string> set_up(const SetupOptions& o) {
 
 Result<std::string> setup_command(const std::vector<std::string>& arguments) {
   SetupOptions o;
-  return run_command(arguments, {.usage = kUsage, .options = setup_options(o), .notes = kNotes},
+  return run_command(arguments,
+                     {.usage = kSetupUsage, .options = setup_options(o), .notes = kSetupNotes},
                      [&](const auto&) { return set_up(o); });
 }
 

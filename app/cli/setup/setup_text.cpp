@@ -12,7 +12,7 @@ std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
     const optics::Outline& limb = camera.ball.outline;
     std::snprintf(line, sizeof line,
                   "%-12s ball at %.1f, %.1f px, radius %.1f px, confidence %.2f%s\n",
-                  camera.name.c_str(), limb.centre.u, limb.centre.v, (limb.rx + limb.ry) / 2,
+                  camera.name.c_str(), limb.centre.u, limb.centre.v, optics::mean_radius(limb),
                   camera.ball.confidence, camera.is_registered ? ", registered" : "");
     text += line;
   }

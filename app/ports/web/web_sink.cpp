@@ -211,7 +211,7 @@ std::vector<web::Route> WebSink::make_routes() {
        by(&WebSink::serve_description)},
       {"GET", "/metrics", Role::Viewer, "The status for Prometheus", std::string(kMetrics),
        by(&WebSink::serve_metrics)},
-      {"GET", "/snapshot.jpg", Role::Viewer, "The view's next picture", "image/jpeg",
+      {"GET", "/snapshot.jpg", Role::Viewer, "The view's next picture", std::string(web::kJpeg),
        by(&WebSink::serve_snapshot), web::ViewArgument::One},
       {"GET", "/stream.mjpg", Role::Viewer,
        "The view's pictures as MJPEG, for players and recorders",

@@ -11,7 +11,7 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr int kMargin = 16;           // px around the ball that edges on the limb need
+constexpr int kMarginAround = 16;     // px around the ball that edges on the limb need
 constexpr double kDarkShare = 0.02;   // of full scale, that a tenth of the pixels must reach
 constexpr double kDarkNoise = 6;      // noise that they must reach
 constexpr double kOverexposed = 0.5;  // share of pixels at full scale
@@ -19,8 +19,8 @@ constexpr int kSampledRows = 256;
 
 cv::Rect bounds(const optics::Outline& outline) {
   const double turn = optics::radians(outline.angle), c = std::cos(turn), s = std::sin(turn);
-  const double half_u = std::hypot(outline.rx * c, outline.ry * s) + kMargin;
-  const double half_v = std::hypot(outline.rx * s, outline.ry * c) + kMargin;
+  const double half_u = std::hypot(outline.rx * c, outline.ry * s) + kMarginAround;
+  const double half_v = std::hypot(outline.rx * s, outline.ry * c) + kMarginAround;
   const cv::Point low(cvFloor(outline.centre.u - half_u), cvFloor(outline.centre.v - half_v));
   const cv::Point high(cvCeil(outline.centre.u + half_u), cvCeil(outline.centre.v + half_v));
   return {low, high};

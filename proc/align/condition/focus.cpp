@@ -15,21 +15,21 @@ namespace orbwatch::align {
 namespace {
 
 constexpr double kInner = 0.85;  // rho up to which the reflection is not squeezed too thin
-constexpr int kCell = 8;         // px; an edge is looked for in each
+constexpr int kEdgeCell = 8;     // px; an edge is looked for in each
 constexpr int kMostBands = 64;   // rows of cells, about, in which one is looked for
 constexpr std::size_t kMostEdges = 200;
-constexpr int kBandMargin = 1;        // rows above and below that the filter needs
-constexpr int kRays = 150;            // of the limb
-constexpr std::size_t kFewest = 10;   // edges that a figure needs
-constexpr double kLeastRadius = 40;   // px of the ball in the smallest picture that is used
-constexpr double kWide = 2;           // px of blur from which on a smaller picture fits better
-constexpr double kClipped = 0.97;     // of full scale
-constexpr double kLeastSpread = 0.1;  // of sigma, by which edges of one picture differ anyway
+constexpr int kBandMargin = 1;            // rows above and below that the filter needs
+constexpr int kRays = 150;                // of the limb
+constexpr std::size_t kFewestEdges = 10;  // edges that a figure needs
+constexpr double kSmallestBall = 40;      // px of the ball in the smallest picture that is used
+constexpr double kWide = 2;               // px of blur from which on a smaller picture fits better
+constexpr double kClipped = 0.97;         // of full scale
+constexpr double kEdgeSpread = 0.1;       // of sigma, by which edges of one picture differ anyway
 // Things may be blurred in themselves, but none is sharper than the picture: which share of edges
 // is sharper than the one that counts.
 constexpr double kSharper = 0.35;
 
-struct Candidate {
+struct EdgeCandidate {
   cv::Point pixel;
   double normal;
   float slope2;
@@ -64,12 +64,12 @@ bool is_clipped(const BallCrop& crop, const cv::Point& pixel) {
 
 /// The steepest place of the cell that begins in that column of a band; `top` is the band's row in
 /// the picture. nullopt if it may be noise or is overexposed.
-std::optional<Candidate> steepest(const BallCrop& crop, const SmoothSlopes& band, int left,
-                                  int top) {
+std::optional<EdgeCandidate> steepest(const BallCrop& crop, const SmoothSlopes& band, int left,
+                                      int top) {
   const float noise = static_cast<float>(crop.noise * crop.noise);
-  Candidate best{{}, 0, noise};
-  for (int v = 0; v < kCell; ++v) {
-    for (int u = left; u < left + kCell; ++u) {
+  EdgeCandidate best{{}, 0, noise};
+  for (int v = 0; v < kEdgeCell; ++v) {
+    for (int u = left; u < left + kEdgeCell; ++u) {
       const float slope2 = band.squared({u, v + kBandMargin});
       if (slope2 > best.slope2) best = {{u, v + top}, band.angle({u, v + kBandMargin}), slope2};
     }
@@ -79,13 +79,15 @@ std::optional<Candidate> steepest(const BallCrop& crop, const SmoothSlopes& band
 }
 
 /// The steepest places of cells all over the inner ball, the steepest ones of these.
-std::vector<Candidate> reflected_edges(const BallCrop& crop) {
-  const int rows = crop.brightness.rows, pause = kCell * std::max(1, rows / kCell / kMostBands);
-  std::vector<Candidate> found;
-  for (int top = kBandMargin; top + kCell + kBandMargin <= rows; top += pause) {
-    const SmoothSlopes band(crop.brightness.rowRange(top - kBandMargin, top + kCell + kBandMargin));
-    for (int left = 0; left + kCell <= crop.brightness.cols; left += kCell) {
-      if (crop.rho(left + kCell / 2.0, top + kCell / 2.0) > kInner) continue;
+std::vector<EdgeCandidate> reflected_edges(const BallCrop& crop) {
+  const int rows = crop.brightness.rows,
+            pause = kEdgeCell * std::max(1, rows / kEdgeCell / kMostBands);
+  std::vector<EdgeCandidate> found;
+  for (int top = kBandMargin; top + kEdgeCell + kBandMargin <= rows; top += pause) {
+    const SmoothSlopes band(
+        crop.brightness.rowRange(top - kBandMargin, top + kEdgeCell + kBandMargin));
+    for (int left = 0; left + kEdgeCell <= crop.brightness.cols; left += kEdgeCell) {
+      if (crop.rho(left + kEdgeCell / 2.0, top + kEdgeCell / 2.0) > kInner) continue;
       const auto candidate = steepest(crop, band, left, top);
       if (candidate) found.push_back(*candidate);
     }
@@ -98,10 +100,10 @@ std::vector<Candidate> reflected_edges(const BallCrop& crop) {
 }
 
 /// Places all along the limb.
-std::vector<Candidate> limb_edges(const BallCrop& crop) {
+std::vector<EdgeCandidate> limb_edges(const BallCrop& crop) {
   const optics::Outline& limb = crop.outline;
   const double turn = optics::radians(limb.angle), ct = std::cos(turn), st = std::sin(turn);
-  std::vector<Candidate> places;
+  std::vector<EdgeCandidate> places;
   for (int ray = 0; ray < kRays; ++ray) {
     const double angle = 2 * std::numbers::pi * ray / kRays, c = std::cos(angle),
                  s = std::sin(angle);
@@ -114,9 +116,9 @@ std::vector<Candidate> limb_edges(const BallCrop& crop) {
   return places;
 }
 
-std::vector<StepEdge> fitted(const BallCrop& crop, const std::vector<Candidate>& candidates) {
+std::vector<StepEdge> fitted(const BallCrop& crop, const std::vector<EdgeCandidate>& candidates) {
   std::vector<StepEdge> edges;
-  for (const Candidate& candidate : candidates) {
+  for (const EdgeCandidate& candidate : candidates) {
     const auto edge = fit_step_edge(crop.brightness, candidate.pixel, candidate.normal, crop.noise);
     if (edge && edge->sigma_error < 0.25 * edge->sigma) edges.push_back(*edge);
   }
@@ -127,7 +129,7 @@ std::vector<StepEdge> fitted(const BallCrop& crop, const std::vector<Candidate>&
 Blur quantile(std::vector<StepEdge> edges) {
   std::ranges::sort(edges, {}, &StepEdge::sigma);
   const auto weight = [](const StepEdge& edge) {
-    const double spread = kLeastSpread * edge.sigma;
+    const double spread = kEdgeSpread * edge.sigma;
     return edge.sigma * edge.sigma / (edge.sigma_error * edge.sigma_error + spread * spread);
   };
   double total = 0, information = 0;
@@ -148,19 +150,19 @@ Blur in_full_size(const Blur& blur, int halvings) {
   return {std::sqrt(std::max(sigma2, 0.0)), blur.error * scale, blur.edges};
 }
 
-using Candidates = std::function<std::vector<Candidate>(const BallCrop&)>;
+using Candidates = std::function<std::vector<EdgeCandidate>(const BallCrop&)>;
 
 /// From the finest picture in which the blur is not too wide to be fitted.
 Result<Blur> blur_of(BallCrop crop, const Candidates& candidates) {
   std::optional<Blur> widest;
   for (int halvings = 0;; ++halvings) {
     const std::vector<StepEdge> edges = fitted(crop, candidates(crop));
-    if (edges.size() >= kFewest) {
+    if (edges.size() >= kFewestEdges) {
       const Blur blur = quantile(edges);
       widest = in_full_size(blur, halvings);
       if (blur.sigma < kWide) break;
     }
-    if (std::min(crop.outline.rx, crop.outline.ry) < 2 * kLeastRadius) break;
+    if (std::min(crop.outline.rx, crop.outline.ry) < 2 * kSmallestBall) break;
     crop = halved(crop);
   }
   if (widest) return *widest;

@@ -7,15 +7,15 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kOutermost = 0.93;   // rho; beyond it all that is reflected is thin
-constexpr double kSmoothing = 0.7;    // px
-constexpr double kDetailBlur = 4;     // px: the scale of detail
-constexpr double kWideBlur = 16;      // px: the scale of what is around
-constexpr float kNoiseReach = 3;      // times noise that a top hat may be without a mark
-constexpr double kBrightShare = 0.9;  // of pixels, that are darker than what counts as bright
-constexpr float kFloor = 0.05F;       // of bright; added to what differences are relative to
-constexpr float kDark = 0.06F;        // of bright, below which nothing is judged
-constexpr float kClipped = 0.95F;     // of full scale
+constexpr double kOutermost = 0.93;      // rho; beyond it all that is reflected is thin
+constexpr double kSmoothing = 0.7;       // px
+constexpr double kDetailBlur = 4;        // px: the scale of detail
+constexpr double kWideBlur = 16;         // px: the scale of what is around
+constexpr float kNoiseReach = 3;         // times noise that a top hat may be without a mark
+constexpr double kBrightShare = 0.9;     // of pixels, that are darker than what counts as bright
+constexpr float kRelativeFloor = 0.05F;  // of bright; added to what differences are relative to
+constexpr float kDark = 0.06F;           // of bright, below which nothing is judged
+constexpr float kTooBright = 0.95F;      // of full scale
 
 /// Counts that differences are compared with.
 struct Lighting {
@@ -37,8 +37,9 @@ float bright_level(const cv::Mat& brightness) {
 
 Lighting lighting_of(const cv::Mat& smooth, const BallRaster& raster) {
   const float bright = bright_level(smooth), noise = static_cast<float>(raster.noise);
-  return {kFloor * bright, kNoiseReach * noise, std::max(kDark * bright, 4 * kNoiseReach * noise),
-          kClipped * static_cast<float>(raster.full_scale)};
+  return {kRelativeFloor * bright, kNoiseReach * noise,
+          std::max(kDark * bright, 4 * kNoiseReach * noise),
+          kTooBright * static_cast<float>(raster.full_scale)};
 }
 
 std::uint8_t share(float part, float whole) {

@@ -24,13 +24,13 @@ constexpr double kLargest = 0.62;  // radius, of the picture's short side
 constexpr std::size_t kVotes = 8;
 /// How many rings around each: what the ball shows has rings too, that may look likelier than its
 /// limb until both are fitted.
-constexpr std::size_t kRings = 3;
+constexpr std::size_t kRingsOfAPlace = 3;
 /// px: radii at which limbs are compared, and at which the best one is fitted in the end.
 constexpr double kCompared = 90, kFine = 400;
 /// px: what is seen on both sides of a limb.
 constexpr double kAround = 8;
 /// px: a smaller limb has no surroundings.
-constexpr double kSmallest = 12;
+constexpr double kSmallestRadius = 12;
 
 /// Limbs are fitted at finer and finer scales, fewer and fewer of them.
 struct Stage {
@@ -39,8 +39,6 @@ struct Stage {
   double apart;      ///< a difference() from which on two are worth a fit each
 };
 constexpr Stage kStages[]{{30, 18, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
-
-double mean_radius(const Outline& outline) { return (outline.rx + outline.ry) / 2; }
 
 }  // namespace
 
@@ -67,7 +65,8 @@ std::vector<BallSearch::Likely> BallSearch::limbs() const {
     all = best_of(std::move(all), stage.most, stage.apart);
     for (Likely& limb : all) limb = fitted(limb.outline, stage.radius);
   }
-  std::erase_if(all, [](const Likely& limb) { return mean_radius(limb.outline) < kSmallest; });
+  std::erase_if(all,
+                [](const Likely& limb) { return mean_radius(limb.outline) < kSmallestRadius; });
   return all;
 }
 
@@ -106,7 +105,7 @@ std::vector<BallSearch::Likely> BallSearch::rings() const {
     if (farthest < RingStrip::kNearest) continue;
     for (const optics::Vec2 place :
          centre_votes(slopes_of(luminance), RingStrip::kNearest, farthest, kVotes)) {
-      for (const Ring& ring : likeliest_rings(luminance, place, kRings)) {
+      for (const Ring& ring : likeliest_rings(luminance, place, kRingsOfAPlace)) {
         const Outline circle{ring.centre, ring.radius, ring.radius, 0};
         all.push_back({Pyramid::between(circle, level, 0), ring.likeness});
       }

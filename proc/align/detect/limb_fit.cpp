@@ -11,8 +11,8 @@ namespace {
 
 using optics::Outline;
 
-constexpr double kLastStep = 0.05;  // px
-constexpr double kSmallest = 4;     // px: an ellipse with smaller axes has no limb
+constexpr double kLastStep = 0.05;   // px
+constexpr double kSmallestAxis = 4;  // px: an ellipse with smaller axes has no limb
 
 /// The best offset so far.
 struct Climber {
@@ -73,7 +73,7 @@ Outline moved(const Outline& outline, const Offset& offset) {
 }  // namespace
 
 LimbFit fit_limb(const cv::Mat& luminance, const Outline& outline, double reach) {
-  if (std::min(outline.rx, outline.ry) < reach + kSmallest) {
+  if (std::min(outline.rx, outline.ry) < reach + kSmallestAxis) {
     return {outline, std::numeric_limits<double>::lowest()};
   }
   const LimbStrip strip(luminance, outline, reach);

@@ -23,7 +23,7 @@ LimbLikelihood::LimbLikelihood(const LimbStrip& strip, const optics::Outline& ou
                                const cv::Size& picture)
     : columns_(static_cast<std::size_t>(strip.columns())),
       limb_(strip.limb()),
-      radius_((outline.rx + outline.ry) / 2),
+      radius_(optics::mean_radius(outline)),
       half_((outline.rx - outline.ry) / 2) {
   const LimbColumns limb = limb_columns(strip);
   parts_ = limb.above_random();

@@ -53,7 +53,7 @@ double contour(const cv::Mat& luminance, const optics::Outline& outline) {
 }
 
 double near_drop(const cv::Mat& luminance, const optics::Outline& outline) {
-  const double radius = (outline.rx + outline.ry) / 2;
+  const double radius = optics::mean_radius(outline);
   const double near = std::max(3.0, 0.08 * radius);
   const LimbStrip strip(luminance, outline, std::max(5.0, 0.2 * radius));
   std::array<Agreement, kSectors> inside, outside;

@@ -7,7 +7,7 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kMargin = 2;  // px of the picture's border that filters spoil
+constexpr double kSpoiltBorder = 2;  // px of the picture's border that filters spoil
 
 double girth(const optics::Outline& outline) {
   return std::numbers::pi * (outline.rx + outline.ry);
@@ -17,7 +17,7 @@ double girth(const optics::Outline& outline) {
 
 LimbStrip::LimbStrip(const cv::Mat& luminance, const optics::Outline& outline, double reach)
     : SlopeStrip(luminance, places(outline, static_cast<int>(reach * kPerUnit)),
-                 rays_of(outline) / girth(outline), kMargin) {}
+                 rays_of(outline) / girth(outline), kSpoiltBorder) {}
 
 int LimbStrip::rays_of(const optics::Outline& outline) {
   constexpr double kApart = 1.5;  // px

@@ -12,7 +12,7 @@ namespace {
 
 /// Of the centre from the place, shares of the radius; a limb that is off crosses columns by as
 /// much as they have beside them.
-constexpr double kFarthestOff = 0.25, kStep = 0.04;
+constexpr double kFarthestOff = 0.25, kOffStep = 0.04;
 static_assert(kFarthestOff < (RingStrip::kBeside + 0.5) * RingStrip::kGrowth);
 
 /// What a strip says of circles, by column.
@@ -57,10 +57,10 @@ class Rings {
 std::vector<Ring> all_rings(const cv::Mat& luminance, optics::Vec2 place) {
   Rings rings(RingStrip(luminance, place));
   std::vector<Rings::Circle> circles;
-  constexpr int kSteps = static_cast<int>(kFarthestOff / kStep);
+  constexpr int kSteps = static_cast<int>(kFarthestOff / kOffStep);
   for (int i = -kSteps; i <= kSteps; ++i) {
     for (int j = -kSteps; j <= kSteps; ++j) {
-      if (i * i + j * j <= kSteps * kSteps) rings.add(i * kStep, j * kStep, circles);
+      if (i * i + j * j <= kSteps * kSteps) rings.add(i * kOffStep, j * kOffStep, circles);
     }
   }
   std::vector<Ring> all;

@@ -7,13 +7,13 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kMargin = 1;  // px: a limb near the picture's border has few pixels
+constexpr double kPoorBorder = 1;  // px: a limb near the picture's border has few pixels
 constexpr double kRaysPerUnit = SlopeStrip::kPerUnit / 3.0;
 
 }  // namespace
 
 RingStrip::RingStrip(const cv::Mat& luminance, optics::Vec2 centre)
-    : SlopeStrip(luminance, places(centre), kRaysPerUnit, kMargin) {}
+    : SlopeStrip(luminance, places(centre), kRaysPerUnit, kPoorBorder) {}
 
 double RingStrip::radius(double column) {
   return kNearest * std::exp(kGrowth * (column - kBeside));

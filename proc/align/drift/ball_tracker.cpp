@@ -17,7 +17,7 @@ constexpr double kFinest = 450;
 /// px: a scale with a smaller ball has none below it.
 constexpr double kCoarsest = 64;
 /// Sectors of the ball with patches of their own; fewer where a patch is many pixels to read.
-constexpr int kSectors = 16, kFewSectors = 8;
+constexpr int kTrackedSectors = 16, kFewTrackedSectors = 8;
 /// Patches that make a reference.
 constexpr std::size_t kFewestPatches = 16;
 /// What must agree before a motion is believed, and after a search of the whole picture.
@@ -31,8 +31,6 @@ bool is_trusted(const Consensus& ball, double share) {
   return ball.share() >= share && ball.agreeing >= kFewestAgreeing &&
          ball.octants >= kFewestOctants;
 }
-
-double mean_radius(const Outline& outline) { return (outline.rx + outline.ry) / 2; }
 
 /// The outline in pixels that are `scale` times larger.
 Outline reduced(const Outline& o, int scale) {
@@ -58,7 +56,7 @@ int BallTracker::scale_for(const Outline& outline) {
 
 BallTracker::BallTracker(const cv::Mat& reference, const Outline& outline, float saturated)
     : scale_(scale_for(outline)), reader_(scale_) {
-  const int sectors = scale_ > 2 ? kFewSectors : kSectors;
+  const int sectors = scale_ > 2 ? kFewTrackedSectors : kTrackedSectors;
   cv::Mat picture = reference;
   Outline here = reduced(outline, scale_);
   scales_.push_back(reference_scale(picture, here, saturated, sectors));

@@ -13,7 +13,7 @@ using optics::Vec2;
 
 /// px: how well a patch is found at best, and the share of its way that it may be off because
 /// reflections do not quite move with the limb when the ball moves.
-constexpr double kFloor = 0.05, kOwnWay = 0.05;
+constexpr double kNoiseFloor = 0.05, kOwnWay = 0.05;
 /// Squares of the residual in its standard deviations, from the widest to the last.
 constexpr std::array kWidths{400.0, 100.0, 30.0, 12.0, 12.0, 12.0};
 /// Standard deviation of growth and roll before anything was seen.
@@ -34,7 +34,7 @@ class Fit {
   Fit(const Sighting& sighting, double radius) : sighting_(sighting), radius_(radius) {
     weights_.reserve(sighting.found.size());
     for (const auto& [arm, shift] : sighting.found) {
-      const double floor = kFloor + kOwnWay * std::hypot(shift.shift.u, shift.shift.v);
+      const double floor = kNoiseFloor + kOwnWay * std::hypot(shift.shift.u, shift.shift.v);
       const cv::Matx22d& information = shift.information;
       weights_.push_back((cv::Matx22d::eye() + information * (floor * floor)).inv() * information);
     }

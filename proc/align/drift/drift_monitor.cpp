@@ -18,7 +18,7 @@ using optics::Outline;
 using Time = DriftMonitor::Time;
 
 /// px: a smaller ball has too few pixels around its limb.
-constexpr double kSmallestRadius = 24;
+constexpr double kSmallestTracked = 24;
 /// Over which the mean is taken, for a ball of kLarge px radius or more; for smaller ones longer,
 /// as vibration by a pixel is more degrees there.
 constexpr Time kWindow = std::chrono::milliseconds(800);
@@ -38,8 +38,8 @@ constexpr double kNewShare = 0.2, kTurned = 0.7, kStayed = 0.3;
 Result<> check(const DriftSubject& subject, const DriftLimits& limits) {
   const auto outline = optics::check_outline(subject.outline, subject.width, subject.height);
   if (!outline) return outline;
-  if (std::min(subject.outline.rx, subject.outline.ry) < kSmallestRadius) {
-    return fail("the ball's radius is below " + std::to_string(static_cast<int>(kSmallestRadius)) +
+  if (std::min(subject.outline.rx, subject.outline.ry) < kSmallestTracked) {
+    return fail("the ball's radius is below " + std::to_string(static_cast<int>(kSmallestTracked)) +
                 " px: too few to see it move");
   }
   if (!(limits.warning > 0 && limits.alarm >= limits.warning && std::isfinite(limits.alarm))) {

@@ -13,16 +13,16 @@ using optics::Vec2;
 
 /// Rings of the ball, shares of its radius: one patch for each sector of each. The centre is left
 /// out, where content moves least with the limb when the ball itself moves.
-constexpr std::array kRings{0.4, 0.62, 0.8, 0.92, 1.0};
+constexpr std::array kPatchRings{0.4, 0.62, 0.8, 0.92, 1.0};
 /// What counts as the ball's, and as its surroundings', shares of the radius.
 constexpr double kInside = 1.01, kOutside = 1.04;
 /// Cells of the picture, along each side, with a patch of the surroundings at most.
 constexpr int kCells = 6;
 constexpr std::size_t kMostAround = 24;
 /// Between candidates, share of the patches' side.
-constexpr int kStep = Patch::kSide / 3;
+constexpr int kPatchStep = Patch::kSide / 3;
 /// A tenth of a patch may be saturated.
-constexpr int kMostSaturated = Patch::kPixels / 10;
+constexpr int kMostSaturatedPixels = Patch::kPixels / 10;
 
 /// Of its contrast in the reference: less says that it is dark, or fog, or another gain.
 constexpr double kFlat = 0.15;
@@ -49,7 +49,7 @@ double share_of_radius(const Outline& outline, const Vec2& arm) {
 
 /// Standard deviation of the noise of a smoothed picture, from how neighbours differ (Immerkaer,
 /// 1996, with a median for its mean: most of a picture is no edge).
-double noise_of(const cv::Mat& picture) {
+double smoothed_noise(const cv::Mat& picture) {
   std::vector<float> differences;
   const int step = std::max(1, picture.cols * picture.rows / 20'000);
   for (int i = 0; i < picture.cols * picture.rows; i += step) {
@@ -67,7 +67,7 @@ double noise_of(const cv::Mat& picture) {
 }
 
 /// A place where a patch may be.
-struct Candidate {
+struct PatchCandidate {
   cv::Point corner;
   Vec2 arm;
   double texture = 0;
@@ -80,26 +80,27 @@ class Choice {
         outline_(outline),
         saturated_(saturated),
         sectors_(sectors),
-        noise_(noise_of(picture)) {}
+        noise_(smoothed_noise(picture)) {}
 
   ReferenceScale run() const {
-    std::vector<std::optional<Candidate>> ball((kRings.size() - 1) *
-                                               static_cast<std::size_t>(sectors_));
-    std::array<std::optional<Candidate>, kCells * kCells> around;
+    std::vector<std::optional<PatchCandidate>> ball((kPatchRings.size() - 1) *
+                                                    static_cast<std::size_t>(sectors_));
+    std::array<std::optional<PatchCandidate>, kCells * kCells> around;
     // Windows around patches are within the picture, so that nothing is lost when nothing moved.
     constexpr int kMargin = PatchWindow::kReach + 2;
-    for (int v = kMargin; v + Patch::kSide + kMargin < picture_.rows; v += kStep) {
-      for (int u = kMargin; u + Patch::kSide + kMargin < picture_.cols; u += kStep) {
-        const Candidate candidate = at({u, v});
+    for (int v = kMargin; v + Patch::kSide + kMargin < picture_.rows; v += kPatchStep) {
+      for (int u = kMargin; u + Patch::kSide + kMargin < picture_.cols; u += kPatchStep) {
+        const PatchCandidate candidate = at({u, v});
         if (candidate.texture <= 0) continue;
         const double share = share_of_radius(outline_, candidate.arm);
-        if (share > kRings.back()) {
+        if (share > kPatchRings.back()) {
           const auto cell = static_cast<std::size_t>(v * kCells / picture_.rows * kCells +
                                                      u * kCells / picture_.cols);
           keep_better(candidate, around[cell]);
-        } else if (share > kRings.front()) {
+        } else if (share > kPatchRings.front()) {
           const auto ring = static_cast<std::size_t>(
-              std::upper_bound(kRings.begin(), kRings.end() - 1, share) - kRings.begin() - 1);
+              std::upper_bound(kPatchRings.begin(), kPatchRings.end() - 1, share) -
+              kPatchRings.begin() - 1);
           keep_better(candidate,
                       ball[ring * static_cast<std::size_t>(sectors_) + sector(candidate.arm)]);
         }
@@ -120,16 +121,16 @@ class Choice {
     return static_cast<std::size_t>(std::clamp(static_cast<int>(turn * sectors_), 0, sectors_ - 1));
   }
 
-  static void keep_better(const Candidate& candidate, std::optional<Candidate>& best) {
+  static void keep_better(const PatchCandidate& candidate, std::optional<PatchCandidate>& best) {
     if (!best || best->texture < candidate.texture) best = candidate;
   }
 
   /// Texture along the poorer direction counts most, but a limb without any other is a patch, too.
-  Candidate at(cv::Point corner) const {
+  PatchCandidate at(cv::Point corner) const {
     constexpr double kMiddle = (Patch::kSide - 1) / 2.0;
-    Candidate candidate{
+    PatchCandidate candidate{
         corner, {corner.x + kMiddle - outline_.centre.u, corner.y + kMiddle - outline_.centre.v}};
-    const bool is_ball = share_of_radius(outline_, candidate.arm) <= kRings.back();
+    const bool is_ball = share_of_radius(outline_, candidate.arm) <= kPatchRings.back();
     double uu = 0, uv = 0, vv = 0;
     int saturated = 0;
     for (int y = 0; y < Patch::kSide; y += 2) {
@@ -147,7 +148,7 @@ class Choice {
         vv += gv * gv;
       }
     }
-    if (saturated > kMostSaturated) return candidate;
+    if (saturated > kMostSaturatedPixels) return candidate;
     const double mean = (uu + vv) / 2, half = std::hypot((uu - vv) / 2, uv);
     candidate.texture = mean - half + 0.1 * (mean + half);
     return candidate;
@@ -158,7 +159,7 @@ class Choice {
     return is_ball ? share < kInside : share > kOutside;
   }
 
-  void add(const std::optional<Candidate>& candidate, bool is_ball, PatchGroup& group) const {
+  void add(const std::optional<PatchCandidate>& candidate, bool is_ball, PatchGroup& group) const {
     if (!candidate) return;
     constexpr double kMiddle = (Patch::kSide - 1) / 2.0;
     Patch::Mask mask{};

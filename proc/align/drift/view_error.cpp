@@ -12,7 +12,7 @@ using optics::Vec3;
 
 constexpr int kDirections = 400;
 /// Share of the radius by which the motion is varied for the linear part.
-constexpr double kStep = 1e-4;
+constexpr double kDifferenceStep = 1e-4;
 
 /// Directions spread evenly up to kSeen from `facing` (Fibonacci's lattice).
 std::vector<Vec3> seen_directions(const Vec3& facing) {
@@ -48,18 +48,19 @@ ViewError::ViewError(const BallProjection& projection, const Outline& outline)
     const auto ray = pixel ? projection.ray(*pixel) : std::nullopt;
     if (ray) seen_.push_back({*pixel, ray->direction});
   }
-  const double radius = (outline.rx + outline.ry) / 2;
+  const double radius = optics::mean_radius(outline);
   int count = 0;
   for (const Seen& seen : seen_) {
     std::array<Vec3, 4> slopes;
     bool is_whole = true;
     for (int k = 0; k < 4; ++k) {
-      const auto back = unit_motion(k, -kStep, radius), forth = unit_motion(k, kStep, radius);
+      const auto back = unit_motion(k, -kDifferenceStep, radius),
+                 forth = unit_motion(k, kDifferenceStep, radius);
       const auto a = projection.ray(before(back, outline, seen.pixel));
       const auto b = projection.ray(before(forth, outline, seen.pixel));
       is_whole = is_whole && a && b;
       if (!is_whole) break;
-      const double unit = k < 2 ? kStep * radius : kStep;
+      const double unit = k < 2 ? kDifferenceStep * radius : kDifferenceStep;
       slopes[static_cast<std::size_t>(k)] = (b->direction - a->direction) * (0.5 / unit);
     }
     if (!is_whole) continue;

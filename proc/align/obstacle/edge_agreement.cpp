@@ -16,10 +16,10 @@ namespace {
 
 using optics::Vec3;
 
-constexpr int kDirections = 40000;   // all around
-constexpr double kLevelStep = 0.01;  // closeness
-constexpr double kSmoothing = 0.8;   // sigma, degrees
-constexpr double kFinestView = 2;    // pixels per degree
+constexpr int kEdgeDirections = 40000;  // all around
+constexpr double kLevelStep = 0.01;     // closeness
+constexpr double kSmoothing = 0.8;      // sigma, degrees
+constexpr double kFinestEdgeView = 2;   // pixels per degree
 
 /// The edges of both cameras as if everything were at one closeness.
 class Edges {
@@ -30,7 +30,7 @@ class Edges {
         first_picture_(stretched(luminance_of(first.picture))),
         second_picture_(stretched(luminance_of(second.picture))),
         resolution_(std::min(
-            {kFinestView, best_resolution(first.ball), 1.5 * best_resolution(second.ball)})) {}
+            {kFinestEdgeView, best_resolution(first.ball), 1.5 * best_resolution(second.ball)})) {}
 
   /// above_chance() by direction; not a number where one of them shows nothing.
   Result<std::vector<float>> agreement(const std::vector<Vec3>& directions,
@@ -61,8 +61,8 @@ class Edges {
 
 std::vector<Vec3> downward() {
   std::vector<Vec3> directions;
-  for (int n = 0; n < kDirections; ++n) {
-    const Vec3 direction = spiral(n, kDirections);
+  for (int n = 0; n < kEdgeDirections; ++n) {
+    const Vec3 direction = spiral(n, kEdgeDirections);
     if (direction.z < 0) directions.push_back(direction);
   }
   return directions;

@@ -18,10 +18,10 @@ using optics::Vec3;
 
 constexpr int kColumns = 7;  // of the floor's grid, either way
 constexpr int kHeights = 8;
-constexpr std::size_t kCoarse = 4;      // every so many places, on the grid
-constexpr std::size_t kCandidates = 5;  // of the grid that are improved
-constexpr double kPerPlace = 0.01;      // of gain that a box has to bring for what it covers
-constexpr double kFinestShare = 0.05;   // of the grid's step, where the improvement ends
+constexpr std::size_t kCoarsePlaces = 4;    // every so many places, on the grid
+constexpr std::size_t kImprovedPlaces = 5;  // of the grid that are improved
+constexpr double kPerPlace = 0.01;          // of gain that a box has to bring for what it covers
+constexpr double kFinestShare = 0.05;       // of the grid's step, where the improvement ends
 // README.md says what rooms without a box reach.
 constexpr double kSignificant = 4.75;
 constexpr double kConfirmed = 2.5;
@@ -38,9 +38,9 @@ struct Evidence {
   double worth() const { return gain - kPerPlace * places; }
 };
 
-class Search {
+class BoxSearch {
  public:
-  Search(const EdgeAgreement& agreement, const Box& walls, const optics::Ball& ball)
+  BoxSearch(const EdgeAgreement& agreement, const Box& walls, const optics::Ball& ball)
       : agreement_(agreement),
         walls_(walls),
         ball_(ball),
@@ -118,10 +118,10 @@ class Search {
   std::vector<Box> candidates(Cells cells) const {
     std::vector<std::pair<double, Box>> boxes;
     for (const Box& box : grid()) {
-      const auto evidence = weigh(box, cells, kCoarse);
+      const auto evidence = weigh(box, cells, kCoarsePlaces);
       if (evidence) boxes.emplace_back(evidence->worth(), box);
     }
-    const auto count = std::min(kCandidates, boxes.size());
+    const auto count = std::min(kImprovedPlaces, boxes.size());
     std::ranges::partial_sort(boxes, boxes.begin() + static_cast<std::ptrdiff_t>(count),
                               std::greater{}, [](const auto& box) { return box.first; });
     std::vector<Box> best;
@@ -187,7 +187,7 @@ Result<StandingBox> find_standing_box(const ReferenceCamera& first, const Refere
   }
   const auto agreement = EdgeAgreement::measure(first, second, scene);
   if (!agreement) return tl::unexpected(agreement.error());
-  const Search search(*agreement, scene.walls, ball);
+  const BoxSearch search(*agreement, scene.walls, ball);
   const auto box = search.best(Cells::All);
   const auto evidence = box ? search.weigh(*box, Cells::All, 1) : std::nullopt;
   if (!evidence || evidence->significance < kSignificant) {

@@ -15,8 +15,6 @@ constexpr double kLimb = 0.95;         // of the radius: beyond, everything is n
 constexpr double kShareOfPeak = 0.25;  // of the brightest one, per pixel
 constexpr double kMeans = 12;          // a light is that much above what else is small
 
-double mean_radius(const optics::Outline& outline) { return (outline.rx + outline.ry) / 2; }
-
 /// The ball's part of a picture of that size.
 cv::Rect part_of(const optics::Outline& outline, const cv::Size& size) {
   const int reach = static_cast<int>(std::ceil(std::max(outline.rx, outline.ry)));

@@ -27,7 +27,7 @@ std::vector<cv::Mat> luminances(std::span<const Picture> pictures) {
 }
 
 /// Per pixel, of some pictures from all over the sequence.
-cv::Mat median(const std::vector<cv::Mat>& pictures) {
+cv::Mat median_picture(const std::vector<cv::Mat>& pictures) {
   const std::size_t step = (pictures.size() + kMostForMedian - 1) / kMostForMedian;
   cv::Mat middle(pictures.front().size(), CV_16U);
   std::vector<std::uint16_t> samples;
@@ -85,7 +85,7 @@ Result<std::vector<std::vector<BrightSpot>>> bright_spots(std::span<const Pictur
     }
   }
   const std::vector<cv::Mat> all = luminances(pictures);
-  const cv::Mat background = median(all);
+  const cv::Mat background = median_picture(all);
   std::vector<cv::Mat> changes;
   double peak = 0, noise = 1;
   for (const cv::Mat& picture : all) {

@@ -16,9 +16,9 @@ namespace {
 using optics::BallProjection;
 using optics::Mat3;
 
-constexpr int kLeastInliers = 15;
-constexpr double kRivalry = 0.5;   // a rival has that share of the best one's inliers
-constexpr double kFinestView = 4;  // pixels per degree; more costs time and gains little
+constexpr int kLeastMatches = 15;
+constexpr double kRivalInliers = 0.5;     // a rival has that share of the best one's inliers
+constexpr double kFinestFeatureView = 4;  // pixels per degree; more costs time and gains little
 const double kNeighbourhood = optics::radians(2.5);  // of features after the first estimate
 constexpr double kParallax = 1.4;  // radians per closeness: cameras see the ball's edges, too
 
@@ -52,7 +52,7 @@ Result<RotationConsensus> first_estimate(const Pictures& pictures, const Feature
   if (!other) return tl::unexpected(other.error());
   const auto found = agree_on_rotation(match_features(seen, *other), reference, sought);
   if (!found) return found;
-  if (static_cast<double>(found->rival) > kRivalry * static_cast<double>(found->agreeing)) {
+  if (static_cast<double>(found->rival) > kRivalInliers * static_cast<double>(found->agreeing)) {
     return fail("two different rotations fit nearly as well, " + std::to_string(found->agreeing) +
                 " and " + std::to_string(found->rival) +
                 " features agree: put something with patterns where both cameras see it");
@@ -90,9 +90,10 @@ Result<Registration> register_by_features(const ReferenceCamera& reference,
                                           const SoughtCamera& sought) {
   const auto unturned = turned(sought, Mat3{}, *sought.camera.outline);
   if (!unturned) return tl::unexpected(unturned.error());
-  const Pictures pictures{
-      stretched(luminance_of(reference.picture)), stretched(luminance_of(sought.picture)),
-      std::min({kFinestView, best_resolution(reference.ball), 1.3 * best_resolution(*unturned)})};
+  const Pictures pictures{stretched(luminance_of(reference.picture)),
+                          stretched(luminance_of(sought.picture)),
+                          std::min({kFinestFeatureView, best_resolution(reference.ball),
+                                    1.3 * best_resolution(*unturned)})};
   const auto seen = features(pictures.reference, reference.ball, pictures.pixels_per_degree);
   if (!seen) return tl::unexpected(seen.error());
   const auto first = first_estimate(pictures, *seen, reference.ball, sought);
@@ -108,7 +109,7 @@ Result<Registration> register_by_features(const ReferenceCamera& reference,
                                *ball, sought.picture.width, sought.picture.height);
   return trusted({fine->state.rotation, fine->state.outline, fine->residual, share, fine->inliers,
                   fine->covariance},
-                 kLeastInliers);
+                 kLeastMatches);
 }
 
 }  // namespace orbwatch::align

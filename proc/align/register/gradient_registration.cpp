@@ -30,12 +30,12 @@ constexpr double kCoarse = 2.5;                   // sigma of smoothing, degrees
 constexpr std::array kFiner{2.5, 1.5, 1.0, 0.8};  // each seen again from where the last one led
 constexpr double kGridStep = 2;                   // degrees
 constexpr std::size_t kCandidates = 4;
-constexpr double kApart = 3;       // degrees between candidates
-constexpr double kSame = 1.5;      // degrees between what is one summit
-constexpr double kDistinct = 6.5;  // standard deviations; wrong rotations reach 5
-constexpr double kRivalry = 0.85;  // of the best similarity above chance
-constexpr double kFinestView = 2;  // pixels per degree
-constexpr int kLeastInliers = 100;
+constexpr double kApart = 3;               // degrees between candidates
+constexpr double kSame = 1.5;              // degrees between what is one summit
+constexpr double kDistinct = 6.5;          // standard deviations; wrong rotations reach 5
+constexpr double kRivalSimilarity = 0.85;  // of the best similarity above chance
+constexpr double kFinestView = 2;          // pixels per degree
+constexpr int kLeastEdges = 100;
 
 /// The pictures and the reference camera's views, which stay.
 class Scenery {
@@ -204,7 +204,7 @@ Result<Outcome> best_of(const Scenery& scenery, const Mat3& start) {
   }
   for (const Outcome& other : outcomes) {
     if (angle_between(other.rotation, best.rotation) < radians(kSame)) continue;
-    if (other.similarity > kRivalry * best.similarity) {
+    if (other.similarity > kRivalSimilarity * best.similarity) {
       return fail("two different rotations fit nearly as well");
     }
   }
@@ -229,7 +229,7 @@ Result<Registration> register_by_gradients(const ReferenceCamera& reference,
                                *ball, sought.picture.width, sought.picture.height);
   return trusted({best->rotation, *sought.camera.outline, best->residual, share, best->inliers,
                   best->covariance},
-                 kLeastInliers);
+                 kLeastEdges);
 }
 
 }  // namespace orbwatch::align

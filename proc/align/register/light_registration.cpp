@@ -71,14 +71,14 @@ struct Agreement {
   std::vector<Vec3> directions;
 };
 
-class Search {
+class LightSearch {
  public:
-  Search(std::vector<Moment> moments, const SoughtCamera& sought)
+  LightSearch(std::vector<Moment> moments, const SoughtCamera& sought)
       : moments_(std::move(moments)), sought_(sought) {
     for (std::size_t m = 0; m < moments_.size(); ++m) {
       if (!moments_[m].sources.empty() && !moments_[m].spots.empty()) lit_.push_back(m);
     }
-    radius_ = (sought.camera.outline->rx + sought.camera.outline->ry) / 2;
+    radius_ = optics::mean_radius(*sought.camera.outline);
   }
 
   Result<Registration> run() {
@@ -263,7 +263,7 @@ Result<Registration> register_by_light(const SimultaneousPictures& pictures,
       if (unturned->ray(spot.centre)) moments[m].spots.push_back(spot.centre);
     }
   }
-  auto found = Search(std::move(moments), sought).run();
+  auto found = LightSearch(std::move(moments), sought).run();
   if (!found) return found;
   const auto ball = turned(sought, found->rotation, found->outline);
   if (!ball) return tl::unexpected(ball.error());

@@ -8,8 +8,8 @@ namespace {
 
 using optics::Vec3;
 
-constexpr int kSteps = 3;          // of Gauss and Newton: lines bend little over closeness
-constexpr double kNearest = 0.8;   // closeness; the ball's surface is 1
+constexpr int kSteps = 3;                  // of Gauss and Newton: lines bend little over closeness
+constexpr double kNearestCloseness = 0.8;  // closeness; the ball's surface is 1
 constexpr double kBeyond = -0.05;  // closeness: noise moves what is far away beyond infinity
 
 /// A line's point seen from the ball's centre, and how that turns with its closeness.
@@ -43,14 +43,14 @@ Vec3 direction_at(const LineOfSight& line, double closeness) {
 Meeting meeting(const LineOfSight& first, const LineOfSight& second, double sigma,
                 const RoomCloseness& room) {
   const double weight = sigma * sigma / (room.spread * room.spread);
-  double closeness = std::clamp(room.mean, kBeyond, kNearest);
+  double closeness = std::clamp(room.mean, kBeyond, kNearestCloseness);
   for (int step = 0;; ++step) {
     const Course a = course(first, closeness), b = course(second, closeness);
     const Meeting here{closeness, a.direction - b.direction, a.slope - b.slope};
     if (step == kSteps) return here;
     const double pull = dot(here.apart, here.slope) + weight * (closeness - room.mean);
     const double stiffness = dot(here.slope, here.slope) + weight;
-    closeness = std::clamp(closeness - pull / stiffness, kBeyond, kNearest);
+    closeness = std::clamp(closeness - pull / stiffness, kBeyond, kNearestCloseness);
   }
 }
 

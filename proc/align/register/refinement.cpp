@@ -20,7 +20,7 @@ using optics::Mat3;
 constexpr double kRobustFrom = 1.5;  // sigmas
 constexpr double kFits = 4;          // robust sigmas
 constexpr double kMeanSigma = 0.2;   // of a room's mean closeness before anything is seen
-constexpr int kRounds = 3;           // of an unstated room's spread and all that follows from it
+constexpr int kSpreadRounds = 3;     // of an unstated room's spread and all that follows from it
 constexpr double kPlaces = 10;       // of an unstated room: walls and large things, about
 
 /// The difference between both cameras' sights, in sigmas.
@@ -184,7 +184,7 @@ Result<Solution> solve_with_room(std::vector<SightedMatch>& matches, const Sough
     auto solution = solve(matches, sought, careful);
     if (!solution) return solution;
     solution->state.room->spread = state.room->spread;
-    if (round == kRounds) return solution;
+    if (round == kSpreadRounds) return solution;
     state = solution->state;
     const TrialPlace place = place_of(sought, state);
     if (!place.ball) return fail("the rotation that was found has no projection");

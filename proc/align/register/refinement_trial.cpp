@@ -29,7 +29,7 @@ RefinementState RefinementTrial::state(const Unknowns& x) const {
   RefinementState moved = start_;
   moved.rotation = rotation_about({x[0], x[1], x[2]}) * start_.rotation;
   Outline& outline = moved.outline;
-  const double radius = (outline.rx + outline.ry) / 2;
+  const double radius = optics::mean_radius(outline);
   outline.centre.u += x[3] * radius;
   outline.centre.v += x[4] * radius;
   outline.rx *= 1 + x[5];

@@ -16,12 +16,12 @@ using optics::Mat3;
 constexpr int kLeastTrials = 200;           // so that a rival is met, too
 constexpr double kMissed = 1e-4;            // probability that no trial was right
 constexpr std::size_t kMostCandidates = 8;  // that are fitted before they are compared
-constexpr int kFits = 8;                    // of each
+constexpr int kFitsOfEach = 8;              // of each
 
 /// Trial rotations, the best of those that are altogether different.
-class Search {
+class ConsensusSearch {
  public:
-  explicit Search(Sightings& sightings) : sightings_(sightings) {}
+  explicit ConsensusSearch(Sightings& sightings) : sightings_(sightings) {}
 
   Result<RotationConsensus> run() {
     if (sightings_.size() < 2) return fail("the pictures have nothing in common that can be told");
@@ -85,7 +85,7 @@ class Search {
 
   /// Fitted to all that agree with it.
   Result<Mat3> fitted(Mat3 rotation) const {
-    for (int round = 0; round < kFits; ++round) {
+    for (int round = 0; round < kFitsOfEach; ++round) {
       const auto inliers = agreeing(rotation, kAgreement);
       if (!inliers) return tl::unexpected(inliers.error());
       const auto better = sightings_.fitted(rotation, *inliers);
@@ -134,7 +134,7 @@ Result<RotationConsensus> agree_on_rotation(const std::vector<Match>& matches,
                                             const SoughtCamera& sought) {
   const auto sightings = make_sightings(matches, reference, sought);
   if (!sightings) return tl::unexpected(sightings.error());
-  return Search(**sightings).run();
+  return ConsensusSearch(**sightings).run();
 }
 
 }  // namespace orbwatch::align

@@ -16,12 +16,13 @@ using optics::BallProjection;
 using optics::Mat3;
 using optics::Vec3;
 
-constexpr int kRounds = 2;  // of looking up what the turned camera sees, and turning it again
+constexpr int kTurningRounds =
+    2;  // of looking up what the turned camera sees, and turning it again
 
 // Of rooms of which nothing is stated.
 constexpr RoomCloseness kAnyRoom{0.05, 0.15};
 constexpr double kClosest = 0.3;           // of what a trial supposes
-constexpr double kLeastSpread = 1e-3;      // closeness
+constexpr double kSpreadOfDepths = 1e-3;   // closeness
 const double kExactness = kAgreement / 3;  // no walls that are not as stated
 
 /// Too near to each other, or to opposite, to determine a rotation.
@@ -52,7 +53,7 @@ class SightingsInScene final : public Sightings {
     if (is_narrow(apart)) return std::nullopt;
     // Far away and in its own frame at first.
     Mat3 rotation;
-    for (int round = 0; round <= kRounds; ++round) {
+    for (int round = 0; round <= kTurningRounds; ++round) {
       const auto ball = turned(sought_, rotation, *sought_.camera.outline);
       if (!ball) return tl::unexpected(ball.error());
       std::array<DirectionPair, 2> pairs;
@@ -62,7 +63,7 @@ class SightingsInScene final : public Sightings {
         pairs[n] = {seen_[chosen[n]], transposed(rotation) * *direction};
       }
       const double differs = angle_between(pairs[0].camera, pairs[1].camera) - apart;
-      if (round == kRounds && std::abs(differs) > 2 * kAgreement) return std::nullopt;
+      if (round == kTurningRounds && std::abs(differs) > 2 * kAgreement) return std::nullopt;
       rotation = fit_rotation(pairs);
     }
     return rotation;
@@ -201,7 +202,7 @@ class SightingsAnywhere final : public Sightings {
     for (const std::size_t n : inliers) all.push_back(met(lines_[n], rotation).closeness);
     const double mean = median(all);
     for (double& one : all) one = std::abs(one - mean);
-    return RoomCloseness{mean, std::max(kLeastSpread, median(all) / 0.6745)};
+    return RoomCloseness{mean, std::max(kSpreadOfDepths, median(all) / 0.6745)};
   }
 
  private:

@@ -35,7 +35,7 @@ struct TopicAccess {
 /// The rights of one participant.
 struct Grant {
   std::string subject;  ///< of its certificate
-  Validity validity;
+  ValidityPeriod validity;
   std::vector<DomainRange> domains;
   TopicAccess topics;
 };

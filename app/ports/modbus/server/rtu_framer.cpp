@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kUnit = 1;
 constexpr std::size_t kChecksum = 2;
-constexpr std::size_t kShortest = kUnit + 1 + kChecksum;
+constexpr std::size_t kShortestFrame = kUnit + 1 + kChecksum;
 
 /// The longest gap inside a frame. Adapters pause for up to 16 ms; masters repeat a request after
 /// 100 ms or more.
@@ -31,7 +31,7 @@ std::size_t checked_length(std::span<const std::uint8_t> bytes) {
   std::uint16_t checksum = 0xffff;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     checksum = checked(checksum, bytes[i]);
-    if (checksum == 0 && i + 1 >= kShortest) return i + 1;
+    if (checksum == 0 && i + 1 >= kShortestFrame) return i + 1;
   }
   return 0;
 }

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 std::int64_t to_number(Utc time) { return time.time_since_epoch().count(); }
 Utc to_utc(const Json& number) { return Utc(std::chrono::seconds(number.get<std::int64_t>())); }
 
-Json to_json(const std::vector<LoginLimits::Entry>& entries) {
+Json entries_json(const std::vector<LoginLimits::Entry>& entries) {
   Json list = Json::array();
   for (const auto& [key, failures, last] : entries) {
     list.push_back({{"key", key}, {"failures", failures}, {"last", to_number(last)}});
@@ -62,8 +62,8 @@ Result<> save_logins(const std::filesystem::path& file, const Sessions& sessions
                     {"used", to_number(used)}});
   }
   const Json all{{"sessions", kept},
-                 {"names", to_json(limits.names())},
-                 {"addresses", to_json(limits.addresses())}};
+                 {"names", entries_json(limits.names())},
+                 {"addresses", entries_json(limits.addresses())}};
   // A name that somebody tried may be no text.
   return write_private(file, all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }

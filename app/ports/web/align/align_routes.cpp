@@ -10,7 +10,6 @@
 namespace orbwatch::app::web {
 namespace {
 
-constexpr std::string_view kJpeg = "image/jpeg";
 constexpr int kDefaultSide = 480;
 /// A view is computed for each request.
 constexpr int kLargestSide = 1920;

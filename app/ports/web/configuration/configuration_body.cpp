@@ -6,7 +6,8 @@
 namespace orbwatch::app::web {
 namespace {
 
-constexpr const char* kForm = R"(the body must be {"files": {"NAME": "TEXT", ...}, "seconds": 60})";
+constexpr const char* kConfigurationForm =
+    R"(the body must be {"files": {"NAME": "TEXT", ...}, "seconds": 60})";
 
 bool is_known(const std::string& member) {
   return member == kFilesMember.name || member == kSecondsMember.name;
@@ -28,18 +29,18 @@ Result<ConfigurationBody> parse_configuration(std::string_view body) {
   const auto sent = nlohmann::json::parse(body, nullptr, false);
   const std::string files_name(kFilesMember.name);
   if (!sent.is_object() || !sent.contains(files_name) || !sent[files_name].is_object()) {
-    return fail(std::string("there are no files: ") + kForm);
+    return fail(std::string("there are no files: ") + kConfigurationForm);
   }
   ConfigurationBody parsed;
   for (const auto& [name, text] : sent[files_name].items()) {
-    if (!text.is_string()) return fail(name + " is no text: " + kForm);
+    if (!text.is_string()) return fail(name + " is no text: " + kConfigurationForm);
     parsed.files[name] = text.get<std::string>();
   }
   const auto seconds = seconds_of(sent);
   if (!seconds) return tl::unexpected(seconds.error());
   parsed.seconds = *seconds;
   for (const auto& [member, value] : sent.items()) {
-    if (!is_known(member)) return fail("there is no " + member + ": " + kForm);
+    if (!is_known(member)) return fail("there is no " + member + ": " + kConfigurationForm);
   }
   return parsed;
 }

@@ -14,12 +14,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kForm =
+constexpr const char* kRecipeForm =
     R"(the body must be {"recipe": 1, "limits": [{"alarm": 1, "region": "NAME", "signal": "NAME", )"
     R"("limit": "NAME", "value": 1.5}, ...], "regions": [{"name": "NAME", "points": [[X, Y, Z], )"
     R"(...]}, ...], "seconds": 60})";
 
-tl::unexpected<Error> wrong(const std::string& what) { return fail(what + ": " + kForm); }
+tl::unexpected<Error> wrong(const std::string& what) { return fail(what + ": " + kRecipeForm); }
 
 /// An object whose members are among these.
 bool is_of(const json& object, std::initializer_list<std::string_view> names) {

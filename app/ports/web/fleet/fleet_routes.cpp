@@ -11,7 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kJpeg = "image/jpeg";
 constexpr int kNotFound = 404;
 constexpr std::string_view kMissing = "say enabled = true in [dds]";
 

@@ -47,6 +47,7 @@ class Stream {
 };
 
 inline constexpr std::string_view kJson = "application/json";
+inline constexpr std::string_view kJpeg = "image/jpeg";
 inline constexpr std::string_view kText = "text/plain; charset=utf-8";
 
 /// An answer; with a stream it has no other body.

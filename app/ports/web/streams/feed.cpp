@@ -48,7 +48,7 @@ void Feed::publish(Bytes bytes, hal::TimePoint stamp, const std::optional<Aim>& 
   }
   for (const ExchangePtr& exchange : waiting) {
     Response response;
-    response.type = "image/jpeg";
+    response.type = kJpeg;
     response.body = bytes;
     exchange->answer(std::move(response));
   }

@@ -26,7 +26,7 @@ constexpr std::size_t kLongestName = 64;
 fs::path self_made_file(const fs::path& folder) { return folder / "certificate.pem"; }
 
 Result<ServerCertificate> server_certificate(PemPair pem, const Certificate& certificate) {
-  return validity_of(certificate).map([&](const Validity& validity) {
+  return validity_of(certificate).map([&](const ValidityPeriod& validity) {
     return ServerCertificate{std::move(pem), validity, fingerprint_of(certificate), false};
   });
 }
@@ -65,7 +65,7 @@ bool is_for_all(const ServerCertificate& kept, const std::vector<std::string>& h
 
 Result<ServerCertificate> make(const fs::path& file, const std::vector<std::string>& hosts,
                                sys_seconds now) {
-  const Validity validity{now - kClockDifference, now - kClockDifference + kSelfMadeDays};
+  const ValidityPeriod validity{now - kClockDifference, now - kClockDifference + kSelfMadeDays};
   const std::string host = host_name();
   const auto made = make_credential(host.empty() ? "orbwatch" : host.substr(0, kLongestName),
                                     CertificateUse::Serve, validity, nullptr, hosts);

@@ -18,7 +18,7 @@ namespace orbwatch::app::web {
 
 struct ServerCertificate {
   PemPair pem;
-  Validity validity;
+  ValidityPeriod validity;
   std::string fingerprint;  ///< SHA-256
   bool is_self_made = false;
 };

@@ -186,7 +186,7 @@ TEST_F(EnclaveTest, AKeyThatEverybodyReadsIsNone) {
 }
 
 TEST(SignedDocumentTest, OnlyTheSignerItselfCounts) {
-  const Validity validity{this_second(), this_second() + std::chrono::days(1)};
+  const ValidityPeriod validity{this_second(), this_second() + std::chrono::days(1)};
   const auto authority = make_credential("authority", CertificateUse::SignDocuments, validity);
   ASSERT_TRUE(authority);
   // A holder of a certificate of the authority, which may even sign documents.

@@ -18,7 +18,7 @@ inline std::chrono::sys_seconds this_second() {
 }
 
 /// From a day ago.
-inline Validity valid_for(std::chrono::seconds time) {
+inline ValidityPeriod valid_for(std::chrono::seconds time) {
   return {this_second() - std::chrono::days(1), this_second() + time};
 }
 
@@ -31,7 +31,7 @@ inline void write_pem(const std::filesystem::path& file, const std::string& text
 /// Files of an own certificate that an authority issued, and the settings that name them.
 struct PemFiles {
   explicit PemFiles(const std::filesystem::path& folder,
-                    const Validity& validity = valid_for(std::chrono::days(90)))
+                    const ValidityPeriod& validity = valid_for(std::chrono::days(90)))
       : certificate(folder / "own.cert.pem"),
         key(folder / "own.key.pem"),
         authority(make_credential("authority", CertificateUse::IssueIdentities, validity).value()),
