@@ -18,6 +18,9 @@ namespace orbwatch::tests {
 using optics::Vec2;
 using optics::Vec3;
 
+/// The distance of what is infinitely far away.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// Unit reflection vector of the camera ray at angle `psi` from the axis, as angle from the facing
 /// direction. Camera at (0, d) in the plane (across, along), ball of radius 1 at the origin.
 inline double traced_phi(double psi, double d) {

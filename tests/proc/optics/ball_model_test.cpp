@@ -15,8 +15,7 @@ namespace orbwatch::optics {
 namespace {
 
 using Kind = BallModel::Kind;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using tests::kInfinity;
 
 double alpha_of(double distance) { return 360 - 2 * degrees(std::asin(1 / distance)); }
 

@@ -21,6 +21,7 @@ using Kind = BallModel::Kind;
 using tests::camera_ray;
 using tests::deviation;
 using tests::kBall;
+using tests::kInfinity;
 using tests::point_on;
 using tests::position_in_radii;
 using tests::random_camera;
@@ -28,8 +29,6 @@ using tests::random_direction;
 using tests::RealVec3;
 using tests::rounded;
 using tests::scene_around_ball;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 BallModel model_at(double distance) {
   return BallModel::at_distance(BallModel::Kind::Exact, distance);

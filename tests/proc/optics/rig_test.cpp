@@ -6,9 +6,12 @@
 #include <random>
 
 #include "proc/optics/vec.h"
+#include "tests/proc/optics/random_camera.h"
 
 namespace orbwatch::optics {
 namespace {
+
+using tests::random_direction;
 
 const Intrinsics kIntrinsics{1500, 1500, 2700, 2700, 749.5, 749.5, Distortion::None, {}};
 
@@ -47,11 +50,6 @@ RigCamera uncalibrated() {
 /// The camera's own axes, X = -right, Y = -forward, Z = -down, in the machine frame.
 Mat3 registration_of(const Pose& pose) {
   return transposed({-pose.rotation.row0, -pose.rotation.row2, -pose.rotation.row1});
-}
-
-Vec3 random_direction(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return normalized({normal(random), normal(random), normal(random)});
 }
 
 void expect_same(const BallProjection& a, const BallProjection& b, double tolerance) {

@@ -17,9 +17,9 @@ namespace {
 
 using testing::HasSubstr;
 using tests::kBall;
+using tests::kInfinity;
 using tests::random_direction;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Box kWalls{{-500, -400, -100}, {600, 500, 800}};
 const Box kTable{{-300, -200, -100}, {400, 300, 200}};
 const Box kSpindle{{200, 50, 300}, {280, 130, 900}};  // sticks out of the room

@@ -8,13 +8,13 @@
 #include <random>
 
 #include "tests/proc/remap/stored_picture.h"
+#include "tests/proc/remap/untouched.h"
 
 namespace orbwatch::remap {
 namespace {
 
+using tests::kUntouched;
 using tests::StoredPicture;
-
-constexpr std::byte kUntouched{0xa5};
 
 SampledTile noise() {
   SampledTile tile;
@@ -26,10 +26,10 @@ SampledTile noise() {
 }
 
 /// A view of which nothing was written yet.
-class View : public StoredPicture {
+class BlankView : public StoredPicture {
  public:
-  View(PixelFormat format, int width, int height) : StoredPicture(format, width, height, 6) {
-    std::fill(bytes.begin(), bytes.end(), kUntouched);
+  BlankView(PixelFormat format, int width, int height) : StoredPicture(format, width, height, 6) {
+    std::fill(bytes.begin(), bytes.end(), std::byte{kUntouched});
   }
 
   std::byte& at(std::size_t plane, int row, int byte) {
@@ -38,20 +38,20 @@ class View : public StoredPicture {
 };
 
 /// Whole and cut tiles of views that are even or not.
-struct Place {
+struct TilePlace {
   int width, height;  ///< of the view
   TileArea area;
 };
-constexpr std::array<Place, 4> kEvenPlaces{{{38, 42, {0, 0, 16, 16}},
-                                            {38, 42, {32, 16, 6, 16}},
-                                            {38, 42, {32, 32, 6, 10}},
-                                            {2, 2, {0, 0, 2, 2}}}};
-constexpr std::array<Place, 3> kOddPlaces{
+constexpr std::array<TilePlace, 4> kEvenPlaces{{{38, 42, {0, 0, 16, 16}},
+                                                {38, 42, {32, 16, 6, 16}},
+                                                {38, 42, {32, 32, 6, 10}},
+                                                {2, 2, {0, 0, 2, 2}}}};
+constexpr std::array<TilePlace, 3> kOddPlaces{
     {{37, 41, {16, 32, 16, 9}}, {37, 41, {32, 16, 5, 16}}, {1, 1, {0, 0, 1, 1}}}};
 
 template <class Look>
 void for_each_place(bool odd_too, const Look& look) {
-  const auto one = [&](const Place& place) {
+  const auto one = [&](const TilePlace& place) {
     SCOPED_TRACE(testing::Message() << place.width << 'x' << place.height << " at " << place.area.x
                                     << ' ' << place.area.y);
     look(place);
@@ -70,9 +70,9 @@ TEST(WriteTile, CopiesPlanesInTheirOwnFormat) {
   for (const PixelFormatInfo& facts : kPixelFormats) {
     if (is_packed_yuv(facts.format)) continue;
     SCOPED_TRACE(facts.name);
-    for_each_place(!is_yuv(facts.format), [&](const Place& place) {
-      View found(facts.format, place.width, place.height);
-      View expected(facts.format, place.width, place.height);
+    for_each_place(!is_yuv(facts.format), [&](const TilePlace& place) {
+      BlankView found(facts.format, place.width, place.height);
+      BlankView expected(facts.format, place.width, place.height);
       write_tile(tile, facts.format, {}, found.picture, place.area, scalar_kernel());
       for (std::size_t n = 0; n < facts.plane_count(); ++n) {
         const PlaneInfo& plane = facts.planes[n];
@@ -118,8 +118,9 @@ Yuv yuv_at(const SampledTile& tile, PixelFormat format, int x, int y) {
 TEST(WriteTile, LetsLuminanceAndChromaTakeTurns) {
   const SampledTile tile = noise();
   for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Uyvy}) {
-    for_each_place(false, [&](const Place& place) {
-      View found(format, place.width, place.height), expected(format, place.width, place.height);
+    for_each_place(false, [&](const TilePlace& place) {
+      BlankView found(format, place.width, place.height),
+          expected(format, place.width, place.height);
       write_tile(tile, format, {}, found.picture, place.area, scalar_kernel());
       for (int y = 0; y < place.area.rows; ++y) {
         for (int x = 0; x < place.area.columns; ++x) {
@@ -156,11 +157,11 @@ std::array<double, 3> to_rgb(const Yuv& pixel, ColourSpace space) {
 /// `tolerance`. Nothing beside the area may change.
 template <class Expected>
 void expect_colours(const SampledTile& tile, PixelFormat from, ColourSpace space, PixelFormat to,
-                    const Place& place, double tolerance, const Expected& expected) {
-  View view(to, place.width, place.height);
+                    const TilePlace& place, double tolerance, const Expected& expected) {
+  BlankView view(to, place.width, place.height);
   write_tile(tile, from, space, view.picture, place.area, scalar_kernel());
   for (const Kernel* kernel : kernels()) {
-    View same(to, place.width, place.height);
+    BlankView same(to, place.width, place.height);
     write_tile(tile, from, space, same.picture, place.area, *kernel);
     ASSERT_EQ(same.bytes, view.bytes) << kernel->name;
   }
@@ -171,11 +172,11 @@ void expect_colours(const SampledTile& tile, PixelFormat from, ColourSpace space
         std::byte& found = view.at(0, place.area.y + y, 3 * (place.area.x + x) + k);
         ASSERT_NEAR(static_cast<int>(found), rgb[to == PixelFormat::Rgb ? k : 2 - k], tolerance)
             << info(from).name << ' ' << x << ' ' << y << ' ' << k;
-        found = kUntouched;
+        found = std::byte{kUntouched};
       }
     }
   }
-  EXPECT_EQ(std::count(view.bytes.begin(), view.bytes.end(), kUntouched),
+  EXPECT_EQ(std::count(view.bytes.begin(), view.bytes.end(), std::byte{kUntouched}),
             static_cast<std::ptrdiff_t>(view.bytes.size()));
 }
 
@@ -188,7 +189,7 @@ TEST(WriteTile, ConvertsYuvLikeDoublePrecision) {
     for (const ColourMatrix matrix : {ColourMatrix::Bt601, ColourMatrix::Bt709}) {
       for (const ColourRange range : {ColourRange::Limited, ColourRange::Full}) {
         for (const PixelFormat to : {PixelFormat::Rgb, PixelFormat::Bgr}) {
-          for_each_place(true, [&](const Place& place) {
+          for_each_place(true, [&](const TilePlace& place) {
             expect_colours(tile, facts.format, {matrix, range}, to, place, kTolerance,
                            [&](int x, int y) {
                              return to_rgb(yuv_at(tile, facts.format, x, y), {matrix, range});
@@ -204,7 +205,7 @@ TEST(WriteTile, ReordersColours) {
   const SampledTile tile = noise();
   for (const PixelFormat from : {PixelFormat::Rgb, PixelFormat::Bgr, PixelFormat::Bgra}) {
     for (const PixelFormat to : {PixelFormat::Rgb, PixelFormat::Bgr}) {
-      for_each_place(true, [&](const Place& place) {
+      for_each_place(true, [&](const TilePlace& place) {
         expect_colours(tile, from, {}, to, place, 0, [&](int x, int y) {
           const int samples = from == PixelFormat::Bgra ? 4 : 3;
           const std::uint8_t* const pixel = &tile.planes[0][(y * kTile + x) * samples];
@@ -230,9 +231,9 @@ TEST(ClearArea, MakesItBlackAndNothingElse) {
   for (const PixelFormatInfo& facts : kPixelFormats) {
     SCOPED_TRACE(facts.name);
     for (const ColourRange range : {ColourRange::Limited, ColourRange::Full}) {
-      for_each_place(!is_yuv(facts.format), [&](const Place& place) {
-        View found(facts.format, place.width, place.height);
-        View expected(facts.format, place.width, place.height);
+      for_each_place(!is_yuv(facts.format), [&](const TilePlace& place) {
+        BlankView found(facts.format, place.width, place.height);
+        BlankView expected(facts.format, place.width, place.height);
         found.picture.colour_space.range = range;
         clear_area(found.picture, place.area);
         for (std::size_t n = 0; n < facts.plane_count(); ++n) {
@@ -259,8 +260,9 @@ TEST(ClearUndefined, LeavesWhatIsDefined) {
     for (Coordinate& c : row) c.u = std::array{0, kBlind, kOutside, 500}[random() % 4];
   }
   for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::Bgr}) {
-    for_each_place(true, [&](const Place& place) {
-      View found(format, place.width, place.height), expected(format, place.width, place.height);
+    for_each_place(true, [&](const TilePlace& place) {
+      BlankView found(format, place.width, place.height),
+          expected(format, place.width, place.height);
       clear_undefined(coordinates, found.picture, place.area);
       for (int y = 0; y < place.area.rows; ++y) {
         for (int x = 0; x < place.area.columns; ++x) {

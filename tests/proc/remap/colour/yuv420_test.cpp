@@ -18,10 +18,10 @@ namespace {
 using tests::StoredPicture;
 
 /// Of which one tile is written, and nothing beside it.
-struct View {
+struct OneTileView {
   static constexpr int kSide = 48;
 
-  View() : stored(PixelFormat::I420, kSide, kSide) {
+  OneTileView() : stored(PixelFormat::I420, kSide, kSide) {
     std::ranges::fill(stored.bytes, std::byte{77});
     stored.picture.colour_space = kJfif;
   }
@@ -52,7 +52,7 @@ TEST(Yuv420, OfColoursIsThatOfJfif) {
     for (auto& sample : rgb) {
       sample = static_cast<std::uint8_t>(random() % 3 == 0 ? 255 * (random() % 2) : random());
     }
-    View view;
+    OneTileView view;
     write_yuv420({rgb.data(), kTile, kTile, 3, 3 * kTile}, view.stored.picture, area);
     for (int y = 0; y < area.rows; ++y) {
       for (int x = 0; x < area.columns; ++x) {
@@ -87,7 +87,7 @@ TEST_P(Yuv420Source, KeepsItsSamplesAndTakesTheFullRange) {
       for (auto& plane : tile.planes) {
         for (auto& sample : plane) sample = static_cast<std::uint8_t>(random());
       }
-      View view;
+      OneTileView view;
       write_yuv420(tile, format, colour_space, view.stored.picture, area);
       const bool full = range == ColourRange::Full;
       const auto chroma_at = [&](std::size_t n, int x, int y) -> double {

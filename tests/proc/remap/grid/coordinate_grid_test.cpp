@@ -26,8 +26,6 @@ using optics::ViewProjection;
 using optics::ViewSpec;
 using optics::YawPitchRoll;
 
-constexpr double kOne = 1 << kFractionBits;
-
 struct Found {
   double worst = 0;         ///< largest distance of a defined pixel from the exact map, px
   double jump = 0;          ///< largest change of that error between neighbours, px
@@ -68,7 +66,7 @@ Found compare(const CoordinateGrid& grid, const ViewProjection& view, const Ball
       current[x] = {nan, nan};
       if (!truth || !is_defined(mine)) continue;
       ++found.seen;
-      current[x] = {mine.u / kOne - truth->u, mine.v / kOne - truth->v};
+      current[x] = {mine.u / kOnePixel - truth->u, mine.v / kOnePixel - truth->v};
       found.worst = std::max(found.worst, std::hypot(current[x].u, current[x].v));
       if (x > 0) look_at_jump(current[x], current[x - 1]);
       look_at_jump(current[x], above[x]);
@@ -278,8 +276,8 @@ double clearance(const CoordinateGrid& grid, const Tile& tile, int tx, int ty) {
   };
   for (int y = 0; y < kTile; ++y) {
     for (const Coordinate& c : grid.row(tx, ty, y)) {
-      look(c.u / kOne, grid.source_width());
-      look(c.v / kOne, grid.source_height());
+      look(c.u / kOnePixel, grid.source_width());
+      look(c.v / kOnePixel, grid.source_height());
     }
   }
   return least;

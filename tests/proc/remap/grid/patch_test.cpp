@@ -7,10 +7,10 @@
 #include <functional>
 #include <random>
 
+#include "proc/remap/compiler/tolerance.h"
+
 namespace orbwatch::remap {
 namespace {
-
-constexpr double kOne = 1 << kFractionBits;
 
 using Map = std::function<double(double, double)>;
 
@@ -18,8 +18,8 @@ Stencil nodes_of(const Map& u, const Map& v) {
   Stencil nodes;
   for (int j = -1; j <= 2; ++j) {
     for (int i = -1; i <= 2; ++i) {
-      nodes.at(i, j) = {static_cast<std::int32_t>(std::lround(u(i, j) * kOne)),
-                        static_cast<std::int32_t>(std::lround(v(i, j) * kOne))};
+      nodes.at(i, j) = {static_cast<std::int32_t>(std::lround(u(i, j) * kOnePixel)),
+                        static_cast<std::int32_t>(std::lround(v(i, j) * kOnePixel))};
     }
   }
   return nodes;
@@ -32,8 +32,8 @@ TEST(Patch, IsExactForTheSecondDegree) {
   for (int y = 0; y < kTile; ++y) {
     PatchRow row = patch.row(y);
     for (int x = 0; x < kTile; ++x, row.step()) {
-      EXPECT_NEAR(row.current().u / kOne, u(x / 16.0, y / 16.0), 2 / kOne);
-      EXPECT_NEAR(row.current().v / kOne, v(x / 16.0, y / 16.0), 2 / kOne);
+      EXPECT_NEAR(row.current().u / kOnePixel, u(x / 16.0, y / 16.0), 2 / kOnePixel);
+      EXPECT_NEAR(row.current().v / kOnePixel, v(x / 16.0, y / 16.0), 2 / kOnePixel);
       EXPECT_EQ(patch.at(x, y).u, row.current().u);
       EXPECT_EQ(patch.at(x, y).v, row.current().v);
     }
@@ -87,8 +87,9 @@ TEST(Patch, ErrorOfThirdOrderIsABound) {
     double worst = 0;
     for (int y = 0; y <= 15; ++y) {
       for (int x = 0; x <= 15; ++x) {
-        worst = std::max(worst, std::hypot(patch.at(x, y).u - cubic(x / 16.0, y / 16.0) * kOne,
-                                           patch.at(x, y).v - other(x / 16.0, y / 16.0) * kOne));
+        worst =
+            std::max(worst, std::hypot(patch.at(x, y).u - cubic(x / 16.0, y / 16.0) * kOnePixel,
+                                       patch.at(x, y).v - other(x / 16.0, y / 16.0) * kOnePixel));
       }
     }
     const double bound = third_order_error(nodes);
@@ -122,8 +123,8 @@ TEST(Patch, KeepsTheSteepestMapThatItMayHave) {
   const Patch patch(nodes_of(u, v));
   for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
-      EXPECT_NEAR(patch.at(x, y).u / kOne, u(x / 16.0, y / 16.0), 2 / kOne);
-      EXPECT_NEAR(patch.at(x, y).v / kOne, v(x / 16.0, y / 16.0), 2 / kOne);
+      EXPECT_NEAR(patch.at(x, y).u / kOnePixel, u(x / 16.0, y / 16.0), 2 / kOnePixel);
+      EXPECT_NEAR(patch.at(x, y).v / kOnePixel, v(x / 16.0, y / 16.0), 2 / kOnePixel);
     }
   }
 }

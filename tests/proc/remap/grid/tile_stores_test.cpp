@@ -6,18 +6,18 @@
 #include <random>
 #include <vector>
 
+#include "proc/remap/compiler/tolerance.h"
+
 namespace orbwatch::remap {
 namespace {
 
-constexpr double kOne = 1 << kFractionBits;
-
-CoordinateTile random_tile(std::mt19937& random, double span) {
+CoordinateTile random_coordinates(std::mt19937& random, double span) {
   std::uniform_real_distribution<double> place(0, span);
   CoordinateTile tile;
   for (CoordinateRow& row : tile) {
     for (Coordinate& c : row) {
-      c = {static_cast<std::int32_t>((1000 + place(random)) * kOne),
-           static_cast<std::int32_t>((-40 + place(random)) * kOne)};
+      c = {static_cast<std::int32_t>((1000 + place(random)) * kOnePixel),
+           static_cast<std::int32_t>((-40 + place(random)) * kOnePixel)};
     }
   }
   return tile;
@@ -26,7 +26,7 @@ CoordinateTile random_tile(std::mt19937& random, double span) {
 TEST(PackedTile, LosesAtMostATinyShareOfAPixel) {
   std::mt19937 random(1);
   for (const double span : {0.001, 1.0, 7.9, 8.1, 30.0, 100.0, 255.0}) {
-    CoordinateTile tile = random_tile(random, span);
+    CoordinateTile tile = random_coordinates(random, span);
     tile[3][5] = {kBlind, 0};
     tile[15][15] = {kOutside, 0};
     const auto packed = PackedTile::pack(tile);
@@ -39,8 +39,8 @@ TEST(PackedTile, LosesAtMostATinyShareOfAPixel) {
           continue;
         }
         const double limit = span < 8 ? 0 : 1.0 / 512;
-        EXPECT_LE(std::abs(row[x].u - tile[y][x].u) / kOne, limit);
-        EXPECT_LE(std::abs(row[x].v - tile[y][x].v) / kOne, limit);
+        EXPECT_LE(std::abs(row[x].u - tile[y][x].u) / kOnePixel, limit);
+        EXPECT_LE(std::abs(row[x].v - tile[y][x].v) / kOnePixel, limit);
       }
     }
   }
@@ -48,7 +48,7 @@ TEST(PackedTile, LosesAtMostATinyShareOfAPixel) {
 
 TEST(PackedTile, RefusesWhatItCouldNotKeep) {
   std::mt19937 random(2);
-  CoordinateTile tile = random_tile(random, 1);
+  CoordinateTile tile = random_coordinates(random, 1);
   tile[0][0].u += 300 << kFractionBits;
   EXPECT_FALSE(PackedTile::pack(tile));
   tile[0][0] = {-(1 << 30), 1 << 30};
@@ -71,7 +71,7 @@ TEST(PixelTiles, KeepNarrowAndWideTiles) {
   std::vector<CoordinateTile> given;
   std::vector<std::uint32_t> indices;
   for (const double span : {7.0, 1000.0, 3.0, 2000.0}) {
-    given.push_back(random_tile(random, span));
+    given.push_back(random_coordinates(random, span));
     given.back()[2][9] = {kOutside, 0};
     indices.push_back(tiles.add(given.back()));
   }
@@ -92,8 +92,9 @@ TEST(PixelTiles, KeepNarrowAndWideTiles) {
 
 /// A smooth map with terms up to the second degree, which patches hold exactly but for rounding.
 Coordinate bent(double x, double y) {
-  return {static_cast<std::int32_t>(std::lround((100 + 0.7 * x - 0.2 * y + 0.003 * x * x) * kOne)),
-          static_cast<std::int32_t>(std::lround((50 + 0.1 * x + 0.9 * y - 0.002 * y * y) * kOne))};
+  return {
+      static_cast<std::int32_t>(std::lround((100 + 0.7 * x - 0.2 * y + 0.003 * x * x) * kOnePixel)),
+      static_cast<std::int32_t>(std::lround((50 + 0.1 * x + 0.9 * y - 0.002 * y * y) * kOnePixel))};
 }
 
 void expect_near(const Coordinate& a, const Coordinate& b) {

@@ -14,7 +14,7 @@ namespace {
 using tests::RandomPatch;
 using tests::Steepness;
 
-constexpr int kOne = 1 << kFractionBits;
+constexpr int kPixelQ13 = 1 << kFractionBits;
 
 std::optional<BlockMap> map_of(const Patch& patch, int add_u, int add_v, int rows = kTile) {
   BlockMap map;
@@ -23,11 +23,11 @@ std::optional<BlockMap> map_of(const Patch& patch, int add_u, int add_v, int row
 }
 
 /// A pixel of a block, as the comments on WindowWalk and LaneShape say, without 16 bit lanes.
-struct Place {
+struct LanePlace {
   std::int64_t window;  ///< source pixels
   std::int64_t lane;    ///< from there, Q13
 
-  std::int64_t coordinate() const { return window * kOne + lane; }
+  std::int64_t coordinate() const { return window * kPixelQ13 + lane; }
 };
 
 struct Pixel {
@@ -36,7 +36,7 @@ struct Pixel {
 
 /// Axis 0 or 1, u or v, which is the `member` of each AxisPair.
 template <auto member>
-Place place_of(const BlockMap& map, int axis, std::uint16_t offset, const Pixel& p) {
+LanePlace place_of(const BlockMap& map, int axis, std::uint16_t offset, const Pixel& p) {
   const LaneShape& shape = map.lanes;
   const auto pairs = [](std::int64_t n) { return n * (n - 1) / 2; };
   const WindowWalk& walk = map.windows;
@@ -58,7 +58,8 @@ Place place_of(const BlockMap& map, int axis, std::uint16_t offset, const Pixel&
   return {corner >> 32, is_row ? (lane - kRowCentre) * (1 << shift) : lane};
 }
 
-void for_all_pixels(const BlockMap& map, const std::function<void(Pixel, Place, Place)>& see) {
+void for_all_pixels(const BlockMap& map,
+                    const std::function<void(Pixel, LanePlace, LanePlace)>& see) {
   using Lane = AxisPair<std::int16_t>;
   for (Pixel p{}; p.block_y < map.blocks_y; ++p.block_y) {
     for (p.block_x = 0; p.block_x < map.blocks_x; ++p.block_x) {
@@ -74,23 +75,23 @@ void for_all_pixels(const BlockMap& map, const std::function<void(Pixel, Place, 
 
 /// Every pixel's neighbours are in the window: in 0..6 and one further.
 void expect_in_windows(const BlockMap& map) {
-  for_all_pixels(map, [](Pixel, Place u, Place v) {
+  for_all_pixels(map, [](Pixel, LanePlace u, LanePlace v) {
     ASSERT_GE(u.lane, 0);
-    ASSERT_LT(u.lane, (kWindow - 1) * kOne);
+    ASSERT_LT(u.lane, (kWindow - 1) * kPixelQ13);
     ASSERT_GE(v.lane, 0);
-    ASSERT_LT(v.lane, (kWindow - 1) * kOne);
+    ASSERT_LT(v.lane, (kWindow - 1) * kPixelQ13);
   });
 }
 
 TEST(BlockMap, FollowsThePatch) {
-  constexpr double kRounding = kOne / 240.0;
+  constexpr double kRounding = kPixelQ13 / 240.0;
   std::mt19937 random(1);
   for (int round = 0; round < 300; ++round) {
     const Steepness most{round % 2 ? 0.9 : 0.3, round % 3 ? 0.008 : 0};
     const Patch patch = RandomPatch(random, most).patch();
     const auto map = map_of(patch, 32, 11, round % 2 ? kTile : 2 * kTile);
     if (!map) continue;
-    for_all_pixels(*map, [&](Pixel p, Place u, Place v) {
+    for_all_pixels(*map, [&](Pixel p, LanePlace u, LanePlace v) {
       const Coordinate there = patch.at(kBlock * p.block_x + p.i, kBlock * p.block_y + p.j);
       ASSERT_NEAR(static_cast<double>(u.coordinate()), there.u + 32.0, kRounding);
       ASSERT_NEAR(static_cast<double>(v.coordinate()), there.v + 11.0, kRounding);

@@ -8,10 +8,13 @@
 
 #include "proc/remap/colour/run.h"
 #include "proc/remap/kernel/kernel.h"
+#include "tests/proc/remap/untouched.h"
 #include "tests/support/guarded_memory.h"
 
 namespace orbwatch::remap {
 namespace {
+
+using tests::kUntouched;
 
 class LookUp : public testing::TestWithParam<const Kernel*> {};
 
@@ -26,7 +29,6 @@ ColourTable noise(std::mt19937& random, int channels) {
 
 // Indices end where memory does, and so do the pixels: nothing beyond either is touched.
 TEST_P(LookUp, WritesTheColoursOfEveryRunAndNothingElse) {
-  constexpr std::uint8_t kUntouched = 0xa5;
   std::mt19937 random(11);
   tests::GuardedMemory index_memory(kTile * 40), out_memory(kTile * 3 * 60);
   for (const int channels : {1, 3}) {

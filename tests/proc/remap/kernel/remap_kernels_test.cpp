@@ -20,8 +20,8 @@ using tests::StoredPicture;
 
 /// A view of a ball that fills a picture of `width` x `height`: the limb and the picture's border
 /// are in it.
-struct Scene {
-  Scene(int width, int height, const optics::ViewSpec& spec)
+struct BallScene {
+  BallScene(int width, int height, const optics::ViewSpec& spec)
       : view(ViewProjection::make(spec).value()),
         ball(BallProjection::make(BallModel::make(BallModel::Kind::Exact, 340).value(),
                                   {{width / 2.0, height / 2.0}, width * 0.49, width * 0.49, 0}, {})
@@ -34,7 +34,7 @@ struct Scene {
 };
 
 /// Every kernel's view beside the scalar one's, byte for byte, padding included.
-void expect_same(const Scene& scene, PixelFormat format, PixelFormat to, int padding) {
+void expect_same(const BallScene& scene, PixelFormat format, PixelFormat to, int padding) {
   StoredPicture source(format, scene.grid.source_width(), scene.grid.source_height(), padding);
   source.fill_with_noise(3);
   Pyramid pyramid(format, source.picture.width, source.picture.height, scene.grid.pyramid_levels());
@@ -54,8 +54,8 @@ void expect_same(const Scene& scene, PixelFormat format, PixelFormat to, int pad
 constexpr int even(int side) { return (side + 1) / 2 * 2; }
 
 TEST(RemapKernels, AgreeForEveryFormat) {
-  const Scene scene(400, 320, {ViewKind::Perspective, {60, 20, 30}, 120, {}, 150, 90});
-  const Scene small(400, 320, {ViewKind::Perspective, {20, 20, 30}, 90, {}, 64, 48});
+  const BallScene scene(400, 320, {ViewKind::Perspective, {60, 20, 30}, 120, {}, 150, 90});
+  const BallScene small(400, 320, {ViewKind::Perspective, {20, 20, 30}, 90, {}, 64, 48});
   for (const PixelFormatInfo& format : kPixelFormats) {
     for (const PixelFormat to : {format.format, PixelFormat::Rgb, PixelFormat::Bgr}) {
       if (!can_remap(format.format, to)) continue;
@@ -68,11 +68,11 @@ TEST(RemapKernels, AgreeForEveryFormat) {
 TEST(RemapKernels, AgreeForEveryWidth) {
   for (int width = 1; width <= 129; ++width) {
     const int height = 1 + width * 7 % 40;
-    const Scene scene(200, 200, {ViewKind::Perspective, {30, -10, 15}, 70, {}, width, height});
+    const BallScene scene(200, 200, {ViewKind::Perspective, {30, -10, 15}, 70, {}, width, height});
     expect_same(scene, PixelFormat::Grey, PixelFormat::Grey, width % 5);
     expect_same(scene, PixelFormat::Rgb, PixelFormat::Rgb, width % 7);
     expect_same(scene, PixelFormat::Y16, PixelFormat::Y16, 2 * (width % 3));
-    const Scene both_even(
+    const BallScene both_even(
         200, 200, {ViewKind::Perspective, {30, -10, 15}, 70, {}, even(width), even(height)});
     expect_same(both_even, PixelFormat::Nv12, PixelFormat::Nv12, 2 * (width % 3));
     expect_same(both_even, PixelFormat::Yuyv, PixelFormat::Yuyv, 2 * (width % 3));
@@ -83,19 +83,19 @@ TEST(RemapKernels, AgreeForEveryWidth) {
 TEST(RemapKernels, AgreeForSourcesOfEverySize) {
   for (const int side : {16, 18, 32, 50, 130, 514, 2000}) {
     for (const double yaw : {0.0, 90.0, 170.0}) {
-      const Scene scene(side, side, {ViewKind::Perspective, {yaw, 15, 40}, 100, {}, 80, 64});
+      const BallScene scene(side, side, {ViewKind::Perspective, {yaw, 15, 40}, 100, {}, 80, 64});
       expect_same(scene, PixelFormat::Grey, PixelFormat::Grey, 0);
       expect_same(scene, PixelFormat::Nv12, PixelFormat::Rgb, 0);
       expect_same(scene, PixelFormat::Y16, PixelFormat::Y16, 0);
     }
   }
-  const Scene large(8192, 8192, {ViewKind::Perspective, {10, 15, 40}, 12, {}, 160, 96});
+  const BallScene large(8192, 8192, {ViewKind::Perspective, {10, 15, 40}, 12, {}, 160, 96});
   expect_same(large, PixelFormat::Grey, PixelFormat::Grey, 0);
 }
 
 /// All around a ball, where the map gets steeper and more bent the closer it is to the limb. Its
 /// tiles are kept in every way that one surface alone can be.
-Scene all_around() {
+BallScene all_around() {
   return {800, 800, {ViewKind::Equirectangular, {10, 20, 5}, {}, {}, 1400, 700}};
 }
 
@@ -117,7 +117,7 @@ void expect_kinds(const CoordinateGrid& grid) {
 }
 
 TEST(RemapKernels, AgreeForEveryKindOfTile) {
-  const Scene scene = all_around();
+  const BallScene scene = all_around();
   expect_kinds(scene.grid);
   for (const PixelFormat format : {PixelFormat::Grey, PixelFormat::Nv12, PixelFormat::Yuyv,
                                    PixelFormat::Bgr, PixelFormat::Y16}) {
@@ -126,7 +126,7 @@ TEST(RemapKernels, AgreeForEveryKindOfTile) {
 }
 
 /// Where the samples of a view come from, if the source is a ramp of 64 per pixel along an axis.
-void expect_exact(const Scene& scene, double optics::Vec2::*axis, const Kernel& kernel) {
+void expect_exact(const BallScene& scene, double optics::Vec2::*axis, const Kernel& kernel) {
   constexpr int kPerPixel = 64;
   StoredPicture source(PixelFormat::Y16, scene.grid.source_width(), scene.grid.source_height());
   const auto samples = source.picture.samples<std::uint16_t>();
@@ -156,7 +156,7 @@ void expect_exact(const Scene& scene, double optics::Vec2::*axis, const Kernel& 
 }
 
 TEST(RemapKernels, FollowTheExactMapInEveryStore) {
-  const Scene scene = all_around();
+  const BallScene scene = all_around();
   for (const Kernel* kernel : kernels()) {
     expect_exact(scene, &optics::Vec2::u, *kernel);
     expect_exact(scene, &optics::Vec2::v, *kernel);

@@ -14,8 +14,8 @@ namespace {
 constexpr int kMargin = 5;
 
 /// Tiles of noise whose shares add up to 255 in each corner.
-struct Scene {
-  Scene(std::size_t count, int samples_per_pixel, std::uint32_t seed)
+struct MixScene {
+  MixScene(std::size_t count, int samples_per_pixel, std::uint32_t seed)
       : channels(samples_per_pixel), stride(kTile * channels + kMargin), random(seed) {
     std::array<int, 4> rest;
     rest.fill(255);
@@ -83,7 +83,7 @@ TEST(TileMix, OfEveryKernelIsTheMeanByRoundedSharesAndWritesNothingElse) {
     for (const int channels : {1, 3}) {
       for (std::uint32_t seed = 0; seed < 40; ++seed) {
         for (const Kernel* kernel : kernels()) {
-          Scene scene(count, channels, seed);
+          MixScene scene(count, channels, seed);
           kernel->mix(scene.tiles, {scene.out.data(), kTile, kTile, channels, scene.stride});
           SCOPED_TRACE(std::string(kernel->name) + ", " + std::to_string(count) + " sources, " +
                        std::to_string(channels) + " channels, seed " + std::to_string(seed));
@@ -96,7 +96,7 @@ TEST(TileMix, OfEveryKernelIsTheMeanByRoundedSharesAndWritesNothingElse) {
 
 TEST(TileMix, OfEqualPicturesIsThatPicture) {
   for (std::size_t count = 1; count <= kMaxSources; ++count) {
-    Scene scene(count, 3, static_cast<std::uint32_t>(count));
+    MixScene scene(count, 3, static_cast<std::uint32_t>(count));
     for (MixedTile& tile : scene.tiles) tile.samples = scene.pictures[0].data();
     std::vector<std::uint8_t> out(scene.pictures[0].size());
     for (const Kernel* kernel : kernels()) {

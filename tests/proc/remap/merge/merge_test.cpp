@@ -14,10 +14,10 @@ namespace {
 
 /// Sources of noise: odd sizes, so that the last tiles are cut.
 template <class T>
-struct Scene {
+struct NoiseScene {
   static constexpr int kWidth = 37, kHeight = 21, kPixels = kWidth * kHeight;
 
-  Scene(std::size_t count, int samples_per_pixel, std::uint32_t seed)
+  NoiseScene(std::size_t count, int samples_per_pixel, std::uint32_t seed)
       : channels(samples_per_pixel), random(seed) {
     for (std::size_t n = 0; n < count; ++n) {
       pictures.emplace_back(kPixels * channels);
@@ -66,7 +66,7 @@ TYPED_TEST_SUITE(Merge, Samples);
 TYPED_TEST(Merge, IsTheMeanByWeightRoundedExactly) {
   for (std::size_t count = 1; count <= kMaxSources; ++count) {
     for (const int channels : {1, 3}) {
-      Scene<TypeParam> scene(count, channels, static_cast<std::uint32_t>(10 * count));
+      NoiseScene<TypeParam> scene(count, channels, static_cast<std::uint32_t>(10 * count));
       scene.merge();
       for (std::size_t i = 0; i < scene.kPixels; ++i) {
         const std::uint64_t total = scene.total(i);
@@ -88,7 +88,7 @@ TYPED_TEST(Merge, IsTheMeanByWeightRoundedExactly) {
 TYPED_TEST(Merge, IsExactForEverySumOfWeightsAndTheLargestSamples) {
   constexpr TypeParam kTop = std::numeric_limits<TypeParam>::max();
   for (int base = 0; base <= 765; base += 255) {
-    Scene<TypeParam> scene(kMaxSources, 1, 1);
+    NoiseScene<TypeParam> scene(kMaxSources, 1, 1);
     for (int i = 0; i < scene.kPixels; ++i) {
       for (int n = 0; n < 3; ++n) scene.weights[n][i] = base > 255 * n ? 255 : 0;
       scene.weights[3][i] = static_cast<std::uint8_t>(i % 256);
@@ -105,7 +105,7 @@ TYPED_TEST(Merge, IsExactWhereAllSeeAndWeightsAddUpToAllOrOneMore) {
   for (const int all : {255, 256}) {
     for (const int channels : {1, 3}) {
       for (int weight = 1; weight < 256; ++weight) {
-        Scene<TypeParam> scene(2, channels, static_cast<std::uint32_t>(weight));
+        NoiseScene<TypeParam> scene(2, channels, static_cast<std::uint32_t>(weight));
         for (std::size_t i = 0; i < scene.kPixels; ++i) {
           scene.weights[0][i] = static_cast<std::uint8_t>(i % 7 == 0 ? 255 : weight);
           scene.weights[1][i] = static_cast<std::uint8_t>(i % 7 == 0 ? 1 : all - weight);
@@ -125,7 +125,7 @@ TYPED_TEST(Merge, IsExactWhereAllSeeAndWeightsAddUpToAllOrOneMore) {
 
 TYPED_TEST(Merge, ASourceAlonePassesUnchangedWhateverItsWeight) {
   for (int weight = 1; weight < 256; ++weight) {
-    Scene<TypeParam> scene(2, 3, static_cast<std::uint32_t>(weight));
+    NoiseScene<TypeParam> scene(2, 3, static_cast<std::uint32_t>(weight));
     std::fill(scene.weights[0].begin(), scene.weights[0].end(), static_cast<std::uint8_t>(weight));
     std::fill(scene.weights[1].begin(), scene.weights[1].end(), std::uint8_t{0});
     scene.merge();
@@ -134,7 +134,7 @@ TYPED_TEST(Merge, ASourceAlonePassesUnchangedWhateverItsWeight) {
 }
 
 TYPED_TEST(Merge, MayWriteIntoOneOfItsPictures) {
-  Scene<TypeParam> apart(2, 3, 7), same(2, 3, 7);
+  NoiseScene<TypeParam> apart(2, 3, 7), same(2, 3, 7);
   apart.merge();
   merge<TypeParam>(MergeRule::Mean, same.sources(), same.view(same.pictures[1], 3),
                    same.view(same.validity, 1), {0, 2});
@@ -142,9 +142,9 @@ TYPED_TEST(Merge, MayWriteIntoOneOfItsPictures) {
 }
 
 TYPED_TEST(Merge, LeavesOtherRowsAlone) {
-  Scene<TypeParam> scene(2, 1, 8);
+  NoiseScene<TypeParam> scene(2, 1, 8);
   scene.merge({1, 2});
-  constexpr int kFirst = kTile * Scene<TypeParam>::kWidth;
+  constexpr int kFirst = kTile * NoiseScene<TypeParam>::kWidth;
   EXPECT_TRUE(std::all_of(scene.out.begin(), scene.out.begin() + kFirst,
                           [](TypeParam sample) { return sample == 99; }));
   EXPECT_TRUE(std::all_of(scene.validity.begin(), scene.validity.begin() + kFirst,
@@ -152,7 +152,7 @@ TYPED_TEST(Merge, LeavesOtherRowsAlone) {
 }
 
 TYPED_TEST(Merge, WithoutSourcesIsBlackAndLeavesValidity) {
-  Scene<TypeParam> scene(0, 3, 9);
+  NoiseScene<TypeParam> scene(0, 3, 9);
   scene.merge();
   EXPECT_EQ(scene.out, std::vector<TypeParam>(scene.out.size(), 0));
   EXPECT_EQ(scene.validity[5], static_cast<int>(Validity::Blind));
@@ -160,7 +160,7 @@ TYPED_TEST(Merge, WithoutSourcesIsBlackAndLeavesValidity) {
 
 TYPED_TEST(Merge, FirstThatSeesHasThePixelAlone) {
   for (const int channels : {1, 3}) {
-    Scene<TypeParam> scene(3, channels, 11);
+    NoiseScene<TypeParam> scene(3, channels, 11);
     scene.merge_first();
     for (std::size_t i = 0; i < scene.kPixels; ++i) {
       std::size_t first = 0;

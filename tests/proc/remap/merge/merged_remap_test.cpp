@@ -26,8 +26,6 @@ using optics::ViewKind;
 using optics::ViewProjection;
 using tests::StoredPicture;
 
-constexpr int kSide = 300, kWidth = 500, kHeight = 250;
-
 ColourMap::Table grey_table() {
   ColourMap::Table table{};
   for (std::size_t i = 0; i < table.size(); ++i) table[i].fill(static_cast<std::uint8_t>(i));
@@ -37,6 +35,8 @@ ColourMap::Table grey_table() {
 /// Cameras around a ball, and everything that a merged view of them needs.
 class MergedRemap : public testing::Test {
  protected:
+  static constexpr int kSide = 300, kWidth = 500, kHeight = 250;
+
   struct Camera {
     Camera(const ViewProjection& view, double yaw, PixelFormat format, std::uint32_t seed)
         : ball(BallProjection::make(BallModel::make(BallModel::Kind::Exact, 345).value(),
@@ -148,11 +148,12 @@ class MergedRemap : public testing::Test {
 
 /// The Y of a YUV picture as it lies there.
 std::unique_ptr<StoredPicture> luminance_plane(const StoredPicture& yuv) {
-  auto grey = std::make_unique<StoredPicture>(PixelFormat::Grey, kSide, kSide);
   const PixelFormat format = yuv.picture.format;
+  const int width = yuv.picture.width, height = yuv.picture.height;
+  auto grey = std::make_unique<StoredPicture>(PixelFormat::Grey, width, height);
   const int step = info(format).channels(), first = format == PixelFormat::Uyvy ? 1 : 0;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       grey->picture.samples<std::uint8_t>().at(x, y)[0] = yuv.sample(0, y, step * x + first);
     }
   }
@@ -441,7 +442,7 @@ void expect_mean_of(const StoredPicture& out, const StoredPicture& first,
   // As of 8 bit: a share below half a percent may be missing.
   const double tolerance = 2.6 / 255 * std::numeric_limits<T>::max();
   for (std::size_t i = 0; i < first_weights.size(); ++i) {
-    const int x = static_cast<int>(i) % kWidth, y = static_cast<int>(i) / kWidth;
+    const int x = static_cast<int>(i) % merged.width, y = static_cast<int>(i) / merged.width;
     const double u = first_weights[i], v = second_weights[i];
     for (int k = 0; k < merged.channels; ++k) {
       const double sum = u * a.at(x, y)[k] + v * b.at(x, y)[k];

@@ -15,7 +15,7 @@ using Channel = PhotometricMatch::Channel;
 using Outcome = PhotometricMatch::Outcome;
 using Channels = std::array<Channel, 3>;
 
-constexpr int kWidth = 320, kHeight = 200;
+constexpr int kShotWidth = 320, kShotHeight = 200;
 
 /// Light of the scene: smooth structures of some blocks' size, each channel its own.
 double scene(int x, int y, int k) {
@@ -36,13 +36,13 @@ struct Shot {
   static constexpr double kFull = std::numeric_limits<T>::max();
 
   Shot(int samples_per_pixel, Transfer transfer, const Channels& match, int first = 0,
-       int last = kWidth)
+       int last = kShotWidth)
       : channels(samples_per_pixel),
-        picture(kWidth * kHeight * samples_per_pixel),
-        weights(kWidth * kHeight) {
-    for (int y = 0; y < kHeight; ++y) {
+        picture(kShotWidth * kShotHeight * samples_per_pixel),
+        weights(kShotWidth * kShotHeight) {
+    for (int y = 0; y < kShotHeight; ++y) {
       for (int x = first; x < last; ++x) {
-        weights[y * kWidth + x] = 128;
+        weights[y * kShotWidth + x] = 128;
         for (int k = 0; k < channels; ++k) {
           const double light = (scene(x, y, k) - match[k].offset) / match[k].gain;
           const double sample = transfer == Transfer::Srgb ? srgb(light) : light;
@@ -51,9 +51,13 @@ struct Shot {
       }
     }
   }
-  T& at(int x, int y, int k) { return picture[(y * kWidth + x) * channels + k]; }
-  ImageView<T> view() { return {picture.data(), kWidth, kHeight, channels, kWidth * channels}; }
-  MergeSource<T> source() { return {view(), {weights.data(), kWidth, kHeight, 1, kWidth}}; }
+  T& at(int x, int y, int k) { return picture[(y * kShotWidth + x) * channels + k]; }
+  ImageView<T> view() {
+    return {picture.data(), kShotWidth, kShotHeight, channels, kShotWidth * channels};
+  }
+  MergeSource<T> source() {
+    return {view(), {weights.data(), kShotWidth, kShotHeight, 1, kShotWidth}};
+  }
 
   int channels;
   std::vector<T> picture;
@@ -150,8 +154,8 @@ TEST_F(PhotometricMatchTest, AConstantPictureHasAGainAlone) {
 TEST_F(PhotometricMatchTest, ToleratesAFifthOfThePictureBeingDifferent) {
   Shot8 a(3, Transfer::Srgb, {}), b(3, Transfer::Srgb, kDarkAndWarm);
   std::mt19937 random(2);
-  for (int y = 0; y < kHeight; y += 8) {
-    for (int x = 0; x < kWidth; x += 8) {
+  for (int y = 0; y < kShotHeight; y += 8) {
+    for (int x = 0; x < kShotWidth; x += 8) {
       if (random() % 5 != 0) continue;
       const std::array<int, 3> other{100, 150, 120};
       for (int i = 0; i < 64; ++i) {
@@ -166,15 +170,15 @@ TEST_F(PhotometricMatchTest, SaturatedAndBlackSamplesDoNotCount) {
   // The second picture clips a third of the scene.
   const Channels bright{{{0.33, 0}, {0.33, 0}, {0.33, 0}}};
   Shot8 a(3, Transfer::Srgb, {}), b(3, Transfer::Srgb, bright);
-  ASSERT_GT(std::count(b.picture.begin(), b.picture.end(), 255), kWidth * kHeight / 4);
+  ASSERT_GT(std::count(b.picture.begin(), b.picture.end(), 255), kShotWidth * kShotHeight / 4);
   expect_near(match({a.source(), b.source()})[1], bright, 3);
 }
 
 TEST_F(PhotometricMatchTest, ASharperCameraDoesNotLookMoreContrasty) {
   // Fine detail that the second camera cannot see.
   Shot8 a(1, Transfer::Srgb, {}), b(1, Transfer::Srgb, kBrightAndCold);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kShotHeight; ++y) {
+    for (int x = 0; x < kShotWidth; ++x) {
       const double detail = (x + y) % 2 == 0 ? 0.08 : -0.08;
       a.at(x, y, 0) = static_cast<std::uint8_t>(std::lround(255 * srgb(scene(x, y, 0) + detail)));
     }
@@ -211,8 +215,8 @@ TEST_F(PhotometricMatchTest, RefusesAnImplausibleGain) {
 TEST_F(PhotometricMatchTest, PicturesThatShowDifferentThingsAreLeftAlone) {
   Shot8 a(1, Transfer::Srgb, {}), b(1, Transfer::Srgb, {});
   std::mt19937 random(4);
-  for (int y = 0; y < kHeight; y += 8) {
-    for (int x = 0; x < kWidth; x += 8) {
+  for (int y = 0; y < kShotHeight; y += 8) {
+    for (int x = 0; x < kShotWidth; x += 8) {
       const auto value = static_cast<std::uint8_t>(60 + random() % 150);
       for (int i = 0; i < 64; ++i) b.at(x + i % 8, y + i / 8, 0) = value;
     }

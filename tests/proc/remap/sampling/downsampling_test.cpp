@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "proc/remap/grid/coordinate.h"
+#include "tests/proc/remap/untouched.h"
 
 namespace orbwatch::remap {
 namespace {
 
-constexpr std::uint8_t kUntouched = 0xa5;
+using tests::kUntouched;
 
 /// Where a layout's samples stand in a pixel, bytes: written down once more, by hand.
 std::vector<int> sample_places(Layout layout) {

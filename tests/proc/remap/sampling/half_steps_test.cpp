@@ -5,14 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "proc/optics/vec.h"
+#include "proc/remap/compiler/tolerance.h"
+
 namespace orbwatch::remap {
 namespace {
 
-constexpr double kOne = 1 << kFractionBits;
-
-struct Place {
-  double u, v;
-};
+using optics::Vec2;
 
 /// A tile of the map u, v = `at(x, y)`, source pixels.
 template <class Map>
@@ -20,9 +19,9 @@ CoordinateTile tile_of(const Map& at) {
   CoordinateTile tile;
   for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
-      const Place place = at(x, y);
-      tile[y][x] = {static_cast<std::int32_t>(std::lround(place.u * kOne)),
-                    static_cast<std::int32_t>(std::lround(place.v * kOne))};
+      const Vec2 place = at(x, y);
+      tile[y][x] = {static_cast<std::int32_t>(std::lround(place.u * kOnePixel)),
+                    static_cast<std::int32_t>(std::lround(place.v * kOnePixel))};
     }
   }
   return tile;
@@ -50,15 +49,15 @@ double place_of(int n) { return n / 2.0 - 0.25; }
 // Steps are shared out with a rounding of one 8192nd each.
 TEST(HalfSteps, LiesAQuarterOfAPixelBeforeAndBehind) {
   const auto plane = [](double x, double y) {
-    return Place{300 + 2.7 * x - 1.3 * y, -20.5 + 0.4 * x + 3.1 * y};
+    return Vec2{300 + 2.7 * x - 1.3 * y, -20.5 + 0.4 * x + 3.1 * y};
   };
   const CoordinateTile tile = tile_of(plane);
   for (const auto& [columns, rows] : {std::pair{16, 16}, {8, 16}, {8, 8}}) {
     int looked_at = 0;
     for_each_sample(tile, columns, rows, [&](int x, int y, const Coordinate& c) {
-      const Place expected = plane(place_of(x), place_of(y));
-      EXPECT_NEAR(c.u / kOne, expected.u, 4 / kOne) << x << ' ' << y;
-      EXPECT_NEAR(c.v / kOne, expected.v, 4 / kOne) << x << ' ' << y;
+      const Vec2 expected = plane(place_of(x), place_of(y));
+      EXPECT_NEAR(c.u / kOnePixel, expected.u, 4 / kOnePixel) << x << ' ' << y;
+      EXPECT_NEAR(c.v / kOnePixel, expected.v, 4 / kOnePixel) << x << ' ' << y;
       ++looked_at;
     });
     EXPECT_EQ(looked_at, 4 * columns * rows);
@@ -70,19 +69,19 @@ TEST(HalfSteps, LiesAQuarterOfAPixelBeforeAndBehind) {
 TEST(HalfSteps, FollowsACurve) {
   constexpr double kBend = 0.02;
   const auto curve = [](double x, double y) {
-    return Place{2 * x + kBend * x * x, 2 * y + kBend * y * y};
+    return Vec2{2 * x + kBend * x * x, 2 * y + kBend * y * y};
   };
   for_each_sample(tile_of(curve), kTile, kTile, [&](int x, int y, const Coordinate& c) {
-    const Place expected = curve(place_of(x), place_of(y));
+    const Vec2 expected = curve(place_of(x), place_of(y));
     const bool at_border = x < 2 || y < 2 || x >= 30 || y >= 30;
-    const double tolerance = (at_border ? kBend * 5 / 16 : kBend / 16) + 4 / kOne;
-    EXPECT_NEAR(c.u / kOne, expected.u, tolerance) << x << ' ' << y;
-    EXPECT_NEAR(c.v / kOne, expected.v, tolerance) << x << ' ' << y;
+    const double tolerance = (at_border ? kBend * 5 / 16 : kBend / 16) + 4 / kOnePixel;
+    EXPECT_NEAR(c.u / kOnePixel, expected.u, tolerance) << x << ' ' << y;
+    EXPECT_NEAR(c.v / kOnePixel, expected.v, tolerance) << x << ' ' << y;
   });
 }
 
 TEST(HalfSteps, KeepsMarkersAndDoesNotLeanOnThem) {
-  const auto plane = [](double x, double y) { return Place{100 + 2 * x, 50 + 3 * y}; };
+  const auto plane = [](double x, double y) { return Vec2{100 + 2 * x, 50 + 3 * y}; };
   CoordinateTile tile = tile_of(plane);
   tile[5][7] = {kBlind, 0};
   tile[12][3] = {kOutside, 0};
@@ -92,9 +91,9 @@ TEST(HalfSteps, KeepsMarkersAndDoesNotLeanOnThem) {
       EXPECT_EQ(c.u, pixel.u) << x << ' ' << y;
       return;
     }
-    const Place expected = plane(place_of(x), place_of(y));
-    EXPECT_NEAR(c.u / kOne, expected.u, 4 / kOne) << x << ' ' << y;
-    EXPECT_NEAR(c.v / kOne, expected.v, 4 / kOne) << x << ' ' << y;
+    const Vec2 expected = plane(place_of(x), place_of(y));
+    EXPECT_NEAR(c.u / kOnePixel, expected.u, 4 / kOnePixel) << x << ' ' << y;
+    EXPECT_NEAR(c.v / kOnePixel, expected.v, 4 / kOnePixel) << x << ' ' << y;
   });
 }
 
@@ -102,13 +101,13 @@ TEST(HalfSteps, KeepsMarkersAndDoesNotLeanOnThem) {
 TEST(HalfSteps, DoesNotStepOverAnEdge) {
   constexpr int kEdge = 9;
   const auto side = [](bool second, double x, double y) {
-    return second ? Place{500 + 1.5 * x, 10 + 2 * y} : Place{100 + 2 * x, 300 + y};
+    return second ? Vec2{500 + 1.5 * x, 10 + 2 * y} : Vec2{100 + 2 * x, 300 + y};
   };
   const CoordinateTile tile = tile_of([&](int x, int y) { return side(x >= kEdge, x, y); });
   for_each_sample(tile, kTile, kTile, [&](int x, int y, const Coordinate& c) {
-    const Place expected = side(x / 2 >= kEdge, place_of(x), place_of(y));
-    EXPECT_NEAR(c.u / kOne, expected.u, 4 / kOne) << x << ' ' << y;
-    EXPECT_NEAR(c.v / kOne, expected.v, 4 / kOne) << x << ' ' << y;
+    const Vec2 expected = side(x / 2 >= kEdge, place_of(x), place_of(y));
+    EXPECT_NEAR(c.u / kOnePixel, expected.u, 4 / kOnePixel) << x << ' ' << y;
+    EXPECT_NEAR(c.v / kOnePixel, expected.v, 4 / kOnePixel) << x << ' ' << y;
   });
 }
 

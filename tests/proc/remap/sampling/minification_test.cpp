@@ -18,7 +18,7 @@ using optics::ViewKind;
 using optics::ViewProjection;
 using tests::StoredPicture;
 
-constexpr int kSide = 1200;
+constexpr int kPaintedSide = 1200;
 
 BallProjection centred_ball() {
   return BallProjection::make(BallModel::make(BallModel::Kind::Exact, 348.5).value(),
@@ -29,8 +29,8 @@ BallProjection centred_ball() {
 /// Detail down to single pixels: fine lines, edges and noise.
 void paint(StoredPicture& picture) {
   std::mt19937 random(1);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kPaintedSide; ++y) {
+    for (int x = 0; x < kPaintedSide; ++x) {
       const double rings = std::sin(0.0021 * ((x - 600) * (x - 600) + (y - 600) * (y - 600)));
       const bool bright = (x / 37 + y / 23) % 2 != 0;
       const double value = 110 + 50 * rings + (bright ? 50 : 0) + static_cast<int>(random() % 40);
@@ -41,7 +41,8 @@ void paint(StoredPicture& picture) {
 
 double bilinear(const StoredPicture& picture, const Vec2& p) {
   const auto at = [&](int u, int v) {
-    return double(picture.sample(0, std::clamp(v, 0, kSide - 1), std::clamp(u, 0, kSide - 1)));
+    return double(
+        picture.sample(0, std::clamp(v, 0, kPaintedSide - 1), std::clamp(u, 0, kPaintedSide - 1)));
   };
   const int u = static_cast<int>(std::floor(p.u)), v = static_cast<int>(std::floor(p.v));
   const double wu = p.u - u, wv = p.v - v;
@@ -58,10 +59,11 @@ Quality quality(int width, double roll) {
   const auto ball = centred_ball();
   const auto view =
       ViewProjection::make({ViewKind::Perspective, {10, -5, roll}, 80, {}, width, width}).value();
-  const CoordinateGrid grid(view, ball, kSide, kSide);
-  StoredPicture source(PixelFormat::Grey, kSide, kSide), out(PixelFormat::Grey, width, width);
+  const CoordinateGrid grid(view, ball, kPaintedSide, kPaintedSide);
+  StoredPicture source(PixelFormat::Grey, kPaintedSide, kPaintedSide),
+      out(PixelFormat::Grey, width, width);
   paint(source);
-  Pyramid pyramid(PixelFormat::Grey, kSide, kSide, grid.pyramid_levels());
+  Pyramid pyramid(PixelFormat::Grey, kPaintedSide, kPaintedSide, grid.pyramid_levels());
   pyramid.set_source(source.picture);
   pyramid.fill();
   remap(grid, pyramid.pictures(), Interpolation::Area, out.picture, {0, grid.tiles_y()});
@@ -103,7 +105,7 @@ TEST(Minification, DoesNotAlias) {
 TEST(Minification, ChangesNothingWhereTheViewIsLarger) {
   const auto view =
       ViewProjection::make({ViewKind::Perspective, {10, -5, 3}, 60, {}, 700, 500}).value();
-  const CoordinateGrid grid(view, centred_ball(), kSide, kSide);
+  const CoordinateGrid grid(view, centred_ball(), kPaintedSide, kPaintedSide);
   EXPECT_EQ(grid.levels(), 0);
   EXPECT_EQ(grid.pyramid_levels(), 0);
 }

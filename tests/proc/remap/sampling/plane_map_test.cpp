@@ -5,35 +5,33 @@
 #include <cmath>
 #include <random>
 
+#include "proc/optics/vec.h"
+#include "proc/remap/compiler/tolerance.h"
 #include "tests/proc/remap/kernel/random_patch.h"
 
 namespace orbwatch::remap {
 namespace {
 
-constexpr double kOne = 1 << kFractionBits;
-
-struct Place {
-  double u, v;
-};
+using optics::Vec2;
 
 /// One axis at any place of the tile, source pixels, in double precision.
 double at(const Quadratic& q, double x, double y) {
   const auto n = [](std::int64_t value) { return static_cast<double>(value); };
   return (n(q.value) + x * n(q.x) + y * n(q.y) + x * y * n(q.xy) + x * x * n(q.xx) +
           y * y * n(q.yy)) /
-         (kOne * (1 << PatchRow::kScaleBits));
+         (kOnePixel * (1 << PatchRow::kScaleBits));
 }
 
-Place at(const Patch& patch, double x, double y) {
+Vec2 at(const Patch& patch, double x, double y) {
   return {at(patch.u(), x, y), at(patch.v(), x, y)};
 }
 
 /// Coordinates are rounded to a 8192nd of a pixel, and each operation may lose less than another.
-constexpr double kRounding = 1.5 / kOne;
+constexpr double kRounding = 1.5 / kOnePixel;
 
-void expect_near(const Coordinate& found, const Place& expected, int x, int y) {
-  EXPECT_NEAR(found.u / kOne, expected.u, kRounding) << x << ' ' << y;
-  EXPECT_NEAR(found.v / kOne, expected.v, kRounding) << x << ' ' << y;
+void expect_near(const Coordinate& found, const Vec2& expected, int x, int y) {
+  EXPECT_NEAR(found.u / kOnePixel, expected.u, kRounding) << x << ' ' << y;
+  EXPECT_NEAR(found.v / kOnePixel, expected.v, kRounding) << x << ' ' << y;
 }
 
 /// Calls `look` with many patches: level ones, and those as steep and bent as blocks are.
@@ -61,8 +59,8 @@ TEST(OnLevel, CountsThePixelsOfTheLevel) {
     for (int level = 0; level <= 3; ++level) {
       const double scale = 1 << level;
       expect_map(on_level(patch, level), kTile, kTile, [&](int x, int y) {
-        const Place full = at(patch, x, y);
-        return Place{(full.u + 0.5) / scale - 0.5, (full.v + 0.5) / scale - 0.5};
+        const Vec2 full = at(patch, x, y);
+        return Vec2{(full.u + 0.5) / scale - 0.5, (full.v + 0.5) / scale - 0.5};
       });
     }
   });
@@ -70,14 +68,14 @@ TEST(OnLevel, CountsThePixelsOfTheLevel) {
 
 TEST(OnLevel, KeepsTheMarkersOfATile) {
   CoordinateTile tile{};
-  for (CoordinateRow& row : tile) row.fill({static_cast<std::int32_t>(100.5 * kOne), 0});
+  for (CoordinateRow& row : tile) row.fill({static_cast<std::int32_t>(100.5 * kOnePixel), 0});
   tile[3][4] = {kBlind, 0};
   tile[15][0] = {kOutside, 0};
   on_level(tile, 2);
   EXPECT_EQ(tile[3][4].u, kBlind);
   EXPECT_EQ(tile[15][0].u, kOutside);
-  EXPECT_DOUBLE_EQ(tile[0][0].u / kOne, 101 / 4.0 - 0.5);
-  EXPECT_DOUBLE_EQ(tile[0][0].v / kOne, 0.5 / 4 - 0.5);
+  EXPECT_DOUBLE_EQ(tile[0][0].u / kOnePixel, 101 / 4.0 - 0.5);
+  EXPECT_DOUBLE_EQ(tile[0][0].v / kOnePixel, 0.5 / 4 - 0.5);
 }
 
 TEST(InSteps, ReachesTheSamePlaces) {
@@ -168,8 +166,8 @@ void for_each_siting(const Look& look) {
 
 /// Where the view's pixel of a plane lies in the source's plane, if `full` is the picture's map.
 template <class Full>
-Place plane_place(const Full& full, const PlaneSampling& sampling, int x, int y) {
-  const Place place = full(in_picture(x, sampling.x), in_picture(y, sampling.y));
+Vec2 plane_place(const Full& full, const PlaneSampling& sampling, int x, int y) {
+  const Vec2 place = full(in_picture(x, sampling.x), in_picture(y, sampling.y));
   return {in_plane(place.u, sampling.x), in_plane(place.v, sampling.y)};
 }
 
@@ -186,15 +184,15 @@ TEST(OnPlane, IsTheMapAtTheMiddleOfTheSharedPixels) {
 }
 
 /// A tile of a level map.
-Place level_map(double x, double y) { return {200 + 1.7 * x - 0.6 * y, 90 + 0.9 * x + 1.2 * y}; }
+Vec2 level_map(double x, double y) { return {200 + 1.7 * x - 0.6 * y, 90 + 0.9 * x + 1.2 * y}; }
 
 CoordinateTile level_tile() {
   CoordinateTile tile;
   for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
-      const Place place = level_map(x, y);
-      tile[y][x] = {static_cast<std::int32_t>(std::lround(place.u * kOne)),
-                    static_cast<std::int32_t>(std::lround(place.v * kOne))};
+      const Vec2 place = level_map(x, y);
+      tile[y][x] = {static_cast<std::int32_t>(std::lround(place.u * kOnePixel)),
+                    static_cast<std::int32_t>(std::lround(place.v * kOnePixel))};
     }
   }
   return tile;
@@ -223,8 +221,8 @@ constexpr PlaneSampling kChroma420{Layout::Two8, 1, 0, Siting::Centred, Siting::
 /// A pixel of the picture, in the plane of kChroma420.
 void expect_place_of(const CoordinateTile& tile, const CoordinateTile& plane, int x, int y) {
   expect_near(plane[y / 2][x / 2],
-              {in_plane(tile[y][x].u / kOne, Siting::Centred),
-               in_plane(tile[y][x].v / kOne, Siting::Centred)},
+              {in_plane(tile[y][x].u / kOnePixel, Siting::Centred),
+               in_plane(tile[y][x].v / kOnePixel, Siting::Centred)},
               x, y);
 }
 
@@ -240,7 +238,7 @@ TEST(OnPlane, OfATileTakesTheFirstThatIsDefined) {
 TEST(OnPlane, OfATileDoesNotMixTwoSurfaces) {
   CoordinateTile tile = level_tile(), plane;
   for (const auto& [x, y] : {std::pair{3, 2}, {2, 7}, {3, 7}}) {
-    tile[y][x].u += static_cast<std::int32_t>(40 * kOne);
+    tile[y][x].u += static_cast<std::int32_t>(40 * kOnePixel);
   }
   on_plane(tile, kChroma420, plane);
   expect_place_of(tile, plane, 2, 2);

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "proc/remap/compiler/tolerance.h"
 #include "tests/proc/remap/kernel/random_patch.h"
 
 namespace orbwatch::remap {
@@ -81,8 +82,7 @@ struct Target {
 
 /// Bilinear interpolation in double precision, the outermost pixels going on.
 double bilinear(const Source& source, Layout layout, const Coordinate& c, int k) {
-  constexpr double kOne = 1 << kFractionBits;
-  const double u = c.u / kOne, v = c.v / kOne;
+  const double u = c.u / kOnePixel, v = c.v / kOnePixel;
   const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
   const auto row = [&](int y) {
     const double a = source.sample(layout, left, y, k), b = source.sample(layout, left + 1, y, k);

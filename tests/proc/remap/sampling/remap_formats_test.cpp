@@ -19,16 +19,16 @@ using optics::ViewKind;
 using optics::ViewProjection;
 using tests::StoredPicture;
 
-constexpr int kWidth = 400, kHeight = 320;
+constexpr int kSourceWidth = 400, kSourceHeight = 320;
 
 /// Patches, finer tiles, the limb, the picture's border and cut tiles: all of them.
-struct Scene {
+struct EveryTileScene {
   ViewProjection view =
       ViewProjection::make({ViewKind::Perspective, {140, 15, 20}, 110, {}, 250, 170}).value();
   BallProjection ball = BallProjection::make(BallModel::make(BallModel::Kind::Exact, 345).value(),
                                              {{190, 170}, 175, 175, 0}, {})
                             .value();
-  CoordinateGrid grid{view, ball, kWidth, kHeight};
+  CoordinateGrid grid{view, ball, kSourceWidth, kSourceHeight};
 
   void remap(const StoredPicture& source, StoredPicture& out) const {
     remap::remap(grid, source.as_source(), Interpolation::Bilinear, out.picture,
@@ -38,11 +38,13 @@ struct Scene {
 
 /// One channel of a source, remapped alone.
 template <class Read>
-void expect_channel(const Scene& scene, const StoredPicture& out, int pixel_bytes, int first,
-                    const Read& read) {
-  StoredPicture channel(PixelFormat::Grey, kWidth, kHeight), alone(PixelFormat::Grey, 250, 170);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) channel.picture.samples<std::uint8_t>().row(y)[x] = read(x, y);
+void expect_channel(const EveryTileScene& scene, const StoredPicture& out, int pixel_bytes,
+                    int first, const Read& read) {
+  StoredPicture channel(PixelFormat::Grey, kSourceWidth, kSourceHeight),
+      alone(PixelFormat::Grey, 250, 170);
+  for (int y = 0; y < kSourceHeight; ++y) {
+    for (int x = 0; x < kSourceWidth; ++x)
+      channel.picture.samples<std::uint8_t>().row(y)[x] = read(x, y);
   }
   scene.remap(channel, alone);
   int differing = 0;
@@ -58,7 +60,7 @@ void expect_channel(const Scene& scene, const StoredPicture& out, int pixel_byte
 }
 
 TEST(RemapFormats, EveryChannelIsRemappedAsIfItWereAlone) {
-  const Scene scene;
+  const EveryTileScene scene;
   struct Case {
     PixelFormat format;
     int pixel_bytes;
@@ -70,7 +72,7 @@ TEST(RemapFormats, EveryChannelIsRemappedAsIfItWereAlone) {
         Case{PixelFormat::Uyvy, 2, {1, -1, -1, -1}}, Case{PixelFormat::Nv12, 1, {0, -1, -1, -1}},
         Case{PixelFormat::Nv21, 1, {0, -1, -1, -1}}, Case{PixelFormat::I420, 1, {0, -1, -1, -1}}}) {
     SCOPED_TRACE(info(c.format).name);
-    StoredPicture source(c.format, kWidth, kHeight, 8), out(c.format, 250, 170, 6);
+    StoredPicture source(c.format, kSourceWidth, kSourceHeight, 8), out(c.format, 250, 170, 6);
     source.fill_with_noise(7);
     scene.remap(source, out);
     for (const int first : c.channels) {
@@ -82,14 +84,16 @@ TEST(RemapFormats, EveryChannelIsRemappedAsIfItWereAlone) {
 }
 
 TEST(RemapFormats, SixteenBitsOfAnyDepthAreTheSame) {
-  const Scene scene;
-  StoredPicture first(PixelFormat::Y16, kWidth, kHeight), out(PixelFormat::Y16, 250, 170);
+  const EveryTileScene scene;
+  StoredPicture first(PixelFormat::Y16, kSourceWidth, kSourceHeight),
+      out(PixelFormat::Y16, 250, 170);
   first.fill_with_noise(3);
   scene.remap(first, out);
   for (const PixelFormat format : {PixelFormat::Y10, PixelFormat::Y12}) {
-    StoredPicture source(format, kWidth, kHeight), same(format, 250, 170);
+    StoredPicture source(format, kSourceWidth, kSourceHeight), same(format, 250, 170);
     source.bytes = first.bytes;
-    source.picture = MutablePicture::contiguous(format, kWidth, kHeight, source.bytes.data(), 800);
+    source.picture =
+        MutablePicture::contiguous(format, kSourceWidth, kSourceHeight, source.bytes.data(), 800);
     source.source = source.picture;
     scene.remap(source, same);
     EXPECT_EQ(same.bytes, out.bytes);
@@ -124,14 +128,14 @@ class SharedChroma : public testing::TestWithParam<PixelFormat> {};
 
 // Against the exact projection of the place that a chroma sample of the view stands for.
 TEST_P(SharedChroma, IsSampledInItsOwnPlane) {
-  const Scene scene;
+  const EveryTileScene scene;
   const ChromaPlane chroma = chroma_of(GetParam());
-  StoredPicture source(GetParam(), kWidth, kHeight), out(GetParam(), 250, 170);
+  StoredPicture source(GetParam(), kSourceWidth, kSourceHeight), out(GetParam(), 250, 170);
   // Smooth, so that what is compared is the place.
   for (std::size_t n = 0; n < 2; ++n) {
     auto& plane = source.picture.planes[chroma.plane[n]];
-    for (int y = 0; y < kHeight >> chroma.shift_y; ++y) {
-      for (int x = 0; x < kWidth / 2; ++x) {
+    for (int y = 0; y < kSourceHeight >> chroma.shift_y; ++y) {
+      for (int x = 0; x < kSourceWidth / 2; ++x) {
         plane.data[y * plane.stride + x * chroma.step + chroma.first[n]] =
             static_cast<std::byte>(n == 0 ? x : (y >> (1 - chroma.shift_y)));
       }
@@ -144,7 +148,8 @@ TEST_P(SharedChroma, IsSampledInItsOwnPlane) {
       const double v = chroma.shift_y == 1 ? 2 * y + chroma.offset : y;
       const auto direction = scene.view.direction(2 * x + chroma.offset, v);
       const auto p = direction ? scene.ball.pixel(*direction) : std::nullopt;
-      if (!p || p->u < 4 || p->v < 4 || p->u > kWidth - 6 || p->v > kHeight - 6) continue;
+      if (!p || p->u < 4 || p->v < 4 || p->u > kSourceWidth - 6 || p->v > kSourceHeight - 6)
+        continue;
       const Vec2 from_centre{p->u - 190, p->v - 170};
       if (std::hypot(from_centre.u, from_centre.v) > 140) continue;
       const auto at = [&](std::size_t n) {
@@ -168,9 +173,9 @@ INSTANTIATE_TEST_SUITE_P(All, SharedChroma,
 
 // A view in RGB is the view in the source's own format, converted afterwards.
 TEST_P(SharedChroma, IsConvertedAsItWasSampled) {
-  const Scene scene;
+  const EveryTileScene scene;
   const ChromaPlane chroma = chroma_of(GetParam());
-  StoredPicture source(GetParam(), kWidth, kHeight), own(GetParam(), 250, 170);
+  StoredPicture source(GetParam(), kSourceWidth, kSourceHeight), own(GetParam(), 250, 170);
   StoredPicture rgb(PixelFormat::Rgb, 250, 170), bgr(PixelFormat::Bgr, 250, 170);
   source.fill_with_noise(11);
   scene.remap(source, own);
@@ -201,9 +206,9 @@ TEST_P(SharedChroma, IsConvertedAsItWasSampled) {
 }
 
 TEST(RemapFormats, RgbIsReordered) {
-  const Scene scene;
+  const EveryTileScene scene;
   for (const PixelFormat format : {PixelFormat::Rgb, PixelFormat::Bgr, PixelFormat::Bgra}) {
-    StoredPicture source(format, kWidth, kHeight), own(format, 250, 170);
+    StoredPicture source(format, kSourceWidth, kSourceHeight), own(format, 250, 170);
     source.fill_with_noise(5);
     scene.remap(source, own);
     for (const PixelFormat to : {PixelFormat::Rgb, PixelFormat::Bgr}) {
@@ -225,10 +230,10 @@ TEST(RemapFormats, RgbIsReordered) {
 }
 
 TEST(RemapFormats, WhatIsUndefinedIsBlack) {
-  const Scene scene;
+  const EveryTileScene scene;
   const auto expect_byte = [&](PixelFormat format, ColourRange range, std::size_t plane, int byte,
                                int expected) {
-    StoredPicture source(format, kWidth, kHeight), out(format, 250, 170);
+    StoredPicture source(format, kSourceWidth, kSourceHeight), out(format, 250, 170);
     source.fill_with_noise(2);
     source.source.colour_space.range = range;
     out.picture.colour_space.range = range;

@@ -1,4 +1,5 @@
 #include "proc/remap/sampling/sharpening.h"
+#include "tests/proc/remap/untouched.h"
 #include "tests/support/guarded_memory.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,7 @@ namespace orbwatch::remap {
 namespace {
 
 using tests::GuardedMemory;
-
-constexpr std::uint8_t kUntouched = 0xa5;
+using tests::kUntouched;
 
 /// Rows of samples, each alone in memory of its own.
 class Rows {

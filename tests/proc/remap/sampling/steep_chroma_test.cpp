@@ -20,19 +20,20 @@ using optics::ViewKind;
 using optics::ViewProjection;
 using tests::StoredPicture;
 
-constexpr int kSide = 1024;
-constexpr int kWidth = 640, kHeight = 360;
+constexpr int kTurnedFrom = 1024;
+constexpr int kTurnedWidth = 640, kTurnedHeight = 360;
 
 /// A view that is turned by 45 degrees: in packed 4:2:2, a step to the next pixel of chroma along x
 /// is as long as two pixels of the source along its y, where chroma is not subsampled.
 struct TurnedScene {
   ViewProjection view =
-      ViewProjection::make({ViewKind::Perspective, {110, -30, 45}, 90, {}, kWidth, kHeight})
+      ViewProjection::make(
+          {ViewKind::Perspective, {110, -30, 45}, 90, {}, kTurnedWidth, kTurnedHeight})
           .value();
   BallProjection ball = BallProjection::make(BallModel::make(BallModel::Kind::Exact, 348.5).value(),
                                              {{511.5, 511.5}, 508, 508, 0}, {})
                             .value();
-  CoordinateGrid grid{view, ball, kSide, kSide};
+  CoordinateGrid grid{view, ball, kTurnedFrom, kTurnedFrom};
 };
 
 bool fits(const Patch& patch, int columns) {
@@ -89,10 +90,10 @@ TEST(SteepChroma, IsSampledAtItsPlaceByEveryKernel) {
   ASSERT_GT(ways.half_rows, 5);
   ASSERT_GT(ways.half_columns, 20);
   ASSERT_GT(ways.both, 2);
-  StoredPicture source(PixelFormat::Yuyv, kSide, kSide);
-  for (int y = 0; y < kSide; ++y) {
+  StoredPicture source(PixelFormat::Yuyv, kTurnedFrom, kTurnedFrom);
+  for (int y = 0; y < kTurnedFrom; ++y) {
     std::byte* row = source.picture.planes[0].data + y * source.picture.planes[0].stride;
-    for (int x = 0; x < kSide / 2; ++x) {
+    for (int x = 0; x < kTurnedFrom / 2; ++x) {
       row[4 * x + 1] = static_cast<std::byte>(wave(x));
       row[4 * x + 3] = static_cast<std::byte>(wave(y));
     }
@@ -100,19 +101,19 @@ TEST(SteepChroma, IsSampledAtItsPlaceByEveryKernel) {
   std::vector<std::byte> first;
   for (const Kernel* kernel : kernels()) {
     SCOPED_TRACE(kernel->name);
-    StoredPicture out(PixelFormat::Yuyv, kWidth, kHeight, 8);
+    StoredPicture out(PixelFormat::Yuyv, kTurnedWidth, kTurnedHeight, 8);
     remap(scene.grid, source.as_source(), Interpolation::Bilinear, out.picture,
           {0, scene.grid.tiles_y()}, *kernel);
     if (first.empty()) first = out.bytes;
     ASSERT_EQ(out.bytes, first);
   }
-  StoredPicture out(PixelFormat::Yuyv, kWidth, kHeight, 8);
+  StoredPicture out(PixelFormat::Yuyv, kTurnedWidth, kTurnedHeight, 8);
   out.bytes = first;
-  out.picture = MutablePicture::contiguous(PixelFormat::Yuyv, kWidth, kHeight, out.bytes.data(),
-                                           2 * kWidth + 8);
+  out.picture = MutablePicture::contiguous(PixelFormat::Yuyv, kTurnedWidth, kTurnedHeight,
+                                           out.bytes.data(), 2 * kTurnedWidth + 8);
   int compared = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth / 2; ++x) {
+  for (int y = 0; y < kTurnedHeight; ++y) {
+    for (int x = 0; x < kTurnedWidth / 2; ++x) {
       const auto direction = scene.view.direction(2 * x, y);
       const auto p = direction ? scene.ball.pixel(*direction) : std::nullopt;
       if (!p || !scene.grid.tile(2 * x / kTile, y / kTile).interior) continue;
