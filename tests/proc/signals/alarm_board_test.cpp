@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/proc/signals/signal_index.h"
+
 namespace orbwatch::signals {
 namespace {
 
@@ -19,12 +21,6 @@ using Level = AlarmLevel;
 using State = AlarmState;
 
 static_assert(std::is_trivially_copyable_v<AlarmBoard>, "it owns no memory");
-
-constexpr std::size_t index_of(std::string_view name) {
-  std::size_t index = 0;
-  while (kSignals[index].name != name) ++index;
-  return index;
-}
 
 constexpr std::size_t kYaw = index_of("hot_spot_yaw");
 constexpr std::size_t kArea = index_of("hot_spot_area");

@@ -6,21 +6,13 @@
 #include <limits>
 #include <string>
 
-#include "proc/signals/signals.h"
+#include "tests/proc/signals/signal_index.h"
 
 namespace orbwatch::signals {
 namespace {
 
 using std::chrono::nanoseconds;
 using testing::HasSubstr;
-
-std::size_t index_of(std::string_view name) {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    if (kSignals[i].name == name) return i;
-  }
-  ADD_FAILURE() << "no signal " << name;
-  return 0;
-}
 
 AlarmLimits good() {
   AlarmLimits limits;

@@ -11,6 +11,9 @@
 
 namespace orbwatch::signals {
 
+/// Where the hot spot of a painted view begins, counts.
+inline constexpr double kHotSpotThreshold = 20000;
+
 /// A ball of 50 mm above a floor 400 mm below its centre.
 inline RegionScene floor_scene() {
   optics::Scene scene;

@@ -16,11 +16,10 @@ using optics::Vec3;
 using optics::ViewKind;
 
 const optics::ViewSpec kView{ViewKind::Perspective, {30, -10, 5}, 60, {}, 240, 180};
-constexpr double kThreshold = 20000;
 
 RegionSettings settings() {
   RegionSettings region;
-  region.hot_spot_threshold = kThreshold;
+  region.hot_spot_threshold = kHotSpotThreshold;
   region.plume_threshold = 10000;
   region.spatter_threshold = 5000;
   return region;
@@ -40,7 +39,7 @@ TEST(RegionMeter, AHillIsItsCapOnTheSphere) {
     RegionMeter meter = meter_of(painted, settings());
     const Vec3 centre = *painted.view.direction(spec.width * 0.7, spec.height * 0.3);
     const double radius = 0.06;
-    painted.paint_hill(centre, radius, kThreshold);
+    painted.paint_hill(centre, radius, kHotSpotThreshold);
     const Signals s = meter.measure(painted.plane(), painted.seen(), 1);
     EXPECT_EQ(s.hot_spot_present, 1);
     EXPECT_NEAR(s.hot_spot_solid_angle, cap(radius), 0.01 * cap(radius));
@@ -76,7 +75,7 @@ TEST(RegionMeter, AnEllipseOnTheFloorHasItsAxesInMillimetres) {
       if (d.z >= 0) return 0.0;
       const Vec3 p = scene.ball.centre + d * ((centre.z - scene.ball.centre.z) / d.z) - centre;
       const double a = (c * p.x + s * p.y) / 20, b = (c * p.y - s * p.x) / 12;
-      return 1.5 * kThreshold * std::pow(2.0 / 3, a * a + b * b);
+      return 1.5 * kHotSpotThreshold * std::pow(2.0 / 3, a * a + b * b);
     });
     const Signals signals = meter.measure(painted.plane(), painted.seen(), 1);
     EXPECT_NEAR(signals.hot_spot_area, std::numbers::pi * 20 * 12, 0.01 * 754);
@@ -104,7 +103,7 @@ TEST(RegionMeter, OrientationIsAgainstTheHorizontal) {
     painted.paint([&](const Vec3& p) {
       const double a = (c * optics::dot(p, right) + s * optics::dot(p, up)) / 0.10;
       const double b = (c * optics::dot(p, up) - s * optics::dot(p, right)) / 0.05;
-      return 1.5 * kThreshold * std::pow(2.0 / 3, a * a + b * b);
+      return 1.5 * kHotSpotThreshold * std::pow(2.0 / 3, a * a + b * b);
     });
     const Signals signals = meter.measure(painted.plane(), painted.seen(), 1);
     EXPECT_NEAR(std::remainder(signals.hot_spot_orientation - angle, 180), 0, 0.5) << angle;
@@ -115,7 +114,7 @@ TEST(RegionMeter, TheLargestBlobIsTheHotSpotAndTheOthersAreSparks) {
   PaintedView painted(kView);
   RegionMeter meter = meter_of(painted, settings());
   const Vec3 pool = *painted.view.direction(70, 120), spark = *painted.view.direction(190, 40);
-  painted.paint_hill(pool, 0.05, kThreshold);
+  painted.paint_hill(pool, 0.05, kHotSpotThreshold);
   painted.paint_hill(spark, 0.01, 40000);
   const Signals s = meter.measure(painted.plane(), painted.seen(), 1);
   EXPECT_NEAR(s.hot_spot_peak_intensity, 100 * 30000 / 65535.0, 0.1);
@@ -127,12 +126,13 @@ TEST(RegionMeter, ASparkAsLargeAsThePoolDoesNotTakeItsPlace) {
   PaintedView painted(kView);
   RegionMeter meter = meter_of(painted, settings());
   const Vec3 pool = *painted.view.direction(60, 120);
-  painted.paint_hill(pool, 0.03, kThreshold);
+  painted.paint_hill(pool, 0.03, kHotSpotThreshold);
   meter.measure(painted.plane(), painted.seen(), 0);
   for (int i = 1; i < 6; ++i) {
     painted.clear();
-    painted.paint_hill(pool, 0.03, kThreshold);
-    painted.paint_hill(*painted.view.direction(100 + 20 * i, 120 - 15 * i), 0.04, kThreshold);
+    painted.paint_hill(pool, 0.03, kHotSpotThreshold);
+    painted.paint_hill(*painted.view.direction(100 + 20 * i, 120 - 15 * i), 0.04,
+                       kHotSpotThreshold);
     const Signals s = meter.measure(painted.plane(), painted.seen(), i / 30.0);
     EXPECT_NEAR(s.hot_spot_yaw, optics::degrees(std::atan2(pool.x, pool.y)), 0.1);
     EXPECT_EQ(s.spatter_count, 1);
@@ -143,7 +143,7 @@ TEST(RegionMeter, ASparkAsLargeAsThePoolDoesNotTakeItsPlace) {
 TEST(RegionMeter, WhatIsNotSeenOrOutsideDoesNotCount) {
   PaintedView painted(kView);
   const Vec3 pool = *painted.view.direction(70, 120);
-  painted.paint_hill(pool, 0.05, kThreshold);
+  painted.paint_hill(pool, 0.05, kHotSpotThreshold);
   RegionSettings region = settings();
   for (const auto& [x, y] : {std::pair{150, 10}, {230, 10}, {230, 170}, {150, 170}}) {
     region.outline.push_back(*painted.view.direction(x, y));
@@ -242,7 +242,7 @@ TEST(RegionMeter, CoolingIsTheFallOfWhatHasLeft) {
   RegionSettings region = settings();
   region.radiometry.kelvin_per_count = 0.04;
   RegionMeter meter = meter_of(painted, region);
-  painted.paint_hill(*painted.view.direction(100, 90), 0.06, kThreshold);
+  painted.paint_hill(*painted.view.direction(100, 90), 0.06, kHotSpotThreshold);
   EXPECT_FALSE(is_valid(meter.measure(painted.plane(), painted.seen(), 0).hot_spot_cooling_rate));
   // Everything cools by 500 counts, 20 K, within 1/50 s.
   for (auto& value : painted.values) value = static_cast<std::uint16_t>(std::max(0, value - 500));
@@ -287,7 +287,7 @@ Signals measure_process(const RegionSettings& region, const RegionScene& scene) 
       if (d.z >= 0) return 0.0;
       const Vec3 p = ball + d * ((centre.z - ball.z) / d.z) - centre;
       const double a = p.x / 30, b = p.y / 18;
-      return (1.5 - 0.01 * i) * kThreshold * std::pow(2.0 / 3, a * a + b * b);
+      return (1.5 - 0.01 * i) * kHotSpotThreshold * std::pow(2.0 / 3, a * a + b * b);
     });
     if (i < 7) painted.paint_hill(*painted.view.direction(30 + 10 * i, 40), 0.01, 10000);
     signals = meter.measure(painted.plane(), painted.seen(), 0.02 * i);
@@ -338,7 +338,7 @@ TEST(RegionMeter, RefusesWhatCannotBeMeasured) {
     EXPECT_TRUE(refused([&](auto& r) { r.plume_threshold = bad; })) << bad;
     EXPECT_TRUE(refused([&](auto& r) { r.full_scale = bad; })) << bad;
   }
-  EXPECT_TRUE(refused([](auto& r) { r.plume_threshold = kThreshold; }));
+  EXPECT_TRUE(refused([](auto& r) { r.plume_threshold = kHotSpotThreshold; }));
   EXPECT_TRUE(refused([](auto& r) { r.width_set_point = 0; }));
   EXPECT_TRUE(refused([](auto& r) { r.radiometry.kelvin_per_count = -1; }));
   EXPECT_TRUE(refused([](auto& r) { r.outline = {{0, 1, 0}}; }));

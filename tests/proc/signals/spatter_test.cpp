@@ -13,7 +13,7 @@ namespace {
 
 using optics::Vec3;
 
-constexpr double kFrame = 1.0 / 30;
+constexpr double kFrameTime = 1.0 / 30;
 const Vec3 kHotSpot{0, std::sqrt(0.5), -std::sqrt(0.5)};
 // Across the hot spot's direction.
 const Vec3 kRight{1, 0, 0};
@@ -37,12 +37,13 @@ struct Flight {
 Signals follow(SpatterTracker& tracker, const std::vector<Flight>& flights, double seconds,
                const std::vector<int>& hidden_frames = {}) {
   Signals signals;
-  for (int frame = 0; frame * kFrame <= seconds; ++frame) {
+  for (int frame = 0; frame * kFrameTime <= seconds; ++frame) {
     for (const Flight& flight : flights) {
       const bool hidden = std::ranges::count(hidden_frames, frame) > 0;
-      if (flight.in_air(frame * kFrame) && !hidden) tracker.add(flight.at(frame * kFrame) * 1e-4);
+      if (flight.in_air(frame * kFrameTime) && !hidden)
+        tracker.add(flight.at(frame * kFrameTime) * 1e-4);
     }
-    tracker.update(frame * kFrame, kHotSpot);
+    tracker.update(frame * kFrameTime, kHotSpot);
     signals = {};
     tracker.write(signals);
   }
@@ -85,10 +86,10 @@ TEST(Spatter, SparksThatCrossStayTwo) {
   double fewest = 2;
   for (int frame = 0; frame < 12; ++frame) {
     for (const double sense : {-1.0, 1.0}) {
-      const double yaw = optics::radians(sense * (kSpeed * frame * kFrame - 17));
+      const double yaw = optics::radians(sense * (kSpeed * frame * kFrameTime - 17));
       tracker.add({std::sin(yaw), std::cos(yaw), 0});
     }
-    tracker.update(frame * kFrame, {});
+    tracker.update(frame * kFrameTime, {});
     tracker.write(signals);
     fewest = std::min(fewest, signals.spatter_count);
   }

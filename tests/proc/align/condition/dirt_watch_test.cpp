@@ -18,13 +18,13 @@ namespace {
 using optics::Outline;
 using tests::picture_of_mat;
 
-const Outline kLimb{{151.2, 148.9}, 120, 120, 0};
-const cv::Size kSize(300, 300);
+const Outline kWatchedLimb{{151.2, 148.9}, 120, 120, 0};
+const cv::Size kWatchedSize(300, 300);
 
 /// A ball that shows a smooth room with large patches.
 cv::Mat painted_room() {
   cv::Mat picture;
-  cv::GaussianBlur(painted_ball(kSize, kLimb), picture, {}, 5);
+  cv::GaussianBlur(painted_ball(kWatchedSize, kWatchedLimb), picture, {}, 5);
   cv::rectangle(picture, {60, 110}, {120, 190}, cv::Scalar(170), cv::FILLED);
   cv::rectangle(picture, {180, 90}, {240, 150}, cv::Scalar(60), cv::FILLED);
   cv::GaussianBlur(picture, picture, {}, 0.7);
@@ -41,11 +41,13 @@ using Change = std::function<void(cv::Mat&, int)>;
 /// A watch that looks at each picture, second by second.
 class Watched {
  public:
-  Watched() : watch_(DirtWatch::make(kSize.width, kSize.height, kLimb, {9, 0.15}).value()) {}
+  Watched()
+      : watch_(DirtWatch::make(kWatchedSize.width, kWatchedSize.height, kWatchedLimb, {9, 0.15})
+                   .value()) {}
 
   Watched& observe(int pictures, const Change& change = nullptr) {
     for (int n = 0; n < pictures; ++n) {
-      cv::Mat picture = room(), noise(kSize, CV_16S);
+      cv::Mat picture = room(), noise(kWatchedSize, CV_16S);
       if (change) change(picture, n);
       random_.fill(noise, cv::RNG::NORMAL, 0, 1.5);
       picture.convertTo(picture, CV_16S);
@@ -196,10 +198,10 @@ TEST(DirtWatch, RefusesWhatIsWrong) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(DirtWatch::make(300, 300, {{400, 150}, 100, 100, 0}));
   EXPECT_FALSE(DirtWatch::make(300, 300, {{150, 150}, none, 100, 0}));
-  EXPECT_FALSE(DirtWatch::make(300, 300, kLimb, {0, 0.15}));
-  EXPECT_FALSE(DirtWatch::make(300, 300, kLimb, {none, 0.15}));
-  EXPECT_FALSE(DirtWatch::make(300, 300, kLimb, {900, 0.7}));
-  EXPECT_FALSE(DirtWatch::make(300, 300, kLimb, {900, none}));
+  EXPECT_FALSE(DirtWatch::make(300, 300, kWatchedLimb, {0, 0.15}));
+  EXPECT_FALSE(DirtWatch::make(300, 300, kWatchedLimb, {none, 0.15}));
+  EXPECT_FALSE(DirtWatch::make(300, 300, kWatchedLimb, {900, 0.7}));
+  EXPECT_FALSE(DirtWatch::make(300, 300, kWatchedLimb, {900, none}));
   Watched watched;
   EXPECT_FALSE(watched.watch().use({}));
   DirtReference forged = SmallMarks::none();

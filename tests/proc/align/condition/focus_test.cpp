@@ -17,7 +17,7 @@ namespace {
 using optics::Outline;
 using tests::picture_of_mat;
 
-const Outline kLimb{{150.3, 148.8}, 130, 130, 0};
+const Outline kBlurredLimb{{150.3, 148.8}, 130, 130, 0};
 
 /// A far room of grey patches, reflected by plain vectors, before a bright wall; 4x4 samples to
 /// a pixel.
@@ -28,7 +28,8 @@ cv::Mat patched_ball() {
     return 40.0 + (cell * 2654435761U >> 24) * 0.7;
   };
   const auto light = [&](double u, double v) {
-    const double x = (u - kLimb.centre.u) / kLimb.rx, y = (v - kLimb.centre.v) / kLimb.ry;
+    const double x = (u - kBlurredLimb.centre.u) / kBlurredLimb.rx;
+    const double y = (v - kBlurredLimb.centre.v) / kBlurredLimb.ry;
     if (x * x + y * y >= 1) return 230.0;
     const double z = std::sqrt(1 - x * x - y * y);  // towards the camera, as the ray (0, 0, -1)
     const optics::Vec3 r{2 * z * x, 2 * z * y, 2 * z * z - 1};
@@ -66,7 +67,7 @@ cv::Mat blurred(double sigma, double exposure = 1) {
 TEST(Focus, IsTheReflectionsBlurAtAnyExposure) {
   for (const double sigma : {0.6, 1.2, 2.5}) {
     for (const double exposure : {1.0, 0.35}) {
-      const auto focus = measure_focus(picture_of_mat(blurred(sigma, exposure)), kLimb);
+      const auto focus = measure_focus(picture_of_mat(blurred(sigma, exposure)), kBlurredLimb);
       ASSERT_TRUE(focus);
       ASSERT_TRUE(focus->reflection) << focus->reflection.error().message;
       // The pixel's aperture blurs, too.
@@ -83,11 +84,11 @@ TEST(Focus, SaysThatTheBallIsSharpAndItsReflectionIsNot) {
   cv::Mat inner(picture.size(), CV_8U, cv::Scalar(0));
   cv::circle(inner, {150, 149}, 115, cv::Scalar(255), cv::FILLED);
   wide.copyTo(picture, inner);
-  const auto focus = measure_focus(picture_of_mat(picture), kLimb);
+  const auto focus = measure_focus(picture_of_mat(picture), kBlurredLimb);
   ASSERT_TRUE(focus);
   ASSERT_TRUE(focus->focused_on_ball()) << focus->focused_on_ball().error().message;
   EXPECT_GT(*focus->focused_on_ball(), 1.5);
-  const auto even = measure_focus(picture_of_mat(blurred(0.6)), kLimb);
+  const auto even = measure_focus(picture_of_mat(blurred(0.6)), kBlurredLimb);
   ASSERT_TRUE(even && even->focused_on_ball());
   EXPECT_LT(*even->focused_on_ball(), 0.6);
 }
@@ -95,14 +96,14 @@ TEST(Focus, SaysThatTheBallIsSharpAndItsReflectionIsNot) {
 TEST(Focus, OfSixteenBit) {
   cv::Mat picture;
   blurred(1.2).convertTo(picture, CV_16U, 20, 7000);
-  const auto focus = measure_focus(picture_of_mat(picture), kLimb);
+  const auto focus = measure_focus(picture_of_mat(picture), kBlurredLimb);
   ASSERT_TRUE(focus && focus->reflection);
   EXPECT_NEAR(focus->reflection->sigma, 1.25, 0.18);
 }
 
 TEST(Focus, IsNotMeasuredWithoutLightOrEdges) {
   const auto reason = [](const cv::Mat& picture) -> std::string {
-    const auto focus = measure_focus(picture_of_mat(picture), kLimb);
+    const auto focus = measure_focus(picture_of_mat(picture), kBlurredLimb);
     if (!focus || focus->reflection) return "measured";
     return focus->reflection.error().message;
   };

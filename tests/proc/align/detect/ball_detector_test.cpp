@@ -10,20 +10,18 @@
 namespace orbwatch::align {
 namespace {
 
-const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
-
 using tests::picture_of_mat;
 
 void expect_limb(const Result<BallDetection>& found) {
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_NEAR(found->outline.centre.u, kLimb.centre.u, 0.01 * kLimb.rx);
-  EXPECT_NEAR(found->outline.centre.v, kLimb.centre.v, 0.01 * kLimb.rx);
-  EXPECT_NEAR((found->outline.rx + found->outline.ry) / 2, kLimb.rx, 0.01 * kLimb.rx);
+  EXPECT_NEAR(found->outline.centre.u, kPaintedLimb.centre.u, 0.01 * kPaintedLimb.rx);
+  EXPECT_NEAR(found->outline.centre.v, kPaintedLimb.centre.v, 0.01 * kPaintedLimb.rx);
+  EXPECT_NEAR((found->outline.rx + found->outline.ry) / 2, kPaintedLimb.rx, 0.01 * kPaintedLimb.rx);
   EXPECT_EQ(found->is_confident(), found->reason.empty());
 }
 
 TEST(BallDetector, FindsABallInEveryKindOfPicture) {
-  const cv::Mat grey = painted_ball({400, 320}, kLimb);
+  const cv::Mat grey = painted_ball(kPaintedSize, kPaintedLimb);
   expect_limb(detect_ball(picture_of_mat(grey)));
   cv::Mat thermal;
   grey.convertTo(thermal, CV_16U, 3, 7300);  // 31 K in 40 mK steps

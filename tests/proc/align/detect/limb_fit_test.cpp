@@ -11,28 +11,29 @@ namespace {
 
 using optics::Outline;
 
-const Outline kLimb{{132.3, 101.7}, 80, 80, 0};
-
 TEST(LimbFit, FindsTheLimbFromAround) {
-  const cv::Mat picture = painted_ball({264, 204}, kLimb);
+  const cv::Mat picture = painted_ball(kSmallSize, kSmallLimb);
   for (const auto [du, dv, dr] : {std::array{2.5, -1.5, 1.0}, {-2.0, 2.0, -2.0}, {0.0, 0.0, 0.0}}) {
-    Outline fit{{kLimb.centre.u + du, kLimb.centre.v + dv}, kLimb.rx + dr, kLimb.rx + dr, 0};
+    Outline fit{{kSmallLimb.centre.u + du, kSmallLimb.centre.v + dv},
+                kSmallLimb.rx + dr,
+                kSmallLimb.rx + dr,
+                0};
     for (const double reach : {6.0, 4.0, 3.0}) fit = fit_limb(picture, fit, reach).outline;
-    EXPECT_NEAR(fit.centre.u, kLimb.centre.u, 0.5);
-    EXPECT_NEAR(fit.centre.v, kLimb.centre.v, 0.5);
-    EXPECT_NEAR((fit.rx + fit.ry) / 2, kLimb.rx, 0.6);
+    EXPECT_NEAR(fit.centre.u, kSmallLimb.centre.u, 0.5);
+    EXPECT_NEAR(fit.centre.v, kSmallLimb.centre.v, 0.5);
+    EXPECT_NEAR((fit.rx + fit.ry) / 2, kSmallLimb.rx, 0.6);
     EXPECT_NEAR(fit.rx / fit.ry, 1, 0.01);
   }
 }
 
 TEST(LimbFit, FindsAHiddenPart) {
-  cv::Mat picture = painted_ball({264, 204}, kLimb);
+  cv::Mat picture = painted_ball(kSmallSize, kSmallLimb);
   cv::rectangle(picture, {185, 80}, {263, 130}, cv::Scalar(40), cv::FILLED);  // a mount
-  Outline fit{{kLimb.centre.u + 1.5, kLimb.centre.v - 1}, 81.5, 81.5, 0};
+  Outline fit{{kSmallLimb.centre.u + 1.5, kSmallLimb.centre.v - 1}, 81.5, 81.5, 0};
   for (const double reach : {6.0, 4.0, 3.0}) fit = fit_limb(picture, fit, reach).outline;
-  EXPECT_NEAR(fit.centre.u, kLimb.centre.u, 0.8);
-  EXPECT_NEAR(fit.centre.v, kLimb.centre.v, 0.8);
-  EXPECT_NEAR((fit.rx + fit.ry) / 2, kLimb.rx, 0.8);
+  EXPECT_NEAR(fit.centre.u, kSmallLimb.centre.u, 0.8);
+  EXPECT_NEAR(fit.centre.v, kSmallLimb.centre.v, 0.8);
+  EXPECT_NEAR((fit.rx + fit.ry) / 2, kSmallLimb.rx, 0.8);
 }
 
 TEST(LimbFit, LeavesWhatIsTooSmallAsItIs) {
@@ -68,20 +69,20 @@ TEST(LimbStrip, UnrollsAnEllipseWithSlopesPerPixel) {
 }
 
 TEST(LimbStrip, KnowsNothingBeyondThePicture) {
-  const cv::Mat picture = painted_ball({264, 204}, kLimb);
+  const cv::Mat picture = painted_ball(kSmallSize, kSmallLimb);
   const LimbStrip strip(picture, {{0, 100}, 60, 60, 0}, 5);
   EXPECT_TRUE(strip.slope(0, strip.limb()));
   EXPECT_FALSE(strip.slope(strip.rays() / 2, strip.limb()));
 }
 
 TEST(LimbScore, IsHighestAtTheLimb) {
-  const cv::Mat picture = painted_ball({264, 204}, kLimb);
-  const double right = near_drop(picture, kLimb);
+  const cv::Mat picture = painted_ball(kSmallSize, kSmallLimb);
+  const double right = near_drop(picture, kSmallLimb);
   EXPECT_GT(right, 0.3);
-  EXPECT_GT(contour(picture, kLimb), 0.5);
+  EXPECT_GT(contour(picture, kSmallLimb), 0.5);
   for (const double share : {0.8, 0.9, 1.12, 1.25}) {
-    const double r = share * kLimb.rx;
-    EXPECT_LT(near_drop(picture, {kLimb.centre, r, r, 0}), right) << share;
+    const double r = share * kSmallLimb.rx;
+    EXPECT_LT(near_drop(picture, {kSmallLimb.centre, r, r, 0}), right) << share;
   }
 }
 

@@ -10,8 +10,6 @@
 namespace orbwatch::align {
 namespace {
 
-const optics::Outline kLimb{{132.3, 101.7}, 80, 80, 0};
-
 double likeness(const cv::Mat& picture, const optics::Outline& outline) {
   return LimbLikelihood(LimbStrip(picture, outline, 8), outline, picture.size()).above_random();
 }
@@ -26,7 +24,7 @@ int likeliest_column(const LimbColumns& limb) {
 }
 
 TEST(LimbNetwork, GivesEachPartProbabilities) {
-  const LimbStrip strip(painted_ball({264, 204}, kLimb), kLimb, 8);
+  const LimbStrip strip(painted_ball(kSmallSize, kSmallLimb), kSmallLimb, 8);
   const LimbColumns limb = limb_columns(strip);
   EXPECT_EQ(limb.columns, strip.columns());
   EXPECT_EQ(limb.parts * LimbColumns::kRays, strip.rays());
@@ -37,9 +35,9 @@ TEST(LimbNetwork, GivesEachPartProbabilities) {
 }
 
 TEST(LimbNetwork, SeesTheLimbWhereItIs) {
-  const cv::Mat ball = painted_ball({264, 204}, kLimb);
+  const cv::Mat ball = painted_ball(kSmallSize, kSmallLimb);
   for (const int off : {-3, 0, 3}) {
-    const optics::Outline outline{kLimb.centre, kLimb.rx + off, kLimb.ry + off, 0};
+    const optics::Outline outline{kSmallLimb.centre, kSmallLimb.rx + off, kSmallLimb.ry + off, 0};
     const LimbStrip strip(ball, outline, 8);
     const int seen = likeliest_column(limb_columns(strip)) - strip.limb();
     EXPECT_NEAR(seen, -off * LimbStrip::kPerUnit, 2) << off;
@@ -47,21 +45,21 @@ TEST(LimbNetwork, SeesTheLimbWhereItIs) {
 }
 
 TEST(LimbNetwork, SeesTheSameInAnyWidthOfStrip) {
-  const cv::Mat ball = painted_ball({264, 204}, kLimb);
+  const cv::Mat ball = painted_ball(kSmallSize, kSmallLimb);
   for (const double reach : {3.0, 5.5, 6.0, 11.0, 12.5}) {
-    const LimbStrip strip(ball, kLimb, reach);
+    const LimbStrip strip(ball, kSmallLimb, reach);
     EXPECT_NEAR(likeliest_column(limb_columns(strip)), strip.limb(), 2) << reach;
   }
 }
 
 TEST(LimbLikelihood, IsHighOnABallOnly) {
-  const cv::Mat ball = painted_ball({264, 204}, kLimb);
-  EXPECT_GT(likeness(ball, kLimb), 0.5);
-  EXPECT_LT(likeness(ball, {kLimb.centre, 70, 70, 0}), -0.5);
+  const cv::Mat ball = painted_ball(kSmallSize, kSmallLimb);
+  EXPECT_GT(likeness(ball, kSmallLimb), 0.5);
+  EXPECT_LT(likeness(ball, {kSmallLimb.centre, 70, 70, 0}), -0.5);
   cv::Mat noise(ball.size(), CV_8U);
   cv::theRNG().state = 5;
   cv::randn(noise, 120, 30);
-  EXPECT_LT(likeness(noise, kLimb), -0.5);
+  EXPECT_LT(likeness(noise, kSmallLimb), -0.5);
 }
 
 }  // namespace

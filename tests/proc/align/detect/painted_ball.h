@@ -8,6 +8,12 @@
 
 namespace orbwatch::align {
 
+/// The ball that tests paint, in a picture of that size, and a smaller one.
+inline const optics::Outline kPaintedLimb{{202.3, 161.7}, 115, 115, 0};
+inline const cv::Size kPaintedSize(400, 320);
+inline const optics::Outline kSmallLimb{{132.3, 101.7}, 80, 80, 0};
+inline const cv::Size kSmallSize(264, 204);
+
 /// What a far-away camera sees of a ball in a room of random spots, by the law of reflection, with
 /// the same spots behind the ball: 8 bit grey, 4x4 samples to a pixel.
 inline cv::Mat painted_ball(const cv::Size& size, const optics::Outline& limb) {

@@ -13,16 +13,16 @@
 namespace orbwatch::align {
 namespace {
 
-const optics::Outline kLimb{{72.3, 51.7}, 26, 26, 0};
-const cv::Size kSize(140, 104);
+const optics::Outline kTinyLimb{{72.3, 51.7}, 26, 26, 0};
+const cv::Size kTinySize(140, 104);
 
 TEST(CentreVotes, MeetInTheBallsCentre) {
-  const auto centres = centre_votes(slopes_of(painted_ball(kSize, kLimb)), RingStrip::kNearest,
-                                    RingStrip::kFarthest, 8);
+  const auto centres = centre_votes(slopes_of(painted_ball(kTinySize, kTinyLimb)),
+                                    RingStrip::kNearest, RingStrip::kFarthest, 8);
   ASSERT_FALSE(centres.empty());
   EXPECT_LE(centres.size(), 8U);
   EXPECT_TRUE(std::ranges::any_of(centres, [](const optics::Vec2& c) {
-    return std::hypot(c.u - kLimb.centre.u, c.v - kLimb.centre.v) < 0.2 * kLimb.rx;
+    return std::hypot(c.u - kTinyLimb.centre.u, c.v - kTinyLimb.centre.v) < 0.2 * kTinyLimb.rx;
   }));
 }
 
@@ -33,7 +33,7 @@ TEST(CentreVotes, AreNoneWhereNothingIsSeen) {
 
 TEST(RingStrip, UnrollsCirclesToColumns) {
   // A disc's edge is in one column.
-  cv::Mat disc(kSize, CV_8U, cv::Scalar(20));
+  cv::Mat disc(kTinySize, CV_8U, cv::Scalar(20));
   cv::circle(disc, {70, 52}, 24, cv::Scalar(200), cv::FILLED);
   const RingStrip strip(disc, {70, 52});
   for (int ray = 0; ray < strip.rays(); ++ray) {
@@ -52,12 +52,12 @@ Ring likeliest(const cv::Mat& luminance, optics::Vec2 place) {
 }
 
 TEST(RingSearch, FindsTheLimbFromAround) {
-  const cv::Mat ball = painted_ball(kSize, kLimb);
+  const cv::Mat ball = painted_ball(kTinySize, kTinyLimb);
   for (const auto [du, dv] : {std::array{0.0, 0.0}, {4.0, 0.0}, {-3.0, 3.0}, {0.0, -5.0}}) {
-    const Ring ring = likeliest(ball, {kLimb.centre.u + du, kLimb.centre.v + dv});
-    EXPECT_NEAR(ring.centre.u, kLimb.centre.u, 0.08 * kLimb.rx) << du << " " << dv;
-    EXPECT_NEAR(ring.centre.v, kLimb.centre.v, 0.08 * kLimb.rx) << du << " " << dv;
-    EXPECT_NEAR(ring.radius, kLimb.rx, 0.08 * kLimb.rx) << du << " " << dv;
+    const Ring ring = likeliest(ball, {kTinyLimb.centre.u + du, kTinyLimb.centre.v + dv});
+    EXPECT_NEAR(ring.centre.u, kTinyLimb.centre.u, 0.08 * kTinyLimb.rx) << du << " " << dv;
+    EXPECT_NEAR(ring.centre.v, kTinyLimb.centre.v, 0.08 * kTinyLimb.rx) << du << " " << dv;
+    EXPECT_NEAR(ring.radius, kTinyLimb.rx, 0.08 * kTinyLimb.rx) << du << " " << dv;
     EXPECT_GT(ring.likeness, 0.5);
   }
 }
@@ -67,7 +67,7 @@ TEST(RingSearch, FindsWhatElseIsAround) {
     const double centres = std::hypot(a.centre.u - b.centre.u, a.centre.v - b.centre.v);
     return std::max(centres, std::abs(a.radius - b.radius)) / std::min(a.radius, b.radius);
   };
-  const auto rings = likeliest_rings(painted_ball(kSize, kLimb), kLimb.centre, 4);
+  const auto rings = likeliest_rings(painted_ball(kTinySize, kTinyLimb), kTinyLimb.centre, 4);
   ASSERT_EQ(rings.size(), 4U);
   for (std::size_t i = 0; i < rings.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -78,10 +78,10 @@ TEST(RingSearch, FindsWhatElseIsAround) {
 }
 
 TEST(RingSearch, IsLessLikelyInNoise) {
-  cv::Mat noise(kSize, CV_8U);
+  cv::Mat noise(kTinySize, CV_8U);
   cv::theRNG().state = 5;
   cv::randn(noise, 120, 30);
-  const double ball = likeliest(painted_ball(kSize, kLimb), kLimb.centre).likeness;
+  const double ball = likeliest(painted_ball(kTinySize, kTinyLimb), kTinyLimb.centre).likeness;
   EXPECT_LT(likeliest(noise, {70, 52}).likeness, ball);
   // Beyond the picture, too.
   EXPECT_LT(likeliest(noise, {-400, 52}).likeness, ball);

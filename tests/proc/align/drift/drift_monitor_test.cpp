@@ -14,7 +14,7 @@ namespace {
 using optics::Outline;
 using tests::picture_of_mat;
 
-const Outline kLimb{{160, 120}, 90, 90, 0};
+const Outline kAlignedLimb{{160, 120}, 90, 90, 0};
 constexpr int kWidth = 320, kHeight = 240;
 
 /// A disc full of blots on a ground full of blots; each may move.
@@ -59,7 +59,8 @@ class DriftMonitorTest : public testing::Test {
  protected:
   static DriftSubject subject() {
     const auto model = optics::BallModel::make(optics::BallModel::Kind::Exact, std::nullopt, 12);
-    return {kWidth, kHeight, kLimb, *optics::BallProjection::make(*model, kLimb, {}), std::nullopt};
+    return {kWidth, kHeight, kAlignedLimb, *optics::BallProjection::make(*model, kAlignedLimb, {}),
+            std::nullopt};
   }
 
   DriftState see(const cv::Mat& pixels) {
@@ -93,7 +94,7 @@ TEST_F(DriftMonitorTest, MeasuresATurnedCamera) {
   EXPECT_NEAR(state.motion.v, -0.8, 0.03);
   EXPECT_EQ(state.level, DriftLevel::Alarm);
   EXPECT_EQ(state.cause, DriftCause::CameraTurned);
-  EXPECT_NEAR(state.outline.centre.u, kLimb.centre.u + 1.3, 0.03);
+  EXPECT_NEAR(state.outline.centre.u, kAlignedLimb.centre.u + 1.3, 0.03);
   EXPECT_FALSE(state.turn) << "without a lens there are no angles";
 }
 

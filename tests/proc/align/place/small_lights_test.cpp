@@ -11,7 +11,7 @@
 namespace orbwatch::align {
 namespace {
 
-const optics::Outline kBall{{200, 150}, 120, 118, 10};
+const optics::Outline kLitBall{{200, 150}, 120, 118, 10};
 
 cv::Mat dark_room() { return {300, 400, CV_8U, cv::Scalar(40)}; }
 
@@ -30,7 +30,7 @@ cv::Mat with_light(cv::Mat picture, const optics::Vec2& at, double light, double
 std::vector<SmallLight> lights_of(const std::vector<cv::Mat>& mats) {
   std::vector<Picture> pictures;
   for (const cv::Mat& mat : mats) pictures.push_back(tests::picture_of_mat(mat));
-  const auto lights = small_lights(pictures, kBall);
+  const auto lights = small_lights(pictures, kLitBall);
   EXPECT_TRUE(lights) << (lights ? "" : lights.error().message);
   return lights.value_or(std::vector<SmallLight>{});
 }
@@ -57,8 +57,8 @@ TEST(SmallLights, AreNeitherSparksNorWideNorBesideTheBall) {
 
 TEST(SmallLights, WhereThereAreNoneIsAnError) {
   const cv::Mat dark = dark_room();
-  EXPECT_FALSE(small_lights(std::vector{tests::picture_of_mat(dark)}, kBall));
-  EXPECT_FALSE(small_lights({}, kBall));
+  EXPECT_FALSE(small_lights(std::vector{tests::picture_of_mat(dark)}, kLitBall));
+  EXPECT_FALSE(small_lights({}, kLitBall));
   EXPECT_FALSE(small_lights(std::vector{tests::picture_of_mat(dark)}, {{2000, 150}, 120, 118, 0}));
 }
 
@@ -67,11 +67,11 @@ TEST(SmallLights, TheOneThatMovedIsTheTools) {
   const auto first = lights_of({with_light(lamps.clone(), {231, 120}, 120)});
   const auto second = lights_of({with_light(lamps.clone(), {240, 190}, 120)});
   const auto none = lights_of({lamps});
-  const auto moved = moved_light(first, std::vector<std::vector<SmallLight>>{second}, kBall);
+  const auto moved = moved_light(first, std::vector<std::vector<SmallLight>>{second}, kLitBall);
   ASSERT_TRUE(moved);
   EXPECT_NEAR(moved->u, 231, 0.1);
-  EXPECT_FALSE(moved_light(none, std::vector{first, second}, kBall));
-  EXPECT_NEAR(moved_light(none, {}, kBall)->u, 170, 0.1);
+  EXPECT_FALSE(moved_light(none, std::vector{first, second}, kLitBall));
+  EXPECT_NEAR(moved_light(none, {}, kLitBall)->u, 170, 0.1);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr int kWidest = 300;
 /// A row of counts and what is seen of it, pressed against unreadable memory at its begin or end.
 template <class T>
 struct GuardedRow {
-  tests::GuardedMemory count_memory{kWidest * sizeof(T)}, validity_memory{kWidest};
+  orbwatch::tests::GuardedMemory count_memory{kWidest * sizeof(T)}, validity_memory{kWidest};
   T* counts = nullptr;
   std::uint8_t* validity = nullptr;
 

@@ -14,7 +14,6 @@ namespace {
 
 using optics::Vec3;
 
-constexpr double kThreshold = 20000;
 constexpr double kFrame = 0.02;  // s
 
 /// A disc on the floor, as hot as everything hot; mm, machine frame.
@@ -43,7 +42,8 @@ class Floor {
       }
       return 0.0;
     });
-    const ScalarLevelSet hot(painted_.plane(), painted_.seen(), kThreshold, mask_, geometry_);
+    const ScalarLevelSet hot(painted_.plane(), painted_.seen(), kHotSpotThreshold, mask_,
+                             geometry_);
     track_.begin(passed);
     for (std::size_t i = 0; i < hot.size(); ++i) {
       if (hot.is_whole(i)) track_.consider(hot.blob(i));
