@@ -5,18 +5,19 @@
 
 #include <string>
 
+#include "tests/hal/jpeg/jpeg_marker.h"
+
 namespace orbwatch::hal {
 namespace {
 
-constexpr int kWidth = 53;  // odd: neither blocks nor pairs fit
-constexpr int kHeight = 37;
-constexpr std::size_t kEndMarkerBytes = 2;
-constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+constexpr int kGradientWidth = 53;  // odd: neither blocks nor pairs fit
+constexpr int kGradientHeight = 37;
+constexpr std::size_t kGradientPixels = std::size_t{kGradientWidth} * kGradientHeight;
 
 std::vector<std::uint8_t> gradient() {
   std::vector<std::uint8_t> pixels;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kGradientHeight; ++y) {
+    for (int x = 0; x < kGradientWidth; ++x) {
       pixels.push_back(static_cast<std::uint8_t>(4 * x));
       pixels.push_back(static_cast<std::uint8_t>(6 * y));
       pixels.push_back(static_cast<std::uint8_t>(2 * (x + y)));
@@ -25,13 +26,13 @@ std::vector<std::uint8_t> gradient() {
   return pixels;
 }
 
-std::vector<std::byte> encode(int flags = 0) {
+std::vector<std::byte> gradient_jpeg(int flags = 0) {
   const auto pixels = gradient();
   unsigned char* file = nullptr;
   unsigned long size = 0;
   tjhandle encoder = tjInitCompress();
-  EXPECT_EQ(tjCompress2(encoder, pixels.data(), kWidth, 0, kHeight, TJPF_RGB, &file, &size,
-                        TJSAMP_444, 98, flags),
+  EXPECT_EQ(tjCompress2(encoder, pixels.data(), kGradientWidth, 0, kGradientHeight, TJPF_RGB, &file,
+                        &size, TJSAMP_444, 98, flags),
             0);
   const auto* first = reinterpret_cast<const std::byte*>(file);
   std::vector<std::byte> jpeg(first, first + size);
@@ -46,9 +47,9 @@ double luminance(std::size_t pixel) {
   return 0.299 * rgb[3 * pixel] + 0.587 * rgb[3 * pixel + 1] + 0.114 * rgb[3 * pixel + 2];
 }
 
-struct Target {
-  std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(kPixels);
-  ImageView<std::uint8_t> view{pixels.data(), kWidth, kHeight, 1, kWidth};
+struct GreyTarget {
+  std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(kGradientPixels);
+  ImageView<std::uint8_t> view{pixels.data(), kGradientWidth, kGradientHeight, 1, kGradientWidth};
 };
 
 /// Cuts out one marker segment.
@@ -72,41 +73,42 @@ std::vector<std::byte> without_segment(const std::vector<std::byte>& jpeg, int m
 
 TEST(JpegDecoder, DecodesAWholePicture) {
   JpegDecoder decoder;
-  const auto jpeg = encode();
+  const auto jpeg = gradient_jpeg();
   const auto size = decoder.read_size(jpeg);
   ASSERT_TRUE(size) << size.error().message;
-  EXPECT_EQ(size->width, kWidth);
-  EXPECT_EQ(size->height, kHeight);
+  EXPECT_EQ(size->width, kGradientWidth);
+  EXPECT_EQ(size->height, kGradientHeight);
   EXPECT_TRUE(decoder.check(jpeg));
-  Target target;
+  GreyTarget target;
   const auto done = decoder.decode_grey(jpeg, target.view);
   ASSERT_TRUE(done) << done.error().message;
-  for (std::size_t i = 0; i < kPixels; ++i) {
+  for (std::size_t i = 0; i < kGradientPixels; ++i) {
     ASSERT_NEAR(target.pixels[i], luminance(i), 2) << "pixel " << i;
   }
 }
 
 TEST(JpegDecoder, HonoursTheStrideOfItsTarget) {
   JpegDecoder decoder;
-  constexpr std::ptrdiff_t kStride = kWidth + 11;
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kStride) * kHeight, 0xee);
-  ASSERT_TRUE(decoder.decode_grey(encode(), {pixels.data(), kWidth, kHeight, 1, kStride}));
-  Target packed;
-  ASSERT_TRUE(decoder.decode_grey(encode(), packed.view));
-  for (int y = 0; y < kHeight; ++y) {
+  constexpr std::ptrdiff_t kStride = kGradientWidth + 11;
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kStride) * kGradientHeight, 0xee);
+  ASSERT_TRUE(decoder.decode_grey(gradient_jpeg(),
+                                  {pixels.data(), kGradientWidth, kGradientHeight, 1, kStride}));
+  GreyTarget packed;
+  ASSERT_TRUE(decoder.decode_grey(gradient_jpeg(), packed.view));
+  for (int y = 0; y < kGradientHeight; ++y) {
     const auto* row = pixels.data() + y * kStride;
-    EXPECT_TRUE(std::equal(row, row + kWidth, packed.view.row(y))) << "row " << y;
-    EXPECT_EQ(row[kWidth], 0xee) << "wrote beyond row " << y;
+    EXPECT_TRUE(std::equal(row, row + kGradientWidth, packed.view.row(y))) << "row " << y;
+    EXPECT_EQ(row[kGradientWidth], 0xee) << "wrote beyond row " << y;
   }
 }
 
 TEST(JpegDecoder, DecodesWithoutHuffmanTablesAsUsbCamerasSend) {
   JpegDecoder decoder;
-  const auto jpeg = encode();
+  const auto jpeg = gradient_jpeg();
   const auto bare = without_segment(jpeg, 0xc4);
   ASSERT_LT(bare.size(), jpeg.size() - 400);
-  Target with;
-  Target without;
+  GreyTarget with;
+  GreyTarget without;
   ASSERT_TRUE(decoder.decode_grey(jpeg, with.view));
   const auto done = decoder.decode_grey(bare, without.view);
   ASSERT_TRUE(done) << done.error().message;
@@ -115,10 +117,10 @@ TEST(JpegDecoder, DecodesWithoutHuffmanTablesAsUsbCamerasSend) {
 
 TEST(JpegDecoder, RefusesEveryTruncationOfItsData) {
   for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
-    const auto jpeg = encode(flags);
+    const auto jpeg = gradient_jpeg(flags);
     JpegDecoder decoder;
-    Target target;
-    for (std::size_t length = 0; length < jpeg.size() - kEndMarkerBytes; ++length) {
+    GreyTarget target;
+    for (std::size_t length = 0; length < jpeg.size() - kMarkerBytes; ++length) {
       const std::span part(jpeg.data(), length);
       ASSERT_FALSE(decoder.decode_grey(part, target.view)) << length << " of " << jpeg.size();
       ASSERT_FALSE(decoder.check(part)) << length << " of " << jpeg.size();
@@ -129,15 +131,15 @@ TEST(JpegDecoder, RefusesEveryTruncationOfItsData) {
 }
 
 TEST(JpegDecoder, CheckAgreesWithDecodingOnDamagedData) {
-  const auto whole = encode();
+  const auto whole = gradient_jpeg();
   JpegDecoder decoder;
-  Target target;
+  GreyTarget target;
   int refused = 0;
   for (std::size_t at = 0; at < whole.size(); ++at) {
     auto jpeg = whole;
     jpeg[at] ^= std::byte{0x55};
     const auto size = decoder.read_size(jpeg);
-    if (!size || size->width != kWidth || size->height != kHeight) continue;
+    if (!size || size->width != kGradientWidth || size->height != kGradientHeight) continue;
     const bool decoded = decoder.decode_grey(jpeg, target.view).has_value();
     EXPECT_EQ(decoder.check(jpeg).has_value(), decoded) << "byte " << at;
     refused += decoded ? 0 : 1;
@@ -147,7 +149,7 @@ TEST(JpegDecoder, CheckAgreesWithDecodingOnDamagedData) {
 
 TEST(JpegDecoder, RefusesGarbage) {
   JpegDecoder decoder;
-  Target target;
+  GreyTarget target;
   const std::vector<std::byte> garbage(5000, std::byte{0x5a});
   EXPECT_FALSE(decoder.read_size({}));
   EXPECT_FALSE(decoder.read_size(garbage));
@@ -158,7 +160,7 @@ TEST(JpegDecoder, RefusesGarbage) {
 TEST(JpegDecoder, RefusesAnotherSizeAndNamesBoth) {
   JpegDecoder decoder;
   std::vector<std::uint8_t> small(30 * 20);
-  const auto done = decoder.decode_grey(encode(), {small.data(), 30, 20, 1, 30});
+  const auto done = decoder.decode_grey(gradient_jpeg(), {small.data(), 30, 20, 1, 30});
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("53x37"), std::string::npos) << done.error().message;
   EXPECT_NE(done.error().message.find("30x20"), std::string::npos) << done.error().message;

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "hal/jpeg/jpeg_decoder.h"
+#include "tests/hal/jpeg/jpeg_marker.h"
 
 namespace orbwatch::hal {
 namespace {
 
-constexpr int kWidth = 72;
-constexpr int kHeight = 46;
-constexpr std::size_t kEndMarkerBytes = 2;
+constexpr int kPlanarWidth = 72;
+constexpr int kPlanarHeight = 46;
 
 /// Y, U and V anywhere in the picture: smooth, so that any subsampling carries them.
 std::array<double, 3> truth(double x, double y) {
@@ -28,10 +28,10 @@ struct Plane {
 
 /// A component with the detail of a subsampling: each sample the colour at its pixels' centre.
 Plane plane(int component, int subsampling) {
-  Plane made{{}, tjPlaneWidth(component, kWidth, subsampling)};
-  const int height = tjPlaneHeight(component, kHeight, subsampling);
-  const double columns = static_cast<double>(kWidth) / made.width;
-  const double rows = static_cast<double>(kHeight) / height;
+  Plane made{{}, tjPlaneWidth(component, kPlanarWidth, subsampling)};
+  const int height = tjPlaneHeight(component, kPlanarHeight, subsampling);
+  const double columns = static_cast<double>(kPlanarWidth) / made.width;
+  const double rows = static_cast<double>(kPlanarHeight) / height;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < made.width; ++x) {
       const auto colour = truth((x + 0.5) * columns - 0.5, (y + 0.5) * rows - 0.5);
@@ -42,7 +42,7 @@ Plane plane(int component, int subsampling) {
   return made;
 }
 
-std::vector<std::byte> encode(int subsampling, int flags = 0) {
+std::vector<std::byte> planar_jpeg(int subsampling, int flags = 0) {
   const int components = subsampling == TJSAMP_GRAY ? 1 : 3;
   std::vector<Plane> planes;
   std::array<const unsigned char*, 3> data{};
@@ -55,8 +55,8 @@ std::vector<std::byte> encode(int subsampling, int flags = 0) {
   tjhandle encoder = tjInitCompress();
   unsigned char* file = nullptr;
   unsigned long size = 0;
-  EXPECT_EQ(tjCompressFromYUVPlanes(encoder, data.data(), kWidth, strides.data(), kHeight,
-                                    subsampling, &file, &size, 100, flags),
+  EXPECT_EQ(tjCompressFromYUVPlanes(encoder, data.data(), kPlanarWidth, strides.data(),
+                                    kPlanarHeight, subsampling, &file, &size, 100, flags),
             0);
   const auto* first = reinterpret_cast<const std::byte*>(file);
   std::vector<std::byte> jpeg(first, first + size);
@@ -66,12 +66,12 @@ std::vector<std::byte> encode(int subsampling, int flags = 0) {
 }
 
 /// Nv12 with rows that are longer than the picture.
-struct Target {
-  static constexpr std::ptrdiff_t kStride = kWidth + 10;
+struct Nv12Target {
+  static constexpr std::ptrdiff_t kStride = kPlanarWidth + 10;
   std::vector<std::byte> memory =
-      std::vector<std::byte>(kStride * kHeight * 3 / 2, std::byte{0xee});
-  MutablePicture picture =
-      MutablePicture::contiguous(PixelFormat::Nv12, kWidth, kHeight, memory.data(), kStride);
+      std::vector<std::byte>(kStride * kPlanarHeight * 3 / 2, std::byte{0xee});
+  MutablePicture picture = MutablePicture::contiguous(PixelFormat::Nv12, kPlanarWidth,
+                                                      kPlanarHeight, memory.data(), kStride);
 
   int sample(std::size_t plane_number, int column, int row) const {
     const auto& p = picture.planes[plane_number];
@@ -83,16 +83,16 @@ class JpegNv12 : public testing::TestWithParam<int> {};
 
 TEST_P(JpegNv12, HasTheLuminanceAndTheChromaThatWereCompressed) {
   JpegDecoder decoder;
-  Target target;
-  const auto done = decoder.decode_nv12(encode(GetParam()), target.picture);
+  Nv12Target target;
+  const auto done = decoder.decode_nv12(planar_jpeg(GetParam()), target.picture);
   ASSERT_TRUE(done) << done.error().message;
   const bool grey = GetParam() == TJSAMP_GRAY;
   // A sample for 4 columns lies up to one column beside the pair's centre: 2 counts.
   const double chroma_tolerance = GetParam() == TJSAMP_411 ? 4 : 2;
-  for (int y = 0; y < kHeight; ++y) {
-    EXPECT_EQ(target.sample(0, kWidth, y), 0xee) << "wrote behind row " << y;
-    EXPECT_EQ(target.sample(1, kWidth, y / 2), 0xee) << "wrote behind row " << y;
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kPlanarHeight; ++y) {
+    EXPECT_EQ(target.sample(0, kPlanarWidth, y), 0xee) << "wrote behind row " << y;
+    EXPECT_EQ(target.sample(1, kPlanarWidth, y / 2), 0xee) << "wrote behind row " << y;
+    for (int x = 0; x < kPlanarWidth; ++x) {
       ASSERT_NEAR(target.sample(0, x, y), truth(x, y)[0], 2) << x << ", " << y;
       const auto colour = truth(x - x % 2 + 0.5, y - y % 2 + 0.5);
       const std::size_t component = 1 + static_cast<std::size_t>(x % 2);
@@ -107,10 +107,10 @@ INSTANTIATE_TEST_SUITE_P(Subsampling, JpegNv12,
 
 TEST(JpegNv12Damage, RefusesEveryTruncationOfItsData) {
   for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
-    const auto jpeg = encode(TJSAMP_422, flags);
+    const auto jpeg = planar_jpeg(TJSAMP_422, flags);
     JpegDecoder decoder;
-    Target target;
-    for (std::size_t length = 0; length < jpeg.size() - kEndMarkerBytes; length += 7) {
+    Nv12Target target;
+    for (std::size_t length = 0; length < jpeg.size() - kMarkerBytes; length += 7) {
       ASSERT_FALSE(decoder.decode_nv12({jpeg.data(), length}, target.picture)) << length;
     }
     const auto done = decoder.decode_nv12(jpeg, target.picture);
@@ -119,9 +119,9 @@ TEST(JpegNv12Damage, RefusesEveryTruncationOfItsData) {
 }
 
 TEST(JpegNv12Damage, IsFoundAsByCheck) {
-  const auto whole = encode(TJSAMP_422);
+  const auto whole = planar_jpeg(TJSAMP_422);
   JpegDecoder decoder;
-  Target target;
+  Nv12Target target;
   int refused = 0;
   for (std::size_t at = 700; at < whole.size(); at += 3) {
     auto jpeg = whole;
@@ -137,7 +137,7 @@ TEST(JpegNv12Damage, RefusesAnotherSize) {
   JpegDecoder decoder;
   std::vector<std::byte> memory(64 * 46 * 3 / 2);
   const auto small = MutablePicture::contiguous(PixelFormat::Nv12, 64, 46, memory.data(), 64);
-  const auto done = decoder.decode_nv12(encode(TJSAMP_420), small);
+  const auto done = decoder.decode_nv12(planar_jpeg(TJSAMP_420), small);
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("72x46 instead of 64x46"), std::string::npos);
 }

@@ -12,13 +12,14 @@
 #include <jpeglib.h>
 
 #include "hal/jpeg/jpeg_decoder.h"
+#include "tests/hal/jpeg/jpeg_marker.h"
 
 /// What of libjpeg's warnings is a fault of a picture.
 namespace orbwatch::hal {
 namespace {
 
-constexpr int kWidth = 72;
-constexpr int kHeight = 40;
+constexpr int kCodedWidth = 72;
+constexpr int kCodedHeight = 40;
 
 using Bytes = std::vector<std::byte>;
 
@@ -37,9 +38,9 @@ std::uint8_t sample(int x, int y, int channel) {
 }
 
 void write_rows(jpeg_compress_struct& picture) {
-  std::vector<std::uint8_t> row(3 * kWidth);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  std::vector<std::uint8_t> row(3 * kCodedWidth);
+  for (int y = 0; y < kCodedHeight; ++y) {
+    for (int x = 0; x < kCodedWidth; ++x) {
       for (int c = 0; c < 3; ++c) row[static_cast<std::size_t>(3 * x + c)] = sample(x, y, c);
     }
     JSAMPROW first = row.data();
@@ -55,8 +56,8 @@ Bytes compress(const Coding& coding) {
   unsigned char* file = nullptr;
   unsigned long size = 0;
   jpeg_mem_dest(&picture, &file, &size);
-  picture.image_width = kWidth;
-  picture.image_height = kHeight;
+  picture.image_width = kCodedWidth;
+  picture.image_height = kCodedHeight;
   picture.input_components = 3;
   picture.in_color_space = JCS_RGB;
   jpeg_set_defaults(&picture);
@@ -83,10 +84,10 @@ Bytes compress(const Coding& coding) {
 /// The decoded picture; empty when it is refused.
 struct Decoded {
   explicit Decoded(JpegDecoder& decoder, std::span<const std::byte> jpeg)
-      : memory(kWidth * kHeight * 3 / 2) {
+      : memory(kCodedWidth * kCodedHeight * 3 / 2) {
     const auto done = decoder.decode_nv12(
-        jpeg,
-        MutablePicture::contiguous(PixelFormat::Nv12, kWidth, kHeight, memory.data(), kWidth));
+        jpeg, MutablePicture::contiguous(PixelFormat::Nv12, kCodedWidth, kCodedHeight,
+                                         memory.data(), kCodedWidth));
     if (done) return;
     memory.clear();
     error = done.error().message;
@@ -107,7 +108,6 @@ std::ptrdiff_t last_marker(const Bytes& jpeg, int marker) {
 }
 
 constexpr int kStartOfScan = 0xda;
-constexpr std::size_t kMarkerBytes = 2;
 
 class JpegCoding : public testing::TestWithParam<Coding> {};
 

@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::microseconds;
 
-constexpr TimePoint kStart{std::chrono::hours(1)};
+constexpr TimePoint kLivesBegin{std::chrono::hours(1)};
 
 int between(std::mt19937_64& random, int least, int most) {
   return std::uniform_int_distribution<int>(least, most)(random);
@@ -44,12 +44,12 @@ std::vector<Event> live(std::size_t camera, const CameraPlan& plan, int end,
   std::vector<Event> events;
   std::bernoulli_distribution lost(plan.loss), fails(plan.fault);
   std::uint64_t sequence = 0;
-  TimePoint arrived = kStart;
+  TimePoint arrived = kLivesBegin;
   std::uint64_t exposures = 0;
   bool is_lost = false;
   for (int at = plan.triggered ? 0 : between(random, 0, plan.period); at < end; at += plan.period) {
     ++exposures;
-    const TimePoint exposed = kStart + microseconds(at + between(random, 0, plan.jitter));
+    const TimePoint exposed = kLivesBegin + microseconds(at + between(random, 0, plan.jitter));
     if (fails(random)) {
       events.push_back({std::max(arrived, exposed), camera, std::nullopt});
       sequence = 0;

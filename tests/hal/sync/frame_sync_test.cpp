@@ -12,14 +12,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const TimePoint kStart = Clock::now();
+const TimePoint kProgramStart = Clock::now();
 constexpr std::chrono::seconds kGuard{
     20};  ///< long enough that only a fault of the code reaches it
 
-Frame frame(std::uint64_t sequence, int exposed_ms) {
+Frame live_frame(std::uint64_t sequence, int exposed_ms) {
   auto buffer = std::make_shared<FrameBuffer>();
   buffer->metadata.sequence = sequence;
-  buffer->metadata.exposure_start = kStart + milliseconds(exposed_ms);
+  buffer->metadata.exposure_start = kProgramStart + milliseconds(exposed_ms);
   return buffer;
 }
 
@@ -27,9 +27,9 @@ TimePoint soon() { return Clock::now() + kGuard; }
 
 TEST(FrameSync, WaitsForAPartnerThatComesLater) {
   FrameSync sync(2, {.window = milliseconds(10), .max_wait = 2 * kGuard});
-  sync.put(0, frame(1, 20));
+  sync.put(0, live_frame(1, 20));
   EXPECT_FALSE(sync.next(Clock::now()));
-  std::thread later([&] { sync.put(1, frame(1, 21)); });
+  std::thread later([&] { sync.put(1, live_frame(1, 21)); });
   const auto set = sync.next(soon());
   later.join();
   ASSERT_TRUE(set);
@@ -39,7 +39,7 @@ TEST(FrameSync, WaitsForAPartnerThatComesLater) {
 
 TEST(FrameSync, MaxWaitEndsByItself) {
   FrameSync sync(2, {.window = milliseconds(1), .max_wait = milliseconds(1)});
-  sync.put(0, frame(0, 0));
+  sync.put(0, live_frame(0, 0));
   const auto set = sync.next(soon());
   ASSERT_TRUE(set);
   EXPECT_EQ(set->frames[1], nullptr);
@@ -48,7 +48,7 @@ TEST(FrameSync, MaxWaitEndsByItself) {
 
 TEST(FrameSync, AFaultEndsTheWaitForACamera) {
   FrameSync sync(2, {.window = milliseconds(1), .max_wait = 2 * kGuard});
-  sync.put(0, frame(0, 0));
+  sync.put(0, live_frame(0, 0));
   std::thread later([&] { sync.clear(1); });
   EXPECT_TRUE(sync.next(soon()));
   later.join();
@@ -59,7 +59,7 @@ TEST(FrameSync, ClosingEndsAWait) {
   std::thread closer([&] { sync.close(); });
   EXPECT_FALSE(sync.next(soon()));
   closer.join();
-  EXPECT_LT(Clock::now(), kStart + kGuard);
+  EXPECT_LT(Clock::now(), kProgramStart + kGuard);
 }
 
 TEST(FrameSync, ATriggeredCamerasQueueFillsWhileAllOtherPlacesAreFull) {

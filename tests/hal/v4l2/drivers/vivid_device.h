@@ -9,12 +9,17 @@
 
 #include "hal/v4l2/device/v4l2_controls.h"
 #include "hal/v4l2/device/v4l2_list.h"
+#include "hal/v4l2/v4l2_settings.h"
 
 /// The camera of the kernel's driver vivid. These tests run in the machine that tests/hil makes.
 namespace orbwatch::hal {
 
 /// Where it is on its bus: the same again after its driver was unbound.
 inline constexpr const char* kVivid = "platform:vivid-000";
+
+/// What it is asked for where no other format, size or rate is tested.
+inline constexpr StreamRequest kVividRequest{.width = 320, .height = 180, .frame_rate = 60};
+inline V4l2Settings vivid_settings() { return {kVivid, "yuyv", true}; }
 
 /// A device of its own for what is not asked through the camera that is tested.
 inline V4l2Device open_vivid() {

@@ -17,8 +17,6 @@ using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
 
-constexpr StreamRequest kRequest{.width = 320, .height = 180, .frame_rate = 60};
-
 CameraEntry listed_vivid() {
   for (const CameraEntry& camera : list_v4l2_cameras()) {
     if (camera.bus == kVivid) return camera;
@@ -92,7 +90,7 @@ TEST(VividFrames, AreNumberedAndStampedAndSayWhatTheStampTells) {
                            AnyOf(StampSource::ExposureStart, StampSource::ExposureStart)};
   for (const std::size_t menu : {0U, 1U}) {
     CameraRun run({kVivid, "grey", true}, {{"timestamp_source", static_cast<double>(menu)}});
-    ASSERT_TRUE(run.start(kRequest));
+    ASSERT_TRUE(run.start(kVividRequest));
     Frame last;
     for (int n = 0; n < 5; ++n) {
       const Frame frame = run.next_frame();

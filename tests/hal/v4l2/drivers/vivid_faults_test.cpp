@@ -11,13 +11,9 @@
 namespace orbwatch::hal {
 namespace {
 
-constexpr StreamRequest kRequest{.width = 320, .height = 180, .frame_rate = 60};
-
-V4l2Settings settings() { return {kVivid, "yuyv", true}; }
-
 TEST(VividFaults, DroppedBuffersAreGapsInTheSequence) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.start(kVividRequest));
   ASSERT_TRUE(run.next_frame());
   set_vivid("percentage_of_dropped_buffers", 70);
   std::uint64_t last = run.next_frame()->metadata.sequence;
@@ -33,8 +29,8 @@ TEST(VividFaults, DroppedBuffersAreGapsInTheSequence) {
 }
 
 TEST(VividFaults, ADamagedFrameIsWithheldAndCounted) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.start(kVividRequest));
   ASSERT_TRUE(run.next_frame());
   for (std::uint64_t n = 1; n < DamageWatch::kTooMany; ++n) {
     set_vivid("inject_v4l2_buf_flag_error", 1);
@@ -45,8 +41,8 @@ TEST(VividFaults, ADamagedFrameIsWithheldAndCounted) {
 }
 
 TEST(VividFaults, ManyDamagedFramesAreAFaultUntilTheyStop) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.start(kVividRequest));
   ASSERT_TRUE(run.next_frame());
   for (std::uint64_t n = 1; n <= DamageWatch::kTooMany; ++n) {
     set_vivid("inject_v4l2_buf_flag_error", 1);
@@ -58,8 +54,8 @@ TEST(VividFaults, ManyDamagedFramesAreAFaultUntilTheyStop) {
 }
 
 TEST(VividFaults, ABrokenStreamIsOpenedAgain) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.start(kVividRequest));
   ASSERT_TRUE(run.next_frame());
   set_vivid("inject_fatal_streaming_error", 1);
   EXPECT_TRUE(run.reports(Fault::ReadError));
@@ -70,10 +66,10 @@ TEST(VividFaults, ABrokenStreamIsOpenedAgain) {
 class VividStartError : public testing::TestWithParam<const char*> {};
 
 TEST_P(VividStartError, IsReportedAndTriedAgain) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.camera().configure(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.camera().configure(kVividRequest));
   set_vivid(GetParam(), 1);
-  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.start(kVividRequest));
   EXPECT_TRUE(run.reports(Fault::ReadError));
   EXPECT_TRUE(run.reports(Fault::None));
   EXPECT_TRUE(run.next_frame());
@@ -115,8 +111,8 @@ std::vector<std::byte> first_row(const Frame& frame) {
 TEST(VividFaults, UnpluggingIsReportedAndNothingIsLeftBehindByManyReturns) {
   const Holdings before = holdings();
   {
-    CameraRun run(settings());
-    ASSERT_TRUE(run.start(kRequest));
+    CameraRun run(vivid_settings());
+    ASSERT_TRUE(run.start(kVividRequest));
     ASSERT_TRUE(run.next_frame());
     Holdings streaming;
     for (int n = 0; n < 4; ++n) {
@@ -141,8 +137,8 @@ TEST(VividFaults, UnpluggingIsReportedAndNothingIsLeftBehindByManyReturns) {
 }
 
 TEST(VividFaults, ADisconnectedDeviceComesBackWithItsControls) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.start(kVividRequest));
   ASSERT_TRUE(run.next_frame());
   const auto set = run.camera().set("Brightness", 77);
   ASSERT_TRUE(set) << set.error().message;
@@ -161,8 +157,8 @@ TEST(VividFaults, ADisconnectedDeviceComesBackWithItsControls) {
 }
 
 TEST(VividFaults, AConsumerThatHoldsAllFramesIsNoFaultOfTheCamera) {
-  CameraRun run(settings());
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings());
+  ASSERT_TRUE(run.start(kVividRequest));
   ASSERT_TRUE(run.next_frame());
   std::vector<Frame> held;
   while (held.size() < kFreeRunningBuffers) {

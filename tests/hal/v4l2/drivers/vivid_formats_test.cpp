@@ -12,9 +12,8 @@
 namespace orbwatch::hal {
 namespace {
 
-constexpr StreamRequest kRequest{.width = 320, .height = 180, .frame_rate = 60};
 constexpr int kBars = 8;
-constexpr int kBarWidth = kRequest.width / kBars;
+constexpr int kBarWidth = kVividRequest.width / kBars;
 
 /// The controls by which vivid paints bars of full colours and nothing else.
 const CameraRun::Controls kPlainBars{{"test_pattern", 1}, {"osd_text_mode", 2}};
@@ -69,16 +68,16 @@ class VividFormat : public testing::TestWithParam<PixelCoding> {};
 
 TEST_P(VividFormat, ShowsTheColoursOfTheBars) {
   CameraRun run({kVivid, std::string(GetParam().name), true}, kPlainBars);
-  ASSERT_TRUE(run.start(kRequest));
-  EXPECT_EQ(run.format().width, kRequest.width);
-  EXPECT_EQ(run.format().height, kRequest.height);
+  ASSERT_TRUE(run.start(kVividRequest));
+  EXPECT_EQ(run.format().width, kVividRequest.width);
+  EXPECT_EQ(run.format().height, kVividRequest.height);
   for (int n = 0; n < 3; ++n) {
     const Frame frame = run.next_frame();
     ASSERT_TRUE(frame);
     const Picture& picture = frame->picture;
     ASSERT_EQ(picture.format, frame_format(GetParam(), true));
-    ASSERT_EQ(picture.width, kRequest.width);
-    ASSERT_EQ(picture.height, kRequest.height);
+    ASSERT_EQ(picture.width, kVividRequest.width);
+    ASSERT_EQ(picture.height, kVividRequest.height);
     const bool grey = info(picture.format).colour == ColourModel::Luminance;
     for (int bar = 0; bar < kBars; ++bar) {
       for (const int y : {1, 90, 177}) {
@@ -99,7 +98,7 @@ class VividMosaic : public testing::TestWithParam<PixelCoding> {};
 
 TEST_P(VividMosaic, StaysAsTheSensorSeesIt) {
   CameraRun run({kVivid, std::string(GetParam().name), false}, kPlainBars);
-  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.start(kVividRequest));
   const Frame frame = run.next_frame();
   ASSERT_TRUE(frame);
   ASSERT_EQ(frame->picture.format, GetParam().format);
@@ -117,7 +116,7 @@ TEST_P(VividMosaic, StaysAsTheSensorSeesIt) {
 INSTANTIATE_TEST_SUITE_P(OfDriver, VividMosaic, testing::ValuesIn(mosaics_of_vivid()), name_of);
 
 TEST(VividFormats, ASizeThatIsNotOnOfferIsRefusedWithTheListOfThose) {
-  V4l2Camera camera({kVivid, "yuyv", true});
+  V4l2Camera camera(vivid_settings());
   const auto format = camera.configure({.width = 321, .height = 180});
   ASSERT_FALSE(format);
   EXPECT_THAT(format.error().message,
@@ -129,7 +128,7 @@ TEST(VividFormats, ASizeThatIsNotOnOfferIsRefusedWithTheListOfThose) {
 
 TEST(VividFormats, BuffersAreExported) {
   V4l2Device device = open_vivid();
-  const auto negotiated = negotiate_format(device, {"yuyv", true, kRequest});
+  const auto negotiated = negotiate_format(device, {"yuyv", true, kVividRequest});
   ASSERT_TRUE(negotiated) << negotiated.error().detail;
   auto stream = V4l2Stream::start(std::move(device), *negotiated, kFreeRunningBuffers, {});
   ASSERT_TRUE(stream) << stream.error().detail;

@@ -17,10 +17,6 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr StreamRequest kRequest{.width = 320, .height = 180, .frame_rate = 60};
-
-V4l2Settings settings() { return {kVivid, "yuyv", true}; }
-
 /// The last row, where vivid writes no text: bars of colours.
 std::vector<std::byte> last_row(const FrameBuffer& frame) {
   const Picture::Plane& plane = frame.picture.planes[0];
@@ -31,8 +27,8 @@ std::vector<std::byte> last_row(const FrameBuffer& frame) {
 std::string all_buffers() { return std::to_string(kFreeRunningBuffers) + " buffers "; }
 
 std::vector<std::byte> last_row_in_own_memory() {
-  CameraRun run(settings(), {}, [] { return std::vector<DmaBufferSource>(); });
-  if (!run.start(kRequest)) return {};
+  CameraRun run(vivid_settings(), {}, [] { return std::vector<DmaBufferSource>(); });
+  if (!run.start(kVividRequest)) return {};
   const Frame frame = run.next_frame();
   EXPECT_THAT(run.notice(), HasSubstr("in memory of the driver"));
   return frame ? last_row(*frame) : std::vector<std::byte>();
@@ -44,8 +40,8 @@ TEST(VividMemory, IsImportedAndHasThePictureOfTheDriversOwn) {
   EXPECT_THAT(expected, testing::Contains(testing::Ne(expected[0])));
   Frame held;
   {
-    CameraRun run(settings(), {}, [] { return std::vector{udmabuf()}; });
-    ASSERT_TRUE(run.start(kRequest));
+    CameraRun run(vivid_settings(), {}, [] { return std::vector{udmabuf()}; });
+    ASSERT_TRUE(run.start(kVividRequest));
     // More frames than buffers: each is queued again.
     for (std::size_t n = 0; n < 2 * kFreeRunningBuffers; ++n) {
       held = run.next_frame();
@@ -60,7 +56,7 @@ TEST(VividMemory, IsImportedAndHasThePictureOfTheDriversOwn) {
 
 TEST(VividMemory, IsSynchronisedByTheKernel) {
   V4l2Device device = open_vivid();
-  const auto negotiated = negotiate_format(device, {"yuyv", true, kRequest});
+  const auto negotiated = negotiate_format(device, {"yuyv", true, kVividRequest});
   ASSERT_TRUE(negotiated) << negotiated.error().detail;
   const auto stream =
       V4l2Stream::start(std::move(device), *negotiated, kFreeRunningBuffers, {udmabuf()});
@@ -84,10 +80,10 @@ TEST(VividMemory, IsSynchronisedByTheKernel) {
 }
 
 TEST(VividMemory, IsTheNextWhereTheDriverRefusesTheFirst) {
-  CameraRun run(settings(), {}, [] {
+  CameraRun run(vivid_settings(), {}, [] {
     return std::vector{empty_source(), shared_memory(), udmabuf()};
   });
-  ASSERT_TRUE(run.start(kRequest));
+  ASSERT_TRUE(run.start(kVividRequest));
   EXPECT_TRUE(run.next_frame());
   EXPECT_THAT(run.notice(),
               StartsWith(all_buffers() + "from udmabuf (empty: has no memory; shared memory: "));
@@ -97,16 +93,16 @@ TEST(VividMemory, IsTheNextWhereTheDriverRefusesTheFirst) {
 
 // With the driver's option allocators=1.
 TEST(VividContiguousMemory, IsTheDriversWhereNoOtherIsContiguous) {
-  CameraRun run(settings(), {}, [] { return std::vector{udmabuf()}; });
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings(), {}, [] { return std::vector{udmabuf()}; });
+  ASSERT_TRUE(run.start(kVividRequest));
   EXPECT_TRUE(run.next_frame());
   EXPECT_THAT(run.notice(), StartsWith(all_buffers() + "in memory of the driver"));
   EXPECT_FALSE(run.has_reported());
 }
 
 TEST(VividMemory, IsTheDriversWhereItRefusesAll) {
-  CameraRun run(settings(), {}, [] { return std::vector{shared_memory()}; });
-  ASSERT_TRUE(run.start(kRequest));
+  CameraRun run(vivid_settings(), {}, [] { return std::vector{shared_memory()}; });
+  ASSERT_TRUE(run.start(kVividRequest));
   EXPECT_TRUE(run.next_frame());
   EXPECT_THAT(run.notice(), StartsWith(all_buffers() + "in memory of the driver"));
   EXPECT_FALSE(run.has_reported());

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstddef>
+
+namespace orbwatch::hal {
+
+/// Of a marker that has no segment, such as the one at a picture's end.
+inline constexpr std::size_t kMarkerBytes = 2;
+
+}  // namespace orbwatch::hal
