@@ -14,7 +14,7 @@
 namespace orbwatch::tests {
 namespace {
 
-const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
+using align::kPaintedLimb;
 
 class Detect : public CommandLine {
  protected:
@@ -24,15 +24,17 @@ class Detect : public CommandLine {
     EXPECT_EQ(run(arguments), 0) << said;
     return nlohmann::json::parse(said);
   }
-  std::string picture() { return write("ball.png", align::painted_ball({400, 320}, kLimb)); }
+  std::string picture() {
+    return write("ball.png", align::painted_ball(align::kPaintedSize, kPaintedLimb));
+  }
 };
 
 TEST_F(Detect, SaysWhereTheBallIs) {
   const auto ball = detected({picture()});
   EXPECT_EQ(ball["picture"]["width"], 400);
-  EXPECT_NEAR(ball["outline"]["centre"][0].get<double>(), kLimb.centre.u, 1.2);
-  EXPECT_NEAR(ball["outline"]["centre"][1].get<double>(), kLimb.centre.v, 1.2);
-  EXPECT_NEAR(ball["outline"]["radii"][0].get<double>(), kLimb.rx, 1.2);
+  EXPECT_NEAR(ball["outline"]["centre"][0].get<double>(), kPaintedLimb.centre.u, 1.2);
+  EXPECT_NEAR(ball["outline"]["centre"][1].get<double>(), kPaintedLimb.centre.v, 1.2);
+  EXPECT_NEAR(ball["outline"]["radii"][0].get<double>(), kPaintedLimb.rx, 1.2);
   EXPECT_EQ(ball["confident"], ball["confidence"].get<double>() >= 0.5);
   EXPECT_EQ(ball["confident"], ball["reason"].get<std::string>().empty());
   EXPECT_FALSE(ball.contains("ball"));
@@ -55,7 +57,7 @@ TEST_F(Detect, WithACalibrationItKnowsThePlace) {
   const auto ball = detected({picture(), "--calibration", path("camera.yaml")});
   const auto lens = optics::Lens::make({400, 320, 900, 900, 199.5, 159.5});
   ASSERT_TRUE(lens);
-  const auto sight = optics::sight_from_outline(kLimb, *lens);
+  const auto sight = optics::sight_from_outline(kPaintedLimb, *lens);
   ASSERT_TRUE(sight);
   ASSERT_EQ(run({"detect", "--help"}), 0);
   expect_documented(ball, said);
@@ -76,8 +78,8 @@ TEST_F(Detect, DrawsTheOutlineIntoThePicture) {
   };
   const double u = ball["outline"]["centre"][0], v = ball["outline"]["centre"][1];
   EXPECT_GT(green_at(u, v), 50);
-  EXPECT_GT(green_at(u - kLimb.rx, v), 50);
-  EXPECT_GT(green_at(u, v + kLimb.ry), 50);
+  EXPECT_GT(green_at(u - kPaintedLimb.rx, v), 50);
+  EXPECT_GT(green_at(u, v + kPaintedLimb.ry), 50);
   cv::Mat change;
   cv::absdiff(before, after, change);
   EXPECT_LT(cv::mean(change)[0], 10) << "the picture itself is still there";

@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kWidth = 256, kHeight = 128;
 
-const PaintedCamera kFront{"front", 0}, kBack{"back", 180}, kSide{"side", 75};
-
 class ProjectRig : public CommandLine {
  protected:
+  static inline const PaintedCamera kFront{"front", 0}, kBack{"back", 180}, kSide{"side", 75};
+
   ProjectRig() {
     write("rig.toml", painted_ball() + kFront.calibrated() + kBack.calibrated() +
                           kSide.calibrated() +

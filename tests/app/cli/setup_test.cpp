@@ -11,7 +11,7 @@
 namespace orbwatch::tests {
 namespace {
 
-const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
+using align::kPaintedLimb;
 
 const char* const kCalibration =
     "image_width: 400\nimage_height: 320\ncamera_name: a\ndistortion_model: plumb_bob\n"
@@ -20,7 +20,9 @@ const char* const kCalibration =
 
 class Setup : public CommandLine {
  protected:
-  std::string picture() { return write("ball.png", align::painted_ball({400, 320}, kLimb)); }
+  std::string picture() {
+    return write("ball.png", align::painted_ball(align::kPaintedSize, kPaintedLimb));
+  }
 
   int set_up(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"setup", "-o", path("site"), "--ball-diameter", "80"});
@@ -47,7 +49,7 @@ TEST_F(Setup, WritesASiteThatTheDaemonAccepts) {
   const optics::Rig rig = this->rig();
   ASSERT_EQ(rig.cameras.size(), 1U);
   EXPECT_EQ(rig.cameras[0].name, "grey");
-  EXPECT_NEAR(rig.cameras[0].outline->rx, kLimb.rx, 1.2);
+  EXPECT_NEAR(rig.cameras[0].outline->rx, kPaintedLimb.rx, 1.2);
   EXPECT_EQ(rig.ball.radius, 40);
   EXPECT_TRUE(std::filesystem::exists(path("site/grey.png")));
 }
@@ -66,7 +68,7 @@ TEST_F(Setup, TellsProgramsTheSame) {
   EXPECT_EQ(json["site"], path("site/site.toml"));
   ASSERT_EQ(json["cameras"].size(), 1U);
   EXPECT_EQ(json["cameras"][0]["name"], "colour");
-  EXPECT_NEAR(json["cameras"][0]["outline"]["radii"][0].get<double>(), kLimb.rx, 1.2);
+  EXPECT_NEAR(json["cameras"][0]["outline"]["radii"][0].get<double>(), kPaintedLimb.rx, 1.2);
   EXPECT_GE(json["cameras"][0]["confidence"].get<double>(), 0.5);
   EXPECT_EQ(json["cameras"][0]["registered"], false);
   EXPECT_NE(json["missing"].dump().find("--distance colour=MM"), std::string::npos) << said;

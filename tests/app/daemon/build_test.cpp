@@ -10,21 +10,12 @@
 #include <random>
 
 #include "hal/frame/frame_pool.h"
+#include "tests/app/daemon/demo_site.h"
 
 namespace orbwatch::app {
 namespace {
 
-const std::filesystem::path kShipped =
-    std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
-
-constexpr std::size_t kThermal = 1;
-
-/// The demonstration, from which each test makes its own.
-Resolved demo() {
-  auto site = resolve(kShipped / "demo.toml");
-  EXPECT_TRUE(site) << site.error().message;
-  return site.value_or(Resolved{});
-}
+constexpr std::size_t kThermalCamera = 1;
 
 Recipe& first(Resolved& site) { return site.recipes.front(); }
 
@@ -52,7 +43,7 @@ hal::FrameSet noisy_set(const hal::StreamFormat& format) {
   set.id = 1;
   set.stamp = hal::TimePoint(std::chrono::seconds(1));
   buffer->metadata.exposure_start = set.stamp;
-  set.frames[kThermal] = std::move(buffer);
+  set.frames[kThermalCamera] = std::move(buffer);
   return set;
 }
 
@@ -63,7 +54,7 @@ std::vector<RegionStatus> measured(const Resolved& site) {
   if (!plan) return {};
   CompiledRecipe& recipe = *plan->recipes.front();
   WorkerPool workers(0);
-  const hal::FrameSet set = noisy_set(streams[kThermal]);
+  const hal::FrameSet set = noisy_set(streams[kThermalCamera]);
   PictureUses uses;
   for (const ViewChannel& view : recipe.views()) view.add_use(uses);
   FramePyramids pyramids(streams, uses);
@@ -113,7 +104,7 @@ TEST(Build, TemperaturesAreTrueOnesOnceBallAndTargetAreKnown) {
   const auto peak = [&] { return measured(site)[0]; };
   const RegionStatus apparent = peak();
   EXPECT_EQ(apparent.quality, Quality::Apparent);
-  site.site.cameras[kThermal].radiometry.reflectivity = 0.8;
+  site.site.cameras[kThermalCamera].radiometry.reflectivity = 0.8;
   const RegionStatus behind_the_ball = peak();
   EXPECT_EQ(behind_the_ball.quality, Quality::Apparent);
   first(site).regions[0].emissivity = 0.5;
@@ -127,7 +118,7 @@ TEST(Build, TemperaturesAreTrueOnesOnceBallAndTargetAreKnown) {
 
 TEST(Build, AThresholdIsATemperatureOfTheTarget) {
   Resolved site = demo();
-  site.site.cameras[kThermal].radiometry.reflectivity = 0.7;
+  site.site.cameras[kThermalCamera].radiometry.reflectivity = 0.7;
   first(site).regions[0].emissivity = 0.6;
   const auto regions = measured(site);
   const signals::Signals& signals = regions[0].signals;
@@ -199,7 +190,7 @@ TEST(Build, EachHasItsNumberItsViewsAndItsControls) {
   EXPECT_EQ(two.number, 7);
   EXPECT_EQ(one.views[0].index, site.site.views.size()) << "after those to look at";
   EXPECT_EQ(two.views[0].index, site.site.views.size() + 1);
-  EXPECT_EQ(two.controls[0].camera.index, kThermal);
+  EXPECT_EQ(two.controls[0].camera.index, kThermalCamera);
   EXPECT_EQ(two.controls[0].value, 4);
   EXPECT_EQ(two.settle_frames, 5);
   EXPECT_EQ(one.alarms.size(), 2U);
@@ -226,7 +217,7 @@ TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
 TEST(Check, WhatIsShippedCanRunAndTheReferenceMachine) {
   for (const char* file : {"demo.toml", "usb-camera.toml", "gige-camera.toml",
                            "../../tests/bench/reference/site.toml"}) {
-    const auto checked = resolve(kShipped / file).and_then([](const Resolved& site) {
+    const auto checked = resolve(kShippedFolder / file).and_then([](const Resolved& site) {
       return check_site(site, Dates::Checked);
     });
     EXPECT_TRUE(checked) << checked.error().message;
@@ -258,7 +249,7 @@ TEST(Check, FindsThresholdsThatNothingReaches) {
   EXPECT_NE(refusal(hotter_than_the_scale).find("region pool: "), std::string::npos)
       << refusal(hotter_than_the_scale);
   const auto above_full_scale = [](Resolved& site) {
-    site.site.cameras[kThermal].radiometry.kelvin_per_count = 0;
+    site.site.cameras[kThermalCamera].radiometry.kelvin_per_count = 0;
     for (RegionOfInterest& region : first(site).regions) region.alarms.clear();
     first(site).regions[1].spatter_threshold.reset();
     first(site).regions[0].plume_threshold.reset();

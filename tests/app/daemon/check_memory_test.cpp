@@ -5,11 +5,11 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <new>
 
 #include "app/daemon/build.h"
+#include "tests/app/daemon/demo_site.h"
 
 namespace {
 
@@ -38,8 +38,7 @@ constexpr int kWidth = 1920, kHeight = 1080;
 
 /// The demonstration with a measured view of that size.
 Resolved site() {
-  auto site =
-      resolve(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config/demo.toml").value();
+  auto site = demo();
   ViewSettings& view = site.recipes.front().views[0];
   view.width = kWidth;
   view.height = kHeight;

@@ -66,10 +66,11 @@ TEST(CommandToEffect, APointedViewIsInTheNextFrame) {
   std::uint64_t frames = 0;
   constexpr int kCommands = 20;
   for (std::uint16_t n = 1; n <= kCommands; ++n) {
-    tests::write_command(modbus.port(), static_cast<std::uint16_t>(CommandCode::PointView),
-                         {0, 100 * n, -500, 8000}, n);
-    ASSERT_EQ(tests::read_register(modbus.port(), "acknowledged_sequence"), n);
-    ASSERT_EQ(tests::read_register(modbus.port(), "command_result"), 0);
+    orbwatch::tests::write_command(modbus.port(),
+                                   static_cast<std::uint16_t>(CommandCode::PointView),
+                                   {0, 100 * n, -500, 8000}, n);
+    ASSERT_EQ(orbwatch::tests::read_register(modbus.port(), "acknowledged_sequence"), n);
+    ASSERT_EQ(orbwatch::tests::read_register(modbus.port(), "command_result"), 0);
     const std::uint64_t before = frames;
     do {
       camera.expose(200);

@@ -112,7 +112,7 @@ class Dispatch : public testing::Test {
   std::optional<Pipeline> pipeline;  // outlives the lines, which trigger its cameras
   std::unique_ptr<Lines> lines;
   std::vector<TriggeredCamera*> cameras;
-  tests::TemporaryFolder folder;
+  orbwatch::tests::TemporaryFolder folder;
   std::optional<SnapshotSink> snapshots;
   std::uint64_t sets = 0;
   int restarts = 0;

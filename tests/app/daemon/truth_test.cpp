@@ -3,10 +3,10 @@
 #include <numbers>
 #include <random>
 
-#include "app/files/resolve.h"
 #include "app/simulation/scene/static_scene.h"
 #include "proc/optics/rig.h"
 #include "proc/optics/vec.h"
+#include "tests/app/daemon/demo_site.h"
 #include "tests/app/daemon/simulated_scene.h"
 #include "tests/app/simulation/camera_truth.h"
 
@@ -37,10 +37,6 @@ void expect_equal(const Vec3& a, const Vec3& b) {
 void expect_equal(const optics::Box& a, const optics::Box& b) {
   expect_equal(a.low, b.low);
   expect_equal(a.high, b.high);
-}
-
-Resolved demo() {
-  return resolve(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config/demo.toml").value();
 }
 
 TEST(Truth, TheShippedDemoFileDescribesItsSimulatedCameras) {

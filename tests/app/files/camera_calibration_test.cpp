@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/app/files/refusal.h"
+#include "tests/app/files/replaced.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -61,10 +62,8 @@ projection_matrix:
   data: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]
 )";
 
-std::string replaced(const std::string& what, const std::string& with) {
-  std::string text = kRos;
-  text.replace(text.find(what), what.size(), with);
-  return text;
+std::string ros_with(const std::string& what, const std::string& with) {
+  return replaced(what, with, kRos);
 }
 
 TEST(CameraCalibration, ReadsWhatRosWrites) {
@@ -196,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"List", "[1, 2]", {"OpenCV or ROS"}},
         Refusal{"NotYaml", "image_width: [640\n", {"a.yaml:2", "not valid YAML"}},
         Refusal{"EscapedLineEnd", "\"\\\n\": 3\nimage_width: \"\\\x01\"", {"not valid YAML"}},
-        Refusal{"LineEndInAWord", replaced("plumb_bob", "\"plumb\\nbob\""), {"plumb?bob"}},
+        Refusal{"LineEndInAWord", ros_with("plumb_bob", "\"plumb\\nbob\""), {"plumb?bob"}},
         Refusal{"Binary", std::string("\x89PNG\r\n\x1a\n\0\0\0\r", 12), {}},
         Refusal{"DeeplyNested", std::string(200000, '['), {"not valid YAML"}},
         Refusal{"DeeplyNestedMaps",
@@ -206,37 +205,37 @@ INSTANTIATE_TEST_SUITE_P(
                   return text;
                 }(),
                 {"not valid YAML"}},
-        Refusal{"NoWidth", replaced("image_width: 640\n", ""), {"image_width is missing"}},
-        Refusal{"WordForWidth", replaced("640", "wide"), {"image_width", "whole number"}},
-        Refusal{"FractionForWidth", replaced("640", "640.5"), {"image_width", "whole number"}},
-        Refusal{"ListForWidth", replaced("640", "[640]"), {"image_width", "whole number"}},
-        Refusal{"HugeWidth", replaced("640", "99999999999999"), {"image_width"}},
-        Refusal{"WidthAboveAnyCamera", replaced("640", "20000"), {"20000x480"}},
-        Refusal{"NegativeHeight", replaced("480", "-480"), {"640x-480"}},
-        Refusal{"NoMatrix", replaced("camera_matrix", "matrix"), {"camera_matrix is missing"}},
-        Refusal{"MatrixWithoutShape", replaced("  rows: 3\n", ""), {"camera_matrix", "rows"}},
-        Refusal{"MatrixOfOtherShape", replaced("rows: 3", "rows: 2"), {"9 numbers, not 2x3"}},
-        Refusal{"HugeShape", replaced("rows: 3", "rows: 4294967299"), {"camera_matrix", "rows"}},
+        Refusal{"NoWidth", ros_with("image_width: 640\n", ""), {"image_width is missing"}},
+        Refusal{"WordForWidth", ros_with("640", "wide"), {"image_width", "whole number"}},
+        Refusal{"FractionForWidth", ros_with("640", "640.5"), {"image_width", "whole number"}},
+        Refusal{"ListForWidth", ros_with("640", "[640]"), {"image_width", "whole number"}},
+        Refusal{"HugeWidth", ros_with("640", "99999999999999"), {"image_width"}},
+        Refusal{"WidthAboveAnyCamera", ros_with("640", "20000"), {"20000x480"}},
+        Refusal{"NegativeHeight", ros_with("480", "-480"), {"640x-480"}},
+        Refusal{"NoMatrix", ros_with("camera_matrix", "matrix"), {"camera_matrix is missing"}},
+        Refusal{"MatrixWithoutShape", ros_with("  rows: 3\n", ""), {"camera_matrix", "rows"}},
+        Refusal{"MatrixOfOtherShape", ros_with("rows: 3", "rows: 2"), {"9 numbers, not 2x3"}},
+        Refusal{"HugeShape", ros_with("rows: 3", "rows: 4294967299"), {"camera_matrix", "rows"}},
         Refusal{"MatrixIsNumber",
-                replaced("camera_matrix:\n  rows: 3\n  cols: 3\n  data: ", "camera_matrix: 3\nx: "),
+                ros_with("camera_matrix:\n  rows: 3\n  cols: 3\n  data: ", "camera_matrix: 3\nx: "),
                 {"camera_matrix must be a matrix"}},
-        Refusal{"MatrixOfWords", replaced("430.21554970319971", "far"), {"camera_matrix"}},
-        Refusal{"MatrixNested", replaced("430.21554970319971", "[430]"), {"camera_matrix"}},
-        Refusal{"Skewed", replaced("430.21554970319971, 0.0", "430.2, 0.1"), {"[fx, 0, cx"}},
-        Refusal{"NegativeFocalLength", replaced("430.21554970319971", "-430"), {"fx"}},
-        Refusal{"NanFocalLength", replaced("430.21554970319971", ".nan"), {"fx"}},
-        Refusal{"InfiniteFocalLength", replaced("430.21554970319971", ".inf"), {"fx"}},
-        Refusal{"BeyondDouble", replaced("430.21554970319971", "1e999"), {"camera_matrix"}},
-        Refusal{"NanCentre", replaced("306.6913434743704", ".nan"), {"cx"}},
-        Refusal{"UnknownModel", replaced("plumb_bob", "kannala"), {"kannala", "equidistant"}},
-        Refusal{"ModelIsList", replaced("plumb_bob", "[plumb_bob]"), {"distortion_model"}},
+        Refusal{"MatrixOfWords", ros_with("430.21554970319971", "far"), {"camera_matrix"}},
+        Refusal{"MatrixNested", ros_with("430.21554970319971", "[430]"), {"camera_matrix"}},
+        Refusal{"Skewed", ros_with("430.21554970319971, 0.0", "430.2, 0.1"), {"[fx, 0, cx"}},
+        Refusal{"NegativeFocalLength", ros_with("430.21554970319971", "-430"), {"fx"}},
+        Refusal{"NanFocalLength", ros_with("430.21554970319971", ".nan"), {"fx"}},
+        Refusal{"InfiniteFocalLength", ros_with("430.21554970319971", ".inf"), {"fx"}},
+        Refusal{"BeyondDouble", ros_with("430.21554970319971", "1e999"), {"camera_matrix"}},
+        Refusal{"NanCentre", ros_with("306.6913434743704", ".nan"), {"cx"}},
+        Refusal{"UnknownModel", ros_with("plumb_bob", "kannala"), {"kannala", "equidistant"}},
+        Refusal{"ModelIsList", ros_with("plumb_bob", "[plumb_bob]"), {"distortion_model"}},
         Refusal{
-            "TooManyForModel", replaced("plumb_bob", "equidistant"), {"takes 4", "5 are given"}},
-        Refusal{"TooFewForModel", replaced("plumb_bob", "rational_polynomial"), {"takes 8"}},
-        Refusal{"NanCoefficient", replaced("-0.33758562758914146", ".nan"), {"finite"}},
-        Refusal{"Folds", replaced("-0.33758562758914146", "-500"), {"folds"}},
+            "TooManyForModel", ros_with("plumb_bob", "equidistant"), {"takes 4", "5 are given"}},
+        Refusal{"TooFewForModel", ros_with("plumb_bob", "rational_polynomial"), {"takes 8"}},
+        Refusal{"NanCoefficient", ros_with("-0.33758562758914146", ".nan"), {"finite"}},
+        Refusal{"Folds", ros_with("-0.33758562758914146", "-500"), {"folds"}},
         Refusal{"NoCoefficients",
-                replaced("distortion_coefficients", "coefficients"),
+                ros_with("distortion_coefficients", "coefficients"),
                 {"distortion_coefficients is missing"}}),
     [](const auto& refusal) { return refusal.param.name; });
 

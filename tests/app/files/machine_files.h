@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/files/resolve.h"
+#include "tests/app/files/replaced.h"
 #include "tests/support/temporary_folder.h"
 
 /// The files of a small machine, which tests change.
@@ -45,10 +46,8 @@ height = 48
 camera = "a"
 )";
 
-inline std::string replaced(const std::string& what, const std::string& with,
-                            std::string text = kValid) {
-  text.replace(text.find(what), what.size(), with);
-  return text;
+inline std::string replaced(const std::string& what, const std::string& with) {
+  return replaced(what, with, kValid);
 }
 
 /// Files of a machine: the rig beside the configuration, and one that is broken.

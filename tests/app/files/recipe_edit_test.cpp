@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/files/recipe_file.h"
+#include "tests/app/files/replaced.h"
 
 namespace orbwatch::app {
 namespace {
@@ -65,10 +66,9 @@ std::string refusal(const RecipeChange& change, const std::string& text = kRecip
   return made ? "accepted" : made.error().message;
 }
 
-std::string replaced(const std::string& what, const std::string& with, std::string text = kRecipe) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), with);
+std::string recipe_with(const std::string& what, const std::string& with,
+                        const std::string& text = kRecipe) {
+  return replaced(what, with, text);
 }
 
 Recipe recipe_of(const std::string& text) {
@@ -80,7 +80,7 @@ Recipe recipe_of(const std::string& text) {
 TEST(RecipeEdit, SetsALimitAndKeepsEveryOtherByte) {
   const auto text = changed({{kHigher}});
   ASSERT_TRUE(text) << text.error().message;
-  EXPECT_EQ(*text, replaced("high_warning = 26", "high_warning = 27.5"));
+  EXPECT_EQ(*text, recipe_with("high_warning = 26", "high_warning = 27.5"));
 }
 
 TEST(RecipeEdit, AddsAndRemovesLimits) {
@@ -88,9 +88,10 @@ TEST(RecipeEdit, AddsAndRemovesLimits) {
                               {1, "pool", "hot_spot_width", "low_warning", {}},
                               {2, "pool", "hot_spot_peak_temperature", "hysteresis", 20.0}}});
   ASSERT_TRUE(text) << text.error().message;
-  EXPECT_EQ(*text, replaced("hysteresis = 0.50\n", "hysteresis = 0.50\nhigh_alarm = 30\n",
-                            replaced("low_warning = 14                 # it does not stick\n", "",
-                                     replaced("2_400\n", "2_400\nhysteresis = 20\n"))));
+  EXPECT_EQ(*text,
+            recipe_with("hysteresis = 0.50\n", "hysteresis = 0.50\nhigh_alarm = 30\n",
+                        recipe_with("low_warning = 14                 # it does not stick\n", "",
+                                    recipe_with("2_400\n", "2_400\nhysteresis = 20\n"))));
 }
 
 TEST(RecipeEdit, KeepsTheEndsOfLines) {
@@ -99,33 +100,33 @@ TEST(RecipeEdit, KeepsTheEndsOfLines) {
   const auto text =
       changed({{{1, "pool", "hot_spot_width", "high_alarm", 30.0}}, {}}, with_returns);
   ASSERT_TRUE(text) << text.error().message;
-  EXPECT_EQ(*text, replaced("hysteresis = 0.50\r\n", "hysteresis = 0.50\r\nhigh_alarm = 30\r\n",
-                            with_returns));
+  EXPECT_EQ(*text, recipe_with("hysteresis = 0.50\r\n", "hysteresis = 0.50\r\nhigh_alarm = 30\r\n",
+                               with_returns));
 }
 
 TEST(RecipeEdit, MovesACornerAndKeepsTheOthersAsTheyAreWritten) {
   const auto text =
       changed({{}, {{"pool", {}, {{-190, -130, 178}, {-30, -130.5, 178}, {-20, 30, 178}}}}});
   ASSERT_TRUE(text) << text.error().message;
-  EXPECT_EQ(*text, replaced("[-30, 30, 178]", "[-20, 30, 178]"));
+  EXPECT_EQ(*text, recipe_with("[-30, 30, 178]", "[-20, 30, 178]"));
 }
 
 TEST(RecipeEdit, GivesAWholeViewCorners) {
   const auto text = changed({{}, {{"surroundings", {{-100, -40}, {-90, -40}, {-90, -30}}}}});
   ASSERT_TRUE(text) << text.error().message;
-  EXPECT_EQ(*text, replaced("hot_spot_threshold = 1400\n\n# what",
-                            "hot_spot_threshold = 1400\n"
-                            "directions = [[-100, -40], [-90, -40], [-90, -30]]\n\n# what"));
+  EXPECT_EQ(*text, recipe_with("hot_spot_threshold = 1400\n\n# what",
+                               "hot_spot_threshold = 1400\n"
+                               "directions = [[-100, -40], [-90, -40], [-90, -30]]\n\n# what"));
 }
 
 TEST(RecipeEdit, AddsARegionBehindTheOthers) {
   const auto text =
       changed({{}, {{"door", {{0, 0}, {10, 0}, {10, 10.25}}, {}, NewRegion{"process", 600}}}});
   ASSERT_TRUE(text) << text.error().message;
-  EXPECT_EQ(*text, replaced("\n# what the cameras get",
-                            "\n[[region]]\nname = \"door\"\nview = \"process\"\n"
-                            "directions = [[0, 0], [10, 0], [10, 10.25]]\n"
-                            "hot_spot_threshold = 600\n\n# what the cameras get"));
+  EXPECT_EQ(*text, recipe_with("\n# what the cameras get",
+                               "\n[[region]]\nname = \"door\"\nview = \"process\"\n"
+                               "directions = [[0, 0], [10, 0], [10, 10.25]]\n"
+                               "hot_spot_threshold = 600\n\n# what the cameras get"));
   EXPECT_EQ(recipe_of(*text).regions.back().directions[2][1], 10.25);
 }
 
@@ -186,14 +187,14 @@ TEST(RecipeEdit, RefusesPlacesThatOnlyAPersonCanChange) {
   // More corners in the place of some with a comment in between.
   EXPECT_THAT(refusal({{}, {{"pool", {}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}}),
               HasSubstr("a comment between its corners"));
-  const std::string line = replaced(
+  const std::string line = recipe_with(
       "[[region.alarm]]\nsignal = \"hot_spot_width\"\nlow_warning = 14                 # it does "
       "not stick\nhigh_warning = 26\nhysteresis = 0.50\n\n# asked for by quality assurance\n"
       "[[region.alarm]]\nsignal = \"hot_spot_peak_temperature\"\nhigh_alarm = 2_400\n",
       "alarm = [{signal = \"hot_spot_width\", low_warning = 14, high_warning = 26}]\n");
   const auto set = changed({{kHigher}}, line);
   ASSERT_TRUE(set) << set.error().message;
-  EXPECT_EQ(*set, replaced("high_warning = 26", "high_warning = 27.5", line));
+  EXPECT_EQ(*set, recipe_with("high_warning = 26", "high_warning = 27.5", line));
   EXPECT_THAT(refusal({{{1, "pool", "hot_spot_width", "high_alarm", 30.0}}}, line),
               HasSubstr("a header of its own"));
   EXPECT_THAT(refusal({{{1, "pool", "hot_spot_width", "low_warning", {}}}}, line),

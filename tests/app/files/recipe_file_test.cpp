@@ -1,15 +1,17 @@
 #include "app/files/recipe_file.h"
-#include "tests/app/files/refusal.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
+#include "tests/app/files/refusal.h"
+#include "tests/app/files/replaced.h"
+
 namespace orbwatch::app {
 namespace {
 
-const std::string kValid = R"(
+const std::string kValidRecipe = R"(
 name = "cladding"
 process_active = "detected"
 [[view]]
@@ -39,13 +41,12 @@ name = "ExposureTime"
 value = 800
 )";
 
-std::string replaced(const std::string& what, const std::string& with) {
-  std::string text = kValid;
-  return text.replace(text.find(what), what.size(), with);
+std::string valid_recipe_with(const std::string& what, const std::string& with) {
+  return replaced(what, with, kValidRecipe);
 }
 
 TEST(RecipeFile, IsReadAndTheRestIsByDefault) {
-  const auto recipe = parse_recipe(kValid, "recipe.toml");
+  const auto recipe = parse_recipe(kValidRecipe, "recipe.toml");
   ASSERT_TRUE(recipe) << recipe.error().message;
   EXPECT_EQ(recipe->process_active, ActiveSource::Detected);
   EXPECT_EQ(recipe->views[0].measured.name, "a");
@@ -76,38 +77,39 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NoView", "name = \"x\"\n", {"view", "0 are given"}},
         Refusal{
             "UnknownSignal",
-            replaced("\"hot_spot_width\"", "\"width\""),
+            valid_recipe_with("\"hot_spot_width\"", "\"width\""),
             {"recipe.toml:20: region.alarm.signal", "'width' is not allowed", "hot_spot_width"}},
         Refusal{"LimitsUpsideDown",
-                replaced("high_alarm = 7", "high_alarm = 5"),
+                valid_recipe_with("high_alarm = 7", "high_alarm = 5"),
                 {"recipe.toml:19:", "region.alarm"}},
         Refusal{"RegionInNoView",
-                replaced("view = \"process\"", "view = \"other\""),
+                valid_recipe_with("view = \"process\"", "view = \"other\""),
                 {"recipe.toml:13:", "region.view", "\"other\""}},
         Refusal{"MeasuresACameraThatTheViewHasNot",
-                replaced("measured = \"a\"", "measured = \"c\""),
+                valid_recipe_with("measured = \"a\"", "measured = \"c\""),
                 {"recipe.toml:4:", "view.measured", "\"c\""}},
         Refusal{"TwoCorners",
-                replaced("[[-10, 0], [10, 0], [0, 20]]", "[[-10, 0], [10, 0]]"),
+                valid_recipe_with("[[-10, 0], [10, 0], [0, 20]]", "[[-10, 0], [10, 0]]"),
                 {"region.directions", "three"}},
         Refusal{"DirectionsAndPoints",
-                replaced("emissivity", "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nemissivity"),
+                valid_recipe_with("emissivity",
+                                  "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nemissivity"),
                 {"region.points", "either"}},
         Refusal{"CornersOfThree",
-                replaced("[[-10, 0], [10, 0], [0, 20]]", "[[1, 2, 3]]"),
+                valid_recipe_with("[[-10, 0], [10, 0], [0, 20]]", "[[1, 2, 3]]"),
                 {"region.directions", "list of 2"}},
         Refusal{"NotANumber",
-                replaced("hot_spot_threshold = 1400", "hot_spot_threshold = nan"),
+                valid_recipe_with("hot_spot_threshold = 1400", "hot_spot_threshold = nan"),
                 {"region.hot_spot_threshold"}},
         Refusal{"InputWithoutALine",
-                replaced("\"detected\"", "\"input\""),
+                valid_recipe_with("\"detected\"", "\"input\""),
                 {"process_active", "process_input"}},
         Refusal{"ALineThatNobodyAskedFor",
-                replaced("\"detected\"", "\"detected\"\nprocess_input = \"laser\""),
+                valid_recipe_with("\"detected\"", "\"detected\"\nprocess_input = \"laser\""),
                 {"process_input"}},
-        Refusal{"UnknownKey", replaced("emissivity", "emisivity"), {"emisivity"}},
+        Refusal{"UnknownKey", valid_recipe_with("emissivity", "emisivity"), {"emisivity"}},
         Refusal{"TwiceTheSameRegion",
-                kValid + "[[region]]\nname='pool'\nview='process'\nhot_spot_threshold=1\n",
+                kValidRecipe + "[[region]]\nname='pool'\nview='process'\nhot_spot_threshold=1\n",
                 {"region.name", "twice"}}),
     [](const auto& refusal) { return refusal.param.name; });
 

@@ -7,12 +7,13 @@
 
 #include "app/files/camera_calibration.h"
 #include "tests/app/files/refusal.h"
+#include "tests/app/files/replaced.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
 namespace {
 
-const std::string kValid = R"(
+const std::string kValidRig = R"(
 [ball]
 centre = [120, 60, 430]
 radius = 50
@@ -60,9 +61,9 @@ Result<optics::Rig> parse(const std::string& text) {
   return parse_rig(text, "rig.toml", "/etc/orbwatch");
 }
 
-std::string replaced(const std::string& what, const std::string& with, std::string text = kValid) {
-  text.replace(text.find(what), what.size(), with);
-  return text;
+std::string rig_with(const std::string& what, const std::string& with,
+                     const std::string& text = kValidRig) {
+  return replaced(what, with, text);
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -70,7 +71,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
 }
 
 TEST(RigFile, ReadsWhatIsThere) {
-  const auto rig = parse(kValid);
+  const auto rig = parse(kValidRig);
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_EQ(rig->ball.centre.z, 430);
   EXPECT_EQ(rig->ball.radius, 50);
@@ -109,23 +110,23 @@ TEST(RigFile, ReadsWhatIsThere) {
 TEST(RigFile, EveryRoomHasItsKeys) {
   const std::string box = "room = \"box\"\nlow = [-600, -500, 0]\nhigh = [600, 500, 800]\n";
   const auto sphere =
-      parse(replaced(box, "room = \"sphere\"\ncentre = [0, 0, 400]\nradius = 700\n"));
+      parse(rig_with(box, "room = \"sphere\"\ncentre = [0, 0, 400]\nradius = 700\n"));
   ASSERT_TRUE(sphere) << sphere.error().message;
   EXPECT_EQ(sphere->scene.room, optics::Scene::Room::Sphere);
   EXPECT_EQ(sphere->scene.radius, 700);
   const auto plane =
-      parse(replaced(box, "room = \"plane\"\npoint = [0, 0, 10]\nnormal = [0, 0, 3]\n"));
+      parse(rig_with(box, "room = \"plane\"\npoint = [0, 0, 10]\nnormal = [0, 0, 3]\n"));
   ASSERT_TRUE(plane) << plane.error().message;
   EXPECT_EQ(plane->scene.point.z, 10);
   EXPECT_EQ(plane->scene.normal.z, 3);
-  const auto open = parse(replaced(box, ""));
+  const auto open = parse(rig_with(box, ""));
   ASSERT_TRUE(open) << open.error().message;
   EXPECT_EQ(open->scene.room, optics::Scene::Room::None);
   EXPECT_EQ(open->scene.obstacles.size(), 1u);
 }
 
 TEST(RigFile, NeitherBallNorSceneNeedBeKnown) {
-  const auto rig = parse(kValid.substr(kValid.rfind("[[camera]]")));
+  const auto rig = parse(kValidRig.substr(kValidRig.rfind("[[camera]]")));
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_EQ(rig->ball.radius, 1);
   EXPECT_EQ(rig->scene.room, optics::Scene::Room::None);
@@ -135,9 +136,9 @@ TEST(RigFile, ReadsACalibrationBesideIt) {
   const tests::TemporaryFolder folder;
   const optics::Intrinsics lens{1500, 1400, 7000, 7000, 750, 700, optics::Distortion::None, {}};
   const std::string begin = "[camera.intrinsics]\n", end = "[camera.pose]";
-  const std::size_t from = kValid.find(begin) + begin.size();
+  const std::size_t from = kValidRig.find(begin) + begin.size();
   const std::string text =
-      std::string(kValid).replace(from, kValid.find(end) - from, "file = \"lens.yaml\"\n");
+      std::string(kValidRig).replace(from, kValidRig.find(end) - from, "file = \"lens.yaml\"\n");
   write(folder / "rig.toml", text);
   const auto missing = load_rig(folder / "rig.toml");
   ASSERT_FALSE(missing);
@@ -171,98 +172,98 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"NotToml", "[[camera\n", {"rig.toml:1:", "not valid TOML"}},
         Refusal{"UnknownKey",
-                replaced("radius = 50", "radius = 50\nradios = 3"),
+                rig_with("radius = 50", "radius = 50\nradios = 3"),
                 {"rig.toml:5: ball.radios", "centre, radius"}},
         Refusal{"NoCamera", "[ball]\ncentre=[0,0,0]\nradius=1\n", {"camera", "1 to 16"}},
         Refusal{"NoBall",
-                replaced("radius = 50", "radius = 0"),
+                rig_with("radius = 50", "radius = 0"),
                 {"rig.toml:4: ball.radius", "above 0"}},
         Refusal{"BallWithoutCentre",
-                replaced("centre = [120, 60, 430]", ""),
+                rig_with("centre = [120, 60, 430]", ""),
                 {"rig.toml:2: ball.centre", "missing"}},
-        Refusal{"BallNowhere", replaced("430]", "nan]"), {"rig.toml:3: ball.centre", "nan"}},
-        Refusal{"PlaneNeedsPoint", replaced("\"box\"", "\"plane\""), {"scene.point", "missing"}},
+        Refusal{"BallNowhere", rig_with("430]", "nan]"), {"rig.toml:3: ball.centre", "nan"}},
+        Refusal{"PlaneNeedsPoint", rig_with("\"box\"", "\"plane\""), {"scene.point", "missing"}},
         Refusal{"BoxHasNoRadius",
-                replaced("room = \"box\"", "room = \"box\"\nradius = 3"),
+                rig_with("room = \"box\"", "room = \"box\"\nradius = 3"),
                 {"rig.toml:7: scene.radius", "only for room sphere"}},
-        Refusal{"NoRoomHasNoWalls", replaced("\"box\"", "\"none\""), {"scene.low", "room box"}},
-        Refusal{"UnknownRoom", replaced("\"box\"", "\"cave\""), {"rig.toml:6: scene.room", "cave"}},
+        Refusal{"NoRoomHasNoWalls", rig_with("\"box\"", "\"none\""), {"scene.low", "room box"}},
+        Refusal{"UnknownRoom", rig_with("\"box\"", "\"cave\""), {"rig.toml:6: scene.room", "cave"}},
         Refusal{"WallsCutTheBall",
-                replaced("high = [600", "high = [130"),
+                rig_with("high = [600", "high = [130"),
                 {"rig.toml:5: scene: ", "cuts the ball"}},
         Refusal{"ObstacleCutsTheBall",
-                replaced("200, 140]", "200, 390]"),
+                rig_with("200, 140]", "200, 390]"),
                 {"rig.toml:9: scene.obstacle: table", "cuts the ball"}},
-        Refusal{"NoSize", replaced("width = 1500\n", ""), {"rig.toml:14: camera.width", "missing"}},
+        Refusal{"NoSize", rig_with("width = 1500\n", ""), {"rig.toml:14: camera.width", "missing"}},
         Refusal{
-            "TwiceTheSameName", replaced("\"B\"", "\"A\""), {"rig.toml:32: camera.name", "twice"}},
-        Refusal{"BadName", replaced("\"B\"", "\"B/1\""), {"rig.toml:32: camera.name", "B/1"}},
+            "TwiceTheSameName", rig_with("\"B\"", "\"A\""), {"rig.toml:32: camera.name", "twice"}},
+        Refusal{"BadName", rig_with("\"B\"", "\"B/1\""), {"rig.toml:32: camera.name", "B/1"}},
         Refusal{
-            "NameOfTwoLines", replaced("\"B\"", "\"B\\nC\""), {"rig.toml:32: camera.name", "B?C"}},
+            "NameOfTwoLines", rig_with("\"B\"", "\"B\\nC\""), {"rig.toml:32: camera.name", "B?C"}},
         Refusal{"NoFocalLength",
-                replaced("fx = 7000\n", ""),
+                rig_with("fx = 7000\n", ""),
                 {"rig.toml:18: camera.intrinsics.fx", "missing"}},
         Refusal{"FileAndNumbers",
-                replaced("fx = 7000", "fx = 7000\nfile = \"a.yaml\""),
+                rig_with("fx = 7000", "fx = 7000\nfile = \"a.yaml\""),
                 {"rig.toml:19: camera.intrinsics.fx", "only for intrinsics without file"}},
         Refusal{"UnknownDistortion",
-                replaced("plumb_bob", "barrel"),
+                rig_with("plumb_bob", "barrel"),
                 {"rig.toml:23: camera.intrinsics.distortion", "barrel", "equidistant"}},
         Refusal{"TooFewCoefficients",
-                replaced("[-0.1, 0.02, ", "["),
+                rig_with("[-0.1, 0.02, ", "["),
                 {"camera.intrinsics", "4 or 5", "2 are given"}},
         Refusal{"CoefficientsWithoutModel",
-                replaced("distortion = \"plumb_bob\"\n", ""),
+                rig_with("distortion = \"plumb_bob\"\n", ""),
                 {"camera.intrinsics", "none takes no coefficients"}},
         Refusal{"NoRotation",
-                replaced("rotation = [1, 0, 0,", "rotation = [-1, 0, 0,"),
+                rig_with("rotation = [1, 0, 0,", "rotation = [-1, 0, 0,"),
                 {"rig.toml:27: camera.pose.rotation", "no rotation"}},
         Refusal{"HalfARotation",
-                replaced("0, 0, -1,  0, 1, 0]", "0, 0, -1]"),
+                rig_with("0, 0, -1,  0, 1, 0]", "0, 0, -1]"),
                 {"rig.toml:27: camera.pose.rotation", "list of 9"}},
         Refusal{"LooksAway",
-                replaced("position = [120, -540,", "position = [120, 540,"),
+                rig_with("position = [120, -540,", "position = [120, 540,"),
                 {"rig.toml:14: camera A: "}},
         Refusal{"PoseAndOutline",
-                replaced("[camera.window]",
+                rig_with("[camera.window]",
                          "[camera.outline]\ncentre = [700, 700]\nradius = 500\n[camera.window]"),
                 {"rig.toml:14: camera A: ", "either a pose or the ball's outline"}},
         Refusal{"NoPlace",
-                replaced("position = [120, -540, 430]\nrotation = [1, 0, 0,  0, 0, -1,  0, 1, 0]",
-                         "", replaced("[camera.pose]\n", "")),
+                rig_with("position = [120, -540, 430]\nrotation = [1, 0, 0,  0, 0, -1,  0, 1, 0]",
+                         "", rig_with("[camera.pose]\n", "")),
                 {"rig.toml:14: camera A: ", "either a pose or the ball's outline"}},
         Refusal{"NoGlass",
-                replaced("normal = [0, 1, 0]", "normal = [0, 0, 0]"),
+                rig_with("normal = [0, 1, 0]", "normal = [0, 0, 0]"),
                 {"rig.toml:29: camera.window.normal", "not 0"}},
         Refusal{"WindowWithoutLens",
-                kValid + "[camera.window]\nnormal = [0, 1, 0]\nthickness = 5\n",
+                kValidRig + "[camera.window]\nnormal = [0, 1, 0]\nthickness = 5\n",
                 {"rig.toml:32: camera B: ", "window needs intrinsics"}},
         Refusal{"NeitherAlphaNorDistance",
-                replaced("distance = 11.5\n", ""),
+                rig_with("distance = 11.5\n", ""),
                 {"rig.toml:32: camera B: ", "alpha", "distance"}},
         Refusal{"AlphaAndDistance",
-                replaced("distance = 11.5", "distance = 11.5\nalpha = 340"),
+                rig_with("distance = 11.5", "distance = 11.5\nalpha = 340"),
                 {"rig.toml:32: camera B: ", "either alpha or distance"}},
         Refusal{"AlphaOfNoCamera",
-                replaced("distance = 11.5", "alpha = 180"),
+                rig_with("distance = 11.5", "alpha = 180"),
                 {"rig.toml:41: camera.outline.alpha", "above 180, at most 360"}},
         Refusal{"RadiusAndRadii",
-                replaced("radii = [264, 263]", "radii = [264, 263]\nradius = 9"),
+                rig_with("radii = [264, 263]", "radii = [264, 263]\nradius = 9"),
                 {"rig.toml:40: camera.outline.radius", "either radius or radii"}},
         Refusal{"NeitherRadiusNorRadii",
-                replaced("radii = [264, 263]\n", ""),
+                rig_with("radii = [264, 263]\n", ""),
                 {"rig.toml:37: camera.outline.radius", "either radius or radii"}},
         Refusal{"NoRegistration",
-                replaced("rotation = [90, 0, 0]", "rotation_matrix = [1,0,0, 0,1,0, 0,0,-1]"),
+                rig_with("rotation = [90, 0, 0]", "rotation_matrix = [1,0,0, 0,1,0, 0,0,-1]"),
                 {"rig.toml:42: camera.outline.rotation_matrix", "no rotation"}},
         Refusal{"DistanceWithinTheBall",
-                replaced("distance = 11.5", "distance = 0.9"),
+                rig_with("distance = 11.5", "distance = 0.9"),
                 {"rig.toml:41: camera.outline.distance", "above 1"}},
         Refusal{"TwoRotations",
-                kValid + "rotation_matrix = [1, 0, 0, 0, 1, 0, 0, 0, 1]\n",
+                kValidRig + "rotation_matrix = [1, 0, 0, 0, 1, 0, 0, 0, 1]\n",
                 {"camera.outline.rotation_matrix", "either rotation or rotation_matrix"}},
         Refusal{"OutlineOutside",
-                replaced("[402.5,", "[802.5,"),
+                rig_with("[402.5,", "[802.5,"),
                 {"rig.toml:32: camera B: ", "outside of the picture"}}),
     [](const auto& refusal) { return refusal.param.name; });
 
@@ -275,8 +276,8 @@ TEST(RigFile, MissingOrEndlessFileIsRefusedByName) {
 }
 
 TEST(RigFile, SurvivesEveryTruncation) {
-  for (std::size_t length = 0; length < kValid.size(); ++length) {
-    const auto rig = parse(kValid.substr(0, length));
+  for (std::size_t length = 0; length < kValidRig.size(); ++length) {
+    const auto rig = parse(kValidRig.substr(0, length));
     if (!rig) {
       EXPECT_EQ(rig.error().message.find('\n'), std::string::npos) << rig.error().message;
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/app/simulation/projection.h"
 #include "tests/app/simulation/random_geometry.h"
 
 namespace orbwatch::app::simulation {
@@ -9,14 +10,6 @@ namespace {
 
 using optics::Mat3;
 using optics::Vec2;
-
-const Sphere kBall{{120, 60, 430}, 50};
-
-Vec2 project(const Pinhole& camera, const Vec3& point) {
-  const Vec3 c = camera.rotation * (point - camera.position);
-  return {camera.focal_length * c.x / c.z + camera.cx(),
-          camera.focal_length * c.y / c.z + camera.cy()};
-}
 
 TEST(CameraTruth, OutlineHoldsEveryPointOfTheLimb) {
   RandomGeometry random;

@@ -72,7 +72,7 @@ class Audience {
   std::vector<Fault> faults_;
 };
 
-std::shared_ptr<const Machine> machine(std::uint64_t seed = 1) {
+std::shared_ptr<const Machine> machine_of_seed(std::uint64_t seed = 1) {
   MachineSettings settings;
   settings.seed = seed;
   return Machine::make(settings, hal::Clock::now()).value();
@@ -91,7 +91,7 @@ SimulatedCameraSettings small(CameraKind kind = CameraKind::Colour) {
 }
 
 TEST(SimulatedCamera, SaysWhatItIsAndWhatItDelivers) {
-  SimulatedCamera camera(machine(), small(CameraKind::Thermal));
+  SimulatedCamera camera(machine_of_seed(), small(CameraKind::Thermal));
   EXPECT_EQ(camera.info().id, "small");
   EXPECT_EQ(camera.info().back_end, "simulated");
   const auto format = camera.configure({});
@@ -109,7 +109,7 @@ TEST(SimulatedCamera, SaysWhatItIsAndWhatItDelivers) {
 }
 
 TEST(SimulatedCamera, ExposesOnlyWhenItIsTriggeredInTriggerMode) {
-  SimulatedCamera camera(machine(), small());
+  SimulatedCamera camera(machine_of_seed(), small());
   EXPECT_FALSE(camera.trigger()) << "TriggerMode is off";
   EXPECT_FALSE(camera.set("TriggerMode", 2));
   EXPECT_FALSE(camera.set("Gain", 1));
@@ -152,7 +152,7 @@ TEST(SimulatedCamera, RefusesWhatItCannotBe) {
     SimulatedCameraSettings settings = small();
     hal::StreamRequest request;
     spoil(settings, request);
-    SimulatedCamera camera(machine(), settings);
+    SimulatedCamera camera(machine_of_seed(), settings);
     const auto format = camera.configure(request);
     ASSERT_FALSE(format) << word;
     EXPECT_NE(format.error().message.find(word), std::string::npos) << format.error().message;
@@ -161,7 +161,7 @@ TEST(SimulatedCamera, RefusesWhatItCannotBe) {
 }
 
 TEST(SimulatedCamera, ShowsTheProcessOfTheMomentInItsMetadata) {
-  const auto shared = machine();
+  const auto shared = machine_of_seed();
   for (const CameraKind kind : {CameraKind::Colour, CameraKind::Thermal}) {
     SimulatedCamera camera(shared, small(kind));
     ASSERT_TRUE(camera.configure({}));
@@ -180,7 +180,7 @@ TEST(SimulatedCamera, ShowsTheProcessOfTheMomentInItsMetadata) {
 }
 
 TEST(SimulatedCamera, CamerasOfDifferentRatesShareOneProcess) {
-  const auto shared = machine();
+  const auto shared = machine_of_seed();
   SimulatedCameraSettings slow = small(CameraKind::Thermal);
   slow.frame_rate = 30;
   slow.position = {49, 395, 500};
@@ -207,7 +207,7 @@ TEST(SimulatedCamera, CamerasOfDifferentRatesShareOneProcess) {
 }
 
 TEST(SimulatedCamera, ExposesAtItsRateOnTheSteadyClock) {
-  SimulatedCamera camera(machine(), small());
+  SimulatedCamera camera(machine_of_seed(), small());
   ASSERT_TRUE(camera.configure({.frame_rate = 250}));
   Audience audience;
   const hal::TimePoint before = hal::Clock::now();
@@ -227,7 +227,7 @@ TEST(SimulatedCamera, LosesExposuresWhileAllBuffersAreLent) {
   constexpr std::uint64_t kSignal = 60;
   SimulatedCameraSettings settings = small();
   settings.faults = {{Fault::ReadError, kSignal, kSignal + 1}};
-  SimulatedCamera camera(machine(), settings);
+  SimulatedCamera camera(machine_of_seed(), settings);
   ASSERT_TRUE(camera.configure({}));
   Audience audience(true);
   ASSERT_TRUE(audience.start(camera));
@@ -248,7 +248,7 @@ TEST(SimulatedCamera, PlaysItsFaultScriptAndRecovers) {
                      {Fault::ReadError, 14, 15},
                      {Fault::CorruptFrame, 18, 23},
                      {Fault::WrongFormat, 26, 28}};
-  SimulatedCamera camera(machine(), settings);
+  SimulatedCamera camera(machine_of_seed(), settings);
   ASSERT_TRUE(camera.configure({}));
   Audience audience;
   ASSERT_TRUE(audience.start(camera));
@@ -271,7 +271,7 @@ TEST(SimulatedCamera, PlaysItsFaultScriptAndRecovers) {
 }
 
 TEST(SimulatedCamera, CountsFromZeroAgainAfterARestart) {
-  SimulatedCamera camera(machine(), small());
+  SimulatedCamera camera(machine_of_seed(), small());
   ASSERT_TRUE(camera.configure({}));
   for (int round = 0; round < 3; ++round) {
     Audience audience;
@@ -319,10 +319,10 @@ std::vector<std::pair<std::uint64_t, std::vector<int>>> noise_of(
 }
 
 TEST(SimulatedCamera, NoiseFollowsFromSeedNameAndSequence) {
-  const auto first = noise_of(machine(1), "a");
-  const auto again = noise_of(machine(1), "a");
-  const auto other_name = noise_of(machine(1), "b");
-  const auto other_seed = noise_of(machine(2), "a");
+  const auto first = noise_of(machine_of_seed(1), "a");
+  const auto again = noise_of(machine_of_seed(1), "a");
+  const auto other_name = noise_of(machine_of_seed(1), "b");
+  const auto other_seed = noise_of(machine_of_seed(2), "a");
   const auto equal_frames = [&](const auto& others) {
     int common = 0, equal = 0;
     for (const auto& [sequence, noise] : first) {

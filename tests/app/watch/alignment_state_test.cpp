@@ -10,10 +10,10 @@
 namespace orbwatch::app {
 namespace {
 
-optics::Rig rig_with_pose() { return tests::rig_with_pose({120, -540, 430}); }
+optics::Rig posed_rig() { return tests::rig_with_pose({120, -540, 430}); }
 
 TEST(AlignmentState, OfAPoseIsItsOutlineAndItsRotation) {
-  const optics::Rig rig = rig_with_pose();
+  const optics::Rig rig = posed_rig();
   const auto state = alignment_state(rig, rig.cameras.front());
   ASSERT_TRUE(state) << state.error().message;
   EXPECT_NEAR(state->outline.centre.u, 399.5, 1e-6);
@@ -27,7 +27,7 @@ TEST(AlignmentState, OfAPoseIsItsOutlineAndItsRotation) {
 }
 
 TEST(AlignmentState, IsTheSameForACameraThatIsStatedByItsOutline) {
-  const optics::Rig rig = rig_with_pose();
+  const optics::Rig rig = posed_rig();
   const auto turnable = align::by_outline(rig, rig.cameras.front());
   ASSERT_TRUE(turnable);
   const auto state = alignment_state(rig, *turnable);
@@ -37,7 +37,7 @@ TEST(AlignmentState, IsTheSameForACameraThatIsStatedByItsOutline) {
 }
 
 TEST(AlignmentState, EdgesOfTheSceneAreWhereTheBallShowsThem) {
-  optics::Rig rig = rig_with_pose();
+  optics::Rig rig = posed_rig();
   rig.scene.room = optics::Scene::Room::Box;
   rig.scene.walls = {{-600, -900, 0}, {600, 500, 800}};
   const auto state = alignment_state(rig, rig.cameras.front());
@@ -59,7 +59,7 @@ TEST(AlignmentState, EdgesOfTheSceneAreWhereTheBallShowsThem) {
 
 /// From above nothing of the floor below the table is seen.
 TEST(AlignmentState, WhatIsHiddenIsNotShown) {
-  optics::Rig rig = rig_with_pose();
+  optics::Rig rig = posed_rig();
   rig.scene.obstacles = {{{-100, -200, 0}, {340, 320, 200}}};
   const auto state = alignment_state(rig, rig.cameras.front());
   ASSERT_TRUE(state) << state.error().message;

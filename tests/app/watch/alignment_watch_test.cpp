@@ -12,9 +12,9 @@
 namespace orbwatch::app {
 namespace {
 
-const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
+using align::kPaintedLimb;
 
-align::DriftSubject subject(const optics::Outline& outline = kLimb) {
+align::DriftSubject subject(const optics::Outline& outline = kPaintedLimb) {
   optics::Rig rig;
   optics::RigCamera camera;
   camera.name = "a";
@@ -30,14 +30,14 @@ align::DriftSubject subject(const optics::Outline& outline = kLimb) {
 
 /// The ball, moved to the right.
 cv::Mat picture(double shift) {
-  optics::Outline limb = kLimb;
+  optics::Outline limb = kPaintedLimb;
   limb.centre.u += shift;
-  return align::painted_ball({400, 320}, limb);
+  return align::painted_ball(align::kPaintedSize, limb);
 }
 
 class AlignmentWatchTest : public testing::Test {
  protected:
-  AlignmentWatch watch(const optics::Outline& outline = kLimb) {
+  AlignmentWatch watch(const optics::Outline& outline = kPaintedLimb) {
     auto made = AlignmentWatch::make("a", subject(outline), {}, folder_.path());
     EXPECT_TRUE(made) << made.error().message;
     return std::move(*made);
@@ -48,12 +48,12 @@ class AlignmentWatchTest : public testing::Test {
     CameraWatchStatus figures;
     for (int n = 0; n < 10; ++n) {
       now_ += std::chrono::milliseconds(100);
-      watch.observe(tests::picture_of_mat(pixels), now_, figures);
+      watch.observe(orbwatch::tests::picture_of_mat(pixels), now_, figures);
     }
     return figures;
   }
 
-  tests::TemporaryFolder folder_;
+  orbwatch::tests::TemporaryFolder folder_;
   hal::TimePoint now_{std::chrono::hours(1)};
 };
 
@@ -89,7 +89,7 @@ TEST_F(AlignmentWatchTest, BeginsAnewWithAnotherAlignment) {
     AlignmentWatch watch = this->watch();
     after_a_second(watch, picture(0));
   }
-  optics::Outline moved = kLimb;
+  optics::Outline moved = kPaintedLimb;
   moved.centre.u += 2.3;
   AlignmentWatch watch = this->watch(moved);
   EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, WatchLevel::Good);

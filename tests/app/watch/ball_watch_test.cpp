@@ -13,10 +13,10 @@
 namespace orbwatch::app {
 namespace {
 
-const optics::Outline kLimb{{202.3, 161.7}, 115, 115, 0};
+using align::kPaintedLimb;
 
 cv::Mat sharp() {
-  static const cv::Mat picture = align::painted_ball({400, 320}, kLimb);
+  static const cv::Mat picture = align::painted_ball(align::kPaintedSize, kPaintedLimb);
   return picture.clone();
 }
 
@@ -36,8 +36,8 @@ cv::Mat soiled() {
   cv::Mat picture = sharp();
   for (int n = 0; n < 60; ++n) {
     const double angle = 2.4 * n, reach = 8.5 * std::sqrt(n);
-    const cv::Point place(cvRound(kLimb.centre.u + reach * std::cos(angle)),
-                          cvRound(kLimb.centre.v + reach * std::sin(angle)));
+    const cv::Point place(cvRound(kPaintedLimb.centre.u + reach * std::cos(angle)),
+                          cvRound(kPaintedLimb.centre.v + reach * std::sin(angle)));
     cv::circle(picture, place, 3, cv::Scalar(5), cv::FILLED);
   }
   return picture;
@@ -46,7 +46,7 @@ cv::Mat soiled() {
 class BallWatchTest : public testing::Test {
  protected:
   BallWatch watch(const WatchSettings& settings = {}) {
-    auto made = BallWatch::make("a", 400, 320, kLimb, settings, folder_.path());
+    auto made = BallWatch::make("a", 400, 320, kPaintedLimb, settings, folder_.path());
     EXPECT_TRUE(made) << made.error().message;
     return std::move(*made);
   }
@@ -55,18 +55,18 @@ class BallWatchTest : public testing::Test {
     CameraWatchStatus figures;
     for (int n = 0; n < 11; ++n) {
       now_ += std::chrono::seconds(200);
-      watch.observe(tests::picture_of_mat(pixels), now_, figures);
+      watch.observe(orbwatch::tests::picture_of_mat(pixels), now_, figures);
     }
     return figures;
   }
   CameraWatchStatus at_once(BallWatch& watch, const cv::Mat& pixels) {
     CameraWatchStatus figures;
     now_ += std::chrono::seconds(200);
-    watch.observe(tests::picture_of_mat(pixels), now_, figures);
+    watch.observe(orbwatch::tests::picture_of_mat(pixels), now_, figures);
     return figures;
   }
 
-  tests::TemporaryFolder folder_;
+  orbwatch::tests::TemporaryFolder folder_;
   hal::TimePoint now_{std::chrono::hours(1)};
 };
 

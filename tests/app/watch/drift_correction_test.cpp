@@ -13,7 +13,7 @@ namespace {
 
 const optics::Vec3 kSeen = optics::normalized(optics::Vec3{-0.4, -0.8, 0.3});
 
-optics::Rig rig_with_pose() { return tests::rig_with_pose({100, -540, 440}); }
+optics::Rig drifting_rig() { return tests::rig_with_pose({100, -540, 440}); }
 
 /// A small turn about the camera's x axis, then its z axis.
 optics::Mat3 turn() {
@@ -36,7 +36,7 @@ optics::Vec2 pixel(const optics::Rig& rig) {
 
 /// What the rig's camera sees after it was turned, and that drift.
 struct Turned {
-  optics::Rig rig = rig_with_pose();
+  optics::Rig rig = drifting_rig();
   align::DriftState drift;
 
   Turned() {
@@ -57,18 +57,18 @@ void expect_corrects(optics::Rig rig, const Turned& truth) {
 
 TEST(DriftCorrection, TurnsACameraThatHasAPose) {
   const Turned truth;
-  EXPECT_GT(std::abs(pixel(rig_with_pose()).v - pixel(truth.rig).v), 10);
-  expect_corrects(rig_with_pose(), truth);
+  EXPECT_GT(std::abs(pixel(drifting_rig()).v - pixel(truth.rig).v), 10);
+  expect_corrects(drifting_rig(), truth);
 }
 
 TEST(DriftCorrection, TurnsACameraThatHasAnOutline) {
-  optics::Rig rig = rig_with_pose();
+  optics::Rig rig = drifting_rig();
   rig.cameras[0] = *align::by_outline(rig, rig.cameras[0]);
   expect_corrects(rig, Turned());
 }
 
 TEST(DriftCorrection, MovesTheOutlineWhenTheBallMoved) {
-  optics::Rig rig = rig_with_pose();
+  optics::Rig rig = drifting_rig();
   align::DriftState drift;
   drift.level = align::DriftLevel::Warning;
   drift.outline = *optics::ball_projection(rig, rig.cameras[0])->outline();
@@ -80,7 +80,7 @@ TEST(DriftCorrection, MovesTheOutlineWhenTheBallMoved) {
 }
 
 TEST(DriftCorrection, RefusesWhatWasNotMeasured) {
-  const optics::Rig rig = rig_with_pose();
+  const optics::Rig rig = drifting_rig();
   align::DriftState drift;
   drift.reason = "too dark";
   const auto alignment = corrected(rig, rig.cameras[0], drift);

@@ -135,14 +135,14 @@ struct SmallState {
   ProcessStateMessage message_{};
 };
 
-struct Damage {
+struct StateDamage {
   const char* name;
   std::function<void(SmallState&)> apply;
   const char* message;
 };
 
 /// Each state that is invalid, and its refusal.
-std::vector<Damage> damages() {
+std::vector<StateDamage> damages() {
   return {
       {"system state", [](auto& s) { s.system_state = 5; }, "system state 5 is unknown"},
       {"last system state", [](auto& s) { s.system_state = 255; }, "system state 255 is unknown"},
@@ -166,7 +166,7 @@ std::vector<Damage> damages() {
 TEST(CheckProcessState, RefusesWhatIsInvalidWithoutQuotingIt) {
   SmallState good;
   ASSERT_TRUE(check_process_state(good.message()));
-  for (const Damage& damage : damages()) {
+  for (const StateDamage& damage : damages()) {
     SmallState bad;
     damage.apply(bad);
     const auto checked = check_process_state(bad.message());

@@ -11,10 +11,10 @@
 namespace orbwatch::tests {
 namespace {
 
-const PaintedCamera kFront{"front", 0}, kSide{"side", -60};
-
 class Describe : public CommandLine {
  protected:
+  static inline const PaintedCamera kFront{"front", 0}, kSide{"side", -60};
+
   Describe() {
     write("rig.toml", painted_ball() + kFront.calibrated() + kSide.calibrated() +
                           "[[camera]]\nname = \"plain\"\nwidth = 300\nheight = 300\n"

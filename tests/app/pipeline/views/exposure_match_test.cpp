@@ -15,17 +15,18 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr int kSize = 300;
+constexpr int kRoomSide = 300;
 
-ViewSource source(std::size_t camera, PixelFormat format, double yaw) {
+ViewSource source_in_room(std::size_t camera, PixelFormat format, double yaw) {
   const auto ball = optics::BallProjection::make(
                         optics::BallModel::make(optics::BallModel::Kind::Exact, 340).value(),
                         {{149.5, 149.5}, 140, 140, 0}, optics::rotation({yaw, 0, 0}))
                         .value();
-  return {camera, {format, {}, kSize, kSize, 30}, ball, 1, {colour_map_table("grey"), 0, 255}};
+  return {
+      camera, {format, {}, kRoomSide, kRoomSide, 30}, ball, 1, {colour_map_table("grey"), 0, 255}};
 }
 
-ViewPlan panorama(std::vector<ViewSource> sources) {
+ViewPlan room_panorama(std::vector<ViewSource> sources) {
   const auto projection =
       optics::ViewProjection::make({optics::ViewKind::Equirectangular, {}, {}, {}, 256, 128});
   return {0,
@@ -44,14 +45,15 @@ double room(const optics::Vec3& d) {
 
 /// What a camera that takes `gain` of the light sees of the room in the ball.
 hal::Frame exposed(const ViewSource& source, double gain) {
-  auto buffer = hal::make_frame_pool(PixelFormat::Rgb, kSize, kSize, 1).acquire();
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
+  auto buffer = hal::make_frame_pool(PixelFormat::Rgb, kRoomSide, kRoomSide, 1).acquire();
+  for (int y = 0; y < kRoomSide; ++y) {
+    for (int x = 0; x < kRoomSide; ++x) {
       const auto direction = source.ball.direction({double(x), double(y)});
       const double light = direction ? room(*direction) : 0.3;
       const double sample = remap::from_light(remap::Transfer::Srgb, light * gain);
       for (int k = 0; k < 3; ++k) {
-        buffer->memory[3 * (kSize * y + x) + k] = static_cast<std::byte>(std::lround(255 * sample));
+        buffer->memory[3 * (kRoomSide * y + x) + k] =
+            static_cast<std::byte>(std::lround(255 * sample));
       }
     }
   }
@@ -87,8 +89,8 @@ class ExposureMatchTest : public testing::Test {
 };
 
 TEST_F(ExposureMatchTest, BringsASecondCameraToTheFirst) {
-  const ViewPlan plan =
-      panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 150)});
+  const ViewPlan plan = room_panorama(
+      {source_in_room(0, PixelFormat::Rgb, 0), source_in_room(1, PixelFormat::Rgb, 150)});
   deliver(plan, {1, 0.5});
   ExposureMatch match({&plan, 1});
   EXPECT_EQ(match.table(0), nullptr) << "nothing is compared yet";
@@ -119,8 +121,8 @@ TEST_F(ExposureMatchTest, BringsASecondCameraToTheFirst) {
 }
 
 TEST_F(ExposureMatchTest, FollowsSlowly) {
-  const ViewPlan plan =
-      panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 150)});
+  const ViewPlan plan = room_panorama(
+      {source_in_room(0, PixelFormat::Rgb, 0), source_in_room(1, PixelFormat::Rgb, 150)});
   deliver(plan, {1, 1});
   ExposureMatch match({&plan, 1});
   follow(match, 1);
@@ -146,10 +148,11 @@ TEST_F(ExposureMatchTest, FollowsSlowly) {
 }
 
 TEST_F(ExposureMatchTest, LeavesOthersAlone) {
-  const ViewPlan one = panorama({source(0, PixelFormat::Rgb, 0)});
-  const ViewPlan mapped =
-      panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Grey, 150)});
-  ViewPlan unmatched = panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 150)});
+  const ViewPlan one = room_panorama({source_in_room(0, PixelFormat::Rgb, 0)});
+  const ViewPlan mapped = room_panorama(
+      {source_in_room(0, PixelFormat::Rgb, 0), source_in_room(1, PixelFormat::Grey, 150)});
+  ViewPlan unmatched = room_panorama(
+      {source_in_room(0, PixelFormat::Rgb, 0), source_in_room(1, PixelFormat::Rgb, 150)});
   unmatched.match = false;
   for (const ViewPlan* plan : std::array{&one, &mapped, static_cast<const ViewPlan*>(&unmatched)}) {
     deliver(*plan, {1});
@@ -164,8 +167,8 @@ TEST_F(ExposureMatchTest, LeavesOthersAlone) {
 }
 
 TEST_F(ExposureMatchTest, WaitsForACameraThatDoesNotDeliver) {
-  const ViewPlan plan =
-      panorama({source(0, PixelFormat::Rgb, 0), source(1, PixelFormat::Rgb, 150)});
+  const ViewPlan plan = room_panorama(
+      {source_in_room(0, PixelFormat::Rgb, 0), source_in_room(1, PixelFormat::Rgb, 150)});
   deliver(plan, {1, 0.5});
   ExposureMatch match({&plan, 1});
   follow(match, 1);

@@ -15,7 +15,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr std::size_t kThermal = 0;
+constexpr std::size_t kMeasuredSource = 0;
 
 /// Of 96x64 pixels unless stated.
 ViewPlan view(std::size_t index, bool is_measured = false, int width = 96, int height = 64) {
@@ -24,7 +24,7 @@ ViewPlan view(std::size_t index, bool is_measured = false, int width = 96, int h
   spec.width = width;
   spec.height = height;
   plan.projection = optics::ViewProjection::make(spec).value();
-  if (is_measured) plan.measured = kThermal;
+  if (is_measured) plan.measured = kMeasuredSource;
   return plan;
 }
 
@@ -95,7 +95,7 @@ TEST(ViewBuffers, FitTheViewWhateverItsCameraDelivers) {
   EXPECT_EQ(buffers.acquire(recipe[0])->radiometric.width, 96);
   EXPECT_TRUE(buffers.acquire(recipe[0])->luminance.empty());
   ViewPlan anew = recipe[0];
-  anew.sources[kThermal].format.format = PixelFormat::Grey;
+  anew.sources[kMeasuredSource].format.format = PixelFormat::Grey;
   const auto buffer = buffers.acquire(anew);
   EXPECT_EQ(buffer->luminance.width, 96);
   EXPECT_TRUE(buffer->radiometric.empty());

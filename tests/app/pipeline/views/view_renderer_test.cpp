@@ -16,14 +16,14 @@ using optics::BallProjection;
 using optics::ViewKind;
 using optics::ViewProjection;
 
-constexpr int kSize = 200;
+constexpr int kPlainSide = 200;
 
 /// A camera whose registration turns it `yaw` degrees around the ball.
 ViewSource source(std::size_t camera, PixelFormat format, double yaw, double weight = 1) {
   const auto ball = BallProjection::make(BallModel::make(BallModel::Kind::Exact, 340).value(),
                                          {{99.5, 99.5}, 95, 95, 0}, optics::rotation({yaw, 0, 0}));
   return {camera,
-          {format, {}, kSize, kSize, 30},
+          {format, {}, kPlainSide, kPlainSide, 30},
           ball.value(),
           weight,
           remap::ColourMap(colour_map_table("grey"), 0,
@@ -42,7 +42,7 @@ ViewPlan panorama(std::vector<ViewSource> sources, Combine combine = Combine::Mi
 
 /// A picture of one colour, or of one count for 16 bit.
 hal::Frame plain(PixelFormat format, std::uint16_t value) {
-  auto buffer = hal::make_frame_pool(format, kSize, kSize, 1).acquire();
+  auto buffer = hal::make_frame_pool(format, kPlainSide, kPlainSide, 1).acquire();
   const std::size_t samples =
       buffer->capacity / static_cast<std::size_t>(info(format).bytes_per_sample());
   for (std::size_t i = 0; i < samples; ++i) {
@@ -275,9 +275,9 @@ class SharpenedView : public ViewRendererTest, public testing::WithParamInterfac
 
 TEST_P(SharpenedView, ShowsColourSharpenedAndMeasuresItAsItIs) {
   const hal::Frame frame = noise(GetParam());
-  remap::SharpenedPicture sharpened(GetParam(), kSize, kSize, 0.8);
+  remap::SharpenedPicture sharpened(GetParam(), kPlainSide, kPlainSide, 0.8);
   sharpened.set_source(frame->picture);
-  sharpened.fill({0, 0, kSize, kSize});
+  sharpened.fill({0, 0, kPlainSide, kPlainSide});
   const auto sharp_frame = std::make_shared<hal::FrameBuffer>();
   sharp_frame->picture = sharpened.picture();
 

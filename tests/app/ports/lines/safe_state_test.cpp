@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-LineSettings line(const std::string& name, LineUse use, bool active_low = false) {
+LineSettings named_line(const std::string& name, LineUse use, bool active_low = false) {
   LineSettings settings;
   settings.name = name;
   settings.use = use;
@@ -25,8 +25,8 @@ TEST(SafeState, OutputsThatWereLeftActiveBecomeInactive) {
   board.drive("ALARM", false);
   board.drive("DOOR", true);
   const auto outputs =
-      make_safe({line("OK", LineUse::ProcessOk), line("DOOR", LineUse::ProcessInput),
-                 line("ALARM", LineUse::Alarm, true)},
+      make_safe({named_line("OK", LineUse::ProcessOk), named_line("DOOR", LineUse::ProcessInput),
+                 named_line("ALARM", LineUse::Alarm, true)},
                 board);
   ASSERT_EQ(outputs.size(), 2U);
   EXPECT_EQ(outputs[0].error + outputs[1].error, "");
@@ -39,7 +39,7 @@ TEST(SafeState, OneThatIsMissingHoldsUpNoOther) {
   hal::SimulatedLines board({"OK"});
   board.drive("OK", true);
   const auto outputs =
-      make_safe({line("GONE", LineUse::Strobe), line("OK", LineUse::ProcessOk)}, board);
+      make_safe({named_line("GONE", LineUse::Strobe), named_line("OK", LineUse::ProcessOk)}, board);
   ASSERT_EQ(outputs.size(), 2U);
   EXPECT_THAT(outputs[0].error, HasSubstr("GONE"));
   EXPECT_FALSE(board.level("OK"));
@@ -47,7 +47,7 @@ TEST(SafeState, OneThatIsMissingHoldsUpNoOther) {
 
 TEST(SafeState, SimulatedLinesEndedWithTheirProcess) {
   hal::SimulatedLines board({"OK"});
-  LineSettings simulated = line("OK", LineUse::ProcessOk);
+  LineSettings simulated = named_line("OK", LineUse::ProcessOk);
   simulated.back_end = LineKind::Simulated;
   EXPECT_TRUE(make_safe({simulated}, board).empty());
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/simulation/scene/lettering.h"
-#include "app/simulation/tracing/pinhole.h"
+#include "tests/app/simulation/projection.h"
 
 namespace orbwatch::app::simulation {
 namespace {
@@ -38,7 +38,6 @@ struct Face {
   Vec3 wall;  // the wall's middle
 };
 
-const MachineSettings kMachine;
 const Vec3 kMiddle{0, 0, 400};
 const std::vector<Face> kFaces{
     {Surface::Left, "LEFT", {-600, 0, 400}},

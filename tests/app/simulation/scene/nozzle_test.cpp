@@ -10,7 +10,7 @@ namespace {
 const NozzleSettings kShape;
 const Vec3 kTip{-110, -50, 193};
 constexpr double kCeiling = 800;
-const Box kSpace{{-300, -250, 100}, {100, 150, 799}};
+const Box kAroundNozzle{{-300, -250, 100}, {100, 150, 799}};
 
 bool inside(const Vec3& p) {
   const double height = p.z - kTip.z;
@@ -26,7 +26,7 @@ TEST(Nozzle, IsEnteredWhereItBegins) {
   int entered = 0, passed = 0;
   for (int i = 0; i < 5000; ++i) {
     // Half of the rays aim at the cone.
-    Ray ray = random.ray(kSpace);
+    Ray ray = random.ray(kAroundNozzle);
     if (i % 2 == 0) {
       const Vec3 aim =
           kTip + Vec3{random.number(-20, 20), random.number(-20, 20), random.number(-10, 80)};

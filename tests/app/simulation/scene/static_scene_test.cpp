@@ -2,13 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "app/simulation/tracing/pinhole.h"
+#include "tests/app/simulation/projection.h"
 #include "tests/app/simulation/random_geometry.h"
 
 namespace orbwatch::app::simulation {
 namespace {
-
-const MachineSettings kMachine;
 
 TEST(Sight, TakesTheShortestWayOverTheBall) {
   // Fermat: of all points of the ball near the one hit, the reflected path is the shortest.

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "app/files/resolve.h"
+
+namespace orbwatch::app {
+
+/// The shipped files.
+inline const std::filesystem::path kShippedFolder =
+    std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
+
+/// The demonstration, from which each test makes its own.
+inline Resolved demo() {
+  auto site = resolve(kShippedFolder / "demo.toml");
+  EXPECT_TRUE(site) << site.error().message;
+  return site.value_or(Resolved{});
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace orbwatch::app {
+
+/// The text, in which the first `what` became `with`.
+inline std::string replaced(const std::string& what, const std::string& with, std::string text) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), with);
+}
+
+}  // namespace orbwatch::app
