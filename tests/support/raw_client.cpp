@@ -9,7 +9,8 @@
 #include <cerrno>
 #include <chrono>
 #include <stdexcept>
-#include <system_error>
+
+#include "tests/support/require.h"
 
 namespace orbwatch::tests {
 namespace {
@@ -24,10 +25,6 @@ sockaddr_in loopback_address(const std::string& host, int port) {
     throw std::invalid_argument(host);
   }
   return address;
-}
-
-void require(bool done) {
-  if (!done) throw std::system_error(errno, std::generic_category());
 }
 
 }  // namespace

@@ -3,20 +3,18 @@
 #include <modbus.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <stdexcept>
-#include <system_error>
 #include <thread>
+
+#include "tests/support/require.h"
 
 namespace orbwatch::app::tests {
 namespace {
 
-constexpr std::chrono::seconds kGuard{60};
+using orbwatch::tests::require;
 
-void require(bool done) {
-  if (!done) throw std::system_error(errno, std::generic_category());
-}
+constexpr std::chrono::seconds kGuard{60};
 
 }  // namespace
 

@@ -34,6 +34,11 @@ Status example_status();
 int address_of(std::string_view name);
 int bit_of(std::string_view name);
 
+/// Where a PLC's command begins and where it ends, and where its acknowledgement stands.
+inline const int kArguments = address_of("argument_0");
+inline const int kSequence = address_of("command_sequence");
+inline const int kAcknowledged = address_of("acknowledged_sequence");
+
 /// All that a PLC writes for the command select_view, from the first argument to the sequence.
 inline Words select_view(std::uint16_t view, std::uint16_t sequence) {
   return {0, view, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, sequence};

@@ -19,12 +19,10 @@ namespace orbwatch::app {
 namespace {
 
 using orbwatch::tests::Subprocess;
-using tests::address_of;
+using tests::kAcknowledged;
+using tests::kArguments;
 using tests::Plc;
 using tests::Words;
-
-const int kBlock = address_of("argument_0");
-const int kAcknowledged = address_of("acknowledged_sequence");
 
 /// Every command has an argument of its own, by which the journal shows how often it was carried
 /// out.
@@ -59,7 +57,7 @@ class CyclicPlc {
     }
     const auto view = static_cast<std::uint16_t>(argument_);
     const Words block = tests::select_view(view, sequence_);
-    if (plc.write_and_read(kBlock, block, kAcknowledged, 2) != 0) return false;
+    if (plc.write_and_read(kArguments, block, kAcknowledged, 2) != 0) return false;
     if (plc.words[0] == sequence_) {
       results_[argument_++] = static_cast<CommandResult>(plc.words[1]);
       ++sequence_;

@@ -15,14 +15,12 @@ namespace {
 
 using orbwatch::tests::TemporaryFolder;
 using testing::ElementsAre;
-using tests::address_of;
+using tests::kAcknowledged;
+using tests::kArguments;
 using tests::loopback;
 using tests::Plc;
 using tests::select_view;
 using tests::Words;
-
-const int kBlock = address_of("argument_0");
-const int kAcknowledged = address_of("acknowledged_sequence");
 
 constexpr auto kInterrupted = static_cast<std::uint16_t>(CommandResult::Interrupted);
 constexpr auto kNotCarriedOut = static_cast<std::uint16_t>(CommandResult::NotCarriedOut);
@@ -64,11 +62,12 @@ class CommandRestart : public testing::Test {
 
 TEST_F(CommandRestart, TheStandingBlockRepeatsNothing) {
   Plc plc = start(folder_.path());
-  ASSERT_EQ(plc.command(kBlock, select_view(5, 700)), 0);
+  ASSERT_EQ(plc.command(kArguments, select_view(5, 700)), 0);
   for (int restart = 0; restart < 3; ++restart) {
     Plc again = start(folder_.path());
     EXPECT_EQ(answer(again), (Words{700, 0, 1})) << "before it writes";
-    for (int cycle = 0; cycle < 3; ++cycle) ASSERT_EQ(again.write(kBlock, select_view(5, 700)), 0);
+    for (int cycle = 0; cycle < 3; ++cycle)
+      ASSERT_EQ(again.write(kArguments, select_view(5, 700)), 0);
     EXPECT_EQ(answer(again), (Words{700, 0, 1}));
   }
   sink_->stop();  // carries out what waits
@@ -77,9 +76,9 @@ TEST_F(CommandRestart, TheStandingBlockRepeatsNothing) {
 
 TEST_F(CommandRestart, WhatWasWrittenMeanwhileIsCarriedOut) {
   Plc plc = start(folder_.path());
-  ASSERT_EQ(plc.command(kBlock, select_view(5, 700)), 0);
+  ASSERT_EQ(plc.command(kArguments, select_view(5, 700)), 0);
   Plc again = start(folder_.path());
-  ASSERT_EQ(again.command(kBlock, select_view(6, 701)), 0);
+  ASSERT_EQ(again.command(kArguments, select_view(6, 701)), 0);
   EXPECT_EQ(answer(again), (Words{701, 0, 1}));
   EXPECT_THAT(views(), ElementsAre(5, 6));
 }
@@ -91,12 +90,12 @@ TEST_F(CommandRestart, OneThatWasCutOffIsInterrupted) {
     std::filesystem::copy(folder_.path(), then.path(), std::filesystem::copy_options::recursive);
   };
   Plc plc = start(folder_.path());
-  ASSERT_EQ(plc.command(kBlock, select_view(5, 700)), 0);
+  ASSERT_EQ(plc.command(kArguments, select_view(5, 700)), 0);
   Plc again = start(then.path());
-  ASSERT_EQ(again.write(kBlock, select_view(5, 700)), 0);
+  ASSERT_EQ(again.write(kArguments, select_view(5, 700)), 0);
   EXPECT_EQ(answer(again), (Words{700, kInterrupted, 1}));
   on_command_ = nullptr;
-  ASSERT_EQ(again.command(kBlock, select_view(5, 701)), 0);
+  ASSERT_EQ(again.command(kArguments, select_view(5, 701)), 0);
   EXPECT_EQ(answer(again), (Words{701, 0, 1}));
   EXPECT_THAT(views(), ElementsAre(5, 5));
 }
@@ -104,10 +103,10 @@ TEST_F(CommandRestart, OneThatWasCutOffIsInterrupted) {
 TEST_F(CommandRestart, WithoutAFolderTheFirstSequenceIsTakenAsKnown) {
   for (std::uint16_t sequence = 700; sequence < 706; sequence += 2) {
     Plc plc = start("/proc/orbwatch");
-    ASSERT_EQ(plc.command(kBlock, select_view(sequence, sequence)), 0);
+    ASSERT_EQ(plc.command(kArguments, select_view(sequence, sequence)), 0);
     EXPECT_EQ(answer(plc), (Words{sequence, kNotCarriedOut, 1}));
     const auto next = static_cast<std::uint16_t>(sequence + 1);
-    ASSERT_EQ(plc.command(kBlock, select_view(next, next)), 0);
+    ASSERT_EQ(plc.command(kArguments, select_view(next, next)), 0);
     EXPECT_EQ(answer(plc), (Words{next, 0, 1}));
   }
   EXPECT_THAT(views(), ElementsAre(701, 703, 705));
@@ -121,16 +120,16 @@ TEST_F(CommandRestart, NoOtherAnswerWaitsForACommand) {
     finished.wait();
   };
   Plc plc = start(folder_.path());
-  ASSERT_EQ(plc.write(kBlock, select_view(5, 700)), 0);
+  ASSERT_EQ(plc.write(kArguments, select_view(5, 700)), 0);
   begun.wait();
   Plc reader(sink_->port());
   EXPECT_EQ(reader.read_input(0, 100), 0);
   EXPECT_EQ(answer(plc), (Words{0, 0, 0})) << "nothing is acknowledged yet";
   // Of what is written over the command, the last is next.
-  ASSERT_EQ(plc.write(kBlock, select_view(6, 701)), 0);
-  ASSERT_EQ(plc.write(kBlock, select_view(7, 702)), 0);
+  ASSERT_EQ(plc.write(kArguments, select_view(6, 701)), 0);
+  ASSERT_EQ(plc.write(kArguments, select_view(7, 702)), 0);
   finished.count_down();
-  ASSERT_EQ(plc.command(kBlock, select_view(7, 702)), 0);
+  ASSERT_EQ(plc.command(kArguments, select_view(7, 702)), 0);
   EXPECT_THAT(views(), ElementsAre(5, 7));
 }
 

@@ -14,18 +14,18 @@ using testing::Each;
 using testing::ElementsAre;
 using tests::address_of;
 using tests::bit_of;
+using tests::kAcknowledged;
+using tests::kArguments;
+using tests::kSequence;
 using tests::loopback;
 using tests::Plc;
 using tests::RawClient;
 using tests::select_view;
 using tests::Words;
 
-const int kArguments = address_of("argument_0");
 const int kHeartbeat = address_of("plc_heartbeat");
 const int kCommand = address_of("command");
-const int kSequence = address_of("command_sequence");
-const int kAcknowledged = address_of("acknowledged_sequence");
-const int kCount = address_of("last_command") + 1;
+const int kHoldingCount = address_of("last_command") + 1;
 
 /// A server whose commands are written down.
 class ModbusCommand : public testing::Test {
@@ -60,11 +60,11 @@ class ModbusCommand : public testing::Test {
 
 TEST_F(ModbusCommand, IsCarriedOutByOneWriteAndAcknowledged) {
   Plc plc(sink_.port());
-  ASSERT_EQ(plc.read_holding(0, kCount), 0);
+  ASSERT_EQ(plc.read_holding(0, kHoldingCount), 0);
   EXPECT_THAT(plc.words, Each(0));
   ASSERT_EQ(plc.command(kArguments, select_view(5, 100)), 0);
   EXPECT_THAT(arguments(), ElementsAre(5));
-  ASSERT_EQ(plc.read_holding(0, kCount), 0);
+  ASSERT_EQ(plc.read_holding(0, kHoldingCount), 0);
   EXPECT_THAT(plc.words, ElementsAre(0, 5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 100, 100, 0, 1));
 }
 
@@ -189,7 +189,7 @@ TEST_F(ModbusCommand, ARefusedWriteChangesNothing) {
             2);  // nothing to read there
   EXPECT_EQ(plc.write_and_read(kArguments, unknown, 0, 1), 3);
   EXPECT_TRUE(arguments().empty());
-  ASSERT_EQ(plc.read_holding(0, kCount), 0);
+  ASSERT_EQ(plc.read_holding(0, kHoldingCount), 0);
   EXPECT_THAT(plc.words, Each(0));
 }
 

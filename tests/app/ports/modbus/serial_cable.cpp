@@ -8,16 +8,15 @@
 #include <cerrno>
 #include <cstdlib>
 #include <span>
-#include <system_error>
+
+#include "tests/support/require.h"
 
 namespace orbwatch::app::tests {
 namespace {
 
-constexpr std::chrono::milliseconds kGuard = std::chrono::minutes(1);
+using orbwatch::tests::require;
 
-void require(bool done) {
-  if (!done) throw std::system_error(errno, std::generic_category());
-}
+constexpr std::chrono::milliseconds kCableGuard = std::chrono::minutes(1);
 
 /// Nothing is echoed or translated.
 void make_raw(int terminal) {
@@ -28,7 +27,7 @@ void make_raw(int terminal) {
 }
 
 /// Waits until the file can be read or written; false when it takes longer.
-bool wait_for(int file, short what, std::chrono::milliseconds longest = kGuard) {
+bool wait_for(int file, short what, std::chrono::milliseconds longest = kCableGuard) {
   pollfd wait{file, what, 0};
   return ::poll(&wait, 1, static_cast<int>(longest.count())) > 0;
 }

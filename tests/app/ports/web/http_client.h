@@ -17,6 +17,8 @@
 
 namespace orbwatch::app::web::tests {
 
+inline const std::string kJsonHeader = "Content-Type: application/json\r\n";
+
 /// What a server answered.
 struct Answer {
   int status = 0;  ///< 0: nothing that begins like an answer

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 /// A handler that keeps what it was given and answers `result`.
-struct Machine {
+struct AnsweringMachine {
   CommandResult result = CommandResult::Done;
   std::vector<Command> done{};
 
@@ -32,7 +32,7 @@ CommandRequest request(std::string name, std::vector<double> arguments) {
 
 TEST(CarryOut, HandsEveryCommandOverWithItsArguments) {
   for (const CommandInfo& info : kCommands) {
-    Machine machine;
+    AnsweringMachine machine;
     CommandRequest asked = request(std::string(info.name), {});
     asked.argument_count = info.argument_count();
     for (std::size_t i = 0; i < asked.argument_count; ++i) {
@@ -46,13 +46,13 @@ TEST(CarryOut, HandsEveryCommandOverWithItsArguments) {
 }
 
 TEST(CarryOut, SaysWhatTheMachineSays) {
-  Machine machine{CommandResult::NotPossible};
+  AnsweringMachine machine{CommandResult::NotPossible};
   EXPECT_EQ(carry_out(request("start", {}), machine.handler()),
             (CommandAnswer{CommandResult::NotPossible, "not possible with this configuration"}));
 }
 
 TEST(CarryOut, RefusesWhatIsNoCommandAndTouchesNothing) {
-  Machine machine;
+  AnsweringMachine machine;
   const auto expect_refused = [&](const CommandRequest& asked, CommandResult result,
                                   const std::string& why) {
     const CommandAnswer answer = carry_out(asked, machine.handler());
@@ -91,7 +91,7 @@ TEST(RequestOf, TakesOverWhatFits) {
 }
 
 TEST(RequestOf, CutsWhatIsOversizedSoThatItIsRefused) {
-  Machine machine;
+  AnsweringMachine machine;
   std::string name = "stop" + std::string(1'000'000, 'p');
   const CommandMessage long_name{5, 6, name.data(), {0, 0, nullptr, false}};
   EXPECT_LT(request_of(long_name).name.size(), 100u);

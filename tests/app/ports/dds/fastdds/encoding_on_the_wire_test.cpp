@@ -20,17 +20,17 @@ using orbwatch::tests::parsed;
 using orbwatch::tests::ReaderProgram;
 using tests::ShippedNetwork;
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kSmoothWidth = 320;
+constexpr int kSmoothHeight = 180;
 
 /// A picture as a camera makes it: red grows to the right, green down, blue is flat.
 std::shared_ptr<View> smooth_view() {
-  auto view = tests::make_view(0, "front", 1, kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  auto view = tests::make_view(0, "front", 1, kSmoothWidth, kSmoothHeight);
+  for (int y = 0; y < kSmoothHeight; ++y) {
+    for (int x = 0; x < kSmoothWidth; ++x) {
       std::uint8_t* pixel = view->picture.samples<std::uint8_t>().row(y) + 3 * x;
-      pixel[0] = static_cast<std::uint8_t>(x * 255 / kWidth);
-      pixel[1] = static_cast<std::uint8_t>(y * 255 / kHeight);
+      pixel[0] = static_cast<std::uint8_t>(x * 255 / kSmoothWidth);
+      pixel[1] = static_cast<std::uint8_t>(y * 255 / kSmoothHeight);
       pixel[2] = 64;
     }
   }
@@ -77,7 +77,7 @@ class EncodingOnTheWire : public testing::Test {
 TEST_F(EncodingOnTheWire, Bgr8HasBlueFirst) {
   const auto image = sent_and_read(PixelFormat::Bgr, "rt/orbwatch/front/image_raw", "image");
   EXPECT_EQ(image["encoding"].string(), "bgr8");
-  EXPECT_EQ(static_cast<int>(image["step"]), 3 * kWidth);
+  EXPECT_EQ(static_cast<int>(image["step"]), 3 * kSmoothWidth);
   ASSERT_EQ(data_.size(), view_->bytes.size());
   for (std::size_t i = 0; i < data_.size(); i += 3) {
     ASSERT_EQ(data_[i], view_->bytes[i + 2]);
@@ -89,7 +89,7 @@ TEST_F(EncodingOnTheWire, Bgr8HasBlueFirst) {
 TEST_F(EncodingOnTheWire, Mono8IsTheBrightness) {
   const auto image = sent_and_read(PixelFormat::Grey, "rt/orbwatch/front/image_raw", "image");
   EXPECT_EQ(image["encoding"].string(), "mono8");
-  EXPECT_EQ(static_cast<int>(image["step"]), kWidth);
+  EXPECT_EQ(static_cast<int>(image["step"]), kSmoothWidth);
   ASSERT_EQ(data_.size(), view_->bytes.size() / 3);
   for (std::size_t i = 0; i < data_.size(); ++i) {
     const std::uint8_t* rgb = view_->bytes.data() + 3 * i;
@@ -104,16 +104,16 @@ TEST_F(EncodingOnTheWire, JpegShowsThePicture) {
   EXPECT_NE(image["format"].string().find("jpeg"), std::string::npos) << image["format"].string();
   EXPECT_EQ(image["frame_id"].string(), "front");
   const cv::Mat bgr = cv::imdecode(data_, cv::IMREAD_COLOR);
-  ASSERT_EQ(bgr.size(), cv::Size(kWidth, kHeight));
+  ASSERT_EQ(bgr.size(), cv::Size(kSmoothWidth, kSmoothHeight));
   double difference = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSmoothHeight; ++y) {
+    for (int x = 0; x < kSmoothWidth; ++x) {
       const auto pixel = bgr.at<cv::Vec3b>(y, x);
       const std::uint8_t* rgb = view_->picture.samples<std::uint8_t>().row(y) + 3 * x;
       for (int c = 0; c < 3; ++c) difference += std::abs(pixel[2 - c] - rgb[c]);
     }
   }
-  EXPECT_LT(difference / (3.0 * kWidth * kHeight), 3) << "mean, of 255";
+  EXPECT_LT(difference / (3.0 * kSmoothWidth * kSmoothHeight), 3) << "mean, of 255";
 }
 
 }  // namespace

@@ -20,7 +20,6 @@
 namespace orbwatch::tests::fastdds {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr const char* kHelp =

@@ -12,10 +12,10 @@ namespace orbwatch::tests::ros {
 namespace {
 
 using app::tests::Bytes;
-using app::tests::Cdr;
+using WrittenCdr = app::tests::Cdr;
 
 /// Behind its encapsulation: plain, little-endian.
-Bytes sent(const Cdr& cdr) {
+Bytes sent(const WrittenCdr& cdr) {
   constexpr std::size_t kEncapsulation = 4;
   Bytes bytes(kEncapsulation + cdr.bytes().size());
   bytes[1] = 1;
@@ -23,20 +23,20 @@ Bytes sent(const Cdr& cdr) {
   return bytes;
 }
 
-Cdr header(std::int32_t sec, std::uint32_t nanosec, std::string_view frame_id) {
-  return Cdr().number(sec).number(nanosec).text(frame_id);
+WrittenCdr header(std::int32_t sec, std::uint32_t nanosec, std::string_view frame_id) {
+  return WrittenCdr().number(sec).number(nanosec).text(frame_id);
 }
 
 std::uint8_t octet(int value) { return static_cast<std::uint8_t>(value); }
 
 template <class Message>
-Message decoded(const Cdr& cdr) {
+Message decoded(const WrittenCdr& cdr) {
   const auto message = decode<Message>(sent(cdr));
   EXPECT_TRUE(message);
   return message.value_or(Message{});
 }
 
-Cdr small_image() {
+WrittenCdr small_image() {
   return header(7, 9, "front")
       .number(1U)
       .number(2U)
@@ -67,7 +67,7 @@ TEST(RosMessages, CompressedImage) {
 }
 
 TEST(RosMessages, CameraInfo) {
-  Cdr cdr = header(1, 2, "front");
+  WrittenCdr cdr = header(1, 2, "front");
   cdr.number(400U).number(640U).text("plumb_bob").number(1U).number(0.25);
   for (int i = 0; i < 9 + 9 + 12; ++i) cdr.number(i + 0.5);
   cdr.number(2U).number(3U).number(4U).number(5U).number(6U).number(7U).number(octet(1));
@@ -178,7 +178,7 @@ TEST(RosMessages, Event) {
 template <class Info>
 void expect_discovery_info() {
   constexpr std::size_t kSize = sizeof(Info::gid);
-  Cdr cdr;
+  WrittenCdr cdr;
   const auto gid = [&cdr](int first) {
     for (std::size_t i = 0; i < kSize; ++i) cdr.number(octet(first + static_cast<int>(i)));
   };

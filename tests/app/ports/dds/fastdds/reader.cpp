@@ -12,7 +12,6 @@
 namespace orbwatch::tests::fastdds {
 
 namespace dds = eprosima::fastdds::dds;
-using Clock = std::chrono::steady_clock;
 
 namespace {
 

@@ -15,6 +15,8 @@ class Subscriber;
 
 namespace orbwatch::tests::fastdds {
 
+using Clock = std::chrono::steady_clock;
+
 struct ReaderSettings {
   std::string topic;
   std::string type;

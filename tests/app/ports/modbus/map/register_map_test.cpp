@@ -9,13 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "tests/app/ports/modbus/map/registers.h"
+
 namespace orbwatch::app::modbus {
 namespace {
-
-const RegisterMap& registers() {
-  static const RegisterMap map;
-  return map;
-}
 
 TEST(RegisterMap, RowsNeitherOverlapNorLeaveTheAddressSpace) {
   std::map<std::pair<Table, int>, std::string> owners;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/ports/modbus/map/bits.h"
-#include "app/ports/modbus/map/register_map.h"
+#include "tests/app/ports/modbus/map/registers.h"
 
 /// Every register follows what it reports, and nothing else.
 namespace orbwatch::app::modbus {
@@ -15,11 +15,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using Names = std::set<std::string>;
-
-const RegisterMap& registers() {
-  static const RegisterMap map;
-  return map;
-}
 
 /// All registers without mirrors, and their names; a "?" marks bits, which words may share names
 /// with.

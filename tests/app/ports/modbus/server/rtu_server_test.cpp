@@ -20,6 +20,8 @@ using testing::HasSubstr;
 using tests::address_of;
 using tests::Bytes;
 using tests::eventually;
+using tests::kAcknowledged;
+using tests::kSequence;
 using tests::Plc;
 using tests::RawMaster;
 using tests::rtu_frame;
@@ -61,9 +63,6 @@ class ModbusRtu : public testing::Test {
   std::vector<int> carried_out_;  ///< arguments of commands; to be looked at after stop()
   std::unique_ptr<ModbusSink> sink_;
 };
-
-const int kSequence = address_of("command_sequence");
-const int kAcknowledged = address_of("acknowledged_sequence");
 
 /// Selects view 2, as the request of function 16.
 Bytes command(std::uint8_t sequence) {

@@ -12,7 +12,8 @@
 namespace orbwatch::app::web::tests {
 
 inline const std::string kPassword = "correct horse battery";
-inline const std::string kJsonHeader = "Content-Type: application/json\r\n";
+/// Who is not at the board itself.
+inline const std::string kPeer = "10.0.0.9";
 /// What the page's own scripts send with a change.
 inline const std::string kPageHeaders = kJsonHeader + "X-Orbwatch: page\r\n";
 

@@ -7,6 +7,7 @@
 
 #include "app/ports/web/access/secret.h"
 #include "app/state/private_file.h"
+#include "tests/app/ports/web/access/access_served.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
@@ -16,8 +17,6 @@ using orbwatch::tests::TemporaryFolder;
 using std::chrono::seconds;
 using testing::HasSubstr;
 
-const std::string kPassword = "correct horse battery";
-const std::string kPeer = "10.0.0.9";
 constexpr Sessions::Limits kLimits{seconds(600), seconds(3600)};
 
 class AccessTest : public testing::Test {

@@ -7,6 +7,7 @@
 
 #include "app/ports/web/access/access.h"
 #include "app/ports/web/access/secret.h"
+#include "tests/app/ports/web/access/access_served.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app::web::tests {
@@ -14,9 +15,6 @@ namespace {
 
 using orbwatch::tests::TemporaryFolder;
 using std::chrono::seconds;
-
-const std::string kPassword = "correct horse battery";
-const std::string kPeer = "10.0.0.9";
 
 TEST(FirstCode, IsRandomAndCanBeTypedInManyWays) {
   std::set<std::string> codes;

@@ -15,8 +15,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string kJsonHeader = "Content-Type: application/json\r\n";
-
 class Commands : public Served {
  protected:
   void SetUp() override {

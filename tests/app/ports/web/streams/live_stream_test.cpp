@@ -58,7 +58,7 @@ TEST_F(Served, LiveStreamCountsAmongTheStreams) {
   EXPECT_EQ(get(port(), "/api/v1/live").status, 503);
 }
 
-Bytes bytes_of(const std::string& text) { return std::make_shared<const std::string>(text); }
+web::Bytes bytes_of(const std::string& text) { return std::make_shared<const std::string>(text); }
 
 std::string read(LiveStream& stream, std::size_t most) {
   std::string out(most, '\0');
