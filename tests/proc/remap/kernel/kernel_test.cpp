@@ -59,7 +59,7 @@ struct Extent {
 };
 
 /// The same patch so far to the left and up.
-Patch moved(const Patch& patch, std::int64_t left, std::int64_t up) {
+Patch shifted(const Patch& patch, std::int64_t left, std::int64_t up) {
   constexpr int kPixelBits = kFractionBits + PatchRow::kScaleBits;
   Quadratic u = patch.u(), v = patch.v();
   u.value -= left << kPixelBits;
@@ -80,7 +80,7 @@ class Trial {
     BlockMap anywhere;
     if (!anywhere.fit(patch, columns_, rows_, rounding)) return;
     const Extent extent(anywhere);
-    fits_ = map_.fit(moved(patch, extent.left, extent.top), columns_, rows_, rounding);
+    fits_ = map_.fit(shifted(patch, extent.left, extent.top), columns_, rows_, rounding);
     if (!fits_) return;
 
     const auto width = static_cast<int>(extent.right - extent.left) * info(layout).pixel_bytes;
@@ -217,8 +217,8 @@ void expect_bilinear(Layout layout) {
     for (Sample& sample : source) sample = static_cast<Sample>(random());
     const Patch anywhere = RandomPatch(random, {0.8, 0.004}).patch();
     const Coordinate middle = anywhere.at(8, 8);
-    const Patch patch = moved(anywhere, (middle.u >> kFractionBits) - kSize / 2,
-                              (middle.v >> kFractionBits) - kSize / 2);
+    const Patch patch = shifted(anywhere, (middle.u >> kFractionBits) - kSize / 2,
+                                (middle.v >> kFractionBits) - kSize / 2);
     BlockMap map;
     if (!map.fit(patch, kTile, kTile, BlockMap::rounding(added_u(layout), added_v(layout))))
       continue;
