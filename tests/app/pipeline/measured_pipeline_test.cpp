@@ -107,23 +107,23 @@ class ExaminingSink : public Sink {
 constexpr std::size_t kSeen = 0;  ///< the display view; those of recipes follow
 constexpr std::uint32_t kChecksum = 0xC0FFEE01;
 
-/// A recipe in a scale and with an exposure of its own.
-double scale(std::uint16_t recipe) { return 0.05 - 0.01 * recipe; }
-double exposure(std::uint16_t recipe) { return 31000 + 5000 * recipe; }
-double celsius(std::uint16_t recipe) { return exposure(recipe) * scale(recipe) - 273.15; }
-
-RecipePlan plan(std::uint16_t number) {
-  return recipe_plan(thermal_view(number, "measured_" + std::to_string(number)), 30000,
-                     scale(number), number);
-}
-RecipePlan plan_with_exposure(std::uint16_t number) {
-  RecipePlan measured = plan(number);
-  measured.controls.push_back({{"camera", 0}, "ExposureTime", exposure(number)});
-  return measured;
-}
-
 class MeasuredPipeline : public testing::Test {
  protected:
+  /// A recipe in a scale and with an exposure of its own.
+  static double scale(std::uint16_t recipe) { return 0.05 - 0.01 * recipe; }
+  static double exposure(std::uint16_t recipe) { return 31000 + 5000 * recipe; }
+  static double celsius(std::uint16_t recipe) { return exposure(recipe) * scale(recipe) - 273.15; }
+
+  static RecipePlan plan(std::uint16_t number) {
+    return recipe_plan(thermal_view(number, "measured_" + std::to_string(number)), 30000,
+                       scale(number), number);
+  }
+  static RecipePlan plan_with_exposure(std::uint16_t number) {
+    RecipePlan measured = plan(number);
+    measured.controls.push_back({{"camera", 0}, "ExposureTime", exposure(number)});
+    return measured;
+  }
+
   void start(std::vector<RecipePlan> recipes, std::size_t control_delay = 0) {
     PipelinePlan plan;
     auto hand = std::make_unique<SettableCamera>(control_delay);
