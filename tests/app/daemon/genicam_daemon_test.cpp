@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "app/cli/dds/received_state.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/hal/genicam/fake_gige_camera.h"
 #include "tests/support/network_namespace.h"
@@ -129,16 +131,70 @@ TEST_F(GenicamDaemon, MeasuresAgainAfterEachReturnOfTheCameraAndNothingGrows) {
   });
 }
 
-TEST_F(GenicamDaemon, EachSoftwareTriggerGivesOneResult) {
+/// A result, by the numbers that it has in every interface.
+struct NumberedResult {
+  std::int64_t result = 0;
+  std::int64_t trigger = 0;
+  std::int64_t frame_set = 0;
+  bool operator==(const NumberedResult&) const = default;
+};
+
+/// What a reader of the process state over DDS sees of results, in the present thread's network.
+class ResultsOverDds {
+ public:
+  explicit ResultsOverDds(int domain) {
+    const auto opened = reader_.open(domain);
+    EXPECT_TRUE(opened) << opened.error().message;
+  }
+
+  /// Takes the newest state, if one has come.
+  void look() {
+    const auto taken = reader_.next(std::chrono::milliseconds(0), [&](const auto& state) {
+      const NumberedResult now{static_cast<std::int64_t>(state.result),
+                               static_cast<std::int64_t>(state.trigger),
+                               static_cast<std::int64_t>(state.frame_set)};
+      if (now.result > 0 && (seen_.empty() || seen_.back() != now)) seen_.push_back(now);
+    });
+    EXPECT_TRUE(taken) << taken.error().message;
+  }
+
+  /// Each time that one of the numbers was another one.
+  const std::vector<NumberedResult>& seen() const { return seen_; }
+
+ private:
+  app::StateReader reader_{"orbwatch"};
+  std::vector<NumberedResult> seen_;
+};
+
+TEST_F(GenicamDaemon, EachSoftwareTriggerGivesOneResultOverModbusAndDds) {
   // The fake camera states 10 ms of exposure and does not take them before it sends.
   run("trigger_mode = \"software\"\ntrigger_source = \"software\"\nstamp_offset_us = -10000\n",
       [&](Subprocess& daemon, FakeGigeCamera&) {
+        ResultsOverDds dds(domain);
+        std::vector<NumberedResult> modbus;
+        const auto wait_for = [&](const std::function<bool()>& condition) {
+          return eventually(daemon, [&] {
+            dds.look();
+            return condition();
+          });
+        };
         const int triggers = whole_or(1000, 30);
         for (int n = 1; n <= triggers; ++n) {
           ASSERT_EQ(command(daemon, app::CommandCode::Trigger), app::CommandResult::Done) << n;
-          ASSERT_TRUE(eventually(daemon, [&] { return read("system_result") >= n; }))
-              << n << ": " << daemon.output();
+          ASSERT_TRUE(wait_for([&] {
+            return read("system_result") >= n && !dds.seen().empty() &&
+                   dds.seen().back().result >= n;
+          })) << n
+              << ": " << daemon.output();
+          modbus.push_back(
+              {read("system_result"), read("system_trigger"), read("system_frame_set")});
+          EXPECT_EQ(modbus.back().result, n);
+          EXPECT_EQ(modbus.back().trigger, n);
         }
+        // A result too many would come now.
+        ASSERT_TRUE(wait_for(
+            [&, last = read("system_heartbeat")] { return read("system_heartbeat") >= last + 5; }));
+        EXPECT_EQ(dds.seen(), modbus);
         EXPECT_EQ(read("system_result"), triggers);
         EXPECT_EQ(read("camera_0_triggers"), triggers);
         EXPECT_EQ(read("camera_0_missed"), 0);
