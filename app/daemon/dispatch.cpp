@@ -52,7 +52,7 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
     case CommandCode::Trigger:
       return trigger(receivers);
     case CommandCode::AcknowledgeAlarm:
-      return pipeline.acknowledge_alarm(command.integer(0));
+      return pipeline.acknowledge_alarm(command.integer(0), command.giver);
     case CommandCode::Snapshot:
       return snapshot(receivers, command.integer(0));
     case CommandCode::SetProcessActive:

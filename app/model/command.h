@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/model/giver.h"
 #include "app/model/role.h"
 #include "proc/image/picture.h"
 
@@ -153,6 +154,7 @@ inline constexpr std::array kCommands{
 struct Command {
   CommandCode code = CommandCode::SelectView;
   std::array<double, kMaxArguments> arguments{};
+  Giver giver{};
 
   /// An argument of scale 1, after check().
   std::size_t integer(std::size_t argument) const {

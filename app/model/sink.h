@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/alarm_notice.h"
 #include "app/model/appliance_notice.h"
 #include "app/model/command.h"
 #include "app/model/interface_table.h"

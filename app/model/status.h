@@ -337,17 +337,6 @@ struct AlarmStatus {
   ORBWATCH_ALARM_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
 };
 
-/// What happened to an alarm.
-struct AlarmNotice {
-  std::uint64_t number = 0;  ///< counts notices from 1
-  signals::AlarmEvent event;
-  std::size_t region = 0;
-  SignalNumber signal{};
-  std::uint16_t recipe = 0;
-  std::uint64_t frame_set = 0;  ///< the newest one then
-  hal::TimePoint stamp{};       ///< of that frame set, or of the moment without one
-};
-
 /// One consistent copy of everything the outside may know at one moment. Fixed size, no heap: it is
 /// copied to every sink.
 struct Status : SystemStatus {

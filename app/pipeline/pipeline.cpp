@@ -397,8 +397,8 @@ CommandResult Pipeline::trigger() {
   return measurement_ ? measurement_->trigger() : CommandResult::NotPossible;
 }
 
-CommandResult Pipeline::acknowledge_alarm(std::size_t number) {
-  return measurement_ ? measurement_->acknowledge_alarm(number) : CommandResult::NotPossible;
+CommandResult Pipeline::acknowledge_alarm(std::size_t number, const Giver& by) {
+  return measurement_ ? measurement_->acknowledge_alarm(number, by) : CommandResult::NotPossible;
 }
 
 CommandResult Pipeline::set_process_active(bool active) {

@@ -121,7 +121,7 @@ class Pipeline {
   CommandResult stop_measuring();
   CommandResult select_recipe(std::size_t number);
   CommandResult trigger();
-  CommandResult acknowledge_alarm(std::size_t number);
+  CommandResult acknowledge_alarm(std::size_t number, const Giver& by = {});
   CommandResult set_process_active(bool active);
 
  private:

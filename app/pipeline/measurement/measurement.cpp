@@ -53,9 +53,15 @@ CommandResult Measurement::trigger() {
   return is_first ? CommandResult::Done : CommandResult::Busy;
 }
 
-CommandResult Measurement::acknowledge_alarm(std::size_t number) {
-  if (number > alarm_count_) return CommandResult::ArgumentOutOfRange;
-  acknowledged_ |= number == 0 ? ~0U : 1U << (number - 1);
+CommandResult Measurement::acknowledge_alarm(std::size_t number, const Giver& by) {
+  const std::size_t count = alarm_count_;
+  if (number > count) return CommandResult::ArgumentOutOfRange;
+  const std::lock_guard lock(acknowledging_);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (number != 0 && i != number - 1) continue;
+    acknowledged_.alarms.set(i);
+    acknowledged_.by[i] = by;
+  }
   return CommandResult::Done;
 }
 
@@ -146,10 +152,16 @@ void Measurement::watch(hal::TimePoint now, const Notify& notify) {
   active_ = active.value_or(active_);
   // Where it is not known, alarms act: a lost measurement must raise its alarm, not calm it.
   const bool is_watched = active.value_or(true);
-  const signals::AlarmSet acknowledged(acknowledged_.exchange(0));
-  for (const signals::AlarmEvent& event : recipe_->watch(now, is_watched, acknowledged)) {
-    notify_of(*recipe_, event, notify);
+  const Acknowledged acknowledged = take_acknowledged();
+  for (const signals::AlarmEvent& event : recipe_->watch(now, is_watched, acknowledged.alarms)) {
+    const bool is_given = event.kind == signals::AlarmEventKind::Acknowledged;
+    notify_of(*recipe_, event, notify, is_given ? acknowledged.by[event.alarm] : Giver());
   }
+}
+
+Measurement::Acknowledged Measurement::take_acknowledged() {
+  const std::lock_guard lock(acknowledging_);
+  return std::exchange(acknowledged_, {});
 }
 
 /// A recipe that was left is watched no longer: without a last notice its alarms would stay raised
@@ -168,9 +180,10 @@ void Measurement::suppress_previous(hal::TimePoint now, const Notify& notify) {
 }
 
 void Measurement::notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
-                            const Notify& notify) {
+                            const Notify& notify, const Giver& by) {
   const AlarmStatus& alarm = recipe.alarms()[event.alarm];
-  notify({++notices_, event, alarm.region, alarm.signal, recipe.plan().number, frame_set_, stamp_});
+  notify({++notices_, event, alarm.region, alarm.signal, recipe.plan().number, frame_set_, stamp_,
+          by});
 }
 
 void Measurement::report(Status& status) const {

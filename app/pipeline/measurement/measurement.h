@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "app/model/alarm_notice.h"
 #include "app/model/command.h"
 #include "app/model/status.h"
 #include "app/pipeline/measurement/compiled_recipe.h"
@@ -41,7 +44,7 @@ class Measurement {
   /// Makes a result of the next frame set exposed from now on. Busy: one is pending.
   CommandResult trigger();
   /// By its number, from 1; 0: all. ArgumentOutOfRange: the recipe has no such alarm.
-  CommandResult acknowledge_alarm(std::size_t number);
+  CommandResult acknowledge_alarm(std::size_t number, const Giver& by = {});
   /// For recipes whose process_active is ActiveSource::Command.
   CommandResult set_process_active(bool active);
 
@@ -80,11 +83,17 @@ class Measurement {
   void stop() { switch_.stop(); }
 
  private:
+  struct Acknowledged {
+    signals::AlarmSet alarms;
+    std::array<Giver, signals::kMaxAlarms> by;
+  };
+
   void change_to(CompiledRecipe& recipe);
   bool is_result(const hal::FrameSet& set);
   void suppress_previous(hal::TimePoint now, const Notify& notify);
   void notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
-                 const Notify& notify);
+                 const Notify& notify, const Giver& by = {});
+  Acknowledged take_acknowledged();
   /// Nullopt: what would tell is not measured.
   std::optional<bool> process_active() const;
 
@@ -106,8 +115,9 @@ class Measurement {
   bool active_ = false;  ///< as far as it was known last
   std::atomic<bool> pause_requested_{false};
   std::atomic<bool> commanded_active_{false};
-  std::atomic<std::size_t> alarm_count_;        ///< of the recipe
-  std::atomic<std::uint32_t> acknowledged_{0};  ///< bit n: alarm n, since the last watch()
+  std::atomic<std::size_t> alarm_count_;  ///< of the recipe
+  std::mutex acknowledging_;              ///< of the next one, held for a copy only
+  Acknowledged acknowledged_;             ///< since the last watch()
   /// When the pending trigger was commanded, of hal::Clock; 0: none is pending.
   std::atomic<hal::Clock::rep> trigger_{0};
 };

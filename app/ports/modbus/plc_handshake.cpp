@@ -5,7 +5,7 @@
 namespace orbwatch::app::modbus {
 
 Command command_in(const CommandRegisters& registers) {
-  Command command{static_cast<CommandCode>(registers.command), {}};
+  Command command{static_cast<CommandCode>(registers.command), {}, Giver("over Modbus")};
   const CommandInfo* info = find_command(command.code);
   if (!info) return command;
   for (std::size_t i = 0; i < info->argument_count(); ++i) {

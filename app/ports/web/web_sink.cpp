@@ -251,13 +251,15 @@ std::vector<web::Route> WebSink::make_command_routes() {
 
 void WebSink::run_command(const CommandInfo& info, const ExchangePtr& exchange) {
   const web::Request& request = exchange->request();
-  const auto command = web::parse_command(info, request.body);
+  auto command = web::parse_command(info, request.body);
   if (!command) {
     exchange->answer(web::error_response(400, command.error().message));
     return;
   }
+  const std::string who = access_.caller(web::credentials_of(request)).name;
+  command->giver = Giver(who.empty() ? "over HTTP" : who);
   const web::Audit::Entry entry{{},
-                                access_.caller(web::credentials_of(request)).name,
+                                who,
                                 request.peer,
                                 std::string(info.name),
                                 {},

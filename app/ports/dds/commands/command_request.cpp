@@ -46,7 +46,7 @@ CommandAnswer carry_out(const CommandRequest& request, const CommandHandler& han
   if (request.argument_count != info->argument_count()) {
     return {CommandResult::ArgumentOutOfRange, usage(*info)};
   }
-  const Command command{info->code, request.arguments};
+  const Command command{info->code, request.arguments, Giver("over DDS")};
   if (const CommandResult result = check(command); result != CommandResult::Done) {
     return {result, refusal_text(command)};
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/status_report.h"
+#include "app/model/alarm_notice.h"
 #include "app/ports/dds/generated/event.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "app/ports/dds/status/process_state.h"
@@ -12,21 +12,16 @@ namespace orbwatch::app {
 
 using EventMessage = orbwatch_msgs_msg_dds__Event_;
 
-/// An alarm's event in one line, as in "weld: hot_spot_width raised, high alarm, 3.2 mm".
-/// Reentrant.
-std::string event_text(const AlarmNotice& notice, const StatusNames& names);
-
 /// Turns what happened into the message of the event topic. Thread-bound; reuses its memory.
 class EventComposer {
  public:
   /// The message; valid until the next call, and as long as the names. `stamp` is that of the
-  /// notice in UTC. Its figures: alarm, event, state, level, value, signal, region, recipe,
-  /// frame_set; more may be appended.
+  /// notice in UTC. Its figures are its notice_readings().
   const EventMessage& compose(const AlarmNotice& notice, const StatusNames& names,
                               const TimeMessage& stamp);
 
  private:
-  std::string source_, text_, region_;
+  std::string source_, text_;
   std::vector<FigureMessage> figures_;
   EventMessage message_{};
 };

@@ -50,8 +50,10 @@ TEST_F(MeasuredAlarms, RaisesSuppressesAndAcknowledgesAlarms) {
   EXPECT_EQ(measurement->acknowledge_alarm(1), CommandResult::Done);
   expose();
   EXPECT_EQ(kinds(notices, seen), Kinds{}) << "the other one";
-  EXPECT_EQ(measurement->acknowledge_alarm(2), CommandResult::Done);
+  EXPECT_EQ(notices[0].by.name(), "");
+  EXPECT_EQ(measurement->acknowledge_alarm(2, Giver("anna")), CommandResult::Done);
   EXPECT_EQ(idle().alarms[1].alarm.state, signals::AlarmState::Acknowledged);
+  EXPECT_EQ(notices.back().by.name(), "anna");
   EXPECT_EQ(kinds(notices, seen), Kinds{AlarmEventKind::Acknowledged}) << "needs no frame";
 
   measurement->set_process_active(false);
@@ -60,8 +62,10 @@ TEST_F(MeasuredAlarms, RaisesSuppressesAndAcknowledgesAlarms) {
   measurement->set_process_active(true);
   expose();
   EXPECT_EQ(kinds(notices, seen), Kinds{AlarmEventKind::Raised});
-  EXPECT_EQ(measurement->acknowledge_alarm(0), CommandResult::Done) << "0: all";
+  EXPECT_EQ(measurement->acknowledge_alarm(0, Giver("over Modbus")), CommandResult::Done)
+      << "0: all";
   expose();
+  EXPECT_EQ(notices.back().by.name(), "over Modbus");
   EXPECT_EQ(kinds(notices, seen), Kinds{AlarmEventKind::Acknowledged});
   expose({}, Clock::now(), 31000);
   EXPECT_EQ(kinds(notices, seen), Kinds{AlarmEventKind::Cleared});

@@ -99,6 +99,7 @@ TEST_F(ModbusCommand, ArgumentsAreScaledAsTheListOfCommandsSays) {
   ASSERT_EQ(plc.command(kArguments, {0, 3, 0xffff, yaw, 0, 1250, 0, 8000, 0, 0, 0, 6, 1}), 0);
   const Command command = last_command();
   EXPECT_EQ(command.code, CommandCode::PointView);
+  EXPECT_EQ(command.giver.name(), "over Modbus");
   EXPECT_EQ(command.arguments[0], 3);
   EXPECT_NEAR(command.arguments[1], -115.01, 1e-9);
   EXPECT_NEAR(command.arguments[2], 12.5, 1e-9);

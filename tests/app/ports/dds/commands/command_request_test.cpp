@@ -42,6 +42,7 @@ TEST(CarryOut, HandsEveryCommandOverWithItsArguments) {
     ASSERT_EQ(machine.done.size(), 1u) << info.name;
     EXPECT_EQ(machine.done[0].code, info.code);
     EXPECT_EQ(machine.done[0].arguments, asked.arguments);
+    EXPECT_EQ(machine.done[0].giver.name(), "over DDS");
   }
 }
 

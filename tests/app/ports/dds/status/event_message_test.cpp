@@ -35,17 +35,6 @@ AlarmNotice make_notice(std::uint64_t number) {
   return notice;
 }
 
-TEST(EventText, SaysWhatHappenedWhere) {
-  AlarmNotice notice = make_notice(1);
-  EXPECT_EQ(event_text(notice, tests::make_names()),
-            "edge: hot_spot_width raised, high alarm, 3.5 mm");
-  notice.recipe = 1;  // whose regions have no names
-  notice.event.kind = AlarmEventKind::Cleared;
-  notice.event.value = signals::kNotValid;
-  EXPECT_EQ(event_text(notice, tests::make_names()),
-            "2: hot_spot_width cleared, high alarm, not measured");
-}
-
 TEST(EventComposer, SeverityIsThatOfTheAlarmAfterTheEvent) {
   struct Case {
     AlarmState state;

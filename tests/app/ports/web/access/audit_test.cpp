@@ -91,7 +91,8 @@ class AuditServed : public AccessServed {
  protected:
   void SetUp() override {
     AccessServed::SetUp();
-    handler = [](const Command& command) {
+    handler = [this](const Command& command) {
+      giver = command.giver;
       return command.code == CommandCode::Stop ? CommandResult::NotPossible : CommandResult::Done;
     };
     add_one_of_each_role();
@@ -100,6 +101,8 @@ class AuditServed : public AccessServed {
   json shown() const {
     return json::parse(get(port(), "/api/v1/audit", by_token(Role::Administrator)).body)["entries"];
   }
+
+  Giver giver;  ///< of the newest command; read after its answer
 };
 
 TEST_F(AuditServed, SaysWhoDidWhat) {
@@ -111,6 +114,7 @@ TEST_F(AuditServed, SaysWhoDidWhat) {
           .status,
       200);
   EXPECT_EQ(post("/api/v1/command/stop", "{}", by_token(Role::Operator) + kJsonHeader).status, 409);
+  EXPECT_EQ(giver.name(), shown().back()["who"]) << "what is carried out has the same name";
   EXPECT_EQ(
       post("/api/v1/set_user",
            json{{"user", "viewer"}, {"role", "operator"}, {"password", kPassword}}.dump(), admin)

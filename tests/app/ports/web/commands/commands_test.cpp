@@ -72,6 +72,7 @@ TEST_F(Commands, EachOfTheListReachesTheHandler) {
     EXPECT_EQ(json::parse(answer.body)["result_text"], "done");
     ASSERT_FALSE(received.empty());
     EXPECT_EQ(received.back().code, info.code);
+    EXPECT_EQ(received.back().giver.name(), "over HTTP");
     for (std::size_t i = 0; i < info.argument_count(); ++i) {
       EXPECT_EQ(received.back().arguments[i], info.arguments[i].minimum) << info.name;
     }
