@@ -108,6 +108,7 @@ Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
   SinkContext context = make_context(site, std::move(handler), std::move(record),
                                      std::move(background), alignment, std::move(program));
   context.tables = [this] { return tables(); };
+  context.metrics = [this] { return metrics(); };
   context.page = page_of(std::get<WebSettings>(site.site.sinks));
   context.fleet = make_fleet(site.site.sinks);
   std::size_t next = 0;
@@ -141,6 +142,12 @@ std::vector<Sink*> Interfaces::sinks() const {
 std::vector<InterfaceTable> Interfaces::tables() const {
   std::vector<InterfaceTable> all;
   for (const Sink* sink : sinks()) std::ranges::move(sink->tables(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<InterfaceMetric> Interfaces::metrics() const {
+  std::vector<InterfaceMetric> all;
+  for (const Sink* sink : sinks()) std::ranges::move(sink->metrics(), std::back_inserter(all));
   return all;
 }
 

@@ -52,8 +52,9 @@ class Interfaces {
   /// For the pipeline.
   std::vector<Sink*> sinks() const;
 
-  /// What they show of themselves. On any thread, once this is made.
+  /// What they show and count of themselves. On any thread, once this is made.
   std::vector<InterfaceTable> tables() const;
+  std::vector<InterfaceMetric> metrics() const;
 
   /// As the figure interface_faults of SystemStatus. On any thread.
   std::uint32_t faults() const;

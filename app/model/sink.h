@@ -11,6 +11,7 @@
 #include "app/model/alarm_notice.h"
 #include "app/model/appliance_notice.h"
 #include "app/model/command.h"
+#include "app/model/interface_metric.h"
 #include "app/model/interface_table.h"
 #include "app/model/measured_recipe.h"
 #include "app/model/picture_needs.h"
@@ -67,6 +68,8 @@ struct SinkContext {
   std::vector<MeasuredRecipe> recipes;             ///< what is measured
   /// What all sinks show of themselves, on any thread while they run; empty: nothing.
   std::function<std::vector<InterfaceTable>()> tables = nullptr;
+  /// And what all count, under the same rule.
+  std::function<std::vector<InterfaceMetric>()> metrics = nullptr;
   PageAddress page{};                      ///< of the appliance, as configured
   std::shared_ptr<Fleet> fleet = nullptr;  ///< who is heard over DDS; null: nobody
 };
@@ -88,6 +91,8 @@ class Sink {
   virtual std::chrono::nanoseconds cpu_time() const { return {}; }
   /// What it shows of itself at this moment. On any thread.
   virtual std::vector<InterfaceTable> tables() const { return {}; }
+  /// Its counters at this moment, for metrics. On any thread.
+  virtual std::vector<InterfaceMetric> metrics() const { return {}; }
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 

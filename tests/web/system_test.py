@@ -27,6 +27,13 @@ class WithPlc(Appliance):
         with urllib.request.urlopen(f"{self.address}api/v1/{path}", timeout=60) as answer:
             return json.load(answer)
 
+    def metrics(self):
+        """Values by metric, with its label."""
+        with urllib.request.urlopen(f"{self.address}metrics", timeout=60) as answer:
+            lines = answer.read().decode().splitlines()
+        samples = [line.rsplit(" ", 1) for line in lines if not line.startswith("#")]
+        return {name: float(value) for name, value in samples}
+
     def command(self, name):
         request = urllib.request.Request(
             f"{self.address}api/v1/command/{name}", data=b"{}",
@@ -100,6 +107,10 @@ class SystemPage(PageCase):
         topics = {row[0] for row in self.rows("#interfaces") if len(row) == 9}
         self.assertEqual(topics, {topic["topic"] for topic in
                                   self.appliance.get("interfaces")["dds"]["topics"]})
+        metrics = self.appliance.metrics()
+        self.assertEqual(metrics["orbwatch_modbus_answered"], 1)
+        self.assertEqual({f'orbwatch_dds_topic_readers{{name="{topic}"}}' for topic in topics},
+                         {name for name in metrics if name.startswith("orbwatch_dds_topic_readers{")})
         self.browser.keep_picture("interfaces")
         self.assertEqual(self.browser.complaints(), [])
 

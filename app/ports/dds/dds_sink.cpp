@@ -302,18 +302,29 @@ DdsStatistics DdsSink::statistics() const {
 }
 
 std::vector<InterfaceTable> DdsSink::tables() const {
-  InterfaceTable topics{"dds",
-                        "topics",
-                        {"topic", "readers", "written", "unread", "replaced", "limited", "blocked",
-                         "failed", "last_error"},
-                        {}};
+  InterfaceTable topics{"dds", "topics", {"topic"}, {}};
+  for_each_field(std::type_identity<TopicStatistics>{},
+                 [&topics](const FieldInfo& field) { topics.columns.emplace_back(field.name); });
+  topics.columns.emplace_back("last_error");
   for (const TopicStatistics& topic : statistics().topics) {
-    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
-    topics.rows.push_back({topic.topic, number(topic.readers), number(topic.written),
-                           number(topic.unread), number(topic.replaced), number(topic.limited),
-                           number(topic.blocked), number(topic.failed), topic.last_error});
+    auto& row = topics.rows.emplace_back();
+    row.emplace_back(topic.topic);
+    for_each_reading(topic, {},
+                     [&row](const Reading& reading) { row.emplace_back(reading.value); });
+    row.emplace_back(topic.last_error);
   }
   return {std::move(topics)};
+}
+
+std::vector<InterfaceMetric> DdsSink::metrics() const {
+  const DdsStatistics statistics = this->statistics();
+  std::vector<InterfaceMetric> all;
+  add_metrics(all, {"dds"}, static_cast<const DdsCounts&>(statistics), {});
+  add_metrics(all, {"dds_commands"}, statistics.commands, {});
+  for (const TopicStatistics& topic : statistics.topics) {
+    add_metrics(all, {"dds_topic", topic.topic}, topic, {});
+  }
+  return all;
 }
 
 std::string commanders(const DdsSettings& settings) {

@@ -61,6 +61,7 @@ class DdsSink final : public Sink {
 
   /// Topics with their readers.
   std::vector<InterfaceTable> tables() const override;
+  std::vector<InterfaceMetric> metrics() const override;
 
   void accept_frames(const hal::FrameSet& set) override;
   PictureNeeds needs(std::size_t view, hal::TimePoint stamp) override;

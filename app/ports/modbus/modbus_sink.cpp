@@ -140,6 +140,17 @@ std::vector<InterfaceTable> ModbusSink::tables() const {
   return {modbus::register_table(map_, image), std::move(clients)};
 }
 
+std::vector<InterfaceMetric> ModbusSink::metrics() const {
+  const std::lock_guard lock(served_);
+  if (!responder_) return {};
+  const modbus::ProcessImage image = process_image();
+  std::vector<InterfaceMetric> all;
+  add_metrics(all, {"modbus"}, image.server, image.now);
+  add_metrics(all, {"modbus_results"}, image.results, image.now);
+  add_metrics(all, {"modbus_plc"}, image.plc, image.now);
+  return all;
+}
+
 std::chrono::nanoseconds ModbusSink::cpu_time() const {
   return tcp_thread_.cpu_time() + serial_thread_.cpu_time() + command_thread_.cpu_time();
 }

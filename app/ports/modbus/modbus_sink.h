@@ -42,6 +42,8 @@ class ModbusSink final : public Sink {
 
   /// Registers with their values, and the clients on TCP.
   std::vector<InterfaceTable> tables() const override;
+  /// Of the server, the queue of results and the PLC; none while stopped.
+  std::vector<InterfaceMetric> metrics() const override;
 
   void accept(const ViewPtr&) override {}  // registers show no pictures
   void accept(const Status& status) override;

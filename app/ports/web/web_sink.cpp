@@ -76,6 +76,7 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       program_(context.program),
       fleet_(context.fleet),
       tables_(context.tables),
+      metrics_(context.metrics),
       routes_(make_routes()),
       listeners_(
           settings_, context.state_folder,
@@ -305,8 +306,10 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
   const NewestStatus newest = this->newest();
   web::Response response;
   response.type = kMetrics;
-  response.body = std::make_shared<const std::string>(web::metrics_text(
-      {newest.status, names_, hal::Clock::now(), newest.utc}, statistics(), version_of(program_)));
+  const auto interfaces = metrics_ ? metrics_() : std::vector<InterfaceMetric>();
+  response.body = std::make_shared<const std::string>(
+      web::metrics_text({newest.status, names_, hal::Clock::now(), newest.utc}, statistics(),
+                        interfaces, version_of(program_)));
   exchange->answer(std::move(response));
 }
 

@@ -109,6 +109,7 @@ class WebSink final : public Sink {
   const Program program_;
   const std::shared_ptr<Fleet> fleet_;
   const std::function<std::vector<InterfaceTable>()> tables_;
+  const std::function<std::vector<InterfaceMetric>()> metrics_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
   hal::Thread thread_;  ///< ends what is overdue, and reports to streams

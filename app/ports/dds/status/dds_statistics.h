@@ -28,15 +28,29 @@ constexpr void for_each_field(std::type_identity<CommandCounts>, Visit&& visit) 
   ORBWATCH_COMMAND_COUNTS(ORBWATCH_VISIT_FIELD)
 }
 
+#define ORBWATCH_DDS_COUNTS(FIELD)                                                              \
+  FIELD(std::uint64_t, joins, kCount, "Of the domain: 1, and one for each change of addresses") \
+  FIELD(std::uint64_t, dropped_states, kCount, "States replaced by a newer one")                \
+  FIELD(std::uint64_t, dropped_events, kCount, "Events lost because the queue was full")        \
+  FIELD(std::uint64_t, unknown_views, kCount, "Pictures of views beyond the list of names")     \
+  FIELD(std::uint64_t, mistyped, kCount,                                                        \
+        "Foreign writers and readers of our topics, of other types")                            \
+  FIELD(std::uint64_t, malformed, kCount, "Received samples that are not valid CDR of their type")
+
+/// Of all topics together, since construction.
+struct DdsCounts {
+  ORBWATCH_DDS_COUNTS(ORBWATCH_FIELD_MEMBER)
+};
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<DdsCounts>, Visit&& visit) {
+  using Part = DdsCounts;
+  ORBWATCH_DDS_COUNTS(ORBWATCH_VISIT_FIELD)
+}
+
 /// Everything published and received since construction.
-struct DdsStatistics {
+struct DdsStatistics : DdsCounts {
   std::vector<TopicStatistics> topics;
-  std::uint64_t joins = 0;           ///< of the domain: 1, and one for each change of addresses
-  std::uint64_t dropped_states = 0;  ///< replaced by a newer one
-  std::uint64_t dropped_events = 0;  ///< the queue was full
-  std::uint64_t unknown_views = 0;   ///< View::index beyond the list of names
-  std::uint64_t mistyped = 0;        ///< foreign writers and readers of our topics, of other types
-  std::uint64_t malformed = 0;       ///< samples that are not valid CDR of their type
   CommandCounts commands;
 };
 

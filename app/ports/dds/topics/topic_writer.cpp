@@ -57,7 +57,7 @@ void TopicWriter::write(const void* sample) {
 
 TopicStatistics TopicWriter::statistics() const {
   const std::lock_guard lock(mutex_);
-  return {name_, written_, unread_, 0, 0, blocked_, failed_, last_error_, readers_};
+  return {name_, readers_, written_, unread_, 0, 0, blocked_, failed_, last_error_};
 }
 
 }  // namespace orbwatch::app

@@ -4,24 +4,36 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <type_traits>
 
+#include "app/model/field.h"
 #include "app/ports/dds/participant/entity.h"
 
 namespace orbwatch::app {
 
+#define ORBWATCH_DDS_TOPIC_FIGURES(FIELD)                                                      \
+  FIELD(std::uint64_t, readers, kCount, "Readers that are matched now")                        \
+  FIELD(std::uint64_t, written, kCount, "Samples written")                                     \
+  FIELD(std::uint64_t, unread, kCount, "Samples without a reader")                             \
+  FIELD(std::uint64_t, replaced, kCount,                                                       \
+        "Samples replaced by a newer one before the write; of a camera's own pictures, those " \
+        "during a write")                                                                      \
+  FIELD(std::uint64_t, limited, kCount, "Samples more than the topic's rate")                  \
+  FIELD(std::uint64_t, blocked, kCount, "Samples abandoned because a reader did not keep up")  \
+  FIELD(std::uint64_t, failed, kCount, "Samples refused by DDS, or whose writer could not be made")
+
 /// The samples of one topic since the program started, each counted once.
 struct TopicStatistics {
   std::string topic;
-  std::uint64_t written = 0;
-  std::uint64_t unread = 0;  ///< without a reader
-  /// By a newer one before the write; of a camera's own pictures, those during a write.
-  std::uint64_t replaced = 0;
-  std::uint64_t limited = 0;  ///< more than the topic's rate
-  std::uint64_t blocked = 0;  ///< abandoned after kMaxBlockingTime: a reader does not keep up
-  std::uint64_t failed = 0;   ///< refused by DDS, or the writer could not be made
-  std::string last_error{};   ///< of the newest failure; empty when there was none
-  std::uint32_t readers = 0;  ///< matched now
+  ORBWATCH_DDS_TOPIC_FIGURES(ORBWATCH_FIELD_MEMBER)
+  std::string last_error{};  ///< of the newest failure; empty when there was none
 };
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<TopicStatistics>, Visit&& visit) {
+  using Part = TopicStatistics;
+  ORBWATCH_DDS_TOPIC_FIGURES(ORBWATCH_VISIT_FIELD)
+}
 
 /// One topic and its writer, with statistics.
 /// Thread rule: one owner opens and closes; between, all else is thread-safe.

@@ -45,6 +45,10 @@ class Metrics {
       add(component, field, reading_of(field, std::invoke(field.get, part), now));
     });
   }
+  void add(const InterfaceMetric& figure) {
+    const FieldInfo& field = figure.field;
+    add(figure.component, field, {field.name, figure.value, field.unit});
+  }
 
   std::string text() const {
     std::string all;
@@ -84,12 +88,13 @@ std::string status_json(const StatusReport& report, const WebStatistics& web, do
 }
 
 std::string metrics_text(const StatusReport& report, const WebStatistics& web,
-                         std::string_view version) {
+                         std::span<const InterfaceMetric> interfaces, std::string_view version) {
   Metrics metrics;
   for_each_component(report, [&](const Component& component, const auto& part) {
     metrics.add(component, part, report.now);
   });
   metrics.add(kWeb, web, report.now);
+  for (const InterfaceMetric& figure : interfaces) metrics.add(figure);
   const std::string build =
       "# HELP orbwatch_build_info Version of orbwatchd\n# TYPE orbwatch_build_info gauge\n"
       "orbwatch_build_info{version=\"" +

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "app/model/interface_metric.h"
 #include "app/model/status_report.h"
 #include "app/ports/web/status/web_statistics.h"
 
@@ -14,8 +16,9 @@ namespace orbwatch::app::web {
 std::string status_json(const StatusReport& report, const WebStatistics& web, double age);
 
 /// Prometheus' text format 0.0.4: each figure as orbwatch_KIND_FIGURE with the component's name as
-/// label "name", NaN where it is not valid; and orbwatch_build_info with the label "version".
+/// label "name", NaN where it is not valid; those of other interfaces, too; and orbwatch_build_info
+/// with the label "version".
 std::string metrics_text(const StatusReport& report, const WebStatistics& web,
-                         std::string_view version);
+                         std::span<const InterfaceMetric> interfaces, std::string_view version);
 
 }  // namespace orbwatch::app::web

@@ -63,6 +63,13 @@ TEST(ShownTables, HaveTheClientsThatAreConnected) {
     const auto tables = sink.tables();
     return numbers(named(tables, "clients"), "address", "requests");
   };
+  const auto metric = [&sink](std::string_view name) {
+    const auto metrics = sink.metrics();
+    const auto found = std::ranges::find_if(metrics, [name](const InterfaceMetric& one) {
+      return one.component.kind == "modbus" && one.field.name == name;
+    });
+    return found == metrics.end() ? -1 : found->value;
+  };
   EXPECT_TRUE(requests().empty());
   {
     Plc plc(sink.port());
@@ -72,6 +79,8 @@ TEST(ShownTables, HaveTheClientsThatAreConnected) {
     }));
     const auto tables = sink.tables();
     EXPECT_TRUE(std::get<bool>(named(tables, "clients").rows[0][1])) << "this host may write";
+    EXPECT_EQ(metric("answered"), 3);
+    EXPECT_EQ(metric("connections"), 1);
   }
   EXPECT_TRUE(eventually([&] { return requests().empty(); }));
 }

@@ -3,6 +3,8 @@
 #include <regex>
 #include <set>
 
+#include "app/ports/dds/status/dds_statistics.h"
+#include "app/ports/modbus/map/process_image.h"
 #include "tests/app/ports/web/served.h"
 
 namespace orbwatch::app::web::tests {
@@ -24,15 +26,27 @@ std::vector<std::pair<std::string, std::string>> queries() {
   return all;
 }
 
+/// As the interfaces count.
+std::vector<InterfaceMetric> interface_metrics() {
+  std::vector<InterfaceMetric> all;
+  add_metrics(all, {"modbus"}, modbus::ServerStatus{}, {});
+  add_metrics(all, {"modbus_results"}, modbus::ResultQueueStatus{}, {});
+  add_metrics(all, {"modbus_plc"}, modbus::PlcStatus{}, {});
+  add_metrics(all, {"dds"}, DdsCounts{}, {});
+  add_metrics(all, {"dds_topic", "rt/orbwatch/event"}, TopicStatistics{}, {});
+  return all;
+}
+
 using Dashboard = Served;
 
 TEST_F(Dashboard, AsksForMetricsThatThereAre) {
+  metrics = interface_metrics;
   start();
-  const std::string metrics = get(port(), "/metrics").body;
+  const std::string text = get(port(), "/metrics").body;
   static const std::regex kSample(R"rx((^|\n)(orbwatch_\w+)(\{| ))rx"),
       kName(R"rx(orbwatch_\w+)rx");
   std::set<std::string> served;
-  for (std::sregex_iterator it(metrics.begin(), metrics.end(), kSample), end; it != end; ++it) {
+  for (std::sregex_iterator it(text.begin(), text.end(), kSample), end; it != end; ++it) {
     served.insert((*it)[2]);
   }
   std::set<std::string> kinds;
@@ -42,9 +56,10 @@ TEST_F(Dashboard, AsksForMetricsThatThereAre) {
     EXPECT_TRUE(served.contains(name.str())) << panel << " asks for " << name.str();
     kinds.insert(name.str().substr(0, name.str().find('_', sizeof("orbwatch_"))));
   }
-  EXPECT_EQ(kinds, (std::set<std::string>{"orbwatch_alarm", "orbwatch_camera", "orbwatch_health",
-                                          "orbwatch_region", "orbwatch_stage", "orbwatch_system",
-                                          "orbwatch_view", "orbwatch_web"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"orbwatch_alarm", "orbwatch_camera", "orbwatch_dds",
+                                          "orbwatch_health", "orbwatch_modbus", "orbwatch_region",
+                                          "orbwatch_stage", "orbwatch_system", "orbwatch_view",
+                                          "orbwatch_web"}));
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ class Served : public testing::Test {
     context.handler = handler;
     context.program = program;
     context.tables = tables;
+    context.metrics = metrics;
     context.fleet = fleet;
     sink = std::make_unique<WebSink>(on_a_free_port(settings), context);
     const auto started = sink->start();
@@ -71,9 +72,10 @@ class Served : public testing::Test {
 
   std::filesystem::path state_folder;  ///< empty: no users
   CommandHandler handler;
-  Program program;                                      ///< nothing
-  std::function<std::vector<InterfaceTable>()> tables;  ///< empty: none
-  std::shared_ptr<Fleet> fleet;                         ///< null: no DDS
+  Program program;                                        ///< nothing
+  std::function<std::vector<InterfaceTable>()> tables;    ///< empty: none
+  std::function<std::vector<InterfaceMetric>()> metrics;  ///< empty: none
+  std::shared_ptr<Fleet> fleet;                           ///< null: no DDS
   std::unique_ptr<WebSink> sink;
 };
 

@@ -88,6 +88,11 @@ TEST_F(Served, HealthFollowsThePipeline) {
 
 TEST_F(Served, MetricsAreInPrometheusFormat) {
   program.versions = {{"orbwatchd", "1.2.3"}};
+  metrics = [] {
+    const FieldInfo written{kCount, "written", "Samples"};
+    return std::vector<InterfaceMetric>{{{"dds_topic", "rt/a"}, written, 3},
+                                        {{"dds_topic", "rt/b"}, written, 4}};
+  };
   start();
   const Answer answer = get(port(), "/metrics");
   ASSERT_EQ(answer.status, 200);
@@ -110,6 +115,8 @@ TEST_F(Served, MetricsAreInPrometheusFormat) {
   EXPECT_GT(samples, 100);
   EXPECT_THAT(answer.body, HasSubstr("orbwatch_camera_frames{name=\"thermal\"} 1000000000"));
   EXPECT_THAT(answer.body, HasSubstr("\norbwatch_web_requests 1\n"));
+  EXPECT_THAT(answer.body, HasSubstr("\norbwatch_dds_topic_written{name=\"rt/a\"} 3\n"
+                                     "orbwatch_dds_topic_written{name=\"rt/b\"} 4\n"));
   EXPECT_THAT(answer.body, HasSubstr("\norbwatch_build_info{version=\"1.2.3\"} 1\n"));
 }
 
