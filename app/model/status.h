@@ -366,10 +366,16 @@ constexpr void for_each_field(std::type_identity<Health>, Visit&& visit) {
 }
 
 template <class Visit>
+constexpr void for_each_field(std::type_identity<CameraWatchStatus>, Visit&& visit) {
+  using Part = CameraWatchStatus;
+  ORBWATCH_WATCH_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+template <class Visit>
 constexpr void for_each_field(std::type_identity<CameraStatus>, Visit&& visit) {
   using Part = CameraStatus;
   ORBWATCH_CAMERA_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)
-  ORBWATCH_WATCH_FIGURES(ORBWATCH_VISIT_FIELD)
+  for_each_field(std::type_identity<CameraWatchStatus>{}, visit);
   ORBWATCH_LINK_FIGURES(ORBWATCH_VISIT_FIELD)
 }
 

@@ -1,10 +1,12 @@
 """What a person does with the page, against a running daemon."""
 
+import json
 import unittest
+import urllib.request
 
 from selenium.webdriver.common.by import By
 
-from appliance import eventually
+from appliance import PATIENCE_S, eventually
 from page_case import PageCase
 
 VIEWS = {"panorama", "door", "heat", "process"}
@@ -58,6 +60,40 @@ class Page(PageCase):
         eventually("one stream", lambda: self.appliance.status()["web"]["streams"] == 1)
         self.expect_no_complaint()
 
+    def history(self, query):
+        with urllib.request.urlopen(f"{self.appliance.address}api/v1/history{query}",
+                                    timeout=PATIENCE_S) as answer:
+            return json.load(answer)
+
+    def charted_before_it_was_opened(self):
+        """Seconds that the strip of a region shows from before the page was loaded; None: it shows
+        nothing. Above and below the strip there are words."""
+        return self.browser.execute_script("""
+            const canvas = document.querySelector('[data-region] canvas');
+            if (!canvas?.width) return null;
+            const words = Math.ceil(canvas.height / 8);
+            const copy = new OffscreenCanvas(canvas.width, canvas.height)
+              .getContext('2d', { willReadFrequently: true });
+            copy.drawImage(canvas, 0, 0);
+            const { data } = copy.getImageData(0, words, canvas.width, canvas.height - 2 * words);
+            const drawn = [...data.keys()].filter((k) => k % 4 === 3 && data[k] > 0);
+            if (drawn.length === 0) return null;
+            const first = Math.min(...drawn.map((k) => (k - 3) / 4 % canvas.width));
+            return 600 * (1 - first / canvas.width) - performance.now() / 1000;""")
+
+    def expect_history_after_a_reload(self):
+        acknowledged = eventually("it is remembered", lambda: [
+            event for event in self.history("/alarms")["alarms"]
+            if event["event_text"] == "acknowledged"])
+        self.assertEqual(acknowledged[-1]["by"], "over HTTP")
+        eventually("there is something to remember", lambda: len(self.history(
+            "?region=pool&figure=hot_spot_peak_temperature")["low"]) > 20)
+        self.browser.refresh()
+        eventually("the chart begins before the page does",
+                   lambda: (self.charted_before_it_was_opened() or 0) > 5)
+        eventually("what happened to alarms", lambda: "acknowledged" in self.browser.text(
+            "#alarm-history tbody"))
+
     def test_an_alarm_is_acknowledged(self):
         def states():
             return [alarm["state_text"] for alarm in self.appliance.status()["alarms"]]
@@ -72,6 +108,7 @@ class Page(PageCase):
         eventually("the command was carried out",
                    lambda: self.appliance.status()["web"]["commands_done"] == done + 1)
         self.assertEqual(self.browser.text("#process [role=alert]"), "")
+        self.expect_history_after_a_reload()
         self.expect_no_complaint()
 
     def test_figures_are_those_of_the_interface(self):

@@ -69,6 +69,7 @@ WebSink::WebSink(WebSettings settings, const SinkContext& context)
       align_(context.names.cameras, context.alignment),
       recipe_(context.recipes, {context.ball, context.scene},
               [this] { return newest().status.recipe; }),
+      history_(context.names, context.recipes),
       audit_(context.state_folder),
       access_(context.state_folder, {settings_.session_idle, settings_.session_longest}),
       desk_(access_, audit_, settings_.session_longest),
@@ -119,6 +120,7 @@ void WebSink::watch() {
     listeners_.watch();
     access_.refresh();
     pixels_.release_unwanted(hal::Clock::now());
+    history_.advance(hal::Clock::now());
     if (!status_feed_->is_wanted()) continue;
     status_feed_->publish(std::make_shared<const std::string>(newest_as_json()), hal::Clock::now());
   }
@@ -166,6 +168,7 @@ void WebSink::accept(const ViewPtr& view) {
 void WebSink::accept(const Status& status) {
   const auto now = hal::Clock::now();
   const auto utc = hal::to_utc(status.stamp);
+  history_.accept(status);
   const std::lock_guard lock(mutex_);
   // Once per frame set: each conversion of the clocks differs by a microsecond or so.
   if (status.frame_set != newest_.status.frame_set) newest_.utc = utc;
@@ -193,6 +196,7 @@ web::WebStatistics WebSink::statistics() const {
   all.pictures_skipped = stream_counts_.skipped;
   all.commands_done = commands_.done();
   all.commands_refused = commands_.refused();
+  all.alarm_events = history_.alarm_events();
   for (const auto& view : views_) all.pictures_replaced += view->replaced();
   return all;
 }
@@ -230,6 +234,7 @@ std::vector<web::Route> WebSink::make_routes() {
   std::ranges::move(web::log_routes(program_.log), std::back_inserter(routes));
   std::ranges::move(align_.routes(), std::back_inserter(routes));
   std::ranges::move(recipe_.routes(), std::back_inserter(routes));
+  std::ranges::move(history_.routes(), std::back_inserter(routes));
   std::ranges::move(web::interface_routes(tables_, program_), std::back_inserter(routes));
   std::ranges::move(web::fleet_routes(fleet_), std::back_inserter(routes));
   std::ranges::move(make_command_routes(), std::back_inserter(routes));

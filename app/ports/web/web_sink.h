@@ -14,6 +14,7 @@
 #include "app/ports/web/align/align_routes.h"
 #include "app/ports/web/commands/command_runner.h"
 #include "app/ports/web/configuration/configuration_desk.h"
+#include "app/ports/web/history/history_routes.h"
 #include "app/ports/web/http/server.h"
 #include "app/ports/web/listeners.h"
 #include "app/ports/web/look_around/look_around.h"
@@ -47,6 +48,7 @@ class WebSink final : public Sink {
   KeptViews keeps() const override;
   void accept(const ViewPtr& view) override;
   void accept(const Status& status) override;
+  void accept_event(const AlarmNotice& notice) override { history_.accept(notice); }
 
   int port() const { return listeners_.port(); }
   int https_port() const { return listeners_.https_port(); }
@@ -102,6 +104,7 @@ class WebSink final : public Sink {
   web::LookAround look_around_;
   web::AlignRoutes align_;
   web::RecipeRoutes recipe_;
+  web::HistoryRoutes history_;
   web::Audit audit_;
   web::Access access_;
   web::AccessDesk desk_;
@@ -112,7 +115,7 @@ class WebSink final : public Sink {
   const std::function<std::vector<InterfaceMetric>()> metrics_;
   const std::vector<web::Route> routes_;
   web::Listeners listeners_;
-  hal::Thread thread_;  ///< ends what is overdue, and reports to streams
+  hal::Thread thread_;  ///< ends what is overdue, reports to streams, keeps history
 };
 
 }  // namespace orbwatch::app

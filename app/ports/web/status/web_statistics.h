@@ -26,7 +26,10 @@ inline constexpr Quantity kDays{"d", 0.01, -100000, 100000};
         "Connections closed because their address had max_connections_per_address")                \
   FIELD(double, certificate_days, kDays, "Until the certificate of HTTPS ends; NaN: no HTTPS")     \
   FIELD(std::uint64_t, streams_refused, kCount, "Streams refused because max_streams were open")   \
-  FIELD(std::uint64_t, logins_failed, kCount, "Wrong passwords, and wrong codes for the first one")
+  FIELD(std::uint64_t, logins_failed, kCount,                                                      \
+        "Wrong passwords, and wrong codes for the first one")                                      \
+  FIELD(std::uint64_t, alarm_events, kCount,                                                       \
+        "Events of alarms: raised, acknowledged, cleared, see /api/v1/history/alarms")
 
 /// Of the web interface itself, since start. Reported as a component of kind "web".
 struct WebStatistics {

@@ -47,6 +47,7 @@ class Served : public testing::Test {
     context.tables = tables;
     context.metrics = metrics;
     context.fleet = fleet;
+    context.recipes = recipes;
     sink = std::make_unique<WebSink>(on_a_free_port(settings), context);
     const auto started = sink->start();
     ASSERT_TRUE(started) << started.error().message;
@@ -76,6 +77,7 @@ class Served : public testing::Test {
   std::function<std::vector<InterfaceTable>()> tables;    ///< empty: none
   std::function<std::vector<InterfaceMetric>()> metrics;  ///< empty: none
   std::shared_ptr<Fleet> fleet;                           ///< null: no DDS
+  std::vector<MeasuredRecipe> recipes;                    ///< none
   std::unique_ptr<WebSink> sink;
 };
 

@@ -1,42 +1,10 @@
-// The last ten minutes of one signal as a strip.
+// The last ten minutes of one figure as a strip.
 import { figureText } from "./figures.js";
+import { kHistoryMs } from "./history.js";
 import { texts } from "./texts.js";
 
-export const kHistoryMs = 600000;
 const kLinePx = 16;  // of text
-
-// Of as many values as the appliance reports in that time, four a second, and some more; takes its memory
-// at once.
-export class History {
-  static #most = 3000;
-  #at = new Float64Array(History.#most); // ms; a ring, as the values are
-  #values = new Float64Array(History.#most); // NaN: not measured
-  #oldest = 0;
-  #count = 0;
-
-  // `value` null: not measured.
-  add(at, value) {
-    if (this.#count === History.#most) this.#forgetOldest();
-    const place = (this.#oldest + this.#count) % History.#most;
-    this.#at[place] = at;
-    this.#values[place] = value ?? NaN;
-    ++this.#count;
-    while (this.#at[this.#oldest] < at - kHistoryMs) this.#forgetOldest();
-  }
-
-  #forgetOldest() {
-    this.#oldest = (this.#oldest + 1) % History.#most;
-    --this.#count;
-  }
-
-  // {at, value or null}, oldest first.
-  get points() {
-    return Array.from({ length: this.#count }, (_, index) => {
-      const place = (this.#oldest + index) % History.#most, value = this.#values[place];
-      return { at: this.#at[place], value: Number.isNaN(value) ? null : value };
-    });
-  }
-}
+const kGapMs = 2000;  // nothing for so long is a gap
 
 // Where values stand in a chart: shares of its height from its top, with room for a line of text
 // above and below.
@@ -55,9 +23,12 @@ export class Scale {
   }
 }
 
+const measuredOf = (points) =>
+  points.flatMap(({ low, high }) => [low, high]).filter((value) => value !== null);
+
 // Of what was measured, and `more` values that are to be seen; null: nothing was measured.
 export function scaleOf(canvas, history, more = []) {
-  const measured = history.points.map(({ value }) => value).filter((value) => value !== null);
+  const measured = measuredOf(history.points);
   return measured.length === 0 && more.length === 0 ? null
     : new Scale([...measured, ...more], canvas.clientHeight);
 }
@@ -66,7 +37,7 @@ export function drawChart(canvas, history, name, unit, now, scale = scaleOf(canv
   const ratio = window.devicePixelRatio || 1;
   canvas.width = canvas.clientWidth * ratio;
   canvas.height = canvas.clientHeight * ratio;
-  const values = history.points.map(({ value }) => value).filter((value) => value !== null);
+  const { points } = history, values = measuredOf(points);
   canvas.setAttribute("aria-label", values.length === 0 ? texts.chartEmpty(name)
     : texts.chart(name, figureText(Math.min(...values)), figureText(Math.max(...values)), unit));
   if (!scale) return;
@@ -76,13 +47,15 @@ export function drawChart(canvas, history, name, unit, now, scale = scaleOf(canv
   brush.strokeStyle = style.color;
   brush.lineWidth = 2;
   brush.beginPath();
-  let isDown = false;
-  for (const { at, value } of history.points) {
-    const x = canvas.clientWidth * (1 + (at - now) / kHistoryMs);
-    if (value === null) isDown = false;
-    else if (isDown) brush.lineTo(x, scale.y(value));
-    else brush.moveTo(x, scale.y(value));
-    isDown = value !== null;
+  let before = null;
+  for (const point of points.filter(({ at }) => at >= now - kHistoryMs)) {
+    const x = canvas.clientWidth * (1 + (point.at - now) / kHistoryMs);
+    const isDrawn = before !== null && before.low !== null && point.at - before.at < kGapMs;
+    before = point;
+    if (point.low === null) continue;
+    if (!isDrawn) brush.moveTo(x, scale.y(point.low));
+    brush.lineTo(x, scale.y(point.low));
+    brush.lineTo(x, scale.y(point.high));
   }
   brush.stroke();
   brush.fillStyle = getComputedStyle(document.body).color;

@@ -1,9 +1,11 @@
 // Alarms, signals of the regions and their last ten minutes, and by what limits and where they are
 // measured.
+import { AlarmHistory } from "./alarm_history.js";
 import { command } from "./api.js";
-import { drawChart, History, scaleOf } from "./chart.js";
+import { drawChart, scaleOf } from "./chart.js";
 import { element, setText, table } from "./elements.js";
 import { FigureTable, Keyed } from "./figures.js";
+import { History } from "./history.js";
 import { LimitLines } from "./limit_lines.js";
 import { Recipe } from "./recipe.js";
 import { RegionEditor } from "./region_editor.js";
@@ -60,7 +62,8 @@ class Alarms {
 }
 
 class Region {
-  #histories = new Map();
+  #history = null;  // of the signal that is chosen
+  #signals = new Set();
 
   constructor(name, descriptions, recipe, mayChange) {
     this.name = name;
@@ -84,6 +87,10 @@ class Region {
   }
 
   #choose() {
+    if (this.choice.value && this.choice.value !== this.chosen) {
+      this.chosen = this.choice.value;
+      this.#history = new History({ region: this.name, figure: this.chosen });
+    }
     this.limits.choose(this.name, this.choice.value);
   }
 
@@ -91,18 +98,19 @@ class Region {
     this.table.show(region);
     for (const [name, value] of Object.entries(region)) {
       if (typeof value === "string") continue;
-      if (!this.#histories.has(name)) this.#addSignal(name);
-      this.#histories.get(name).add(now, value);
+      if (!this.#signals.has(name)) this.#addSignal(name);
     }
-    const name = this.choice.value, history = this.#histories.get(name);
+    this.#history.add(now, region[this.chosen]);
     if (this.root.offsetParent === null) return; // not shown
-    const scale = this.limits.scale(scaleOf(this.canvas, history, this.limits.values));
-    drawChart(this.canvas, history, name, this.descriptions[name]?.unit ?? "", now, scale);
+    this.#history.refresh(now);
+    const scale = this.limits.scale(scaleOf(this.canvas, this.#history, this.limits.values));
+    const unit = this.descriptions[this.chosen]?.unit ?? "";
+    drawChart(this.canvas, this.#history, this.chosen, unit, now, scale);
     this.limits.draw(scale, this.canvas.clientWidth);
   }
 
   #addSignal(name) {
-    this.#histories.set(name, new History());
+    this.#signals.add(name);
     this.choice.append(element("option", { value: name, selected: name === kFirstSignal }, name));
     if (this.choice.value === name) this.#choose();
   }
@@ -117,7 +125,9 @@ export class Process {
     this.none = element("p", {}, texts.noRegions);
     const list = element("div");
     this.editor = new RegionEditor(this.recipe, mayChange, onChoice);
-    root.append(this.editor.root, ...(mayChange ? [this.#makeTrial()] : []), this.none, list);
+    this.happened = new AlarmHistory();
+    root.append(this.happened.root, this.editor.root, ...(mayChange ? [this.#makeTrial()] : []),
+      this.none, list);
     this.regions = new Keyed(list, (name) =>
       new Region(name, figures.regions ?? {}, this.recipe, mayChange));
   }
@@ -147,6 +157,7 @@ export class Process {
   status(status, now) {
     this.recipe.status(status);
     this.alarms.show(status.alarms ?? []);
+    if (this.isShown) this.happened.refresh(status.web.alarm_events);
     const regions = status.regions ?? [];
     this.regions.keep(regions.map(({ name }) => name));
     for (const region of regions) this.regions.get(region.name).show(region, now);

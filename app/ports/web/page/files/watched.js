@@ -1,14 +1,16 @@
 // What has become of an alignment, of the focus and of the ball's cleanness, over time.
-import { drawChart, History } from "./chart.js";
+import { drawChart } from "./chart.js";
 import { element, setText } from "./elements.js";
 import { figureText } from "./figures.js";
+import { History } from "./history.js";
 import { texts } from "./texts.js";
 
 // By figure: the one that judges it.
 const kFigures = { drift_error: "alignment", blur: "focus", contamination: "cleanliness" };
 
 export class Watched {
-  #histories = new Map();  // by camera, then by figure
+  #camera = "";  // that is shown
+  #histories = {};  // its, by figure
 
   // `descriptions` of a camera's figures.
   constructor(descriptions) {
@@ -21,17 +23,17 @@ export class Watched {
 
   // `chosen`: name of the camera that is shown, or nothing.
   status(cameras, chosen, now) {
-    for (const camera of cameras) {
-      if (!this.#histories.has(camera.name)) {
-        this.#histories.set(camera.name, Object.fromEntries(Object.keys(kFigures).map((name) =>
-          [name, new History()])));
-      }
-      for (const [name, history] of Object.entries(this.#histories.get(camera.name))) {
-        history.add(now, camera[name]);
-      }
-    }
     const shown = cameras.find(({ name }) => name === chosen);
-    if (shown && this.root.offsetParent !== null) this.#show(shown, now);
+    if (!shown) return;
+    if (chosen !== this.#camera) this.#choose(chosen);
+    for (const [name, history] of Object.entries(this.#histories)) history.add(now, shown[name]);
+    if (this.root.offsetParent !== null) this.#show(shown, now);
+  }
+
+  #choose(camera) {
+    this.#camera = camera;
+    this.#histories = Object.fromEntries(Object.keys(kFigures).map((figure) =>
+      [figure, new History({ camera, figure })]));
   }
 
   #show(camera, now) {
@@ -39,7 +41,8 @@ export class Watched {
       const { unit = "" } = this.descriptions[name] ?? {}, { now: said, canvas } = this.parts[name];
       setText(said, texts.watched.now(texts.watched[name], figureText(camera[name]), unit,
         camera[`${judge}_text`]));
-      drawChart(canvas, this.#histories.get(camera.name)[name], texts.watched[name], unit, now);
+      this.#histories[name].refresh(now);
+      drawChart(canvas, this.#histories[name], texts.watched[name], unit, now);
     }
   }
 }

@@ -1,0 +1,88 @@
+#include "app/ports/web/history/history_routes.h"
+
+#include <algorithm>
+#include <string>
+
+#include "app/ports/web/history/history_text.h"
+#include "app/ports/web/query.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr std::size_t kUsualEvents = 100;
+constexpr QueryArgument kEvents{"events", "At most so many, up to 500; 100 if it is left out"};
+
+/// Nullopt: neither or both are named.
+std::optional<Component> component_of(const Request& request) {
+  const std::string *region = request.argument("region"), *camera = request.argument("camera");
+  if (!region == !camera) return std::nullopt;
+  return region ? Component{"region", *region} : Component{"camera", *camera};
+}
+
+std::string names_of(const std::vector<Component>& components) {
+  std::string names;
+  for (const Component& component : components) {
+    names += names.empty() ? "" : ", ";
+    names.append(component.kind).append("=").append(component.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Route> HistoryRoutes::routes() {
+  Route figure;
+  figure.method = "GET";
+  figure.path = "/api/v1/history";
+  figure.role = Role::Viewer;
+  figure.description =
+      "The last ten minutes of one figure of a region or of what is watched of a camera: its "
+      "lowest "
+      "and its highest value in each step, oldest first, null where it was not measured; s";
+  figure.type = kJson;
+  figure.query = {{"region", "Its name; it or a camera is needed", false, false},
+                  {"camera", "Its name", false, false},
+                  {"figure", "Name of the figure", true, false}};
+  figure.serve = [this](const ExchangePtr& exchange) { serve_figure(exchange); };
+  Route alarms = figure;
+  alarms.path = "/api/v1/history/alarms";
+  alarms.description =
+      "What happened to alarms since the start, oldest first: when, to which value by which limit, "
+      "and who acknowledged";
+  alarms.query = {kEvents};
+  alarms.serve = [this](const ExchangePtr& exchange) { serve_alarms(exchange); };
+  return {std::move(figure), std::move(alarms)};
+}
+
+void HistoryRoutes::serve_figure(const ExchangePtr& exchange) const {
+  constexpr int kBadRequest = 400, kNotFound = 404;
+  const Request& request = exchange->request();
+  const auto component = component_of(request);
+  const std::string* figure = request.argument("figure");
+  if (!component || !figure) {
+    exchange->answer(error_response(
+        kBadRequest, "say which figure, as ?region=NAME&figure=NAME or ?camera=NAME&figure=NAME"));
+    return;
+  }
+  const auto series = figures_.series(*component, *figure);
+  exchange->answer(series
+                       ? json_response(series_json(*series, hal::Clock::now()))
+                       : error_response(kNotFound,
+                                        "there is no such figure; those of /api/v1/status have a "
+                                        "history that belong to: " +
+                                            names_of(figures_.components())));
+}
+
+void HistoryRoutes::serve_alarms(const ExchangePtr& exchange) const {
+  const auto most = number_of(exchange->request(), kEvents.name, kUsualEvents, 0,
+                              static_cast<double>(AlarmHistory::kMost));
+  if (!most) {
+    constexpr int kBadRequest = 400;
+    exchange->answer(error_response(kBadRequest, most.error().message));
+    return;
+  }
+  const auto entries = alarms_.newest(static_cast<std::size_t>(*most));
+  exchange->answer(json_response(alarm_events_json(entries, names_, recipes_)));
+}
+
+}  // namespace orbwatch::app::web

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "app/model/measured_recipe.h"
+#include "app/ports/web/history/alarm_history.h"
+#include "app/ports/web/history/figure_history.h"
+#include "app/ports/web/http/exchange.h"
+#include "app/ports/web/routes.h"
+
+namespace orbwatch::app::web {
+
+/// Keeps what was measured and what happened to alarms, and serves it. Thread rule: accept on the
+/// pipeline's thread, advance on one, the rest on any.
+class HistoryRoutes {
+ public:
+  HistoryRoutes(const StatusNames& names, const std::vector<MeasuredRecipe>& recipes)
+      : names_(names), recipes_(recipes), figures_(names) {}
+
+  std::vector<Route> routes();
+
+  void accept(const Status& status) { figures_.accept(status); }
+  void accept(const AlarmNotice& notice) { alarms_.accept(notice); }
+  void advance(hal::TimePoint now) { figures_.advance(now); }
+  std::uint64_t alarm_events() const { return alarms_.count(); }
+
+ private:
+  void serve_figure(const ExchangePtr& exchange) const;
+  void serve_alarms(const ExchangePtr& exchange) const;
+
+  const StatusNames names_;
+  const std::vector<MeasuredRecipe> recipes_;
+  FigureHistory figures_;
+  AlarmHistory alarms_;
+};
+
+}  // namespace orbwatch::app::web

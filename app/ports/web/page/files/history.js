@@ -1,0 +1,79 @@
+// The last ten minutes of one figure: what the appliance kept of it, and what came since.
+export const kHistoryMs = 600000;
+// A status says what is; the appliance also knows the peaks between two of them.
+const kAgainMs = 10000;
+
+// Of as many values as the appliance reports in that time, four a second, and some more; takes its memory
+// at once.
+class Ring {
+  static #most = 3000;
+  #at = new Float64Array(Ring.#most); // ms
+  #values = new Float64Array(Ring.#most); // NaN: not measured
+  #oldest = 0;
+  #count = 0;
+
+  // `value` null: not measured.
+  add(at, value) {
+    if (this.#count === Ring.#most) this.#forgetOldest();
+    const place = (this.#oldest + this.#count) % Ring.#most;
+    this.#at[place] = at;
+    this.#values[place] = value ?? NaN;
+    ++this.#count;
+    while (this.#at[this.#oldest] < at - kHistoryMs) this.#forgetOldest();
+  }
+
+  #forgetOldest() {
+    this.#oldest = (this.#oldest + 1) % Ring.#most;
+    --this.#count;
+  }
+
+  // {at, low, high}, oldest first; null where nothing was measured.
+  get points() {
+    return Array.from({ length: this.#count }, (_, index) => {
+      const place = (this.#oldest + index) % Ring.#most;
+      const value = Number.isNaN(this.#values[place]) ? null : this.#values[place];
+      return { at: this.#at[place], low: value, high: value };
+    });
+  }
+}
+
+// {at, low, high} of each step that the appliance kept, oldest first.
+function stepsOf({ step, age, low, high }, received) {
+  const end = received - 1000 * age;
+  return low.map((value, index) => (
+    { at: end - 1000 * step * (low.length - 1 - index), low: value, high: high[index] }));
+}
+
+export class History {
+  #seen = new Ring();
+  #kept = [];
+  #askedAt = -Infinity;
+
+  // `figure`: {region or camera, figure}, their names.
+  constructor(figure) {
+    this.path = `/api/v1/history?${new URLSearchParams(figure)}`;
+  }
+
+  // `at` and `now` as of performance.now().
+  add(at, value) {
+    this.#seen.add(at, value);
+  }
+
+  // Asks the appliance, at once and then now and then.
+  async refresh(now) {
+    if (now < this.#askedAt + kAgainMs) return;
+    this.#askedAt = now;
+    const answer = await fetch(this.path).catch(() => null);
+    const kept = answer?.ok ? await answer.json().catch(() => null) : null;
+    if (kept) this.#kept = stepsOf(kept, performance.now());
+  }
+
+  // {at, low, high}, oldest first; null where nothing was measured. What was seen while the appliance kept
+  // nothing, before a restart for example, counts, too.
+  get points() {
+    const seen = this.#seen.points;
+    if (this.#kept.length === 0) return seen;
+    const from = this.#kept[0].at, until = this.#kept.at(-1).at;
+    return [...seen.filter(({ at }) => at < from), ...this.#kept, ...seen.filter(({ at }) => at > until)];
+  }
+}

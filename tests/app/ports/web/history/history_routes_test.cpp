@@ -1,0 +1,112 @@
+#include "app/ports/web/history/history_routes.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/ports/web/served.h"
+
+namespace orbwatch::app::web::tests {
+namespace {
+
+using app::tests::kRecipe;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class History : public Served {
+ protected:
+  void SetUp() override {
+    MeasuredRecipe recipe;
+    recipe.number = kRecipe;
+    recipe.alarms.resize(2);
+    recipe.alarms[1].high_alarm = 3.25;
+    recipes = {recipe};
+    start();
+  }
+  void happen(signals::AlarmEventKind kind, double value, const Giver& by = {}) {
+    AlarmNotice notice;
+    notice.number = ++noticed;
+    notice.event = {
+        1, kind, signals::AlarmState::Unacknowledged, signals::AlarmLevel::HighAlarm, value, {}};
+    notice.recipe = kRecipe;
+    notice.stamp = hal::Clock::now();
+    notice.by = by;
+    sink->accept_event(notice);
+  }
+  json alarms(const std::string& query = "") const {
+    return json::parse(get(port(), "/api/v1/history/alarms" + query).body)["alarms"];
+  }
+
+  std::uint64_t noticed = 0;
+};
+
+TEST_F(History, OfAFigureIsFilledWhileTheSinkRuns) {
+  json series;
+  ASSERT_TRUE(eventually([&] {
+    sink->accept(app::tests::make_status());
+    const Answer answer = get(port(), "/api/v1/history?region=edge&figure=hot_spot_width");
+    if (answer.status != 200) return false;
+    series = json::parse(answer.body);
+    return !series["low"].empty() && !series["low"].back().is_null();
+  }));
+  const double width = app::tests::make_status().regions[1].signals.hot_spot_width;
+  EXPECT_NEAR(series["low"].back(), width, width * 1e-6);
+  EXPECT_EQ(series["high"].size(), series["low"].size());
+  EXPECT_EQ(series["unit"], "mm");
+  EXPECT_EQ(series["step"], 0.5);
+  EXPECT_GE(series["age"], 0.0);
+  EXPECT_EQ(get(port(), "/api/v1/history?camera=thermal&figure=blur").status, 200);
+}
+
+TEST_F(History, SaysWhichFiguresThereAre) {
+  const auto refusal = [this](const std::string& query, int status) {
+    const Answer answer = get(port(), "/api/v1/history" + query);
+    EXPECT_EQ(answer.status, status) << query;
+    return json::parse(answer.body)["error"].get<std::string>();
+  };
+  for (const char* query : {"", "?region=weld", "?figure=blur", "?region=a&camera=b&figure=blur"}) {
+    EXPECT_THAT(refusal(query, 400), HasSubstr("?camera=NAME&figure=NAME"));
+  }
+  ASSERT_TRUE(eventually([&] {
+    return refusal("?region=none&figure=blur", 404)
+        .ends_with("region=weld, region=edge, camera=colour, camera=thermal");
+  }));
+}
+
+TEST_F(History, OfAlarmsSaysWhatHappenedWhenByWhichLimitAndWhoKnew) {
+  happen(signals::AlarmEventKind::Raised, 3.5);
+  happen(signals::AlarmEventKind::Acknowledged, signals::kNotValid, Giver("anna"));
+  const json events = alarms();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0]["number"], 1);
+  EXPECT_THAT(events[0]["time"].get<std::string>(), testing::StartsWith("20"));
+  EXPECT_THAT(events[0]["name"].get<std::string>(), testing::StartsWith("2, weld: "));
+  EXPECT_EQ(events[0]["event_text"], "raised");
+  EXPECT_EQ(events[0]["level_text"], "high alarm");
+  EXPECT_EQ(events[0]["value"], 3.5);
+  EXPECT_EQ(events[0]["limit"], 3.25);
+  EXPECT_TRUE(events[0]["by"].is_null());
+  EXPECT_EQ(events[1]["event_text"], "acknowledged");
+  EXPECT_TRUE(events[1]["value"].is_null());
+  EXPECT_EQ(events[1]["by"], "anna");
+  EXPECT_EQ(sink->statistics().alarm_events, 2U);
+}
+
+TEST_F(History, OfAlarmsKeepsTheNewest) {
+  for (std::size_t i = 0; i < AlarmHistory::kMost + 3; ++i) {
+    happen(signals::AlarmEventKind::Raised, 4);
+  }
+  EXPECT_EQ(alarms().size(), 100U);
+  const json all = alarms("?events=500");
+  ASSERT_EQ(all.size(), AlarmHistory::kMost);
+  EXPECT_EQ(all.front()["number"], 4);
+  EXPECT_EQ(all.back()["number"], AlarmHistory::kMost + 3);
+  EXPECT_EQ(alarms("?events=2")[0]["number"], AlarmHistory::kMost + 2);
+  EXPECT_EQ(alarms("?events=0").size(), 0U);
+  for (const char* query : {"?events=501", "?events=-1", "?events=x"}) {
+    EXPECT_EQ(get(port(), "/api/v1/history/alarms" + std::string(query)).status, 400) << query;
+  }
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web::tests
