@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "app/pictures/colour_maps.h"
+#include "app/pipeline/views/source_colours.h"
 #include "app/ports/dds/security/participant_security.h"
 #include "app/ports/web/tls/server_certificate.h"
 #include "hal/thread/scheduling.h"
@@ -17,14 +19,10 @@
 namespace orbwatch::app {
 namespace {
 
-double full_scale(const hal::StreamFormat& format) { return (1 << info(format.format).bits) - 1; }
-
-/// A file's number (degC for a radiometric camera, else percent of full scale) in counts of a
-/// camera.
-double counts(double value, const CameraSettings& camera, const hal::StreamFormat& format) {
-  const double kelvin_per_count = camera.radiometry.kelvin_per_count;
-  if (kelvin_per_count > 0) return (value + 273.15) / kelvin_per_count;
-  return value / 100 * full_scale(format);
+/// As SourceColours::map has it. The file's reader knows the name.
+std::size_t place_of(std::string_view colour_map) {
+  const auto* const found = std::ranges::find(kColourMapNames, colour_map);
+  return static_cast<std::size_t>(found - kColourMapNames.begin());
 }
 
 /// Plans views and recipes of a site for cameras of these formats.
@@ -85,9 +83,17 @@ class Builder {
       const std::size_t camera = source.camera.index;
       auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
       if (!ball) return tl::unexpected(ball.error());
-      sources.push_back({camera, formats_[camera], std::move(*ball), source.weight,
-                         colour_map(source), source.sharpness,
-                         site_.site.cameras[camera].radiometry.kelvin_per_count});
+      const double kelvin_per_count = site_.site.cameras[camera].radiometry.kelvin_per_count;
+      const auto range = range_of(source);
+      sources.push_back({camera,
+                         formats_[camera],
+                         std::move(*ball),
+                         source.weight,
+                         make_colour_map(colour_map_table(source.colour_map), range,
+                                         formats_[camera], kelvin_per_count),
+                         source.sharpness,
+                         kelvin_per_count,
+                         {place_of(source.colour_map), range}});
     }
     auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
     if (!projection) return fail("view " + view.name + ": " + projection.error().message);
@@ -126,14 +132,6 @@ class Builder {
     return plan;
   }
 
-  remap::ColourMap colour_map(const SourceSettings& source) const {
-    const auto& camera = site_.site.cameras[source.camera.index];
-    const auto& format = formats_[source.camera.index];
-    const auto range = range_of(source);
-    return {colour_map_table(source.colour_map), counts(range[0], camera, format),
-            counts(range[1], camera, format)};
-  }
-
   /// From the ball's centre to the corners.
   std::vector<optics::Vec3> outline(const RegionOfInterest& region) const {
     std::vector<optics::Vec3> corners;
@@ -162,7 +160,7 @@ class Builder {
     const auto scale = signals::Radiometry::make(settings.radiometry);
     if (!scale) return tl::unexpected(scale.error());
     const auto threshold = [&](double value) {
-      return scale->is_radiometric() ? scale->counts(value) : counts(value, measured, format);
+      return scale->is_radiometric() ? scale->counts(value) : counts_of(value, format, 0);
     };
     settings.hot_spot_threshold = threshold(region.hot_spot_threshold);
     if (region.hot_spot_min_area) settings.hot_spot_limits.min_area = *region.hot_spot_min_area;
@@ -240,6 +238,9 @@ Result<PipelinePlan> build(const Resolved& site, std::vector<hal::StreamFormat> 
     auto recipe = builder.compile(i);
     if (!recipe) return tl::unexpected(recipe.error());
     plan.recipes.push_back(std::move(*recipe));
+  }
+  for (const std::string_view map : kColourMapNames) {
+    plan.colour_maps.push_back(colour_map_table(map));
   }
   plan.reserved_cores = site.site.threads.cores.size();
   plan.view_count = site.names.views.size();

@@ -92,6 +92,11 @@ CommandResult dispatch(const Command& command, const Receivers& receivers) {
       return receivers.alignment.revert(command.integer(0));
     case CommandCode::PickPixel:
       return receivers.alignment.pick(command.integer(0), {arguments[1], arguments[2]});
+    case CommandCode::SetColourMap:
+      return pipeline.set_colour_map(command.integer(0), command.integer(1), command.integer(2));
+    case CommandCode::SetColourRange:
+      return pipeline.set_colour_range(command.integer(0), command.integer(1),
+                                       {arguments[2], arguments[3]});
   }
   return CommandResult::UnknownCommand;
 }

@@ -12,6 +12,11 @@ bool is_allowed(double value, const ArgumentInfo& argument) {
   return argument.scale != 1 || value == std::floor(value);
 }
 
+/// Whether it is below the argument after it, where it must be.
+bool is_in_order(const Command& command, const CommandInfo& info, std::size_t i) {
+  return !info.arguments[i].is_below_next || command.arguments[i] < command.arguments[i + 1];
+}
+
 /// As short as it can be read back.
 std::string number_text(double value) {
   char text[32];
@@ -34,7 +39,7 @@ CommandResult check(const Command& command) {
   const CommandInfo* info = find_command(command.code);
   if (!info) return CommandResult::UnknownCommand;
   for (std::size_t i = 0; i < info->argument_count(); ++i) {
-    if (!is_allowed(command.arguments[i], info->arguments[i])) {
+    if (!is_allowed(command.arguments[i], info->arguments[i]) || !is_in_order(command, *info, i)) {
       return CommandResult::ArgumentOutOfRange;
     }
   }
@@ -55,6 +60,12 @@ std::string refusal_text(const Command& command) {
     if (is_allowed(command.arguments[i], argument)) continue;
     return std::string(argument.name) + " is " + number_text(command.arguments[i]) +
            "; it must be " + range_text(argument);
+  }
+  for (std::size_t i = 0; i < info->argument_count(); ++i) {
+    if (is_in_order(command, *info, i)) continue;
+    return std::string(info->arguments[i].name) + " is " + number_text(command.arguments[i]) +
+           "; it must be below " + std::string(info->arguments[i + 1].name) + ", which is " +
+           number_text(command.arguments[i + 1]);
   }
   return {};
 }

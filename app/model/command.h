@@ -23,6 +23,7 @@ struct ArgumentInfo {
   double minimum = 0;
   double maximum = 0;
   std::string_view description{};
+  bool is_below_next = false;  ///< it must be less than the argument after it
 };
 
 inline constexpr double kAnyIndex = std::numeric_limits<std::uint16_t>::max();
@@ -39,6 +40,10 @@ inline constexpr ArgumentInfo radius_argument(std::string_view name, std::string
 }
 inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
                                             0,      kAnyIndex, "index of the view, from 0"};
+inline constexpr ArgumentInfo kSourceArgument{
+    "source", "", 1, 0, kAnyIndex, "index among the view's sources, from 0"};
+/// Of a camera's values, degC or percent: more than a recipe's colours can mean.
+inline constexpr double kLeastValue = -1000, kMostValue = 10000;
 
 /// The list of commands: one line here, and one handler in app/daemon/dispatch.cpp, which does not
 /// compile without it. Every interface offers the commands from this list.
@@ -60,8 +65,7 @@ inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
     ArgumentInfo{"pitch", "deg", 0.01, -90, 90, "up positive"},                                    \
     ArgumentInfo{"h_fov", "deg", 0.01, 0, 360, "horizontal field of view; 0 keeps it"})            \
   X(MixSources, 7, "mix_sources", Operator, "Changes a camera's weight in a display view",         \
-    kViewArgument,                                                                                 \
-    ArgumentInfo{"source", "", 1, 0, kAnyIndex, "index among the view's sources, from 0"},         \
+    kViewArgument, kSourceArgument,                                                                \
     ArgumentInfo{"weight", "", 0.001, 0.001, 1000, "its share where several cameras see"})         \
   X(Trigger, 8, "trigger", Operator,                                                               \
     "Measures the next frame set as a result, like an edge of the trigger line", kNoArgument)      \
@@ -120,7 +124,20 @@ inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
     "A camera's picture shows a known point here: the next mark_point says which, instead of "     \
     "the tool's light",                                                                            \
     kCameraArgument, pixel_argument("u", "to the right, pixel centres at integers"),               \
-    pixel_argument("v", "down"))
+    pixel_argument("v", "down"))                                                                   \
+  X(SetColourMap, 28, "set_colour_map", Operator,                                                  \
+    "Shows a one-channel camera in other colours in a view; what is measured stays as it is",      \
+    kViewArgument, kSourceArgument,                                                                \
+    ArgumentInfo{"colour_map", "", 1, 0, 4, "0 grey, 1 inferno, 2 turbo, 3 hot, 4 viridis"})       \
+  X(SetColourRange, 29, "set_colour_range", Operator,                                              \
+    "Spreads a one-channel camera's colours in a view over these values; what is measured stays "  \
+    "as it is",                                                                                    \
+    kViewArgument, kSourceArgument,                                                                \
+    ArgumentInfo{"first", "", 0.1, kLeastValue, kMostValue - 1,                                    \
+                 "value of the first colour: degC of a radiometric camera, else percent of full "  \
+                 "scale; below last",                                                              \
+                 true},                                                                            \
+    ArgumentInfo{"last", "", 0.1, kLeastValue + 1, kMostValue, "value of the last colour"})
 
 enum class CommandCode : std::uint16_t {
 #define ORBWATCH_CODE(code, number, ...) code = number,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "hal/clock.h"
@@ -14,6 +15,12 @@
 #include "proc/remap/remap.h"
 
 namespace orbwatch::app {
+
+/// How a view shows a one-channel camera.
+struct SourceColours {
+  std::size_t map = 0;            ///< place in kColourMapNames
+  std::array<double, 2> range{};  ///< first and last colour: degC, or percent of full scale
+};
 
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
 /// memory comes from the pipeline's ViewBuffers and returns to them with the last ViewPtr.
@@ -32,6 +39,8 @@ struct View {
   optics::ViewSpec spec;       ///< where it looks
   /// Of its sources, in their order; 0 beyond the last one.
   std::array<double, remap::kMaxSources> weights{};
+  /// Of its sources, in their order; nullopt: the camera's own colours, or beyond the last one.
+  std::array<std::optional<SourceColours>, remap::kMaxSources> colours{};
 
   /// What people look at, blended and colour-mapped, in a format that serves those who read it (see
   /// PictureNeeds): Rgb, Bgr, I420 as JPEG has it, or Grey. No data: nobody does.

@@ -62,6 +62,7 @@ Pipeline::Pipeline(PipelinePlan plan)
       exposures_(std::make_unique<ExposureMatch>(views_, plan_.background)),
       displays_(plan_.views.begin(), plan_.views.end()),
       pan_tilt_zoom_(plan_.views, plan_.background),
+      colours_(views_, std::move(plan_.colour_maps)),
       budget_(plan_.deadline.count() > 0 ? plan_.deadline : kUnknownPeriod),
       view_meters_(plan_.view_count) {
   status_.camera_count = cameras_.size();
@@ -130,12 +131,16 @@ void Pipeline::run() {
 Result<> Pipeline::take_over(Recompiled recompiled) {
   for (auto& [view, sources] : recompiled.sources) {
     views_[view].sources = sources;
+    colours_.adopt(view, sources);
     if (auto adopted = pan_tilt_zoom_.adopt(view, std::move(sources)); !adopted) return adopted;
   }
   formats_ = recompiled.formats;
   for (const auto& recipe : recompiled.recipes) {
     if (!recipe) continue;
-    for (const ViewPlan& view : recipe->plan().views) views_[view.index] = view;
+    for (const ViewPlan& view : recipe->plan().views) {
+      views_[view.index] = view;
+      colours_.adopt(view.index, view.sources);
+    }
   }
   FramePyramids pyramids(recompiled.formats, sharpenings_);
   Exchange exchange{std::move(pyramids), std::make_unique<ExposureMatch>(views_, plan_.background),
@@ -180,6 +185,8 @@ void Pipeline::process(const hal::FrameSet& set) {
   for (std::size_t i = 0; i < displays_.size(); ++i) {
     pan_tilt_zoom_.exchange(i, displays_[i].renderer());
   }
+  exchange_colours(measured);
+  exchange_colours(displays_);
   ask_readers(measured, set.stamp);
   stages_.end(Stage::Publication);  // with the status of the set before
 
@@ -218,6 +225,10 @@ void Pipeline::match_exposures(const hal::FrameSet& set) {
   for (std::size_t i = 0; i < plan_.formats.size(); ++i) {
     pyramids_.set_match(i, exposures_->table(i));
   }
+}
+
+void Pipeline::exchange_colours(std::span<ViewChannel> views) {
+  for (ViewChannel& view : views) view.set_colours(colours_.exchange(view.plan().index));
 }
 
 /// A view is made in the format in which it is read.

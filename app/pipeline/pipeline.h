@@ -28,6 +28,7 @@
 #include "app/pipeline/views/pan_tilt_zoom.h"
 #include "app/pipeline/views/view_buffers.h"
 #include "app/pipeline/views/view_channel.h"
+#include "app/pipeline/views/view_colours.h"
 #include "app/pipeline/worker_pool.h"
 #include "hal/camera.h"
 #include "hal/lines/frame_trigger.h"
@@ -60,6 +61,7 @@ struct PipelinePlan : PipelineSettings {
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
   std::vector<ViewPlan> views;  ///< display views, by index; those of the recipes follow them
   std::vector<std::unique_ptr<CompiledRecipe>> recipes;  ///< at most kMaxRecipes
+  std::vector<remap::ColourMap::Table> colour_maps;      ///< by SourceColours::map, all
   std::size_t view_count = 0;                            ///< those of the recipes included
   std::uint32_t configuration_checksum = 0;
   /// For what is off the frame path, and may wait.
@@ -117,6 +119,14 @@ class Pipeline {
   CommandResult point_view(std::size_t view, double yaw, double pitch, double h_fov);
   /// Changes a source's weight in a display view: see PanTiltZoom::mix(). Results as point_view().
   CommandResult mix_sources(std::size_t view, std::size_t source, double weight);
+  /// Show a source of any view in other colours, or over other values: see ViewColours.
+  CommandResult set_colour_map(std::size_t view, std::size_t source, std::size_t map) {
+    return colours_.set_map(view, source, map);
+  }
+  CommandResult set_colour_range(std::size_t view, std::size_t source,
+                                 const std::array<double, 2>& range) {
+    return colours_.set_range(view, source, range);
+  }
   CommandResult start_measuring();
   CommandResult stop_measuring();
   CommandResult select_recipe(std::size_t number);
@@ -141,6 +151,7 @@ class Pipeline {
   void process(const hal::FrameSet& set);
   void idle();
   void match_exposures(const hal::FrameSet& set);
+  void exchange_colours(std::span<ViewChannel> views);
   void ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp);
   void publish(ViewChannel& channel);
   void display(const hal::FrameSet& set);
@@ -167,6 +178,7 @@ class Pipeline {
   std::optional<ViewBuffers> buffers_;      ///< since start()
   std::optional<Measurement> measurement_;  ///< if there are recipes
   PanTiltZoom pan_tilt_zoom_;
+  ViewColours colours_;
   FrameBudget budget_;
   StageMeter stages_;
   std::vector<SecondMeter> view_meters_;  ///< by index; recipes may share a view's name

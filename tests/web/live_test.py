@@ -16,6 +16,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.select import Select
 
 from appliance import PATIENCE_S, Appliance, eventually
 from page_case import PageCase
@@ -71,7 +72,11 @@ class Live(PageCase):
         eventually("pictures are shown",
                    lambda: all(self.browser.picture_numbers().values() or [0]))
         eventually("what their colours mean is known",
-                   lambda: self.browser.find_elements(By.CSS_SELECTOR, "#tiles .legend"))
+                   lambda: self.legend("heat"))
+
+    def legend(self, view):
+        found = self.tile(view).find_elements(By.CLASS_NAME, "legend")
+        return found[0].text if found else ""
 
     def tile(self, view):
         return self.browser.execute_script("""
@@ -221,6 +226,11 @@ class Live(PageCase):
         self.assertEqual(self.view("process")["aim"], before["aim"])
         self.assertEqual(self.browser.complaints(), [])
 
+    def mean_of(self, view):
+        """Of what is seen."""
+        place = self.view(view)["index"] + 1
+        return statistics.mean(self.browser.pixels(f"#tiles figure:nth-child({place}) canvas"))
+
     def test_a_slider_mixes_two_cameras(self):
         self.open()
         seen = {}
@@ -237,18 +247,64 @@ class Live(PageCase):
             number = self.browser.picture_numbers()["both"]
             eventually("newer pictures are shown",
                        lambda number=number: self.browser.picture_numbers()["both"] > number + 2)
-            place = self.view("both")["index"] + 1
-            seen[share] = statistics.mean(
-                self.browser.pixels(f"#tiles figure:nth-child({place}) canvas"))
+            seen[share] = self.mean_of("both")
         self.assertGreater(abs(seen[100] - seen[0]), 20)
         self.assertEqual(slider.get_attribute("value"), "100")
         self.browser.keep_picture("mixing")
         self.assertEqual(self.browser.complaints(), [])
 
+    def recolour(self, view, colour_map, first, last):
+        """By hand; what the page says why not."""
+        tile = self.tile(view)
+        self.browser.execute_script(
+            "arguments[0].querySelector('.colours').open = true;"
+            "arguments[0].scrollIntoView({block: 'center'});", tile)
+        Select(tile.find_element(By.NAME, "colour_map")).select_by_visible_text(colour_map)
+        for name, value in (("first", first), ("last", last)):
+            tile.find_element(By.NAME, name).send_keys(Keys.CONTROL, "a", Keys.NULL, str(value),
+                                                       Keys.ENTER)
+
+    def colours(self, view):
+        """Of its only one-channel camera."""
+        return next(filter(None, self.view(view)["aim"]["colours"]))
+
+    def test_colours_change_with_their_legend(self):
+        self.open()
+        bright = self.mean_of("heat")
+        self.recolour("heat", "grey", 900, 1000)  # the room is far below
+        eventually("it is changed", lambda: self.colours("heat") == {
+            "colour_map": "grey", "range": [900, 1000]})
+        eventually("the legend says so",
+                   lambda: self.legend("heat") == "thermal 900 °C1000 °C")
+        self.assertLess(self.mean_of("heat"), bright - 50)
+        # A measured view's, too, of which only the picture changes.
+        self.recolour("process", "viridis", 30, 800)
+        eventually("it is changed", lambda: self.colours("process") == {
+            "colour_map": "viridis", "range": [30, 800]})
+        self.browser.keep_picture("colours")
+        # What cannot be is refused with a sentence, and the picture stays as it is.
+        self.recolour("heat", "grey", 900, 800)
+        eventually("it is refused", lambda: "first is 900; it must be below last, which is 800" in
+                   self.tile("heat").find_element(By.CSS_SELECTOR, "[role=alert]").text)
+        self.assertEqual(self.colours("heat"), {"colour_map": "grey", "range": [900, 1000]})
+        status, answer = self.command("set_colour_map", view=self.view("door")["index"], source=0,
+                                      colour_map=1)
+        self.assertEqual((status, answer["result_text"]),
+                         (409, "not possible with this configuration"))
+        place = {"view": self.view("process")["index"], "source": 1}
+        noted = next(entry for entry in self.get("api/v1/audit")["entries"]
+                     if entry["what"] == "set_colour_range"
+                     and json.loads(entry["after"]).items() >= place.items())
+        self.assertEqual(json.loads(noted["before"]), {**place, "first": 20, "last": 800})
+        self.assertEqual(json.loads(noted["after"]), {**place, "first": 30, "last": 800})
+        place = {"view": self.view("heat")["index"], "source": 0}
+        self.command("set_colour_map", **place, colour_map=2)
+        self.command("set_colour_range", **place, first=15, last=200)
+        self.assertEqual([one for one in self.browser.complaints() if "400" not in one["message"]], [])
+
     def test_colours_have_a_legend_in_tile_and_snapshot(self):
         self.open()
-        legend = self.tile("heat").find_element(By.CLASS_NAME, "legend").text
-        self.assertEqual(legend, "thermal 15 °C200 °C")
+        self.assertEqual(self.legend("heat"), "thermal 15 °C200 °C")
         self.assertFalse(self.tile("door").find_elements(By.CLASS_NAME, "legend"))
         with tempfile.TemporaryDirectory() as folder:
             self.browser.execute_cdp_cmd("Browser.setDownloadBehavior",

@@ -12,7 +12,7 @@ const View* ViewChannel::render(const hal::FrameSet& set, const FramePyramids& p
   set_format(*rendered_, format_);
   // A camera that came after the start may deliver another format than the channel's plan says.
   if (reads_counts_ && !plan_->measured && renderer_->has_counts()) add_counts(*rendered_);
-  renderer_->render(set, pyramids, *rendered_, workers);
+  renderer_->render(set, pyramids, *rendered_, workers, colours_);
   return rendered_.get();
 }
 

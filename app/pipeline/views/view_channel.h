@@ -30,6 +30,8 @@ class ViewChannel {
     format_ = format;
     reads_counts_ = counts;
   }
+  /// In which it shows its one-channel cameras; valid until render() is done.
+  void set_colours(ChosenColours colours) { colours_ = colours; }
   /// Adds what render() samples.
   void add_use(PictureUses& uses) const { renderer_->add_use(uses, format_.has_value()); }
 
@@ -48,6 +50,7 @@ class ViewChannel {
   std::unique_ptr<ViewRenderer> renderer_;
   std::optional<PixelFormat> format_;
   bool reads_counts_ = false;
+  ChosenColours colours_;
   std::shared_ptr<View> rendered_;
   bool is_shared_ = false;  ///< sinks get rendered_
 };

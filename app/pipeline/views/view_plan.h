@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/view.h"
 #include "hal/camera.h"
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/view_projection.h"
@@ -27,11 +28,12 @@ struct ViewSource {
   hal::StreamFormat format;
   optics::BallProjection ball;
   double weight = 1;            ///< above 0; in a mixed view, beside its resolution
-  remap::ColourMap colour_map;  ///< for one-channel formats
+  remap::ColourMap colour_map;  ///< for one-channel formats: see make_colour_map()
   /// How much the picture is sharpened to be shown, 0..remap::kMaxSharpness, if its format is and
   /// pixels are interpolated; 0: not at all.
   double sharpness = 0;
   double kelvin_per_count = 0;  ///< of 16 bit counts; 0: they are no temperatures
+  SourceColours colours{};      ///< what colour_map is made of
 };
 
 inline bool is_colour(const ViewSource& source) {

@@ -88,15 +88,26 @@ void ViewRenderer::add_use(PictureUses& uses, bool with_picture) const {
   }
 }
 
-void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
-                          WorkerPool& workers) const {
-  view.frame_set = set.id;
-  view.stamp = set.stamp;
+/// By what the view is made, for whoever looks at it.
+void ViewRenderer::describe(View& view, ChosenColours colours) const {
   view.pointing = plan_.pointing;
   view.spec = plan_.projection.spec();
-  for (std::size_t n = 0; n < view.weights.size(); ++n) {
-    view.weights[n] = n < plan_.sources.size() ? plan_.sources[n].weight : 0;
+  view.weights.fill(0);
+  view.colours.fill(std::nullopt);
+  for (std::size_t n = 0; n < plan_.sources.size(); ++n) {
+    const ViewSource& source = plan_.sources[n];
+    view.weights[n] = source.weight;
+    if (is_colour(source)) continue;
+    const bool is_chosen = n < colours.size() && colours[n];
+    view.colours[n] = is_chosen ? colours[n]->stated : source.colours;
   }
+}
+
+void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
+                          WorkerPool& workers, ChosenColours colours) const {
+  view.frame_set = set.id;
+  view.stamp = set.stamp;
+  describe(view, colours);
   view.kelvin_per_count = has_counts() ? plan_.sources[*raw_].kelvin_per_count : 0;
 
   MutablePicture measured;
@@ -104,7 +115,7 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   const auto& words = view.radiometric.empty() ? view.counts : view.radiometric;
   if (!words.empty()) measured = picture_of(plan_.sources[*raw_].format.format, words);
   if (view.picture.planes[0].data == nullptr && measured.planes[0].data == nullptr) return;
-  render(pyramids, {view.picture, view.validity, measured}, workers);
+  render(pyramids, {view.picture, view.validity, measured, false, colours}, workers);
 }
 
 /// A camera that came after the start has another format until the view is compiled for it.
@@ -122,7 +133,9 @@ void ViewRenderer::render(const FramePyramids& pyramids, const RenderTarget& tar
   std::array<remap::MergedSource, remap::kMaxSources> sources;
   for (std::size_t n = 0; n < grids_.size(); ++n) {
     sources[n].grid = &grids_[n];
-    if (!target.is_raw) sources[n].colours = &plan_.sources[n].colour_map;
+    const bool is_chosen = n < target.colours.size() && target.colours[n];
+    const remap::ColourMap& map = is_chosen ? target.colours[n]->map : plan_.sources[n].colour_map;
+    if (!target.is_raw) sources[n].colours = &map;
     sources[n].pictures = pictures_of(n, pyramids, sharpness(n));
     if (raw_ == n) {
       sources[n].measured = target.measured;

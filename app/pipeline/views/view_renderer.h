@@ -8,6 +8,7 @@
 
 #include "app/model/view.h"
 #include "app/pipeline/views/frame_pyramids.h"
+#include "app/pipeline/views/view_colours.h"
 #include "app/pipeline/views/view_plan.h"
 #include "app/pipeline/worker_pool.h"
 #include "hal/sync/frame_set.h"
@@ -24,6 +25,7 @@ struct RenderTarget {
   /// counts in its own 16 bit format. No data: nowhere.
   MutablePicture measured;
   bool is_raw = false;  ///< the picture: one-channel sources are not colour-mapped
+  ChosenColours colours{};
 };
 
 /// Turns frame sets into one view. Everything that depends on calibration or view is compiled when
@@ -46,7 +48,7 @@ class ViewRenderer {
   /// `pyramids` were built with add_use(); a missing frame leaves its part blind. Does not
   /// allocate.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, View& view,
-              WorkerPool& workers) const;
+              WorkerPool& workers, ChosenColours colours = {}) const;
   /// The same without a View.
   void render(const FramePyramids& pyramids, const RenderTarget& target, WorkerPool& workers) const;
 
@@ -62,6 +64,7 @@ class ViewRenderer {
   remap::BlendGrid make_blend() const;
   std::vector<std::uint8_t> make_unseen() const;
   std::vector<remap::SourceArea> find_sharpened() const;
+  void describe(View& view, ChosenColours colours) const;
   int levels(std::size_t source) const;
   double sharpness(std::size_t source) const;
   std::span<const Picture> pictures_of(std::size_t source, const FramePyramids& pyramids,

@@ -262,13 +262,14 @@ void WebSink::run_command(const CommandInfo& info, const ExchangePtr& exchange) 
     exchange->answer(web::error_response(400, command.error().message));
     return;
   }
+  const auto before = list_.at_present(*command);
   const std::string who = access_.caller(web::credentials_of(request)).name;
   command->giver = Giver(who.empty() ? "over HTTP" : who);
   const web::Audit::Entry entry{{},
                                 who,
                                 request.peer,
                                 std::string(info.name),
-                                {},
+                                before ? web::arguments_text(info, *before) : "",
                                 web::arguments_text(info, *command),
                                 {}};
   commands_.run(*command, exchange, [this, entry](CommandResult result) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/pictures/colour_maps.h"
+
 namespace orbwatch::app {
 namespace {
 
@@ -37,7 +39,10 @@ void for_each_argument(const Examine& examine) {
   }
 }
 
+/// An argument that must be above this one is as high as it can be.
 CommandResult check_with(Command command, std::size_t argument, double value) {
+  const ArgumentInfo* const info = &find_command(command.code)->arguments[argument];
+  if (info->is_below_next) command.arguments[argument + 1] = info[1].maximum;
   command.arguments[argument] = value;
   return check(command);
 }
@@ -106,6 +111,26 @@ TEST(Commands, EveryArgumentCountsWhateverTheOthersAre) {
   EXPECT_EQ(point.integer(0), 3U);
   point.arguments[3] = kNan;
   EXPECT_EQ(check(point), CommandResult::ArgumentOutOfRange);
+}
+
+TEST(Commands, RefuseARangeThatEndsBeforeItBegins) {
+  EXPECT_EQ(check({CommandCode::SetColourRange, {0, 1, 20, 20.1}}), CommandResult::Done);
+  for (const double last : {20.0, 19.0}) {
+    const Command command{CommandCode::SetColourRange, {0, 1, 20, last}};
+    EXPECT_EQ(check(command), CommandResult::ArgumentOutOfRange);
+    EXPECT_EQ(refusal_text(command),
+              "first is 20; it must be below last, which is " + std::to_string(int(last)));
+  }
+}
+
+TEST(Commands, NameEveryColourMap) {
+  std::string names;
+  for (std::size_t map = 0; map < kColourMapNames.size(); ++map) {
+    names += (map == 0 ? "" : ", ") + std::to_string(map) + " " + std::string(kColourMapNames[map]);
+  }
+  const ArgumentInfo& argument = find_command(CommandCode::SetColourMap)->arguments[2];
+  EXPECT_EQ(argument.description, names);
+  EXPECT_EQ(argument.maximum, kColourMapNames.size() - 1);
 }
 
 TEST(Commands, IgnoreArgumentsThatTheyHaveNot) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -11,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/pictures/colour_maps.h"
 #include "app/pipeline/pipeline.h"
 #include "tests/app/pipeline/hand_camera.h"
 #include "tests/app/pipeline/measurement/measured_recipe.h"
@@ -137,6 +139,7 @@ class MeasuredPipeline : public testing::Test {
     plan.configuration_checksum = kChecksum;
     plan.views.push_back(thermal_view(kSeen, "seen"));
     plan.view_count = 1 + recipes.size();
+    plan.colour_maps = {colour_map_table("grey"), colour_map_table("hot")};
     for (RecipePlan& recipe : recipes) plan.recipes.push_back(compiled(std::move(recipe)));
     pipeline.emplace(std::move(plan));
     ASSERT_TRUE(pipeline->start({&sink}));
@@ -389,6 +392,38 @@ TEST_F(MeasuredPipeline, WhatOperatorsPointNeverChangesAMeasurement) {
   EXPECT_EQ(measured, frames);
   EXPECT_EQ(changed, 0U);
   EXPECT_EQ(moved, 0U);
+}
+
+TEST_F(MeasuredPipeline, OtherColoursOfAMeasuredViewLeaveWhatItMeasures) {
+  UntouchedVector<std::uint16_t> words;
+  std::map<double, std::vector<std::uint8_t>> shown;  // of the hot spot, by where the colours end
+  std::uint64_t changed = 0;
+  sink.on_view = [&](const View& view) {
+    if (view.index == kSeen) return;
+    if (words.empty()) words = view.words;
+    changed += view.words == words ? 0U : 1U;
+    const auto spot = std::ranges::max_element(view.words) - view.words.begin();
+    const int x = static_cast<int>(spot) % 96, y = static_cast<int>(spot) / 96;
+    const std::uint8_t* const brightest = view.picture.samples<std::uint8_t>().at(x, y);
+    shown[view.colours[0]->range[1]] = {brightest, brightest + 3};
+  };
+  start({plan(1)});
+  const double peak = next_frame().regions[0].signals.hot_spot_peak_temperature;
+  ASSERT_EQ(pipeline->set_colour_map(1, 0, 0), CommandResult::Done);
+  ASSERT_EQ(pipeline->set_colour_range(1, 0, {-200, 50}), CommandResult::Done);
+  next_frame();
+  ASSERT_EQ(pipeline->set_colour_range(1, 0, {5000, 6000}), CommandResult::Done);
+  EXPECT_EQ(next_frame().regions[0].signals.hot_spot_peak_temperature, peak);
+  EXPECT_EQ(pipeline->set_colour_map(1, 0, 2), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->set_colour_map(1, 1, 0), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->set_colour_range(2, 0, {0, 1}), CommandResult::ArgumentOutOfRange);
+  EXPECT_EQ(pipeline->set_colour_range(1, 0, {1, 1}), CommandResult::ArgumentOutOfRange);
+  pipeline->stop();
+  EXPECT_EQ(changed, 0U);
+  ASSERT_EQ(shown.size(), 3U) << "each frame shows what was asked for before it";
+  const std::vector<std::uint8_t> white{255, 255, 255}, black{0, 0, 0};
+  EXPECT_EQ(shown[50], white);
+  EXPECT_EQ(shown[6000], black);
 }
 
 TEST_F(MeasuredPipeline, WithoutARecipeNothingIsMeasured) {

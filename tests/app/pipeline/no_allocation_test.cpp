@@ -161,7 +161,7 @@ class CountingSink : public Sink {
   Reading reading_;
 };
 
-TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
+TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointedAndColoured) {
   PipelinePlan displayed;
   auto hand = std::make_unique<HandCamera>("camera", PixelFormat::Grey);
   HandCamera& camera = *hand;
@@ -173,6 +173,7 @@ TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
   displayed.views[0].measured.reset();
   displayed.views[0].sources.resize(1, displayed.views[0].sources[0]);
   displayed.views[0].sources[0].format = displayed.formats[0];
+  displayed.colour_maps = {colour_map_table("grey"), colour_map_table("hot")};
   CountingSink sink;
   Pipeline pipeline(std::move(displayed));
   ASSERT_TRUE(pipeline.start({&sink}));
@@ -187,6 +188,8 @@ TEST(FramePath, NeitherAllocatesNorFreesWhileAViewIsPointed) {
   for (int i = 0; i < 30; ++i) {
     const auto number = pipeline.point(0, {{3.0 * i, 0, 0}, 90, {}});
     ASSERT_TRUE(number);
+    ASSERT_EQ(pipeline.set_colour_map(0, 0, i % 2), CommandResult::Done);
+    ASSERT_EQ(pipeline.set_colour_range(0, 0, {0, 1.0 + i}), CommandResult::Done);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     do {
       after = next_frame();

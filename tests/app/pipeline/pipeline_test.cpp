@@ -433,7 +433,9 @@ TEST_F(PipelineTest, ACameraOfAnotherFormatThanExpectedIsSeenOnceItsViewsAreComp
   plan.formats[0].format = PixelFormat::Grey;
   plan.recipes[0] = compiled(recipe_plan(view("measured", 1, {0, 1}), 100, 0));
   plan.absent[0] = true;
+  plan.colour_maps = {colour_map_table("grey")};
   start();
+  ASSERT_EQ(pipeline->set_colour_range(1, 0, {0, 10}), CommandResult::Done);
   cameras[1]->expose(200);
   sink.wait_for([](const Status& s) { return s.frame_set == 1; });
   Recompiled recompiled;

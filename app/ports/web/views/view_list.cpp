@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 /// Enough that nobody sees the steps between them.
 constexpr std::size_t kStops = 18;
 
-Json stops_of(const std::string& colour_map) {
+Json stops_of(std::string_view colour_map) {
   const remap::ColourMap::Table table = colour_map_table(colour_map);
   Json stops = Json::array();
   for (std::size_t n = 0; n < kStops; ++n) {
@@ -25,13 +25,21 @@ Json stops_of(const std::string& colour_map) {
   return stops;
 }
 
+/// By place, as the command set_colour_map names them.
+Json colour_maps_json() {
+  Json maps = Json::array();
+  for (const std::string_view name : kColourMapNames) {
+    maps.push_back({{"name", name}, {"stops", stops_of(name)}});
+  }
+  return maps;
+}
+
 Json json_of(const PublishedSource& source) {
   return {{"camera", source.camera},
           {"is_radiometric", source.is_radiometric},
           {"colour_map", source.colour_map},
           {"range", source.range},
-          {"unit", source.is_radiometric ? "degC" : "%"},
-          {"stops", stops_of(source.colour_map)}};
+          {"unit", source.is_radiometric ? "degC" : "%"}};
 }
 
 Json json_of(const std::string& name, std::size_t index, const PublishedView& view,
@@ -46,7 +54,7 @@ Json json_of(const std::string& name, std::size_t index, const PublishedView& vi
           {"is_zoomed", is_pointed && view.spec.kind == optics::ViewKind::Perspective},
           {"is_mixed", view.mixes},
           {"aim", aim ? json_of(*aim) : Json()},
-          {"configured", json_of(Aim{view.spec, {}})},
+          {"configured", json_of(Aim{view.spec})},
           {"sources", std::move(sources)}};
 }
 
@@ -61,9 +69,10 @@ Route ViewList::route() {
   route.path = "/api/v1/views";
   route.role = Role::Viewer;
   route.description =
-      "Of each view where it looks and with which weights its cameras are mixed, at present and as "
-      "configured; whether the commands point_view and mix_sources change that; and what the "
-      "colours of one-channel cameras mean: first and last value, and colours evenly between. deg";
+      "Of each view where it looks, with which weights its cameras are mixed and in which colours "
+      "one-channel ones are shown, at present and as configured; whether the commands point_view "
+      "and mix_sources change that; and of each colour map colours evenly from the first value to "
+      "the last. deg";
   route.type = kJson;
   route.serve = [this](const ExchangePtr& exchange) { serve(exchange); };
   return route;
@@ -72,6 +81,13 @@ Route ViewList::route() {
 void ViewList::accept(const View& view) {
   const std::lock_guard lock(mutex_);
   if (view.index < aims_.size()) aims_[view.index] = aim_of(view);
+}
+
+std::optional<Command> ViewList::at_present(const Command& command) const {
+  const std::size_t view = command.integer(0);
+  const std::lock_guard lock(mutex_);
+  if (view >= aims_.size() || !aims_[view]) return std::nullopt;
+  return web::at_present(command, *aims_[view]);
 }
 
 void ViewList::serve(const ExchangePtr& exchange) const {
@@ -85,7 +101,8 @@ void ViewList::serve(const ExchangePtr& exchange) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     list.push_back(json_of(names_[i], i, views_[i], aims[i]));
   }
-  exchange->answer(json_response(Json{{"views", std::move(list)}}.dump()));
+  exchange->answer(
+      json_response(Json{{"views", std::move(list)}, {"colour_maps", colour_maps_json()}}.dump()));
 }
 
 }  // namespace orbwatch::app::web

@@ -23,6 +23,9 @@ class ViewList {
 
   void accept(const View& view);
 
+  /// As at_present() of the view's newest picture. On any thread.
+  std::optional<Command> at_present(const Command& command) const;
+
  private:
   void serve(const ExchangePtr& exchange) const;
 

@@ -9,7 +9,7 @@ export class Live {
   #faults = "";
   #isStale = true; // what is known of the views may be of before a restart
 
-  // `mayCommand`: turn and mix views.
+  // `mayCommand`: turn, mix and colour views.
   constructor(root, onChoice, mayCommand) {
     this.onChoice = onChoice;
     this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
@@ -43,8 +43,9 @@ export class Live {
     try {
       const answer = await fetch("/api/v1/views");
       if (!answer.ok) throw new Error(`status ${answer.status}`);
-      for (const view of (await answer.json()).views) {
-        if (this.#chosen.has(view.name)) this.tiles.get(view.name).describe(view);
+      const { views, colour_maps: maps } = await answer.json();
+      for (const view of views) {
+        if (this.#chosen.has(view.name)) this.tiles.get(view.name).describe(view, maps);
       }
     } catch (error) {
       console.info(`views: ${error.message}`);

@@ -1,6 +1,5 @@
 // The picture that is seen as a file, with what it is of and what its colours mean.
 import { element } from "./elements.js";
-import { coloured } from "./legend.js";
 import { texts } from "./texts.js";
 
 const kLine = 26, kMargin = 8, kRamp = 120; // px
@@ -21,8 +20,8 @@ function addLegend(context, { camera, range, unit, stops }, y) {
   x = addText(context, texts.amount(range[1], unit), x + kRamp + kMargin, y);
 }
 
-export function snapshotOf(name, canvas, sources) {
-  const legends = coloured(sources);
+// `legends` as Legend has them shown.
+export function snapshotOf(name, canvas, legends) {
   const all = new OffscreenCanvas(canvas.width, canvas.height + (1 + legends.length) * kLine);
   const context = all.getContext("2d");
   context.drawImage(canvas, 0, 0);
@@ -34,8 +33,8 @@ export function snapshotOf(name, canvas, sources) {
   return all.convertToBlob({ type: "image/jpeg", quality: kQuality });
 }
 
-export async function saveSnapshot(name, canvas, sources) {
-  const href = URL.createObjectURL(await snapshotOf(name, canvas, sources));
+export async function saveSnapshot(name, canvas, legends) {
+  const href = URL.createObjectURL(await snapshotOf(name, canvas, legends));
   element("a", { href, download: `${name}-${canvas.dataset.stamp}.jpg` }).click();
   URL.revokeObjectURL(href);
 }

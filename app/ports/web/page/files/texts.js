@@ -52,6 +52,10 @@ export const texts = {
     : isMeasured ? "This view is measured: it stays where the recipe has it."
       : "A ball's own picture cannot be turned; turn it under Look around."),
   shareOf: (camera, other) => `Share of ${camera} beside ${other}`,
+  coloursOf: (camera) => `Colours of ${camera}`,
+  colourMap: "Colour map",
+  firstColour: (unit) => `from, ${unit === "degC" ? "°C" : unit}`,
+  lastColour: (unit) => `to, ${unit === "degC" ? "°C" : unit}`,
   amount: (value, unit) => `${value} ${unit === "degC" ? "°C" : unit}`,
   pixel: ({ yaw, pitch, seen, intensity, temperature, distance, point }) => [
     yaw === null ? "beside the ball" : `yaw ${yaw.toFixed(2)}°, pitch ${pitch.toFixed(2)}°`,

@@ -1,7 +1,7 @@
-// One view: its picture, how old that is, what it shows where somebody points, where it looks and
-// how it mixes its cameras.
+// One view: its picture, how old that is, what it shows where somebody points, where it looks, how it
+// mixes its cameras and in which colours it shows them.
 import { element, setText } from "./elements.js";
-import { legend } from "./legend.js";
+import { Legend } from "./legend.js";
 import { Mixer } from "./mixer.js";
 import { NewestPicture } from "./newest_picture.js";
 import { PointedView } from "./pointed_view.js";
@@ -14,7 +14,6 @@ const kStaleMs = 2000;
 export class Tile {
   #latest = null; // {age_ms, received} of the picture that is shown
   #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
-  #sources = [];
 
   constructor(name, mayCommand) {
     this.name = name;
@@ -34,7 +33,7 @@ export class Tile {
     full.addEventListener("click", () => this.root.requestFullscreen());
     const snapshot = element("button", { type: "button" }, texts.snapshot);
     snapshot.addEventListener("click", () => {
-      if (this.#latest) saveSnapshot(name, this.canvas, this.#sources);
+      if (this.#latest) saveSnapshot(name, this.canvas, this.legend?.shown ?? []);
     });
     this.root = element("figure", {},
       element("div", { className: "picture" }, this.canvas, this.pointer.mark, this.overlay),
@@ -42,11 +41,12 @@ export class Tile {
       element("figcaption", {}, element("strong", {}, name), this.age, snapshot, full));
   }
 
-  // As /api/v1/views has it.
-  describe(view) {
-    this.#sources = view.sources;
+  // As /api/v1/views has it, and colour maps.
+  describe(view, maps) {
     this.pointed.describe(view);
-    this.controls.replaceChildren(legend(view.sources));
+    this.legend = new Legend(view, maps, this.mayCommand, this.say);
+    if (view.aim) this.legend.follow(view.aim.colours);
+    this.controls.replaceChildren(this.legend.root);
     this.mixer = this.mayCommand && view.is_mixed ? new Mixer(view, this.say) : null;
     if (this.mixer) this.controls.append(this.mixer.root);
   }
@@ -65,6 +65,7 @@ export class Tile {
     this.pointer.follow();
     this.pointed.follow(head.aim);
     this.mixer?.follow(head.aim.weights);
+    this.legend?.follow(head.aim.colours);
   }
 
   tick(faults) {

@@ -33,6 +33,7 @@ class ServedViews : public Served {
     view->spec.orientation = {yaw, -20, 5};
     view->spec.h_fov = 75;
     view->weights = {1, 0.25};
+    view->colours[1] = {3, {15, 200}};
     return view;
   }
 };
@@ -56,8 +57,10 @@ TEST_F(ServedViews, SayWhatColoursMean) {
   EXPECT_EQ(thermal["colour_map"], "hot");
   EXPECT_EQ(thermal["range"], (json{15., 200.}));
   EXPECT_EQ(thermal["unit"], "degC");
-  EXPECT_EQ(thermal["stops"].front(), "#000000");
-  EXPECT_EQ(thermal["stops"].back(), "#ffffff");
+  const json hot = json::parse(get(port(), "/api/v1/views").body)["colour_maps"][3];
+  EXPECT_EQ(hot["name"], "hot");
+  EXPECT_EQ(hot["stops"].front(), "#000000");
+  EXPECT_EQ(hot["stops"].back(), "#ffffff");
   EXPECT_EQ(views()[0]["sources"][0]["unit"], "%");
 }
 
@@ -65,10 +68,13 @@ TEST_F(ServedViews, SayHowTheyAreNowAndWereConfigured) {
   EXPECT_TRUE(views()[0]["aim"].is_null()) << "nothing is known before the first picture";
   app::tests::hand_over(*sink, turned_view(120));
   const json front = views()[0];
-  EXPECT_EQ(
-      front["aim"],
-      (json{
-          {"yaw", 120.}, {"pitch", -20.}, {"roll", 5.}, {"h_fov", 75.}, {"weights", {1., 0.25}}}));
+  EXPECT_EQ(front["aim"],
+            (json{{"yaw", 120.},
+                  {"pitch", -20.},
+                  {"roll", 5.},
+                  {"h_fov", 75.},
+                  {"weights", {1., 0.25}},
+                  {"colours", {nullptr, {{"colour_map", "hot"}, {"range", {15., 200.}}}}}}));
   EXPECT_EQ(front["configured"]["yaw"], 30.);
   EXPECT_EQ(front["configured"]["h_fov"], 90.) << "that of its kind";
 }
@@ -81,6 +87,27 @@ TEST_F(ServedViews, EachPictureSaysWhereItLooks) {
     sink->accept(view);
     EXPECT_EQ(client.next("view").head["aim"]["yaw"], yaw);
   }
+}
+
+TEST(Aims, SayWhatACommandWouldReplace) {
+  Aim aim;
+  aim.spec.orientation = {10, 20, 30};
+  aim.spec.h_fov = 40;
+  aim.weights = {1, 0.25};
+  aim.colours[1] = {3, {15, 200}};
+  const auto present = [&aim](CommandCode code, double source) {
+    const auto command = at_present({code, {7, source, 1, 2}}, aim);
+    return command ? command->arguments : std::array<double, kMaxArguments>{};
+  };
+  using Arguments = std::array<double, kMaxArguments>;
+  EXPECT_EQ(present(CommandCode::PointView, 0), (Arguments{7, 10, 20, 40}));
+  EXPECT_EQ(present(CommandCode::MixSources, 1), (Arguments{7, 1, 0.25}));
+  EXPECT_EQ(present(CommandCode::SetColourMap, 1), (Arguments{7, 1, 3}));
+  EXPECT_EQ(present(CommandCode::SetColourRange, 1), (Arguments{7, 1, 15, 200}));
+  EXPECT_FALSE(at_present({CommandCode::SetColourMap, {7, 0}}, aim)) << "it has its own colours";
+  EXPECT_FALSE(at_present({CommandCode::MixSources, {7, 2}}, aim)) << "there is no such source";
+  EXPECT_FALSE(at_present({CommandCode::MixSources, {7, 60000}}, aim));
+  EXPECT_FALSE(at_present({CommandCode::SelectView, {7}}, aim));
 }
 
 }  // namespace
