@@ -60,6 +60,7 @@ class RecipeEdit {
   Result<> set_corners(const Place& region, const char* key,
                        const std::vector<std::array<double, N>>& corners);
   Result<> add(const RegionChange& change);
+  Result<> remove(std::size_t index);
 
   TomlEdit edit_;
   Recipe recipe_;
@@ -122,6 +123,10 @@ Result<> RecipeEdit::change(const LimitChange& change) {
 Result<> RecipeEdit::change(const RegionChange& change) {
   const auto found = std::ranges::find(recipe_.regions, change.name, &RegionOfInterest::name);
   const bool is_there = found != recipe_.regions.end();
+  if (change.is_removed) {
+    return is_there ? remove(static_cast<std::size_t>(found - recipe_.regions.begin()))
+                    : fail("there is no region " + change.name);
+  }
   if (change.directions.empty() == change.points.empty()) {
     return fail("region " + change.name + ": corners are either directions or points");
   }
@@ -177,14 +182,33 @@ Result<> RecipeEdit::add(const RegionChange& change) {
   return {};
 }
 
-/// Those that stand in the text before those that come behind everything.
+/// Its alarms are tables within it. The last change: places in what is intended move.
+Result<> RecipeEdit::remove(std::size_t index) {
+  const std::string& name = recipe_.regions[index].name;
+  const toml::table& given = *(*edit_.root()["region"].as_array())[index].as_table();
+  if (given.is_inline()) {
+    return fail("region " + name + ": cannot be removed; write its table with a header of its own");
+  }
+  edit_.remove(given);
+  toml::array& regions = *intended_["region"].as_array();
+  const auto is_named = [&name](const toml::node& region) {
+    return region.at_path("name").value<std::string>() == name;
+  };
+  regions.erase(std::ranges::find_if(regions, is_named));
+  return {};
+}
+
+/// Those that stand in the text before those that come behind everything, and those that go last.
 Result<> apply(RecipeEdit& edit, const RecipeChange& change) {
   for (const LimitChange& limit : change.limits) {
     if (auto done = edit.change(limit); !done) return done;
   }
-  for (const bool is_added : {false, true}) {
+  const auto order = [](const RegionChange& region) {
+    return region.is_removed ? 2 : region.added ? 1 : 0;
+  };
+  for (const int turn : {0, 1, 2}) {
     for (const RegionChange& region : change.regions) {
-      if (region.added.has_value() != is_added) continue;
+      if (order(region) != turn) continue;
       if (auto done = edit.change(region); !done) return done;
     }
   }
@@ -201,6 +225,9 @@ Result<> check_once(const RecipeChange& change) {
   seen.clear();
   for (const RegionChange& region : change.regions) {
     if (!seen.insert(region.name).second) return fail("region " + region.name + " is there twice");
+    const bool is_limited = region.is_removed && std::ranges::count(change.limits, region.name,
+                                                                    &LimitChange::region) > 0;
+    if (is_limited) return fail("region " + region.name + " is removed, and limits of it changed");
   }
   return {};
 }

@@ -73,12 +73,13 @@ void TomlEdit::remove(const toml::table& table, std::string_view key) {
   const toml::node* node = table.get(key);
   if (!node) return;
   const toml::table* inner = node->as_table();
-  if (inner && !inner->is_inline()) {
-    changes_.push_back({line_begin(line_of_header(*inner)), end_of(*inner), ""});
-    return;
-  }
+  if (inner && !inner->is_inline()) return remove(*inner);
   const toml::source_region& place = node->source();
   changes_.push_back({line_begin(place.begin.line), line_begin(place.end.line + 1), ""});
+}
+
+void TomlEdit::remove(const toml::table& table) {
+  changes_.push_back({line_begin(line_of_header(table)), end_of(table), ""});
 }
 
 void TomlEdit::append(const toml::table& table, const std::string& lines) {

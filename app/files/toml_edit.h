@@ -39,6 +39,10 @@ class TomlEdit {
   /// the next header stay. Nothing happens without such a key.
   void remove(const toml::table& table, std::string_view key);
 
+  /// Removes a table that has a header of its own, with the tables within it; comments before the
+  /// next header stay.
+  void remove(const toml::table& table);
+
   /// Adds lines, which end with "\n" here, at the end of `table` and the tables within it: a new
   /// table, say.
   void append(const toml::table& table, const std::string& lines);

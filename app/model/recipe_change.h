@@ -23,12 +23,14 @@ struct NewRegion {
   double hot_spot_threshold = 0;  ///< degC for a radiometric camera, else percent of full scale
 };
 
-/// The corners of a region, directions or points, as its recipe has them.
+/// The corners of a region, directions or points, as its recipe has them; or that it goes, with its
+/// alarms.
 struct RegionChange {
   std::string name;
   std::vector<std::array<double, 2>> directions{};  ///< yaw, pitch, deg
   std::vector<std::array<double, 3>> points{};      ///< machine frame, mm
   std::optional<NewRegion> added{};                 ///< nullopt: there is such a region
+  bool is_removed = false;                          ///< then there is nothing but its name
 };
 
 /// A recipe's changes by hand, one for each limit and region.

@@ -106,6 +106,13 @@ class Browser(webdriver.Chrome):
         self.touch("touchStart", [self.middle_of(shown)])
         self.touch("touchEnd", [])
 
+    def drag_by_finger(self, shown, right, down):
+        x, y = self.middle_of(shown)
+        self.touch("touchStart", [(x, y)])
+        for share in (0.5, 1):
+            self.touch("touchMove", [(x + share * right, y + share * down)])
+        self.touch("touchEnd", [])
+
     def pinch(self, shown):
         """Two fingers twice as far apart."""
         x, y = self.middle_of(shown)

@@ -43,8 +43,8 @@ class RecipeOnThePage(PageCase):
         self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
         return element
 
-    def press(self, label):
-        self.find("#recipe").find_element(By.XPATH, f".//button[text()='{label}']").click()
+    def press(self, label, part="recipe"):
+        self.find(f"#{part}").find_element(By.XPATH, f".//button[text()='{label}']").click()
 
     def said(self):
         return self.browser.text("#recipe [role=status]")
@@ -89,6 +89,34 @@ class RecipeOnThePage(PageCase):
         eventually("it has an outline there", lambda: self.browser.execute_script(
             "return document.querySelector(\"#regions [data-corner='0']\").getAttribute('cx') < 200"))
 
+    def corners(self):
+        """Of the region that is being changed, in pixels of its view."""
+        return self.browser.execute_script("""
+            return [...document.querySelectorAll('#regions [data-corner]')]
+              .map((corner) => ['cx', 'cy'].map((name) => Number(corner.getAttribute(name))));""")
+
+    def shape_the_region(self):
+        """A corner more by a finger, which pulls it out of the upper edge; one by keys, and away."""
+        before = self.corners()
+        self.browser.drag_by_finger(self.find("#regions [data-edge='0']"), 0, -20)
+        eventually("a corner more", lambda: len(self.corners()) == len(before) + 1)
+        shaped = self.corners()
+        self.assertEqual([shaped[0], *shaped[2:]], before)
+        self.assertAlmostEqual(shaped[1][0], (before[0][0] + before[1][0]) / 2, delta=1)
+        self.assertLess(shaped[1][1], before[0][1] - 5)
+        self.find("#regions [data-edge='3']").send_keys(Keys.ENTER)
+        eventually("and another one", lambda: len(self.corners()) == len(shaped) + 1)
+        self.assertEqual(self.browser.switch_to.active_element.get_attribute("data-corner"), "4")
+        self.browser.switch_to.active_element.send_keys(Keys.DELETE)
+        eventually("it is gone again", lambda: self.corners() == shaped)
+        self.press("Remove corner 5", "regions")
+        eventually("the button removes one, too", lambda: self.corners() == shaped[:4])
+
+    def delete_a_region(self):
+        Select(self.find("#regions [name=region]")).select_by_value("surroundings")
+        self.press("Delete the region", "regions")
+        self.assertIn("Region surroundings is deleted", self.browser.text("#regions [role=status]"))
+
     def difference(self):
         """Lines of the file that are no more, and those that are new."""
         lines = [text.decode().splitlines(keepends=True)
@@ -101,6 +129,8 @@ class RecipeOnThePage(PageCase):
         limit = self.drag_a_limit()
         self.move_a_corner()
         self.draw_a_region()
+        self.shape_the_region()
+        self.delete_a_region()
         self.browser.keep_picture("process-recipe")
         self.press("Check and show the difference")
         eventually("the difference",
@@ -121,13 +151,15 @@ class RecipeOnThePage(PageCase):
                    lambda: self.appliance.recipe.read_bytes() != self.before)
 
         gone, new = self.difference()
-        self.assertEqual([line.split(" ")[0] for line in gone], ["points", "high_warning"])
-        self.assertEqual(new[1], f"high_warning = {limit:g}\r\n")
-        self.assertTrue(new[0].endswith("[-30, -130, 178], [-30, 30, 178], [-190, 30, 178]]  # the workpiece\r\n"))
-        self.assertEqual([line.split(" ")[0].strip() for line in new[2:]],
-                         ["", "[[region]]", "name", "view", "points", "hot_spot_threshold"])
+        self.assertEqual([line.split(" ")[0] for line in gone[:2]], ["points", "high_warning"])
+        self.assertIn(f"high_warning = {limit:g}\r\n", new)
+        self.assertTrue(any(line.endswith(
+            "[-30, -130, 178], [-30, 30, 178], [-190, 30, 178]]  # the workpiece\r\n") for line in new))
         kept = tomllib.loads(self.appliance.recipe.read_text(encoding="utf-8"))
-        self.assertEqual(kept["region"][-1]["name"], "seam")
+        self.assertEqual([region["name"] for region in kept["region"]], ["pool", "seam"])
+        self.assertEqual(len(kept["region"][0]["alarm"]), 2)
+        self.assertEqual(sorted(kept["region"][1]), ["hot_spot_threshold", "name", "points", "view"])
+        self.assertEqual(len(kept["region"][1]["points"]), 4)
         # Ten pixels to the left, where the view shows the work piece's top or the room beside it.
         moved = self.region("pool")["corners"]
         self.assertAlmostEqual(moved[0]["pixel"][0], pool["corners"][0]["pixel"][0] - 10, delta=0.01)

@@ -130,6 +130,31 @@ TEST(RecipeEdit, AddsARegionBehindTheOthers) {
   EXPECT_EQ(recipe_of(*text).regions.back().directions[2][1], 10.25);
 }
 
+TEST(RecipeEdit, RemovesARegionWithItsAlarms) {
+  RegionChange gone{"pool"};
+  gone.is_removed = true;
+  const auto text =
+      changed({{}, {gone, {"door", {{0, 0}, {10, 0}, {10, 10}}, {}, {{"process", 600}}}}});
+  ASSERT_TRUE(text) << text.error().message;
+  const std::size_t begin = kRecipe.find("[[region]]"),
+                    end = kRecipe.find("\n[[region]] ", begin + 1);
+  ASSERT_NE(end, std::string::npos);
+  EXPECT_TRUE(text->starts_with(kRecipe.substr(0, begin) + kRecipe.substr(end, 40))) << *text;
+  const Recipe recipe = recipe_of(*text);
+  ASSERT_EQ(recipe.regions.size(), 2U);
+  EXPECT_EQ(recipe.regions[0].name, "surroundings");
+  EXPECT_EQ(recipe.regions[1].name, "door");
+  EXPECT_TRUE(recipe.regions[0].alarms.empty());
+
+  RegionChange other{"surroundings"};
+  other.is_removed = true;
+  EXPECT_THAT(refusal({{}, {gone, other}}), HasSubstr("region"));
+  EXPECT_THAT(refusal({{kHigher}, {gone}}), HasSubstr("is removed, and limits of it changed"));
+  EXPECT_EQ(recipe_of(*changed({{kHigher}, {other}})).regions.size(), 1U);
+  gone.name = "never";
+  EXPECT_THAT(refusal({{}, {gone}}), HasSubstr("there is no region never"));
+}
+
 TEST(RecipeEdit, AppliesAllChangesOrNone) {
   const RegionChange added{"door", {{0, 0}, {10, 0}, {10, 10}}, {}, NewRegion{"process", 600}};
   const RegionChange whole{"surroundings", {{0, 0}, {10, 0}, {10, 10}}};

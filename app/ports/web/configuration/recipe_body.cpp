@@ -74,6 +74,14 @@ Result<> read_corners(const json& region, const char* name,
 }
 
 Result<RegionChange> region_of(const json& sent) {
+  if (is_of(sent, {"name", "removed"}) && sent.contains("removed")) {
+    if (!has_text(sent, "name") || sent["removed"] != true) {
+      return wrong("a region is of another form");
+    }
+    RegionChange change{sent["name"].get<std::string>()};
+    change.is_removed = true;
+    return change;
+  }
   const bool is_right =
       is_of(sent, {"name", "directions", "points", "view", "hot_spot_threshold"}) &&
       has_text(sent, "name") && sent.contains("view") == sent.contains("hot_spot_threshold");

@@ -27,7 +27,8 @@ inline constexpr BodyMember kLimitsMember{
 inline constexpr BodyMember kRegionsMember{
     "regions",
     "Each {\"name\", and \"directions\": corners [yaw, pitch] in deg or \"points\": corners [x, y, "
-    "z] in the machine frame in mm}; a new one also has \"view\" and \"hot_spot_threshold\"",
+    "z] in the machine frame in mm}; a new one also has \"view\" and \"hot_spot_threshold\"; "
+    "{\"name\", \"removed\": true} takes one out of the recipe, with its alarms",
     false, BodyType::List};
 
 /// {"recipe": 1, "limits": [...], "regions": [...], "seconds": 60}, of which one list may be

@@ -1,6 +1,6 @@
-// The regions of the recipe over a live view: shown, and by integrators moved, resized and drawn with
-// pointer, touch or keys.
-import { element, field, setText } from "./elements.js";
+// The regions of the recipe over a live view: shown, and by integrators moved, resized, drawn and deleted,
+// corner by corner, with pointer, touch or keys.
+import { commandButton, element, field, setText } from "./elements.js";
 import { NewestPicture } from "./newest_picture.js";
 import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "./shapes.js";
 import { texts } from "./texts.js";
@@ -9,16 +9,22 @@ const kStepPx = 1, kLargeStepPx = 10;
 const kGrowth = 1.05;   // of a key
 const kSettleMs = 250;  // keys that are held down become one change
 const kHandlePx = 11;   // on the screen
+const kMiddlePx = 8;    // of an edge, where a corner is added
+const kShortEdgePx = 44;  // has no room for one
 const kLeastPx = 4;     // a smaller rectangle is a click
 const kNewShare = 4;    // a new region is that part of the view
 
 const rectangle = ([x, y], [u, v]) => [[x, y], [u, y], [u, v], [x, v]];
+const middleOf = ([x, y], [u, v]) => [(x + u) / 2, (y + v) / 2];
 const option = (name) => element("option", { value: name }, name);
 
 export class RegionEditor {
-  #pixels = null;  // of the chosen region's corners while somebody changes them
+  #pixels = null;  // of a region's corners while somebody changes them
+  #changing = null; // which one
   #settle = 0;
-  #handles = [];
+  #handles = [];   // of the corners
+  #middles = [];   // of the edges, each behind its corner
+  #corner = 0;     // that was touched last
   #pictures = new NewestPicture((picture, { head }) => {
     this.canvas.getContext("2d").drawImage(picture, 0, 0);
     this.canvas.dataset.number = head.number;
@@ -30,7 +36,11 @@ export class RegionEditor {
     this.view = element("select", { name: "view" });
     this.view.addEventListener("change", () => this.#chooseView());
     this.choice = element("select", { name: "region" });
-    this.choice.addEventListener("change", () => this.#draw());
+    this.choice.addEventListener("change", () => this.#choose());
+    this.removal = commandButton(texts.process.remove, "region", () => this.#remove());
+    this.cornerRemoval = commandButton(texts.process.removeCorner(1), "corner",
+      () => this.#removeCorner(this.#corner));
+    this.said = element("p", { role: "status" });
     this.refused = element("p", { role: "alert", className: "wrong" });
     this.canvas = element("canvas", { role: "img" });
     this.svg = drawn("svg", { role: "group", "aria-label": texts.process.regions });
@@ -38,13 +48,15 @@ export class RegionEditor {
     this.body = drawn("polygon", { class: "body", tabindex: 0, role: "button" });
     this.body.addEventListener("pointerdown", (event) => this.#move(event));
     this.body.addEventListener("keydown", (event) => this.#press(event));
-    this.svg.append(this.lines, this.body);
+    this.middleGroup = drawn("g");
+    this.svg.append(this.lines, this.body, this.middleGroup);
     this.svg.addEventListener("pointerdown", (event) => this.#span(event));
     this.root = element("section", { id: "regions" }, element("h3", {}, texts.process.regions),
       element("p", {}, element("label", {}, texts.process.view, " ", this.view), " ",
-        ...(mayChange ? [element("label", {}, texts.process.region, " ", this.choice)] : [])),
+        ...(mayChange ? [element("label", {}, texts.process.region, " ", this.choice), " ",
+          this.cornerRemoval, " ", this.removal] : [])),
       element("figure", { className: "ball" }, element("div", { className: "picture" }, this.canvas, this.svg)),
-      ...(mayChange ? [element("p", {}, texts.process.help), this.#makeForm()] : []), this.refused);
+      ...(mayChange ? [this.said, element("p", {}, texts.process.help), this.#makeForm()] : []), this.refused);
     recipe.addEventListener("change", () => this.#refresh());
     new ResizeObserver(() => this.#draw()).observe(this.svg);
   }
@@ -97,11 +109,13 @@ export class RegionEditor {
     }
     this.#listRegions();
     this.#draw();
+    setText(this.said, this.recipe.removed.map(texts.process.removed).join(" "));
   }
 
   // Corners that the view does not show are nobody's to drag.
   #cornersOf(region) {
-    const pixels = this.#pixels ?? region?.corners.map(({ pixel }) => pixel) ?? [];
+    const isChanging = this.#pixels && region?.name === this.#changing.name;
+    const pixels = isChanging ? this.#pixels : region?.corners.map(({ pixel }) => pixel) ?? [];
     return pixels.every((pixel) => pixel !== null) ? pixels : [];
   }
 
@@ -109,7 +123,7 @@ export class RegionEditor {
     const shown = this.recipe.regions.filter(({ view }) => view === this.view.value);
     const chosen = this.mayChange ? this.#region : null;
     this.lines.replaceChildren(...shown.flatMap((region) => {
-      const isChanging = region.name === chosen?.name && this.#pixels;
+      const isChanging = this.#pixels && region.name === this.#changing.name;
       const lines = isChanging ? [[...this.#pixels, this.#pixels[0]]] : region.lines;
       const at = lines[0]?.[0] ?? [0, 0];
       const text = drawn("text", { x: at[0] + 6 * this.#scale(), y: at[1] + 16 * this.#scale(),
@@ -121,10 +135,25 @@ export class RegionEditor {
     place(this.body, { points: pointsText(pixels), visibility: pixels.length > 0 ? "visible" : "hidden",
       "aria-label": texts.process.body(chosen?.name ?? "") });
     this.svg.classList.toggle("drawing", Boolean(chosen && this.#isDrawable(chosen)));
-    while (this.#handles.length > pixels.length) this.#handles.pop().remove();
+    for (const handles of [this.#handles, this.#middles]) {
+      while (handles.length > pixels.length) handles.pop().remove();
+    }
     pixels.forEach(([cx, cy], index) => place(this.#handles[index] ?? this.#addHandle(), {
       cx, cy, r: kHandlePx * this.#scale(), "data-corner": index,
       "aria-label": texts.process.corner(index + 1, cx, cy) }));
+    pixels.forEach((pixel, index) => this.#placeMiddle(index, pixel, pixels[(index + 1) % pixels.length]));
+    this.#corner = Math.max(0, Math.min(this.#corner, pixels.length - 1));
+    setText(this.cornerRemoval, texts.process.removeCorner(this.#corner + 1));
+    this.cornerRemoval.disabled = pixels.length === 0;
+    this.removal.disabled = !chosen;
+  }
+
+  #placeMiddle(index, from, to) {
+    const [cx, cy] = middleOf(from, to);
+    const isShort = Math.hypot(from[0] - to[0], from[1] - to[1]) < kShortEdgePx * this.#scale();
+    place(this.#middles[index] ?? this.#addMiddle(), { cx, cy, r: kMiddlePx * this.#scale(),
+      "data-edge": index, visibility: isShort ? "hidden" : "visible",
+      "aria-label": texts.process.edge(index + 1) });
   }
 
   #addHandle() {
@@ -133,10 +162,65 @@ export class RegionEditor {
     const moved = (du, dv) => (pixels) =>
       pixels.map(([u, v], k) => (k === index ? [u + du, v + dv] : [u, v]));
     handle.addEventListener("pointerdown", (event) => this.#drag(event, handle, moved));
-    handle.addEventListener("keydown", (event) => this.#pressArrow(event, moved));
+    handle.addEventListener("focus", () => this.#chooseCorner(index));
+    handle.addEventListener("keydown", (event) => {
+      if (event.key === "Delete" || event.key === "Backspace") return this.#removeCorner(index, event);
+      this.#pressArrow(event, moved);
+    });
     this.svg.append(handle);
     this.#handles.push(handle);
     return handle;
+  }
+
+  // Pressed it is a corner, which may be dragged at once.
+  #addMiddle() {
+    const index = this.#middles.length;
+    const middle = drawn("circle", { class: "middle", tabindex: 0, role: "button" });
+    const added = (du, dv) => (pixels) => {
+      const [u, v] = middleOf(pixels[index], pixels[(index + 1) % pixels.length]);
+      return pixels.toSpliced(index + 1, 0, [u + du, v + dv]);
+    };
+    middle.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.#drag(event, middle, added);
+      this.#pixels = added(0, 0)(this.#cornersOf(this.#region));
+      this.#draw();
+      this.#chooseCorner(index + 1);
+    });
+    middle.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      this.#change(added(0, 0));
+      this.#handles[index + 1].focus();
+    });
+    this.middleGroup.append(middle);
+    this.#middles.push(middle);
+    return middle;
+  }
+
+  // What was changed of the one before still counts.
+  #choose() {
+    clearTimeout(this.#settle);
+    this.#apply();
+    this.#draw();
+  }
+
+  #chooseCorner(index) {
+    this.#corner = index;
+    setText(this.cornerRemoval, texts.process.removeCorner(index + 1));
+  }
+
+  // `event`: the key that asked for it, so that the focus stays at the corners.
+  #removeCorner(index, event = null) {
+    event?.preventDefault();
+    this.#change((pixels) => pixels.toSpliced(index, 1));
+    if (event) this.#handles.at(Math.min(index, this.#handles.length - 1))?.focus();
+  }
+
+  #remove() {
+    setText(this.refused, "");
+    if (this.#changing?.name === this.choice.value) this.#forget();
+    this.recipe.removeRegion(this.choice.value);
   }
 
   // Of a pixel on the screen.
@@ -154,6 +238,7 @@ export class RegionEditor {
     event.stopPropagation();
     shape.focus();
     const from = pixelAt(this.svg, this.canvas, event), before = this.#cornersOf(this.#region);
+    this.#changing = this.#region;
     followDrag(shape, event, (now) => {
       const to = pixelAt(this.svg, this.canvas, now);
       this.#pixels = moved(to[0] - from[0], to[1] - from[1])(before);
@@ -169,6 +254,7 @@ export class RegionEditor {
     const region = this.mayChange ? this.#region : null;
     if (event.button !== 0 || !region || !this.#isDrawable(region)) return;
     const from = pixelAt(this.svg, this.canvas, event);
+    this.#changing = region;
     followDrag(this.svg, event, (now) => {
       this.#pixels = rectangle(from, pixelAt(this.svg, this.canvas, now));
       this.#draw();
@@ -182,6 +268,7 @@ export class RegionEditor {
 
   #change(change) {
     this.#pixels = change(this.#cornersOf(this.#region));
+    this.#changing = this.#region;
     this.#draw();
     clearTimeout(this.#settle);
     this.#settle = setTimeout(() => this.#apply(), kSettleMs);
@@ -215,7 +302,7 @@ export class RegionEditor {
   async #apply() {
     const pixels = this.#pixels;
     if (!pixels) return;
-    await this.#give(this.#region, pixels);
+    await this.#give(this.#changing, pixels);
     if (this.#pixels === pixels) this.#forget(); // nobody went on meanwhile
   }
 

@@ -252,10 +252,16 @@ export const texts = {
     region: "Region to change",
     body: (name) => `Region ${name}: arrow keys move it, plus and minus resize it`,
     corner: (number, u, v) => `Corner ${number}, at ${u.toFixed(0)}, ${v.toFixed(0)} pixels`,
+    edge: (number) => `Edge ${number}: Enter adds a corner in its middle`,
+    removeCorner: (number) => `Remove corner ${number}`,
+    remove: "Delete the region",
+    removed: ({ name, alarms }) => (alarms.length === 0 ? `Region ${name} is deleted once that is kept.`
+      : `Region ${name} is deleted with its alarms ${alarms.join(", ")} once that is kept.`),
     help: "Drag the region or its corners; arrow keys move them by one pixel, with shift by 10, plus and " +
-      "minus resize the region. A new region, and one that is the whole view, is drawn by dragging over " +
-      "the picture. Limits are dragged in the charts, or typed below them. Nothing counts until it is " +
-      "tried out and kept; the recipe's file keeps its comments.",
+      "minus resize the region. The middle of an edge, dragged, tapped or with Enter, becomes a corner; " +
+      "Delete, or the button, removes the corner that was touched last. A new region, and one that is the " +
+      "whole view, is drawn by dragging over the picture. Limits are dragged in the charts, or typed below " +
+      "them. Nothing counts until it is tried out and kept; the recipe's file keeps its comments.",
     newName: "New region",
     threshold: "its hot spot begins at, °C or % of full scale",
     add: "Add a region",

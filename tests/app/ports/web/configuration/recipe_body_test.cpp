@@ -16,7 +16,8 @@ TEST(RecipeBody, HasLimitsAndRegions) {
                      {"alarm": 2, "region": "", "signal": "", "limit": "", "value": null}],
           "regions": [{"name": "pool", "points": [[1, 2, 3.5]]},
                       {"name": "new", "view": "front", "hot_spot_threshold": 900,
-                       "directions": [[10, -20]]}]})");
+                       "directions": [[10, -20]]},
+                      {"name": "old", "removed": true}]})");
   ASSERT_TRUE(body) << body.error().message;
   EXPECT_EQ(body->recipe, 7);
   EXPECT_EQ(body->seconds, 30);
@@ -26,12 +27,15 @@ TEST(RecipeBody, HasLimitsAndRegions) {
   EXPECT_EQ(limits[0].signal, "plume_area");
   EXPECT_EQ(limits[0].value, -1.5);
   EXPECT_FALSE(limits[1].value);
-  ASSERT_EQ(regions.size(), 2U);
+  ASSERT_EQ(regions.size(), 3U);
   EXPECT_THAT(regions[0].points, ElementsAre(std::array{1.0, 2.0, 3.5}));
   EXPECT_FALSE(regions[0].added);
   EXPECT_THAT(regions[1].directions, ElementsAre(std::array{10.0, -20.0}));
   EXPECT_EQ(regions[1].added->view, "front");
   EXPECT_EQ(regions[1].added->hot_spot_threshold, 900);
+  EXPECT_FALSE(regions[1].is_removed);
+  EXPECT_EQ(regions[2].name, "old");
+  EXPECT_TRUE(regions[2].is_removed);
 }
 
 TEST(RecipeBody, RefusesWhatIsNone) {
@@ -58,7 +62,9 @@ TEST(RecipeBody, RefusesWhatIsNone) {
   }
   for (const char* text :
        {"1", "{}", R"({"name": 1})", R"({"name": "a", "view": "b"})",
-        R"({"name": "a", "view": 1, "hot_spot_threshold": 1})", R"({"name": "a", "more": 1})"}) {
+        R"({"name": "a", "view": 1, "hot_spot_threshold": 1})", R"({"name": "a", "more": 1})",
+        R"({"name": "a", "removed": false})", R"({"removed": true})",
+        R"({"name": "a", "removed": true, "points": []})"}) {
     EXPECT_THAT(of("regions", "[" + std::string(text) + "]"),
                 HasSubstr("a region is of another form"))
         << text;
