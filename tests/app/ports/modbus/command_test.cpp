@@ -120,7 +120,8 @@ TEST(CommandRegisters, TheEndsOfEveryArgumentsRangePassAndNoMore) {
     };
     for (std::size_t i = 0; i < info.argument_count(); ++i) set_to(i, info.arguments[i].minimum);
     EXPECT_EQ(check(modbus::command_in(registers)), CommandResult::Done) << info.name;
-    for (std::size_t i = 0; i < info.argument_count(); ++i) {
+    // From the last one on, which then leaves room for one that must be below it.
+    for (std::size_t i = info.argument_count(); i-- > 0;) {
       set_to(i, info.arguments[i].maximum);
       EXPECT_EQ(check(modbus::command_in(registers)), CommandResult::Done) << info.name << i;
       ++registers.arguments[i];
@@ -130,7 +131,7 @@ TEST(CommandRegisters, TheEndsOfEveryArgumentsRangePassAndNoMore) {
       --registers.arguments[i];
       EXPECT_EQ(check(modbus::command_in(registers)), CommandResult::ArgumentOutOfRange)
           << info.name << i;
-      ++registers.arguments[i];
+      set_to(i, info.arguments[i].maximum);
     }
   }
 }
