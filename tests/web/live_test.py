@@ -1,4 +1,4 @@
-"""What a picture shows where one points, beside the machine's truth; a view turned and mixed by hand."""
+"""What a picture shows where one points, beside the machine's truth; a view turned, mixed and coloured by hand."""
 
 import json
 import math
