@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -51,6 +52,12 @@ struct StreamRequest {
   std::size_t buffers = kFreeRunningBuffers;
 };
 
+/// What a camera says of its counts.
+struct CountScale {
+  double kelvin_per_count = 0;  ///< 0: they are not proportional to temperature
+  std::string said_by;          ///< the feature and its value: "IRFormat is Radiometric"
+};
+
 /// The negotiated stream. A requested size or format is honoured or refused.
 struct StreamFormat {
   PixelFormat format = PixelFormat::Grey;
@@ -58,6 +65,7 @@ struct StreamFormat {
   int width = 0;
   int height = 0;
   double frame_rate = 0;
+  double kelvin_per_count = 0;  ///< of a radiometric camera, once its controls are set
 };
 
 /// What a camera had to say of its frames since start().
@@ -80,7 +88,8 @@ struct LinkCounts {
 /// while stopped. Frames and faults arrive on the camera's own thread, one at a time.
 /// A damaged frame costs itself and its trigger; many are a fault: see DamageWatch.
 /// Thread rule: configure, start and stop are thread-bound (one owner); stop may also be called
-/// inside a callback; trigger, set, quality, link_counts and capture_time are thread-safe.
+/// inside a callback; trigger, set, count_scale, quality, link_counts and capture_time are
+/// thread-safe.
 class Camera {
  public:
   using OnFrame = std::function<void(Frame)>;
@@ -137,6 +146,10 @@ class Camera {
   /// Sets a control by name in its own unit. Frames say when it is in effect: see
   /// FrameMetadata::controls_as_of. Error: no such control, or out of range.
   Result<> set(std::string_view control, double value);
+
+  /// Of the configured camera as its controls are set; nullopt: it says nothing. Once started, it
+  /// keeps this scale until it is configured again.
+  virtual std::optional<CountScale> count_scale() const { return std::nullopt; }
 
  protected:
   explicit Camera(CameraInfo info) : info_(std::move(info)) {}

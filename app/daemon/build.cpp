@@ -19,6 +19,9 @@
 namespace orbwatch::app {
 namespace {
 
+/// Of a camera that says it, until it is there: the temperatures of a recipe are checked with it.
+constexpr double kAssumedKelvinPerCount = 0.04;
+
 /// As SourceColours::map has it. The file's reader knows the name.
 std::size_t place_of(std::string_view colour_map) {
   const auto* const found = std::ranges::find(kColourMapNames, colour_map);
@@ -83,7 +86,7 @@ class Builder {
       const std::size_t camera = source.camera.index;
       auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
       if (!ball) return tl::unexpected(ball.error());
-      const double kelvin_per_count = site_.site.cameras[camera].radiometry.kelvin_per_count;
+      const double kelvin_per_count = formats_[camera].kelvin_per_count;
       const auto range = range_of(source);
       sources.push_back({camera,
                          formats_[camera],
@@ -153,6 +156,7 @@ class Builder {
     settings.width_set_point = region.width;
     settings.full_scale = full_scale(format);
     settings.radiometry = measured.radiometry;
+    settings.radiometry.kelvin_per_count = format.kelvin_per_count;
     settings.radiometry.emissivity = region.emissivity;
     if (region.surroundings_temperature) {
       settings.radiometry.surroundings = *region.surroundings_temperature;
@@ -216,7 +220,11 @@ std::vector<hal::StreamFormat> expected_formats(const Resolved& site) {
 hal::StreamFormat expected_format(const Resolved& site, std::size_t camera) {
   const CameraSettings& settings = site.site.cameras[camera];
   hal::StreamFormat format;
-  format.format = settings.radiometry.kelvin_per_count > 0 ? PixelFormat::Y16 : PixelFormat::Grey;
+  const signals::RadiometrySettings& radiometry = settings.radiometry;
+  format.format = radiometry.is_radiometric() ? PixelFormat::Y16 : PixelFormat::Grey;
+  format.kelvin_per_count = radiometry.kelvin_per_count > 0 ? radiometry.kelvin_per_count
+                            : radiometry.says_scale         ? kAssumedKelvinPerCount
+                                                            : 0;
   format.width = site.rig_camera(camera).width;
   format.height = site.rig_camera(camera).height;
   format.frame_rate = settings.stream.frame_rate;

@@ -1,5 +1,7 @@
 #include "app/daemon/cameras.h"
 
+#include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,13 +39,42 @@ Result<> check_format(const hal::StreamFormat& format, const CameraSettings& set
   if (!ViewRenderer::is_supported(format.format)) {
     return fail(delivers + ", of which no view can be made");
   }
-  if (settings.radiometry.kelvin_per_count > 0 && format.format != PixelFormat::Y16) {
-    return fail("has kelvin_per_count but " + delivers + "; a radiometric camera delivers y16");
+  if (settings.radiometry.is_radiometric() && format.format != PixelFormat::Y16) {
+    return fail("is radiometric but " + delivers + "; a radiometric camera delivers y16");
   }
   if (format.width == rig.width && format.height == rig.height) return {};
   return fail("delivers " + std::to_string(format.width) + "x" + std::to_string(format.height) +
               ", but the rig is for " + std::to_string(rig.width) + "x" +
               std::to_string(rig.height) + " pictures");
+}
+
+std::string kelvin_text(double kelvin) {
+  std::ostringstream text;
+  text << kelvin;
+  return text.str();
+}
+
+/// Kelvin per count as the files or the camera itself say; 0: it is not radiometric. Error: they
+/// contradict each other, or neither says.
+Result<double> scale_of_counts(const hal::Camera& camera, const CameraSettings& settings) {
+  const double stated = settings.radiometry.kelvin_per_count;
+  if (!settings.radiometry.is_radiometric()) return 0;
+  const auto said = camera.count_scale();
+  if (!said && stated > 0) return stated;
+  if (!said) {
+    return fail("is radiometric but does not say its scale; state kelvin_per_count");
+  }
+  if (said->kelvin_per_count <= 0) {
+    return fail("is radiometric but, as it is set, its counts are no temperatures: " +
+                said->said_by + "; set it with [[camera.control]]");
+  }
+  // A file has few digits.
+  constexpr double kSame = 1e-6;
+  if (stated > 0 && std::abs(stated / said->kelvin_per_count - 1) > kSame) {
+    return fail("has kelvin_per_count " + kelvin_text(stated) + ", but says " +
+                kelvin_text(said->kelvin_per_count) + ": " + said->said_by);
+  }
+  return said->kelvin_per_count;
 }
 
 }  // namespace
@@ -74,7 +105,7 @@ Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& s
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
                                                  std::size_t index) {
   const CameraSettings& settings = site.site.cameras[index];
-  const auto format = camera.configure(stream_of(settings));
+  auto format = camera.configure(stream_of(settings));
   if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
   for (const ControlSettings& control : controls_of(site, index)) {
     if (const auto done = camera.set(control.name, control.value); !done) {
@@ -84,6 +115,9 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Reso
   if (const auto usable = check_format(*format, settings, site.rig_camera(index)); !usable) {
     return hal::fail(hal::Fault::WrongFormat, usable.error().message);
   }
+  const auto scale = scale_of_counts(camera, settings);
+  if (!scale) return hal::fail(hal::Fault::WrongFormat, scale.error().message);
+  format->kelvin_per_count = *scale;
   return *format;
 }
 
@@ -118,7 +152,8 @@ hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera
   };
   const auto format = open_camera(camera, site, index);
   if (!format) return missing(format.error());
-  if (format->format != pipeline.formats()[index].format) {
+  const hal::StreamFormat& planned = pipeline.formats()[index];
+  if (format->format != planned.format || format->kelvin_per_count != planned.kelvin_per_count) {
     std::vector<hal::StreamFormat> formats = pipeline.formats();
     formats[index] = *format;
     auto recompiled = rebuild(site, std::move(formats), index);

@@ -27,7 +27,7 @@ std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
 
 PublishedSource published(const Resolved& site, const SourceSettings& source) {
   const CameraSettings& camera = site.site.cameras[source.camera.index];
-  return {camera.name, source.colour_map, range_of(source), camera.radiometry.kelvin_per_count > 0};
+  return {camera.name, source.colour_map, range_of(source), camera.radiometry.is_radiometric()};
 }
 
 /// As a measured view.

@@ -106,7 +106,12 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.optional("frame_rate", camera.stream.frame_rate, Range::between(0.01, hal::kMaxFrameRate),
              "Frames per second; else the camera's own");
   v.optional("kelvin_per_count", camera.radiometry.kelvin_per_count, Range::above(0, 10),
-             "Radiometric scale of a 16-bit thermal camera; else it is none");
+             "Radiometric scale of a 16-bit thermal camera, which must be the one that the camera "
+             "says, if it does; else it is none");
+  v.optional(
+      "radiometric", camera.radiometry.says_scale,
+      "It is a thermal camera, genicam, that says kelvin_per_count itself, which need not be "
+      "stated then");
   v.table("radiometry", camera.radiometry,
           "Of a radiometric camera: makes true temperatures of apparent ones");
   v.optional("sync", camera.sync, kSyncPolicies,

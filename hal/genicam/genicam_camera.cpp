@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hal/genicam/device/count_scale.h"
 #include "hal/genicam/device/features.h"
 #include "hal/genicam/device/gige_identity.h"
 #include "hal/genicam/device/open_camera.h"
@@ -60,16 +61,31 @@ DeviceResult<> GenicamCamera::set_up(std::string_view pixel_format, const Stream
       return fail(Fault::Refused, done.error().message);
     }
   }
-  read_features();
   format_ = *negotiated;
+  read_features();
   is_set_up_ = true;
   return {};
+}
+
+/// Sets up the camera that came back. Fault: its counts mean something else than before.
+DeviceResult<> GenicamCamera::set_up_again() {
+  const StreamFormat& stream = format_.stream;
+  const std::optional<CountScale> before = count_scale_;
+  auto done = set_up(format_.pixels->name, {stream.width, stream.height, stream.frame_rate});
+  if (!done || !before || !count_scale_) return done;
+  if (count_scale_->kelvin_per_count == before->kelvin_per_count) return {};
+  const std::string changed = count_scale_->said_by + ", before " + before->said_by;
+  count_scale_ = before;
+  is_set_up_ = false;
+  return fail(Fault::WrongFormat, "genicam: camera " + found_.id +
+                                      ": came back with another scale of its counts: " + changed);
 }
 
 /// What the features say about frames.
 void GenicamCamera::read_features() {
   triggered_ = waits_for_trigger(camera_.get());
   exposure_time_ = exposure_time(camera_.get());
+  count_scale_ = read_count_scale(camera_.get(), format_.pixels->name);
 }
 
 Result<StreamFormat> GenicamCamera::do_configure(const StreamRequest& request) {
@@ -81,6 +97,7 @@ Result<StreamFormat> GenicamCamera::do_configure(const StreamRequest& request) {
                 "\"; it must be one of " + known);
   }
   const std::lock_guard lock(device_mutex_);
+  keeps_count_scale_ = false;
   auto ready = open().and_then([&] { return set_up(settings_.pixel_format, request); });
   if (!ready) {
     camera_.reset();
@@ -105,12 +122,16 @@ Result<> GenicamCamera::do_set(std::string_view control, double value) {
   const std::string name(control);
   const std::lock_guard lock(device_mutex_);
   if (auto opened = open(); !opened) return fail(opened.error().detail);
+  if (keeps_count_scale_ && is_set_up_ && would_rescale(camera_.get(), name, value)) {
+    return fail("genicam: camera " + found_.id + ": control " + name +
+                " cannot change after the start: it changes what a count means");
+  }
   if (auto done = set_now(name, value); !done) {
     // A camera that does not answer is searched again the next time.
     if (!runs_) camera_.reset();
     return done;
   }
-  read_features();
+  if (is_set_up_) read_features();
   const auto known = std::ranges::find(controls_, name, &Control::first);
   if (known != controls_.end()) {
     known->second = value;
@@ -129,6 +150,11 @@ Result<> GenicamCamera::trigger() {
   return {};
 }
 
+std::optional<CountScale> GenicamCamera::count_scale() const {
+  const std::lock_guard lock(device_mutex_);
+  return count_scale_;
+}
+
 LinkCounts GenicamCamera::link_counts() const {
   const std::lock_guard lock(counts_mutex_);
   return counts_;
@@ -144,15 +170,11 @@ void GenicamCamera::count_link() {
 
 DeviceResult<double> GenicamCamera::open_stream() {
   const std::lock_guard lock(device_mutex_);
-  const StreamFormat& stream = format_.stream;
-  const StreamRequest request{stream.width, stream.height, stream.frame_rate};
+  keeps_count_scale_ = true;
   auto started =
-      open()
-          .and_then([&]() -> DeviceResult<> {
-            if (is_set_up_) return {};
-            return set_up(format_.pixels->name, request);
-          })
-          .and_then([&] { return GenicamStream::start(camera_.get(), format_, buffers_); });
+      open().and_then([&] { return is_set_up_ ? DeviceResult<>() : set_up_again(); }).and_then([&] {
+        return GenicamStream::start(camera_.get(), format_, buffers_);
+      });
   if (!started) {
     camera_.reset();
     return tl::unexpected(started.error());

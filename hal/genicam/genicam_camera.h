@@ -34,9 +34,11 @@ class GenicamCamera : public DeviceCamera {
   Result<> trigger() override;
 
   LinkCounts link_counts() const override;
+  std::optional<CountScale> count_scale() const override;
 
  protected:
-  /// See set_feature(). The value is set again after each reconnection.
+  /// See set_feature(). The value is set again after each reconnection. Error, too: it changes the
+  /// scale of the counts after the start.
   Result<> do_set(std::string_view control, double value) override;
   /// Sensors take exposure and gain on up to 2 exposures later; one more, as the frame that is
   /// being sent began before.
@@ -55,6 +57,7 @@ class GenicamCamera : public DeviceCamera {
 
   DeviceResult<> open();
   DeviceResult<> set_up(std::string_view pixel_format, const StreamRequest& request);
+  DeviceResult<> set_up_again();
   Result<> set_now(const std::string& control, double value);
   void read_features();
   tl::unexpected<FaultReport> silence();
@@ -68,12 +71,14 @@ class GenicamCamera : public DeviceCamera {
                                                 std::size_t stride);
 
   GenicamSettings settings_;
-  std::mutex device_mutex_;  ///< of the five that follow, and of the camera's features
+  mutable std::mutex device_mutex_;  ///< of the seven that follow, and of the camera's features
   FoundCamera found_;
   OwnedObject<ArvCamera> camera_;  ///< while it is controlled
   bool is_set_up_ = false;         ///< with format and controls
   std::vector<Control> controls_;  ///< the stored ones, in the order of their first setting
   bool runs_ = false;
+  std::optional<CountScale> count_scale_;
+  bool keeps_count_scale_ = false;  ///< it was started since it was configured
   GenicamStreamFormat format_;
   std::size_t buffers_ = kFreeRunningBuffers;  ///< of the stream
   std::unique_ptr<GenicamDecoder> decoder_;    ///< for formats that are not zero-copy

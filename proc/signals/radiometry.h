@@ -11,20 +11,23 @@ namespace orbwatch::signals {
 /// How a camera's counts represent temperature, that of a black body:
 /// T[K] = kelvin_per_count * count.
 struct RadiometrySettings {
-  double kelvin_per_count = 0;           ///< 0: the camera is not radiometric
+  double kelvin_per_count = 0;           ///< 0: not stated
+  bool says_scale = false;               ///< the camera itself says kelvin_per_count
   double wavelength = 10;                ///< um, the camera's effective one
   std::optional<double> emissivity{};    ///< of the target, (0, 1]; nullopt: 1
   double surroundings = 20;              ///< degC, of what the target reflects
   std::optional<double> reflectivity{};  ///< of the ball, (0, 1]; nullopt: 1
   double ball_temperature = 20;          ///< degC, for what the ball emits itself
+
+  bool is_radiometric() const { return kelvin_per_count > 0 || says_scale; }
 };
 
-/// What a camera's table [camera.radiometry] states; kelvin_per_count is a key of the camera's own
-/// table, the rest are the region's.
+/// What a camera's table [camera.radiometry] states; kelvin_per_count and says_scale are keys of
+/// the camera's own table, the rest are the region's.
 template <class Visitor>
 void visit(Visitor& v, RadiometrySettings& radiometry) {
-  v.require(radiometry.kelvin_per_count > 0, "wavelength",
-            "only a camera with kelvin_per_count is radiometric");
+  v.require(radiometry.is_radiometric(), "wavelength",
+            "only a camera with kelvin_per_count or radiometric = true is radiometric");
   v.optional("wavelength", radiometry.wavelength, Range::between(0.5, 20),
              "Effective wavelength of the camera's band, um");
   v.optional("ball_reflectivity", radiometry.reflectivity, Range::between(0.05, 1),

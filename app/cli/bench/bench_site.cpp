@@ -50,7 +50,7 @@ std::pair<hal::StreamFormat, std::string> format_of(const Resolved& site, std::s
   hal::StreamFormat format = expected_format(site, index);
   const auto stated =
       std::visit([](const auto& camera) { return stated_format(camera); }, settings.back_end);
-  if (settings.radiometry.kelvin_per_count > 0) return {format, "as a radiometric camera"};
+  if (settings.radiometry.is_radiometric()) return {format, "as a radiometric camera"};
   format.format = stated.value_or(kAssumed);
   return {format, stated ? "as configured" : "assumed: it is not connected and states none"};
 }
@@ -68,6 +68,7 @@ std::vector<std::string> simulate_cameras(Resolved& site) {
     camera.stream.width = format.width;
     camera.stream.height = format.height;
     camera.stream.frame_rate = format.frame_rate;
+    camera.radiometry.kelvin_per_count = format.kelvin_per_count;
     camera.trigger = {.mode = hal::TriggerMode::Off};
     camera.trigger_source.clear();
     camera.controls.clear();

@@ -26,7 +26,8 @@ std::vector<hal::StreamFormat> formats(const Resolved& site) {
                        {},
                        camera.stream.width,
                        camera.stream.height,
-                       camera.stream.frame_rate});
+                       camera.stream.frame_rate,
+                       camera.radiometry.kelvin_per_count});
   }
   return formats;
 }

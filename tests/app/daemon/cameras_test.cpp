@@ -1,5 +1,6 @@
 #include "app/daemon/cameras.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace orbwatch::app {
@@ -35,6 +36,65 @@ std::size_t requested_buffers(hal::TriggerMode mode) {
 TEST(OpenCamera, ATriggeredCameraHasBuffersForAFullQueue) {
   EXPECT_EQ(requested_buffers(hal::TriggerMode::Line), hal::kTriggeredBuffers);
   EXPECT_EQ(requested_buffers(hal::TriggerMode::Off), hal::kFreeRunningBuffers);
+}
+
+/// A thermal camera.
+class ThermalCamera : public hal::Camera {
+ public:
+  explicit ThermalCamera(std::optional<hal::CountScale> says)
+      : Camera({"thermal", "thermal", "test"}), says_(std::move(says)) {}
+
+  std::optional<hal::CountScale> count_scale() const override { return says_; }
+
+ private:
+  Result<hal::StreamFormat> do_configure(const hal::StreamRequest&) override {
+    return hal::StreamFormat{PixelFormat::Y16, {}, 8, 8, 10};
+  }
+  void run(const std::stop_token&) override {}
+
+  std::optional<hal::CountScale> says_;
+};
+
+hal::DeviceResult<double> scale_of(const signals::RadiometrySettings& radiometry,
+                                   std::optional<hal::CountScale> says) {
+  Resolved site;
+  site.site.cameras.emplace_back().radiometry = radiometry;
+  optics::RigCamera& rig = site.rig.cameras.emplace_back();
+  rig.width = rig.height = 8;
+  site.rig_cameras = {0};
+  ThermalCamera camera(std::move(says));
+  return open_camera(camera, site, 0).map([](const hal::StreamFormat& format) {
+    return format.kelvin_per_count;
+  });
+}
+
+TEST(OpenCamera, TheScaleOfCountsIsTheStatedOneOrTheCameras) {
+  const hal::CountScale linear{0.1, "IRFormat is TemperatureLinear100mK"};
+  EXPECT_EQ(scale_of({.kelvin_per_count = 0.04}, {}), 0.04);
+  EXPECT_EQ(scale_of({.kelvin_per_count = 0.1}, linear), 0.1);
+  EXPECT_EQ(scale_of({.says_scale = true}, linear), 0.1);
+  EXPECT_EQ(scale_of({}, linear), 0) << "percent of full scale, as long as the site says so";
+}
+
+TEST(OpenCamera, AScaleThatContradictsTheCameraIsRefused) {
+  const auto refusal = [](const signals::RadiometrySettings& radiometry,
+                          std::optional<hal::CountScale> says) {
+    const auto scale = scale_of(radiometry, std::move(says));
+    EXPECT_FALSE(scale);
+    if (scale) return std::string();
+    EXPECT_EQ(scale.error().fault, hal::Fault::WrongFormat);
+    return scale.error().detail;
+  };
+  EXPECT_EQ(refusal({.kelvin_per_count = 0.04},
+                    hal::CountScale{0.1, "IRFormat is TemperatureLinear100mK"}),
+            "has kelvin_per_count 0.04, but says 0.1: IRFormat is TemperatureLinear100mK");
+  for (const signals::RadiometrySettings& radiometry :
+       {signals::RadiometrySettings{.kelvin_per_count = 0.04},
+        signals::RadiometrySettings{.says_scale = true}}) {
+    EXPECT_THAT(refusal(radiometry, hal::CountScale{0, "IRFormat is Radiometric"}),
+                testing::HasSubstr("no temperatures: IRFormat is Radiometric; set it with"));
+  }
+  EXPECT_THAT(refusal({.says_scale = true}, {}), testing::HasSubstr("state kelvin_per_count"));
 }
 
 }  // namespace

@@ -42,6 +42,9 @@ view = "front"
 hot_spot_threshold = 100
 )";
 
+const std::string kStatedScale = "kelvin_per_count = 0.04\n";
+
+/// `keys` are those of the camera.
 std::string site(const std::string& keys) {
   return R"(
 [[camera]]
@@ -50,7 +53,6 @@ back_end = "genicam"
 width = 160
 height = 120
 frame_rate = 100
-kelvin_per_count = 0.04
 )" + keys +
          R"([camera.genicam]
 camera = "127.0.0.1"
@@ -66,12 +68,17 @@ class GenicamDaemon : public Daemon {
   }
   void TearDown() override { unsetenv("ORBWATCH_MODULES"); }
 
+  using Work = std::function<void(Subprocess&, FakeGigeCamera&)>;
+
   /// Does `work` while a daemon measures what the camera sends.
-  void run(const std::string& keys, const std::function<void(Subprocess&, FakeGigeCamera&)>& work) {
+  void run(const std::string& keys, const Work& work) {
+    run_with({}, site(kStatedScale + keys), work);
+  }
+  void run_with(const FakeGigeCamera::Options& options, const std::string& site, const Work& work) {
     const NetworkNamespace network;
     network.run([&] {
-      FakeGigeCamera fake({});
-      Subprocess daemon = start(write_config(site(keys), kRig, kRecipe));
+      FakeGigeCamera fake(options);
+      Subprocess daemon = start(write_config(site, kRig, kRecipe));
       ASSERT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") > 0; }))
           << daemon.output();
       work(daemon, fake);
@@ -129,6 +136,18 @@ TEST_F(GenicamDaemon, MeasuresAgainAfterEachReturnOfTheCameraAndNothingGrows) {
     EXPECT_LE(resident(daemon), memory + kNoise + 16L * restarts);
     EXPECT_EQ(read("camera_0_underruns"), 0);
   });
+}
+
+TEST_F(GenicamDaemon, MeasuresTemperaturesByTheScaleThatTheCameraSays) {
+  const std::string linear = "[[camera.control]]\nname = \"IRFormat\"\nvalue = 2\n";
+  run_with({.is_thermal = true}, site("radiometric = true\n") + linear,
+           [&](Subprocess& daemon, FakeGigeCamera&) {
+             ASSERT_TRUE(delivers(daemon)) << daemon.output();
+             // Counts go up to 65534, of 0.01 K each; the hot spot begins at 100 degC.
+             const auto peak = [this] { return read("region_0_hot_spot_peak_temperature"); };
+             ASSERT_TRUE(eventually(daemon, [&] { return peak() >= 1000; })) << peak();
+             EXPECT_LE(peak(), 3822);
+           });
 }
 
 /// A result, by the numbers that it has in every interface.

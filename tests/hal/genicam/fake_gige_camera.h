@@ -4,7 +4,9 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,15 +14,30 @@
 #include <vector>
 
 #include "hal/camera.h"
+#include "hal/genicam/device/aravis.h"
 #include "hal/genicam/device/gige_identity.h"
 #include "hal/genicam/genicam_settings.h"
 #include "proc/image/picture.h"
 #include "tests/support/comes_true.h"
 #include "tests/support/network_namespace.h"
+#include "tests/support/reference_data.h"
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::tests {
+
+/// The description of Aravis' fake camera and the features of a thermal one.
+inline std::string thermal_description() {
+  const hal::OwnedObject<ArvFakeCamera> camera(arv_fake_camera_new("thermal"));
+  std::size_t size = 0;
+  const char* const standard = arv_fake_camera_get_genicam_xml(camera.get(), &size);
+  std::string text(standard, size);
+  std::ifstream file(std::string(ORBWATCH_SOURCE_DIR) + "/tests/hal/genicam/thermal_features.xml");
+  const std::string features{std::istreambuf_iterator<char>(file), {}};
+  const std::string root = "<Category Name=\"Root\" NameSpace=\"Standard\">";
+  text.insert(text.find(root) + root.size(), "<pFeature>ThermalControl</pFeature>");
+  return text.insert(text.rfind("</RegisterDescription>"), features);
+}
 
 /// Aravis' fake GigE Vision camera: a program that listens on an interface of the calling thread's
 /// network. There is one in a network.
@@ -33,6 +50,7 @@ class FakeGigeCamera {
     double lost_per_thousand = 0;  ///< packets
     std::string interface = "lo";
     std::string address = kAddress;  ///< of that interface
+    bool is_thermal = false;         ///< has the features of thermal_description()
   };
 
   explicit FakeGigeCamera(Options options) : options_(std::move(options)) { start(); }
@@ -40,10 +58,15 @@ class FakeGigeCamera {
   void kill() { program_.reset(); }
 
   void start() {
-    program_.emplace(
-        std::vector<std::string>{"/usr/bin/arv-fake-gv-camera-0.8", "-i", options_.interface, "-s",
-                                 kSerial, "-r", std::to_string(options_.lost_per_thousand)},
-        folder_ / "fake.log");
+    std::vector<std::string> arguments{
+        "/usr/bin/arv-fake-gv-camera-0.8",         "-i", options_.interface, "-s", kSerial, "-r",
+        std::to_string(options_.lost_per_thousand)};
+    if (options_.is_thermal) {
+      const auto description = folder_ / "thermal.xml";
+      std::ofstream(description) << thermal_description();
+      arguments.insert(arguments.end(), {"-g", description.string()});
+    }
+    program_.emplace(arguments, folder_ / "fake.log");
     ASSERT_TRUE(
         comes_true([this] { return hal::read_gige_identity(options_.address).has_value(); }));
   }

@@ -30,9 +30,13 @@ class OnFakeCamera : public testing::Test {
 
   /// Does `work` in a network with the fake camera.
   void run(const std::function<void(FakeGigeCamera&)>& work, double lost_per_thousand = 0) {
+    run_with({.lost_per_thousand = lost_per_thousand}, work);
+  }
+  void run_with(const FakeGigeCamera::Options& options,
+                const std::function<void(FakeGigeCamera&)>& work) {
     network_.emplace();
     network_->run([&] {
-      FakeGigeCamera fake({.lost_per_thousand = lost_per_thousand});
+      FakeGigeCamera fake(options);
       work(fake);
     });
   }
@@ -192,6 +196,55 @@ TEST_F(OnFakeCamera, FeaturesHaveTheCamerasLimits) {
     EXPECT_THAT(
         refusal(camera.set("Emissivity", 1)),
         AllOf(HasSubstr("no control \"Emissivity\"; there are: "), HasSubstr("ExposureTimeAbs")));
+  });
+}
+
+TEST_F(OnFakeCamera, AThermalCameraSaysTheScaleOfItsCountsAndHasLimitsForItsFeatures) {
+  run_with({.is_thermal = true}, [](FakeGigeCamera& fake) {
+    GenicamCamera camera(settings("Mono16"));
+    configure(camera);
+    const auto scale = [&camera] {
+      return camera.count_scale().value_or(CountScale{-1, "nothing"});
+    };
+    EXPECT_EQ(scale().kelvin_per_count, 0);
+    EXPECT_EQ(scale().said_by, "IRFormat is Radiometric");
+    ASSERT_EQ(refusal(camera.set("IRFormat", 2)), "");
+    EXPECT_EQ(scale().kelvin_per_count, 0.01);
+    ASSERT_EQ(refusal(camera.set("IRFormat", 1)), "");
+    EXPECT_EQ(scale().kelvin_per_count, 0.1);
+    EXPECT_EQ(scale().said_by, "IRFormat is TemperatureLinear100mK");
+    EXPECT_THAT(refusal(camera.set("IRFormat", 3)),
+                HasSubstr("IRFormat cannot be 3; it takes 0 = Radiometric, "
+                          "1 = TemperatureLinear100mK, 2 = TemperatureLinear10mK"));
+    EXPECT_EQ(refusal(camera.set("ObjectEmissivity", 0.85)), "");
+    EXPECT_THAT(refusal(camera.set("ObjectEmissivity", 1.2)),
+                HasSubstr("ObjectEmissivity cannot be 1.2; it takes 0.01 to 1"));
+
+    Receiver<std::uint64_t> receiver(
+        [](const FrameBuffer& frame) { return frame.metadata.sequence; });
+    receiver.start(camera);
+    receiver.wait_for(1);
+    EXPECT_EQ(refusal(camera.set("IRFormat", 1)), "");
+    EXPECT_THAT(refusal(camera.set("IRFormat", 2)), HasSubstr("it changes what a count means"));
+    // It comes back as Radiometric, and is set again.
+    fake.kill();
+    receiver.wait_for_faults(1);
+    fake.start();
+    EXPECT_EQ(receiver.wait_for_faults(2).back().fault, Fault::None);
+    EXPECT_EQ(scale().kelvin_per_count, 0.1);
+  });
+}
+
+TEST_F(OnFakeCamera, SaysNothingOfItsCountsWithoutThermalFeaturesOrInAnotherFormat) {
+  run([](FakeGigeCamera&) {
+    GenicamCamera camera(settings("Mono16"));
+    configure(camera);
+    EXPECT_FALSE(camera.count_scale());
+  });
+  run_with({.is_thermal = true}, [](FakeGigeCamera&) {
+    GenicamCamera camera(settings("Mono8"));
+    configure(camera);
+    EXPECT_FALSE(camera.count_scale());
   });
 }
 
