@@ -1,5 +1,5 @@
-// Models whose rho is proportional to sin(half_phi/2), with everything far away: the paper's term
-// rho = sin(half_phi/2) / sin(alpha/4), and its limit for alpha = 360, the orthographic camera.
+// Models whose rho is proportional to sin(phi/2), with everything far away: the paper's term
+// rho = sin(phi/2) / sin(alpha/4), and its limit for alpha = 360, the orthographic camera.
 
 #include <limits>
 
@@ -33,7 +33,7 @@ CosSin half_phi(const Limb& limb, double rho) {
 }  // namespace
 
 extern const BallLaw paper;
-constexpr BallLaw paper{"paper",      "rho = sin(half_phi/2) / sin(alpha/4), scene far away",
+constexpr BallLaw paper{"paper",      "rho = sin(phi/2) / sin(alpha/4), scene far away",
                         false,        false,
                         half_stretch, half_stretch_lanes,
                         half_phi,     nullptr};
