@@ -8,6 +8,8 @@
 #include "hal/genicam/device/features.h"
 #include "hal/genicam/device/open_camera.h"
 #include "hal/genicam/genicam_list.h"
+#include "hal/sync/frame_sync.h"
+#include "hal/test_pattern/test_pattern_settings.h"
 #include "tests/hal/genicam/fake_gige_camera.h"
 #include "tests/hal/genicam/resending_proxy.h"
 #include "tests/support/share.h"
@@ -267,6 +269,39 @@ TEST_F(OnFakeCamera, EachSoftwareTriggerExposesOneFrame) {
     const auto frames = receiver.wait_for(triggers);
     EXPECT_EQ(frames.size(), triggers);
     EXPECT_EQ(frames.back().sequence - frames.front().sequence, triggers - 1);
+  });
+}
+
+TEST_F(OnFakeCamera, AndAColourCameraAreSynchronisedByTheirStampsAndTheSkewIsSaid) {
+  run([](FakeGigeCamera&) {
+    constexpr double kRate = 25;
+    constexpr std::size_t kPairs = 20;
+    GenicamCamera thermal(settings("Mono16"));
+    configure(thermal, {64, 48, kRate});
+    const auto colour = make_camera(
+        TestPatternSettings{.name = "colour", .pixel_format = PixelFormat::Rgb}, CameraContext{});
+    configure(*colour, {64, 48, kRate});
+    // Half a period: each frame has one partner, however the cameras stand to each other.
+    FrameSync sync(2, {.window = 20ms, .max_wait = 100ms});
+    const auto start = [&sync](Camera& camera, std::size_t index) {
+      EXPECT_TRUE(camera.start([&sync, index](Frame frame) { sync.put(index, std::move(frame)); },
+                               [&sync, index](const FaultReport&) { sync.clear(index); }));
+    };
+    start(thermal, 0);
+    start(*colour, 1);
+    std::size_t pairs = 0;
+    for (const TimePoint guard = Clock::now() + 60s; pairs < kPairs;) {
+      const auto set = sync.next(guard);
+      ASSERT_TRUE(set) << pairs << " pairs";
+      const bool is_pair = set->frames[0] && set->frames[1] && !set->held[0] && !set->held[1];
+      if (!is_pair) continue;
+      ++pairs;
+      EXPECT_NE(set->frames[0]->metadata.stamp_source, StampSource::Arrival);
+      EXPECT_EQ(set->skew, std::max(set->age(0), set->age(1)) - std::min(set->age(0), set->age(1)));
+      EXPECT_LE(set->skew, 20ms);
+    }
+    thermal.stop();
+    colour->stop();
   });
 }
 
