@@ -40,9 +40,9 @@ std::vector<Route> HistoryRoutes::routes() {
       "lowest "
       "and its highest value in each step, oldest first, null where it was not measured; s";
   figure.type = kJson;
-  figure.query = {{"region", "Its name; it or a camera is needed", false, false},
-                  {"camera", "Its name", false, false},
-                  {"figure", "Name of the figure", true, false}};
+  figure.query = {{"figure", "Name of the figure", true, false},
+                  {"region", "Name of the region; it or a camera is needed", false, false},
+                  {"camera", "Name of the camera", false, false}};
   figure.serve = [this](const ExchangePtr& exchange) { serve_figure(exchange); };
   Route alarms = figure;
   alarms.path = "/api/v1/history/alarms";
