@@ -16,7 +16,7 @@ using nlohmann::json;
 using optics::Vec3;
 using testing::HasSubstr;
 
-constexpr const char* kRecipe = "/api/v1/recipe";
+constexpr const char* kRecipePath = "/api/v1/recipe";
 
 /// A view along +Y.
 MeasuredRecipe make_recipe(const optics::Ball& ball) {
@@ -58,9 +58,9 @@ class ServedRecipe : public Served {
     ASSERT_TRUE(started) << started.error().message;
     sink->accept(app::tests::make_status());
   }
-  json shown() const { return json::parse(get(port(), kRecipe).body); }
+  json shown() const { return json::parse(get(port(), kRecipePath).body); }
   Answer polygon(const std::string& query) const {
-    return get(port(), std::string(kRecipe) + "/polygon" + query);
+    return get(port(), std::string(kRecipePath) + "/polygon" + query);
   }
 
   MeasuredRecipe recipe;
@@ -94,10 +94,10 @@ TEST_F(ServedRecipe, HasLimitsAndRegionsInItsViews) {
 
 TEST_F(Served, WithoutRecipesTheRecipeIsEmpty) {
   start();
-  const json none = json::parse(get(port(), kRecipe).body);
+  const json none = json::parse(get(port(), kRecipePath).body);
   EXPECT_EQ(none["number"], 0);
   EXPECT_TRUE(none["regions"].empty() && none["alarms"].empty() && none["views"].empty());
-  EXPECT_EQ(get(port(), std::string(kRecipe) + "?number=1").status, 404);
+  EXPECT_EQ(get(port(), std::string(kRecipePath) + "?number=1").status, 404);
 }
 
 /// What is shown at a pixel is the corner that is shown there.
@@ -144,7 +144,7 @@ TEST_F(ServedRecipe, RefusesWhatIsNoPolygon) {
   EXPECT_THAT(refusal("?view=process&pixels=" + many), HasSubstr("at most 64 corners"));
   EXPECT_THAT(refusal("?view=process&pixels=1,2,3,4"), HasSubstr("at least 3 corners"));
   EXPECT_THAT(refusal("?view=process&number=9&pixels=1,2"), HasSubstr("there is no recipe 9"));
-  EXPECT_EQ(get(port(), std::string(kRecipe) + "?number=9").status, 404);
+  EXPECT_EQ(get(port(), std::string(kRecipePath) + "?number=9").status, 404);
 }
 
 }  // namespace
