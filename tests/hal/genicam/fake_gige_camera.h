@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gio/gio.h>
 #include <gtest/gtest.h>
 
 #include <condition_variable>
@@ -14,7 +15,6 @@
 #include <vector>
 
 #include "hal/camera.h"
-#include "hal/genicam/device/aravis.h"
 #include "hal/genicam/device/gige_identity.h"
 #include "hal/genicam/genicam_settings.h"
 #include "proc/image/picture.h"
@@ -28,10 +28,12 @@ namespace orbwatch::tests {
 
 /// The description of Aravis' fake camera and the features of a thermal one.
 inline std::string thermal_description() {
-  const hal::OwnedObject<ArvFakeCamera> camera(arv_fake_camera_new("thermal"));
+  GBytes* const standard = g_resources_lookup_data("/org/aravis/arv-fake-camera.xml",
+                                                   G_RESOURCE_LOOKUP_FLAGS_NONE, nullptr);
   std::size_t size = 0;
-  const char* const standard = arv_fake_camera_get_genicam_xml(camera.get(), &size);
-  std::string text(standard, size);
+  const char* const characters = static_cast<const char*>(g_bytes_get_data(standard, &size));
+  std::string text(characters, size);
+  g_bytes_unref(standard);
   std::ifstream file(std::string(ORBWATCH_SOURCE_DIR) + "/tests/hal/genicam/thermal_features.xml");
   const std::string features{std::istreambuf_iterator<char>(file), {}};
   const std::string root = "<Category Name=\"Root\" NameSpace=\"Standard\">";
