@@ -98,15 +98,22 @@ inline std::uint8_t fake_sample_8(std::uint64_t id, int x, int y) {
       (static_cast<std::uint64_t>(x) + id + static_cast<std::uint64_t>(y)) % 255);
 }
 
-/// Receives a camera's frames and faults, and keeps what a test asks of each.
+/// Receives a camera's frames and faults, and keeps what a test asks of each. Its end stops the
+/// camera, which outlives it.
 template <class Kept>
 class Receiver {
  public:
   using Keep = std::function<Kept(const hal::FrameBuffer&)>;
 
   explicit Receiver(Keep keep) : keep_(std::move(keep)) {}
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+  ~Receiver() {
+    if (camera_ != nullptr) camera_->stop();
+  }
 
   void start(hal::Camera& camera) {
+    camera_ = &camera;
     const auto started =
         camera.start([this](const hal::Frame& frame) { add(kept_, keep_(*frame)); },
                      [this](const hal::FaultReport& fault) { add(faults_, fault); });
@@ -139,6 +146,7 @@ class Receiver {
   }
 
   const Keep keep_;
+  hal::Camera* camera_ = nullptr;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Kept> kept_;

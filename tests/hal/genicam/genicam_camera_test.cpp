@@ -234,7 +234,6 @@ TEST_F(OnFakeCamera, AThermalCameraSaysTheScaleOfItsCountsAndHasLimitsForItsFeat
     fake.start();
     EXPECT_EQ(receiver.wait_for_faults(2).back().fault, Fault::None);
     EXPECT_EQ(scale().kelvin_per_count, 0.1);
-    camera.stop();
   });
 }
 
