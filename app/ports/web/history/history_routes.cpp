@@ -37,8 +37,8 @@ std::vector<Route> HistoryRoutes::routes() {
   figure.role = Role::Viewer;
   figure.description =
       "The last ten minutes of one figure of a region or of what is watched of a camera: its "
-      "lowest "
-      "and its highest value in each step, oldest first, null where it was not measured; s";
+      "lowest and its highest value in each step, oldest first, null where it was not measured; "
+      "times in s";
   figure.type = kJson;
   figure.query = {{"figure", "Name of the figure", true, false},
                   {"region", "Name of the region; it or a camera is needed", false, false},
