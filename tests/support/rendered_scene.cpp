@@ -15,9 +15,9 @@ namespace {
 using optics::Mat3;
 using optics::Vec3;
 
-double number(const cv::FileNode& node) { return static_cast<double>(node); }
-Vec3 vector(const cv::FileNode& n) { return {number(n[0]), number(n[1]), number(n[2])}; }
-Mat3 matrix(const cv::FileNode& n) { return {vector(n[0]), vector(n[1]), vector(n[2])}; }
+Mat3 matrix(const cv::FileNode& n) {
+  return {scene_vector(n[0]), scene_vector(n[1]), scene_vector(n[2])};
+}
 
 /// A list of numbers in TOML, with every digit.
 std::string list(std::initializer_list<double> values) {
@@ -38,22 +38,23 @@ std::string value(double number) {
 }
 
 std::string head(const std::string& name, const cv::FileNode& camera) {
-  return "[[camera]]\nname = \"" + name + "\"\nwidth = " + value(number(camera["width"])) +
-         "\nheight = " + value(number(camera["height"])) + "\n";
+  return "[[camera]]\nname = \"" + name + "\"\nwidth = " + value(scene_number(camera["width"])) +
+         "\nheight = " + value(scene_number(camera["height"])) + "\n";
 }
 
 std::string calibrated(const std::string& name, const cv::FileNode& camera) {
-  return head(name, camera) + "[camera.intrinsics]\nfx = " + value(number(camera["fx"])) +
-         "\nfy = " + value(number(camera["fy"])) + "\ncx = " + value(number(camera["cx"]) - 0.5) +
-         "\ncy = " + value(number(camera["cy"]) - 0.5) +
-         "\n[camera.pose]\nposition = " + list(vector(camera["C"])) +
+  return head(name, camera) + "[camera.intrinsics]\nfx = " + value(scene_number(camera["fx"])) +
+         "\nfy = " + value(scene_number(camera["fy"])) +
+         "\ncx = " + value(scene_number(camera["cx"]) - 0.5) +
+         "\ncy = " + value(scene_number(camera["cy"]) - 0.5) +
+         "\n[camera.pose]\nposition = " + list(scene_vector(camera["C"])) +
          "\nrotation = " + list(matrix(camera["R_wc"])) + "\n";
 }
 
 /// The registration of a camera that looks straight at the ball: from +Y of the ball along -Y,
 /// image right = -X, image up = +Z. The smallest turn that points the true camera at the ball.
 Mat3 registration(const cv::FileNode& camera, const Vec3& centre) {
-  const Vec3 axis = optics::normalized(centre - vector(camera["C"])), facing = -axis;
+  const Vec3 axis = optics::normalized(centre - scene_vector(camera["C"])), facing = -axis;
   const Mat3 axes = matrix(camera["R_wc"]);
   const double along = optics::dot(axes.row0, axis) / (1 + optics::dot(axes.row2, axis));
   const Vec3 right = axes.row0 - (axes.row2 + axis) * along;
@@ -63,10 +64,11 @@ Mat3 registration(const cv::FileNode& camera, const Vec3& centre) {
 std::string uncalibrated(const std::string& name, const cv::FileNode& camera, const Vec3& centre) {
   const cv::FileNode outline = camera["outline"];
   return head(name, camera) + "[camera.outline]\ncentre = " +
-         list({number(outline["cx"]) - 0.5, number(outline["cy"]) - 0.5}) +
-         "\nradii = " + list({number(outline["semi_major"]), number(outline["semi_minor"])}) +
-         "\nangle = " + value(number(outline["major_axis_angle_deg"])) +
-         "\nalpha = " + value(number(camera["alpha_deg"])) +
+         list({scene_number(outline["cx"]) - 0.5, scene_number(outline["cy"]) - 0.5}) +
+         "\nradii = " +
+         list({scene_number(outline["semi_major"]), scene_number(outline["semi_minor"])}) +
+         "\nangle = " + value(scene_number(outline["major_axis_angle_deg"])) +
+         "\nalpha = " + value(scene_number(camera["alpha_deg"])) +
          "\nrotation_matrix = " + list(registration(camera, centre)) + "\n";
 }
 
@@ -85,13 +87,13 @@ std::filesystem::path rendered_pictures() { return reference_data() / "renders";
 RenderedScene::RenderedScene(const std::string& name) {
   const cv::FileStorage file = open_rendered_scene();
   const cv::FileNode scene = file["scenes"][name];
-  const Vec3 centre = vector(file["ball"]["centre"]);
-  const double scale = number(scene["scale_about_ball_centre"]);
+  const Vec3 centre = scene_vector(file["ball"]["centre"]);
+  const double scale = scene_number(scene["scale_about_ball_centre"]);
   const auto scaled = [&](const cv::FileNode& corner) {
-    return list(centre + (vector(corner) - centre) * scale);
+    return list(centre + (scene_vector(corner) - centre) * scale);
   };
-  ball_ = "[ball]\ncentre = " + list(centre) + "\nradius = " + value(number(scene["ball_radius"])) +
-          "\n";
+  ball_ = "[ball]\ncentre = " + list(centre) +
+          "\nradius = " + value(scene_number(scene["ball_radius"])) + "\n";
   scene_ = "[scene]\nroom = \"box\"\nlow = " + scaled(file["box"]["lo"]) +
            "\nhigh = " + scaled(file["box"]["hi"]) +
            "\n[[scene.obstacle]]\nname = \"table\"\nlow = " + scaled(file["table"]["lo"]) +
@@ -104,9 +106,9 @@ RenderedScene::RenderedScene(const std::string& name) {
   }
   for (const auto& view : file["gt"]["views"]) {
     const bool thermal = !static_cast<std::string>(view["thermal"]).empty();
-    views_.push_back({number(view["yaw_deg"]), number(view["pitch_deg"]), number(view["roll_deg"]),
-                      number(view["hfov_deg"]), static_cast<int>(view["width"]),
-                      static_cast<int>(view["height"]),
+    views_.push_back({scene_number(view["yaw_deg"]), scene_number(view["pitch_deg"]),
+                      scene_number(view["roll_deg"]), scene_number(view["hfov_deg"]),
+                      static_cast<int>(view["width"]), static_cast<int>(view["height"]),
                       thermal ? static_cast<int>(view["thermal_size"][0]) : 0,
                       thermal ? static_cast<int>(view["thermal_size"][1]) : 0});
   }

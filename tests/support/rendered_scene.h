@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "proc/optics/vec.h"
+
 namespace orbwatch::tests {
 
 /// The rendered reference pictures beside the project, and the file that says how they were made.
@@ -12,6 +14,12 @@ std::filesystem::path rendered_pictures();
 
 /// Their scene.json, with empty strings for null.
 cv::FileStorage open_rendered_scene();
+
+/// Numbers in that file.
+inline double scene_number(const cv::FileNode& node) { return static_cast<double>(node); }
+inline optics::Vec3 scene_vector(const cv::FileNode& n) {
+  return {scene_number(n[0]), scene_number(n[1]), scene_number(n[2])};
+}
 
 /// A view whose truth is among the reference pictures.
 struct RenderedView {

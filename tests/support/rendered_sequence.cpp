@@ -8,25 +8,18 @@
 namespace orbwatch::tests {
 namespace {
 
-using optics::Vec3;
-
-double number(const cv::FileNode& node) { return static_cast<double>(node); }
-Vec3 vector(const cv::FileNode& n) { return {number(n[0]), number(n[1]), number(n[2])}; }
-optics::Box box(const cv::FileNode& n) { return {vector(n["lo"]), vector(n["hi"])}; }
+optics::Box box(const cv::FileNode& n) { return {scene_vector(n["lo"]), scene_vector(n["hi"])}; }
 
 optics::CalibratedCamera calibrated(const cv::FileNode& n) {
   const cv::FileNode rotation = n["R_wc"];
   // Its pixels have their centres at +0.5, the product's at integers.
-  const optics::Intrinsics intrinsics{static_cast<int>(n["width"]),
-                                      static_cast<int>(n["height"]),
-                                      number(n["fx"]),
-                                      number(n["fy"]),
-                                      number(n["cx"]) - 0.5,
-                                      number(n["cy"]) - 0.5,
-                                      optics::Distortion::None,
-                                      {}};
+  const optics::Intrinsics intrinsics{static_cast<int>(n["width"]), static_cast<int>(n["height"]),
+                                      scene_number(n["fx"]),        scene_number(n["fy"]),
+                                      scene_number(n["cx"]) - 0.5,  scene_number(n["cy"]) - 0.5,
+                                      optics::Distortion::None,     {}};
   return {optics::Lens::make(intrinsics).value(),
-          {{vector(rotation[0]), vector(rotation[1]), vector(rotation[2])}, vector(n["C"])},
+          {{scene_vector(rotation[0]), scene_vector(rotation[1]), scene_vector(rotation[2])},
+           scene_vector(n["C"])},
           std::nullopt};
 }
 
@@ -35,8 +28,8 @@ optics::CalibratedCamera calibrated(const cv::FileNode& n) {
 RenderedSequence::RenderedSequence(const std::string& name) {
   const cv::FileStorage file = open_rendered_scene();
   const cv::FileNode sequence = file["sequences"][name];
-  frame_rate_ = number(sequence["fps"]);
-  scene_.ball = {vector(file["ball"]["centre"]), number(file["ball"]["radius"])};
+  frame_rate_ = scene_number(sequence["fps"]);
+  scene_.ball = {scene_vector(file["ball"]["centre"]), scene_number(file["ball"]["radius"])};
   optics::Scene scene;
   scene.room = optics::Scene::Room::Box;
   scene.walls = box(file["box"]);
@@ -48,10 +41,11 @@ RenderedSequence::RenderedSequence(const std::string& name) {
                                                  scene_.proxy)
                         .value());
   for (const auto& n : sequence["frames"]) {
-    Frame frame{rendered_pictures() / static_cast<std::string>(n["file"]), vector(n["melt"]), {}};
+    Frame frame{
+        rendered_pictures() / static_cast<std::string>(n["file"]), scene_vector(n["melt"]), {}};
     for (const auto& spark : n["sparks"]) {
-      frame.sparks.push_back({static_cast<int>(spark["id"]), vector(spark["xyz"]),
-                              number(spark["r"]), number(spark["tc"])});
+      frame.sparks.push_back({static_cast<int>(spark["id"]), scene_vector(spark["xyz"]),
+                              scene_number(spark["r"]), scene_number(spark["tc"])});
     }
     frames_.push_back(std::move(frame));
   }

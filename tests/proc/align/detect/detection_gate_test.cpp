@@ -33,7 +33,7 @@ double error(const Outline& found, const Outline& truth) {
 }
 
 /// The share that is allowed. A part of the rooms may by accident have three sigma more.
-int at_most(double probability, int cases) {
+int at_most_of_rooms(double probability, int cases) {
   const double sigma = std::sqrt(probability * (1 - probability) * cases);
   const double accident = cases < kRooms ? 3 * sigma : 0;
   return static_cast<int>(std::floor(probability * cases + accident));
@@ -71,9 +71,9 @@ TEST(DetectionGate, SimulatedRooms) {
   RecordProperty("far_off", far_off);
   RecordProperty("confident", confident);
   RecordProperty("confident_and_far_off", confident_and_far_off);
-  EXPECT_LE(beyond_half, at_most(0.5, cases));
-  EXPECT_LE(beyond_most, at_most(0.05, cases));
-  EXPECT_LE(far_off, at_most(0.02, cases));
+  EXPECT_LE(beyond_half, at_most_of_rooms(0.5, cases));
+  EXPECT_LE(beyond_most, at_most_of_rooms(0.05, cases));
+  EXPECT_LE(far_off, at_most_of_rooms(0.02, cases));
   EXPECT_EQ(confident_and_far_off, 0);
   EXPECT_GE(confident, cases / 2);
 }

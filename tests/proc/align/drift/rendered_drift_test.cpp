@@ -19,8 +19,6 @@ using align::DriftMonitor;
 using align::DriftState;
 using optics::Vec3;
 
-Vec3 vector(const cv::FileNode& n) { return {n[0].real(), n[1].real(), n[2].real()}; }
-
 /// What the monitor says of each frame, with the first one as reference.
 std::vector<DriftState> watched(const std::string& name, bool with_lens) {
   const RenderedSequence sequence(name);
@@ -69,13 +67,13 @@ TEST(RenderedDrift, ABumpIsRaisedAndMeasuredInItsFrame) {
   const auto states = watched("seq_bump", true);
   const auto matrix = [&](std::size_t n) {
     const cv::FileNode m = frames[static_cast<int>(n)]["R_wc"];
-    return optics::Mat3{vector(m[0]), vector(m[1]), vector(m[2])};
+    return optics::Mat3{scene_vector(m[0]), scene_vector(m[1]), scene_vector(m[2])};
   };
-  const Vec3 stands = vector(sequence["camera"]["C"]);
-  const Vec3 ball =
-      matrix(0) * ((vector(file["ball"]["centre"]) - stands) * (1 / file["ball"]["radius"].real()));
+  const Vec3 stands = scene_vector(sequence["camera"]["C"]);
+  const Vec3 ball = matrix(0) * ((scene_vector(file["ball"]["centre"]) - stands) *
+                                 (1 / file["ball"]["radius"].real()));
   const double truth = true_view_error(sequence["camera"]["fx"].real(), ball, ball,
-                                       optics::normalized(vector(sequence["bump_axis_cam"])) *
+                                       optics::normalized(scene_vector(sequence["bump_axis_cam"])) *
                                            optics::radians(sequence["bump_deg"].real()));
   std::printf("bump: %.2f deg rms, truth %.2f\n", states.back().direction_error, truth);
   for (std::size_t n = 0; n < bump; ++n) EXPECT_EQ(states[n].level, DriftLevel::Good) << n;
