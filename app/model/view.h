@@ -18,8 +18,8 @@ namespace orbwatch::app {
 
 /// How a view shows a one-channel camera.
 struct SourceColours {
-  std::size_t map = 0;            ///< place in kColourMapNames
-  std::array<double, 2> range{};  ///< first and last colour: degC, or percent of full scale
+  std::size_t map = 0;                  ///< place in kColourMapNames
+  std::array<double, 2> range{0, 100};  ///< first and last colour: degC, or percent of full scale
 };
 
 /// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
