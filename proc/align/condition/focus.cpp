@@ -24,7 +24,7 @@ constexpr std::size_t kFewestEdges = 10;  // edges that a figure needs
 constexpr double kSmallestBall = 40;      // px of the ball in the smallest picture that is used
 constexpr double kWide = 2;               // px of blur from which on a smaller picture fits better
 constexpr double kClipped = 0.97;         // of full scale
-constexpr double kEdgeSpread = 0.1;       // of sigma, by which edges of one picture differ anyway
+constexpr double kLeastEdgeSpread = 0.1;  // of sigma, by which edges of one picture differ anyway
 // Things may be blurred in themselves, but none is sharper than the picture: which share of edges
 // is sharper than the one that counts.
 constexpr double kSharper = 0.35;
@@ -129,7 +129,7 @@ std::vector<StepEdge> fitted(const BallCrop& crop, const std::vector<EdgeCandida
 Blur quantile(std::vector<StepEdge> edges) {
   std::ranges::sort(edges, {}, &StepEdge::sigma);
   const auto weight = [](const StepEdge& edge) {
-    const double spread = kEdgeSpread * edge.sigma;
+    const double spread = kLeastEdgeSpread * edge.sigma;
     return edge.sigma * edge.sigma / (edge.sigma_error * edge.sigma_error + spread * spread);
   };
   double total = 0, information = 0;

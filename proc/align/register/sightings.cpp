@@ -21,9 +21,9 @@ constexpr int kTurningRounds =
 
 // Of rooms of which nothing is stated.
 constexpr RoomCloseness kAnyRoom{0.05, 0.15};
-constexpr double kClosest = 0.3;           // of what a trial supposes
-constexpr double kSpreadOfDepths = 1e-3;   // closeness
-const double kExactness = kAgreement / 3;  // no walls that are not as stated
+constexpr double kClosest = 0.3;            // of what a trial supposes
+constexpr double kLeastDepthSpread = 1e-3;  // closeness
+const double kExactness = kAgreement / 3;   // no walls that are not as stated
 
 /// Too near to each other, or to opposite, to determine a rotation.
 bool is_narrow(double apart) {
@@ -202,7 +202,7 @@ class SightingsAnywhere final : public Sightings {
     for (const std::size_t n : inliers) all.push_back(met(lines_[n], rotation).closeness);
     const double mean = median(all);
     for (double& one : all) one = std::abs(one - mean);
-    return RoomCloseness{mean, std::max(kSpreadOfDepths, median(all) / 0.6745)};
+    return RoomCloseness{mean, std::max(kLeastDepthSpread, median(all) / 0.6745)};
   }
 
  private:

@@ -8,23 +8,23 @@
 namespace orbwatch::optics::laws {
 namespace {
 
-std::optional<Stretch> half_stretch(const Limb& limb, double cos_phi, double sin2_phi,
-                                    double /*closeness*/) {
+std::optional<Stretch> stretch(const Limb& limb, double cos_phi, double sin2_phi,
+                               double /*closeness*/) {
   if (!(cos_phi >= -limb.cosine - Limb::kTolerance)) return std::nullopt;
   return Stretch{1, 2 * half(cos_phi, sin2_phi).cos * limb.widest};
 }
 
-void half_stretch_lanes(const Limb& limb, const Lanes& cos_phi, const Lanes& sin2_phi,
-                        const Lanes& closeness, StretchLanes& out) {
+void stretch_lanes(const Limb& limb, const Lanes& cos_phi, const Lanes& sin2_phi,
+                   const Lanes& closeness, StretchLanes& out) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const auto one = half_stretch(limb, cos_phi[k], sin2_phi[k], closeness[k]);
+    const auto one = stretch(limb, cos_phi[k], sin2_phi[k], closeness[k]);
     out.across[k] = one ? one->across : kNothing;
     out.along[k] = one ? one->along : kNothing;
   }
 }
 
-CosSin half_phi(const Limb& limb, double rho) {
+CosSin phi(const Limb& limb, double rho) {
   const double sine = rho * limb.widest;
   const CosSin h{std::sqrt((1 - sine) * (1 + sine)), sine};
   return h + h;
@@ -33,15 +33,15 @@ CosSin half_phi(const Limb& limb, double rho) {
 }  // namespace
 
 extern const BallLaw paper;
-constexpr BallLaw paper{"paper",      "rho = sin(phi/2) / sin(alpha/4), scene far away",
-                        false,        false,
-                        half_stretch, half_stretch_lanes,
-                        half_phi,     nullptr};
+constexpr BallLaw paper{"paper", "rho = sin(phi/2) / sin(alpha/4), scene far away",
+                        false,   false,
+                        stretch, stretch_lanes,
+                        phi,     nullptr};
 
 extern const BallLaw classical;
-constexpr BallLaw classical{"classical",  "orthographic, takes neither alpha nor distance",
-                            true,         false,
-                            half_stretch, half_stretch_lanes,
-                            half_phi,     nullptr};
+constexpr BallLaw classical{"classical", "orthographic, takes neither alpha nor distance",
+                            true,        false,
+                            stretch,     stretch_lanes,
+                            phi,         nullptr};
 
 }  // namespace orbwatch::optics::laws
