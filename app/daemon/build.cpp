@@ -86,17 +86,15 @@ class Builder {
       const std::size_t camera = source.camera.index;
       auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
       if (!ball) return tl::unexpected(ball.error());
-      const double kelvin_per_count = formats_[camera].kelvin_per_count;
       const auto range = range_of(source);
-      sources.push_back({camera,
-                         formats_[camera],
-                         std::move(*ball),
-                         source.weight,
-                         make_colour_map(colour_map_table(source.colour_map), range,
-                                         formats_[camera], kelvin_per_count),
-                         source.sharpness,
-                         kelvin_per_count,
-                         {place_of(source.colour_map), range}});
+      sources.push_back(
+          {camera,
+           formats_[camera],
+           std::move(*ball),
+           source.weight,
+           make_colour_map(colour_map_table(source.colour_map), range, formats_[camera]),
+           source.sharpness,
+           {place_of(source.colour_map), range}});
     }
     auto projection = optics::ViewProjection::make(view.spec(), sources.front().ball);
     if (!projection) return fail("view " + view.name + ": " + projection.error().message);
@@ -164,7 +162,7 @@ class Builder {
     const auto scale = signals::Radiometry::make(settings.radiometry);
     if (!scale) return tl::unexpected(scale.error());
     const auto threshold = [&](double value) {
-      return scale->is_radiometric() ? scale->counts(value) : counts_of(value, format, 0);
+      return scale->is_radiometric() ? scale->counts(value) : counts_of(value, format);
     };
     settings.hot_spot_threshold = threshold(region.hot_spot_threshold);
     if (region.hot_spot_min_area) settings.hot_spot_limits.min_area = *region.hot_spot_min_area;

@@ -4,16 +4,15 @@ namespace orbwatch::app {
 
 double full_scale(const hal::StreamFormat& format) { return (1 << info(format.format).bits) - 1; }
 
-double counts_of(double value, const hal::StreamFormat& format, double kelvin_per_count) {
-  if (kelvin_per_count > 0) return (value + 273.15) / kelvin_per_count;
+double counts_of(double value, const hal::StreamFormat& format) {
+  if (format.kelvin_per_count > 0) return (value + 273.15) / format.kelvin_per_count;
   return value / 100 * full_scale(format);
 }
 
 remap::ColourMap make_colour_map(const remap::ColourMap::Table& table,
                                  const std::array<double, 2>& range,
-                                 const hal::StreamFormat& format, double kelvin_per_count) {
-  return {table, counts_of(range[0], format, kelvin_per_count),
-          counts_of(range[1], format, kelvin_per_count)};
+                                 const hal::StreamFormat& format) {
+  return {table, counts_of(range[0], format), counts_of(range[1], format)};
 }
 
 }  // namespace orbwatch::app

@@ -10,7 +10,7 @@ ViewColours::ViewColours(std::span<const ViewPlan> views, std::vector<remap::Col
     : maps_(std::move(maps)), slots_(views.size()) {
   for (std::size_t view = 0; view < views.size(); ++view) {
     for (const ViewSource& source : views[view].sources) {
-      slots_[view].sources.push_back({source.format, source.kelvin_per_count, source.colours});
+      slots_[view].sources.push_back({source.format, source.colours});
     }
   }
 }
@@ -46,15 +46,14 @@ void ViewColours::adopt(std::size_t view, std::span<const ViewSource> sources) {
   Slot& slot = slots_[view];
   for (std::size_t i = 0; i < sources.size(); ++i) {
     slot.sources[i].format = sources[i].format;
-    slot.sources[i].kelvin_per_count = sources[i].kelvin_per_count;
     if (slot.sources[i].is_chosen) make(slot, i);
   }
 }
 
 void ViewColours::make(Slot& slot, std::size_t source) {
-  const auto& [format, kelvin_per_count, colours, is_chosen] = slot.sources[source];
-  auto made = std::make_unique<const ShownColours>(ShownColours{
-      colours, make_colour_map(maps_[colours.map], colours.range, format, kelvin_per_count)});
+  const auto& [format, colours, is_chosen] = slot.sources[source];
+  auto made = std::make_unique<const ShownColours>(
+      ShownColours{colours, make_colour_map(maps_[colours.map], colours.range, format)});
   const std::lock_guard lock(mutex_);
   std::swap(slot.waiting[source], made);  // what it replaces is freed after the lock
   slot.is_new[source] = true;

@@ -48,7 +48,6 @@ class ViewColours {
   using Tables = std::array<std::unique_ptr<const ShownColours>, remap::kMaxSources>;
   struct Source {
     hal::StreamFormat format;
-    double kelvin_per_count = 0;
     SourceColours colours;  ///< as asked for last, or as configured
     bool is_chosen = false;
   };

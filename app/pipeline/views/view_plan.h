@@ -32,8 +32,7 @@ struct ViewSource {
   /// How much the picture is sharpened to be shown, 0..remap::kMaxSharpness, if its format is and
   /// pixels are interpolated; 0: not at all.
   double sharpness = 0;
-  double kelvin_per_count = 0;  ///< of 16 bit counts; 0: they are no temperatures
-  SourceColours colours{};      ///< what colour_map is made of
+  SourceColours colours{};  ///< what colour_map is made of
 };
 
 inline bool is_colour(const ViewSource& source) {
@@ -41,7 +40,7 @@ inline bool is_colour(const ViewSource& source) {
 }
 
 inline bool counts_temperature(const ViewSource& source) {
-  return source.kelvin_per_count > 0 && info(source.format.format).bytes_per_sample() == 2;
+  return source.format.kelvin_per_count > 0 && info(source.format.format).bytes_per_sample() == 2;
 }
 
 /// A view, ready to be compiled into a ViewRenderer.

@@ -108,7 +108,7 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   view.frame_set = set.id;
   view.stamp = set.stamp;
   describe(view, colours);
-  view.kelvin_per_count = has_counts() ? plan_.sources[*raw_].kelvin_per_count : 0;
+  view.kelvin_per_count = has_counts() ? plan_.sources[*raw_].format.kelvin_per_count : 0;
 
   MutablePicture measured;
   if (!view.luminance.empty()) measured = picture_of(PixelFormat::Grey, view.luminance);

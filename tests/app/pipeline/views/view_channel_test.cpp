@@ -86,7 +86,7 @@ TEST_F(ViewChannelTest, AMeasuredViewIsRenderedEvenThen) {
 }
 
 TEST_F(ViewChannelTest, ADisplayViewHasCountsOfTemperatureWhileTheyAreNeeded) {
-  plan.sources[0].kelvin_per_count = 0.04;
+  plan.sources[0].format.kelvin_per_count = 0.04;
   buffers.emplace(buffers_for(plan));
   ViewChannel channel(plan);
   channel.set_reading(PixelFormat::Rgb, true);
@@ -107,7 +107,7 @@ TEST_F(ViewChannelTest, AMeasuredViewHasThemIfItsCameraCountsTemperature) {
   ViewChannel unknown(plan);
   EXPECT_TRUE(render(unknown)->counts.empty()) << "they may be anything";
   unknown.take();
-  plan.sources[0].kelvin_per_count = 0.04;
+  plan.sources[0].format.kelvin_per_count = 0.04;
   ViewChannel thermal(plan);
   const View* const view = render(thermal);
   ASSERT_FALSE(view->counts.empty());
