@@ -44,7 +44,7 @@ class AlignmentDesk : public AlignmentSource {
 
   /// Finds the ball in the camera's next picture. NotPossible: it is not watched.
   CommandResult detect(std::size_t camera);
-  /// Registers it to the first camera by what both see in the next second. NotPossible: it is the
+  /// Registers it to the first camera by what both see in the next seconds. NotPossible: it is the
   /// first one, or one of them is not watched.
   CommandResult register_to_first(std::size_t camera);
   /// Takes its drift for its alignment. NotPossible: it is not watched.

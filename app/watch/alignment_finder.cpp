@@ -17,6 +17,8 @@ namespace {
 /// Of both cameras, to register by: enough of a process' light at any usual rate.
 constexpr std::size_t kPictures = 24;
 constexpr std::size_t kPicturesOfLight = 8;
+/// At a registration: one second's sparks may tell too little, the next are others.
+constexpr int kAttempts = 3;
 constexpr std::chrono::seconds kPatience{10};
 
 std::string two_digits(const char* format, double value) {
@@ -58,9 +60,18 @@ Result<AlignmentProposal> AlignmentFinder::detect(const optics::Rig& rig,
 
 Result<AlignmentProposal> AlignmentFinder::register_to_first(const optics::Rig& rig,
                                                              std::size_t camera) const {
-  const auto pictures = watch_.record({0, camera}, kPictures, kPatience);
-  if (!pictures) return tl::unexpected(pictures.error());
-  const auto simultaneous = together((*pictures)[0], (*pictures)[1]);
+  for (int attempt = 1;; ++attempt) {
+    const auto pictures = watch_.record({0, camera}, kPictures, kPatience);
+    if (!pictures) return tl::unexpected(pictures.error());
+    auto found = register_by(rig, camera, (*pictures)[0], (*pictures)[1]);
+    if (found || attempt == kAttempts) return found;
+  }
+}
+
+Result<AlignmentProposal> AlignmentFinder::register_by(
+    const optics::Rig& rig, std::size_t camera, const std::vector<RecordedPicture>& of_first,
+    const std::vector<RecordedPicture>& of_camera) const {
+  const auto simultaneous = together(of_first, of_camera);
   if (simultaneous.camera.empty()) return fail("the cameras took no pictures at the same moment");
   const auto reference = optics::ball_projection(rig, camera_of(rig, 0));
   if (!reference) return tl::unexpected(reference.error());

@@ -31,7 +31,7 @@ class AlignmentFinder {
 
   /// By the ball in the picture.
   Result<AlignmentProposal> detect(const optics::Rig& rig, std::size_t camera) const;
-  /// By what it and the first camera see.
+  /// By what it and the first camera see; what refuses it is tried again with the next pictures.
   Result<AlignmentProposal> register_to_first(const optics::Rig& rig, std::size_t camera) const;
   /// By its drift.
   Result<AlignmentProposal> correct(const optics::Rig& rig, std::size_t camera) const;
@@ -50,6 +50,9 @@ class AlignmentFinder {
   const optics::RigCamera& camera_of(const optics::Rig& rig, std::size_t camera) const {
     return rig.cameras[site_.rig_cameras[camera]];
   }
+  Result<AlignmentProposal> register_by(const optics::Rig& rig, std::size_t camera,
+                                        const std::vector<RecordedPicture>& of_first,
+                                        const std::vector<RecordedPicture>& of_camera) const;
   Result<align::PlaceRequest> place_request(const optics::Rig& rig, std::size_t camera) const;
   void show(std::size_t camera, const align::PlaceRequest& request,
             const align::Placement* placement);

@@ -60,8 +60,9 @@ class CameraWatch : public Sink {
   void learn_clean_ball(std::size_t camera) { cameras_[camera]->cleaned = true; }
 
   /// Waits for the next pictures of watched cameras, at most `count` of each; fewer when `patience`
-  /// ends. Those of one frame set have the same time. For one caller at a time. Error: one of them
-  /// delivers none, or it was cancelled.
+  /// ends. All are of frame sets that have a new picture of each of these cameras, and those of one
+  /// set have the same time. For one caller at a time. Error: one of them delivers none, or it was
+  /// cancelled.
   Result<std::vector<std::vector<RecordedPicture>>> record(const std::vector<std::size_t>& cameras,
                                                            std::size_t count,
                                                            std::chrono::seconds patience);
@@ -81,6 +82,7 @@ class CameraWatch : public Sink {
   struct Watched {
     Watched(AlignmentWatch alignment_watch, BallWatch ball_watch, Records& all_records,
             std::shared_ptr<hal::SharedThreads> threads);
+    bool can_look(const hal::FrameSet& set, std::size_t camera) const;
     void look();
     void record();
     void serve_readers();
@@ -91,7 +93,8 @@ class CameraWatch : public Sink {
     hal::TimePoint stamp;  ///< of its frame set
     std::atomic<bool> looking{false};
     std::atomic<bool> cleaned{false};
-    mutable std::mutex mutex;  ///< of these two, held only while they are copied
+    std::atomic<bool> is_recorded{false};  ///< its pictures are of use with those of others only
+    mutable std::mutex mutex;              ///< of these two, held only while they are copied
     CameraWatchStatus figures;
     std::optional<align::DriftState> drift;
     std::vector<std::function<void(RecordedPicture)>> readers;  ///< under `mutex`, too
@@ -101,6 +104,7 @@ class CameraWatch : public Sink {
     hal::SharedThreads::Work work;
   };
 
+  bool can_record(const hal::FrameSet& set) const;
   Result<std::unique_ptr<Watched>> make(const CameraSettings& settings, const Resolved& site,
                                         std::size_t camera, const std::filesystem::path& folder,
                                         const std::shared_ptr<hal::SharedThreads>& threads);
