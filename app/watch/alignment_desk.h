@@ -137,8 +137,7 @@ class AlignmentDesk : public AlignmentSource {
   optics::Rig rig_;                                                        ///< for task_
   std::array<std::optional<hal::TimePoint>, kMaxCameras> drifting_since_;  ///< the correction's
   /// Others must not wait for seconds.
-  const std::shared_ptr<hal::SharedThreads> thread_ =
-      std::make_shared<hal::SharedThreads>("alignment", hal::ThreadRole::Background, 1);
+  const std::shared_ptr<hal::SharedThreads> thread_ = hal::SharedThreads::alone("alignment");
   hal::SharedThreads::Work work_;
   hal::SharedThreads::Work correction_;
 };

@@ -59,8 +59,8 @@ class SharedThreads {
   std::size_t count() const { return threads_.size(); }
 
   /// One of its own for each caller: for objects that stand alone.
-  static std::shared_ptr<SharedThreads> alone() {
-    return std::make_shared<SharedThreads>(kBackgroundName, ThreadRole::Background, 1);
+  static std::shared_ptr<SharedThreads> alone(std::string_view name = kBackgroundName) {
+    return std::make_shared<SharedThreads>(name, ThreadRole::Background, 1);
   }
   static constexpr std::string_view kBackgroundName = "background";
 

@@ -5,6 +5,7 @@ import threading
 import time
 
 BLOCK = 1448  # bytes: a packet; the smallest buffers that the system gives hold a few more
+OVERSLEPT_S = 0.005
 
 
 class SlowLink:
@@ -12,7 +13,7 @@ class SlowLink:
 
     def __init__(self, port, bytes_per_second):
         self.target = port
-        self.pause = BLOCK / bytes_per_second
+        self.bytes_per_second = bytes_per_second
         self.free_at = time.monotonic()
         self.turn = threading.Lock()
         self.listener = socket.create_server(("127.0.0.1", 0))
@@ -32,12 +33,14 @@ class SlowLink:
             server.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BLOCK)
             server.connect(("127.0.0.1", self.target))
             client.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BLOCK)
-            for ends in ((client, server, lambda: None), (server, client, self.wait_for_turn)):
+            for ends in ((client, server, lambda size: None), (server, client, self.wait_for_turn)):
                 threading.Thread(target=self.forward, args=ends, daemon=True).start()
 
-    def wait_for_turn(self):
+    def wait_for_turn(self, size):
         with self.turn:
-            self.free_at = max(self.free_at, time.monotonic()) + self.pause
+            # What the clock oversleeps is made up for.
+            self.free_at = (max(self.free_at, time.monotonic() - OVERSLEPT_S)
+                            + size / self.bytes_per_second)
             until = self.free_at
         time.sleep(max(0, until - time.monotonic()))
 
@@ -45,7 +48,7 @@ class SlowLink:
     def forward(source, sink, wait_for_turn):
         try:
             while block := source.recv(BLOCK):
-                wait_for_turn()
+                wait_for_turn(len(block))
                 sink.sendall(block)
         except OSError:
             pass  # one end has closed; so does the other

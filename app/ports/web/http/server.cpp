@@ -24,8 +24,8 @@ constexpr unsigned kThreads = 2;
 constexpr std::size_t kHeadBytes = 32 * 1024;
 /// Not sent yet by the kernel for a client: what is beyond it would only age. Another picture is
 /// begun when less waits (measured by tests/bench/page over a third of the bandwidth that pictures
-/// of 28 kB need: seen 0.2 s after their exposure; with 128 KiB 0.5 s).
-constexpr int kUnsentBytes = 8192;
+/// of 28 kB need: seen 0.16 s after their exposure; with 128 KiB 0.5 s).
+constexpr int kUnsentBytes = 2048;
 
 /// GnuTLS's: TLS 1.2 and 1.3 with keys of each connection's own, 128 bits or more.
 constexpr const char* kTlsPriorities = "SECURE128:-VERS-ALL:+VERS-TLS1.3:+VERS-TLS1.2:-RSA";
