@@ -16,6 +16,18 @@
 namespace orbwatch::tests {
 namespace {
 
+/// Used by one test; a rig may have more cameras than run.
+const std::string kColour = R"(
+[[camera]]
+name = "colour"
+width = 160
+height = 120
+[camera.outline]
+centre = [79.5, 59.5]
+radius = 55
+alpha = 343.571
+)";
+
 const std::string kRig = kMachine + R"(
 [[camera]]
 name = "thermal"
@@ -25,7 +37,7 @@ height = 120
 centre = [79.5, 59.5]
 radius = 55
 alpha = 343.571
-)";
+)" + kColour;
 
 const std::string kRecipe = R"(
 name = "ramp"
@@ -45,16 +57,15 @@ hot_spot_threshold = 100
 const std::string kStatedScale = "kelvin_per_count = 0.04\n";
 
 /// `keys` are those of the camera.
-std::string site(const std::string& keys) {
+std::string site(const std::string& keys, int frame_rate = 100) {
   return R"(
 [[camera]]
 name = "thermal"
 back_end = "genicam"
 width = 160
 height = 120
-frame_rate = 100
-)" + keys +
-         R"([camera.genicam]
+frame_rate = )" +
+         std::to_string(frame_rate) + "\n" + keys + R"([camera.genicam]
 camera = "127.0.0.1"
 pixel_format = "Mono16"
 )";
@@ -148,6 +159,32 @@ TEST_F(GenicamDaemon, MeasuresTemperaturesByTheScaleThatTheCameraSays) {
              ASSERT_TRUE(eventually(daemon, [&] { return peak() >= 1000; })) << peak();
              EXPECT_LE(peak(), 3822);
            });
+}
+
+TEST_F(GenicamDaemon, IsSynchronisedWithAColourCameraByStampsAndTheSkewIsReported) {
+  constexpr std::int64_t kWindow = 20;  // ms: half a period, each frame has one partner
+  const std::string pair = "[pipeline]\nsync_window_ms = " + std::to_string(kWindow) +
+                           "\nsync_max_wait_ms = 100\n" + site(kStatedScale, 25) + R"(
+[[camera]]
+name = "colour"
+back_end = "test_pattern"
+width = 160
+height = 120
+frame_rate = 25
+[camera.test_pattern]
+pixel_format = "rgb"
+)";
+  run_with({}, pair, [&](Subprocess& daemon, FakeGigeCamera&) {
+    ASSERT_TRUE(delivers(daemon)) << daemon.output();
+    const auto sets = read("system_frame_set"), unmatched = read("system_unmatched");
+    constexpr std::int64_t kSets = 50;
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") >= sets + kSets; }));
+    EXPECT_LE(read("system_unmatched") - unmatched, kSets / 10);
+    constexpr std::int64_t kCountsPerMs = 10;
+    EXPECT_GT(read("system_skew_ms"), 0) << "two clocks of their own";
+    EXPECT_LE(read("system_skew_ms"), kWindow * kCountsPerMs);
+    EXPECT_EQ(read("camera_1_fault"), 0);
+  });
 }
 
 /// A result, by the numbers that it has in every interface.
