@@ -1,6 +1,5 @@
 #pragma once
 
-#include <gio/gio.h>
 #include <gtest/gtest.h>
 
 #include <condition_variable>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "hal/camera.h"
+#include "hal/genicam/device/aravis.h"
 #include "hal/genicam/device/gige_identity.h"
 #include "hal/genicam/genicam_settings.h"
 #include "proc/image/picture.h"
@@ -28,6 +28,8 @@ namespace orbwatch::tests {
 
 /// The description of Aravis' fake camera and the features of a thermal one.
 inline std::string thermal_description() {
+  // Has the library linked whose resource it is.
+  EXPECT_EQ(arv_get_major_version(), 0U);
   GBytes* const standard = g_resources_lookup_data("/org/aravis/arv-fake-camera.xml",
                                                    G_RESOURCE_LOOKUP_FLAGS_NONE, nullptr);
   std::size_t size = 0;
