@@ -4,10 +4,11 @@
 #include <limits>
 #include <string>
 
+#include "proc/image/celsius.h"
+
 namespace orbwatch::signals {
 namespace {
 
-constexpr double kZeroCelsius = 273.15;           // K
 constexpr double kSecondRadiation = 14387.76877;  // um K, CODATA 2018
 constexpr std::size_t kCounts = std::size_t{1} << 16;
 

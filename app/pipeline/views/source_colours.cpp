@@ -1,11 +1,13 @@
 #include "app/pipeline/views/source_colours.h"
 
+#include "proc/image/celsius.h"
+
 namespace orbwatch::app {
 
 double full_scale(const hal::StreamFormat& format) { return (1 << info(format.format).bits) - 1; }
 
 double counts_of(double value, const hal::StreamFormat& format) {
-  if (format.kelvin_per_count > 0) return (value + 273.15) / format.kelvin_per_count;
+  if (format.kelvin_per_count > 0) return (value + kZeroCelsius) / format.kelvin_per_count;
   return value / 100 * full_scale(format);
 }
 

@@ -6,6 +6,7 @@
 #include "app/log.h"
 #include "app/ports/web/http/address.h"
 #include "app/ports/web/tls/redirect.h"
+#include "hal/host.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -14,7 +15,7 @@ constexpr auto kRenewalPause = std::chrono::minutes(1);
 
 /// An address of one network alone does not reach this computer's own programs.
 std::vector<std::string> http_addresses(const std::string& address) {
-  if (address == "0.0.0.0" || address == "::" || is_loopback(address)) return {address};
+  if (hal::is_unspecified(address) || is_loopback(address)) return {address};
   return {address, address.find(':') == std::string::npos ? "127.0.0.1" : "::1"};
 }
 

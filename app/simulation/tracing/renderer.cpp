@@ -8,11 +8,10 @@
 
 #include "app/simulation/scene/appearance.h"
 #include "app/simulation/tracing/parallel_for.h"
+#include "proc/image/celsius.h"
 
 namespace orbwatch::app::simulation {
 namespace {
-
-constexpr double kCelsiusZero = 273.15;  // K
 
 std::span<const optics::Vec2> points_of(CameraKind kind) {
   static constexpr std::array<optics::Vec2, 4> kQuarters{
@@ -60,7 +59,7 @@ std::size_t Renderer::index(int u, int v) const {
 }
 
 std::uint16_t Renderer::counts(double celsius) const {
-  const double exact = (celsius + kCelsiusZero) / sensor_.kelvin_per_count;
+  const double exact = (celsius + kZeroCelsius) / sensor_.kelvin_per_count;
   return static_cast<std::uint16_t>(std::clamp(std::round(exact), 0.0, 65535.0));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proc/image/celsius.h"
+
 namespace orbwatch::app::simulation {
 namespace {
 
@@ -20,7 +22,8 @@ double linear_of_srgb(double srgb) {
 
 double wien(double nanometres, double celsius) {
   constexpr double kSecondRadiation = 1.438777e7;  // nm K
-  return std::pow(nanometres, -5) * std::exp(-kSecondRadiation / (nanometres * (celsius + 273.15)));
+  return std::pow(nanometres, -5) *
+         std::exp(-kSecondRadiation / (nanometres * (celsius + kZeroCelsius)));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include "app/log.h"
 #include "app/ports/dds/fleet/appliance_message.h"
 #include "app/ports/dds/fleet/thumbnail_writer.h"
-#include "app/ports/dds/participant/host_name.h"
 #include "app/ports/dds/topics/topic_names.h"
+#include "hal/host.h"
 
 namespace orbwatch::app {
 namespace {
@@ -16,11 +16,9 @@ constexpr auto kPeriod = std::chrono::seconds(1);
 constexpr double kPicturesPerSecond = 0.25;
 
 ApplianceIdentity named(ApplianceIdentity identity) {
-  if (identity.name.empty()) identity.name = host_name();
+  if (identity.name.empty()) identity.name = hal::host_name();
   return identity;
 }
-
-bool is_for_all(const std::string& address) { return address == "0.0.0.0" || address == "::"; }
 
 }  // namespace
 
@@ -36,7 +34,7 @@ FleetMember::FleetMember(ApplianceIdentity identity, std::shared_ptr<Fleet> flee
 
 void FleetMember::open(const Entity& participant, const std::string& address) {
   present_ = identity_;
-  if (is_for_all(present_.page.address)) present_.page.address = address;
+  if (hal::is_unspecified(present_.page.address)) present_.page.address = address;
   const auto opened = open_all(participant);
   is_open_ = opened.has_value();
   if (is_open_) return;

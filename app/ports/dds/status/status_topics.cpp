@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "app/ports/dds/participant/host_name.h"
 #include "app/ports/dds/topics/topic_names.h"
+#include "hal/host.h"
 
 namespace orbwatch::app {
 namespace {
@@ -17,7 +17,7 @@ StatusTopics::StatusTopics(const std::string& prefix, StatusNames names)
       state_(orbwatch_msgs_msg_dds__ProcessState__desc, process_state_topic(prefix)),
       events_(orbwatch_msgs_msg_dds__Event__desc, event_topic(prefix)),
       diagnostics_(diagnostic_msgs_msg_dds__DiagnosticArray__desc, kDiagnosticsTopic),
-      diagnostics_composer_(host_name()) {}
+      diagnostics_composer_(hal::host_name()) {}
 
 Result<> StatusTopics::open(const Entity& participant) {
   return state_.open(participant, state_qos())

@@ -12,7 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kBadRequest = 400, kForbidden = 403, kConflict = 409;
 /// Of a difference in the audit, which keeps the newest megabyte.
 constexpr std::size_t kMostNoted = 4096;
 
@@ -128,7 +127,7 @@ Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read re
   Sent sent{access_.caller(credentials_of(request))};
   const std::string name = request.path.substr(request.path.rfind('/') + 1);
   if (const auto right = read(request.body, sent); !right) {
-    return error_response(kBadRequest, right.error().message);
+    return error_response(400, right.error().message);
   }
   Response response = (this->*handler)(sent);
   if (handler != &ConfigurationDesk::check && handler != &ConfigurationDesk::check_recipe) {
@@ -141,7 +140,7 @@ Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read re
 
 Response ConfigurationDesk::show() const {
   const auto state = files_->read();
-  if (!state) return error_response(kConflict, state.error().message);
+  if (!state) return error_response(409, state.error().message);
   Json list = Json::array();
   add(list, state->files, true);
   add(list, state->outside, false);
@@ -173,18 +172,18 @@ Result<> ConfigurationDesk::permit(const Sent& sent) const {
 
 Response ConfigurationDesk::check(Sent& sent) {
   if (const auto permitted = permit(sent); !permitted) {
-    return error_response(kForbidden, permitted.error().message);
+    return error_response(403, permitted.error().message);
   }
   const auto change = files_->check(sent.body.files);
-  return change ? answer(change_json(*change)) : error_response(kConflict, change.error().message);
+  return change ? answer(change_json(*change)) : error_response(409, change.error().message);
 }
 
 Response ConfigurationDesk::try_out(Sent& sent) {
   if (const auto permitted = permit(sent); !permitted) {
-    return error_response(kForbidden, permitted.error().message);
+    return error_response(403, permitted.error().message);
   }
   const auto change = files_->try_out(sent.body.files, sent.body.seconds);
-  if (!change) return error_response(kConflict, change.error().message);
+  if (!change) return error_response(409, change.error().message);
   sent.before = side_of(change->difference, '-');
   sent.after = side_of(change->difference, '+');
   Json json = change_json(*change);
@@ -202,24 +201,24 @@ Result<> ConfigurationDesk::apply_changes(Sent& sent) const {
 
 Response ConfigurationDesk::check_recipe(Sent& sent) {
   const auto applied = apply_changes(sent);
-  return applied ? check(sent) : error_response(kConflict, applied.error().message);
+  return applied ? check(sent) : error_response(409, applied.error().message);
 }
 
 Response ConfigurationDesk::try_recipe(Sent& sent) {
   const auto applied = apply_changes(sent);
-  return applied ? try_out(sent) : error_response(kConflict, applied.error().message);
+  return applied ? try_out(sent) : error_response(409, applied.error().message);
 }
 
 Response ConfigurationDesk::confirm(Sent& sent) {
   const auto written = files_->confirm();
-  if (!written) return error_response(kConflict, written.error().message);
+  if (!written) return error_response(409, written.error().message);
   for (const std::string& name : *written) sent.after += (sent.after.empty() ? "" : ", ") + name;
   return answer({{"files", *written}});
 }
 
 Response ConfigurationDesk::revert(Sent& /*sent*/) {
   const auto reverted = files_->revert();
-  if (!reverted) return error_response(kConflict, reverted.error().message);
+  if (!reverted) return error_response(409, reverted.error().message);
   return answer({{"result_text", "done"}});
 }
 

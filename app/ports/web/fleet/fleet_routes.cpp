@@ -11,7 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kNotFound = 404;
 constexpr std::string_view kMissing = "say enabled = true in [dds]";
 
 void show(Fleet* fleet, const ExchangePtr& exchange) {
@@ -25,7 +24,7 @@ void show_picture(const Fleet* fleet, const ExchangePtr& exchange) {
   auto picture = fleet && id ? fleet->picture(*id) : nullptr;
   if (!picture) {
     exchange->answer(error_response(
-        kNotFound, "say as ?appliance=ID one that /api/v1/appliances lists with pictures"));
+        404, "say as ?appliance=ID one that /api/v1/appliances lists with pictures"));
     return;
   }
   Response response;

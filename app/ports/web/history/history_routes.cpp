@@ -55,19 +55,18 @@ std::vector<Route> HistoryRoutes::routes() {
 }
 
 void HistoryRoutes::serve_figure(const ExchangePtr& exchange) const {
-  constexpr int kBadRequest = 400, kNotFound = 404;
   const Request& request = exchange->request();
   const auto component = component_of(request);
   const std::string* figure = request.argument("figure");
   if (!component || !figure) {
     exchange->answer(error_response(
-        kBadRequest, "say which figure, as ?region=NAME&figure=NAME or ?camera=NAME&figure=NAME"));
+        400, "say which figure, as ?region=NAME&figure=NAME or ?camera=NAME&figure=NAME"));
     return;
   }
   const auto series = figures_.series(*component, *figure);
   exchange->answer(series
                        ? json_response(series_json(*series, hal::Clock::now()))
-                       : error_response(kNotFound,
+                       : error_response(404,
                                         "there is no such figure; those of /api/v1/status have a "
                                         "history that belong to: " +
                                             names_of(figures_.components())));
@@ -77,8 +76,7 @@ void HistoryRoutes::serve_alarms(const ExchangePtr& exchange) const {
   const auto most = number_of(exchange->request(), kEvents.name, kUsualEvents, 0,
                               static_cast<double>(AlarmHistory::kMost));
   if (!most) {
-    constexpr int kBadRequest = 400;
-    exchange->answer(error_response(kBadRequest, most.error().message));
+    exchange->answer(error_response(400, most.error().message));
     return;
   }
   const auto entries = alarms_.newest(static_cast<std::size_t>(*most));

@@ -68,8 +68,7 @@ Json line_json(const RecentLog::Line& line) {
 void show(const RecentLog& log, const ExchangePtr& exchange) {
   const auto wanted = wanted_of(exchange->request());
   if (!wanted) {
-    constexpr int kBadRequest = 400;
-    exchange->answer(error_response(kBadRequest, wanted.error().message));
+    exchange->answer(error_response(400, wanted.error().message));
     return;
   }
   // Asked before the lines: none that comes meanwhile is passed over.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/model/utc_text.h"
+#include "proc/image/celsius.h"
 #include "proc/optics/rotation.h"
 #include "proc/remap/remap.h"
 
@@ -11,7 +12,6 @@ namespace orbwatch::app::web {
 namespace {
 
 constexpr double kPercentPerByte = 100.0 / 255;
-constexpr double kZeroCelsius = 273.15;  // K
 
 double luma_of(const MutablePicture& picture, int x, int y) {
   const std::uint8_t* const samples = picture.samples<std::uint8_t>().at(x, y);

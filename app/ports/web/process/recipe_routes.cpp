@@ -90,11 +90,10 @@ Result<const MeasuredRecipe*> RecipeRoutes::recipe_of(const Request& request) co
 }
 
 void RecipeRoutes::serve_recipe(const ExchangePtr& exchange) const {
-  constexpr int kNotFound = 404;
   answer(exchange, recipe_of(exchange->request()).map([](const auto* recipe) {
     return recipe_json(*recipe);
   }),
-         kNotFound);
+         404);
 }
 
 void RecipeRoutes::serve_polygon(const ExchangePtr& exchange) const {

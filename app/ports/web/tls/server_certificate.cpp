@@ -1,14 +1,11 @@
 #include "app/ports/web/tls/server_certificate.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <climits>
 
 #include "app/certificates/certificate_file.h"
 #include "app/log.h"
 #include "app/state/private_file.h"
+#include "hal/host.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app::web {
@@ -43,11 +40,6 @@ Result<ServerCertificate> parse(const std::string& pem) {
   });
 }
 
-std::string host_name() {
-  std::array<char, HOST_NAME_MAX + 1> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
 /// Nothing but what DNS and addresses consist of.
 bool is_host(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) {
@@ -66,7 +58,7 @@ bool is_for_all(const ServerCertificate& kept, const std::vector<std::string>& h
 Result<ServerCertificate> make(const fs::path& file, const std::vector<std::string>& hosts,
                                sys_seconds now) {
   const ValidityPeriod validity{now - kClockDifference, now - kClockDifference + kSelfMadeDays};
-  const std::string host = host_name();
+  const std::string host = hal::host_name();
   const auto made = make_credential(host.empty() ? "orbwatch" : host.substr(0, kLongestName),
                                     CertificateUse::Serve, validity, nullptr, hosts);
   if (!made) return tl::unexpected(made.error());
@@ -129,9 +121,9 @@ std::vector<std::string> own_hosts(const WebSettings& settings) {
   const auto add = [&hosts](const std::string& host) {
     if (is_host(host) && std::ranges::find(hosts, host) == hosts.end()) hosts.push_back(host);
   };
-  if (settings.address != "0.0.0.0" && settings.address != "::") add(settings.address);
+  if (!hal::is_unspecified(settings.address)) add(settings.address);
   for (const std::string& name : settings.names) add(name);
-  if (const std::string name = host_name(); !name.empty()) {
+  if (const std::string name = hal::host_name(); !name.empty()) {
     add(name);
     // As multicast DNS has it.
     if (name.find('.') == std::string::npos) add(name + ".local");
