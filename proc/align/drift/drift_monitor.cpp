@@ -25,6 +25,9 @@ constexpr Time kWindow = std::chrono::milliseconds(800);
 constexpr double kLarge = 300, kLongest = 3;
 /// In which the ball's place against the reference is averaged at the beginning.
 constexpr Time kSettling = std::chrono::milliseconds(2400);
+/// Before a reference is sought again that had too little texture: to make one costs as much as to
+/// watch for a second.
+constexpr Time kPauseOfReferences = std::chrono::seconds(5);
 /// A jump is that many warning limits, standard deviations of single frames, and pixels, from the
 /// mean.
 constexpr double kJump = 4, kJumpSpreads = 6, kJumpPixels = 2;
@@ -115,7 +118,7 @@ class DriftMonitor::Impl {
 
   Result<DriftState> observe(const Picture& picture, Time time) {
     if (auto checked = check_size(picture); !checked) return tl::unexpected(checked.error());
-    if (!tracker_ && !collect(picture)) return not_measured(state_.reason);
+    if (!tracker_ && !collect(picture, time)) return not_measured(state_.reason);
     const auto motion = tracker_->find(picture);
     if (!motion) return not_measured(tracker_->reason());
     add(*motion, time);
@@ -138,12 +141,16 @@ class DriftMonitor::Impl {
   }
 
   /// Collects what the reference is made of; false as long as it is of no use, with the reason.
-  bool collect(const Picture& picture) {
+  bool collect(const Picture& picture, Time time) {
+    if (time < collects_from_) return false;
     state_.reason = exposure_fault(picture, subject_.outline);
     if (!state_.reason.empty()) return false;
     reference_.add(picture);
     state_.reason = fault::kNoReference;
-    return reference_.is_complete() && take_reference(saturation(picture.format));
+    if (!reference_.is_complete()) return false;
+    if (take_reference(saturation(picture.format))) return true;
+    collects_from_ = time + kPauseOfReferences;
+    return false;
   }
 
   bool take_reference(float saturated) {
@@ -237,6 +244,7 @@ class DriftMonitor::Impl {
   Time window_;
   MotionStatistics statistics_;
   ReferencePicture reference_;
+  Time collects_from_ = Time::min();
   std::optional<BallTracker> tracker_;
   std::optional<Time> first_time_;
   bool is_settling_ = true;
