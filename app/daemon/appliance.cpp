@@ -66,7 +66,7 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
   auto plan = open_cameras(site, *all.lines_);
   if (!plan) return tl::unexpected(plan.error());
   plan->background = all.background_;
-  // A picture's watch may take longer than one that somebody waits for.
+  // It must not delay the pictures that somebody waits for.
   all.watch_.emplace(site, hal::SharedThreads::alone("watch"));
   all.alignment_.emplace(site, *all.watch_, restart);
   all.interfaces_.emplace(

@@ -109,7 +109,7 @@ bool CameraWatch::Watched::can_look(const hal::FrameSet& set, std::size_t camera
 bool CameraWatch::can_record(const hal::FrameSet& set) const {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const Watched* const camera = cameras_[i].get();
-    if (camera && camera->is_recorded && !camera->can_look(set, i)) return false;
+    if (camera && camera->wanted > 0 && !camera->can_look(set, i)) return false;
   }
   return true;
 }
@@ -118,7 +118,7 @@ void CameraWatch::accept_frames(const hal::FrameSet& set) {
   const bool is_record = can_record(set);
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     Watched* const camera = cameras_[i].get();
-    if (!camera || !camera->can_look(set, i) || (camera->is_recorded && !is_record)) continue;
+    if (!camera || !camera->can_look(set, i) || (camera->wanted > 0 && !is_record)) continue;
     camera->frame = set.frames[i];
     camera->stamp = set.stamp;
     camera->looking.store(true, std::memory_order_release);
@@ -150,10 +150,7 @@ void CameraWatch::ask(std::size_t camera, std::function<void(RecordedPicture)> r
 Result<std::vector<std::vector<RecordedPicture>>> CameraWatch::record(
     const std::vector<std::size_t>& cameras, std::size_t count, std::chrono::seconds patience) {
   const auto set_wanted = [&](std::size_t wanted) {
-    for (const std::size_t camera : cameras) {
-      cameras_[camera]->wanted = wanted;
-      cameras_[camera]->is_recorded = wanted > 0;
-    }
+    for (const std::size_t camera : cameras) cameras_[camera]->wanted = wanted;
   };
   const auto is_complete = [&] {
     return records_.is_cancelled || std::ranges::all_of(cameras, [&](std::size_t camera) {

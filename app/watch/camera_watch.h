@@ -93,13 +93,12 @@ class CameraWatch : public Sink {
     hal::TimePoint stamp;  ///< of its frame set
     std::atomic<bool> looking{false};
     std::atomic<bool> cleaned{false};
-    std::atomic<bool> is_recorded{false};  ///< its pictures are of use with those of others only
-    mutable std::mutex mutex;              ///< of these two, held only while they are copied
+    mutable std::mutex mutex;  ///< of these two, held only while they are copied
     CameraWatchStatus figures;
     std::optional<align::DriftState> drift;
     std::vector<std::function<void(RecordedPicture)>> readers;  ///< under `mutex`, too
     Records& records;
-    std::size_t wanted = 0;                 ///< pictures; under records.mutex
+    std::atomic<std::size_t> wanted{0};     ///< pictures; changed under records.mutex
     std::vector<RecordedPicture> recorded;  ///< under records.mutex
     hal::SharedThreads::Work work;
   };
