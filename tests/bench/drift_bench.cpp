@@ -32,7 +32,8 @@ struct Case {
   ProcessSettings settings;
   int magnified;  ///< how much larger the camera's pictures are than the simulated ones
   bool colour;
-  double shift;  ///< px of the simulated pictures, at half time
+  double shift;          ///< px of the simulated pictures, at half time
+  bool is_flat = false;  ///< shows no texture that could be watched
 };
 
 DriftMonitor monitor_of(const Case& c, const ProcessSequence& sequence) {
@@ -59,6 +60,7 @@ bool measure(const Case& c) {
   for (int n = 0; n < kFrames; ++n) {
     const double turn = n > kFrames / 2 ? c.shift / sequence.focal_length() : 0;
     cv::Mat picture = sequence.frame(10 + n / kRate, {turn, turn / 2, 0});
+    if (c.is_flat) picture.setTo(cv::mean(picture));
     if (c.magnified > 1) cv::resize(picture, picture, {}, c.magnified, c.magnified);
     if (c.colour) cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
     const double before = thread_ms();
@@ -92,6 +94,7 @@ int main() {
       {"grey, 800x640, radius 300 px", still, 1, false, 0},
       {"colour, 1600x1280, radius 600 px", still, 2, true, 0},
       {"colour, 4000x3200, radius 1500 px", still, 5, true, 0},
+      {"colour, 1600x1280, no texture", still, 2, true, 0, true},
       {"colour, 800x640, bumped by 40 px", still, 1, true, 40},
       {"thermal, 320x256, radius 110 px", small, 1, false, 0},
   };
