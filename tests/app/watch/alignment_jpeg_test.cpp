@@ -10,7 +10,7 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr int kSide = 200;
+constexpr int kViewSide = 200;
 
 optics::BallProjection ball() {
   const auto model = optics::BallModel::make(optics::BallModel::Kind::Exact, {}, 12).value();
@@ -23,19 +23,19 @@ cv::Mat decoded(const std::string& jpeg) {
 
 /// Counts of a room at `base`, its right half 100 counts warmer, with one spot far above.
 std::vector<std::uint16_t> counts(std::uint16_t base) {
-  std::vector<std::uint16_t> samples(kSide * kSide, base);
-  for (int v = 0; v < kSide; ++v) {
-    for (int u = kSide / 2; u < kSide; ++u) {
-      samples[static_cast<std::size_t>(v * kSide + u)] = static_cast<std::uint16_t>(base + 100);
+  std::vector<std::uint16_t> samples(kViewSide * kViewSide, base);
+  for (int v = 0; v < kViewSide; ++v) {
+    for (int u = kViewSide / 2; u < kViewSide; ++u) {
+      samples[static_cast<std::size_t>(v * kViewSide + u)] = static_cast<std::uint16_t>(base + 100);
     }
   }
-  samples[kSide * kSide / 2] = 65535;
+  samples[kViewSide * kViewSide / 2] = 65535;
   return samples;
 }
 
 Picture picture(std::vector<std::uint16_t>& samples) {
   return picture_of(PixelFormat::Y16,
-                    ImageView<std::uint16_t>{samples.data(), kSide, kSide, 1, kSide});
+                    ImageView<std::uint16_t>{samples.data(), kViewSide, kViewSide, 1, kViewSide});
 }
 
 TEST(AlignmentJpeg, OfCountsTheRangeThatIsThereIsShown) {
@@ -44,7 +44,7 @@ TEST(AlignmentJpeg, OfCountsTheRangeThatIsThereIsShown) {
     const auto jpeg = alignment_jpeg(picture(samples), ball(), std::nullopt);
     ASSERT_TRUE(jpeg) << jpeg.error().message;
     const cv::Mat shown = decoded(*jpeg);
-    ASSERT_EQ(shown.size(), cv::Size(kSide, kSide));
+    ASSERT_EQ(shown.size(), cv::Size(kViewSide, kViewSide));
     EXPECT_LT(shown.at<std::uint8_t>(20, 20), 10) << base;
     EXPECT_GT(shown.at<std::uint8_t>(20, 180), 245) << base;
   }
