@@ -16,10 +16,8 @@
 namespace orbwatch::tests {
 namespace {
 
-/// Used by one test; a rig may have more cameras than run.
-const std::string kColour = R"(
-[[camera]]
-name = "colour"
+std::string camera_of_rig(const std::string& name) {
+  return "[[camera]]\nname = \"" + name + R"("
 width = 160
 height = 120
 [camera.outline]
@@ -27,17 +25,10 @@ centre = [79.5, 59.5]
 radius = 55
 alpha = 343.571
 )";
+}
 
-const std::string kRig = kMachine + R"(
-[[camera]]
-name = "thermal"
-width = 160
-height = 120
-[camera.outline]
-centre = [79.5, 59.5]
-radius = 55
-alpha = 343.571
-)" + kColour;
+/// A site runs those of its cameras that it wants.
+const std::string kRig = kMachine + camera_of_rig("thermal") + camera_of_rig("colour");
 
 const std::string kRecipe = R"(
 name = "ramp"
