@@ -34,19 +34,19 @@ struct Ends {
 
 }  // namespace
 
-bool Connections::has_room(const std::string& peer, std::size_t most) {
-  const std::string key = address_key(peer);
-  const std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(std::ranges::count_if(
-             all_, [&](const Connection& one) { return one.key == key; })) < most;
-}
-
-Connections::Connection* Connections::add(int socket, std::string peer) {
+Connections::Connection* Connections::add(int socket, std::string peer, std::size_t most) {
   std::string key = address_key(peer);
   const std::lock_guard lock(mutex_);
-  all_.push_back(
-      {socket, std::move(peer), std::move(key), hal::Clock::now() + timeout_, {}, {}, {}});
-  return &all_.back();
+  const auto open_ones = std::ranges::count_if(
+      all_, [&](const Connection& one) { return one.key == key && !one.is_beyond; });
+  Connection& added = all_.emplace_back();
+  added.socket = socket;
+  added.peer = std::move(peer);
+  added.key = std::move(key);
+  added.is_beyond = static_cast<std::size_t>(open_ones) >= most;
+  added.deadline = added.is_beyond ? hal::TimePoint::max() : hal::Clock::now() + timeout_;
+  if (added.is_beyond) ::shutdown(socket, SHUT_RDWR);
+  return &added;
 }
 
 void Connections::remove(Connection* connection) {
@@ -58,7 +58,7 @@ bool Connections::begin_answer(Connection* connection, const ExchangePtr& exchan
   const std::lock_guard lock(mutex_);
   connection->deadline = hal::Clock::now() + timeout_;
   connection->exchange = exchange;
-  return !is_closing_;
+  return !is_closing_ && !connection->is_beyond;
 }
 
 void Connections::begin_sending(Connection* connection) {
@@ -94,7 +94,10 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
       const bool is_overdue = now >= connection.deadline;
       const bool may_go_on = !connection.may_go_on || connection.may_go_on();
       if (!is_overdue && may_go_on && !has_gone(connection.socket)) continue;
-      overdue += is_overdue ? 1 : 0;
+      if (is_overdue) {
+        ++overdue;
+        connection.deadline = hal::TimePoint::max();  // counted once, however late it is removed
+      }
       const bool waits_for_answer = !connection.exchange.expired();
       ends.add(connection);
       if (!may_go_on || (is_overdue && !waits_for_answer)) ::shutdown(connection.socket, SHUT_RDWR);

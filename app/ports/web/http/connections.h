@@ -22,6 +22,7 @@ class Connections {
     int socket = -1;
     std::string peer;
     std::string key;          ///< the peer's address_key()
+    bool is_beyond = false;   ///< its address had enough; shut down, and nothing is asked of it
     hal::TimePoint deadline;  ///< max(): none
     std::weak_ptr<Exchange> exchange;
     std::weak_ptr<StreamSender> stream;
@@ -30,13 +31,13 @@ class Connections {
 
   explicit Connections(std::chrono::milliseconds timeout) : timeout_(timeout) {}
 
-  /// Whether the address has fewer connections than `most`.
-  bool has_room(const std::string& peer, std::size_t most);
-  Connection* add(int socket, std::string peer);
+  /// Notes one that was opened; shuts it down when its address has `most`, which is decided here
+  /// since several threads take connections at once.
+  Connection* add(int socket, std::string peer, std::size_t most);
   void remove(Connection* connection);
 
-  /// Its request has arrived whole, and the answer has as long. False: the server is closing, and
-  /// the exchange will not be ended by end_all().
+  /// Its request has arrived whole, and the answer has as long. False: the server or the connection
+  /// is closing, and the exchange will not be ended by end_all().
   bool begin_answer(Connection* connection, const ExchangePtr& exchange);
   /// Its answer is being sent.
   void begin_sending(Connection* connection);

@@ -77,7 +77,6 @@ void set_option(int socket, int level, int option, int value) {
 
 /// What libmicrohttpd calls, on its threads; `self` is the server.
 struct Server::Callbacks {
-  static MHD_Result accept(void* self, const sockaddr* peer, socklen_t length);
   static void connection(void* self, MHD_Connection* connection, void** context,
                          MHD_ConnectionNotificationCode code);
   static void* target(void* self, const char* target, MHD_Connection* connection);
@@ -95,14 +94,6 @@ struct Server::Callbacks {
                                 const Response& response);
 };
 
-MHD_Result Server::Callbacks::accept(void* self, const sockaddr* peer, socklen_t /*length*/) {
-  auto& server = *static_cast<Server*>(self);
-  const auto most = static_cast<std::size_t>(server.settings_.max_connections_per_address);
-  if (server.connections_.has_room(host_text(peer), most)) return MHD_YES;
-  ++server.counts_.turned_away;
-  return MHD_NO;
-}
-
 void Server::Callbacks::connection(void* self, MHD_Connection* connection, void** context,
                                    MHD_ConnectionNotificationCode code) {
   auto& server = *static_cast<Server*>(self);
@@ -117,8 +108,11 @@ void Server::Callbacks::connection(void* self, MHD_Connection* connection, void*
       ::MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS)->client_addr;
   set_option(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsentBytes);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
-  *context = server.connections_.add(socket, host_text(peer));
+  const auto most = static_cast<std::size_t>(server.settings_.max_connections_per_address);
+  Connections::Connection* added = server.connections_.add(socket, host_text(peer), most);
   ++server.counts_.connections;
+  if (added->is_beyond) ++server.counts_.turned_away;
+  *context = added;
 }
 
 void Server::Callbacks::completed(void* self, MHD_Connection* connection, void** state,
@@ -179,7 +173,7 @@ void Server::Callbacks::handle(Server& server, Connections::Connection& connecti
   Exchange& exchange = *arriving.exchange;
   const std::string* host = exchange.request().header(MHD_HTTP_HEADER_HOST);
   if (!server.connections_.begin_answer(&connection, arriving.exchange)) {
-    exchange.answer(error_response(503, "shuts down"));
+    exchange.answer(error_response(503, "the connection is being closed"));
   } else if (exchange.request().target.find("%00") != std::string::npos) {
     // The library's C strings were cut there.
     ++server.counts_.refused;
@@ -263,7 +257,7 @@ Result<> Server::listen() {
       std::chrono::ceil<std::chrono::seconds>(settings_.request_timeout) + std::chrono::seconds(1);
   complaint.clear();
   daemon_ = ::MHD_start_daemon(
-      flags, 0, Callbacks::accept, this, Callbacks::request, this, MHD_OPTION_EXTERNAL_LOGGER,
+      flags, 0, nullptr, nullptr, Callbacks::request, this, MHD_OPTION_EXTERNAL_LOGGER,
       keep_complaint, this, MHD_OPTION_SOCK_ADDR, address->get(), MHD_OPTION_THREAD_POOL_SIZE,
       kThreads, MHD_OPTION_CONNECTION_LIMIT, static_cast<unsigned>(settings_.max_connections),
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeadBytes, MHD_OPTION_CONNECTION_TIMEOUT,

@@ -1,0 +1,88 @@
+#include "app/ports/web/http/connections.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+namespace orbwatch::app::web {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr seconds kTimeout{5};
+
+/// A connected pair: the server's end and the client's.
+class Pair {
+ public:
+  Pair() { EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends_.data()), 0); }
+  ~Pair() {
+    for (const int end : ends_) ::close(end);
+  }
+  Pair(const Pair&) = delete;
+  Pair& operator=(const Pair&) = delete;
+
+  int server() const { return ends_[0]; }
+  /// Whether the client sees the end.
+  bool is_shut() const {
+    char byte = 0;
+    return ::recv(ends_[1], &byte, 1, MSG_DONTWAIT) == 0;
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+TEST(Connections, ManyAtOnceOfAnAddressAreNoMoreThanItsShare) {
+  constexpr std::size_t kMost = 8, kEach = 20;
+  for (int round = 0; round < 50; ++round) {
+    Connections connections(kTimeout);
+    std::array<std::array<Pair, kEach>, 2> pairs;
+    std::atomic<std::size_t> open{0};
+    {
+      std::vector<std::jthread> threads;
+      for (const auto& of_thread : pairs) {
+        threads.emplace_back([&] {
+          for (const Pair& pair : of_thread) {
+            if (!connections.add(pair.server(), "10.0.0.7", kMost)->is_beyond) ++open;
+          }
+        });
+      }
+    }
+    ASSERT_EQ(open, kMost);
+    std::size_t shut = 0;
+    for (const auto& of_thread : pairs)
+      shut += static_cast<std::size_t>(std::ranges::count_if(of_thread, &Pair::is_shut));
+    ASSERT_EQ(shut, 2 * kEach - kMost);
+  }
+}
+
+TEST(Connections, OneThatIsBeyondTakesNoPlaceAndIsAskedNothing) {
+  Connections connections(kTimeout);
+  const Pair first, beyond, next, other;
+  auto* const kept = connections.add(first.server(), "10.0.0.7", 1);
+  auto* const turned_away = connections.add(beyond.server(), "10.0.0.7", 1);
+  EXPECT_TRUE(turned_away->is_beyond);
+  EXPECT_FALSE(connections.begin_answer(turned_away, nullptr));
+  EXPECT_FALSE(connections.add(other.server(), "10.0.0.8", 1)->is_beyond);
+  connections.remove(kept);
+  EXPECT_FALSE(connections.add(next.server(), "10.0.0.7", 1)->is_beyond);
+}
+
+TEST(Connections, OneThatIsOverdueIsCountedOnceHoweverLateItIsRemoved) {
+  Connections connections(kTimeout);
+  const Pair pair;
+  auto* const connection = connections.add(pair.server(), "10.0.0.7", 1);
+  EXPECT_EQ(connections.end_overdue(connection->deadline - seconds(1)), 0U);
+  EXPECT_FALSE(pair.is_shut());
+  const auto late = connection->deadline + seconds(1);
+  EXPECT_EQ(connections.end_overdue(late), 1U);
+  EXPECT_TRUE(pair.is_shut());
+  EXPECT_EQ(connections.end_overdue(late), 0U);
+}
+
+}  // namespace
+}  // namespace orbwatch::app::web
