@@ -11,6 +11,7 @@
 #include "app/ports/web/interfaces/interface_routes.h"
 #include "app/ports/web/log/log_routes.h"
 #include "app/ports/web/page/page_files.h"
+#include "app/ports/web/status/metrics_text.h"
 #include "app/ports/web/status/openapi.h"
 #include "app/ports/web/status/status_text.h"
 #include "app/ports/web/streams/live_stream.h"

@@ -67,7 +67,7 @@ Json status_schema() {
                          list["items"] = std::move(schema);
                        }
                      });
-  properties["web"] = schema_of(WebStatistics{}, false);
+  properties[std::string(kWebComponent.kind)] = schema_of(WebStatistics{}, false);
   return {{"type", "object"}, {"properties", std::move(properties)}};
 }
 

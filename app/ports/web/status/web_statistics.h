@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "app/model/field.h"
+#include "app/model/readings.h"
 
 namespace orbwatch::app::web {
 
@@ -31,7 +32,9 @@ inline constexpr Quantity kDays{"d", 0.01, -100000, 100000};
   FIELD(std::uint64_t, alarm_events, kCount,                                                       \
         "Events of alarms: raised, acknowledged, cleared, see /api/v1/history/alarms")
 
-/// Of the web interface itself, since start. Reported as a component of kind "web".
+inline const Component kWebComponent{"web"};
+
+/// Of the web interface itself, since start. Reported as kWebComponent.
 struct WebStatistics {
   ORBWATCH_WEB_FIGURES(ORBWATCH_FIELD_MEMBER)
 };

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/model/interface_metric.h"
+#include "app/model/status_report.h"
+#include "app/ports/web/status/web_statistics.h"
+
+namespace orbwatch::app::web {
+
+/// Prometheus' text format 0.0.4: each figure as orbwatch_KIND_FIGURE with the component's name as
+/// label "name", NaN where it is not valid; those of other interfaces, too; and orbwatch_build_info
+/// with the label "version". Reentrant.
+std::string metrics_text(const StatusReport& report, const WebStatistics& web,
+                         std::span<const InterfaceMetric> interfaces, std::string_view version);
+
+}  // namespace orbwatch::app::web
