@@ -22,7 +22,10 @@ struct Ends {
 
   void add(const Connections::Connection& connection) {
     if (auto exchange = connection.exchange.lock()) exchanges.push_back(std::move(exchange));
-    if (auto stream = connection.stream.lock()) streams.push_back(std::move(stream));
+    if (auto stream = connection.stream.lock()) {
+      ::shutdown(connection.socket, SHUT_RDWR);  // as StreamSender::end() wants it
+      streams.push_back(std::move(stream));
+    }
   }
   void end() {
     for (const auto& exchange : exchanges) {
@@ -100,7 +103,7 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
       }
       const bool waits_for_answer = !connection.exchange.expired();
       ends.add(connection);
-      if (!may_go_on || (is_overdue && !waits_for_answer)) ::shutdown(connection.socket, SHUT_RDWR);
+      if (is_overdue && !waits_for_answer) ::shutdown(connection.socket, SHUT_RDWR);
     }
   }
   ends.end();

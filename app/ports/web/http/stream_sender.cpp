@@ -7,7 +7,12 @@ namespace orbwatch::app::web {
 ssize_t StreamSender::read(char* out, std::size_t most) {
   // Under the lock, so that no wake() is lost between the empty read and the suspension.
   const std::lock_guard lock(mutex_);
-  if (has_ended_) return MHD_CONTENT_READER_END_OF_STREAM;
+  if (has_ended_) {
+    // At the end of a stream libmicrohttpd (0.9.75) keeps the connection until something else wakes
+    // its thread; a write that fails closes it at once.
+    out[0] = '\n';
+    return 1;
+  }
   const std::size_t count = stream_->read({out, most});
   if (count == 0) {
     is_suspended_ = true;

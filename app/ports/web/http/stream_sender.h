@@ -19,12 +19,11 @@ class StreamSender {
   StreamSender(std::shared_ptr<Stream> stream, MHD_Connection* connection)
       : stream_(std::move(stream)), connection_(connection) {}
 
-  /// As libmicrohttpd's callback wants it: how much was written to `out`, 0 when suspended, or the
-  /// end.
+  /// As libmicrohttpd's callback wants it: how much was written to `out`, 0 when suspended.
   ssize_t read(char* out, std::size_t most);
   /// There is something to read again.
   void wake();
-  /// Ends the stream: nobody reads it any more.
+  /// Ends the stream, whose socket was shut down.
   void end();
   bool is_suspended() const;
 

@@ -229,6 +229,25 @@ TEST_F(Served, AStreamThatIsClosedIsNotEncodedFor) {
   EXPECT_EQ(sink->statistics().streams, 0U);
 }
 
+/// Although nothing else happens that would wake the threads of the library.
+TEST_F(Served, StreamsWhoseReadersHaveGoneAreClosedBesideQuietConnections) {
+  WebSettings settings;
+  settings.request_timeout = std::chrono::minutes(1);
+  settings.max_connections_per_address = 40;
+  start(settings);
+  constexpr std::size_t kEach = 16;
+  std::vector<std::unique_ptr<Client>> quiet, readers;
+  for (std::size_t i = 0; i < kEach; ++i) {
+    quiet.push_back(std::make_unique<Client>(port()));
+    readers.push_back(std::make_unique<Client>(port()));
+    readers.back()->send(request_text("GET", "/stream.mjpg?view=front"));
+    readers.back()->take_until("\r\n\r\n");
+  }
+  readers.clear();
+  EXPECT_TRUE(eventually([&] { return sink->statistics().connections == kEach; }));
+  EXPECT_EQ(sink->statistics().streams, 0U);
+}
+
 TEST_F(Served, StopEndsStreamsAndWaitingRequests) {
   start();
   Client stream(port());
