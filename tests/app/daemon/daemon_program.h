@@ -128,7 +128,7 @@ class Daemon : public testing::Test {
 
   /// Reads until `condition` holds or the daemon ends.
   bool eventually(Subprocess& daemon, const std::function<bool()>& condition) const {
-    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(90);
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(180);
     while (daemon.runs() && std::chrono::steady_clock::now() < give_up) {
       if (condition()) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polls a real server
