@@ -57,10 +57,11 @@ ViewProjection ball_view(const BallProjection& ball) {
   return ViewProjection::make({ViewKind::Ball, {}, {}, {}, 1000, 900}, ball).value();
 }
 
-/// How near the blind cone begins: a direction so far beside this one is in it.
+/// Whether the blind cone begins within a degree.
 bool is_near_blind_cone(const BallProjection& ball, const Vec3& direction) {
-  const Vec3 further = normalized(direction - ball.facing() * kDegree);
-  return !ball.pixel(further);
+  const Vec3 axis = -ball.facing();
+  const Vec3 towards_it = normalized(axis - direction * dot(axis, direction));
+  return !ball.pixel(normalized(direction + towards_it * kDegree));
 }
 
 class BallMeshOf : public testing::TestWithParam<std::tuple<Scene::Room, bool>> {};
@@ -77,8 +78,10 @@ TEST_P(BallMeshOf, ShowsWhatTheExactModelShows) {
     const BallMesh mesh = ball_mesh(view);
     EXPECT_LT(mesh.nodes.size(), 45000U);
     int compared = 0, blind = 0;
-    for (int n = 0; n < 1000; ++n) {
-      const Vec3 direction = random_direction(random);
+    for (int n = 0; n < 400; ++n) {
+      Vec3 direction = random_direction(random);
+      // Some in and about the blind cone, which is narrow.
+      if (n % 10 == 0) direction = normalized(direction * 0.1 - ball.facing());
       const auto exact = view.pixel(direction);
       const auto drawn = draw(mesh, direction);
       ASSERT_TRUE(drawn) << "there is a hole";
@@ -93,7 +96,7 @@ TEST_P(BallMeshOf, ShowsWhatTheExactModelShows) {
         EXPECT_TRUE(is_near_blind_cone(ball, direction)) << resolution(ball, direction);
       }
     }
-    EXPECT_GT(compared, 900);
+    EXPECT_GT(compared, 350);
     EXPECT_GT(blind, 0);
   }
 }

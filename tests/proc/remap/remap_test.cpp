@@ -56,20 +56,19 @@ struct Agreement {
   int off_by_more_than_one = 0;
 };
 
-/// Every pixel of the view, save 2 px at the limb and the classical model's 3 degrees, against the
-/// double-precision reference.
+/// Every pixel of the view of a room, save 2 px at the limb and the classical model's 3 degrees,
+/// against the double-precision reference.
 template <class T>
 Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
-                  const BallModel& model, PixelFormat format, int size, double tolerance) {
-  StoredPicture source(format, size, size), result(format, spec.width, spec.height);
-  paint_room(source.picture.samples<T>());
+                  const BallModel& model, const StoredPicture& room, double tolerance) {
+  StoredPicture result(room.source.format, spec.width, spec.height);
   const auto ball = BallProjection::make(model, reference.outline, reference.registration).value();
   const auto view = ViewProjection::make(spec).value();
-  const CoordinateGrid grid(view, ball, size, size);
-  remap(grid, source.as_source(), Interpolation::Bilinear, result.picture, {0, grid.tiles_y()});
+  const CoordinateGrid grid(view, ball, room.source.width, room.source.height);
+  remap(grid, room.as_source(), Interpolation::Bilinear, result.picture, {0, grid.tiles_y()});
 
   const Vec3 blind = reference.registration * Vec3{0, -1, 0};
-  const ImageView<const T> in = source.picture.samples<T>();
+  const ImageView<const T> in = room.source.samples<T>();
   Agreement agreement;
   for (int y = 0; y < spec.height; ++y) {
     for (int x = 0; x < spec.width; ++x) {
@@ -103,6 +102,9 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
                           BallModel::make(BallModel::Kind::Classical).value()};
   const tests::ReferenceBall base{
       BallModel::Kind::Exact, alpha, {{497.3, 502.8}, 480, 480, 0}, optics::rotation({15, -8, 3})};
+  StoredPicture colour(PixelFormat::Rgb, 1000, 1000), grey(PixelFormat::Grey, 1000, 1000);
+  for (const StoredPicture* room : {&colour, &grey})
+    paint_room(room->picture.samples<std::uint8_t>());
   for (const BallModel& model : models) {
     tests::ReferenceBall reference = base;
     reference.kind = model.kind();
@@ -110,16 +112,14 @@ TEST(Remap, EqualsTheReferenceInEveryDirectionForEveryModel) {
     for (const double yaw : {0, 60, 120, 180, 240, 300}) {
       for (const double pitch : {-60, 0, 60}) {
         const ViewSpec spec{ViewKind::Perspective, {yaw, pitch, yaw / 7}, 80, {}, 120, 90};
-        const Agreement a =
-            compare<std::uint8_t>(spec, reference, model, PixelFormat::Rgb, 1000, 1);
+        const Agreement a = compare<std::uint8_t>(spec, reference, model, colour, 1);
         total.compared += a.compared;
         total.off_by_more_than_one += a.off_by_more_than_one;
         EXPECT_LE(a.off_by_more_than_one, a.compared / 1000) << "yaw " << yaw << " pitch " << pitch;
       }
     }
     const ViewSpec panorama{ViewKind::Equirectangular, {}, {}, {}, 240, 120};
-    const Agreement a =
-        compare<std::uint8_t>(panorama, reference, model, PixelFormat::Grey, 1000, 1);
+    const Agreement a = compare<std::uint8_t>(panorama, reference, model, grey, 1);
     EXPECT_LE(a.off_by_more_than_one, a.compared / 1000);
     EXPECT_GT(total.compared, 400000);
   }
@@ -130,8 +130,10 @@ TEST(Remap, KeepsSixteenBits) {
   const BallModel model = BallModel::make(BallModel::Kind::Exact, 345).value();
   const ViewSpec spec{ViewKind::Perspective, {30, 10, 0}, 90, {}, 320, 240};
   for (const PixelFormat format : {PixelFormat::Y16, PixelFormat::Rgb16}) {
+    StoredPicture room(format, 1000, 1000);
+    paint_room(room.picture.samples<std::uint16_t>());
     // One grey level of 8 bit.
-    const Agreement a = compare<std::uint16_t>(spec, reference, model, format, 1000, 257);
+    const Agreement a = compare<std::uint16_t>(spec, reference, model, room, 257);
     EXPECT_GT(a.compared, 70000);
     EXPECT_LE(a.off_by_more_than_one, a.compared / 1000);
   }

@@ -53,7 +53,7 @@ TEST_F(Https, WithoutItThereIsNoPortAndNoCertificate) {
   start();
   EXPECT_EQ(https(), 0);
   EXPECT_FALSE(std::filesystem::exists(state_folder / "certificate.pem"));
-  EXPECT_THAT(get(port(), "/metrics").body, HasSubstr("orbwatch_web_certificate_days NaN"));
+  EXPECT_THAT(get(port(), "/metrics").body, HasSubstr("orbwatch_web_certificate_days Nan"));
 }
 
 TEST_F(Https, ShowsAnOwnCertificateWithItsIssuers) {
