@@ -66,6 +66,7 @@ const std::vector<Rule> kRules{
     {"app/ports/web/http",
      {"proc/image", "proc/settings", "hal", "app/ports/web/http", "app/ports/web/web_settings.h"},
      {"microhttpd.h", "nlohmann/", "tl/expected"}},
+    {"app/ports/web/status", port("app/ports/web"), {"nlohmann/", "prometheus/", "tl/expected"}},
     {"app/certificates", {"proc/image", "hal", "app/certificates"}, {"openssl/", "tl/expected"}},
     {"app/pictures", {"proc", "hal", "app/pictures"}, {"opencv2/", "turbojpeg", "tl/expected"}},
     {"app/ports/modbus", port("app/ports/modbus"), {"modbus/", "tl/expected"}},

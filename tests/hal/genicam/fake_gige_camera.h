@@ -122,8 +122,19 @@ class Receiver {
     ASSERT_TRUE(started) << started.error().message;
   }
 
-  std::vector<Kept> wait_for(std::size_t count) { return wait(kept_, count); }
-  std::vector<hal::FaultReport> wait_for_faults(std::size_t count) { return wait(faults_, count); }
+  std::vector<Kept> wait_for(std::size_t count) {
+    return wait(kept_, [count](const auto& list) { return list.size() >= count; });
+  }
+  std::vector<hal::FaultReport> wait_for_faults(std::size_t count) {
+    return wait(faults_, [count](const auto& list) { return list.size() >= count; });
+  }
+  /// Waits until the camera delivers again after a fault, or several, beyond the first `seen`
+  /// reports; all reports.
+  std::vector<hal::FaultReport> wait_for_return(std::size_t seen) {
+    return wait(faults_, [seen](const auto& list) {
+      return list.size() > seen + 1 && list.back().fault == hal::Fault::None;
+    });
+  }
   std::size_t count() const {
     const std::lock_guard lock(mutex_);
     return kept_.size();
@@ -138,12 +149,11 @@ class Receiver {
     }
     changed_.notify_all();
   }
-  template <class T>
-  std::vector<T> wait(const std::vector<T>& list, std::size_t count) {
+  template <class T, class Condition>
+  std::vector<T> wait(const std::vector<T>& list, const Condition& condition) {
     std::unique_lock lock(mutex_);
-    EXPECT_TRUE(
-        changed_.wait_for(lock, std::chrono::minutes(1), [&] { return list.size() >= count; }))
-        << list.size() << " of " << count;
+    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(1), [&] { return condition(list); }))
+        << "there are " << list.size();
     return list;
   }
 
