@@ -121,6 +121,7 @@ class Live(PageCase):
         self.assertAlmostEqual(known["point"][2], TABLE_TOP, delta=0.01)
         self.assertAlmostEqual(known["distance"], math.dist(known["point"], BALL), delta=0.01)
         self.assertGreater(known["temperature"], TABLE_DEGC[0])
+        self.assertLess(known["temperature"], TABLE_DEGC[1])
 
     def test_pointing_reads_the_picture_that_is_seen(self):
         self.open()

@@ -23,7 +23,7 @@ struct Ends {
   void add(const Connections::Connection& connection) {
     if (auto exchange = connection.exchange.lock()) exchanges.push_back(std::move(exchange));
     if (auto stream = connection.stream.lock()) {
-      ::shutdown(connection.socket, SHUT_RDWR);  // as StreamSender::end() wants it
+      ::shutdown(connection.socket, SHUT_RDWR);  // under the lock it is still this connection's
       streams.push_back(std::move(stream));
     }
   }

@@ -23,7 +23,8 @@ class StreamSender {
   ssize_t read(char* out, std::size_t most);
   /// There is something to read again.
   void wake();
-  /// Ends the stream, whose socket was shut down.
+  /// Ends the stream. Its socket must have been shut down: the next write fails, and closes the
+  /// connection.
   void end();
   bool is_suspended() const;
 

@@ -11,7 +11,7 @@
 namespace orbwatch::app::web {
 
 /// Prometheus' text format 0.0.4: each figure as orbwatch_KIND_FIGURE with the component's name as
-/// label "name", NaN where it is not valid; those of other interfaces, too; and orbwatch_build_info
+/// label "name", Nan where it is not valid; those of other interfaces, too; and orbwatch_build_info
 /// with the label "version". Reentrant.
 std::string metrics_text(const StatusReport& report, const WebStatistics& web,
                          std::span<const InterfaceMetric> interfaces, std::string_view version);

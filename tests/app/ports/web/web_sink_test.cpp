@@ -97,7 +97,7 @@ TEST_F(Served, MetricsAreInPrometheusFormat) {
   const Answer answer = get(port(), "/metrics");
   ASSERT_EQ(answer.status, 200);
   static const std::regex kSample(
-      R"rx([a-z_][a-z0-9_]*(\{(name|version)="([^"\\]|\\.)*"\})? ([Nn]a[Nn]|[+-]Inf|-?[0-9.]+(e[+-]?[0-9]+)?))rx");
+      R"rx([a-z_][a-z0-9_]*(\{(name|version)="([^"\\]|\\.)*"\})? (Nan|[+-]Inf|-?[0-9.]+(e[+-]?[0-9]+)?))rx");
   std::istringstream lines(answer.body);
   std::set<std::string> seen;
   std::string metric;

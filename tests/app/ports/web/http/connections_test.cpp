@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <thread>
+#include <vector>
+
+#include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -18,22 +21,22 @@ constexpr seconds kTimeout{5};
 /// A connected pair: the server's end and the client's.
 class Pair {
  public:
-  Pair() { EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends_.data()), 0); }
-  ~Pair() {
-    for (const int end : ends_) ::close(end);
+  Pair() {
+    std::array<int, 2> ends{-1, -1};
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    server_ = hal::FileDescriptor(ends[0]);
+    client_ = hal::FileDescriptor(ends[1]);
   }
-  Pair(const Pair&) = delete;
-  Pair& operator=(const Pair&) = delete;
 
-  int server() const { return ends_[0]; }
+  int server() const { return server_.get(); }
   /// Whether the client sees the end.
   bool is_shut() const {
     char byte = 0;
-    return ::recv(ends_[1], &byte, 1, MSG_DONTWAIT) == 0;
+    return ::recv(client_.get(), &byte, 1, MSG_DONTWAIT) == 0;
   }
 
  private:
-  std::array<int, 2> ends_{-1, -1};
+  hal::FileDescriptor server_, client_;
 };
 
 TEST(Connections, ManyAtOnceOfAnAddressAreNoMoreThanItsShare) {
