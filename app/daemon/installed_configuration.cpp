@@ -142,10 +142,7 @@ Result<std::vector<std::string>> InstalledConfiguration::confirm() {
 }
 
 Result<> InstalledConfiguration::revert() {
-  return trial_folder().and_then([](const fs::path& folder) -> Result<> {
-    if (end_trial(folder)) return {};
-    return fail("no configuration waits for its confirmation");
-  });
+  return trial_folder().and_then([](const fs::path& folder) { return cancel_trial(folder); });
 }
 
 /// By their places beside the configuration file.

@@ -147,16 +147,16 @@ bool asks_for_restart(Waiting& waiting) {
 bool wait_for_end(const sigset_t& signals, Waiting waiting, Appliance& appliance) {
   while (true) {
     const int signal = wait_for_signal(signals, waiting.due(appliance.attempts()));
+    if (signal == SIGTERM || signal == SIGINT) {
+      log_line(LogLevel::Info, "ended by signal " + std::to_string(signal));
+      return false;
+    }
     appliance.attempts().run(hal::Clock::now());
     if (asks_for_restart(waiting)) {
       log_line(LogLevel::Info, "restarts for another configuration");
       return true;
     }
-    if (signal == 0) continue;
-    if (signal != SIGHUP) {
-      log_line(LogLevel::Info, "ended by signal " + std::to_string(signal));
-      return false;
-    }
+    if (signal != SIGHUP) continue;
     const auto checked = check_restart(waiting.file);
     if (checked) {
       log_line(LogLevel::Info, "restarts with its files read again");

@@ -117,4 +117,12 @@ bool end_trial(const fs::path& folder) {
   return fs::remove(running_in(folder), none);
 }
 
+Result<> cancel_trial(const fs::path& folder) {
+  std::error_code none;
+  // In this order: the daemon may take the requested one in between.
+  const bool was_requested = fs::remove(requested_in(folder), none);
+  if (end_trial(folder) || was_requested) return {};
+  return fail("no configuration waits for its confirmation");
+}
+
 }  // namespace orbwatch::app

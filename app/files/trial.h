@@ -40,6 +40,9 @@ Result<std::optional<Trial>> running_trial(const std::filesystem::path& folder);
 /// None runs any more. Returns whether one did.
 bool end_trial(const std::filesystem::path& folder);
 
+/// Takes back the one that is requested or runs: the files count again. Error: there is none.
+Result<> cancel_trial(const std::filesystem::path& folder);
+
 /// Keeps the trial that runs: writes those of its texts that differ from their files, the
 /// configuration file last. From its first moment on the confirmation counts: after a power cut
 /// finish_confirmed() does what is left. Returns the files written. Errors: none runs; as

@@ -58,7 +58,7 @@ class ConfigurationFiles {
   /// Writes the files of the trial that runs. Returns their names. Error: none runs; the disk.
   virtual Result<std::vector<std::string>> confirm() = 0;
 
-  /// Goes back to the files. Error: no trial runs.
+  /// Goes back to the files. Error: no trial waits or runs.
   virtual Result<> revert() = 0;
 };
 

@@ -5,14 +5,17 @@
 registers=$(dirname "${BASH_SOURCE[0]}")/../../app/ports/modbus/registers.csv
 modbus_from=()
 
-# register NAME: the value of an input register.
+# register NAME: the value of an input register; nothing if it cannot be read.
 register() {
-  local address kind type=(-t 3)
+  local address kind type=(-t 3) value
   read -r address kind < <(awk -F, -v name="$1" '$1 == "input" && $6 == name {print $2, $4}' \
     "$registers")
   [[ $kind != UDINT ]] || type=(-t 3:int -B)
-  "${modbus_from[@]}" mbpoll -m tcp -p "${modbus_port:?}" -0 -r "$address" "${type[@]}" -c 1 -1 -o 5 \
-    "${modbus_address:?}" | sed -n "s/^\[$address\]:[[:space:]]*\([0-9]*\).*/\1/p"
+  value=$("${modbus_from[@]}" mbpoll -m tcp -p "${modbus_port:?}" -0 -r "$address" "${type[@]}" -c 1 -1 \
+    -o 5 "${modbus_address:?}" | sed -n "s/^\[$address\]:[[:space:]]*\(-\{0,1\}[0-9]*\).*/\1/p")
+  # mbpoll has 32 bits with a sign only.
+  [[ $kind != UDINT || $value != -* ]] || value=$((value + (1 << 32)))
+  echo "$value"
 }
 
 is() { [[ $(register "$1") == "$2" ]]; }

@@ -93,10 +93,7 @@ Result<std::string> run(Options o, const std::vector<std::string>& words) {
   if (ways != 1) return usage_error("say FILE, --confirm or --cancel");
   const fs::path folder = state_folder({});
   if (o.confirm) return confirm(folder);
-  if (o.cancel) {
-    if (end_trial(folder)) return "goes back\n";
-    return fail("no configuration waits for its confirmation");
-  }
+  if (o.cancel) return cancel_trial(folder).map([] { return std::string("goes back\n"); });
   if (o.seconds < kShortestTrial || o.seconds > kLongestTrial) {
     return usage_error("--seconds is " + std::to_string(o.seconds) +
                        "; it must be from 10 to 3600");

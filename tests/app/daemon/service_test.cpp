@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "app/files/calibration_file.h"
+#include "app/files/trial.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/support/journal_socket.h"
 #include "tests/support/notify_socket.h"
@@ -300,6 +301,16 @@ TEST_F(Configured, GoesBackWhenCancelled) {
   EXPECT_EQ(configure({"--cancel"}).first, 0);
   manager.await("READY=1");
   EXPECT_EQ(read("system_configuration_checksum"), old_checksum) << daemon.output();
+}
+
+/// The daemon looks for a request once a second, and whenever a signal comes.
+TEST_F(Configured, EndsWhereATrialWasRequestedJustBefore) {
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  ASSERT_TRUE(app::request_trial(folder.path(), {.site = config, .texts = {}, .seconds = 3600}));
+  daemon.send(SIGTERM);
+  manager.await("STOPPING=1");
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
 TEST_F(Configured, RefusesWhatIsWrongAndChangesNothing) {

@@ -35,6 +35,17 @@ TEST_F(TrialFile, IsTakenOnceAndRunsUntilItsEnd) {
   EXPECT_EQ(running_trial(folder_.path()).value(), std::nullopt);
 }
 
+TEST_F(TrialFile, IsCancelledBeforeItRunsAndWhileItRuns) {
+  EXPECT_THAT(cancel_trial(folder_.path()).error().message, HasSubstr("no configuration waits"));
+  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
+  EXPECT_TRUE(cancel_trial(folder_.path()));
+  EXPECT_EQ(take_trial(folder_.path()).value(), std::nullopt);
+  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
+  ASSERT_TRUE(take_trial(folder_.path()));
+  EXPECT_TRUE(cancel_trial(folder_.path()));
+  EXPECT_EQ(running_trial(folder_.path()).value(), std::nullopt);
+}
+
 TEST_F(TrialFile, ThatIsDamagedIsRefused) {
   for (const char* text : {"", "{", "[]", "{\"site\": 1}"}) {
     std::ofstream(requested_) << text;

@@ -116,6 +116,7 @@ status_says() { property StatusText | grep -F -- "$1"; }
 test_configured() {
   local before
   before=$(register system_configuration_checksum)
+  check "what runs is known by its checksum" test -n "$before" || return
   inside sh -c 'mkdir /root/new && cp -r /etc/orbwatch/* /root/new && sed -i "s/^name = \"door\"/name = \"gate\"/" /root/new/site.toml'
   check "orbwatch configure has a new configuration run" inside orbwatch configure /root/new/site.toml
   check "and it runs" wait_for "$patience" reads_another system_configuration_checksum "$before"
