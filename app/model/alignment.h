@@ -15,6 +15,13 @@
 
 namespace orbwatch::app {
 
+/// What a camera's ball shows of a straight edge of the scene.
+struct SceneEdge {
+  optics::Vec3 from;  ///< its ends: from the ball's centre along the machine's axes, mm
+  optics::Vec3 to;
+  std::vector<optics::Vec2> pixels;  ///< from end to end, in the camera's picture
+};
+
 /// How one camera is aligned.
 struct CameraAlignmentState {
   optics::Outline outline;               ///< of the ball, px
@@ -24,8 +31,7 @@ struct CameraAlignmentState {
   std::string method;   ///< how it was found
   std::string quality;  ///< what is known of its errors
   double direction_sigma = signals::kNotValid;  ///< degrees
-  /// The scene's edges that the ball's centre sees, as lines of pixels.
-  std::vector<std::vector<optics::Vec2>> edges{};
+  std::vector<SceneEdge> edges{};  ///< those that the ball's centre sees
 };
 
 /// A known point that a camera is placed by.

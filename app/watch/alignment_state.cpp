@@ -24,22 +24,27 @@ std::optional<Vec2> seen_at(const optics::BallProjection& ball, const Vec3& poin
   return ball.pixel(direction, closeness);
 }
 
+/// Both ends in ball radii, as SceneProxy has them.
 void add_edge(const optics::BallProjection& ball, const Vec3& from, const Vec3& to,
-              std::vector<std::vector<Vec2>>& lines) {
-  std::vector<Vec2> line;
-  const auto end_line = [&] {
-    if (line.size() > 1) lines.push_back(std::move(line));
-    line.clear();
+              std::vector<SceneEdge>& edges) {
+  const double radius = ball.ball().radius;
+  SceneEdge shown;
+  const auto end_it = [&] {
+    if (shown.pixels.size() > 1) edges.push_back(std::move(shown));
+    shown = {};
   };
   for (int n = 0; n <= kPieces; ++n) {
-    const auto pixel = seen_at(ball, from + (to - from) * (double(n) / kPieces));
-    if (pixel) {
-      line.push_back(*pixel);
-    } else {
-      end_line();
+    const Vec3 point = from + (to - from) * (double(n) / kPieces);
+    const auto pixel = seen_at(ball, point);
+    if (!pixel) {
+      end_it();
+      continue;
     }
+    if (shown.pixels.empty()) shown.from = point * radius;
+    shown.to = point * radius;
+    shown.pixels.push_back(*pixel);
   }
-  end_line();
+  end_it();
 }
 
 }  // namespace

@@ -18,6 +18,14 @@ from page_case import PageCase
 
 READY, REFUSED = 2, 3  # states of a proposal
 CLICK_PX = 5  # below that a drag may be taken for a click
+VIEW_SIDE = 480  # px
+
+
+def direction_of(yaw, pitch):
+    """Unit vector, of degrees."""
+    yaw, pitch = numpy.radians([yaw, pitch])
+    return numpy.array([numpy.sin(yaw) * numpy.cos(pitch), numpy.cos(yaw) * numpy.cos(pitch),
+                        numpy.sin(pitch)])
 
 
 class AlignCase(PageCase):
@@ -333,9 +341,68 @@ class Edges(AlignCase):
         eventually("nothing is proposed", lambda: not self.proposed())
         self.expect_no_complaint()
 
+    def test_an_edge_that_is_dragged_in_a_view_turns_the_camera(self):
+        """At corners behind the camera, on the left and on the right of it."""
+        self.open("colour")
+        self.press("Find the ball")
+        self.found()
+        self.answer("api/v1/command/turn_camera", {"camera": 0, "yaw": 6, "pitch": -4, "roll": 5})
+        truth = self.appliance.truth["colour"][1]
+        rig = self.appliance.rig
+        for point in [(-600, -500, 800), (600, -500, 0)] * 3:
+            where = numpy.subtract(point, rig["ball"]["centre"])
+            self.look_at(where)
+            u, v = seen_at(rig["camera"][0], rig["ball"], point)
+            shown = json.loads(self.answer(f"api/v1/alignment/direction?camera=colour&u={u}&v={v}"))
+            view = self.browser.find_element(By.CSS_SELECTOR, "#scene svg")
+            scale = view.size["width"] / VIEW_SIDE
+            drawn, there = (numpy.round(scale * self.in_view(direction)) for direction in
+                            (where, direction_of(shown["yaw"], shown["pitch"])))
+            if numpy.hypot(*(there - drawn)) < CLICK_PX:
+                continue
+            steps = self.camera()["steps"]
+            self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", view)
+            ActionChains(self.browser).move_to_element_with_offset(view, *drawn).click_and_hold(
+            ).move_by_offset(*(there - drawn)).release().perform()
+            eventually("it is turned", lambda steps=steps: self.camera()["steps"] == steps + 1)
+        self.browser.keep_picture("scene")
+        # A pixel of the screen is at most 0.25 degrees.
+        self.assertLess(degrees_between(rotation_of(self.proposed()["rotation"]), truth),
+                        0.25 * CLICK_PX)
+        self.press("Discard")
+        eventually("nothing is proposed", lambda: not self.proposed())
+        self.expect_no_complaint()
+
+    def look_at(self, direction):
+        """Turns the page's view a little beside it, until that and the edges are shown."""
+        yaw = round(numpy.degrees(numpy.arctan2(direction[0], direction[1]))) // 5 * 5
+        pitch = round(numpy.degrees(numpy.arcsin(direction[2] / numpy.linalg.norm(direction)))) // 5 * 5
+        wanted = {"yaw": yaw, "pitch": pitch}
+        def ends():
+            return self.browser.execute_script(
+                "return [...document.querySelectorAll('#scene polyline:not(.grip)')].flatMap("
+                "line => [...line.points].map(({x, y}) => [x, y]))")
+        for name, value in wanted.items():
+            field = self.browser.find_element(By.CSS_SELECTOR, f"#scene [name={name}]")
+            field.clear()
+            field.send_keys(str(value), Keys.TAB)
+        self.view = wanted
+        corner = self.in_view(direction) + VIEW_SIDE / 2
+        eventually("an edge ends in the corner", lambda: any(
+            numpy.hypot(*(numpy.array(end) + 0.5 - corner)) < 1 for end in ends()))
+
+    def in_view(self, direction):
+        """From the middle of the page's view, px."""
+        forward = direction_of(self.view["yaw"], self.view["pitch"])
+        right = direction_of(self.view["yaw"] + 90, 0)
+        focal = VIEW_SIDE / 2 / numpy.tan(numpy.radians(80) / 2)
+        return focal / (direction @ forward) * numpy.array(
+            [direction @ right, -direction @ numpy.cross(right, forward)])
+
     def corner_near(self, pixel):
         """The end of an edge, as it is drawn, that is next to a pixel."""
-        ends = [end for line in self.proposed()["edges"] for end in (line[0], line[-1])]
+        ends = [end for edge in self.proposed()["edges"]
+                for end in (edge["pixels"][0], edge["pixels"][-1])]
         return min(ends, key=lambda end: numpy.hypot(*numpy.subtract(end, pixel)))
 
 
@@ -373,9 +440,7 @@ class Judge(AlignCase):
         side, yaw, pitch, h_fov = 800, 180, 20, 90
         view = self.served(camera="colour", model=model, yaw=yaw, pitch=pitch, h_fov=h_fov,
                            width=side, height=side)
-        a, b = numpy.radians([yaw, pitch])
-        right = numpy.array([numpy.cos(a), -numpy.sin(a), 0])
-        forward = numpy.array([numpy.sin(a) * numpy.cos(b), numpy.cos(a) * numpy.cos(b), numpy.sin(b)])
+        right, forward = direction_of(yaw + 90, 0), direction_of(yaw, pitch)
         up = numpy.cross(right, forward)
         scene = self.appliance.rig["scene"]
         points = numpy.array([[x, scene["low"][1], scene["high"][2]] for x in range(-200, 400, 10)])

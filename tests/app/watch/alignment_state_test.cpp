@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "proc/align/register/registration.h"
 #include "tests/app/watch/rig_with_pose.h"
@@ -48,10 +49,14 @@ TEST(AlignmentState, EdgesOfTheSceneAreWhereTheBallShowsThem) {
   const auto corner = ball->pixel(normalized(optics::Vec3{-600, -900, 0} - rig.ball.centre));
   ASSERT_TRUE(corner);
   int ends = 0;
-  for (const auto& line : state->edges) {
-    ASSERT_GT(line.size(), 1U);
-    for (const optics::Vec2& end : {line.front(), line.back()}) {
-      ends += std::hypot(end.u - corner->u, end.v - corner->v) < 1e-3 ? 1 : 0;
+  for (const SceneEdge& edge : state->edges) {
+    ASSERT_GT(edge.pixels.size(), 1U);
+    for (const auto& [pixel, point] : {std::pair(edge.pixels.front(), edge.from),
+                                       std::pair(edge.pixels.back(), edge.to)}) {
+      const bool is_there = std::hypot(pixel.u - corner->u, pixel.v - corner->v) < 1e-3;
+      ends += is_there ? 1 : 0;
+      const bool is_meant = norm(point + rig.ball.centre - optics::Vec3{-600, -900, 0}) < 1e-9;
+      EXPECT_EQ(is_there, is_meant);
     }
   }
   EXPECT_EQ(ends, 3);

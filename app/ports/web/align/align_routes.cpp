@@ -43,7 +43,8 @@ std::vector<Route> AlignRoutes::routes() {
   state.role = Role::Viewer;
   state.description =
       "Of each camera where it has the ball, how it stands, what is proposed, its points with "
-      "their residuals, and where its picture shows the scene's edges; px, deg, mm";
+      "their residuals, and the scene's edges from the ball's centre and in its picture; px, deg, "
+      "mm";
   state.type = kJson;
   state.serve = [this](const ExchangePtr& exchange) { serve_alignment(exchange); };
   Route ball = state;

@@ -21,10 +21,12 @@ Json json_of(const std::optional<T>& part) {
 
 Json json_of(const CameraAlignmentState& state) {
   Json edges = Json::array();
-  for (const std::vector<optics::Vec2>& line : state.edges) {
+  for (const SceneEdge& edge : state.edges) {
     Json pixels = Json::array();
-    for (const optics::Vec2& pixel : line) pixels.push_back(json_of(pixel));
-    edges.push_back(std::move(pixels));
+    for (const optics::Vec2& pixel : edge.pixels) pixels.push_back(json_of(pixel));
+    edges.push_back({{"from", json_of(edge.from)},
+                     {"to", json_of(edge.to)},
+                     {"pixels", std::move(pixels)}});
   }
   const optics::Outline& outline = state.outline;
   return {{"outline",

@@ -1,11 +1,12 @@
 // The ball in each camera's picture: found, corrected by hand, accepted.
 import { command } from "./api.js";
 import { BallEditor } from "./ball_editor.js";
+import { directionOf, turnBetween } from "./directions.js";
 import { commandButton, element, setText } from "./elements.js";
-import { turnOfPull } from "./edge_pull.js";
 import { Models } from "./models.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";
+import { SceneView } from "./scene_view.js";
 import { texts } from "./texts.js";
 import { Watched } from "./watched.js";
 
@@ -50,13 +51,14 @@ export class Align {
     ].map(([name, given]) => [name, commandButton(texts.align[name], given, give)]));
     this.facts = element("p", { className: "where" });
     this.register = new Register(give);
+    this.scene = new SceneView(give);
     this.models = new Models();
     this.watched = new Watched(descriptions);
     root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
       this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
       element("p", { className: "buttons" }, ...nudges(give)),
       this.said, this.refused, this.facts, element("p", {}, texts.align.help),
-      this.register.root, this.place.root, this.models.root, this.watched.root);
+      this.register.root, this.place.root, this.scene.root, this.models.root, this.watched.root);
     addEventListener("hashchange", () => this.#run());
     document.addEventListener("visibilitychange", () => this.#run());
     this.#run();
@@ -82,9 +84,14 @@ export class Align {
     return why;
   }
 
-  async #pull(from, to) {
+  // What is drawn at one pixel lies where the picture shows it at the other one.
+  async #pull(drawn, shown) {
+    const { name: camera } = this.#camera;
+    const directionAt = async ([u, v]) => directionOf(await (await fetched(
+      `/api/v1/alignment/direction?${new URLSearchParams({ camera, u, v })}`)).json());
     try {
-      await this.#give("turn_camera", await turnOfPull(this.#camera.name, from, to));
+      const [to, from] = await Promise.all([drawn, shown].map(directionAt));
+      await this.#give("turn_camera", turnBetween(from, to));
     } catch (error) {
       setText(this.refused, texts.refused(error.message));
     }
@@ -140,6 +147,7 @@ export class Align {
     setText(this.said, this.#words(camera));
     setText(this.facts, this.#figures(proposed ?? inForce));
     this.place.show(camera, isWorking);
+    this.scene.show(camera);
     this.models.show(camera);
     this.register.show(this.#cameras, camera, isWorking);
     this.buttons.detect.disabled = isWorking || !camera.is_watched;

@@ -1,13 +1,13 @@
 // A camera's picture with the ball's outline over it as an ellipse, moved by its handles with
 // pointer, touch or keys, and the scene's edges as the alignment has them.
 import { element } from "./elements.js";
-import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "./shapes.js";
+import { drawn, followDrag, followPull, kKeys, pixelAt, place, pointsText } from "./shapes.js";
 import { texts } from "./texts.js";
 
 const kStepPx = 0.1, kLargeStepPx = 1;
 // Keys that are held down become one change.
 const kSettleMs = 250;
-const kHandlePx = 11, kMarkPx = 6, kClickPx = 3;  // on the screen
+const kHandlePx = 11, kMarkPx = 6;  // on the screen
 
 // Unit vectors along the axes.
 function axes({ angle }) {
@@ -102,22 +102,15 @@ export class BallEditor {
     });
   }
 
-  // A line shows how far; whoever only clicks on an edge points at a place.
+  // Whoever only clicks on an edge points at a place.
   #pull(event) {
     if (event.button !== 0) return;
-    const from = this.pixelAt(event), line = drawn("path");
     this.#isHeld = true;
-    this.svg.append(line);
-    followDrag(this.edges, event,
-      (moved) => place(line, { class: "pull", d: `M${from}L${this.pixelAt(moved)}` }),
-      async (ended, isDone) => {
-        const to = this.pixelAt(ended);
-        const isFar = Math.hypot(to[0] - from[0], to[1] - from[1]) > kClickPx * this.#scale();
-        if (isDone) await (isFar ? this.onPull(from, to) : this.onPick(from));
-        line.remove();
-        this.#isHeld = false;
-        this.#refresh();
-      });
+    followPull(this.svg, this.edges, event, this.canvas, async (from, to, isDone) => {
+      if (isDone) await (to ? this.onPull(from, to) : this.onPick(from));
+      this.#isHeld = false;
+      this.#refresh();
+    });
   }
 
   // Of a radius, right and up are larger, left and down smaller.
@@ -199,8 +192,8 @@ export class BallEditor {
     this.#markPoints(this.camera);
     const shown = this.camera.proposed ?? this.camera.in_force;
     this.#outline = shown?.outline ?? null;
-    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap((line) => {
-      const points = pointsText(line);
+    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap(({ pixels }) => {
+      const points = pointsText(pixels);
       return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];
     }));
     this.#draw();

@@ -4,26 +4,38 @@ import { texts } from "./texts.js";
 
 const kBlinkMs = 500;  // two changes a second disturb nobody
 const kSquares = 8;    // of the checkerboard, in each direction
-const kSide = 480;     // px
+export const kSide = 480;  // px
 
-// Where a view looks: degrees. Fields of a form and a query.
-export class Gaze {
+// Where a view looks, as fields of a form and arguments of a query; degrees.
+export class ViewFields {
+  // As numbers, by name: those that were right last.
+  values = { yaw: 0, pitch: -20, h_fov: 80 };
+
   constructor(onChange) {
-    this.inputs = Object.fromEntries([["yaw", 0, -180, 180], ["pitch", -20, -90, 90],
-      ["h_fov", 80, 5, 150]].map(([name, value, min, max]) =>
-      [name, element("input", { type: "number", name, value, min, max, step: 5, required: true })]));
+    const ends = { yaw: [-180, 180], pitch: [-90, 90], h_fov: [5, 150] };
+    this.inputs = Object.fromEntries(Object.entries(this.values).map(([name, value]) =>
+      [name, element("input", { type: "number", name, value, min: ends[name][0], max: ends[name][1],
+        step: 5, required: true })]));
     this.root = element("p", {}, ...Object.entries(this.inputs).map(([name, input]) =>
       element("label", {}, texts.compare[name], " ", input)));
-    for (const input of Object.values(this.inputs)) input.addEventListener("change", onChange);
+    for (const [name, input] of Object.entries(this.inputs)) {
+      input.addEventListener("change", () => {
+        const value = input.valueAsNumber, [least, most] = ends[name];
+        if (!(value >= least && value <= most)) return;
+        this.values[name] = value;
+        onChange();
+      });
+    }
   }
 
-  set(yaw, pitch) {
-    this.inputs.yaw.value = Math.round(yaw);
-    this.inputs.pitch.value = Math.round(pitch);
+  turnTo({ yaw, pitch }) {
+    for (const [name, value] of Object.entries({ yaw, pitch })) {
+      this.values[name] = this.inputs[name].value = Math.round(value);
+    }
   }
 
   get query() {
-    return Object.entries(this.inputs).map(([name, input]) => [name, input.value]);
+    return Object.entries(this.values);
   }
 }
 

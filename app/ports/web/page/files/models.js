@@ -1,5 +1,5 @@
 // One view by the exact model of the ball beside the paper's, with a line that is straight.
-import { Gaze, pictureOf, viewCanvas } from "./compare.js";
+import { pictureOf, viewCanvas, ViewFields } from "./compare.js";
 import { element, setText } from "./elements.js";
 import { texts } from "./texts.js";
 
@@ -11,7 +11,7 @@ export class Models {
   #isLoading = false;
 
   constructor() {
-    this.gaze = new Gaze(() => this.#load());
+    this.view = new ViewFields(() => this.#load());
     this.canvases = new Map(kModels.map((model) => [model, viewCanvas(texts.models[model])]));
     this.lines = Object.fromEntries([["angle", -90, 90, 0], ["offset", -0.5, 0.5, 0]].map(
       ([name, min, max, value]) => [name, element("input", { type: "range", name, min, max,
@@ -21,7 +21,7 @@ export class Models {
     button.addEventListener("click", () => this.#load());
     this.refused = element("p", { role: "alert", className: "wrong" });
     this.root = element("section", { id: "models" }, element("h3", {}, texts.models.title),
-      element("p", {}, texts.models.help), this.gaze.root,
+      element("p", {}, texts.models.help), this.view.root,
       element("p", {}, button, ...Object.entries(this.lines).map(([name, input]) =>
         element("label", {}, " ", texts.models[name], " ", input))), this.refused,
       element("div", { className: "beside" }, ...kModels.map((model) =>
@@ -35,7 +35,7 @@ export class Models {
     this.#camera = camera;
     this.#pictures.clear();
     const rotation = camera.in_force?.rotation;
-    if (rotation) this.gaze.set(rotation.yaw, rotation.pitch);
+    if (rotation) this.view.turnTo(rotation);
     for (const canvas of this.canvases.values()) canvas.width = canvas.width; // clears it
   }
 
@@ -45,7 +45,7 @@ export class Models {
     const { name } = this.#camera;
     try {
       await Promise.all(kModels.map(async (model) => this.#pictures.set(model, await pictureOf(
-        [["camera", name], ["which", "proposed"], ["model", model], ...this.gaze.query]))));
+        [["camera", name], ["which", "proposed"], ["model", model], ...this.view.query]))));
       this.#draw();
       setText(this.refused, "");
     } catch (error) {

@@ -1,4 +1,5 @@
 // Shapes over a picture or a chart, and what drags them.
+const kClickPx = 3;  // on the screen
 const kSvg = "http://www.w3.org/2000/svg";
 
 export const kKeys = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -31,6 +32,20 @@ export function pixelAt(svg, { width, height }, { clientX, clientY }) {
   const box = svg.getBoundingClientRect();
   return [(clientX - box.left) / box.width * width - 0.5,
           (clientY - box.top) / box.height * height - 0.5];
+}
+
+// A line from where `event` pressed `shape` to the pointer, over a picture of that size, until
+// `onEnd(from, to)`, a promise, is settled; pixels. Without `to` it was taken away, or only clicked.
+export function followPull(svg, shape, event, size, onEnd) {
+  const from = pixelAt(svg, size, event), line = drawn("path", { class: "pull" });
+  svg.append(line);
+  followDrag(shape, event,
+    (moved) => place(line, { d: `M${from}L${pixelAt(svg, size, moved)}` }),
+    async (ended, isDone) => {
+      const isFar = Math.hypot(ended.clientX - event.clientX, ended.clientY - event.clientY) > kClickPx;
+      await onEnd(from, isDone && isFar ? pixelAt(svg, size, ended) : null, isDone);
+      line.remove();
+    });
 }
 
 export const pointsText = (pixels) => pixels.map((pixel) => pixel.join(",")).join(" ");

@@ -174,6 +174,13 @@ export const texts = {
     residual: "Marked minus shown, px",
     outlier: "contradicts the others",
   },
+  sceneView: {
+    title: "The machine in a view",
+    help: "What is straight in the machine is straight here. Thin lines are its edges as the scene states " +
+      "them: drag one onto the edge that it stands for, and the camera is turned.",
+    canvas: "A view by the alignment that is shown above",
+    edges: "The scene's edges",
+  },
   models: {
     title: "What the ball's model does",
     help: "One view by the exact model and by that of the paper. What is straight in the machine is " +

@@ -1,0 +1,37 @@
+// A square view of the room from the ball's centre, as /api/v1/alignment/view.jpg draws it.
+import { cross, directionOf, dot, kDeg } from "./directions.js";
+
+// Of a line's length: what is nearer to the viewer's side is left out.
+const kNear = 0.01;
+
+export class Perspective {
+  // Degrees; the picture's side in pixels, whose centres are at integers.
+  constructor({ yaw, pitch, h_fov: fov }, side) {
+    this.forward = directionOf({ yaw, pitch });
+    this.right = [Math.cos(yaw * kDeg), -Math.sin(yaw * kDeg), 0];
+    this.up = cross(this.right, this.forward);
+    this.middle = (side - 1) / 2;
+    this.focal = side / 2 / Math.tan(fov / 2 * kDeg);
+  }
+
+  // Of a point in front.
+  pixelOf(point) {
+    const scale = this.focal / dot(point, this.forward);
+    return [this.middle + scale * dot(point, this.right), this.middle - scale * dot(point, this.up)];
+  }
+
+  directionAt([u, v]) {
+    const x = (u - this.middle) / this.focal, y = (this.middle - v) / this.focal;
+    const length = Math.hypot(x, y, 1);
+    return this.forward.map((part, k) => (part + x * this.right[k] + y * this.up[k]) / length);
+  }
+
+  // Both ends, as pixels, of what is in front of the line between two points; null: nothing is.
+  lineOf(from, to) {
+    const along = to.map((part, k) => part - from[k]);
+    const near = kNear * Math.hypot(...along), begin = dot(from, this.forward), end = dot(to, this.forward);
+    if (begin <= near && end <= near) return null;
+    const cut = (near - begin) / (end - begin), point = from.map((part, k) => part + cut * along[k]);
+    return [begin <= near ? point : from, end <= near ? point : to].map((one) => this.pixelOf(one));
+  }
+}
