@@ -131,7 +131,7 @@ class Page(PageCase):
         shown = self.browser.execute_async_script("""
             const done = arguments[0];
             (async () => {
-              const { NewestPicture } = await import('/newest_picture.js');
+              const { NewestPicture } = await import('/appliance/newest_picture.js');
               const canvas = document.createElement('canvas');
               const blob = await new Promise((give) => canvas.toBlob(give, 'image/jpeg'));
               const good = new Uint8Array(await blob.arrayBuffer());

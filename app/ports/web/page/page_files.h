@@ -7,7 +7,7 @@ namespace orbwatch::app::web {
 
 /// A file of page/files, as the build found it.
 struct PageFile {
-  std::string_view name;
+  std::string_view name;  ///< its path there
   std::string_view content;
 };
 

@@ -15,13 +15,18 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Names of files in attributes of HTML and in imports of scripts.
-std::set<std::string> files_named_in(const std::string& text) {
-  static const std::regex kName(R"rx((?:src|href)="([^"#]+)"|from "\./([^"]+)")rx");
+namespace fs = std::filesystem;
+
+const fs::path kFolder = ORBWATCH_SOURCE_DIR "/app/ports/web/page/files";
+
+/// Paths of files in attributes of HTML and in imports of scripts, which `file` names from where it
+/// is.
+std::set<std::string> files_named_in(const fs::path& file, const std::string& text) {
+  static const std::regex kName(R"rx((?:src|href|from)(?:=| )"([^"#]+)")rx");
   std::set<std::string> names;
   for (auto found = std::sregex_iterator(text.begin(), text.end(), kName);
        found != std::sregex_iterator(); ++found) {
-    names.insert((*found)[1].matched ? (*found)[1] : (*found)[2]);
+    names.insert((file.parent_path() / (*found)[1].str()).lexically_normal());
   }
   return names;
 }
@@ -29,10 +34,9 @@ std::set<std::string> files_named_in(const std::string& text) {
 TEST_F(Served, EveryFileOfThePageIsServedAsItWasWritten) {
   start();
   std::size_t files = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(ORBWATCH_SOURCE_DIR "/app/ports/web/page/files")) {
-    const std::string name = entry.path().filename();
-    if (name == "README.md") continue;
+  for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
+    const std::string name = entry.path().lexically_relative(kFolder);
+    if (entry.is_directory() || name.ends_with("README.md")) continue;
     std::ifstream file(entry.path(), std::ios::binary);
     const std::string content(std::istreambuf_iterator<char>(file), {});
     const Answer answer = get(port(), name == "index.html" ? "/" : "/" + name);
@@ -55,7 +59,7 @@ TEST_F(Served, ThePageLoadsOnlyItsOwnFiles) {
     if (!seen.insert(name).second) continue;
     const Answer answer = get(port(), "/" + name);
     ASSERT_EQ(answer.status, 200) << name;
-    open.merge(files_named_in(answer.body));
+    open.merge(files_named_in(name, answer.body));
   }
   EXPECT_EQ(seen.size(), kPageFiles.size()) << "some file is loaded by none";
 }

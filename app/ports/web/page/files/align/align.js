@@ -1,0 +1,174 @@
+// The ball in each camera's picture: found, corrected by hand, accepted.
+import { command } from "../appliance/api.js";
+import { commandButton, element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+import { BallEditor } from "./ball_editor.js";
+import { directionOf, turnBetween } from "./directions.js";
+import { Models } from "./models.js";
+import { Place } from "./place.js";
+import { Register } from "./register.js";
+import { SceneView } from "./scene_view.js";
+import { Watched } from "./watched.js";
+
+const kPauseMs = 300;  // between two looks at the appliance
+const kReady = 2, kWorking = 1;
+const kNudgeDeg = 0.05;
+
+async function fetched(path) {
+  const answer = await fetch(path);
+  if (!answer.ok) throw new Error((await answer.json().catch(() => ({}))).error ?? answer.status);
+  return answer;
+}
+
+// By hand about the machine's axes.
+function nudges(give) {
+  return ["yaw", "pitch", "roll"].flatMap((axis) => [-kNudgeDeg, kNudgeDeg].map((step) => {
+    const button = element("button", { type: "button" }, texts.align.nudge(axis, step));
+    button.addEventListener("click", () =>
+      give("turn_camera", { yaw: 0, pitch: 0, roll: 0, [axis]: step }));
+    return button;
+  }));
+}
+
+export class Align {
+  #cameras = [];
+  #isRunning = false;
+
+  // `descriptions` of a camera's figures.
+  constructor(root, descriptions) {
+    this.root = root;
+    this.choice = element("select", { name: "camera" });
+    this.choice.addEventListener("change", () => this.#choose());
+    this.said = element("p", { role: "status" });
+    this.refused = element("p", { role: "alert", className: "wrong" });
+    const give = (name, values) => this.#give(name, values);
+    this.place = new Place(give);
+    this.editor = new BallEditor(give, (pixel) => this.place.pick(pixel),
+      (from, to) => this.#pull(from, to));
+    this.buttons = Object.fromEntries([
+      ["detect", "detect_ball"], ["undo", "undo_alignment"], ["accept", "accept_alignment"],
+      ["discard", "discard_alignment"], ["revert", "revert_alignment"],
+    ].map(([name, given]) => [name, commandButton(texts.align[name], given, give)]));
+    this.facts = element("p", { className: "where" });
+    this.register = new Register(give);
+    this.scene = new SceneView(give);
+    this.models = new Models();
+    this.watched = new Watched(descriptions);
+    root.append(element("p", {}, element("label", {}, texts.align.camera, " ", this.choice)),
+      this.editor.root, element("p", { className: "buttons" }, ...Object.values(this.buttons)),
+      element("p", { className: "buttons" }, ...nudges(give)),
+      this.said, this.refused, this.facts, element("p", {}, texts.align.help),
+      this.register.root, this.place.root, this.scene.root, this.models.root, this.watched.root);
+    addEventListener("hashchange", () => this.#run());
+    document.addEventListener("visibilitychange", () => this.#run());
+    this.#run();
+  }
+
+  status({ cameras }, now) {
+    this.watched.status(cameras, this.choice.value, now);
+  }
+
+  get isShown() {
+    return !this.root.hidden && !document.hidden;
+  }
+  get #camera() {
+    return this.#cameras.find(({ name }) => name === this.choice.value);
+  }
+
+  // Empty when it was done, else why not.
+  async #give(name, values = {}) {
+    if (!this.#camera) return "";
+    const why = await command(name, { camera: this.#camera.index, ...values });
+    await this.#look().catch((error) => this.#waitAfter(error));
+    setText(this.refused, why ? texts.refused(this.#camera.refusal || why) : "");
+    return why;
+  }
+
+  // What is drawn at one pixel lies where the picture shows it at the other one.
+  async #pull(drawn, shown) {
+    const { name: camera } = this.#camera;
+    const directionAt = async ([u, v]) => directionOf(await (await fetched(
+      `/api/v1/alignment/direction?${new URLSearchParams({ camera, u, v })}`)).json());
+    try {
+      const [to, from] = await Promise.all([drawn, shown].map(directionAt));
+      await this.#give("turn_camera", turnBetween(from, to));
+    } catch (error) {
+      setText(this.refused, texts.refused(error.message));
+    }
+  }
+
+  // One after the other as long as somebody looks; after a failure it tries again.
+  async #run() {
+    if (this.#isRunning) return;
+    this.#isRunning = true;
+    while (this.isShown) {
+      try {
+        await this.#look();
+        await this.#showPicture();
+      } catch (error) {
+        this.#waitAfter(error);
+      }
+      await new Promise((resolve) => setTimeout(resolve, kPauseMs));
+    }
+    this.#isRunning = false;
+  }
+
+  #waitAfter(error) {
+    setText(this.said, texts.align.waiting(error.message));
+  }
+
+  async #look() {
+    this.#cameras = (await (await fetched("/api/v1/alignment")).json()).cameras;
+    for (const { name } of this.#cameras.slice(this.choice.options.length)) {
+      this.choice.append(element("option", { value: name }, name));
+    }
+    if (this.#camera) this.#show(this.#camera);
+  }
+
+  async #showPicture() {
+    if (!this.#camera?.is_watched) return;
+    const { name } = this.#camera;
+    const path = `/api/v1/alignment/ball.jpg?camera=${encodeURIComponent(name)}`;
+    const picture = await createImageBitmap(await (await fetched(path)).blob());
+    if (this.#camera.name === name) this.editor.showPicture(picture);
+    picture.close();
+  }
+
+  #choose() {
+    setText(this.refused, "");
+    this.editor.forget();
+    if (this.#camera) this.#show(this.#camera);
+  }
+
+  #show(camera) {
+    const { proposed, in_force: inForce, state } = camera;
+    const isReady = state === kReady, isWorking = state === kWorking;
+    this.editor.show(camera);
+    setText(this.said, this.#words(camera));
+    setText(this.facts, this.#figures(proposed ?? inForce));
+    this.place.show(camera, isWorking);
+    this.scene.show(camera);
+    this.models.show(camera);
+    this.register.show(this.#cameras, camera, isWorking);
+    this.buttons.detect.disabled = isWorking || !camera.is_watched;
+    this.buttons.undo.disabled = isWorking || (camera.steps === 0 && !camera.refusal);
+    this.buttons.accept.disabled = !isReady;
+    this.buttons.discard.disabled = isWorking || (state === 0 && camera.steps === 0);
+    this.buttons.revert.disabled = isWorking || !inForce?.method;
+  }
+
+  #words({ is_watched: isWatched, state, state_text: text, refusal, proposed, in_force: inForce }) {
+    if (!isWatched) return texts.align.notWatched;
+    if (refusal) return texts.align.refusal(refusal);
+    if (state === kReady) return texts.align.proposal(proposed.method, proposed.quality);
+    if (state === kWorking) return text;
+    return inForce?.method ? texts.align.inForce(inForce.method, inForce.quality)
+      : texts.align.ofRig;
+  }
+
+  #figures(shown) {
+    if (!shown) return "";
+    const { outline, rotation } = shown;
+    return `${texts.align.outline(outline)} ${texts.align.rotation(rotation)}`;
+  }
+}

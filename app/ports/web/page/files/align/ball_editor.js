@@ -1,0 +1,216 @@
+// A camera's picture with the ball's outline over it as an ellipse, moved by its handles with
+// pointer, touch or keys, and the scene's edges as the alignment has them.
+import { element } from "../elements/elements.js";
+import { drawn, followDrag, followPull, kKeys, pixelAt, place, pointsText } from "../elements/shapes.js";
+import { texts } from "../texts.js";
+
+const kStepPx = 0.1, kLargeStepPx = 1;
+// Keys that are held down become one change.
+const kSettleMs = 250;
+const kHandlePx = 11, kMarkPx = 6;  // on the screen
+
+// Unit vectors along the axes.
+function axes({ angle }) {
+  const a = angle * Math.PI / 180;
+  return { rx: [Math.cos(a), Math.sin(a)], ry: [-Math.sin(a), Math.cos(a)] };
+}
+
+// By handle: where it stands; of a radius, at that end of the axis which the picture shows.
+function handlesOf(outline, { width, height }) {
+  const { u, v } = outline;
+  const isShown = ([x, y]) => x >= 0 && y >= 0 && x < width && y < height;
+  const end = (name) => {
+    const [x, y] = axes(outline)[name], r = outline[name];
+    const ends = [[u + r * x, v + r * y], [u - r * x, v - r * y]];
+    return ends.find(isShown) ?? ends[0];
+  };
+  return { centre: [u, v], rx: end("rx"), ry: end("ry") };
+}
+
+// What an outline is once its handle is at [u, v]. The first radius turns the ellipse, too.
+function pulled(outline, handle, [u, v]) {
+  if (handle === "centre") return { ...outline, u, v };
+  const du = u - outline.u, dv = v - outline.v;
+  if (handle === "rx") {
+    return { ...outline, rx: Math.max(1, Math.hypot(du, dv)), angle: Math.atan2(dv, du) * 180 / Math.PI };
+  }
+  const [x, y] = axes(outline).ry;
+  return { ...outline, ry: Math.max(1, Math.abs(du * x + dv * y)) };
+}
+
+export class BallEditor {
+  #outline = null;   // as it is shown
+  #changed = new Set();  // commands that are to be given
+  #edits = 0;        // counts changes
+  #isHeld = false;   // somebody changes it: what the appliance says waits
+  #settle = 0;
+  #handles = {};
+
+  // `onChange(command, values)` has the appliance take over what was changed; a promise.
+  // `onPick([u, v])`: somebody pointed there, beside the handles. `onPull(from, to)`: an edge was
+  // dragged from one pixel to another; a promise.
+  constructor(onChange, onPick, onPull) {
+    this.onChange = onChange;
+    this.onPull = onPull;
+    this.canvas = element("canvas", { role: "img", "aria-label": texts.align.picture });
+    this.svg = drawn("svg", { role: "group", "aria-label": texts.align.outlineGroup });
+    this.edges = drawn("g", { class: "edges" });
+    this.marks = drawn("g", { class: "marks" });
+    this.before = drawn("ellipse", { class: "before" });
+    this.ellipse = drawn("ellipse", { class: "limb" });
+    this.svg.append(this.before, this.ellipse, this.marks, this.edges);
+    for (const name of ["centre", "rx", "ry"]) this.#addHandle(name);
+    this.onPick = onPick;
+    this.svg.addEventListener("click", (event) => {
+      const isOther = event.target.hasAttribute("data-handle") || event.target.tagName === "polyline";
+      if (!isOther) onPick(this.pixelAt(event));
+    });
+    this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
+    this.root = element("figure", { className: "ball" },
+      element("div", { className: "picture" }, this.canvas, this.svg));
+    new ResizeObserver(() => this.#draw()).observe(this.svg);
+  }
+
+  #addHandle(name) {
+    const handle = drawn("circle", { tabindex: 0, role: "button", "data-handle": name });
+    handle.addEventListener("pointerdown", (event) => this.#drag(event, handle, name));
+    handle.addEventListener("keydown", (event) => this.#press(event, name));
+    this.#handles[name] = handle;
+    this.svg.append(handle);
+  }
+
+  pixelAt(event) {
+    return pixelAt(this.svg, this.canvas, event);
+  }
+
+  #drag(event, handle, name) {
+    if (!this.#outline || event.button !== 0) return;
+    handle.focus();
+    const before = this.#outline;
+    const from = this.pixelAt(event), at = handlesOf(before, this.canvas)[name];
+    this.#isHeld = true;
+    let isMoved = false;
+    followDrag(handle, event, (moved) => {
+      isMoved = true;
+      const to = this.pixelAt(moved);
+      this.#outline = pulled(before, name, [at[0] + to[0] - from[0], at[1] + to[1] - from[1]]);
+      this.#draw();
+    }, (ended, isDone) => {
+      if (!isDone) this.#outline = before;
+      else if (isMoved) this.#change(name);
+      this.#apply();
+    });
+  }
+
+  // Whoever only clicks on an edge points at a place.
+  #pull(event) {
+    if (event.button !== 0) return;
+    this.#isHeld = true;
+    followPull(this.svg, this.edges, event, this.canvas, async (from, to, isDone) => {
+      if (isDone) await (to ? this.onPull(from, to) : this.onPick(from));
+      this.#isHeld = false;
+      this.#refresh();
+    });
+  }
+
+  // Of a radius, right and up are larger, left and down smaller.
+  #press(event, name) {
+    const [du, dv] = kKeys[event.key] ?? [];
+    if (du === undefined || !this.#outline) return;
+    event.preventDefault();
+    const step = event.shiftKey ? kLargeStepPx : kStepPx;
+    this.#change(name);
+    if (name === "centre") {
+      this.#outline = { ...this.#outline, u: this.#outline.u + step * du, v: this.#outline.v + step * dv };
+    } else {
+      const radius = Math.max(1, this.#outline[name] + step * (du - dv));
+      this.#outline = { ...this.#outline, [name]: radius };
+    }
+    this.#draw();
+    clearTimeout(this.#settle);
+    this.#settle = setTimeout(() => this.#apply(), kSettleMs);
+  }
+
+  #change(handle) {
+    this.#changed.add(handle === "centre" ? "move_outline" : "shape_outline");
+    this.#isHeld = true;
+    ++this.#edits;
+  }
+
+  // What is changed meanwhile is applied later.
+  async #apply() {
+    const edits = this.#edits, { u, v, rx, ry, angle } = this.#outline;
+    const values = { move_outline: { u, v }, shape_outline: { rx, ry, angle } };
+    const changed = [...this.#changed];
+    this.#changed.clear();
+    for (const name of changed) await this.onChange(name, values[name]);
+    if (edits !== this.#edits) return;
+    this.#isHeld = false;
+    this.#refresh();
+  }
+
+  forget() {
+    clearTimeout(this.#settle);
+    this.#changed.clear();
+    this.#isHeld = false;
+  }
+
+  show(camera) {
+    this.camera = camera;
+    if (this.canvas.width !== camera.width || this.canvas.height !== camera.height) {
+      this.canvas.width = camera.width;
+      this.canvas.height = camera.height;
+    }
+    place(this.svg, { viewBox: `-0.5 -0.5 ${camera.width} ${camera.height}` });
+    this.#refresh();
+  }
+
+  showPicture(picture) {
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
+  }
+
+  // Crosses where points were marked, with a line to where they are shown since the camera was
+  // placed.
+  #markPoints({ points, picked }) {
+    const size = kMarkPx * this.#scale();
+    const cross = ([u, v]) => drawn("path", {
+      d: `M${u - size},${v}H${u + size}M${u},${v - size}V${v + size}` });
+    const off = points.filter(({ residual }) => residual).map(({ pixel, residual }) =>
+      drawn("path", { d: `M${pixel}L${pixel[0] - residual[0]},${pixel[1] - residual[1]}` }));
+    const marked = points.map(({ pixel }) => cross(pixel));
+    this.marks.replaceChildren(...off, ...marked, ...(picked ? [cross(picked)] : []));
+  }
+
+  // Of a pixel on the screen.
+  #scale() {
+    return this.canvas.width / (this.svg.clientWidth || this.canvas.width);
+  }
+
+  #refresh() {
+    if (this.#isHeld || !this.camera) return;
+    this.#markPoints(this.camera);
+    const shown = this.camera.proposed ?? this.camera.in_force;
+    this.#outline = shown?.outline ?? null;
+    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap(({ pixels }) => {
+      const points = pointsText(pixels);
+      return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];
+    }));
+    this.#draw();
+  }
+
+  #draw() {
+    const shapes = [this.ellipse, this.before, ...Object.values(this.#handles)];
+    for (const shape of shapes) place(shape, { visibility: this.#outline ? "visible" : "hidden" });
+    if (!this.#outline) return;
+    const ellipse = ({ u, v, rx, ry, angle }) =>
+      ({ cx: u, cy: v, rx, ry, transform: `rotate(${angle} ${u} ${v})` });
+    place(this.ellipse, ellipse(this.#outline));
+    const inForce = this.camera.in_force?.outline;
+    if (inForce) place(this.before, ellipse(inForce));
+    for (const [name, [cx, cy]] of Object.entries(handlesOf(this.#outline, this.canvas))) {
+      place(this.#handles[name], { cx, cy, r: kHandlePx * this.#scale(),
+        "aria-label": texts.align.handle[name](this.#outline) });
+    }
+  }
+}

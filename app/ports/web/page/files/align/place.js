@@ -1,0 +1,72 @@
+// Where a camera stands in the machine, by known points that its picture shows.
+import { commandButton, element, field, setText, table } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kCoordinates = ["x", "y", "z"];
+
+function number(label, name) {
+  return field(label, { type: "number", name, step: "any" });
+}
+
+export class Place {
+  // `give(command, values)` as Align has it.
+  constructor(give) {
+    this.give = give;
+    this.pixel = element("form", { id: "point" }, number(texts.place.u, "u"), number(texts.place.v, "v"),
+      ...kCoordinates.map((name) => number(texts.place[name], name)),
+      element("button", {}, texts.place.add));
+    this.pixel.addEventListener("submit", (event) => this.#add(event));
+    const light = element("button", { type: "button" }, texts.place.light);
+    light.addEventListener("click", () => this.#markLight());
+    this.run = commandButton(texts.place.run, "place_camera", give);
+    this.forget = commandButton(texts.place.forget, "forget_points", give);
+    this.points = table([texts.place.point, texts.place.pixel, texts.place.residual, ""],
+      texts.place.points);
+    this.root = element("section", { id: "place" }, element("h3", {}, texts.place.title),
+      element("p", {}, texts.place.help), this.pixel, this.points.root,
+      element("p", { className: "buttons" }, light, this.run, this.forget));
+  }
+
+  #coordinates() {
+    return Object.fromEntries(kCoordinates.map((name) =>
+      [name, Number(this.pixel.elements[name].value)]));
+  }
+
+  async #add(event) {
+    event.preventDefault();
+    const { u, v } = this.pixel.elements;
+    const why = await this.give("pick_pixel", { u: Number(u.value), v: Number(v.value) });
+    if (!why && !(await this.give("mark_point", this.#coordinates()))) this.pixel.reset();
+  }
+
+  #markLight() {
+    for (const name of kCoordinates) {
+      if (!this.pixel.elements[name].reportValidity()) return;
+    }
+    this.give("mark_point", this.#coordinates());
+  }
+
+  // Somebody clicked there in the picture.
+  pick([u, v]) {
+    this.pixel.elements.u.value = u.toFixed(1);
+    this.pixel.elements.v.value = v.toFixed(1);
+    this.pixel.elements.x.focus();
+  }
+
+  show({ points, is_watched: isWatched }, isWorking) {
+    this.run.disabled = isWorking || !isWatched;
+    this.forget.disabled = isWorking || points.length === 0;
+    while (this.points.body.rows.length > points.length) this.points.body.lastChild.remove();
+    points.forEach((point, index) => this.#showRow(point, index));
+  }
+
+  #showRow({ point, pixel, residual, is_outlier: isOutlier }, index) {
+    const row = this.points.body.rows[index] ?? this.points.body.appendChild(
+      element("tr", {}, ...[0, 1, 2, 3].map(() => element("td"))));
+    const rounded = (numbers, digits) => numbers.map((one) => one.toFixed(digits)).join(", ");
+    const cells = [rounded(point, 2), rounded(pixel, 1), residual ? rounded(residual, 2) : "–",
+                   isOutlier ? texts.place.outlier : ""];
+    cells.forEach((text, column) => setText(row.cells[column], text));
+    row.classList.toggle("wrong", isOutlier);
+  }
+}

@@ -1,0 +1,56 @@
+// How a camera stands to the first one: found, and compared by what both show.
+import { Reload } from "../appliance/reload.js";
+import { commandButton, element } from "../elements/elements.js";
+import { texts } from "../texts.js";
+import { Comparison, pictureOf, ViewFields } from "./compare.js";
+import { anglesOf, directionOf } from "./directions.js";
+
+// Where two cameras that face [a] and [b] both see best: between them; of opposite ones, beside.
+function between(a, b) {
+  const second = directionOf(b), sum = directionOf(a).map((part, k) => part + second[k]);
+  return anglesOf(Math.hypot(...sum) > 0.5 ? sum : directionOf({ yaw: a.yaw + 90, pitch: 0 }));
+}
+
+export class Register {
+  #cameras = [];
+  #camera = null;
+  #pictures = new Reload(() => this.#load());
+
+  // `give(command, values)` as Align has it.
+  constructor(give) {
+    this.button = commandButton(texts.register.run, "register_camera", give);
+    this.comparison = new Comparison();
+    this.view = new ViewFields(() => this.#follow());
+    this.root = element("section", { id: "register" }, element("h3", {}, texts.register.title),
+      element("p", {}, texts.register.help),
+      element("p", { className: "buttons" }, this.button), this.#pictures.refused,
+      this.view.root, this.comparison.root);
+  }
+
+  show(cameras, camera, isWorking) {
+    this.#cameras = cameras;
+    this.root.hidden = camera.index === 0;
+    this.button.disabled = isWorking || !camera.is_watched;
+    if (this.root.hidden) return;
+    if (this.#camera?.name !== camera.name) this.#lookBetween(cameras[0], camera);
+    this.#camera = camera;
+    this.#follow();
+  }
+
+  #lookBetween({ in_force: first }, { in_force: second }) {
+    if (first && second) this.view.turnTo(between(first.rotation, second.rotation));
+  }
+
+  #follow() {
+    const { name, steps, proposed } = this.#camera;
+    this.#pictures.of([name, steps, proposed?.outline, proposed?.rotation,
+                       this.#cameras[0].in_force?.number, this.view.query]);
+  }
+
+  async #load() {
+    const names = [this.#cameras[0].name, this.#camera.name], query = this.view.query;
+    const pictures = await Promise.all([["in_force", names[0]], ["proposed", names[1]]]
+      .map(([which, camera]) => pictureOf([["camera", camera], ["which", which], ...query])));
+    this.comparison.show(pictures, names);
+  }
+}

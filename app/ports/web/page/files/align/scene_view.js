@@ -1,0 +1,81 @@
+// The scene's edges over a view of the room, where all that is straight in the machine is straight.
+// Dragged onto the machine's, they turn the camera.
+import { Reload } from "../appliance/reload.js";
+import { element } from "../elements/elements.js";
+import { drawn, followPull, pointsText } from "../elements/shapes.js";
+import { texts } from "../texts.js";
+import { kSide, pictureOf, viewCanvas, ViewFields } from "./compare.js";
+import { turnBetween } from "./directions.js";
+import { Perspective } from "./perspective.js";
+
+export class SceneView {
+  #camera = null;
+  #picture = new Reload(() => this.#load());
+  #perspective = null;  // of the picture that is shown
+  #isHeld = false;      // somebody drags an edge: all stays as it is
+
+  // `give(command, values)` as Align has it.
+  constructor(give) {
+    this.give = give;
+    this.view = new ViewFields(() => this.#follow());
+    this.canvas = viewCanvas(texts.sceneView.canvas);
+    this.edges = drawn("g", { class: "edges" });
+    this.edges.addEventListener("pointerdown", (event) => this.#pull(event));
+    this.svg = drawn("svg", { role: "group", "aria-label": texts.sceneView.edges,
+      viewBox: `-0.5 -0.5 ${kSide} ${kSide}` }, this.edges);
+    this.root = element("section", { id: "scene" }, element("h3", {}, texts.sceneView.title),
+      element("p", {}, texts.sceneView.help), this.view.root, this.#picture.refused,
+      element("figure", { className: "ball view" },
+        element("div", { className: "picture" }, this.canvas, this.svg)));
+  }
+
+  show(camera) {
+    const { name, is_watched: isWatched } = camera, shown = camera.proposed ?? camera.in_force;
+    this.root.hidden = !isWatched || !shown?.edges.length;
+    if (this.root.hidden) return;
+    if (this.#camera?.name !== name) {
+      this.view.turnTo(shown.rotation);
+      this.edges.replaceChildren();
+    }
+    this.#camera = camera;
+    this.#follow();
+  }
+
+  #follow() {
+    if (this.#isHeld) return;
+    const { name, steps, proposed, in_force: inForce } = this.#camera;
+    const { outline, rotation } = proposed ?? inForce;
+    this.#picture.of([name, steps, outline, rotation, inForce?.number, this.view.query]);
+  }
+
+  async #load() {
+    const { name, proposed, in_force: inForce } = this.#camera, { query } = this.view;
+    const picture = await pictureOf([["camera", name], ["which", "proposed"], ...query]);
+    if (this.#isHeld) return;
+    this.#perspective = new Perspective(Object.fromEntries(query), kSide);
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    picture.close();
+    this.#drawEdges((proposed ?? inForce).edges);
+    this.canvas.dataset.number = Number(this.canvas.dataset.number ?? 0) + 1;
+  }
+
+  #drawEdges(edges) {
+    const lines = edges.map(({ from, to }) => this.#perspective.lineOf(from, to)).filter(Boolean);
+    this.edges.replaceChildren(...lines.map(pointsText).flatMap((points) =>
+      [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })]));
+  }
+
+  #pull(event) {
+    if (event.button !== 0) return;
+    this.#isHeld = true;
+    followPull(this.svg, this.edges, event, this.canvas, async (from, to) => {
+      if (to) {
+        const [line, shown] = [from, to].map((pixel) => this.#perspective.directionAt(pixel));
+        await this.give("turn_camera", turnBetween(shown, line));
+      }
+      this.#isHeld = false;
+      this.#picture.forget();
+      this.#follow();
+    });
+  }
+}

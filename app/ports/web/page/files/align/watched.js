@@ -1,0 +1,48 @@
+// What has become of an alignment, of the focus and of the ball's cleanness, over time.
+import { History } from "../appliance/history.js";
+import { drawChart } from "../elements/chart.js";
+import { element, setText } from "../elements/elements.js";
+import { figureText } from "../elements/figures.js";
+import { texts } from "../texts.js";
+
+// By figure: the one that judges it.
+const kFigures = { drift_error: "alignment", blur: "focus", contamination: "cleanliness" };
+
+export class Watched {
+  #camera = "";  // that is shown
+  #histories = {};  // its, by figure
+
+  // `descriptions` of a camera's figures.
+  constructor(descriptions) {
+    this.descriptions = descriptions;
+    this.parts = Object.fromEntries(Object.keys(kFigures).map((name) => [name, {
+      now: element("p"), canvas: element("canvas", { className: "chart", role: "img" })}]));
+    this.root = element("section", { id: "watched" }, element("h3", {}, texts.watched.title),
+      ...Object.values(this.parts).flatMap(({ now, canvas }) => [now, canvas]));
+  }
+
+  // `chosen`: name of the camera that is shown, or nothing.
+  status(cameras, chosen, now) {
+    const shown = cameras.find(({ name }) => name === chosen);
+    if (!shown) return;
+    if (chosen !== this.#camera) this.#choose(chosen);
+    for (const [name, history] of Object.entries(this.#histories)) history.add(now, shown[name]);
+    if (this.root.offsetParent !== null) this.#show(shown, now);
+  }
+
+  #choose(camera) {
+    this.#camera = camera;
+    this.#histories = Object.fromEntries(Object.keys(kFigures).map((figure) =>
+      [figure, new History({ camera, figure })]));
+  }
+
+  #show(camera, now) {
+    for (const [name, judge] of Object.entries(kFigures)) {
+      const { unit = "" } = this.descriptions[name] ?? {}, { now: said, canvas } = this.parts[name];
+      setText(said, texts.watched.now(texts.watched[name], figureText(camera[name]), unit,
+        camera[`${judge}_text`]));
+      this.#histories[name].refresh(now);
+      drawChart(canvas, this.#histories[name], texts.watched[name], unit, now);
+    }
+  }
+}

@@ -1,0 +1,68 @@
+// Tables of figures that are updated in place.
+import { texts } from "../texts.js";
+import { element, setText, table } from "./elements.js";
+
+export function figureText(value, words) {
+  if (words !== undefined) return words;
+  if (value === null || value === undefined) return "–";
+  if (typeof value !== "number") return String(value);
+  return Number.isInteger(value) ? String(value) : value.toPrecision(4);
+}
+
+// Of one component: {name: value}, beside {name_text: words}.
+export class FigureTable {
+  #rows = new Map();
+
+  constructor(descriptions) {
+    this.descriptions = descriptions;
+    const { root, body } = table([texts.signal, texts.value, texts.unit, texts.meaning]);
+    this.root = root;
+    this.body = body;
+  }
+
+  show(component) {
+    for (const [name, value] of Object.entries(component)) {
+      if (name === "name" || name.endsWith("_text")) continue;
+      const row = this.#rows.get(name) ?? this.#addRow(name);
+      setText(row, figureText(value, component[`${name}_text`]));
+    }
+  }
+
+  #addRow(name) {
+    const about = this.descriptions[name] ?? {};
+    const value = element("td", { className: "figure" });
+    this.body.append(element("tr", {}, element("th", { scope: "row" }, name), value,
+      element("td", {}, about.unit ?? ""), element("td", {}, about.description ?? "")));
+    this.#rows.set(name, value);
+    return value;
+  }
+}
+
+// Makes something once for each name that is seen, in `root`.
+export class Keyed {
+  #made = new Map();
+
+  constructor(root, make) {
+    this.root = root;
+    this.make = make;
+  }
+  get(name) {
+    if (!this.#made.has(name)) {
+      const made = this.make(name);
+      this.#made.set(name, made);
+      this.root.append(made.root);
+    }
+    return this.#made.get(name);
+  }
+  // Removes the others.
+  keep(names) {
+    for (const [name, made] of this.#made) {
+      if (names.includes(name)) continue;
+      made.root.remove();
+      this.#made.delete(name);
+    }
+  }
+  get size() {
+    return this.#made.size;
+  }
+}

@@ -1,0 +1,93 @@
+// What the colours of one-channel cameras mean, changed by whoever may command, for all who look at it.
+import { NewestCommand } from "../appliance/newest_command.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kSettleMs = 1000; // as for a view that is pointed
+
+// Of one camera of a view.
+class SourceLegend {
+  #changed = -Infinity; // as of performance.now()
+
+  // `change(command, what)` is called when somebody chose; null: nobody may.
+  constructor({ camera, unit }, maps, change) {
+    Object.assign(this, { camera, unit, maps, change });
+    this.first = element("span");
+    this.ramp = element("span", { className: "ramp" });
+    this.last = element("span");
+    this.root = element("div", {}, element("p", { className: "legend" }, this.first, this.ramp, this.last));
+    if (change) this.root.append(this.#makeForm());
+  }
+
+  #makeForm() {
+    this.map = element("select", { name: "colour_map" },
+      ...this.maps.map(({ name }) => element("option", { value: name }, name)));
+    this.map.addEventListener("change", () => this.#give("set_colour_map",
+      { colour_map: this.map.selectedIndex }));
+    this.ends = ["first", "last"].map((name) => {
+      const input = element("input", { type: "number", step: "any", name });
+      input.addEventListener("change", () => this.#spread());
+      return input;
+    });
+    this.form = element("details", { className: "colours" },
+      element("summary", {}, texts.coloursOf(this.camera)),
+      element("label", {}, texts.colourMap, " ", this.map), " ",
+      element("label", {}, texts.firstColour(this.unit), " ", this.ends[0]), " ",
+      element("label", {}, texts.lastColour(this.unit), " ", this.ends[1]));
+    return this.form;
+  }
+
+  #spread() {
+    const [first, last] = this.ends.map(({ valueAsNumber }) => valueAsNumber);
+    if (Number.isFinite(first) && Number.isFinite(last)) this.#give("set_colour_range", { first, last });
+  }
+
+  #give(command, what) {
+    this.#changed = performance.now();
+    this.change(command, what);
+  }
+
+  // Of the picture that is shown.
+  follow({ colour_map: name, range }) {
+    const { stops } = this.maps.find((map) => map.name === name);
+    this.shown = { camera: this.camera, unit: this.unit, range, stops };
+    setText(this.first, `${this.camera} ${texts.amount(range[0], this.unit)}`);
+    setText(this.last, texts.amount(range[1], this.unit));
+    if (this.ramp.dataset.map !== name) {
+      this.ramp.dataset.map = name;
+      this.ramp.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
+    }
+    const isBusy = this.form?.contains(document.activeElement) && this.form.open;
+    if (!this.form || isBusy || performance.now() - this.#changed < kSettleMs) return;
+    this.map.value = name;
+    this.ends.forEach((input, n) => { input.value = range[n]; });
+  }
+}
+
+export class Legend {
+  // A view and colour maps as /api/v1/views has them; `say(what)`: why a change was refused; empty
+  // when it was not.
+  constructor({ index, sources }, maps, mayCommand, say) {
+    const commands = sources.map(() => ({}));
+    const change = (source) => (name, what) => {
+      commands[source][name] ??= new NewestCommand(name, (why) => say(why ? texts.refused(why) : ""));
+      commands[source][name].send({ view: index, source, ...what });
+    };
+    this.sources = sources.map((source, n) => new SourceLegend(source, maps, mayCommand ? change(n) : null));
+    this.root = element("div");
+  }
+
+  // `colours` in the picture that is shown, by source; null: the camera's own.
+  follow(colours) {
+    this.sources.forEach((source, n) => {
+      if (!colours[n]) return source.root.remove();
+      source.follow(colours[n]);
+      if (!source.root.isConnected) this.root.append(source.root);
+    });
+  }
+
+  // {camera, unit, range, stops} of each camera that is coloured in the picture that is shown.
+  get shown() {
+    return this.sources.filter(({ root }) => root.parentNode).map(({ shown }) => shown);
+  }
+}

@@ -1,0 +1,76 @@
+// Views, tiled.
+import { element } from "../elements/elements.js";
+import { Keyed } from "../elements/figures.js";
+import { texts } from "../texts.js";
+import { Tile } from "./tile.js";
+
+export class Live {
+  #chosen = null; // by name, null before the first status
+  #faults = "";
+  #isStale = true; // what is known of the views may be of before a restart
+
+  // `mayCommand`: turn, mix and colour views.
+  constructor(root, onChoice, mayCommand) {
+    this.onChoice = onChoice;
+    this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
+    const tiles = element("div", { id: "tiles" });
+    this.tiles = new Keyed(tiles, (name) => new Tile(name, mayCommand));
+    root.append(this.choices, tiles, element("p", {}, texts.liveHelp));
+    setInterval(() => this.#tick(), 250);
+  }
+
+  status(status) {
+    const faults = status.cameras.filter((c) => c.fault !== 0);
+    this.#faults = faults.map((c) => `${c.name}: ${c.fault_text}`).join(". ");
+    if (!this.#chosen) this.#begin(status.views);
+    if (this.#isStale) this.#describe();
+  }
+
+  #begin(views) {
+    this.#chosen = new Map();
+    for (const { name } of views) {
+      this.#chosen.set(name, true);
+      const box = element("input", { type: "checkbox", checked: true, name });
+      box.addEventListener("change", () => this.#choose(name, box.checked));
+      this.choices.append(element("label", {}, box, " ", name));
+      this.tiles.get(name);
+    }
+    this.onChoice();
+  }
+
+  async #describe() {
+    this.#isStale = false;
+    try {
+      const answer = await fetch("/api/v1/views");
+      if (!answer.ok) throw new Error(`status ${answer.status}`);
+      const { views, colour_maps: maps } = await answer.json();
+      for (const view of views) {
+        if (this.#chosen.has(view.name)) this.tiles.get(view.name).describe(view, maps);
+      }
+    } catch (error) {
+      console.info(`views: ${error.message}`);
+      this.#isStale = true; // with the next status
+    }
+  }
+
+  lost() {
+    this.#isStale = true;
+  }
+
+  get views() {
+    return [...(this.#chosen ?? [])].filter(([, is]) => is).map(([name]) => name);
+  }
+
+  picture(message) {
+    this.tiles.get(message.head.name).show(message);
+  }
+
+  #choose(name, isChosen) {
+    this.#chosen.set(name, isChosen);
+    this.tiles.get(name).root.hidden = !isChosen;
+    this.onChoice();
+  }
+  #tick() {
+    for (const [name, is] of this.#chosen ?? []) if (is) this.tiles.get(name).tick(this.#faults);
+  }
+}

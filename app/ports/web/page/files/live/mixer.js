@@ -1,0 +1,43 @@
+// The shares of a view's cameras, changed by sliders, for all who look at it.
+import { NewestCommand } from "../appliance/newest_command.js";
+import { element } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kSettleMs = 1000; // as for a view that is pointed
+const kLeast = 0.001, kMost = 1000; // of the command
+
+export class Mixer {
+  #weights = [];
+  #mixed = -Infinity; // as of performance.now()
+
+  // A view as /api/v1/views has it; `say(what)`: why it was not mixed; empty when it was. A slider
+  // for each camera beside the first one.
+  constructor({ index, sources }, say) {
+    const answer = (why) => say(why ? texts.refused(why) : "");
+    this.index = index;
+    this.commands = sources.map(() => new NewestCommand("mix_sources", answer));
+    this.sliders = sources.slice(1).map(({ camera }, n) => {
+      const slider = element("input", { type: "range", min: 0, max: 100, name: `share-${camera}` });
+      slider.addEventListener("input", () => this.#mix(n + 1, slider.value / 100));
+      return slider;
+    });
+    this.root = element("p", { className: "mixer" }, ...this.sliders.map((slider, n) =>
+      element("label", {}, texts.shareOf(sources[n + 1].camera, sources[0].camera), " ", slider)));
+  }
+
+  // The weights in the picture that is shown.
+  follow(weights) {
+    if (performance.now() - this.#mixed < kSettleMs) return;
+    this.#weights = weights;
+    this.sliders.forEach((slider, n) => {
+      slider.value = Math.round((100 * weights[n + 1]) / (weights[0] + weights[n + 1]));
+    });
+  }
+
+  #mix(source, share) {
+    this.#mixed = performance.now();
+    const weight = ((this.#weights[0] ?? 1) * share) / (1 - share);
+    this.commands[source].send({ view: this.index, source,
+      weight: Math.min(kMost, Math.max(kLeast, weight)) });
+  }
+}

@@ -1,0 +1,40 @@
+// The picture that is seen as a file, with what it is of and what its colours mean.
+import { element } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kLine = 26, kMargin = 8, kRamp = 120; // px
+const kQuality = 0.95;
+
+function addText(context, text, x, y) {
+  context.fillText(text, x, y);
+  return x + context.measureText(text).width + kMargin;
+}
+
+function addLegend(context, { camera, range, unit, stops }, y) {
+  let x = addText(context, `${camera} ${texts.amount(range[0], unit)}`, kMargin, y);
+  const ramp = context.createLinearGradient(x, 0, x + kRamp, 0);
+  stops.forEach((stop, n) => ramp.addColorStop(n / (stops.length - 1), stop));
+  context.fillStyle = ramp;
+  context.fillRect(x, y - kLine / 4, kRamp, kLine / 2);
+  context.fillStyle = "#fff";
+  x = addText(context, texts.amount(range[1], unit), x + kRamp + kMargin, y);
+}
+
+// `legends` as Legend has them shown.
+export function snapshotOf(name, canvas, legends) {
+  const all = new OffscreenCanvas(canvas.width, canvas.height + (1 + legends.length) * kLine);
+  const context = all.getContext("2d");
+  context.drawImage(canvas, 0, 0);
+  Object.assign(context, { fillStyle: "#fff", font: "14px system-ui, sans-serif",
+    textBaseline: "middle" });
+  const row = (n) => canvas.height + (n + 0.5) * kLine;
+  addText(context, `${name} ${canvas.dataset.stamp}`, kMargin, row(0));
+  legends.forEach((source, n) => addLegend(context, source, row(n + 1)));
+  return all.convertToBlob({ type: "image/jpeg", quality: kQuality });
+}
+
+export async function saveSnapshot(name, canvas, legends) {
+  const href = URL.createObjectURL(await snapshotOf(name, canvas, legends));
+  element("a", { href, download: `${name}-${canvas.dataset.stamp}.jpg` }).click();
+  URL.revokeObjectURL(href);
+}

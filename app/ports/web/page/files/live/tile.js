@@ -1,0 +1,79 @@
+// One view: its picture, how old that is, what it shows where somebody points, where it looks, how it
+// mixes its cameras and in which colours it shows them.
+import { NewestPicture } from "../appliance/newest_picture.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+import { Legend } from "./legend.js";
+import { Mixer } from "./mixer.js";
+import { PointedView } from "./pointed_view.js";
+import { Pointer } from "./pointer.js";
+import { saveSnapshot } from "./snapshot.js";
+
+const kStaleMs = 2000;
+
+export class Tile {
+  #latest = null; // {age_ms, received} of the picture that is shown
+  #pictures = new NewestPicture((picture, message) => this.#draw(picture, message));
+
+  constructor(name, mayCommand) {
+    this.name = name;
+    this.mayCommand = mayCommand;
+    this.canvas = element("canvas", { tabIndex: 0, role: "application",
+      "aria-label": texts.pictureOf(name) });
+    this.canvas.width = 320;
+    this.canvas.height = 180;
+    this.overlay = element("p", { className: "overlay" });
+    this.age = element("span", { className: "age" }, texts.noPicture);
+    this.pointer = new Pointer(name, this.canvas);
+    this.controls = element("div", { className: "controls" });
+    const said = element("p", { className: "wrong", role: "alert" });
+    this.say = (what) => setText(said, what);
+    this.pointed = new PointedView(this.canvas, mayCommand, this.say);
+    const full = element("button", { type: "button" }, texts.fullScreen);
+    full.addEventListener("click", () => this.root.requestFullscreen());
+    const snapshot = element("button", { type: "button" }, texts.snapshot);
+    snapshot.addEventListener("click", () => {
+      if (this.#latest) saveSnapshot(name, this.canvas, this.legend?.shown ?? []);
+    });
+    this.root = element("figure", {},
+      element("div", { className: "picture" }, this.canvas, this.pointer.mark, this.overlay),
+      this.pointer.reading, this.pointer.spoken, this.controls, said,
+      element("figcaption", {}, element("strong", {}, name), this.age, snapshot, full));
+  }
+
+  // As /api/v1/views has it, and colour maps.
+  describe(view, maps) {
+    this.pointed.describe(view);
+    this.legend = new Legend(view, maps, this.mayCommand, this.say);
+    if (view.aim) this.legend.follow(view.aim.colours);
+    this.controls.replaceChildren(this.legend.root);
+    this.mixer = this.mayCommand && view.is_mixed ? new Mixer(view, this.say) : null;
+    if (this.mixer) this.controls.append(this.mixer.root);
+  }
+
+  show(message) {
+    return this.#pictures.show(message);
+  }
+
+  #draw(picture, { head, received }) {
+    if (this.canvas.width !== picture.width) this.canvas.width = picture.width;
+    if (this.canvas.height !== picture.height) this.canvas.height = picture.height;
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    this.canvas.dataset.number = head.number;
+    this.canvas.dataset.stamp = head.stamp;
+    this.#latest = { age_ms: head.age_ms, received };
+    this.pointer.follow();
+    this.pointed.follow(head.aim);
+    this.mixer?.follow(head.aim.weights);
+    this.legend?.follow(head.aim.colours);
+  }
+
+  tick(faults) {
+    if (!this.#latest) return setText(this.overlay, faults);
+    const age = this.#latest.age_ms + performance.now() - this.#latest.received;
+    setText(this.age, texts.age(age));
+    this.age.classList.toggle("wrong", age > kStaleMs);
+    const old = age > kStaleMs ? texts.stale(age) : "";
+    setText(this.overlay, [old, faults].filter(Boolean).join(". "));
+  }
+}

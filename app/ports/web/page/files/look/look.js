@@ -1,0 +1,229 @@
+// The room as seen from the ball, turned by whoever looks: drawn here, or by the appliance where
+// the browser has no WebGL.
+import { Framing } from "../appliance/framing.js";
+import { NewestPicture } from "../appliance/newest_picture.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+import { followGestures, Gaze } from "./gaze.js";
+import { ServerLook } from "./server_look.js";
+import { SpherePainter } from "./sphere_painter.js";
+
+const kStaleMs = 2000;
+const kMarks = ["blind", "resolution", "wireFrame"];
+
+async function listViews() {
+  const answer = await fetch("/api/v1/look-around");
+  if (!answer.ok) throw new Error(`status ${answer.status}`);
+  return answer.json();
+}
+
+// One camera's mesh, asked for again only by its tag: {head, body}, or null when it is the same.
+class Meshes {
+  #tags = new Map();
+
+  async load(name) {
+    const tag = this.#tags.get(name);
+    const answer = await fetch(`/api/v1/sphere?view=${encodeURIComponent(name)}`,
+      { headers: tag ? { "If-None-Match": tag } : {} });
+    if (answer.status === 304) return null;
+    if (!answer.ok) throw new Error(`status ${answer.status}`);
+    const [mesh] = new Framing().push(new Uint8Array(await answer.arrayBuffer()));
+    this.#tags.set(name, answer.headers.get("ETag"));
+    return mesh;
+  }
+  forget() {
+    this.#tags.clear();
+  }
+}
+
+function option(name) {
+  return element("option", { value: name }, name);
+}
+
+export class Look {
+  #isStale = true; // what the appliance said may be of before its restart
+  #isLoading = false;
+  #willDraw = false;
+  #meshes = new Meshes();
+  #pictures = new Map(); // by view
+  #latest = null; // {age_ms, received}
+  #faults = "";
+
+  // `onChoice()`: other views are needed.
+  constructor(root, onChoice) {
+    this.root = root;
+    this.onChoice = onChoice;
+    this.gaze = new Gaze(() => this.#redraw());
+    this.canvas = element("canvas", { tabIndex: 0, role: "application",
+      "aria-label": texts.lookCanvas });
+    this.overlay = element("p", { className: "overlay" });
+    this.age = element("span", { className: "age" }, texts.noPicture);
+    this.where = element("span", { className: "where" });
+    this.painter = SpherePainter.make(this.canvas);
+    this.#addControls();
+    followGestures(this.canvas, this.gaze);
+    this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.painter.begin();
+      this.#meshes.forget();
+      this.#isStale = true;
+    });
+    new ResizeObserver(() => this.#redraw()).observe(this.canvas);
+    setInterval(() => this.#tick(), 250);
+  }
+
+  get isShown() {
+    return !this.root.hidden;
+  }
+
+  // Names of the views that are needed while it is shown.
+  get views() {
+    if (this.server) return this.server.views;
+    return [this.first.value, this.second.value].filter(Boolean);
+  }
+
+  status(status) {
+    const faults = status.cameras.filter((c) => c.fault !== 0);
+    this.#faults = faults.map((c) => `${c.name}: ${c.fault_text}`).join(". ");
+    if (this.isShown && this.#isStale && !this.#isLoading) this.#load();
+  }
+
+  lost() {
+    this.#isStale = true;
+  }
+
+  picture(message) {
+    const { name } = message.head;
+    if (this.server) return this.server.picture(message);
+    if (!this.#pictures.has(name)) {
+      this.#pictures.set(name, new NewestPicture((bitmap, { head, received }) => {
+        this.painter.show(name, bitmap);
+        if (name === this.first.value) {
+          this.#latest = { age_ms: head.age_ms, received };
+          this.canvas.dataset.number = head.number;
+        }
+        this.#redraw();
+      }));
+    }
+    return this.#pictures.get(name).show(message);
+  }
+
+  #addControls() {
+    const changed = () => {
+      this.#isStale = true;
+      this.onChoice();
+    };
+    this.first = element("select", { name: "first" });
+    this.second = element("select", { name: "second" });
+    this.mix = element("input", { type: "range", name: "mix", min: 0, max: 100, value: 50 });
+    for (const select of [this.first, this.second]) select.addEventListener("change", changed);
+    this.mix.addEventListener("input", () => this.#redraw());
+    this.marks = Object.fromEntries(kMarks.map((name) => {
+      const box = element("input", { type: "checkbox", name, checked: name === "blind" });
+      box.addEventListener("change", () => this.#redraw());
+      return [name, box];
+    }));
+    const marks = kMarks.map((name) => element("label", {}, this.marks[name], " ", texts[name]));
+    this.legend = element("p", { className: "legend", hidden: true }, texts.resolutionLow,
+      element("span", { className: "ramp" }), texts.resolutionHigh);
+    this.none = element("p", { hidden: true }, texts.noSphere);
+    this.controls = element("fieldset", {}, element("legend", {}, texts.lookShows),
+      element("label", {}, texts.lookFirst, " ", this.first),
+      element("label", {}, texts.lookSecond, " ", this.second),
+      element("label", {}, texts.lookMix, " ", this.mix), ...marks, this.legend);
+    const back = element("button", { type: "button" }, texts.lookBack);
+    back.addEventListener("click", () => this.gaze.reset());
+    const full = element("button", { type: "button" }, texts.fullScreen);
+    full.addEventListener("click", () => this.figure.requestFullscreen());
+    this.figure = element("figure", {},
+      element("div", { className: "picture" }, this.canvas, this.overlay),
+      element("figcaption", {}, this.where, this.age, back, full));
+    this.root.append(this.none, this.controls, this.figure, element("p", {}, texts.lookHelp));
+  }
+
+  async #load() {
+    this.#isLoading = true;
+    this.#isStale = false;
+    try {
+      const { spheres, pointed } = await listViews();
+      if (!this.painter) this.#beginServer(pointed);
+      else await this.#loadSpheres(spheres);
+    } catch (error) {
+      console.info(`look around: ${error.message}`);
+      this.#isStale = true; // with the next status
+    }
+    this.#isLoading = false;
+  }
+
+  #beginServer(pointed) {
+    this.controls.hidden = true;
+    this.none.hidden = false;
+    setText(this.none, pointed.length > 0 ? texts.noWebGl : texts.noWebGlNoView);
+    if (this.server) return;
+    this.server = new ServerLook(this.canvas, this.gaze, pointed, (latest) => {
+      this.#latest = latest;
+    });
+    if (pointed.length > 0) this.figure.before(this.server.controls(() => this.onChoice()));
+    this.onChoice();
+  }
+
+  async #loadSpheres(spheres) {
+    const known = [...this.first.options].map((o) => o.value);
+    if (known.join("\n") !== spheres.join("\n")) {
+      this.first.replaceChildren(...spheres.map(option));
+      this.second.replaceChildren(element("option", { value: "" }, texts.lookNone),
+        ...spheres.map(option));
+      this.second.value = spheres[1] ?? "";
+      this.onChoice();
+    }
+    this.none.hidden = spheres.length > 0;
+    for (const name of this.views) {
+      const mesh = await this.#meshes.load(name);
+      if (!mesh) continue;
+      this.painter.setMesh(name, mesh);
+      if (name === this.first.value) this.gaze.begin(mesh.head.facing);
+    }
+    this.#redraw();
+  }
+
+  #redraw() {
+    if (this.#willDraw || this.server) return;
+    this.#willDraw = true;
+    requestAnimationFrame(() => {
+      this.#willDraw = false;
+      this.#draw();
+    });
+  }
+
+  #draw() {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (!this.painter || clientWidth === 0) return;
+    const scale = window.devicePixelRatio || 1;
+    const width = Math.round(clientWidth * scale), height = Math.round(clientHeight * scale);
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
+    const { yaw, pitch, fov } = this.gaze;
+    Object.assign(this.canvas.dataset, { yaw, pitch, fov });
+    this.legend.hidden = !this.marks.resolution.checked;
+    this.mix.disabled = !this.second.value;
+    this.painter.draw(this.gaze.view, {
+      first: this.first.value,
+      second: this.second.value === this.first.value ? "" : this.second.value,
+      mix: this.mix.value / 100,
+      blind: this.marks.blind.checked,
+      resolution: this.marks.resolution.checked,
+      wireFrame: this.marks.wireFrame.checked,
+    });
+  }
+
+  #tick() {
+    if (!this.isShown) return;
+    setText(this.where, texts.lookWhere(this.gaze.yaw, this.gaze.pitch, this.gaze.fov));
+    if (!this.#latest) return setText(this.overlay, this.#faults);
+    const age = this.#latest.age_ms + performance.now() - this.#latest.received;
+    setText(this.age, texts.age(age));
+    this.age.classList.toggle("wrong", age > kStaleMs);
+    const old = age > kStaleMs ? texts.stale(age) : "";
+    setText(this.overlay, [old, this.#faults].filter(Boolean).join(". "));
+  }
+}

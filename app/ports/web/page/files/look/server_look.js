@@ -1,0 +1,47 @@
+// Looking around where the browser has no WebGL: the appliance points one of its views, for all who
+// look at it.
+import { NewestCommand } from "../appliance/newest_command.js";
+import { NewestPicture } from "../appliance/newest_picture.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+export class ServerLook {
+  // `pointed`: the views that can be pointed, {name, index}; `onPicture({age_ms, received})`.
+  constructor(canvas, gaze, pointed, onPicture) {
+    this.gaze = gaze;
+    this.pointed = pointed;
+    this.choice = element("select", { name: "pointed" },
+      ...pointed.map(({ name }) => element("option", { value: name }, name)));
+    this.said = element("p", { className: "wrong", role: "alert" });
+    this.command = new NewestCommand("point_view", (why) =>
+      setText(this.said, why ? texts.refused(why) : ""));
+    gaze.onChange = () => this.#point();
+    this.pictures = new NewestPicture((picture, { head, received }) => {
+      canvas.width = picture.width;
+      canvas.height = picture.height;
+      canvas.getContext("2d").drawImage(picture, 0, 0);
+      canvas.dataset.number = head.number;
+      onPicture({ age_ms: head.age_ms, received });
+    });
+  }
+
+  controls(onChoice) {
+    this.choice.addEventListener("change", onChoice);
+    return element("div", {}, element("label", {}, texts.lookPointed, " ", this.choice), this.said);
+  }
+
+  get views() {
+    return this.choice.value ? [this.choice.value] : [];
+  }
+
+  picture(message) {
+    if (message.head.name === this.choice.value) this.pictures.show(message);
+  }
+
+  #point() {
+    const view = this.pointed.find(({ name }) => name === this.choice.value)?.index;
+    if (view === undefined) return;
+    const { yaw, pitch, fov: h_fov } = this.gaze;
+    this.command.send({ view, yaw, pitch, h_fov });
+  }
+}

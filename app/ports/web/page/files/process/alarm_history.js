@@ -1,0 +1,44 @@
+// What happened to alarms, as the appliance kept it.
+import { element, table } from "../elements/elements.js";
+import { figureText } from "../elements/figures.js";
+import { texts } from "../texts.js";
+
+export class AlarmHistory {
+  #count = null;  // of all events, when they were asked for
+
+  constructor() {
+    this.none = element("p", {}, texts.noAlarmEvents);
+    const titles = [texts.when, texts.alarm, texts.event, texts.level, texts.value, texts.limit, texts.who];
+    const { root: scrolled, body } = table(titles, texts.alarmHistory);
+    this.table = scrolled;
+    this.body = body;
+    this.root = element("section", { id: "alarm-history" }, element("h3", {}, texts.alarmHistory),
+      this.none, this.table);
+    this.#show([]);
+  }
+
+  // Asks for them when there are others than those that are shown; `count` of all since the start.
+  async refresh(count) {
+    if (count === this.#count) return;
+    this.#count = count;
+    const answer = await fetch("/api/v1/history/alarms").catch(() => null);
+    const read = answer?.ok ? await answer.json().catch(() => null) : null;
+    if (read) this.#show(read.alarms.reverse());
+    else this.#count = null;
+  }
+
+  #show(events) {
+    this.none.hidden = events.length > 0;
+    this.table.hidden = events.length === 0;
+    this.body.replaceChildren(...events.map((event) => {
+      const cells = [event.event_text, event.level_text, this.#amount(event.value, event.unit),
+        this.#amount(event.limit, event.unit), event.by ?? ""];
+      return element("tr", {}, element("td", {}, new Date(event.time).toLocaleString()),
+        element("th", { scope: "row" }, event.name), ...cells.map((text) => element("td", {}, text)));
+    }));
+  }
+
+  #amount(value, unit) {
+    return value === null ? "–" : `${figureText(value)} ${unit}`.trim();
+  }
+}

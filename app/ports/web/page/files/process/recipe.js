@@ -1,0 +1,108 @@
+// The recipe in force, and what somebody changed of it that was not sent yet.
+import { texts } from "../texts.js";
+
+const kNothing = { number: 0, views: [], regions: [], alarms: [] };
+
+async function answered(path) {
+  const answer = await fetch(path);
+  const json = await answer.json();
+  if (!answer.ok) throw new Error(json.error);
+  return json;
+}
+
+export class Recipe extends EventTarget {
+  #loaded = "";  // which one
+  #isLoading = false;
+  #limits = new Map();  // by alarm and limit: what is to be sent
+  #regions = new Map(); // by name
+  #removed = new Set(); // names of regions
+  stated = kNothing;
+
+  // Loads it anew when another one runs.
+  async status({ system }) {
+    const running = `${system.recipe} ${system.configuration_checksum}`;
+    if (running === this.#loaded || this.#isLoading) return;
+    this.#isLoading = true;
+    try {
+      this.stated = await answered("/api/v1/recipe");
+      this.#loaded = running;
+      this.#changed();
+    } catch (error) {
+      console.info(`recipe: ${error.message}`); // with the next status again
+    }
+    this.#isLoading = false;
+  }
+
+  #changed() {
+    this.dispatchEvent(new Event("change"));
+  }
+
+  alarmsOf(region, signal) {
+    return this.stated.alarms.filter((alarm) => alarm.region === region && alarm.signal === signal);
+  }
+
+  // Null: there is none.
+  limit(alarm, name) {
+    return (this.#limits.get(`${alarm.alarm} ${name}`) ?? { value: alarm[name] }).value;
+  }
+
+  setLimit(stated, limit, value) {
+    const { alarm, region, signal } = stated, key = `${alarm} ${limit}`;
+    if (value === stated[limit]) this.#limits.delete(key);
+    else this.#limits.set(key, { alarm, region, signal, limit, value });
+    this.#changed();
+  }
+
+  // As they are drawn: {name, view, kind, corners: [{at, pixel}], lines, threshold of a new one}.
+  get regions() {
+    const stated = this.stated.regions.filter(({ name }) => !this.#removed.has(name))
+      .map((region) => this.#regions.get(region.name) ?? region);
+    return [...stated, ...[...this.#regions.values()].filter(({ threshold }) => threshold !== undefined)];
+  }
+
+  // Gives it corners where its view shows these pixels; what was not moved keeps its coordinates.
+  async setRegion(region, pixels) {
+    const query = new URLSearchParams({ number: this.stated.number, view: region.view, pixels: pixels.flat() });
+    const { corners, lines } = await answered(`/api/v1/recipe/polygon?${query}`);
+    if (this.#removed.has(region.name)) return; // meanwhile
+    const keptAt = (pixel) => region.corners.find(({ pixel: before }) =>
+      before?.every((part, k) => part === pixel[k]))?.at;
+    const hasSurface = corners.every(({ point }) => point !== null);
+    const kind = region.kind === "whole_view" ? (hasSurface ? "points" : "directions") : region.kind;
+    if (kind === "points" && !hasSurface) throw new Error(texts.process.noSurface);
+    this.#regions.set(region.name, { ...region, kind, lines, corners: pixels.map((pixel, index) => ({
+      pixel, at: keptAt(pixel) ?? corners[index][kind === "points" ? "point" : "direction"] })) });
+    this.#changed();
+  }
+
+  // With its alarms.
+  removeRegion(name) {
+    if (this.stated.regions.some((region) => region.name === name)) this.#removed.add(name);
+    this.#regions.delete(name);
+    for (const [key, { region }] of this.#limits) if (region === name) this.#limits.delete(key);
+    this.#changed();
+  }
+
+  // {name, alarms: their numbers} of each region that goes.
+  get removed() {
+    return [...this.#removed].map((name) => ({ name,
+      alarms: this.stated.alarms.filter(({ region }) => region === name).map(({ alarm }) => alarm) }));
+  }
+
+  // The body of check_recipe and try_recipe; null: nothing was changed.
+  get body() {
+    if (this.#limits.size + this.#regions.size + this.#removed.size === 0) return null;
+    const regions = [...this.#regions.values()].map(({ name, view, kind, corners, threshold }) => ({
+      name, [kind]: corners.map(({ at }) => at),
+      ...(threshold === undefined ? {} : { view, hot_spot_threshold: threshold }) }));
+    regions.push(...[...this.#removed].map((name) => ({ name, removed: true })));
+    return { recipe: this.stated.number, limits: [...this.#limits.values()], regions };
+  }
+
+  forget() {
+    this.#limits.clear();
+    this.#regions.clear();
+    this.#removed.clear();
+    this.#changed();
+  }
+}

@@ -1,0 +1,339 @@
+// The regions of the recipe over a live view: shown, and by integrators moved, resized, drawn and deleted,
+// corner by corner, with pointer, touch or keys.
+import { NewestPicture } from "../appliance/newest_picture.js";
+import { commandButton, element, field, setText } from "../elements/elements.js";
+import { drawn, followDrag, kKeys, pixelAt, place, pointsText } from "../elements/shapes.js";
+import { texts } from "../texts.js";
+
+const kStepPx = 1, kLargeStepPx = 10;
+const kGrowth = 1.05;   // of a key
+const kSettleMs = 250;  // keys that are held down become one change
+const kHandlePx = 11;   // on the screen
+const kMiddlePx = 8;    // of an edge, where a corner is added
+const kShortEdgePx = 44;  // has no room for one
+const kLeastPx = 4;     // a smaller rectangle is a click
+const kNewShare = 4;    // a new region is that part of the view
+
+const rectangle = ([x, y], [u, v]) => [[x, y], [u, y], [u, v], [x, v]];
+const middleOf = ([x, y], [u, v]) => [(x + u) / 2, (y + v) / 2];
+const option = (name) => element("option", { value: name }, name);
+
+export class RegionEditor {
+  #pixels = null;  // of a region's corners while somebody changes them
+  #changing = null; // which one
+  #settle = 0;
+  #handles = [];   // of the corners
+  #middles = [];   // of the edges, each behind its corner
+  #corner = 0;     // that was touched last
+  #pictures = new NewestPicture((picture, { head }) => {
+    this.canvas.getContext("2d").drawImage(picture, 0, 0);
+    this.canvas.dataset.number = head.number;
+  });
+
+  // `onView()`: another view is shown.
+  constructor(recipe, mayChange, onView) {
+    Object.assign(this, { recipe, mayChange, onView });
+    this.view = element("select", { name: "view" });
+    this.view.addEventListener("change", () => this.#chooseView());
+    this.choice = element("select", { name: "region" });
+    this.choice.addEventListener("change", () => this.#choose());
+    this.removal = commandButton(texts.process.remove, "region", () => this.#remove());
+    this.cornerRemoval = commandButton(texts.process.removeCorner(1), "corner",
+      () => this.#removeCorner(this.#corner));
+    this.said = element("p", { role: "status" });
+    this.refused = element("p", { role: "alert", className: "wrong" });
+    this.canvas = element("canvas", { role: "img" });
+    this.svg = drawn("svg", { role: "group", "aria-label": texts.process.regions });
+    this.lines = drawn("g");
+    this.body = drawn("polygon", { class: "body", tabindex: 0, role: "button" });
+    this.body.addEventListener("pointerdown", (event) => this.#move(event));
+    this.body.addEventListener("keydown", (event) => this.#press(event));
+    this.middleGroup = drawn("g");
+    this.svg.append(this.lines, this.body, this.middleGroup);
+    this.svg.addEventListener("pointerdown", (event) => this.#span(event));
+    this.root = element("section", { id: "regions" }, element("h3", {}, texts.process.regions),
+      element("p", {}, element("label", {}, texts.process.view, " ", this.view), " ",
+        ...(mayChange ? [element("label", {}, texts.process.region, " ", this.choice), " ",
+          this.cornerRemoval, " ", this.removal] : [])),
+      element("figure", { className: "ball" }, element("div", { className: "picture" }, this.canvas, this.svg)),
+      ...(mayChange ? [this.said, element("p", {}, texts.process.help), this.#makeForm()] : []), this.refused);
+    recipe.addEventListener("change", () => this.#refresh());
+    new ResizeObserver(() => this.#draw()).observe(this.svg);
+  }
+
+  #makeForm() {
+    this.form = element("form", {}, field(texts.process.newName, { name: "name", pattern: "[A-Za-z0-9_]+" }),
+      field(texts.process.threshold, { name: "threshold", type: "number", step: "any" }),
+      element("button", {}, texts.process.add));
+    this.form.addEventListener("submit", (event) => this.#add(event));
+    return this.form;
+  }
+
+  get views() {
+    return this.view.value ? [this.view.value] : [];
+  }
+  get #region() {
+    return this.recipe.regions.find(({ name }) => name === this.choice.value);
+  }
+
+  picture(message) {
+    if (message.head.name === this.view.value) this.#pictures.show(message);
+  }
+
+  #chooseView() {
+    const view = this.recipe.stated.views.find(({ name }) => name === this.view.value);
+    if (view) {
+      this.canvas.width = view.width;
+      this.canvas.height = view.height;
+      this.canvas.setAttribute("aria-label", texts.pictureOf(view.name));
+      place(this.svg, { viewBox: `-0.5 -0.5 ${view.width} ${view.height}` });
+    }
+    this.#listRegions();
+    this.#draw();
+    this.onView();
+  }
+
+  #listRegions() {
+    const names = this.recipe.regions.filter(({ view }) => view === this.view.value).map(({ name }) => name);
+    if ([...this.choice.options].map(({ value }) => value).join("\n") === names.join("\n")) return;
+    const chosen = this.choice.value;
+    this.choice.replaceChildren(...names.map(option));
+    if (names.includes(chosen)) this.choice.value = chosen;
+  }
+
+  #refresh() {
+    const names = this.recipe.stated.views.map(({ name }) => name);
+    if ([...this.view.options].map(({ value }) => value).join("\n") !== names.join("\n")) {
+      this.view.replaceChildren(...names.map(option));
+      this.#chooseView();
+    }
+    this.#listRegions();
+    this.#draw();
+    setText(this.said, this.recipe.removed.map(texts.process.removed).join(" "));
+  }
+
+  // Corners that the view does not show are nobody's to drag.
+  #cornersOf(region) {
+    const isChanging = this.#pixels && region?.name === this.#changing.name;
+    const pixels = isChanging ? this.#pixels : region?.corners.map(({ pixel }) => pixel) ?? [];
+    return pixels.every((pixel) => pixel !== null) ? pixels : [];
+  }
+
+  #draw() {
+    const shown = this.recipe.regions.filter(({ view }) => view === this.view.value);
+    const chosen = this.mayChange ? this.#region : null;
+    this.lines.replaceChildren(...shown.flatMap((region) => {
+      const isChanging = this.#pixels && region.name === this.#changing.name;
+      const lines = isChanging ? [[...this.#pixels, this.#pixels[0]]] : region.lines;
+      const at = lines[0]?.[0] ?? [0, 0];
+      const text = drawn("text", { x: at[0] + 6 * this.#scale(), y: at[1] + 16 * this.#scale(),
+        "font-size": 14 * this.#scale() }, region.name);
+      const kind = region.name === chosen?.name ? "limb" : "edges";
+      return [...lines.map((line) => drawn("polyline", { points: pointsText(line), class: kind })), text];
+    }));
+    const pixels = chosen ? this.#cornersOf(chosen) : [];
+    place(this.body, { points: pointsText(pixels), visibility: pixels.length > 0 ? "visible" : "hidden",
+      "aria-label": texts.process.body(chosen?.name ?? "") });
+    this.svg.classList.toggle("drawing", Boolean(chosen && this.#isDrawable(chosen)));
+    for (const handles of [this.#handles, this.#middles]) {
+      while (handles.length > pixels.length) handles.pop().remove();
+    }
+    pixels.forEach(([cx, cy], index) => place(this.#handles[index] ?? this.#addHandle(), {
+      cx, cy, r: kHandlePx * this.#scale(), "data-corner": index,
+      "aria-label": texts.process.corner(index + 1, cx, cy) }));
+    pixels.forEach((pixel, index) => this.#placeMiddle(index, pixel, pixels[(index + 1) % pixels.length]));
+    this.#corner = Math.max(0, Math.min(this.#corner, pixels.length - 1));
+    setText(this.cornerRemoval, texts.process.removeCorner(this.#corner + 1));
+    this.cornerRemoval.disabled = pixels.length === 0;
+    this.removal.disabled = !chosen;
+  }
+
+  #placeMiddle(index, from, to) {
+    const [cx, cy] = middleOf(from, to);
+    const isShort = Math.hypot(from[0] - to[0], from[1] - to[1]) < kShortEdgePx * this.#scale();
+    place(this.#middles[index] ?? this.#addMiddle(), { cx, cy, r: kMiddlePx * this.#scale(),
+      "data-edge": index, visibility: isShort ? "hidden" : "visible",
+      "aria-label": texts.process.edge(index + 1) });
+  }
+
+  #addHandle() {
+    const index = this.#handles.length;
+    const handle = drawn("circle", { tabindex: 0, role: "button" });
+    const moved = (du, dv) => (pixels) =>
+      pixels.map(([u, v], k) => (k === index ? [u + du, v + dv] : [u, v]));
+    handle.addEventListener("pointerdown", (event) => this.#drag(event, handle, moved));
+    handle.addEventListener("focus", () => this.#chooseCorner(index));
+    handle.addEventListener("keydown", (event) => {
+      if (event.key === "Delete" || event.key === "Backspace") return this.#removeCorner(index, event);
+      this.#pressArrow(event, moved);
+    });
+    this.svg.append(handle);
+    this.#handles.push(handle);
+    return handle;
+  }
+
+  // Pressed it is a corner, which may be dragged at once.
+  #addMiddle() {
+    const index = this.#middles.length;
+    const middle = drawn("circle", { class: "middle", tabindex: 0, role: "button" });
+    const added = (du, dv) => (pixels) => {
+      const [u, v] = middleOf(pixels[index], pixels[(index + 1) % pixels.length]);
+      return pixels.toSpliced(index + 1, 0, [u + du, v + dv]);
+    };
+    middle.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.#drag(event, middle, added);
+      this.#pixels = added(0, 0)(this.#cornersOf(this.#region));
+      this.#draw();
+      this.#chooseCorner(index + 1);
+    });
+    middle.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      this.#change(added(0, 0));
+      this.#handles[index + 1].focus();
+    });
+    this.middleGroup.append(middle);
+    this.#middles.push(middle);
+    return middle;
+  }
+
+  // What was changed of the one before still counts.
+  #choose() {
+    clearTimeout(this.#settle);
+    this.#apply();
+    this.#draw();
+  }
+
+  #chooseCorner(index) {
+    this.#corner = index;
+    setText(this.cornerRemoval, texts.process.removeCorner(index + 1));
+  }
+
+  // `event`: the key that asked for it, so that the focus stays at the corners.
+  #removeCorner(index, event = null) {
+    event?.preventDefault();
+    this.#change((pixels) => pixels.toSpliced(index, 1));
+    if (event) this.#handles.at(Math.min(index, this.#handles.length - 1))?.focus();
+  }
+
+  #remove() {
+    setText(this.refused, "");
+    if (this.#changing?.name === this.choice.value) this.#forget();
+    this.recipe.removeRegion(this.choice.value);
+  }
+
+  // Of a pixel on the screen.
+  #scale() {
+    return this.canvas.width / (this.svg.clientWidth || this.canvas.width);
+  }
+
+  // A rectangle may be drawn over the picture.
+  #isDrawable({ kind, threshold }) {
+    return kind === "whole_view" || threshold !== undefined;
+  }
+
+  #drag(event, shape, moved) {
+    if (event.button !== 0) return;
+    event.stopPropagation();
+    shape.focus();
+    const from = pixelAt(this.svg, this.canvas, event), before = this.#cornersOf(this.#region);
+    this.#changing = this.#region;
+    followDrag(shape, event, (now) => {
+      const to = pixelAt(this.svg, this.canvas, now);
+      this.#pixels = moved(to[0] - from[0], to[1] - from[1])(before);
+      this.#draw();
+    }, (ended, isDone) => (isDone ? this.#apply() : this.#forget()));
+  }
+
+  #move(event) {
+    this.#drag(event, this.body, (du, dv) => (pixels) => pixels.map(([u, v]) => [u + du, v + dv]));
+  }
+
+  #span(event) {
+    const region = this.mayChange ? this.#region : null;
+    if (event.button !== 0 || !region || !this.#isDrawable(region)) return;
+    const from = pixelAt(this.svg, this.canvas, event);
+    this.#changing = region;
+    followDrag(this.svg, event, (now) => {
+      this.#pixels = rectangle(from, pixelAt(this.svg, this.canvas, now));
+      this.#draw();
+    }, (ended, isDone) => {
+      const to = pixelAt(this.svg, this.canvas, ended);
+      const isLarge = to.every((part, k) => Math.abs(part - from[k]) > kLeastPx);
+      if (isDone && isLarge) this.#apply();
+      else this.#forget();
+    });
+  }
+
+  #change(change) {
+    this.#pixels = change(this.#cornersOf(this.#region));
+    this.#changing = this.#region;
+    this.#draw();
+    clearTimeout(this.#settle);
+    this.#settle = setTimeout(() => this.#apply(), kSettleMs);
+  }
+
+  #pressArrow(event, moved) {
+    const key = kKeys[event.key];
+    if (!key) return;
+    event.preventDefault();
+    const step = event.shiftKey ? kLargeStepPx : kStepPx;
+    this.#change(moved(key[0] * step, key[1] * step));
+  }
+
+  // About the middle of its corners.
+  #press(event) {
+    this.#pressArrow(event, (du, dv) => (pixels) => pixels.map(([u, v]) => [u + du, v + dv]));
+    const factor = { "+": kGrowth, "-": 1 / kGrowth }[event.key];
+    if (!factor) return;
+    event.preventDefault();
+    this.#change((pixels) => {
+      const middle = [0, 1].map((k) => pixels.reduce((sum, pixel) => sum + pixel[k], 0) / pixels.length);
+      return pixels.map((pixel) => pixel.map((part, k) => middle[k] + (part - middle[k]) * factor));
+    });
+  }
+
+  #forget() {
+    this.#pixels = null;
+    this.#draw();
+  }
+
+  async #apply() {
+    const pixels = this.#pixels;
+    if (!pixels) return;
+    await this.#give(this.#changing, pixels);
+    if (this.#pixels === pixels) this.#forget(); // nobody went on meanwhile
+  }
+
+  // Whether the appliance has places for them.
+  async #give(region, pixels) {
+    try {
+      await this.recipe.setRegion(region, pixels);
+      setText(this.refused, "");
+      return true;
+    } catch (error) {
+      setText(this.refused, texts.refused(error.message));
+      return false;
+    }
+  }
+
+  // In the middle of the view.
+  async #add(event) {
+    event.preventDefault();
+    const { name, threshold } = this.form.elements, { width, height } = this.canvas;
+    const away = 0.5 - 0.5 / kNewShare;
+    const added = { name: name.value, view: this.view.value, kind: "whole_view", corners: [], lines: [],
+      threshold: Number(threshold.value) };
+    if (this.recipe.regions.some((region) => region.name === added.name)) {
+      return setText(this.refused, texts.refused(texts.process.isThere(added.name)));
+    }
+    const isPlaced = await this.#give(added, rectangle([width * away, height * away],
+      [width * (1 - away), height * (1 - away)]));
+    if (!isPlaced) return;
+    this.choice.value = added.name;
+    this.form.reset();
+    this.#draw();
+    this.body.focus();
+  }
+}

@@ -1,0 +1,113 @@
+// Logging in and out, and the first password.
+import { post } from "../appliance/api.js";
+import { element, field, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kRetryMs = 500;
+const kFirstUser = "admin";
+export const kLeastCharacters = 12;
+const account = document.getElementById("account");
+const section = document.getElementById("access");
+let isSending = false;  // a form: until it is answered the page does not begin anew
+
+export async function session() {
+  const answer = await fetch("/api/v1/session");
+  if (!answer.ok) throw new Error(`status ${answer.status}`);
+  return answer.json();
+}
+
+// `send(values)` returns why it was refused, or nothing; then the page begins anew.
+function showForm(title, fields, action, send) {
+  const refusal = element("p", { role: "alert", className: "wrong" });
+  const form = element("form", {}, ...fields, element("button", {}, action), refusal);
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    setText(refusal, "");
+    isSending = true;
+    const refused = await send(Object.fromEntries(new FormData(form)));
+    isSending = false;
+    if (refused) setText(refusal, texts.refused(refused));
+    else location.reload();
+  });
+  setText(document.getElementById("access-title"), title);
+  section.querySelector("form")?.remove();
+  section.append(form);
+  section.hidden = false;
+  form.querySelector("input").focus();
+}
+
+function showLogin() {
+  showForm(texts.logInTitle, [
+    field(texts.user, { name: "user", autocomplete: "username" }),
+    field(texts.password, { name: "password", type: "password", autocomplete: "current-password" }),
+  ], texts.logIn, (values) => post("/api/v1/login", values));
+}
+
+function newPasswordFields() {
+  const properties = { type: "password", autocomplete: "new-password", minLength: kLeastCharacters };
+  return [
+    field(texts.newPassword(kLeastCharacters), { name: "password", ...properties }),
+    field(texts.passwordAgain, { name: "again", ...properties }),
+  ];
+}
+
+// On another computer than the appliance.
+function showFirstCode() {
+  showForm(texts.firstPasswordTitle, [
+    element("p", {}, texts.whereTheCodeIs(kFirstUser)),
+    field(texts.code, { name: "code", autocomplete: "one-time-code" }),
+    ...newPasswordFields(),
+  ], texts.setPassword, async ({ code, password, again }) => {
+    if (password !== again) return texts.passwordsDiffer;
+    return post("/api/v1/set_first_password", { code, password });
+  });
+}
+
+function showFirstPassword() {
+  showForm(texts.firstPasswordTitle, [
+    field(texts.user, { name: "user", value: kFirstUser, autocomplete: "username" }),
+    ...newPasswordFields(),
+  ], texts.setPassword, async ({ user, password, again }) => {
+    if (password !== again) return texts.passwordsDiffer;
+    const refused = await post("/api/v1/set_user", { user, role: "administrator", password });
+    return refused || post("/api/v1/login", { user, password });
+  });
+}
+
+function showAccount({ user, role, has_users: hasUsers }) {
+  const name = hasUsers ? texts.account(user, role) : texts.noPassword;
+  const button = element("button", { type: "button" }, hasUsers ? texts.logOut : texts.setPassword);
+  button.addEventListener("click", async () => {
+    if (!hasUsers) return showFirstPassword();
+    const refused = await post("/api/v1/logout", {});
+    if (refused) setText(account.firstChild, texts.refused(refused));
+    else location.reload();
+  });
+  account.replaceChildren(element("span", {}, name), " ", button);
+}
+
+// Returns the session once whoever looks may see the page; until then there is a form. For ever: the
+// appliance may start later than the page.
+export async function admit(onNoAnswer) {
+  for (;;) {
+    try {
+      const present = await session();
+      if (present.role) {
+        showAccount(present);
+        return present;
+      }
+      if (present.has_users) showLogin();
+      else showFirstCode();
+      return new Promise(() => {});
+    } catch {
+      onNoAnswer();
+      await new Promise((resolve) => setTimeout(resolve, kRetryMs));
+    }
+  }
+}
+
+// After a lost connection: a session that has ended is begun anew.
+export async function askAgain() {
+  const present = await session().catch(() => null);
+  if (present && !present.role && !isSending) location.reload();
+}

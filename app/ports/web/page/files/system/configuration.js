@@ -1,0 +1,117 @@
+// The files of the configuration, to be changed as texts.
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+import { Trial } from "./trial.js";
+
+const kKeptMs = 1000;  // a download's text, for the browser to take it
+
+// Text fields know no line ends but \n.
+const plain = (text) => text.replaceAll("\r\n", "\n");
+
+// One file. What is not touched is never sent, so no byte of it changes.
+class FileEditor {
+  constructor({ name, text, may_change: mayChange }) {
+    this.name = name;
+    this.onDisk = text;
+    this.area = element("textarea", { rows: 16, spellcheck: false, readOnly: !mayChange, wrap: "off" });
+    this.area.setAttribute("aria-label", name);
+    this.mark = element("span", {});
+    const download = element("a", { className: "button", download: name.split("/").pop() },
+      texts.download);
+    download.addEventListener("click", () => {
+      download.href = URL.createObjectURL(new Blob([this.text]));
+      setTimeout(() => URL.revokeObjectURL(download.href), kKeptMs);
+    });
+    download.href = "#";
+    this.root = element("details", {}, element("summary", {}, name, " ", this.mark), this.area,
+      element("p", {}, download));
+    this.area.addEventListener("input", () => this.#showMark());
+    this.take(text);
+  }
+
+  // As a text of its own, by whatever way it came.
+  take(text) {
+    this.base = text;
+    this.area.value = text;
+    this.#showMark();
+  }
+
+  get text() {
+    const typed = this.area.value;
+    if (typed === plain(this.base)) return this.base;
+    return this.base.includes("\r\n") ? typed.replaceAll("\n", "\r\n") : typed;
+  }
+
+  get isChanged() {
+    return this.text !== this.onDisk;
+  }
+
+  #showMark() {
+    setText(this.mark, this.isChanged ? texts.changed : "");
+  }
+}
+
+export class Configuration {
+  #editors = new Map();
+
+  constructor(root) {
+    this.trial = new Trial("configuration", () => this.#changed(), () => this.opened.open,
+      { onState: (state) => this.#show(state) });
+    this.refusal = element("p", { className: "wrong" });
+    this.files = element("div");
+    this.upload = element("input", { type: "file", multiple: true, accept: ".toml,.yaml,.yml" });
+    this.upload.addEventListener("change", () => this.#takeFiles());
+    this.opened = element("details", { id: "configuration" },
+      element("summary", {}, texts.configurationTitle),
+      this.refusal, this.trial.head, this.files,
+      element("p", {}, element("label", {}, texts.uploadFiles, " ", this.upload)), this.trial.foot);
+    this.opened.addEventListener("toggle", () => this.trial.refresh());
+    root.append(this.opened);
+  }
+
+  #show(state) {
+    setText(this.refusal, state.refusal ? texts.filesRefused(state.refusal) : "");
+    for (const file of state.files) {
+      const editor = this.#editors.get(file.name);
+      if (!editor) {
+        this.#add(new FileEditor(file));
+      } else if (editor.onDisk !== file.text) {
+        const wasChanged = editor.isChanged;
+        editor.onDisk = file.text;
+        editor.take(wasChanged ? editor.text : file.text);
+      }
+    }
+  }
+
+  #add(editor) {
+    this.#editors.set(editor.name, editor);
+    this.files.append(editor.root);
+  }
+
+  async #takeFiles() {
+    for (const file of this.upload.files) {
+      let text;
+      try {
+        text = new TextDecoder("utf-8", { fatal: true, ignoreBOM: true })
+          .decode(await file.arrayBuffer());
+      } catch {
+        this.trial.say(texts.notUtf8(file.name), true);
+        continue;
+      }
+      const named = [...this.#editors.values()]
+        .find((editor) => editor.name.split("/").pop() === file.name);
+      if (!named) this.#add(new FileEditor({ name: file.name, text: "", may_change: true }));
+      const editor = named ?? this.#editors.get(file.name);
+      editor.take(text);
+      editor.root.open = true;
+    }
+    this.upload.value = "";
+  }
+
+  // Null: nothing was.
+  #changed() {
+    const changed = [...this.#editors.values()].filter((editor) => editor.isChanged);
+    if (changed.length === 0) return null;
+    return { files: Object.fromEntries(changed.map((editor) => [editor.name, editor.text])) };
+  }
+}

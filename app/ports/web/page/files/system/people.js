@@ -1,0 +1,84 @@
+// For administrators: who may log in, which programs have a token, and who did what.
+import { answerTo, post } from "../appliance/api.js";
+import { element, field, setText, table } from "../elements/elements.js";
+import { texts } from "../texts.js";
+import { kLeastCharacters } from "./access.js";
+
+const kRoles = ["viewer", "operator", "integrator", "administrator"];
+const kShownEntries = 50;
+
+function roleField() {
+  const select = element("select", { name: "role" }, ...kRoles.map((role) => element("option", {}, role)));
+  return element("label", {}, texts.role, " ", select);
+}
+
+export class People {
+  constructor(root) {
+    this.said = element("p", { role: "status" });
+    this.users = table([texts.user, texts.role, ""], texts.people);
+    this.tokens = table([texts.program, texts.role, ""], texts.programs);
+    this.done = table([texts.when, texts.who, texts.from, texts.what, texts.before, texts.after,
+                       texts.result], texts.audit);
+    this.opened = element("details", { id: "people" }, element("summary", {}, texts.peopleTitle),
+      this.said,
+      element("h3", {}, texts.people), this.users.root,
+      this.#form(texts.setUser, "/api/v1/set_user", [
+        field(texts.user, { name: "user", autocomplete: "off" }), roleField(),
+        field(texts.newPassword(kLeastCharacters), {
+          name: "password", type: "password", minLength: kLeastCharacters,
+          autocomplete: "new-password" })]),
+      element("h3", {}, texts.programs), this.tokens.root,
+      this.#form(texts.createToken, "/api/v1/create_token", [
+        field(texts.program, { name: "name", autocomplete: "off" }), roleField()]),
+      element("h3", {}, texts.audit), this.done.root);
+    this.opened.addEventListener("toggle", () => this.opened.open && this.#refresh());
+    root.append(this.opened);
+  }
+
+  #form(action, path, fields) {
+    const form = element("form", {}, ...fields, element("button", {}, action));
+    form.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      const { refused, token } = await answerTo(path, Object.fromEntries(new FormData(form)));
+      if (!refused) form.reset();
+      await this.#say(refused, token ? texts.newToken(token) : texts.done);
+    });
+    return form;
+  }
+
+  async #say(refused, done) {
+    this.#show(refused ? texts.refused(refused) : done, Boolean(refused));
+    await this.#refresh();
+  }
+
+  #show(text, isWrong) {
+    setText(this.said, text);
+    this.said.classList.toggle("wrong", isWrong);
+  }
+
+  #row({ name, role }, action, path, body) {
+    const button = element("button", { type: "button" }, action);
+    button.setAttribute("aria-label", `${action} ${name}`);
+    button.addEventListener("click", async () => this.#say(await post(path, body), texts.done));
+    return element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, role),
+      element("td", {}, button));
+  }
+
+  async #refresh() {
+    const answers = await Promise.all(["users", "audit"].map((what) => fetch(`/api/v1/${what}`)));
+    const refused = answers.find((answer) => !answer.ok);
+    if (refused) {
+      const { error } = await refused.json();
+      return this.#show(texts.refused(error), true);
+    }
+    const [people, audit] = await Promise.all(answers.map((answer) => answer.json()));
+    this.users.body.replaceChildren(...people.users.map((one) =>
+      this.#row(one, texts.remove, "/api/v1/remove_user", { user: one.name })));
+    this.tokens.body.replaceChildren(...people.tokens.map((one) =>
+      this.#row(one, texts.revoke, "/api/v1/revoke_token", { name: one.name })));
+    const entries = audit.entries.slice(-kShownEntries).reverse();
+    this.done.body.replaceChildren(...entries.map((entry) => element("tr", {},
+      ...["time", "who", "from", "what", "before", "after", "result"].map((key) =>
+        element("td", {}, entry[key] ?? "")))));
+  }
+}

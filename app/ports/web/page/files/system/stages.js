@@ -1,0 +1,39 @@
+// Where the processor time of a frame set goes, beside the time that there is for one.
+import { element, setText, table } from "../elements/elements.js";
+import { figureText } from "../elements/figures.js";
+import { texts } from "../texts.js";
+
+const kColumns = ["cpu_ms", "cpu_p50_ms", "cpu_p99_ms"];
+
+export class Stages {
+  #rows = new Map();
+
+  constructor(root) {
+    this.load = element("meter", { min: 0, max: 1, high: 0.8, low: 0.8, optimum: 0 });
+    this.load.setAttribute("aria-label", texts.load);
+    this.share = element("span", {});
+    const { root: shown, body } = table(
+      [texts.stage, texts.newest, texts.median, texts.worst], texts.stages);
+    this.body = body;
+    this.opened = element("details", { id: "stages" }, element("summary", {}, texts.stages),
+      element("p", {}, texts.load, " ", this.load, " ", this.share), shown);
+    root.append(this.opened);
+  }
+
+  show(stages, load) {
+    if (!this.opened.open) return;
+    this.load.value = load ?? 0;
+    setText(this.share, load === null ? figureText(load) : `${(100 * load).toFixed(0)} %`);
+    for (const stage of stages) {
+      const cells = this.#rows.get(stage.name) ?? this.#add(stage.name);
+      kColumns.forEach((column, n) => setText(cells[n], figureText(stage[column])));
+    }
+  }
+
+  #add(name) {
+    const cells = kColumns.map(() => element("td", { className: "figure" }));
+    this.body.append(element("tr", {}, element("th", { scope: "row" }, name), ...cells));
+    this.#rows.set(name, cells);
+    return cells;
+  }
+}

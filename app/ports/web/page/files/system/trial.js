@@ -1,0 +1,97 @@
+// New texts of the configuration: checked, tried out, confirmed or taken back. The appliance restarts
+// with them meanwhile.
+import { answerTo } from "../appliance/api.js";
+import { element, setText } from "../elements/elements.js";
+import { texts } from "../texts.js";
+
+const kPath = "/api/v1/configuration";
+const kUsualSeconds = 60;
+const kAgainMs = 1000;
+
+export class Trial {
+  #again = 0;
+  #trial = null;
+
+  // `what` is sent to check_WHAT and try_WHAT; `changes()` makes the body, null: nothing was changed.
+  // `isShown()`: somebody looks. `onState(state)`: the files, again and again.
+  constructor(what, changes, isShown, { onState = () => {}, onTried = () => {} } = {}) {
+    Object.assign(this, { what, changes, isShown, onState, onTried });
+    this.said = element("p", { role: "status" });
+    this.difference = element("pre", { tabIndex: 0, hidden: true });
+    this.difference.setAttribute("aria-label", texts.difference);
+    this.seconds = element("input", {
+      type: "number", min: 10, max: 3600, value: kUsualSeconds, name: "seconds" });
+    this.waiting = element("p", { hidden: true }, element("strong", { role: "timer" }), " ",
+      this.#button(texts.confirmFiles, () => this.#end("confirm", texts.confirmed)), " ",
+      this.#button(texts.revertFiles, () => this.#end("revert", texts.reverted)));
+    this.head = element("div", { className: "trial" }, this.said, this.waiting);
+    this.foot = element("div", { className: "trial" }, element("p", {},
+      this.#button(texts.checkFiles, () => this.#check()), " ",
+      element("label", {}, texts.trySeconds, " ", this.seconds), " ",
+      this.#button(texts.tryFiles, () => this.#try())), this.difference);
+  }
+
+  #button(label, act) {
+    const button = element("button", { type: "button" }, label);
+    button.addEventListener("click", act);
+    return button;
+  }
+
+  say(text, isWrong = false) {
+    setText(this.said, text);
+    this.said.classList.toggle("wrong", isWrong);
+  }
+
+  // With a trial again and again, since the appliance restarts meanwhile.
+  async refresh() {
+    clearTimeout(this.#again);
+    if (!this.isShown()) return;
+    const answer = await fetch(kPath).catch(() => null);
+    const state = answer && await answer.json().catch(() => null);
+    if (answer?.ok && state) this.#show(state);
+    else if (state) this.say(texts.refused(state.error), true);
+    if (this.#trial || !answer) this.#again = setTimeout(() => this.refresh(), kAgainMs);
+  }
+
+  #show(state) {
+    const hadTrial = this.#trial;
+    this.#trial = state.trial;
+    this.waiting.hidden = !state.trial;
+    if (state.trial) {
+      setText(this.waiting.firstChild, texts.goesBack(state.trial.seconds_left));
+    } else if (hadTrial) {
+      this.say(texts.filesCount);
+    }
+    this.onState(state);
+  }
+
+  async #send(verb, more) {
+    const changes = this.changes();
+    if (!changes) return this.say(texts.nothingChanged), null;
+    const answer = await answerTo(`/api/v1/${verb}_${this.what}`, { ...changes, ...more });
+    this.difference.hidden = Boolean(answer.refused);
+    setText(this.difference, answer.difference ?? "");
+    if (answer.refused) this.say(texts.refused(answer.refused), true);
+    return answer.refused ? null : answer;
+  }
+
+  async #check() {
+    const answer = await this.#send("check", {});
+    if (answer) this.say(texts.checked(answer.files.join(", ")));
+  }
+
+  async #try() {
+    const answer = await this.#send("try", { seconds: Number(this.seconds.value) });
+    if (!answer) return;
+    this.say(texts.tried);
+    this.onTried();
+    await this.refresh();
+  }
+
+  async #end(what, done) {
+    const { refused } = await answerTo(`/api/v1/${what}_configuration`, {});
+    this.say(refused ? texts.refused(refused) : done, Boolean(refused));
+    if (!refused) this.#trial = null;
+    await this.refresh();
+  }
+}
