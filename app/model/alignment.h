@@ -31,7 +31,7 @@ struct CameraAlignmentState {
   std::string method;   ///< how it was found
   std::string quality;  ///< what is known of its errors
   double direction_sigma = signals::kNotValid;  ///< degrees
-  std::vector<SceneEdge> edges{};  ///< those that the ball's centre sees
+  std::vector<SceneEdge> edges{};               ///< those that the ball's centre sees
 };
 
 /// A known point that a camera is placed by.

@@ -51,8 +51,8 @@ TEST(AlignmentState, EdgesOfTheSceneAreWhereTheBallShowsThem) {
   int ends = 0;
   for (const SceneEdge& edge : state->edges) {
     ASSERT_GT(edge.pixels.size(), 1U);
-    for (const auto& [pixel, point] : {std::pair(edge.pixels.front(), edge.from),
-                                       std::pair(edge.pixels.back(), edge.to)}) {
+    for (const auto& [pixel, point] :
+         {std::pair(edge.pixels.front(), edge.from), std::pair(edge.pixels.back(), edge.to)}) {
       const bool is_there = std::hypot(pixel.u - corner->u, pixel.v - corner->v) < 1e-3;
       ends += is_there ? 1 : 0;
       const bool is_meant = norm(point + rig.ball.centre - optics::Vec3{-600, -900, 0}) < 1e-9;

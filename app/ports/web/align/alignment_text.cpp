@@ -24,9 +24,8 @@ Json json_of(const CameraAlignmentState& state) {
   for (const SceneEdge& edge : state.edges) {
     Json pixels = Json::array();
     for (const optics::Vec2& pixel : edge.pixels) pixels.push_back(json_of(pixel));
-    edges.push_back({{"from", json_of(edge.from)},
-                     {"to", json_of(edge.to)},
-                     {"pixels", std::move(pixels)}});
+    edges.push_back(
+        {{"from", json_of(edge.from)}, {"to", json_of(edge.to)}, {"pixels", std::move(pixels)}});
   }
   const optics::Outline& outline = state.outline;
   return {{"outline",
