@@ -35,7 +35,8 @@ export function pixelAt(svg, { width, height }, { clientX, clientY }) {
 }
 
 // A line from where `event` pressed `shape` to the pointer, over a picture of that size, until
-// `onEnd(from, to)`, a promise, is settled; pixels. Without `to` it was taken away, or only clicked.
+// `onEnd(from, to, isDone)`, a promise, is settled; pixels. Without `to` it was only clicked or, not
+// done, taken away.
 export function followPull(svg, shape, event, size, onEnd) {
   const from = pixelAt(svg, size, event), line = drawn("path", { class: "pull" });
   svg.append(line);
