@@ -1,9 +1,9 @@
 // The ball in each camera's picture: found, corrected by hand, accepted.
 import { command } from "../appliance/api.js";
+import { directionOf, turnBetween } from "../elements/directions.js";
 import { commandButton, element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 import { BallEditor } from "./ball_editor.js";
-import { directionOf, turnBetween } from "./directions.js";
 import { Models } from "./models.js";
 import { Place } from "./place.js";
 import { Register } from "./register.js";

@@ -1,7 +1,7 @@
 // A camera's picture with the ball's outline over it as an ellipse, moved by its handles with
 // pointer, touch or keys, and the scene's edges as the alignment has them.
 import { element } from "../elements/elements.js";
-import { drawn, followDrag, followPull, kKeys, pixelAt, place, pointsText } from "../elements/shapes.js";
+import { drawn, followDrag, followPull, kKeys, pixelAt, place, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
 
 const kStepPx = 0.1, kLargeStepPx = 1;
@@ -192,10 +192,7 @@ export class BallEditor {
     this.#markPoints(this.camera);
     const shown = this.camera.proposed ?? this.camera.in_force;
     this.#outline = shown?.outline ?? null;
-    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap(({ pixels }) => {
-      const points = pointsText(pixels);
-      return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];
-    }));
+    this.edges.replaceChildren(...(shown?.edges ?? []).flatMap(({ pixels }) => pullableLine(pixels)));
     this.#draw();
   }
 

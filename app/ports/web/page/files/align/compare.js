@@ -1,56 +1,10 @@
-// One view by two cameras, or by two models of the ball, beside or over each other.
+// One view by two cameras, one over the other.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
+import { kSide, viewCanvas } from "./camera_view.js";
 
 const kBlinkMs = 500;  // two changes a second disturb nobody
 const kSquares = 8;    // of the checkerboard, in each direction
-export const kSide = 480;  // px
-
-// Where a view looks, as fields of a form and arguments of a query; degrees.
-export class ViewFields {
-  // As numbers, by name: those that were right last.
-  values = { yaw: 0, pitch: -20, h_fov: 80 };
-
-  constructor(onChange) {
-    const ends = { yaw: [-180, 180], pitch: [-90, 90], h_fov: [5, 150] };
-    this.inputs = Object.fromEntries(Object.entries(this.values).map(([name, value]) =>
-      [name, element("input", { type: "number", name, value, min: ends[name][0], max: ends[name][1],
-        step: 5, required: true })]));
-    this.root = element("p", {}, ...Object.entries(this.inputs).map(([name, input]) =>
-      element("label", {}, texts.compare[name], " ", input)));
-    for (const [name, input] of Object.entries(this.inputs)) {
-      input.addEventListener("change", () => {
-        const value = input.valueAsNumber, [least, most] = ends[name];
-        if (!(value >= least && value <= most)) return;
-        this.values[name] = value;
-        onChange();
-      });
-    }
-  }
-
-  turnTo({ yaw, pitch }) {
-    for (const [name, value] of Object.entries({ yaw, pitch })) {
-      this.values[name] = this.inputs[name].value = Math.round(value);
-    }
-  }
-
-  get query() {
-    return Object.entries(this.values);
-  }
-}
-
-export async function pictureOf(query) {
-  const all = new URLSearchParams([...query, ["width", kSide], ["height", kSide]]);
-  const answer = await fetch(`/api/v1/alignment/view.jpg?${all}`);
-  if (!answer.ok) throw new Error((await answer.json()).error);
-  return createImageBitmap(await answer.blob());
-}
-
-export function viewCanvas(label) {
-  const canvas = element("canvas", { role: "img", "aria-label": label });
-  canvas.width = canvas.height = kSide;
-  return canvas;
-}
 
 const kWays = {
   blink: (brush, [a, b], { isSecond }) => brush.drawImage(isSecond ? b : a, 0, 0),
@@ -72,7 +26,6 @@ const kWays = {
   },
 };
 
-// Two pictures over each other.
 export class Comparison {
   #pictures = [];
   #isSecond = false;

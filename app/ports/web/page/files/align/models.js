@@ -1,7 +1,7 @@
 // One view by the exact model of the ball beside the paper's, with a line that is straight.
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
-import { pictureOf, viewCanvas, ViewFields } from "./compare.js";
+import { pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
 
 const kModels = ["exact", "paper"];
 

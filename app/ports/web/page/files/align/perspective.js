@@ -1,5 +1,5 @@
 // A square view of the room from the ball's centre, as /api/v1/alignment/view.jpg draws it.
-import { cross, directionOf, dot, kDeg } from "./directions.js";
+import { axesOf, dot, kDeg } from "../elements/directions.js";
 
 // Of a line's length: what is nearer to the viewer's side is left out.
 const kNear = 0.01;
@@ -7,9 +7,7 @@ const kNear = 0.01;
 export class Perspective {
   // Degrees; the picture's side in pixels, whose centres are at integers.
   constructor({ yaw, pitch, h_fov: fov }, side) {
-    this.forward = directionOf({ yaw, pitch });
-    this.right = [Math.cos(yaw * kDeg), -Math.sin(yaw * kDeg), 0];
-    this.up = cross(this.right, this.forward);
+    Object.assign(this, axesOf({ yaw, pitch }));  // right, up, forward
     this.middle = (side - 1) / 2;
     this.focal = side / 2 / Math.tan(fov / 2 * kDeg);
   }

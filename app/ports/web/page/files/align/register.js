@@ -1,9 +1,10 @@
 // How a camera stands to the first one: found, and compared by what both show.
-import { Reload } from "../appliance/reload.js";
+import { anglesOf, directionOf } from "../elements/directions.js";
 import { commandButton, element } from "../elements/elements.js";
 import { texts } from "../texts.js";
-import { Comparison, pictureOf, ViewFields } from "./compare.js";
-import { anglesOf, directionOf } from "./directions.js";
+import { pictureOf, ViewFields } from "./camera_view.js";
+import { Comparison } from "./compare.js";
+import { Reload } from "./reload.js";
 
 // Where two cameras that face [a] and [b] both see best: between them; of opposite ones, beside.
 function between(a, b) {

@@ -1,12 +1,12 @@
 // The scene's edges over a view of the room, where all that is straight in the machine is straight.
 // Dragged onto the machine's, they turn the camera.
-import { Reload } from "../appliance/reload.js";
+import { turnBetween } from "../elements/directions.js";
 import { element } from "../elements/elements.js";
-import { drawn, followPull, pointsText } from "../elements/shapes.js";
+import { drawn, followPull, pullableLine } from "../elements/shapes.js";
 import { texts } from "../texts.js";
-import { kSide, pictureOf, viewCanvas, ViewFields } from "./compare.js";
-import { turnBetween } from "./directions.js";
+import { kSide, pictureOf, viewCanvas, ViewFields } from "./camera_view.js";
 import { Perspective } from "./perspective.js";
+import { Reload } from "./reload.js";
 
 export class SceneView {
   #camera = null;
@@ -61,8 +61,7 @@ export class SceneView {
 
   #drawEdges(edges) {
     const lines = edges.map(({ from, to }) => this.#perspective.lineOf(from, to)).filter(Boolean);
-    this.edges.replaceChildren(...lines.map(pointsText).flatMap((points) =>
-      [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })]));
+    this.edges.replaceChildren(...lines.flatMap(pullableLine));
   }
 
   #pull(event) {

@@ -50,3 +50,9 @@ export function followPull(svg, shape, event, size, onEnd) {
 }
 
 export const pointsText = (pixels) => pixels.map((pixel) => pixel.join(",")).join(" ");
+
+// A line and, over it, the wider one that is pressed.
+export function pullableLine(pixels) {
+  const points = pointsText(pixels);
+  return [drawn("polyline", { points }), drawn("polyline", { points, class: "grip" })];
+}

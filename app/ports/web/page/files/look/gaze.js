@@ -1,10 +1,10 @@
 // Where somebody looks, and how mouse, wheel, fingers and keys turn it.
+import { anglesOf, axesOf, kDeg } from "../elements/directions.js";
 
 const kNarrowest = 5, kWidest = 140; // degrees
 const kKeyShare = 0.05; // of the field of view per key
 const kZoom = 1.1; // per key
 const kWheelZoom = 0.0015; // per pixel that the wheel says
-const kRadians = Math.PI / 180;
 
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
 
@@ -23,9 +23,9 @@ export class Gaze {
   }
 
   // Looks where the camera sees best, unless somebody has turned it already.
-  begin([x, y, z]) {
+  begin(direction) {
     if (this.#home) return;
-    this.#home = { yaw: Math.atan2(x, y) / kRadians, pitch: Math.asin(z) / kRadians, fov: 90 };
+    this.#home = { ...anglesOf(direction), fov: 90 };
     this.reset();
   }
   set home({ yaw, pitch, fov }) {
@@ -47,7 +47,7 @@ export class Gaze {
   }
   // As if the picture were moved, degrees in its own directions.
   drag(right, up) {
-    const roll = this.roll * kRadians, c = Math.cos(roll), s = Math.sin(roll);
+    const roll = this.roll * kDeg, c = Math.cos(roll), s = Math.sin(roll);
     this.turn(-(right * c + up * s), -(up * c - right * s));
   }
   zoom(factor) {
@@ -56,12 +56,8 @@ export class Gaze {
 
   // Columns of right, up and forward, and the tangent of half the field of view.
   get view() {
-    const a = this.yaw * kRadians, b = this.pitch * kRadians;
-    const [sa, ca, sb, cb] = [Math.sin(a), Math.cos(a), Math.sin(b), Math.cos(b)];
-    return {
-      axes: [ca, -sa, 0, -sa * sb, -ca * sb, cb, sa * cb, ca * cb, sb],
-      tangent: Math.tan((this.fov * kRadians) / 2),
-    };
+    const { right, up, forward } = axesOf(this);
+    return { axes: [...right, ...up, ...forward], tangent: Math.tan((this.fov * kDeg) / 2) };
   }
 }
 

@@ -11,8 +11,14 @@ export function anglesOf([x, y, z]) {
 }
 
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const cross = (a, b) =>
+const cross = (a, b) =>
   [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+// Of a picture that looks there, upright.
+export function axesOf({ yaw, pitch }) {
+  const forward = directionOf({ yaw, pitch }), right = [Math.cos(yaw * kDeg), -Math.sin(yaw * kDeg), 0];
+  return { right, up: cross(right, forward), forward };
+}
 
 // The smallest turn from one unit vector to another, of vector v.
 function turned(v, from, to) {
