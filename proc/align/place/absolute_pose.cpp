@@ -1,8 +1,10 @@
 #include "proc/align/place/absolute_pose.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
+
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 namespace {
@@ -13,12 +15,6 @@ using optics::Vec3;
 
 /// A point further off than this says no more than that it is off: 0.05 rad, a slip of the hand.
 constexpr double kLimit = 0.05;
-
-Eigen::Vector3d eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
-Vec3 vec3(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Mat3 mat3(const Eigen::Matrix3d& m) {
-  return {vec3(m.row(0).transpose()), vec3(m.row(1).transpose()), vec3(m.row(2).transpose())};
-}
 
 /// Directions from the ball's centre to one point, in both frames.
 struct Pair {
@@ -44,17 +40,13 @@ std::vector<Pair> pairs_around(const std::vector<PointSight>& sights, const Vec3
   return pairs;
 }
 
-/// Wahba's problem by singular values (Markley 1988): the rotation that turns the machine's
-/// directions into the camera's, with weights.
-Mat3 wahba(const std::vector<Pair>& pairs, const std::vector<double>& weights) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+/// The rotation that turns the machine's directions into the camera's, with weights.
+Mat3 fit_rotation(const std::vector<Pair>& pairs, const std::vector<double>& weights) {
+  std::vector<DirectionPair> directions;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
-    sum += weights[n] * eigen(pairs[n].camera) * eigen(pairs[n].machine).transpose();
+    directions.push_back({pairs[n].camera, pairs[n].machine, weights[n]});
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d handed = Eigen::Matrix3d::Identity();
-  handed(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1;
-  return mat3(svd.matrixU() * handed * svd.matrixV().transpose());
+  return fit_rotation(directions);
 }
 
 double angle2(const Pair& pair, const Mat3& rotation) {
@@ -78,7 +70,7 @@ Mat3 improved(const std::vector<Pair>& pairs, Mat3 rotation) {
   std::vector<double> weights(pairs.size());
   for (int round = 0; round < 5; ++round) {
     for (std::size_t n = 0; n < pairs.size(); ++n) weights[n] = trust(angle2(pairs[n], rotation));
-    rotation = wahba(pairs, weights);
+    rotation = fit_rotation(pairs, weights);
   }
   return rotation;
 }
@@ -87,22 +79,25 @@ Mat3 improved(const std::vector<Pair>& pairs, Mat3 rotation) {
 /// rays; each weighs by the angle that it subtends and, if wanted, by its trust at `last`.
 std::optional<Vec3> turned_centre(const std::vector<PointSight>& sights, const Mat3& rotation,
                                   const Vec3& last, bool by_trust) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  cv::Matx33d normal;
+  Vec3 right_side;
   for (const PointSight& sight : sights) {
-    const Eigen::Vector3d d = eigen(sight.ray.direction);
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - d * d.transpose();
-    const Eigen::Vector3d from_origin = eigen(rotation * sight.point - sight.ray.origin);
-    const Eigen::Vector3d left = from_origin - eigen(last);
-    const double distance2 = std::max(left.squaredNorm(), 1.0);
-    const double off2 = (across * left).squaredNorm() / distance2;
-    const double weight = (by_trust ? trust(off2) : 1) / distance2;
-    normal += weight * across;
-    right_side += weight * (across * from_origin);
+    const Vec3& d = sight.ray.direction;
+    const auto across = [&d](const Vec3& v) { return v - d * dot(d, v); };
+    const Vec3 from_origin = rotation * sight.point - sight.ray.origin;
+    const Vec3 left = from_origin - last, off = across(left);
+    const double distance2 = std::max(dot(left, left), 1.0);
+    const double weight = (by_trust ? trust(dot(off, off) / distance2) : 1) / distance2;
+    const cv::Vec3d ray(d.x, d.y, d.z);
+    normal += weight * (cv::Matx33d::eye() - ray * ray.t());
+    right_side = right_side + weight * across(from_origin);
   }
-  const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-  if (!(solver.rcond() > 1e-9)) return std::nullopt;
-  return vec3(solver.solve(right_side));
+  constexpr double kMostCondition = 1e9;
+  bool is_regular = false;
+  const cv::Matx33d inverse = normal.inv(cv::DECOMP_CHOLESKY, &is_regular);
+  if (!is_regular || !(cv::norm(normal) * cv::norm(inverse) < kMostCondition)) return std::nullopt;
+  const cv::Vec3d centre = inverse * cv::Vec3d(right_side.x, right_side.y, right_side.z);
+  return Vec3{centre[0], centre[1], centre[2]};
 }
 
 }  // namespace
@@ -115,7 +110,7 @@ std::optional<Attitude> attitude_around(const std::vector<PointSight>& sights, c
   std::optional<Attitude> best;
   for (std::size_t a = 0; a < pairs.size(); a += stride) {
     for (std::size_t b = a + 1; b < pairs.size(); b += stride) {
-      const Mat3 rotation = wahba({pairs[a], pairs[b]}, {1, 1});
+      const Mat3 rotation = fit_rotation({pairs[a], pairs[b]}, {1, 1});
       const double bad = badness(pairs, rotation);
       if (!best || bad < best->badness) best = Attitude{rotation, bad};
     }
@@ -137,8 +132,8 @@ std::optional<FreePose> free_pose(const std::vector<PointSight>& sights, const V
     if (pairs.size() < 3) return std::nullopt;
     // All points equally at first: a guess is far off for each of them.
     const bool by_trust = round >= kRounds / 2;
-    rotation =
-        by_trust ? improved(pairs, rotation) : wahba(pairs, std::vector<double>(pairs.size(), 1));
+    rotation = by_trust ? improved(pairs, rotation)
+                        : fit_rotation(pairs, std::vector<double>(pairs.size(), 1));
     const auto next = turned_centre(sights, rotation, rotation * centre, by_trust);
     if (!next) return std::nullopt;
     centre = transposed(rotation) * *next;

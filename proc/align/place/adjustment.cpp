@@ -1,11 +1,18 @@
 #include "proc/align/place/adjustment.h"
 
-#include <ceres/ceres.h>
-#include <ceres/normal_prior.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/loss_function.h>
+#include <ceres/numeric_diff_cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/sized_cost_function.h>
+#include <ceres/solver.h>
 
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 namespace {
@@ -16,14 +23,7 @@ using optics::Vec3;
 
 Vec3 vec3(const double* x) { return {x[0], x[1], x[2]}; }
 
-Mat3 turned(const Vec3& turn, const Mat3& rotation) {
-  const Eigen::Vector3d axis(turn.x, turn.y, turn.z);
-  const double angle = axis.norm();
-  if (!(angle > 0)) return rotation;
-  const Eigen::Matrix3d m = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix();
-  const auto row = [&m](int r) { return Vec3{m(r, 0), m(r, 1), m(r, 2)}; };
-  return Mat3{row(0), row(1), row(2)} * rotation;
-}
+Mat3 turned(const Vec3& turn, const Mat3& rotation) { return rotation_about(turn) * rotation; }
 
 /// What the solver moves, as flat numbers; turns count from the start.
 struct Blocks {
@@ -122,10 +122,25 @@ struct OutlineEquation : CameraEquation {
 };
 
 /// A measured position with that sigma, ball radii.
-ceres::CostFunction* measured(const Vec3& position, double sigma) {
-  return new ceres::NormalPrior(ceres::Matrix(Eigen::Matrix3d::Identity() / sigma),
-                                ceres::Vector(Eigen::Vector3d(position.x, position.y, position.z)));
-}
+class MeasuredEquation final : public ceres::SizedCostFunction<3, 3> {
+ public:
+  MeasuredEquation(const Vec3& position, double sigma)
+      : position_{position.x, position.y, position.z}, sigma_(sigma) {}
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    for (std::size_t k = 0; k < 3; ++k) {
+      residuals[k] = (parameters[0][k] - position_[k]) / sigma_;
+      if (!jacobians || !jacobians[0]) continue;
+      for (std::size_t n = 0; n < 3; ++n) jacobians[0][3 * k + n] = k == n ? 1 / sigma_ : 0;
+    }
+    return true;
+  }
+
+ private:
+  std::array<double, 3> position_;
+  double sigma_;
+};
 
 /// The request as Ceres knows it.
 class Problem {
@@ -161,13 +176,11 @@ class Problem {
       options.parameter_blocks.push_back(block);
       for (int k = 0; k < size; ++k) columns.push_back(column + k);
     }
-    std::vector<double> values;
-    ceres::CRSMatrix sparse;
-    if (!problem_.Evaluate(options, nullptr, &values, nullptr, &sparse)) return std::nullopt;
     Equations all;
+    ceres::CRSMatrix sparse;
+    if (!problem_.Evaluate(options, nullptr, &all.residuals, nullptr, &sparse)) return std::nullopt;
     all.unknowns = columns;
-    all.residuals = Eigen::Map<Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
-    all.jacobian = Eigen::MatrixXd::Zero(all.residuals.size(), columns_);
+    all.jacobian = cv::Mat1d::zeros(int(all.residuals.size()), columns_);
     for (int row = 0; row < sparse.num_rows; ++row) {
       for (int k = sparse.rows[std::size_t(row)]; k < sparse.rows[std::size_t(row) + 1]; ++k) {
         const auto column = std::size_t(sparse.cols[std::size_t(k)]);
@@ -230,7 +243,8 @@ class Problem {
     if (centre.knowledge == BallCentre::Knowledge::Measured) {
       const double radius = request_.ball_radius;
       residuals_.push_back(problem_.AddResidualBlock(
-          measured(centre.position * (1 / radius), centre.sigma / radius), nullptr, block));
+          new MeasuredEquation(centre.position * (1 / radius), centre.sigma / radius), nullptr,
+          block));
     }
     settle(block, 3, int(request_.cameras.size()) * kCameraUnknowns,
            centre.knowledge == BallCentre::Knowledge::Known);
@@ -243,7 +257,8 @@ class Problem {
     if (used && !exact) {
       const double radius = request_.ball_radius;
       residuals_.push_back(problem_.AddResidualBlock(
-          measured(request_.points[p] * (1 / radius), request_.sigma_mm / radius), nullptr, block));
+          new MeasuredEquation(request_.points[p] * (1 / radius), request_.sigma_mm / radius),
+          nullptr, block));
     }
     settle(block, 3, column, exact || !used);
   }
@@ -274,6 +289,10 @@ std::optional<optics::BallProjection> projection(const UnplacedCamera& camera,
   auto made = optics::BallProjection::make(optics::BallModel::Kind::Exact, {lens, pose, window},
                                            {centre, 1});
   return made ? std::optional(*made) : std::nullopt;
+}
+
+double Equations::sum_of_squares() const {
+  return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
 }
 
 CameraState changed(const CameraState& state, const CameraChange& change) {

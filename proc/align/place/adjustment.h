@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
@@ -34,7 +34,7 @@ std::optional<optics::BallProjection> projection(const UnplacedCamera& camera,
 /// Small changes of one camera's state, in this order: rotation about the camera's axes (3, rad),
 /// ball in the camera frame (3, radii), logarithm of the focal length (1).
 inline constexpr int kCameraUnknowns = 7;
-using CameraChange = Eigen::Matrix<double, kCameraUnknowns, 1>;
+using CameraChange = cv::Vec<double, kCameraUnknowns>;
 CameraState changed(const CameraState& state, const CameraChange& change);
 
 /// One mark that takes part.
@@ -46,11 +46,11 @@ struct UsedMark {
 /// The equations at a state, each divided by its sigma. Columns: kCameraUnknowns per camera, the
 /// ball's centre (3), the points (3 each); those of what is known are 0.
 struct Equations {
-  Eigen::MatrixXd jacobian;
-  Eigen::VectorXd residuals;  ///< first two per used mark, in their order
-  std::vector<int> unknowns;  ///< the columns of what is unknown
+  cv::Mat1d jacobian;
+  std::vector<double> residuals;  ///< first two per used mark, in their order
+  std::vector<int> unknowns;      ///< the columns of what is unknown
 
-  double sum_of_squares() const { return residuals.squaredNorm(); }
+  double sum_of_squares() const;
   /// Equations more than unknowns.
   int redundancy() const { return int(residuals.size()) - int(unknowns.size()); }
 };

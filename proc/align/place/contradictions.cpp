@@ -1,6 +1,5 @@
 #include "proc/align/place/contradictions.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,28 +10,28 @@ namespace {
 constexpr double kFalseAlarms = 1e-4;  ///< of requests without a mistake
 
 /// How much the sum of squares falls without this mark; 0 when it cannot be tested.
-double drop(const Equations& equations, const Eigen::MatrixXd& covariance, std::size_t mark) {
-  const Eigen::Index row = 2 * Eigen::Index(mark);
-  const Eigen::MatrixXd slopes = equations.jacobian.middleRows(row, 2);
-  const Eigen::Vector2d residual = equations.residuals.segment<2>(row);
-  const Eigen::Matrix2d free =
-      Eigen::Matrix2d::Identity() - slopes * covariance * slopes.transpose();
+double drop(const Equations& equations, const cv::Mat1d& covariance, std::size_t mark) {
+  const int row = 2 * int(mark);
+  const cv::Mat1d slopes = equations.jacobian.rowRange(row, row + 2);
+  const cv::Vec2d residual(&equations.residuals[std::size_t(row)]);
+  const cv::Mat1d free = cv::Mat1d::eye(2, 2) - slopes * covariance * slopes.t();
   // Each eigenvalue is the share of a mistake that the other equations show.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(free);
+  cv::Vec2d shares;
+  cv::Matx22d directions;  // by rows
+  cv::eigen(free, shares, directions);
   constexpr double kTestable = 1e-4;
   double sum = 0;
   for (int k = 0; k < 2; ++k) {
-    const double share = solver.eigenvalues()[k];
-    const double along = solver.eigenvectors().col(k).dot(residual);
-    if (share > kTestable) sum += along * along / share;
+    const double along = directions.row(k).dot(residual.t());
+    if (shares[k] > kTestable) sum += along * along / shares[k];
   }
   return sum;
 }
 
 }  // namespace
 
-std::optional<Contradiction> contradiction(const Equations& equations,
-                                           const Eigen::MatrixXd& covariance, std::size_t marks) {
+std::optional<Contradiction> contradiction(const Equations& equations, const cv::Mat1d& covariance,
+                                           std::size_t marks) {
   std::vector<double> drops;
   for (std::size_t n = 0; n < marks; ++n) drops.push_back(drop(equations, covariance, n));
   const auto worst = std::ranges::max_element(drops);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <opencv2/core.hpp>
 #include <optional>
 
 #include "proc/align/place/adjustment.h"
@@ -18,8 +18,8 @@ struct Contradiction {
 /// it, which is chi-square with 2 degrees of freedom for a good mark (Baarda's data snooping, for
 /// pairs of equations). `covariance`: of the equations' columns. nullopt: none is off. Marks that
 /// alone determine an unknown cannot be tested.
-std::optional<Contradiction> contradiction(const Equations& equations,
-                                           const Eigen::MatrixXd& covariance, std::size_t marks);
+std::optional<Contradiction> contradiction(const Equations& equations, const cv::Mat1d& covariance,
+                                           std::size_t marks);
 
 /// The value that chi-square with that many degrees of freedom exceeds once in 10000 times; Wilson
 /// and Hilferty's approximation.

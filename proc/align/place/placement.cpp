@@ -32,7 +32,7 @@ std::vector<PlacedMark> placed_marks(const PlaceRequest& request, const Solution
 
 PlacedCamera placed_camera(const PlaceRequest& request, const Solution& solution, std::size_t c) {
   const CameraState& state = solution.state.cameras[c];
-  const Eigen::Index first = Eigen::Index(c) * kCameraUnknowns;
+  const int first = int(c) * kCameraUnknowns;
   const double radius = request.ball_radius;
   PlacedCamera placed;
   placed.pose = {state.rotation,
@@ -46,15 +46,13 @@ PlacedCamera placed_camera(const PlaceRequest& request, const Solution& solution
   placed.covariance = pose_covariance(request, solution.state, solution.covariance, c);
   const cv::Matx66d& p = placed.covariance;
   placed.rotation_sigma = optics::degrees(std::sqrt(p(0, 0) + p(1, 1) + p(2, 2)));
-  placed.direction_sigma =
-      view_sigma(request, solution.state,
-                 solution.covariance.block<kCameraUnknowns, kCameraUnknowns>(first, first), c);
+  placed.direction_sigma = view_sigma(request, solution.state, solution.covariance, c);
   placed.marks = placed_marks(request, solution, c);
   return placed;
 }
 
 cv::Matx33d centre_covariance(const PlaceRequest& request, const Solution& solution) {
-  const Eigen::Index first = Eigen::Index(request.cameras.size()) * kCameraUnknowns;
+  const int first = int(request.cameras.size()) * kCameraUnknowns;
   cv::Matx33d out;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {

@@ -19,15 +19,22 @@ std::vector<UsedMark> all_marks(const PlaceRequest& request) {
   return all;
 }
 
+/// The root of the variances' sum of `size` unknowns from a column on.
+double joint_sigma(const cv::Mat1d& covariance, int column, int size) {
+  double variance = 0;
+  for (int k = column; k < column + size; ++k) variance += covariance(k, k);
+  return std::sqrt(variance);
+}
+
 /// Refuses what would be accepted only because nothing contradicts it.
 Result<> check_determined(const PlaceRequest& request, const Solution& solution) {
   constexpr double kMostTurn = 5;      // degrees
   constexpr double kMostFocal = 0.05;  // of the focal length
-  const auto sigma = [&](Eigen::Index column, int size) {
-    return std::sqrt(solution.covariance.diagonal().segment(column, size).sum());
+  const auto sigma = [&](int column, int size) {
+    return joint_sigma(solution.covariance, column, size);
   };
   for (std::size_t c = 0; c < request.cameras.size(); ++c) {
-    const Eigen::Index first = Eigen::Index(c) * kCameraUnknowns;
+    const int first = int(c) * kCameraUnknowns;
     const std::string name = "camera " + request.cameras[c].name + ": ";
     if (const double focal = sigma(first + 6, 1); focal > kMostFocal) {
       return fail(name + "the marks do not determine the focal length: it would be known to " +
@@ -39,7 +46,7 @@ Result<> check_determined(const PlaceRequest& request, const Solution& solution)
                   short_number(turn) + " deg; mark points in other directions");
     }
   }
-  const Eigen::Index centre = Eigen::Index(request.cameras.size()) * kCameraUnknowns;
+  const int centre = int(request.cameras.size()) * kCameraUnknowns;
   if (const double off = sigma(centre, 3); off > 1) {
     return fail("the marks do not determine the ball's centre: it would be known to " +
                 short_number(off * request.ball_radius) +
@@ -64,16 +71,16 @@ Result<Solution> judged(const PlaceRequest& request, const std::vector<UsedMark>
 /// Whether two solutions are further apart than either is uncertain.
 bool is_another(const Solution& a, const PlaceState& b) {
   constexpr double kLeast = 1e-3;  // rad, radii
-  const auto limit = [&](Eigen::Index column) {
-    return std::max(kLeast, 6 * std::sqrt(a.covariance.diagonal().segment(column, 3).sum()));
+  const auto limit = [&](int column) {
+    return std::max(kLeast, 6 * joint_sigma(a.covariance, column, 3));
   };
   for (std::size_t c = 0; c < b.cameras.size(); ++c) {
     const optics::Mat3 turn = a.state.cameras[c].rotation * transposed(b.cameras[c].rotation);
     const double cosine = (turn.row0.x + turn.row1.y + turn.row2.z - 1) / 2;
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
-    if (angle > limit(Eigen::Index(c) * kCameraUnknowns)) return true;
+    if (angle > limit(int(c) * kCameraUnknowns)) return true;
   }
-  return norm(a.state.centre - b.centre) > limit(Eigen::Index(b.cameras.size()) * kCameraUnknowns);
+  return norm(a.state.centre - b.centre) > limit(int(b.cameras.size()) * kCameraUnknowns);
 }
 
 /// The best solution from all starts; refused if another one fits about as well.
@@ -106,10 +113,10 @@ Result<PlaceState> best_state(const PlaceRequest& request, const std::vector<Use
 }
 
 std::string off_text(const PlaceRequest& request, const Solution& solution, std::size_t n) {
-  const auto residual = solution.equations.residuals.segment<2>(2 * Eigen::Index(n));
+  const double* const residual = &solution.equations.residuals[2 * n];
   const UsedMark& mark = solution.used[n];
   return mark_text(request, mark.camera, mark.mark) + " is off by " +
-         short_number(residual.norm() * request.sigma_px) + " px";
+         short_number(std::hypot(residual[0], residual[1]) * request.sigma_px) + " px";
 }
 
 /// Refuses a solution in which the ball cannot show a mark's point.

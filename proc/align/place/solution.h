@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "proc/align/place/adjustment.h"
@@ -11,8 +11,8 @@ namespace orbwatch::align {
 /// The solution of a request, how well it is known, and the marks that it follows from.
 struct Solution {
   PlaceState state;
-  Equations equations;         ///< at that state
-  Eigen::MatrixXd covariance;  ///< of the equations' columns
+  Equations equations;   ///< at that state
+  cv::Mat1d covariance;  ///< of the equations' columns
   std::vector<UsedMark> used;
 };
 

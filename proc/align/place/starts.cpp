@@ -1,6 +1,5 @@
 #include "proc/align/place/starts.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>

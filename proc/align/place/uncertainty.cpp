@@ -1,6 +1,5 @@
 #include "proc/align/place/uncertainty.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
 
@@ -9,19 +8,18 @@ namespace {
 
 using optics::Vec3;
 
-using CameraCovariance = Eigen::Matrix<double, kCameraUnknowns, kCameraUnknowns>;
-
-Eigen::Matrix3d eigen(const optics::Mat3& m) {
-  Eigen::Matrix3d out;
-  out << m.row0.x, m.row0.y, m.row0.z, m.row1.x, m.row1.y, m.row1.z, m.row2.x, m.row2.y, m.row2.z;
-  return out;
-}
+using optics::Mat3;
 
 /// The matrix that multiplies by v from the left, as a cross product.
-Eigen::Matrix3d cross_matrix(const Vec3& v) {
-  Eigen::Matrix3d out;
-  out << 0, -v.z, v.y, v.z, 0, -v.x, -v.y, v.x, 0;
-  return out;
+Mat3 cross_matrix(const Vec3& v) { return {{0, -v.z, v.y}, {v.z, 0, -v.x}, {-v.y, v.x, 0}}; }
+
+void set_block(cv::Mat1d& all, int row, int column, const Mat3& block, double factor) {
+  int r = row;
+  for (const Vec3& v : {block.row0, block.row1, block.row2}) {
+    all(r, column) = factor * v.x;
+    all(r, column + 1) = factor * v.y;
+    all(r++, column + 2) = factor * v.z;
+  }
 }
 
 /// Directions all over the sphere, each for the same solid angle (a Fibonacci lattice).
@@ -48,67 +46,80 @@ std::optional<Vec3> direction(const PlaceRequest& request, std::size_t camera,
 }
 
 /// How that direction changes with the camera; nullopt next to the limb.
-std::optional<Eigen::Matrix<double, 3, kCameraUnknowns>> slope(const PlaceRequest& request,
-                                                               std::size_t camera,
-                                                               const CameraState& state,
-                                                               const optics::Vec2& pixel) {
+std::optional<cv::Matx<double, 3, kCameraUnknowns>> slope(const PlaceRequest& request,
+                                                          std::size_t camera,
+                                                          const CameraState& state,
+                                                          const optics::Vec2& pixel) {
   constexpr double kStep = 1e-6;
-  Eigen::Matrix<double, 3, kCameraUnknowns> all;
+  cv::Matx<double, 3, kCameraUnknowns> all;
   for (int k = 0; k < kCameraUnknowns; ++k) {
-    const CameraChange change = CameraChange::Unit(k) * kStep;
+    CameraChange change;
+    change[k] = kStep;
     const auto ahead = direction(request, camera, changed(state, change), pixel);
     const auto behind = direction(request, camera, changed(state, -change), pixel);
     if (!ahead || !behind) return std::nullopt;
     const Vec3 d = (*ahead - *behind) * (0.5 / kStep);
-    all.col(k) = Eigen::Vector3d(d.x, d.y, d.z);
+    all(0, k) = d.x;
+    all(1, k) = d.y;
+    all(2, k) = d.z;
   }
   return all;
 }
 
 }  // namespace
 
-std::optional<Eigen::MatrixXd> covariance(const Equations& equations) {
-  const Eigen::MatrixXd j = equations.jacobian(Eigen::all, equations.unknowns);
-  const Eigen::VectorXd scale = j.colwise().norm();
-  if (!(scale.minCoeff() > 0)) return std::nullopt;
-  const Eigen::MatrixXd scaled = j * scale.cwiseInverse().asDiagonal();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
+std::optional<cv::Mat1d> covariance(const Equations& equations) {
+  const cv::Mat1d& jacobian = equations.jacobian;
+  const int count = int(equations.unknowns.size());
+  if (jacobian.rows < count) return std::nullopt;
+  cv::Mat1d scaled(jacobian.rows, count);
+  std::vector<double> scale;
+  for (int k = 0; k < count; ++k) {
+    const cv::Mat1d column = jacobian.col(equations.unknowns[std::size_t(k)]);
+    scale.push_back(cv::norm(column));
+    if (!(scale.back() > 0)) return std::nullopt;
+    column.convertTo(scaled.col(k), CV_64F, 1 / scale.back());
+  }
+  cv::Mat1d values, left, right;  // the values in descending order, `right` by rows
+  cv::SVD::compute(scaled, values, left, right);
   // The slopes are numeric, good to about eight digits.
   constexpr double kRounding = 1e-7;
-  if (j.rows() < j.cols() || !(values.minCoeff() > kRounding * values.maxCoeff())) {
-    return std::nullopt;
+  if (!(values(count - 1) > kRounding * values(0))) return std::nullopt;
+  cv::Mat1d root(count, count);
+  for (int r = 0; r < count; ++r) {
+    for (int c = 0; c < count; ++c) root(r, c) = right(c, r) / (scale[std::size_t(r)] * values(c));
   }
-  const Eigen::MatrixXd root =
-      scale.cwiseInverse().asDiagonal() * svd.matrixV() * values.cwiseInverse().asDiagonal();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(equations.jacobian.cols(), equations.jacobian.cols());
-  all(equations.unknowns, equations.unknowns) = root * root.transpose();
+  const cv::Mat1d known = root * root.t();
+  cv::Mat1d all = cv::Mat1d::zeros(jacobian.cols, jacobian.cols);
+  for (int r = 0; r < count; ++r) {
+    double* const row = all[equations.unknowns[std::size_t(r)]];
+    for (int c = 0; c < count; ++c) row[equations.unknowns[std::size_t(c)]] = known(r, c);
+  }
   return all;
 }
 
 cv::Matx66d pose_covariance(const PlaceRequest& request, const PlaceState& state,
-                            const Eigen::MatrixXd& all, std::size_t camera) {
+                            const cv::Mat1d& all, std::size_t camera) {
   // Position = C - R^T ball, R = exp(turn) R0.
   const CameraState& placed = state.cameras[camera];
-  const Eigen::Matrix3d back = eigen(placed.rotation).transpose();
-  const Eigen::Index first = Eigen::Index(camera) * kCameraUnknowns;
-  const Eigen::Index centre = Eigen::Index(state.cameras.size()) * kCameraUnknowns;
-  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(6, all.cols());
+  const Mat3 back = transposed(placed.rotation);
+  const int first = int(camera) * kCameraUnknowns;
+  const int centre = int(state.cameras.size()) * kCameraUnknowns;
   const double radius = request.ball_radius;
-  change.block<3, 3>(0, first).setIdentity();
-  change.block<3, 3>(3, first) = -radius * back * cross_matrix(placed.ball);
-  change.block<3, 3>(3, first + 3) = -radius * back;
-  change.block<3, 3>(3, centre) = radius * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix<double, 6, 6> pose = change * all * change.transpose();
-  cv::Matx66d out;
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c) out(r, c) = pose(r, c);
-  }
-  return out;
+  cv::Mat1d change = cv::Mat1d::zeros(6, all.cols);
+  set_block(change, 0, first, Mat3{}, 1);
+  set_block(change, 3, first, back * cross_matrix(placed.ball), -radius);
+  set_block(change, 3, first + 3, back, -radius);
+  set_block(change, 3, centre, Mat3{}, radius);
+  const cv::Mat1d pose = change * all * change.t();
+  return pose;
 }
 
-double view_sigma(const PlaceRequest& request, const PlaceState& state,
-                  const CameraCovariance& covariance, std::size_t camera) {
+double view_sigma(const PlaceRequest& request, const PlaceState& state, const cv::Mat1d& all,
+                  std::size_t camera) {
+  const int first = int(camera) * kCameraUnknowns;
+  const cv::Matx<double, kCameraUnknowns, kCameraUnknowns> covariance =
+      all(cv::Rect(first, first, kCameraUnknowns, kCameraUnknowns));
   const UnplacedCamera& unplaced = request.cameras[camera];
   const CameraState& placed = state.cameras[camera];
   const auto lens = lens_at(unplaced, placed.log_focal);
@@ -127,7 +138,7 @@ double view_sigma(const PlaceRequest& request, const PlaceState& state,
     }
     const auto by_change = slope(request, camera, placed, *pixel);
     if (!by_change) continue;
-    sum += (*by_change * covariance * by_change->transpose()).trace();
+    sum += cv::trace(*by_change * covariance * by_change->t());
     ++count;
   }
   return count > 0 ? optics::degrees(std::sqrt(sum / count))

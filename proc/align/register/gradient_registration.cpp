@@ -12,7 +12,7 @@
 #include "proc/align/detect/luminance.h"
 #include "proc/align/register/gradient_field.h"
 #include "proc/align/register/gradient_similarity.h"
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 #include "proc/align/register/sphere_view.h"
 #include "proc/align/register/spiral.h"
 

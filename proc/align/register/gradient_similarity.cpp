@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 namespace {

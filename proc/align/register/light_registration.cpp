@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "proc/align/register/bright_spots.h"
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 namespace {

@@ -1,6 +1,6 @@
 #include "proc/align/register/refinement_trial.h"
 
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 

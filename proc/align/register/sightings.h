@@ -9,7 +9,7 @@
 #include "proc/align/register/feature_matches.h"
 #include "proc/align/register/line_of_sight.h"
 #include "proc/align/register/registration.h"
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "app/files/rig_file.h"
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/register/camera_pair.h"

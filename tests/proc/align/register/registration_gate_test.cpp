@@ -8,7 +8,7 @@
 #include "proc/align/register/feature_registration.h"
 #include "proc/align/register/gradient_registration.h"
 #include "proc/align/register/light_registration.h"
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 #include "tests/proc/align/register/camera_pair.h"
 #include "tests/support/error_distribution.h"
 #include "tests/support/reference_data.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 #include "proc/optics/rotation.h"
 
 namespace orbwatch::align {

@@ -6,7 +6,7 @@
 #include "proc/align/register/line_of_sight.h"
 #include "proc/align/register/refinement.h"
 #include "proc/align/register/rotation_consensus.h"
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 #include "proc/align/register/spiral.h"
 
 /// Two cameras in a room of which nothing is stated.

@@ -1,4 +1,4 @@
-#include "proc/align/register/rotation_fit.h"
+#include "proc/align/rotation_fit.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
