@@ -1,13 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <csignal>
-#include <cstdio>
-#include <iostream>
-#include <new>
-#include <opencv2/core/utility.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
+#include "app/cli/program.h"
 #include "app/exit_status.h"
 #include "app/version.h"
 
@@ -72,11 +68,6 @@ Result<std::string> dispatch(const std::vector<std::string>& arguments) {
   return usage_error(name.empty() ? "say what to do" : "there is no command " + name);
 }
 
-std::atomic<bool> cancelled{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-void cancel(int) { cancelled = true; }
-
 }  // namespace
 
 std::span<const Subcommand> all_commands() { return kCommandTable; }
@@ -92,25 +83,8 @@ std::string subcommands_help(std::span<const Subcommand> subcommands) {
   return help;
 }
 
-const std::atomic<bool>& cancelled_by_signal() {
-  std::signal(SIGINT, cancel);
-  std::signal(SIGTERM, cancel);
-  return cancelled;
-}
-
 }  // namespace orbwatch::app
 
-int main(int argc, char** argv) try {
-  // A command may run beside orbwatchd, whose cores OpenCV would take.
-  cv::setNumThreads(1);
-  const auto text = orbwatch::app::dispatch({argv + 1, argv + argc});
-  if (text) {
-    std::cout << *text;
-    return static_cast<int>(orbwatch::app::ExitStatus::Done);
-  }
-  std::fprintf(stderr, "orbwatch: %s\n", text.error().message.c_str());
-  return static_cast<int>(orbwatch::app::error_status());
-} catch (const std::bad_alloc&) {
-  std::fputs("orbwatch: not enough memory for pictures of this size\n", stderr);
-  return static_cast<int>(orbwatch::app::ExitStatus::Failed);
+int main(int argc, char** argv) {
+  return orbwatch::app::run_program("orbwatch", {argv + 1, argv + argc}, orbwatch::app::dispatch);
 }

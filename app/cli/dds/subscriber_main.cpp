@@ -1,0 +1,10 @@
+#include "app/cli/command.h"
+#include "app/cli/program.h"
+
+/// `orbwatch subscribe` by itself, for the demo: built without the other commands.
+int main(int argc, char** argv) {
+  std::vector<std::string> arguments{"subscribe"};
+  arguments.insert(arguments.end(), argv + 1, argv + argc);
+  return orbwatch::app::run_program("orbwatch_subscriber", arguments,
+                                    orbwatch::app::subscribe_command);
+}

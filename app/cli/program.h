@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// The body of main(): prints what `run` makes of the arguments, or its error after the program's
+/// name, and returns the exit status.
+int run_program(const char* name, const std::vector<std::string>& arguments,
+                Result<std::string> (*run)(const std::vector<std::string>& arguments));
+
+}  // namespace orbwatch::app
