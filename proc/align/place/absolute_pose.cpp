@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
 
+#include "proc/align/matrix3.h"
 #include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
@@ -79,7 +79,7 @@ Mat3 improved(const std::vector<Pair>& pairs, Mat3 rotation) {
 /// rays; each weighs by the angle that it subtends and, if wanted, by its trust at `last`.
 std::optional<Vec3> turned_centre(const std::vector<PointSight>& sights, const Mat3& rotation,
                                   const Vec3& last, bool by_trust) {
-  cv::Matx33d normal;
+  Mat3 normal{{}, {}, {}};
   Vec3 right_side;
   for (const PointSight& sight : sights) {
     const Vec3& d = sight.ray.direction;
@@ -88,16 +88,13 @@ std::optional<Vec3> turned_centre(const std::vector<PointSight>& sights, const M
     const Vec3 left = from_origin - last, off = across(left);
     const double distance2 = std::max(dot(left, left), 1.0);
     const double weight = (by_trust ? trust(dot(off, off) / distance2) : 1) / distance2;
-    const cv::Vec3d ray(d.x, d.y, d.z);
-    normal += weight * (cv::Matx33d::eye() - ray * ray.t());
+    normal = normal + (Mat3{} + outer(d, d) * -1) * weight;
     right_side = right_side + weight * across(from_origin);
   }
   constexpr double kMostCondition = 1e9;
-  bool is_regular = false;
-  const cv::Matx33d inverse = normal.inv(cv::DECOMP_CHOLESKY, &is_regular);
-  if (!is_regular || !(cv::norm(normal) * cv::norm(inverse) < kMostCondition)) return std::nullopt;
-  const cv::Vec3d centre = inverse * cv::Vec3d(right_side.x, right_side.y, right_side.z);
-  return Vec3{centre[0], centre[1], centre[2]};
+  const Mat3 inverted = inverse(normal);
+  if (!(frobenius_norm(normal) * frobenius_norm(inverted) < kMostCondition)) return std::nullopt;
+  return inverted * right_side;
 }
 
 }  // namespace

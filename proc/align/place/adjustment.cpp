@@ -4,7 +4,6 @@
 #include <ceres/loss_function.h>
 #include <ceres/numeric_diff_cost_function.h>
 #include <ceres/problem.h>
-#include <ceres/sized_cost_function.h>
 #include <ceres/solver.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "proc/align/prior.h"
 #include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
@@ -122,25 +122,9 @@ struct OutlineEquation : CameraEquation {
 };
 
 /// A measured position with that sigma, ball radii.
-class MeasuredEquation final : public ceres::SizedCostFunction<3, 3> {
- public:
-  MeasuredEquation(const Vec3& position, double sigma)
-      : position_{position.x, position.y, position.z}, sigma_(sigma) {}
-
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    for (std::size_t k = 0; k < 3; ++k) {
-      residuals[k] = (parameters[0][k] - position_[k]) / sigma_;
-      if (!jacobians || !jacobians[0]) continue;
-      for (std::size_t n = 0; n < 3; ++n) jacobians[0][3 * k + n] = k == n ? 1 / sigma_ : 0;
-    }
-    return true;
-  }
-
- private:
-  std::array<double, 3> position_;
-  double sigma_;
-};
+ceres::CostFunction* measured(const Vec3& position, double sigma) {
+  return new Prior({position.x, position.y, position.z}, sigma);
+}
 
 /// The request as Ceres knows it.
 class Problem {
@@ -243,8 +227,7 @@ class Problem {
     if (centre.knowledge == BallCentre::Knowledge::Measured) {
       const double radius = request_.ball_radius;
       residuals_.push_back(problem_.AddResidualBlock(
-          new MeasuredEquation(centre.position * (1 / radius), centre.sigma / radius), nullptr,
-          block));
+          measured(centre.position * (1 / radius), centre.sigma / radius), nullptr, block));
     }
     settle(block, 3, int(request_.cameras.size()) * kCameraUnknowns,
            centre.knowledge == BallCentre::Knowledge::Known);
@@ -257,8 +240,7 @@ class Problem {
     if (used && !exact) {
       const double radius = request_.ball_radius;
       residuals_.push_back(problem_.AddResidualBlock(
-          new MeasuredEquation(request_.points[p] * (1 / radius), request_.sigma_mm / radius),
-          nullptr, block));
+          measured(request_.points[p] * (1 / radius), request_.sigma_mm / radius), nullptr, block));
     }
     settle(block, 3, column, exact || !used);
   }

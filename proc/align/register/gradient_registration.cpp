@@ -1,7 +1,5 @@
 #include "proc/align/register/gradient_registration.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -10,11 +8,12 @@
 #include <vector>
 
 #include "proc/align/detect/luminance.h"
+#include "proc/align/matrix3.h"
 #include "proc/align/register/gradient_field.h"
 #include "proc/align/register/gradient_similarity.h"
-#include "proc/align/rotation_fit.h"
 #include "proc/align/register/sphere_view.h"
 #include "proc/align/register/spiral.h"
+#include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
 namespace {
@@ -136,31 +135,23 @@ struct Outcome {
   int inliers = 0;
 };
 
-Eigen::Matrix3d eigen(const Mat3& m) {
-  Eigen::Matrix3d out;
-  out << m.row0.x, m.row0.y, m.row0.z, m.row1.x, m.row1.y, m.row1.z, m.row2.x, m.row2.y, m.row2.z;
-  return out;
-}
-
 /// From how much the sphere's parts disagree about the turn (a sandwich estimate).
 std::optional<Mat3> covariance(const GradientSimilarity& similarity, const Summit& summit,
                                double step) {
   constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const Eigen::Matrix3d curvature = eigen(summit.curvature);
-  if (Eigen::LLT<Eigen::Matrix3d>(-curvature).info() != Eigen::Success) return std::nullopt;
-  Eigen::Matrix<double, 3, GradientField::kParts> slopes;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto high = similarity.parts(summit.turn + kAxes[i] * step);
-    const auto low = similarity.parts(summit.turn - kAxes[i] * step);
-    for (std::size_t part = 0; part < high.size(); ++part) {
-      slopes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(part)) =
-          (high[part] - low[part]) / (2 * step);
+  if (!is_positive_definite(summit.curvature * -1)) return std::nullopt;
+  std::array<Vec3, GradientField::kParts> slopes;
+  for (const Vec3& axis : kAxes) {
+    const auto high = similarity.parts(summit.turn + axis * step);
+    const auto low = similarity.parts(summit.turn - axis * step);
+    for (std::size_t part = 0; part < slopes.size(); ++part) {
+      slopes[part] = slopes[part] + axis * ((high[part] - low[part]) / (2 * step));
     }
   }
-  const Eigen::Matrix3d inverse = curvature.inverse();
-  const Eigen::Matrix3d c = inverse * (slopes * slopes.transpose()) * inverse;
-  return Mat3{
-      {c(0, 0), c(0, 1), c(0, 2)}, {c(1, 0), c(1, 1), c(1, 2)}, {c(2, 0), c(2, 1), c(2, 2)}};
+  Mat3 spread{{}, {}, {}};
+  for (const Vec3& slope : slopes) spread = spread + outer(slope, slope);
+  const Mat3 inverted = inverse(summit.curvature);
+  return inverted * spread * inverted;
 }
 
 Result<Outcome> follow(const Scenery& scenery, const Mat3& start) {

@@ -1,10 +1,9 @@
 #include "proc/align/register/gradient_similarity.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
 
+#include "proc/align/matrix3.h"
 #include "proc/align/rotation_fit.h"
 
 namespace orbwatch::align {
@@ -20,27 +19,27 @@ constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 /// Value, slope and curvature at a turn by central differences.
 struct Parabola {
   double value;
-  Eigen::Vector3d slope;
-  Eigen::Matrix3d curvature;
+  Vec3 slope;
+  Mat3 curvature;
 };
 
 Parabola parabola(const GradientSimilarity& similarity, const Vec3& turn, double step) {
-  Parabola p{similarity.at(turn), {}, {}};
+  Parabola p{similarity.at(turn), {}, {{}, {}, {}}};
   std::array<double, 3> high{}, low{};
   for (std::size_t i = 0; i < 3; ++i) {
     high[i] = similarity.at(turn + kAxes[i] * step);
     low[i] = similarity.at(turn - kAxes[i] * step);
-    const auto n = static_cast<Eigen::Index>(i);
-    p.slope(n) = (high[i] - low[i]) / (2 * step);
-    p.curvature(n, n) = (high[i] + low[i] - 2 * p.value) / (step * step);
+    p.slope = p.slope + kAxes[i] * ((high[i] - low[i]) / (2 * step));
+    const double along = (high[i] + low[i] - 2 * p.value) / (step * step);
+    p.curvature = p.curvature + outer(kAxes[i], kAxes[i]) * along;
   }
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = i + 1; j < 3; ++j) {
       const Vec3 both = (kAxes[i] + kAxes[j]) * step;
       const double mixed = similarity.at(turn + both) + similarity.at(turn - both) - high[i] -
                            low[i] - high[j] - low[j] + 2 * p.value;
-      const auto m = static_cast<Eigen::Index>(i), n = static_cast<Eigen::Index>(j);
-      p.curvature(m, n) = p.curvature(n, m) = mixed / (2 * step * step);
+      const Mat3 across = outer(kAxes[i], kAxes[j]) + outer(kAxes[j], kAxes[i]);
+      p.curvature = p.curvature + across * (mixed / (2 * step * step));
     }
   }
   return p;
@@ -48,12 +47,10 @@ Parabola parabola(const GradientSimilarity& similarity, const Vec3& turn, double
 
 /// To the parabola's top, or uphill where it has none; `step` at most.
 Vec3 uphill(const Parabola& p, double step) {
-  const Eigen::LLT<Eigen::Matrix3d> downwards(-p.curvature);
-  Eigen::Vector3d move =
-      downwards.info() == Eigen::Success ? downwards.solve(p.slope).eval() : (p.slope * 1e9).eval();
-  const double length = move.norm();
-  if (length > step) move *= step / length;
-  return {move(0), move(1), move(2)};
+  const Mat3 downwards = p.curvature * -1;
+  const Vec3 move = is_positive_definite(downwards) ? inverse(downwards) * p.slope : p.slope * 1e9;
+  const double length = norm(move);
+  return length > step ? move * (step / length) : move;
 }
 
 }  // namespace
@@ -110,10 +107,7 @@ Summit climb(const GradientSimilarity& similarity, const Vec3& start, double ste
     step = std::max(least, step / 2);
     here = parabola(similarity, turn, step);
   }
-  const Eigen::Matrix3d& c = here.curvature;
-  return {turn,
-          here.value,
-          {{c(0, 0), c(0, 1), c(0, 2)}, {c(1, 0), c(1, 1), c(1, 2)}, {c(2, 0), c(2, 1), c(2, 2)}}};
+  return {turn, here.value, here.curvature};
 }
 
 }  // namespace orbwatch::align

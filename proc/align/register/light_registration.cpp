@@ -1,7 +1,5 @@
 #include "proc/align/register/light_registration.h"
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "proc/align/matrix3.h"
 #include "proc/align/register/bright_spots.h"
 #include "proc/align/rotation_fit.h"
 
@@ -222,14 +221,9 @@ class LightSearch {
     // In the middle of its picture a ball turns two degrees per degree on it.
     const double sigma = 2 * std::sqrt(found.squares / found.inliers);
     r.residual = optics::degrees(sigma);
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    for (const Vec3& d : found.directions) {
-      const Eigen::Vector3d direction(d.x, d.y, d.z);
-      information += Eigen::Matrix3d::Identity() - direction * direction.transpose();
-    }
-    const Eigen::Matrix3d c = information.inverse() * (sigma * sigma);
-    r.covariance = {
-        {c(0, 0), c(0, 1), c(0, 2)}, {c(1, 0), c(1, 1), c(1, 2)}, {c(2, 0), c(2, 1), c(2, 2)}};
+    Mat3 information{{}, {}, {}};
+    for (const Vec3& d : found.directions) information = information + Mat3{} + outer(d, d) * -1;
+    r.covariance = inverse(information) * (sigma * sigma);
     return r;
   }
 

@@ -1,13 +1,19 @@
 #include "proc/align/register/refinement.h"
 
-#include <ceres/ceres.h>
+#include <ceres/covariance.h>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "proc/align/matrix3.h"
+#include "proc/align/prior.h"
 #include "proc/align/register/match_difference.h"
 #include "proc/align/register/refinement_trial.h"
 
@@ -73,17 +79,6 @@ class Disagreement final : public ceres::CostFunction {
   SightedMatch match_;
 };
 
-/// Unknowns that start at 0 and will not be far from it.
-template <int kSize>
-struct Prior {
-  double sigma;
-  template <class T>
-  bool operator()(const T* x, T* residuals) const {
-    for (int n = 0; n < kSize; ++n) residuals[n] = x[n] / sigma;
-    return true;
-  }
-};
-
 class Problem {
  public:
   Problem(const SoughtCamera& sought, const RefinementState& start)
@@ -93,8 +88,8 @@ class Problem {
           return options;
         }()) {
     problem_.AddParameterBlock(turn(), kTurn);
-    add_block<kOutline>(outline(), sought.outline_sigma > 0, sought.outline_sigma);
-    add_block<kRoom>(room(), start.room.has_value(), kMeanSigma);
+    add_block(outline(), kOutline, sought.outline_sigma > 0, sought.outline_sigma);
+    add_block(room(), kRoom, start.room.has_value(), kMeanSigma);
   }
 
   void add(const SightedMatch& match, ceres::LossFunction* loss) {
@@ -130,12 +125,12 @@ class Problem {
   double* outline() { return turn() + kTurn; }
   double* room() { return outline() + kOutline; }
 
-  template <int kSize>
-  void add_block(double* block, bool is_sought, double sigma) {
-    problem_.AddParameterBlock(block, kSize);
+  /// Unknowns that start at 0 and will not be far from it.
+  void add_block(double* block, int size, bool is_sought, double sigma) {
+    problem_.AddParameterBlock(block, size);
     if (is_sought) {
-      using Cost = ceres::AutoDiffCostFunction<Prior<kSize>, kSize, kSize>;
-      problem_.AddResidualBlock(new Cost(new Prior<kSize>{sigma}), nullptr, block);
+      const std::vector<double> means(static_cast<std::size_t>(size), 0.0);
+      problem_.AddResidualBlock(new Prior(means, sigma), nullptr, block);
     } else {
       problem_.SetParameterBlockConstant(block);
     }
@@ -144,8 +139,6 @@ class Problem {
   RefinementTrial trial_;
   ceres::Problem problem_;
 };
-
-Mat3 scaled(const Mat3& m, double by) { return {m.row0 * by, m.row1 * by, m.row2 * by}; }
 
 TrialPlace place_of(const SoughtCamera& sought, const RefinementState& state) {
   const auto ball = turned(sought, state.rotation, state.outline);
@@ -222,7 +215,7 @@ Result<RotationRefinement> refine_rotation(const std::vector<Match>& matches,
   }
   if (result.inliers == 0) return fail("no features agree");
   result.residual = optics::degrees(std::sqrt(squares / result.inliers));
-  result.covariance = scaled(solution->covariance, unit * unit);
+  result.covariance = solution->covariance * (unit * unit);
   return result;
 }
 

@@ -1,12 +1,11 @@
 #include "proc/align/register/sightings.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
 
+#include "proc/align/matrix3.h"
 #include "proc/align/register/match_difference.h"
 
 namespace orbwatch::align {
@@ -112,19 +111,15 @@ class TurnFit {
  public:
   /// `differs`: radians along `way`, across the direction `at`.
   void add(const Vec3& at, const Vec3& way, double differs, double sigma) {
-    const Vec3 arm = cross(at, way);
-    const Eigen::Vector3d row = Eigen::Vector3d(arm.x, arm.y, arm.z) / sigma;
-    normal_ += row * row.transpose();
-    right_ += row * (differs / sigma);
+    const Vec3 row = cross(at, way) * (1 / sigma);
+    normal_ = normal_ + outer(row, row);
+    right_ = right_ + row * (differs / sigma);
   }
-  Vec3 turn() const {
-    const Eigen::Vector3d turn = normal_.ldlt().solve(right_);
-    return {turn.x(), turn.y(), turn.z()};
-  }
+  Vec3 turn() const { return inverse(normal_) * right_; }
 
  private:
-  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Identity();  // nearly nothing: defined without any
-  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+  Mat3 normal_;  // the identity is nearly nothing: defined without any
+  Vec3 right_;
 };
 
 /// Where no scene is stated: anything may be anywhere along both lines of sight, which turn with
