@@ -7,8 +7,8 @@
 
 #include <atomic>
 #include <cerrno>
-#include <regex>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "hal/regular_file.h"
@@ -19,8 +19,17 @@ namespace {
 
 /// Of a file that write_file() has not renamed yet: NAME.PROCESS-SERIAL.part
 bool is_temporary(const std::filesystem::path& path) {
-  static const std::regex kName(R"(.+\.\d+-\d+\.part)");
-  return std::regex_match(path.filename().string(), kName);
+  constexpr std::string_view kEnd = ".part";
+  const std::string name = path.filename().string();
+  std::string_view rest = name;
+  if (!rest.ends_with(kEnd)) return false;
+  rest.remove_suffix(kEnd.size());
+  for (const char before : {'-', '.'}) {
+    const std::size_t digits = rest.find_last_not_of("0123456789") + 1;
+    if (digits == rest.size() || digits == 0 || rest[digits - 1] != before) return false;
+    rest = rest.substr(0, digits - 1);
+  }
+  return !rest.empty();
 }
 
 /// Some file systems have nothing to write there, and say EINVAL.

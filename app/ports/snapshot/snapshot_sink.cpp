@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <map>
 #include <optional>
-#include <regex>
+#include <string_view>
 #include <system_error>
 #include <tuple>
 #include <vector>
@@ -41,13 +41,40 @@ struct Snapshot {
   }
 };
 
-/// The snapshot of a file written here; nullopt for other files.
+constexpr std::string_view kDigits = "0123456789";
+constexpr std::string_view kWord =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+
+/// As stamp_text() writes it.
+bool is_stamp(std::string_view text) {
+  constexpr std::string_view kForm = "00000000T000000.000Z";
+  return std::ranges::equal(text, kForm, [](char given, char form) {
+    return form == '0' ? kDigits.find(given) != kDigits.npos : given == form;
+  });
+}
+
+bool remove_end(std::string_view& text, std::string_view end) {
+  if (!text.ends_with(end)) return false;
+  text.remove_suffix(end.size());
+  return true;
+}
+
+/// The snapshot of a file written here, VIEW_STAMP_NUMBER[_measured].png; nullopt for other files.
 std::optional<Snapshot> snapshot_of(const std::filesystem::path& file) {
-  static const std::regex kName(R"((\w+_(\d{8}T\d{6}\.\d{3}Z)_\d+)(_measured)?\.png)");
-  std::smatch match;
-  const std::string name = file.filename().string();
-  if (!std::regex_match(name, match, kName)) return std::nullopt;
-  return Snapshot{match[2].str(), match[1].str()};
+  constexpr std::size_t kStamp = 20;
+  const std::string file_name = file.filename().string();
+  std::string_view name = file_name;
+  if (!remove_end(name, ".png")) return std::nullopt;
+  remove_end(name, "_measured");
+  const std::size_t number = name.find_last_not_of(kDigits) + 1;
+  std::string_view view = name.substr(0, number);
+  if (number == name.size() || !remove_end(view, "_") || view.size() < kStamp) return std::nullopt;
+  const std::string_view stamp = view.substr(view.size() - kStamp);
+  view.remove_suffix(kStamp);
+  const bool is_ours = is_stamp(stamp) && remove_end(view, "_") && !view.empty() &&
+                       view.find_first_not_of(kWord) == view.npos;
+  if (!is_ours) return std::nullopt;
+  return Snapshot{std::string(stamp), std::string(name)};
 }
 
 }  // namespace
