@@ -112,7 +112,7 @@ def test_costs(text, build):
     """The tests of a LastTest.log."""
     found, test, command, printed = [], None, "", False
     for line in text.splitlines():
-        if begun := re.match(r"\d+/\d+ Test: (.*)", line):
+        if begun := re.match(r"\d+/\d+ Test: (.*?)(  # .*)?$", line):
             test, command, printed = begun[1], "", False
         elif test and not command and line.startswith("Command: "):
             command = line

@@ -82,7 +82,7 @@ class TestLog(unittest.TestCase):
         text = test_log("A.b", '"/b/t/x_tests" "--gtest_filter=A.b"', "", "0.50")
         text += test_log("y.3", '"/usr/bin/qemu-aarch64" "-L" "/usr" "/b/t/y_tests"', "", "1.25")
         text += test_log("units", '"/source/units" "/b/platform/service"', "", "2.00")
-        text += test_log("z.0", "", "", "0.00")
+        text += test_log("z.0  # GetParam() = 3", "", "", "0.00")
         self.assertEqual(self.costs(text), [("x_tests", "A.b", 0.5), ("y_tests", "y.3", 1.25),
                                             ("units", "units", 2), ("z", "z.0", 0)])
 

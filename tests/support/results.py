@@ -31,6 +31,7 @@ class _Reader:
             self.other(line)
 
     def ctest(self, name, verdict):
+        name = name.partition("  # ")[0]  # then a parameter, which may hold addresses
         self.by_ctest, self.test = True, name
         if not verdict.startswith(NOT_RUN):
             self.found.append((name, verdict == "Passed"))

@@ -24,6 +24,7 @@ passed by accident
  8/9 Test  #9: Single.case ......................***Failed    0.01 sec
 [  FAILED  ] Single.case (4 ms)
  9/9 Test  #8: with space .......................   Passed    0.01 sec
+ 9/9 Test #10: P/Q.r/one  # GetParam() = 8-byte object <60-D3 68-A2> ...   Passed    0.01 sec
 75% tests passed, 2 tests failed out of 8
 """
 
@@ -73,7 +74,7 @@ class Results(unittest.TestCase):
         self.assertEqual(results(CTEST), [
             ("x_tests.0", True), ("x_tests.1", False), ("x_tests.1/A.good", True),
             ("x_tests.1/A.bad/0", False), ("Q.crash", False), ("slow", False), ("absent", False),
-            ("Single.case", False), ("with space", True)])
+            ("Single.case", False), ("with space", True), ("P/Q.r/one", True)])
 
     def test_junit(self):
         self.assertEqual(results(JUNIT), [("ok", True), ("ok/A.b", True), ("bad.0", False),
