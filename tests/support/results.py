@@ -8,7 +8,7 @@ CTEST = re.compile(r" *\d+/\d+ Test +#\d+: (.+?) \.{2,} *(Passed|\*\*\*.*?) +[\d
 # GoogleTest names failed tests again at its end, there without a time.
 GTEST = re.compile(r"\[ +(OK|FAILED) +\] ([^\s,]+)(?:, where .*)? \(\d+ ms\)$")
 # unittest: "test_x (page_test.PageTest.test_x) ... ok"; a description or output may come between.
-UNITTEST = re.compile(r"test_\w+ \(([\w.]+)\)")
+UNITTEST = re.compile(r"(?:test_\w+|setUpClass|setUpModule|tearDownClass|tearDownModule) \(([\w.]+)\)")
 VERDICT = re.compile(r"(?:^|.* \.\.\. )(ok|FAIL|ERROR|skipped .*|expected failure)$")
 # Our scripts: "passed NAME" or "FAILED   NAME (3 s), see ...".
 WORDS = re.compile(r"(passed|failed|FAILED):? +([^\s(].*?)(?: \([\d.]+ s\).*)?$")

@@ -47,6 +47,7 @@ ok
 test_err (page_test.Page.test_err) ... ERROR
 test_plain (page_test.Page.test_plain) ... ok
 test_skip (page_test.Page.test_skip) ... skipped 'no browser'
+setUpClass (page_test.Other) ... ERROR
 test_sub (page_test.Page.test_sub) ...
   test_sub (page_test.Page.test_sub) (a=1) ... FAIL
 
@@ -88,7 +89,7 @@ class Results(unittest.TestCase):
         self.assertEqual(results(UNITTEST), [
             ("page_test.Page.test_bad", False), ("page_test.Page.test_doc", True),
             ("page_test.Page.test_err", False), ("page_test.Page.test_plain", True),
-            ("page_test.Page.test_sub", False)])
+            ("page_test.Other", False), ("page_test.Page.test_sub", False)])
 
     def test_words(self):
         self.assertEqual(results(WORDS), [

@@ -121,7 +121,8 @@ def report(folder):
 
 
 def read(files):
-    texts = [file.read_text(errors="replace") for file in files] or [sys.stdin.read()]
+    contents = [file.read_bytes() for file in files] or [sys.stdin.buffer.read()]
+    texts = [content.decode(errors="replace") for content in contents]
     return [result for text in texts for result in results(text)]
 
 
