@@ -10,8 +10,8 @@
 namespace orbwatch::hal {
 namespace {
 
-constexpr int kWidth = 38;
-constexpr int kHeight = 22;
+constexpr int kMosaicWidth = 38;
+constexpr int kMosaicHeight = 22;
 
 struct Order {
   Mosaic mosaic;
@@ -24,21 +24,22 @@ class DemosaicOrder : public testing::TestWithParam<Order> {};
 /// itself, two or four beside it, or four at its corners.
 TEST_P(DemosaicOrder, IsBilinear) {
   std::mt19937 random(3);
-  std::vector<std::uint8_t> samples(std::size_t{kWidth} * kHeight);
+  std::vector<std::uint8_t> samples(std::size_t{kMosaicWidth} * kMosaicHeight);
   for (auto& sample : samples) sample = static_cast<std::uint8_t>(random());
-  const ImageView<const std::uint8_t> mosaic{samples.data(), kWidth, kHeight, 1, kWidth};
-  constexpr std::ptrdiff_t kStride = 3 * kWidth + 5;
-  std::vector<std::uint8_t> pixels(std::size_t{kStride} * kHeight, 0xee);
-  const ImageView<std::uint8_t> bgr{pixels.data(), kWidth, kHeight, 3, kStride};
+  const ImageView<const std::uint8_t> mosaic{samples.data(), kMosaicWidth, kMosaicHeight, 1,
+                                             kMosaicWidth};
+  constexpr std::ptrdiff_t kStride = 3 * kMosaicWidth + 5;
+  std::vector<std::uint8_t> pixels(std::size_t{kStride} * kMosaicHeight, 0xee);
+  const ImageView<std::uint8_t> bgr{pixels.data(), kMosaicWidth, kMosaicHeight, 3, kStride};
   const auto done = demosaic(GetParam().mosaic, mosaic, bgr);
   ASSERT_TRUE(done) << done.error().message;
 
   const auto letter = [](int x, int y) {
     return GetParam().letters[static_cast<std::size_t>(x % 2 + 2 * (y % 2))];
   };
-  for (int y = 1; y < kHeight - 1; ++y) {
-    EXPECT_EQ(bgr.row(y)[3 * kWidth], 0xee) << "wrote behind row " << y;
-    for (int x = 1; x < kWidth - 1; ++x) {
+  for (int y = 1; y < kMosaicHeight - 1; ++y) {
+    EXPECT_EQ(bgr.row(y)[3 * kMosaicWidth], 0xee) << "wrote behind row " << y;
+    for (int x = 1; x < kMosaicWidth - 1; ++x) {
       for (int channel = 0; channel < 3; ++channel) {
         int nearest = 9;
         int sum = 0;
