@@ -76,10 +76,10 @@ class WatchingSink : public Sink {
 };
 
 /// A pipeline with one camera, two views to point and one that is measured.
-class Stage {
+class PointedStage {
  public:
-  explicit Stage(const Pointing& left = kHome,
-                 optics::ViewKind kind = optics::ViewKind::Perspective) {
+  explicit PointedStage(const Pointing& left = kHome,
+                        optics::ViewKind kind = optics::ViewKind::Perspective) {
     PipelinePlan plan;
     auto hand = std::make_unique<HandCamera>("camera", PixelFormat::Grey);
     plan.formats.push_back(hand->configure({}).value());
@@ -122,14 +122,14 @@ class Stage {
 /// The first frame of a pipeline that was started with this pointing.
 Shown started_with(const Pointing& left, std::size_t view = kLeft,
                    optics::ViewKind kind = optics::ViewKind::Perspective) {
-  Stage stage(left, kind);
+  PointedStage stage(left, kind);
   stage.start();
   stage.next_frame();
   return stage.sink.newest(view);
 }
 
 TEST(PointedPipeline, ShowsWhatAPipelineShowsThatWasStartedThatWay) {
-  Stage stage;
+  PointedStage stage;
   stage.start();
   stage.next_frame();
   const Shown right = stage.sink.newest(kRight), measured = stage.sink.newest(kMeasured);
@@ -156,7 +156,7 @@ TEST(PointedPipeline, ShowsWhatAPipelineShowsThatWasStartedThatWay) {
 
 TEST(PointedPipeline, KeepsTheKindOfTheView) {
   const Pointing wide{{}, 300, 100}, aside{{-50, 10, 0}, 240, 80};
-  Stage stage(wide, optics::ViewKind::Equirectangular);
+  PointedStage stage(wide, optics::ViewKind::Equirectangular);
   stage.start();
   const auto number = stage.pipeline->point(kLeft, aside);
   ASSERT_TRUE(number) << number.error().message;
@@ -206,7 +206,7 @@ TEST(PointedPipeline, EveryFrameDuringAThousandRequestsShowsOneOfThemWhole) {
       audits[v].requests.push_back(&places[random() % places.size()]);
     }
   }
-  Stage stage;
+  PointedStage stage;
   stage.sink.on_view = [&](const Shown& shown) { audits[shown.view].check(shown); };
   stage.start();
   {
@@ -236,7 +236,7 @@ TEST(PointedPipeline, EveryFrameDuringAThousandRequestsShowsOneOfThemWhole) {
 }
 
 TEST(PointedPipeline, TheNewestRequestWinsAndTheOthersAreCounted) {
-  Stage stage;
+  PointedStage stage;
   stage.start();
   const Pointing last{{20, 10, 0}, 80, {}};
   for (int i = 0; i < 99; ++i) {
@@ -255,7 +255,7 @@ TEST(PointedPipeline, TheNewestRequestWinsAndTheOthersAreCounted) {
 
 TEST(PointedPipeline, StopsWithRequestsUnderWay) {
   for (int round = 0; round < 20; ++round) {
-    Stage stage;
+    PointedStage stage;
     stage.start();
     stage.next_frame();
     for (int i = 0; i < round; ++i) {
@@ -268,7 +268,7 @@ TEST(PointedPipeline, StopsWithRequestsUnderWay) {
 }
 
 TEST(PointedPipeline, ThePipelineThatFollowsStartsAsConfigured) {
-  Stage before;
+  PointedStage before;
   before.start();
   ASSERT_TRUE(before.pipeline->point(kLeft, {{30, 0, 0}, 80, {}}));
   before.pipeline.reset();
@@ -278,7 +278,7 @@ TEST(PointedPipeline, ThePipelineThatFollowsStartsAsConfigured) {
 }
 
 TEST(PointedPipeline, TakesRequestsBeforeTheFirstFrame) {
-  Stage stage;
+  PointedStage stage;
   const Pointing aside{{-40, 0, 0}, 80, {}};
   const auto number = stage.pipeline->point(kLeft, aside);
   ASSERT_TRUE(number);
