@@ -100,7 +100,7 @@ class Controller {
   tests::TopicReader<CommandResultMessage> results_;
 };
 
-DdsSettings settings() { return {.domain = DdsNetwork::kSinkDomain, .commands = true}; }
+DdsSettings command_settings() { return {.domain = DdsNetwork::kSinkDomain, .commands = true}; }
 
 /// A sink whose record of commands is in a folder.
 class RecordedCommands : public testing::Test {
@@ -111,8 +111,8 @@ class RecordedCommands : public testing::Test {
   void start(const std::filesystem::path& folder, CommandHandler handler) {
     sink_.reset();
     controller_.emplace();
-    sink_.emplace(settings(), StatusNames{{}, {"front"}, {}}, std::move(handler), network_addresses,
-                  std::make_shared<CommandRecord>(folder));
+    sink_.emplace(command_settings(), StatusNames{{}, {"front"}, {}}, std::move(handler),
+                  network_addresses, std::make_shared<CommandRecord>(folder));
     const auto started = sink_->start();
     ASSERT_TRUE(started) << started.error().message;
     ASSERT_TRUE(controller_->connect());
@@ -189,7 +189,7 @@ class CommandServiceTest : public testing::Test {
 
   DdsNetwork network_;
   Machine machine_;
-  DdsSink sink_{settings(), {{}, {"front"}, {}}, machine_.handler()};
+  DdsSink sink_{command_settings(), {{}, {"front"}, {}}, machine_.handler()};
 };
 
 TEST_F(CommandServiceTest, ClientGetsTheAnswerOfTheMachine) {
@@ -368,7 +368,7 @@ void expect_deaf(const DdsSettings& settings, CommandHandler handler) {
 
 TEST(CommandServiceOffTest, NobodyTakesCommandsWhenSwitchedOff) {
   Machine machine;
-  DdsSettings off = settings();
+  DdsSettings off = command_settings();
   off.commands = false;
   expect_deaf(off, machine.handler());
   EXPECT_EQ(machine.count(), 0u);
@@ -395,7 +395,7 @@ TEST(CommandServiceOffTest, SecurityAsksForThemToo) {
 }
 
 TEST(CommandServiceOffTest, NobodyTakesCommandsWithoutAHandler) {
-  expect_deaf(settings(), nullptr);
+  expect_deaf(command_settings(), nullptr);
 }
 
 TEST(CommandClientTest, RefusesAnAnswerThatNobodyKnows) {
