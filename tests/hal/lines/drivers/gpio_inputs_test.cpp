@@ -3,6 +3,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+
 #include "hal/lines/frame_trigger.h"
 #include "hal/lines/line_thread.h"
 #include "tests/hal/lines/drivers/simulated_chip.h"
@@ -61,7 +63,24 @@ TEST_F(GpioInputs, EdgesComeInOrderWithTheKernelsStamps) {
     EXPECT_LE(edge.stamp, Clock::now());
   }
   EXPECT_EQ(edges.items().size(), 40U);
-  EXPECT_EQ(input->lost(), 0U);
+}
+
+/// Without the filter: its reading of the level counts an edge as lost that a busy kernel delivers
+/// late.
+TEST_F(GpioInputs, NoEdgeOfAPacedLineIsLost) {
+  const auto line = lines.open_input({.address = {.name = "TRIGGER_IN"}});
+  ASSERT_TRUE(line) << line.error().message;
+  std::array<EdgeEvent, 2> taken;
+  for (int i = 0; i < 40; ++i) {
+    pull(kInput, i % 2 == 0);
+    pollfd file{(*line)->descriptor(), POLLIN, 0};
+    ASSERT_EQ(::poll(&file, 1, 60'000), 1);
+    const auto count = (*line)->take(taken);
+    ASSERT_TRUE(count);
+    ASSERT_EQ(*count, 1U);
+    EXPECT_EQ(taken[0].edge, edge_to(i % 2 == 0));
+    EXPECT_EQ(taken[0].lost_before, 0U);
+  }
 }
 
 TEST_F(GpioInputs, TriggersAreFramesAndMissed) {
