@@ -8,8 +8,10 @@
 report() { echo "$1 $2" >>/results/checks; }
 
 # load DRIVER [PARAMETER=VALUE...]: loads a driver and lets udev finish with what it brought.
+loaded_drivers=/run/loaded_drivers
 load() {
   modprobe "$@" || return
+  echo "$1" >>"$loaded_drivers"
   ! command -v udevadm >/dev/null || udevadm settle --timeout=60
 }
 

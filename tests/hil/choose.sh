@@ -1,0 +1,111 @@
+# Sourced by run: the scenarios, and the choice of those that run.
+# shellcheck shell=bash
+here=tests/hil
+scenarios=$here/scenarios
+all=() rare=() chosen=() left_out=()
+
+# header SCENARIO KEY: the words of KEY in the scenario's first lines.
+header() { sed -n "1,6s/^# $2: //p" "$scenarios/$1" | xargs; }
+
+# draw COUNT SEED: so many of the lines, the same ones for the same seed.
+draw() {
+  local line
+  while read -r line; do
+    echo "$(sha256sum <<<"$2 $line") $line"
+  done | sort | head -n "$1" | cut -d ' ' -f 4-
+}
+
+# lines WORD...: one a line, none for no words.
+lines() { (($# == 0)) || printf '%s\n' "$@"; }
+
+# Sets all, SCENARIO@MACHINE of each, and rare, those of them that run with --all-machines only.
+find_all() {
+  local file scenario folder machines
+    for file in "$scenarios"/*; do
+    scenario=${file##*/}
+    read -ra machines <<<"$(header "$scenario" Machines)"
+    all+=("${machines[@]/#/$scenario@}")
+    if [[ $(header "$scenario" Only) == --all-machines ]]; then
+      rare+=("${machines[@]/#/$scenario@}")
+      continue
+    fi
+    [[ -n $(header "$scenario" Folders) ]] || { echo "run: $file names no Folders" >&2; return 1; }
+    for folder in $(header "$scenario" Folders); do
+      [[ -e $folder ]] || { echo "run: $file names $folder, which does not exist" >&2; return 1; }
+    done
+  done
+}
+
+# find_named NAME...: sets chosen to these.
+find_named() {
+  local name run found
+  for name in "$@"; do
+    found=0
+    for run in "${all[@]}"; do
+      if [[ $run == "$name" || ${run%@*} == "$name" ]]; then
+        chosen+=("$run")
+        found=1
+      fi
+    done
+    ((found)) || { echo "run: no scenario $name; see --list" >&2; return 2; }
+  done
+}
+
+# find_part PART: adds the scenarios that have it to chosen.
+find_part() {
+  local file
+  for file in "$scenarios"/*; do
+    ! grep -qx "part $1" "$file" || find_named "${file##*/}"
+  done
+  ((${#chosen[@]})) || { echo "run: no part \"$1\"; there are:" "$here"/parts/* >&2; return 2; }
+}
+
+# choose ordinary|drawn|every BASE SEED: sets chosen, and left_out to "SCENARIO@MACHINE without DRIVER" of
+# those that must fail without their driver. Prints what does not run.
+choose() {
+  local run driver ordinary passed_over
+  mapfile -t ordinary < <(lines "${all[@]}" | grep -vxFf <(lines "${rare[@]}"))
+  case $1 in
+    every) chosen=("${all[@]}") ;;
+    ordinary) chosen=("${ordinary[@]}") ;;
+    drawn) choose_changed "$2" "$3" "${ordinary[@]}" ;;
+  esac
+  left_out=()
+  for run in "${chosen[@]}"; do
+    driver=$(header "${run%@*}" Driver)
+    [[ -z $driver ]] || left_out+=("$run without $driver")
+  done
+  [[ $1 != every ]] || return 0
+  mapfile -t left_out < <(lines "${left_out[@]}" | draw 1 "$3")
+  mapfile -t passed_over < <(lines "${all[@]}" | grep -vxFf <(lines "${chosen[@]}"))
+  echo "not run: ${passed_over[*]}; $here/run --all-machines runs all"
+}
+
+# What every scenario depends on.
+everything=("$here" platform/build-deb platform/debian platform/install_packages tests/support/cached
+            tests/support/checks.sh tests/support/debian_apt tests/support/debian_root
+            tests/support/modbus.sh tests/support/unpack_package)
+
+# choose_changed BASE SEED RUN...: sets chosen to those of which something has changed since BASE, and two
+# of the others.
+choose_changed() {
+  local base=$1 seed=$2 run folders others=()
+  shift 2
+  if tests/support/changed "$base" "${everything[@]}"; then
+    chosen=("$@")
+    return
+  fi
+  for run in "$@"; do
+    read -ra folders <<<"$(header "${run%@*}" Folders)"
+    if tests/support/changed "$base" "${folders[@]}"; then chosen+=("$run"); else others+=("$run"); fi
+  done
+  echo "changed since $base: ${chosen[*]:-none}"
+  mapfile -t others < <(lines "${others[@]}" | draw 2 "$seed")
+  chosen+=("${others[@]}")
+}
+
+# vimc and vivid take longest: they begin first, so that neither runs alone at the end.
+longest_first() {
+  awk '/^(vimc|vivid)@[^ ]*$/ {print; next} {later[++n] = $0}
+    END {for (i = 1; i <= n; ++i) print later[i]}'
+}
