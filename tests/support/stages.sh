@@ -1,8 +1,9 @@
 # shellcheck shell=bash disable=SC2154
-# Sourced by the scripts that run tests: stages that are timed, and a table of them.
-# $stages is the table's file, Markdown, which stages_begin makes.
+# Sourced by the scripts that run tests: stages that are timed, a table of them, and what passed.
+# $stages is the table's file, Markdown, which stages_begin makes; $logs the folder of their output.
 
 stages_begin() {
+  passed=0 failed=0 skipped=0
   mkdir -p "$(dirname "$stages")"
   printf '| stage | s | CPU s | result |\n|---|---|---|---|\n' >"$stages"
 }
@@ -23,6 +24,45 @@ timed() {
 # stage_row NAME RESULT: a line of the table for what timed has run.
 stage_row() { echo "| $1 | $wall | $cpu | $2 |" >>"$stages"; }
 
+# stage NAME COMMAND...: one step that passes or fails as a whole; its output is kept.
+stage() {
+  timed "$logs/$1.log" "${@:2}"
+  stage_ended "$1" $?
+}
+
+# stage_ended NAME CODE: counts the step that timed has run, and prints its log's end after a failure.
+stage_ended() {
+  if (($2 == 0)); then
+    passed=$((passed + 1))
+    stage_row "$1" passed
+    echo "passed   $1 ($wall s)"
+  else
+    failed=$((failed + 1))
+    stage_row "$1" FAILED
+    echo "FAILED   $1 ($wall s), the end of $logs/$1.log:"
+    tail -n 60 "$logs/$1.log"
+    return 1
+  fi
+}
+
+# beside NAME COMMAND...: starts a stage that leaves a core to those after it; await NAME ends it.
+declare -A begun
+beside() {
+  local name=$1
+  shift
+  {
+    timed "$logs/$name.log" "$@"
+    echo "$? $wall $cpu" >"$logs/$name.ended"
+  } &
+  begun[$name]=$!
+}
+await() {
+  local code
+  wait "${begun[$1]}"
+  read -r code wall cpu <"$logs/$1.ended"
+  stage_ended "$1" "$code"
+}
+
 # stages_end: completes the table with the sums and prints it.
 stages_end() {
   awk -F'|' 'NR > 2 {wall += $3; cpu += $4} END {print "| **together** | " wall " | " cpu " | |"}' \
@@ -30,4 +70,11 @@ stages_end() {
   cat "$stages.sum" >>"$stages"
   rm "$stages.sum"
   cat "$stages"
+}
+
+# stages_verdict: prints the counts; fails when a test failed, or in acceptance mode was skipped.
+stages_verdict() {
+  echo
+  echo "$passed passed, $failed failed, $skipped skipped"
+  ((failed == 0)) && { [[ -z ${ORBWATCH_ACCEPTANCE:-} ]] || ((skipped == 0)); }
 }

@@ -1,4 +1,7 @@
-"""Logging in, against a running daemon."""
+"""Logging in, against a running daemon.
+
+Folders: app/ports/web/access app/ports/web/http app/ports/web/page/files/system
+"""
 
 import json
 import re

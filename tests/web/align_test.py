@@ -1,4 +1,7 @@
-"""Alignment on the page, against a running daemon whose rig file is wrong."""
+"""Alignment on the page, against a running daemon whose rig file is wrong.
+
+Folders: app/ports/web/align app/ports/web/page/files/align app/watch proc/align
+"""
 
 import json
 import tomllib

@@ -1,4 +1,7 @@
-"""The files of the configuration, changed on the page of a running daemon."""
+"""The files of the configuration, changed on the page of a running daemon.
+
+Folders: app/ports/web/configuration app/files app/ports/web/page/files/system
+"""
 
 import json
 import unittest

@@ -1,4 +1,7 @@
-"""Two appliances of one DDS domain on the page of one of them."""
+"""Two appliances of one DDS domain on the page of one of them.
+
+Folders: app/ports/web/fleet app/ports/dds/fleet app/ports/web/page/files/system
+"""
 
 import json
 import os

@@ -1,4 +1,7 @@
-"""Twelve views in one page for long: as many connections as for one, and nothing that grows."""
+"""Twelve views in one page for long: as many connections as for one, and nothing that grows.
+
+Folders: app/ports/web/streams app/ports/web/page/files/appliance app/ports/web/page/files/live
+"""
 
 import os
 import pathlib

@@ -1,4 +1,8 @@
-"""What a picture shows where one points, beside the machine's truth; a view turned, mixed and coloured by hand."""
+"""What a picture shows where one points, beside the machine's truth; a view turned, mixed and coloured by hand.
+
+Folders: app/ports/web/pixels app/ports/web/views app/ports/web/streams
+    app/ports/web/page/files/live app/ports/web/page/files/appliance
+"""
 
 import json
 import math

@@ -1,4 +1,7 @@
-"""Views of the room that the browser draws, beside those of the appliance."""
+"""Views of the room that the browser draws, beside those of the appliance.
+
+Folders: app/ports/web/look_around app/ports/web/page/files/look
+"""
 
 import base64
 import json

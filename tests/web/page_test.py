@@ -1,4 +1,7 @@
-"""What a person does with the page, against a running daemon."""
+"""What a person does with the page, against a running daemon.
+
+Folders: app/ports/web/page/files app/ports/web/status app/ports/web/history
+"""
 
 import json
 import unittest

@@ -1,4 +1,7 @@
-"""Limits and regions of the recipe, changed on the page of a running daemon."""
+"""Limits and regions of the recipe, changed on the page of a running daemon.
+
+Folders: app/ports/web/process app/ports/web/page/files/process app/files
+"""
 
 import difflib
 import json

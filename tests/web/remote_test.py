@@ -1,4 +1,7 @@
-"""A browser on another computer: HTTPS, and the first password by the appliance's code."""
+"""A browser on another computer: HTTPS, and the first password by the appliance's code.
+
+Folders: app/ports/web/tls app/ports/web/access app/certificates app/ports/web/http
+"""
 
 import hashlib
 import json

@@ -1,4 +1,7 @@
-"""Log, interfaces and versions on the page of a running daemon."""
+"""Log, interfaces and versions on the page of a running daemon.
+
+Folders: app/ports/web/log app/ports/web/interfaces app/ports/web/page/files/system
+"""
 
 import json
 import socket

@@ -17,9 +17,9 @@ test_service() {
   test_hung
   test_wrong_configuration
   test_configured
-  test_second_machine
-  test_others
-  test_removal
+  later "second machine" test_second_machine
+  later "packages of camera back-ends" test_others
+  later removal test_removal
 }
 
 test_programs() {

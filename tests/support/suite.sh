@@ -1,0 +1,61 @@
+# shellcheck shell=bash disable=SC2154
+# Sourced by the scripts that run tests, after stages.sh: a preset's build and its tests, case by case.
+
+# CTest's places, three for a core; tests/CMakeLists.txt says how many a test claims.
+places=$((3 * $(nproc)))
+
+# What a build runs under, such as nice.
+gently=()
+
+# build PRESET [TARGET...]: configures and compiles it.
+build() {
+  local preset=$1 begin=$logs/$1-build.begin
+  shift
+  stage "$preset-configure" cmake --preset "$preset" || return
+  touch "$begin"
+  stage "$preset-build" "${gently[@]}" cmake --build --preset "$preset" ${1:+--target "$@"} || return
+  tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
+}
+
+# What a program printed is kept whole, for count_cases.
+junit=(--test-output-size-passed 10000000 --test-output-size-failed 10000000 --output-junit)
+
+# run_cases NAME FOLDER COMMAND...: runs CTest for the build in FOLDER by a command that leaves cases.xml
+# there, and counts every case.
+run_cases() {
+  local name=$1 folder=$2 xml=$2/cases.xml log=$logs/$1.log begin=$logs/$1.begin told numbers code
+  shift 2
+  rm -f "$xml"
+  touch "$begin"
+  timed "$log" "$@"
+  code=$?
+  told=$(tests/support/count_cases.py "$xml")
+  read -ra numbers <<<"${told%%$'\n'*}"
+  if ((${numbers[0]:-0} + ${numbers[2]:-0} == 0)); then
+    failed=$((failed + 1))
+    stage_row "$name" FAILED
+    echo "FAILED   $name: no test was run, see $log"
+    tail -n 20 "$log"
+    return 1
+  fi
+  # CTest itself may find fault with what no case tells.
+  ((code == 0 || numbers[2] > 0)) || numbers[2]=1
+  passed=$((passed + numbers[0])) failed=$((failed + numbers[2])) skipped=$((skipped + numbers[4]))
+  stage_row "$name" "${numbers[0]} passed, ${numbers[2]} failed, ${numbers[4]} skipped"
+  echo "$name: ${numbers[0]} passed, ${numbers[2]} failed, ${numbers[4]} skipped ($wall s)"
+  sed 1d <<<"$told"
+  tests/support/unsteady.py record "$name" "$log"
+  tests/support/costs.py "$folder" --since-file "$begin" --tests-cpu "$cpu" --name "$name" >>"$logs/costs.md"
+  ((code == 0)) && return
+  grep -B 5 -A 25 -E 'Failure|ERROR: |WARNING: ThreadSanitizer|runtime error' "$log" | head -n 200
+  return 1
+}
+
+# cases PRESET [OPTION...]: the tests of a preset that is built; options are CTest's.
+cases() {
+  local preset=$1 folder=$PWD/build/$1
+  shift
+  # Sanitizers need addresses where they expect them.
+  run_cases "$preset-tests" "$folder" setarch -R ctest --preset "$preset" -j "$places" "$@" \
+    "${junit[@]}" "$folder/cases.xml"
+}
