@@ -30,15 +30,15 @@ stage() {
   stage_ended "$1" $?
 }
 
-# stage_ended NAME CODE: counts the step that timed has run, and prints its log's end after a failure.
+# stage_ended NAME CODE [HOW]: counts the step that timed has run, and prints its log's end after a failure.
 stage_ended() {
   if (($2 == 0)); then
     passed=$((passed + 1))
-    stage_row "$1" passed
+    stage_row "$1" "passed${3:+, $3}"
     echo "passed   $1 ($wall s)"
   else
     failed=$((failed + 1))
-    stage_row "$1" FAILED
+    stage_row "$1" "FAILED${3:+, $3}"
     echo "FAILED   $1 ($wall s), the end of $logs/$1.log:"
     tail -n 60 "$logs/$1.log"
     return 1
@@ -46,26 +46,33 @@ stage_ended() {
 }
 
 # beside NAME COMMAND...: starts a stage that leaves a core to those after it; await NAME ends it.
+# end_begun ends what has begun and nobody awaits any more.
 declare -A begun
 beside() {
   local name=$1
   shift
+  set -m  # a process group of its own
   {
     timed "$logs/$name.log" "$@"
     echo "$? $wall $cpu" >"$logs/$name.ended"
   } &
   begun[$name]=$!
+  set +m
+}
+end_begun() {
+  local group
+  for group in "${begun[@]}"; do kill -- "-$group" 2>/dev/null; done
 }
 await() {
   local code
   wait "${begun[$1]}"
   read -r code wall cpu <"$logs/$1.ended"
-  stage_ended "$1" "$code"
+  stage_ended "$1" "$code" beside
 }
 
-# stages_end: completes the table with the sums and prints it.
+# stages_end: completes the table with the sums and prints it. A stage beside others adds no time.
 stages_end() {
-  awk -F'|' 'NR > 2 {wall += $3; cpu += $4} END {print "| **together** | " wall " | " cpu " | |"}' \
+  awk -F'|' 'NR > 2 {cpu += $4} NR > 2 && !/, beside \|$/ {wall += $3} END {print "| **together** | " wall " | " cpu " | |"}' \
     "$stages" >"$stages.sum"
   cat "$stages.sum" >>"$stages"
   rm "$stages.sum"
