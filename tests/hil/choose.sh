@@ -21,7 +21,7 @@ lines() { (($# == 0)) || printf '%s\n' "$@"; }
 # Sets all, SCENARIO@MACHINE of each, and rare, those of them that run with --all-machines only.
 find_all() {
   local file scenario folder machines
-    for file in "$scenarios"/*; do
+  for file in "$scenarios"/*; do
     scenario=${file##*/}
     read -ra machines <<<"$(header "$scenario" Machines)"
     all+=("${machines[@]/#/$scenario@}")
@@ -87,9 +87,9 @@ everything=("$here" platform/build-deb platform/debian platform/install_packages
             tests/support/modbus.sh tests/support/unpack_package)
 
 # choose_changed BASE SEED RUN...: sets chosen to those of which something has changed since BASE, and two
-# of the others.
+# of the others; with ORBWATCH_SINCE (tests/support/drawn.sh) since that, and none of the others.
 choose_changed() {
-  local base=$1 seed=$2 run folders others=()
+  local base=${ORBWATCH_SINCE:-$1} seed=$2 run folders others=()
   shift 2
   if tests/support/changed "$base" "${everything[@]}"; then
     chosen=("$@")
@@ -100,6 +100,7 @@ choose_changed() {
     if tests/support/changed "$base" "${folders[@]}"; then chosen+=("$run"); else others+=("$run"); fi
   done
   echo "changed since $base: ${chosen[*]:-none}"
+  [[ -z ${ORBWATCH_SINCE:-} ]] || return 0
   mapfile -t others < <(lines "${others[@]}" | draw 2 "$seed")
   chosen+=("${others[@]}")
 }
