@@ -6,8 +6,8 @@
 #include "proc/align/register/line_of_sight.h"
 #include "proc/align/register/refinement.h"
 #include "proc/align/register/rotation_consensus.h"
-#include "proc/align/rotation_fit.h"
 #include "proc/align/register/spiral.h"
+#include "proc/align/rotation_fit.h"
 
 /// Two cameras in a room of which nothing is stated.
 namespace orbwatch::align {
