@@ -45,7 +45,7 @@ class RecipeEdit {
   Result<> change(const RegionChange& change);
 
   std::string text() const { return edit_.text(); }
-  bool is_intended(const std::string& text) const { return toml::parse(text) == intended_; }
+  bool is_intended(const std::string& text) const { return parse_toml(text) == intended_; }
 
  private:
   /// The same table in the text and in what is intended.

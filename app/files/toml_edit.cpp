@@ -34,7 +34,7 @@ bool is_comment_or_blank(std::string_view line) {
 
 Result<TomlEdit> TomlEdit::make(const std::string& text, const std::string& name) {
   try {
-    return TomlEdit(text, toml::parse(text));
+    return TomlEdit(text, parse_toml(text));
   } catch (const toml::parse_error& error) {
     return fail(one_line(name + ":" + std::to_string(error.source().begin.line) + ": " +
                          std::string(error.description())));

@@ -1,10 +1,5 @@
 #pragma once
 
-// Without NDEBUG, toml++ 3.3 would end the program where a table's name begins with a wrong
-// character; it refuses the text a few lines later anyway.
-#define TOML_ASSERT(expression) static_assert(true)
-#include <toml++/toml.h>
-
 #include <array>
 #include <chrono>
 #include <concepts>
@@ -19,6 +14,7 @@
 #include <vector>
 
 #include "app/files/finding.h"
+#include "app/files/toml_parse.h"
 #include "proc/optics/vec.h"
 #include "proc/settings/settings.h"
 
@@ -251,7 +247,7 @@ class TomlReader {
 template <class Settings>
 void read_toml(const std::string& text, Settings& settings, Finding& finding) {
   try {
-    const toml::table table = toml::parse(text, finding.file);
+    const toml::table table = parse_toml(text, finding.file);
     TomlReader reader(table, "", finding);
     visit(reader, settings);
     reader.refuse_unknown_keys();

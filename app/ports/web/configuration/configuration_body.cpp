@@ -21,8 +21,9 @@ Result<int> seconds_of(const nlohmann::json& sent) {
   const bool is_right =
       seconds->is_number_integer() && *seconds >= kShortestTrial && *seconds <= kLongestTrial;
   if (is_right) return seconds->get<int>();
-  return fail("seconds is " + seconds->dump() + "; it must be a whole number from " +
-              std::to_string(kShortestTrial) + " to " + std::to_string(kLongestTrial));
+  // Not quoted: what was sent may be long, and nested so deeply that writing it ends the process.
+  return fail("seconds must be a whole number from " + std::to_string(kShortestTrial) + " to " +
+              std::to_string(kLongestTrial));
 }
 
 Result<ConfigurationBody> parse_configuration(std::string_view body) {
