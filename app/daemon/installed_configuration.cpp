@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/daemon/new_configuration.h"
+#include "app/daemon/replaceable_file.h"
 #include "app/files/recipe_edit.h"
 
 namespace orbwatch::app {
@@ -45,15 +46,28 @@ Result<> check_writable(const fs::path& file) {
 InstalledConfiguration::InstalledConfiguration(fs::path file, const Chosen& chosen)
     : file_(std::move(file)), refusal_(chosen.refusal), files_(files_of(chosen.site)) {}
 
-/// Those that run, and those that the files name at present.
-Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
+std::set<fs::path> InstalledConfiguration::named_files() const {
   std::set<fs::path> all(files_.begin(), files_.end());
   all.insert(file_);
   if (const auto present = resolve(file_)) {
     for (const fs::path& file : files_of(*present)) all.insert(file);
   }
+  return all;
+}
+
+/// The service's, and the one that the configuration file names.
+std::vector<fs::path> InstalledConfiguration::state_folders() const {
+  std::vector<fs::path> folders;
+  if (folder_) folders.push_back(*folder_);
+  if (const auto site = read_site(file_); site && !site->state_folder.empty()) {
+    folders.push_back(site->state_folder);
+  }
+  return folders;
+}
+
+Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
   State state{name_of(file_), {}, {}, refusal_};
-  for (const fs::path& file : all) {
+  for (const fs::path& file : named_files()) {
     TextFiles files;
     auto text = files.read(file, "a file of the configuration");
     std::error_code none;                                    // `text` says what is wrong
@@ -148,11 +162,16 @@ Result<> InstalledConfiguration::revert() {
 /// By their places beside the configuration file.
 Result<FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
   if (texts.empty()) return fail("no texts were sent");
+  const std::set<fs::path> named = named_files();
+  const std::vector<fs::path> state = state_folders();
   FileTexts there;
   for (const auto& [name, text] : texts) {
     const fs::path file = file_.parent_path() / name;
     if (!may_be_changed(file, file_) || name.find('\0') != std::string::npos) {
       return fail(name + ": is no path from the folder of the configuration to a file inside it");
+    }
+    if (const auto allowed = check_replaceable(file, file_, named, state); !allowed) {
+      return tl::unexpected(allowed.error());
     }
     there[file] = text;
   }

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "app/daemon/configuration_choice.h"
 #include "app/files/resolve.h"
@@ -29,6 +31,9 @@ class InstalledConfiguration final : public ConfigurationFiles {
   Result<> revert() override;
 
  private:
+  /// Those that run, and those that the files name at present.
+  std::set<std::filesystem::path> named_files() const;
+  std::vector<std::filesystem::path> state_folders() const;
   Result<FileTexts> placed(const Texts& texts) const;
   Result<std::filesystem::path> trial_folder() const;
   Change change_of(const Trial& trial) const;

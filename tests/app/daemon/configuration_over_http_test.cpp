@@ -17,6 +17,7 @@ using app::web::tests::request;
 using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 class ConfigurationOverHttp : public Daemon {
@@ -152,6 +153,33 @@ TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
   }
   EXPECT_THAT(refusal("try", {{"recipe.toml", kSmallRecipe}}), HasSubstr("change nothing"));
   EXPECT_FALSE(fs::exists(folder / "trial.json"));
+}
+
+/// A rig may name any file as a lens: a text in its place would show what it holds, and replace it.
+TEST_F(ConfigurationOverHttp, TellsNothingOfFilesThatItDoesNotName) {
+  const std::string lens =
+      "image_width: 200\nimage_height: 200\n"
+      "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [1143, 0, 99.5, 0, 1143, 99.5, 0, 0, 1]\n"
+      "distortion_model: plumb_bob\n"
+      "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n";
+  std::ofstream(folder / "key.pem") << "the secret\n";
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  const auto begin = kSmallRig.find("fx ="), end = kSmallRig.find(kPlaces);
+  const auto rig_with = [&](const std::string& file) {
+    return std::string(kSmallRig).replace(begin, end - begin, "file = \"" + file + "\"\n");
+  };
+  for (const char* what : {"check", "try"}) {
+    const Answer refused =
+        ask(what, {{"files", {{"rig.toml", rig_with("key.pem")}, {"key.pem", lens}}}});
+    EXPECT_EQ(refused.status, 409) << refused.body;
+    EXPECT_THAT(refused.body, HasSubstr("key.pem: exists"));
+    EXPECT_THAT(refused.body, Not(HasSubstr("the secret")));
+  }
+  const Answer taken =
+      ask("check", {{"files", {{"rig.toml", rig_with("lens.yaml")}, {"lens.yaml", lens}}}});
+  EXPECT_EQ(taken.status, 200) << taken.body;
+  EXPECT_EQ(contents(folder / "key.pem"), "the secret\n");
 }
 
 /// Limits and regions of a recipe become lines of its file; all else there stays.
