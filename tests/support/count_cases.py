@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 COUNT = re.compile(r"^\[  (PASSED|SKIPPED|FAILED) +\] (\d+) tests?[,.]", re.MULTILINE)
 FAILED = re.compile(r"^\[  FAILED  \] (\S+)(?:, where .*)?$", re.MULTILINE)
-# Of a case that cannot run here. Cases that do not apply, as some of compliance/, give other reasons.
+# Reason of a case that cannot run here. Cases that do not apply, as some of compliance/, give others.
 REASON = re.compile(r"^skipped, missing.*$", re.MULTILINE)
 
 

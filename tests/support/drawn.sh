@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by the scripts that run tests: which of the stages that most changes leave alone run now.
+# Sourced by the scripts that run tests: the choice of the stages that most changes leave alone.
 # ORBWATCH_SINCE: the commit to compare with instead of the last whole run's; nothing is drawn then.
 
 # Folders whose change concerns the long gates of alignment.
@@ -9,7 +9,7 @@ alignment=(app/simulation proc/align proc/optics tests/proc/align tests/support)
 # The commit of the last whole run; empty when there was none.
 last_whole() { sed -n 's/^Commit: *//p' tests/REPORT.md 2>/dev/null || true; }
 
-# draws NAME: whether HEAD's hash draws NAME, one of four.
+# draws NAME: ends with 0 when HEAD's hash draws NAME, one of four.
 draws() {
   local hash
   [[ -z ${ORBWATCH_SINCE:-} ]] || return
@@ -17,8 +17,8 @@ draws() {
   ((16#${hash:0:4} % 4 == 0))
 }
 
-# due NAME FOLDER...: whether NAME runs: in a whole run (whole=1), when something below a folder changed
-# since the last whole run, or when it is drawn.
+# due NAME FOLDER...: ends with 0 when NAME is to run: in a whole run (whole=1), when something below a
+# folder changed since the last whole run, or when it is drawn.
 due() {
   local code=0
   ((${whole:-0})) && return

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""run_changed.py [BASE]: the tests of what has changed since BASE (HEAD: what is not committed), for
+"""run_changed.py [BASE]: runs the tests of what has changed since BASE (HEAD: what is not committed), for
 `tests/run --changed`.
 
 Builds the release preset and runs the test programs that differ from those whose tests passed here
@@ -85,7 +85,7 @@ class Preset:
                                ["cmake", "--build", "--preset", self.name, *chosen])
 
     def tests(self):
-        """Of each test program its path and CTest's names for its parts."""
+        """By name of a test program its path and CTest's names for its parts."""
         listing = subprocess.run(["ctest", "--preset", self.name, "--show-only=json-v1"], cwd=ROOT,
                                  check=True, capture_output=True, text=True).stdout
         found = {}
@@ -99,7 +99,8 @@ class Preset:
         return found
 
     def digests(self):
-        """Of each test program what its result follows from: itself and the programs that it starts."""
+        """By name of a test program the digests that its result follows from: its own and those of the programs
+        that it starts."""
         started = {str(self.folder / name).encode() + b"\0": digest(self.folder / name)
                    for name in STARTED if (self.folder / name).exists()}
         result = {}
@@ -137,7 +138,7 @@ def digest(path):
 
 
 def folders_of_programs():
-    """Of each test program the folders of its sources, below the project."""
+    """By name of a test program the folders of its sources, below the project."""
     found = {}
     for listing in ROOT.glob("tests/**/CMakeLists.txt"):
         for name, body in re.findall(r"orbwatch_tests\((\w+)([^)]*)\)", listing.read_text()):
@@ -149,7 +150,8 @@ def folders_of_programs():
 
 
 def mirrored(changed, programs):
-    """Of `programs` those with tests in the folder that mirrors a changed source's, or in the next one above."""
+    """Those of `programs` with tests in the folder that mirrors a changed source's, or in the next one
+    above."""
     folders = folders_of_programs()
     chosen = set()
     for name in changed:

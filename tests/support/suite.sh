@@ -4,7 +4,7 @@
 # CTest's places, three for a core; tests/CMakeLists.txt says how many a test claims.
 places=$((3 * $(nproc)))
 
-# What a build runs under, such as nice.
+# Prefix of the commands that compile, such as nice.
 gently=()
 
 # build PRESET [TARGET...]: configures and compiles it.
@@ -17,7 +17,7 @@ build() {
   tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
 }
 
-# What a program printed is kept whole, for count_cases.
+# Options that keep the output of programs whole, for count_cases.py.
 junit=(--test-output-size-passed 10000000 --test-output-size-failed 10000000 --output-junit)
 
 # run_cases NAME FOLDER COMMAND...: runs CTest for the build in FOLDER by a command that leaves cases.xml
