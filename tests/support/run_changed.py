@@ -92,7 +92,8 @@ class Preset:
         for test in json.loads(listing)["tests"]:
             if "command" not in test:
                 continue
-            built = [word for word in test["command"] if word.startswith(str(self.folder))]
+            built = [word for word in test["command"]
+                     if word.startswith(str(self.folder)) and not pathlib.Path(word).is_dir()]
             if built:
                 program = pathlib.Path(built[0])
                 found.setdefault(program.name, (program, []))[1].append(test["name"])
