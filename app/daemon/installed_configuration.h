@@ -31,7 +31,7 @@ class InstalledConfiguration final : public ConfigurationFiles {
   Result<> revert() override;
 
  private:
-  /// Those that run, and those that the files name at present.
+  /// Files that run, and those that the configuration on the disk names.
   std::set<std::filesystem::path> named_files() const;
   std::vector<std::filesystem::path> state_folders() const;
   Result<FileTexts> placed(const Texts& texts) const;

@@ -212,8 +212,7 @@ def main():
     differ = {name for name, now in release.digests().items() if known.get(name) != now}
     release.run(sorted((differ if of_alignment(base) else differ - {GATES}) | {ALWAYS}))
     sanitized(changed, stages)
-    stages.run("format", ["bash", "-c", "git ls-files '*.cpp' '*.h' '*.c' |"
-                                        " xargs clang-format --dry-run -Werror"])
+    stages.run("format", ["tests/support/check_format"])
     if sources(changed, "app|hal|proc"):
         stages.run("tidy", ["tests/tidy", base])
     if any(name.startswith("proc/remap/kernel/") for name in changed):

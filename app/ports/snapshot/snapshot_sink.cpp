@@ -45,7 +45,7 @@ constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kWord =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
 
-/// As stamp_text() writes it.
+/// Matches the form that stamp_text() writes.
 bool is_stamp(std::string_view text) {
   constexpr std::string_view kForm = "00000000T000000.000Z";
   return std::ranges::equal(text, kForm, [](char given, char form) {

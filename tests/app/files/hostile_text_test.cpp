@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// As much as HTTP takes by default.
+/// Largest body that HTTP takes by default, bytes.
 constexpr std::size_t kSize = 65536;
 
 std::string repeated(std::string_view part, std::size_t size = kSize) {
