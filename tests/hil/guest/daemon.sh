@@ -11,10 +11,13 @@ modbus_port=1502 modbus_address=127.0.0.1
 # shellcheck source=../../support/modbus.sh
 . /orbwatch/tests/support/modbus.sh
 
+answers_or_has_ended() { answers || ! kill -0 "$daemon" 2>/dev/null; }
+
 # Sets daemon to its process.
 daemon_starts() {
   /build/app/orbwatchd --config /tmp/site.toml >/tmp/daemon.log 2>&1 &
   # shellcheck disable=SC2034
   daemon=$!
-  wait_for 120 answers || { cat /tmp/daemon.log; return 1; }
+  wait_for 120 answers_or_has_ended
+  answers || { cat /tmp/daemon.log; return 1; }
 }
