@@ -70,6 +70,9 @@ class AlignmentSource {
  public:
   /// Called once, on another thread: the JPEG file.
   using OnPicture = std::function<void(Result<std::string>)>;
+  /// Called on any thread, also under a lock: somebody still waits for that. False for ever once it
+  /// was false; then OnPicture need not be called.
+  using IsWanted = std::function<bool()>;
 
   virtual ~AlignmentSource() = default;
   virtual AlignmentReport report(std::size_t camera) const = 0;
@@ -79,10 +82,11 @@ class AlignmentSource {
   virtual std::optional<optics::Vec3> direction(std::size_t camera,
                                                 const optics::Vec2& pixel) const = 0;
   /// Of the camera's next picture; does not wait. Of 16 bit luminance the range that is there is
-  /// stretched to 8. Error: the camera is not watched, too many pictures are asked for, an
-  /// alignment that is impossible with this model. While the camera delivers nothing, `on_picture`
-  /// is not called.
-  virtual Result<> request(const AlignmentPicture& picture, OnPicture on_picture) = 0;
+  /// stretched to 8. Error: the camera is not watched or has a fault, too many of its pictures are
+  /// asked for, an alignment that is impossible with this model. While the camera delivers nothing,
+  /// `on_picture` is not called.
+  virtual Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+                           IsWanted is_wanted) = 0;
 };
 
 }  // namespace orbwatch::app

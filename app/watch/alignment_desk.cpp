@@ -376,7 +376,8 @@ std::optional<optics::Vec3> AlignmentDesk::direction(std::size_t camera,
   return ball ? ball->direction(pixel) : std::nullopt;
 }
 
-Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_picture) {
+Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_picture,
+                                IsWanted is_wanted) {
   if (!has(picture.camera)) return fail("there is no camera " + std::to_string(picture.camera));
   optics::Rig rig = site_.rig;
   if (picture.is_proposed) {
@@ -388,7 +389,7 @@ Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_pi
   optics::RigCamera camera = rig.cameras[site_.rig_cameras[picture.camera]];
   if (picture.model) camera.model = *picture.model;
   return optics::ball_projection(rig, camera).and_then([&](const optics::BallProjection& ball) {
-    return pictures_.request(picture, ball, std::move(on_picture));
+    return pictures_.request(picture, ball, std::move(on_picture), std::move(is_wanted));
   });
 }
 

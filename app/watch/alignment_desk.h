@@ -83,7 +83,8 @@ class AlignmentDesk : public AlignmentSource {
   AlignmentReport report(std::size_t camera) const override;
   std::optional<optics::Vec3> direction(std::size_t camera,
                                         const optics::Vec2& pixel) const override;
-  Result<> request(const AlignmentPicture& picture, OnPicture on_picture) override;
+  Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+                   IsWanted is_wanted) override;
 
   /// Begins to correct cameras whose settings ask for that.
   void start();

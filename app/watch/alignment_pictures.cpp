@@ -1,8 +1,10 @@
 #include "app/watch/alignment_pictures.h"
 
+#include <string>
 #include <utility>
 
 #include "app/watch/alignment_jpeg.h"
+#include "hal/fault.h"
 
 namespace orbwatch::app {
 
@@ -11,27 +13,39 @@ AlignmentPictures::AlignmentPictures(CameraWatch& watch)
 
 Result<> AlignmentPictures::request(const AlignmentPicture& picture,
                                     const optics::BallProjection& ball,
-                                    AlignmentSource::OnPicture on_picture) {
+                                    AlignmentSource::OnPicture on_picture,
+                                    AlignmentSource::IsWanted is_wanted) {
   if (!watch_.is_watched(picture.camera)) {
     return fail("the camera is not watched: enabled in its [camera.watch], or the log says why");
   }
+  if (const hal::Fault fault = watch_.fault(picture.camera); fault != hal::Fault::None) {
+    return fail("there is no picture: " + std::string(operator_text(fault)));
+  }
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_ == kMostWaiting) {
-      return fail(std::to_string(kMostWaiting) + " pictures are asked for already; try again");
+    Queue& queue = queues_[picture.camera];
+    std::erase_if(queue.waiting, [](const Wanted& other) { return !other.is_wanted(); });
+    if (queue.waiting.size() == kMostWaiting) {
+      return fail(std::to_string(kMostWaiting) +
+                  " pictures of the camera are asked for already; try again");
     }
-    ++waiting_;
+    queue.waiting.push_back({ball, picture.view, std::move(on_picture), std::move(is_wanted)});
+    if (std::exchange(queue.is_asked, true)) return {};
   }
-  const auto wanted =
-      std::make_shared<const Wanted>(Wanted{ball, picture.view, std::move(on_picture)});
-  watch_.ask(picture.camera, [this, wanted](RecordedPicture taken) {
-    {
-      const std::lock_guard lock(mutex_);
-      taken_.push_back({wanted, std::move(taken)});
-    }
-    work_.request();
+  watch_.ask(picture.camera, [this, camera = picture.camera](RecordedPicture taken) {
+    take(camera, std::move(taken));
   });
   return {};
+}
+
+void AlignmentPictures::take(std::size_t camera, RecordedPicture picture) {
+  {
+    const std::lock_guard lock(mutex_);
+    Queue& queue = queues_[camera];
+    queue.is_asked = false;
+    taken_.push_back({std::exchange(queue.waiting, {}), std::move(picture)});
+  }
+  work_.request();
 }
 
 void AlignmentPictures::make() {
@@ -42,10 +56,11 @@ void AlignmentPictures::make() {
       if (taken_.empty()) return;
       next = std::move(taken_.front());
       taken_.pop_front();
-      --waiting_;
     }
-    const Wanted& wanted = *next.wanted;
-    wanted.on_picture(alignment_jpeg(next.picture.picture, wanted.ball, wanted.view));
+    for (const Wanted& wanted : next.wanted) {
+      if (!wanted.is_wanted()) continue;
+      wanted.on_picture(alignment_jpeg(next.picture.picture, wanted.ball, wanted.view));
+    }
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "app/model/alignment.h"
 #include "app/watch/camera_watch.h"
@@ -14,7 +16,7 @@ namespace orbwatch::app {
 /// Makes pictures that alignments are judged by, on shared threads. Thread-safe.
 class AlignmentPictures {
  public:
-  /// One more is refused.
+  /// Of one camera; one more is refused. A camera that delivers nothing leaves the others theirs.
   static constexpr std::size_t kMostWaiting = 16;
 
   /// `watch` outlives it.
@@ -22,7 +24,7 @@ class AlignmentPictures {
 
   /// As AlignmentSource::request(), through `ball`.
   Result<> request(const AlignmentPicture& picture, const optics::BallProjection& ball,
-                   AlignmentSource::OnPicture on_picture);
+                   AlignmentSource::OnPicture on_picture, AlignmentSource::IsWanted is_wanted);
   /// Waits for the picture under way and makes no other.
   void stop() { work_.cancel(); }
 
@@ -31,18 +33,25 @@ class AlignmentPictures {
     optics::BallProjection ball;
     std::optional<optics::ViewSpec> view;
     AlignmentSource::OnPicture on_picture;
+    AlignmentSource::IsWanted is_wanted;
+  };
+  /// What waits for one camera's next picture.
+  struct Queue {
+    std::vector<Wanted> waiting;
+    bool is_asked = false;  ///< the watch is to copy that picture
   };
   struct Taken {
-    std::shared_ptr<const Wanted> wanted;
+    std::vector<Wanted> wanted;
     RecordedPicture picture;
   };
 
+  void take(std::size_t camera, RecordedPicture picture);
   void make();
 
   CameraWatch& watch_;
   std::mutex mutex_;
-  std::size_t waiting_ = 0;  ///< of all that is not answered; under mutex_
-  std::deque<Taken> taken_;  ///< under mutex_
+  std::array<Queue, kMaxCameras> queues_;  ///< by camera; under mutex_
+  std::deque<Taken> taken_;                ///< under mutex_
   hal::SharedThreads::Work work_;
 };
 

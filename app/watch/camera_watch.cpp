@@ -126,6 +126,10 @@ void CameraWatch::accept_frames(const hal::FrameSet& set) {
   }
 }
 
+void CameraWatch::accept(const Status& status) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) faults_[i] = status.cameras[i].fault;
+}
+
 std::array<CameraWatchStatus, kMaxCameras> CameraWatch::figures() const {
   std::array<CameraWatchStatus, kMaxCameras> all;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {

@@ -16,6 +16,7 @@
 #include "app/pictures/picture_copy.h"
 #include "app/watch/alignment_watch.h"
 #include "app/watch/ball_watch.h"
+#include "hal/fault.h"
 #include "hal/frame/frame.h"
 #include "hal/thread/shared_threads.h"
 
@@ -23,8 +24,7 @@ namespace orbwatch::app {
 
 /// Watches the cameras of a site beside the frame path, each on a shared thread: a picture that
 /// comes while the one before is being looked at is not looked at.
-/// Thread rule: as a Sink; cancel_records, figures, drift, ask and record on any
-/// thread.
+/// Thread rule: as a Sink; cancel_records, figures, fault, drift, ask and record on any thread.
 class CameraWatch : public Sink {
  public:
   /// Cameras that cannot be watched are named in the log.
@@ -37,7 +37,7 @@ class CameraWatch : public Sink {
 
   void accept_frames(const hal::FrameSet& set) override;
   void accept(const ViewPtr& /*view*/) override {}
-  void accept(const Status& /*status*/) override {}
+  void accept(const Status& status) override;
 
   /// What the newest pictures said, by camera.
   std::array<CameraWatchStatus, kMaxCameras> figures() const;
@@ -45,6 +45,9 @@ class CameraWatch : public Sink {
   bool is_watched(std::size_t camera) const {
     return camera < cameras_.size() && cameras_[camera] != nullptr;
   }
+
+  /// Of a camera, by the newest status.
+  hal::Fault fault(std::size_t camera) const { return faults_[camera]; }
 
   /// The newest drift of a camera that is watched and was seen.
   std::optional<align::DriftState> drift(std::size_t camera) const;
@@ -109,6 +112,7 @@ class CameraWatch : public Sink {
                                         const std::shared_ptr<hal::SharedThreads>& threads);
 
   const std::shared_ptr<hal::SharedThreads> threads_;
+  std::array<std::atomic<hal::Fault>, kMaxCameras> faults_{};
   Records records_;
   std::vector<std::unique_ptr<Watched>> cameras_;  ///< null: not watched
 };

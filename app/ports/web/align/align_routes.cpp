@@ -147,7 +147,8 @@ void AlignRoutes::serve_picture(const ExchangePtr& exchange, bool is_view) const
     response.body = std::make_shared<const std::string>(std::move(*jpeg));
     exchange->answer(std::move(response));
   };
-  const auto requested = source_ ? source_->request(*picture, on_picture)
+  const auto is_wanted = [exchange] { return !exchange->is_answered(); };
+  const auto requested = source_ ? source_->request(*picture, on_picture, is_wanted)
                                  : Result<>(fail("there is nothing to be aligned"));
   if (!requested) exchange->answer(error_response(409, requested.error().message));
 }

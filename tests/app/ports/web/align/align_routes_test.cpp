@@ -41,7 +41,8 @@ class Source : public AlignmentSource {
     if (camera != 0 || pixel.u != 10.5) return std::nullopt;
     return normalized(optics::Vec3{1, 1, std::sqrt(2)});
   }
-  Result<> request(const AlignmentPicture& picture, OnPicture on_picture) override {
+  Result<> request(const AlignmentPicture& picture, OnPicture on_picture,
+                   IsWanted /*is_wanted*/) override {
     if (picture.camera == 1) return fail("the camera is not watched");
     const std::lock_guard lock(mutex_);
     asked_ = picture;
