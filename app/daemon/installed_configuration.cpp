@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <iomanip>
 #include <set>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "app/daemon/new_configuration.h"
 #include "app/daemon/replaceable_file.h"
+#include "app/files/file_version.h"
 #include "app/files/recipe_edit.h"
 
 namespace orbwatch::app {
@@ -30,6 +33,16 @@ bool may_be_changed(const fs::path& file, const fs::path& site) {
   const auto name = name_beside(site, file);
   return name && !name->empty() && fs::path(*name).lexically_normal() == *name &&
          site.parent_path() / *name == file && fs::path(*name).has_filename() && *name != ".";
+}
+
+/// With the checksum of this very text, which was read before.
+ConfigurationFiles::Version version_of_text(const fs::path& file, const std::string& text) {
+  TextFiles read;
+  read.add(text);
+  std::ostringstream digits;
+  digits << std::hex << std::setw(8) << std::setfill('0') << read.checksum();
+  FileVersion now = version_of(file);
+  return {digits.str(), std::move(now.time), std::move(now.account)};
 }
 
 /// Before it is tried out, not when it is confirmed: a file is replaced by one in the same folder.
@@ -74,6 +87,7 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
     const bool is_to_be = !fs::exists(file, none) && !none;  // by a trial
     if (!text && is_to_be) continue;
     if (!text) return tl::unexpected(text.error());
+    if (may_be_changed(file, file_)) state.versions[name_of(file)] = version_of_text(file, *text);
     (may_be_changed(file, file_) ? state.files : state.outside)[name_of(file)] = std::move(*text);
   }
   if (!folder_) return state;

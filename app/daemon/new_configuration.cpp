@@ -19,6 +19,7 @@ std::optional<std::string> name_beside(const fs::path& site, const fs::path& fil
 }
 
 Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int seconds) {
+  auto based_on = checksums_of(texts);  // before the rest is read and checked, which takes time
   const auto resolved = resolve(site, texts);
   if (!resolved) return tl::unexpected(resolved.error());
   if (const auto checked = check_site(*resolved, Dates::Checked); !checked) {
@@ -31,7 +32,12 @@ Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int se
   }
   Trial trial{site, {}, seconds};
   for (const auto& [file, text] : resolved->texts) {
-    if (name_beside(site, file)) trial.texts[file] = text;
+    if (!name_beside(site, file)) continue;
+    trial.texts[file] = text;
+    TextFiles read;
+    read.add(text);
+    const auto replaced = based_on.find(file);
+    trial.based_on[file] = replaced == based_on.end() ? read.checksum() : replaced->second;
   }
   return trial;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include "app/files/file_version.h"
 #include "app/files/text_file.h"
 #include "hal/atomic_file.h"
 #include "hal/regular_file.h"
@@ -28,19 +29,50 @@ Result<std::optional<Trial>> read(const fs::path& file) {
     for (const auto& [path, kept] : json.at("files").items()) {
       trial.texts[path] = kept.get<std::string>();
     }
+    // Absent in a trial that an older version requested.
+    const auto based_on = json.find("based_on");
+    if (based_on == json.end()) return trial;
+    for (const auto& [path, checksum] : based_on->items()) {
+      trial.based_on[path] = checksum.get<std::uint32_t>();
+    }
     return trial;
   } catch (const nlohmann::json::exception&) {
     return fail(file.string() + ": is damaged");
   }
 }
 
+/// Error: a file that the confirmation would overwrite is not what the trial was made of.
+Result<> check_unchanged(const Trial& trial) {
+  for (const auto& [path, checksum] : trial.based_on) {
+    const FileVersion now = version_of(path);
+    if (now.checksum == checksum) continue;
+    const auto text = trial.texts.find(path);
+    const auto present = hal::read_regular_file(path);
+    if (present && text != trial.texts.end() && *present == text->second) continue;
+    return fail(change_text(path.string(), now) +
+                " since the new configuration was made, which does not have that change: nothing "
+                "is written; go back, and change the files as they are now");
+  }
+  return {};
+}
+
 }  // namespace
+
+std::map<fs::path, std::uint32_t> checksums_of(const FileTexts& texts) {
+  std::map<fs::path, std::uint32_t> checksums;
+  for (const auto& [path, text] : texts) checksums[path] = version_of(path).checksum;
+  return checksums;
+}
 
 Result<> request_trial(const fs::path& folder, const Trial& trial) {
   nlohmann::json files = nlohmann::json::object();
   for (const auto& [path, text] : trial.texts) files[path.string()] = text;
-  const nlohmann::json json{
-      {"site", trial.site.string()}, {"seconds", trial.seconds}, {"files", files}};
+  nlohmann::json based_on = nlohmann::json::object();
+  for (const auto& [path, checksum] : trial.based_on) based_on[path.string()] = checksum;
+  const nlohmann::json json{{"site", trial.site.string()},
+                            {"seconds", trial.seconds},
+                            {"files", files},
+                            {"based_on", based_on}};
   try {
     return hal::write_file(requested_in(folder), json.dump(1) + "\n");
   } catch (const nlohmann::json::type_error&) {
@@ -70,6 +102,13 @@ Result<std::optional<Trial>> running_trial(const fs::path& folder) {
 }
 
 Result<std::vector<fs::path>> confirm_trial(const fs::path& folder) {
+  const auto running = running_trial(folder);
+  if (!running) return tl::unexpected(running.error());
+  if (*running) {
+    if (auto unchanged = check_unchanged(**running); !unchanged) {
+      return tl::unexpected(unchanged.error());
+    }
+  }
   std::error_code error;
   fs::rename(running_in(folder), confirmed_in(folder), error);
   if (error && error != std::errc::no_such_file_or_directory) {

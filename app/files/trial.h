@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -19,7 +21,13 @@ struct Trial {
   std::filesystem::path site;  ///< the configuration file that it is in place of
   FileTexts texts;             ///< by the path of the file that each will be
   int seconds = 0;
+  /// Checksums of the files when the texts were made of them, as in FileVersion: a change since
+  /// then would be lost by the confirmation. Files that are not named may change.
+  std::map<std::filesystem::path, std::uint32_t> based_on{};
 };
+
+/// The checksums of these files as they are now.
+std::map<std::filesystem::path, std::uint32_t> checksums_of(const FileTexts& texts);
 
 /// Asks the daemon that has this folder for a trial. Atomic. Errors: a text is not UTF-8; as
 /// hal::write_file().
@@ -45,8 +53,9 @@ Result<> cancel_trial(const std::filesystem::path& folder);
 
 /// Keeps the trial that runs: writes those of its texts that differ from their files, the
 /// configuration file last. From its first moment on the confirmation counts: after a power cut
-/// finish_confirmed() does what is left. Returns the files written. Errors: none runs; as
-/// hal::write_file(), and it may be repeated.
+/// finish_confirmed() does what is left. Returns the files written. Errors: none runs; a file was
+/// changed meanwhile by somebody else, who and when, and nothing is written; as hal::write_file(),
+/// and it may be repeated.
 Result<std::vector<std::filesystem::path>> confirm_trial(const std::filesystem::path& folder);
 
 /// The one that was confirmed and is not written to the end; nullopt: none. Error: it is damaged.

@@ -21,6 +21,15 @@ class ConfigurationFiles {
   /// By the name of their file: its path from the folder of the configuration file.
   using Texts = std::map<std::string, std::string>;
 
+  /// What a file was when it was read, and who changed it last.
+  struct Version {
+    std::string checksum;  ///< eight hexadecimal digits
+    std::string time;      ///< of that change, UTC as ISO 8601
+    std::string account;   ///< of the operating system
+  };
+  /// Checksums of the files that new texts were made of, by the name of the file.
+  using Basis = std::map<std::string, std::string>;
+
   /// The files, besides what runs in place of them for a time.
   struct State {
     std::string site;              ///< name of the configuration file
@@ -29,6 +38,7 @@ class ConfigurationFiles {
     std::string refusal;           ///< why they do not run, but the last good ones; empty: they do
     std::optional<Texts> trial{};  ///< runs in place of them, or is about to; nullopt: none
     std::optional<double> seconds_left{};  ///< until it goes back; nullopt: it does not run yet
+    std::map<std::string, Version> versions{};  ///< of `files`
   };
 
   /// What a change consists of.
@@ -55,7 +65,8 @@ class ConfigurationFiles {
   /// or runs, the files cannot be written, and what has no service manager's folder cannot go back.
   virtual Result<Change> try_out(const Texts& texts, int seconds) = 0;
 
-  /// Writes the files of the trial that runs. Returns their names. Error: none runs; the disk.
+  /// Writes the files of the trial that runs. Returns their names. Error: none runs; somebody else
+  /// changed one of them meanwhile; the disk.
   virtual Result<std::vector<std::string>> confirm() = 0;
 
   /// Goes back to the files. Error: no trial waits or runs.

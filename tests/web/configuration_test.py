@@ -107,6 +107,25 @@ class ConfigurationPage(PageCase):
                    lambda: self.appliance.configuration()["trial"] is None)
         self.assertNotEqual(self.appliance.checksum(), self.checksum)
 
+    def test_configuration_of_a_second_editor_removes_no_change(self):
+        self.type_into("demo-recipe.toml", "name = ", "# typed here\nname = ")
+        by_hand = self.recipe + b"# by hand\r\n"
+        self.addCleanup(self.appliance.recipe.write_bytes, self.recipe)
+        self.appliance.recipe.write_bytes(by_hand)
+        self.press("Try out")
+        eventually("the page says who changed it and when",
+                   lambda: "demo-recipe.toml was changed by" in self.said())
+        self.browser.keep_picture("configuration-changed-elsewhere")
+        self.assertIsNone(self.appliance.configuration()["trial"])
+        eventually("the file is marked", lambda: "by somebody else" in self.browser.text(
+            "#configuration details[open] > details[open] summary"))
+        self.press("Drop the change made here and show the file as it is")
+        eventually("the other change is shown", lambda: self.areas()["demo-recipe.toml"]
+                   .get_attribute("value").endswith("# by hand\n"))
+        self.assertNotIn("typed here",
+                         self.areas()["demo-recipe.toml"].get_attribute("value"))
+        self.assertEqual(self.appliance.recipe.read_bytes(), by_hand)
+
     def test_configuration_goes_back_when_asked(self):
         name = [line for line in self.recipe.decode().splitlines()
                 if line.startswith("name = ")][0].split('"')[1]

@@ -100,6 +100,34 @@ TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   EXPECT_EQ(read("system_configuration_checksum"), checksum) << daemon.output();
 }
 
+/// Two editors, and one at the board.
+TEST_F(ConfigurationOverHttp, RemovesNobodysChange) {
+  Subprocess daemon = start(config);
+  begin_trial(3600);
+  const json read_before = shown();
+  std::ofstream(folder / "rig.toml") << kSmallRig << "# by hand\n";
+  const Answer refused = ask("confirm", json::object());
+  EXPECT_EQ(refused.status, 409) << refused.body;
+  EXPECT_THAT(refused.body, HasSubstr("rig.toml was changed by "));
+  EXPECT_THAT(contents(folder / "rig.toml"), HasSubstr("# by hand"));
+  EXPECT_EQ(contents(folder / "recipe.toml"), kSmallRecipe) << "all or nothing";
+  ASSERT_EQ(ask("revert", json::object()).status, 200);
+  manager.await("READY=1");
+
+  json second = of_recipe(other_recipe());
+  const auto base_on = [&second](const json& read) {
+    for (const auto& file : read["files"]) {
+      second["based_on"][file["name"].get<std::string>()] = file["checksum"];
+    }
+  };
+  base_on(read_before);
+  const Answer outdated = ask("try", second);
+  EXPECT_EQ(outdated.status, 409) << outdated.body;
+  EXPECT_THAT(outdated.body, HasSubstr("rig.toml was changed by "));
+  base_on(shown());
+  EXPECT_EQ(ask("try", second).status, 200);
+}
+
 TEST_F(ConfigurationOverHttp, GoesBackWithoutConfirmation) {
   Subprocess daemon = start(config);
   begin_trial(10);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/files/file_version.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {
@@ -66,6 +67,24 @@ TEST_F(TrialFile, IsWrittenWhereItDiffersOnceItIsConfirmed) {
   EXPECT_FALSE(confirm_trial(folder_.path())) << "nothing waits any more";
   EXPECT_EQ(finish_confirmed(folder_.path()).value(), std::nullopt);
   EXPECT_FALSE(end_trial(folder_.path()));
+}
+
+TEST_F(TrialFile, IsNotWrittenOverAChangeThatSomebodyMadeMeanwhile) {
+  const fs::path site = folder_ / "site.toml", rig = folder_ / "rig.toml";
+  std::ofstream(site) << "old";
+  std::ofstream(rig) << "old rig";
+  const FileTexts texts{{site, "new"}, {rig, "old rig"}};
+  ASSERT_TRUE(request_trial(folder_.path(), {site, texts, 30, checksums_of(texts)}));
+  ASSERT_TRUE(take_trial(folder_.path()));
+  std::ofstream(rig) << "by hand";
+  const auto refused = confirm_trial(folder_.path());
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("rig.toml was changed by "));
+  EXPECT_THAT(refused.error().message, testing::ContainsRegex("at 20[0-9-]+T[0-9:]+Z since"));
+  EXPECT_TRUE(running_trial(folder_.path()).value()) << "it runs on, and goes back";
+  EXPECT_EQ(version_of(site).checksum, checksums_of(texts).at(site));
+  std::ofstream(rig) << "old rig";
+  EXPECT_TRUE(confirm_trial(folder_.path())) << "the change was taken back";
 }
 
 TEST_F(TrialFile, ThatCannotBeWrittenMayBeConfirmedAgain) {

@@ -7,10 +7,28 @@ namespace orbwatch::app::web {
 namespace {
 
 constexpr const char* kConfigurationForm =
-    R"(the body must be {"files": {"NAME": "TEXT", ...}, "seconds": 60})";
+    R"(the body must be {"files": {"NAME": "TEXT", ...}, "based_on": {"NAME": "CHECKSUM", ...}, )"
+    R"("seconds": 60})";
 
 bool is_known(const std::string& member) {
-  return member == kFilesMember.name || member == kSecondsMember.name;
+  return member == kFilesMember.name || member == kBasedOnMember.name ||
+         member == kSecondsMember.name;
+}
+
+/// Absent: nothing is compared.
+Result<ConfigurationFiles::Basis> basis_of(const nlohmann::json& sent) {
+  ConfigurationFiles::Basis basis;
+  const auto member = sent.find(kBasedOnMember.name);
+  if (member == sent.end()) return basis;
+  if (!member->is_object())
+    return fail(std::string("based_on is not an object: ") + kConfigurationForm);
+  for (const auto& [name, checksum] : member->items()) {
+    if (!checksum.is_string()) {
+      return fail("based_on: " + name + " is not a string: " + kConfigurationForm);
+    }
+    basis[name] = checksum.get<std::string>();
+  }
+  return basis;
 }
 
 }  // namespace
@@ -37,6 +55,9 @@ Result<ConfigurationBody> parse_configuration(std::string_view body) {
     if (!text.is_string()) return fail(name + " is no text: " + kConfigurationForm);
     parsed.files[name] = text.get<std::string>();
   }
+  auto basis = basis_of(sent);
+  if (!basis) return tl::unexpected(basis.error());
+  parsed.based_on = std::move(*basis);
   const auto seconds = seconds_of(sent);
   if (!seconds) return tl::unexpected(seconds.error());
   parsed.seconds = *seconds;

@@ -12,17 +12,24 @@ namespace orbwatch::app::web {
 /// A new configuration as it is sent.
 struct ConfigurationBody {
   ConfigurationFiles::Texts files;
+  ConfigurationFiles::Basis based_on{};
   int seconds = kUsualTrial;
 };
 
 inline constexpr BodyMember kFilesMember{
     "files", "Texts by name of their file, of those that are to change", true, BodyType::Texts};
+inline constexpr BodyMember kBasedOnMember{
+    "based_on",
+    "Checksums of files as GET /api/v1/configuration gave them: 409 if one was changed since then, "
+    "with who and when",
+    false, BodyType::Texts};
 inline constexpr BodyMember kSecondsMember{
     "seconds", "Until it goes back unless it is confirmed, 10 to 3600; 60 if it is left out", false,
     BodyType::Whole};
 
-/// {"files": {"rig.toml": "..."}, "seconds": 60}. Errors: it is none; a member is missing, too many
-/// or of another kind; the seconds are out of range. Reentrant.
+/// {"files": {"rig.toml": "..."}, "based_on": {"rig.toml": "0a1b2c3d"}, "seconds": 60}. Errors: it
+/// is none; a member is missing, too many or of another kind; the seconds are out of range.
+/// Reentrant.
 Result<ConfigurationBody> parse_configuration(std::string_view body);
 
 /// What kSecondsMember says of an object that was sent. Errors: as parse_configuration().

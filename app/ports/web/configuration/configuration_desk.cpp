@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "app/ports/web/configuration/configuration_body.h"
@@ -14,6 +15,8 @@ using Json = nlohmann::ordered_json;
 
 /// Of a difference in the audit, which keeps the newest megabyte.
 constexpr std::size_t kMostNoted = 4096;
+/// Entries of the audit among which the last change of a file is searched.
+constexpr std::size_t kMostSearched = 1000;
 
 /// Bytes that are no UTF-8 have no place in JSON: they are replaced.
 Response answer(const Json& json) {
@@ -33,9 +36,14 @@ Json change_json(const ConfigurationFiles::Change& change) {
   return {{"files", change.files}, {"difference", change.difference}};
 }
 
-void add(Json& list, const ConfigurationFiles::Texts& texts, bool may_change) {
+void add(Json& list, const ConfigurationFiles::Texts& texts,
+         const std::map<std::string, ConfigurationFiles::Version>& versions, bool may_change) {
   for (const auto& [name, text] : texts) {
-    list.push_back({{"name", name}, {"may_change", may_change && is_utf8(text)}, {"text", text}});
+    Json file{{"name", name}, {"may_change", may_change && is_utf8(text)}, {"text", text}};
+    if (const auto version = versions.find(name); version != versions.end()) {
+      file["checksum"] = version->second.checksum;
+    }
+    list.push_back(std::move(file));
   }
 }
 
@@ -49,6 +57,12 @@ std::string side_of(const std::string& difference, char side) {
     text += line.substr(line.starts_with(side) ? 1 : 0) + "\n";
   }
   return text.substr(0, kMostNoted);
+}
+
+/// To the second, of moments as ISO 8601 has them.
+bool is_earlier(std::string_view moment, std::string_view other) {
+  constexpr std::size_t kToTheSecond = std::string_view("2026-11-21T20:57:46").size();
+  return moment.substr(0, kToTheSecond) < other.substr(0, kToTheSecond);
 }
 
 }  // namespace
@@ -87,10 +101,12 @@ std::vector<Route> ConfigurationDesk::routes() {
   routes.push_back(changing("/api/v1/check_configuration",
                             "Checks the configuration with these texts in place of some files, and "
                             "says what they change",
-                            {kFilesMember}, &Sent::read_files, &ConfigurationDesk::check));
-  routes.push_back(changing(
-      "/api/v1/try_configuration", "The same, and has it run until it is confirmed or goes back",
-      {kFilesMember, kSecondsMember}, &Sent::read_files, &ConfigurationDesk::try_out));
+                            {kFilesMember, kBasedOnMember}, &Sent::read_files,
+                            &ConfigurationDesk::check));
+  routes.push_back(changing("/api/v1/try_configuration",
+                            "The same, and has it run until it is confirmed or goes back",
+                            {kFilesMember, kBasedOnMember, kSecondsMember}, &Sent::read_files,
+                            &ConfigurationDesk::try_out));
   routes.push_back(changing("/api/v1/check_recipe",
                             "Checks the configuration with these limits and regions in the file of "
                             "a recipe, which keeps all else, and says what they change",
@@ -142,8 +158,8 @@ Response ConfigurationDesk::show() const {
   const auto state = files_->read();
   if (!state) return error_response(409, state.error().message);
   Json list = Json::array();
-  add(list, state->files, true);
-  add(list, state->outside, false);
+  add(list, state->files, state->versions, true);
+  add(list, state->outside, {}, false);
   Json trial;
   if (state->trial) {
     trial = {{"files", *state->trial},
@@ -170,9 +186,47 @@ Result<> ConfigurationDesk::permit(const Sent& sent) const {
               "modules run");
 }
 
+/// The newest confirmation on the page that wrote the file since its change began, by its user;
+/// else the account on the board.
+std::string ConfigurationDesk::changer_of(const std::string& name,
+                                          const ConfigurationFiles::Version& now) const {
+  const Json audit = Json::parse(audit_.newest(kMostSearched), nullptr, false);
+  std::string who;
+  for (const Json& entry : audit.value("entries", Json::array())) {
+    if (entry.value("what", "") != "confirm_configuration" || entry.value("result", "") != "done" ||
+        is_earlier(entry.value("time", ""), now.time)) {
+      continue;
+    }
+    std::istringstream files(entry.value("after", ""));
+    for (std::string file; std::getline(files >> std::ws, file, ',');) {
+      if (file == name) who = entry.value("who", "");
+    }
+  }
+  return who.empty() ? now.account + " (account on the board)" : who;
+}
+
+/// Error: a file is not what the new texts were made of; their change would remove the other one.
+Result<> ConfigurationDesk::check_basis(const Sent& sent) const {
+  if (sent.body.based_on.empty()) return {};
+  const auto state = files_->read();
+  if (!state) return tl::unexpected(state.error());
+  for (const auto& [name, checksum] : sent.body.based_on) {
+    const auto version = state->versions.find(name);
+    if (version == state->versions.end()) return fail(name + " was removed since it was read");
+    const ConfigurationFiles::Version& now = version->second;
+    if (now.checksum == checksum) continue;
+    return fail(name + " was changed by " + changer_of(name, now) + " at " + now.time +
+                ", after it was read for this change, which would remove that one; read it again");
+  }
+  return {};
+}
+
 Response ConfigurationDesk::check(Sent& sent) {
   if (const auto permitted = permit(sent); !permitted) {
     return error_response(403, permitted.error().message);
+  }
+  if (const auto unchanged = check_basis(sent); !unchanged) {
+    return error_response(409, unchanged.error().message);
   }
   const auto change = files_->check(sent.body.files);
   return change ? answer(change_json(*change)) : error_response(409, change.error().message);
@@ -181,6 +235,9 @@ Response ConfigurationDesk::check(Sent& sent) {
 Response ConfigurationDesk::try_out(Sent& sent) {
   if (const auto permitted = permit(sent); !permitted) {
     return error_response(403, permitted.error().message);
+  }
+  if (const auto unchanged = check_basis(sent); !unchanged) {
+    return error_response(409, unchanged.error().message);
   }
   const auto change = files_->try_out(sent.body.files, sent.body.seconds);
   if (!change) return error_response(409, change.error().message);
@@ -195,7 +252,7 @@ Response ConfigurationDesk::try_out(Sent& sent) {
 Result<> ConfigurationDesk::apply_changes(Sent& sent) const {
   return files_->with_changed_recipe(sent.recipe.recipe, sent.recipe.change)
       .map([&](ConfigurationFiles::Texts texts) {
-        sent.body = {std::move(texts), sent.recipe.seconds};
+        sent.body = {std::move(texts), {}, sent.recipe.seconds};
       });
 }
 

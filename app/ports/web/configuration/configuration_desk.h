@@ -47,6 +47,8 @@ class ConfigurationDesk {
   Response confirm(Sent& sent);
   Response revert(Sent& sent);
   Result<> permit(const Sent& sent) const;
+  Result<> check_basis(const Sent& sent) const;
+  std::string changer_of(const std::string& name, const ConfigurationFiles::Version& now) const;
   Result<> apply_changes(Sent& sent) const;
 
   const std::shared_ptr<ConfigurationFiles> files_;

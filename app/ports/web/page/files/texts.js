@@ -122,6 +122,8 @@ export const texts = {
   load: "The slowest of the last second took of the time that there is",
   configurationTitle: "Configuration",
   changed: "(changed)",
+  changedElsewhere: "(changed here, and by somebody else since it was read)",
+  reloadFile: "Drop the change made here and show the file as it is",
   download: "Download",
   difference: "What the new texts change",
   checkFiles: "Check and show the difference",

@@ -116,6 +116,29 @@ TEST_F(Configuration, OfTheSiteIsTheAdministrators) {
   EXPECT_EQ(ask("try", other, Role::Administrator).status, 200);
 }
 
+/// A second editor, or somebody at the board: the change of the first one would be lost.
+TEST_F(Configuration, MadeOfAnOlderFileIsRefusedWithWhoChangedItAndWhen) {
+  start();
+  const auto based_on = [](const std::string& checksum) {
+    return json{{"files", {{"rig.toml", "c = 3\n"}}}, {"based_on", {{"rig.toml", checksum}}}};
+  };
+  EXPECT_EQ(shown()["files"][0]["checksum"], "a = 1\n");
+  EXPECT_EQ(ask("check", based_on("a = 1\n")).status, 200);
+  for (const char* what : {"check", "try"}) {
+    const Answer refused = ask(what, based_on("a = 0\n"));
+    EXPECT_EQ(refused.status, 409);
+    EXPECT_THAT(json::parse(refused.body)["error"].get<std::string>(),
+                HasSubstr("rig.toml was changed by root (account on the board) at "
+                          "2020-11-21T20:57:46Z"));
+  }
+  ASSERT_EQ(ask("try", {{"files", {{"rig.toml", "b = 2\n"}}}}).status, 200);
+  ASSERT_EQ(ask("confirm", json::object()).status, 200);
+  EXPECT_THAT(ask("try", based_on("a = 1\n")).body,
+              HasSubstr("rig.toml was changed by integrator at"));
+  EXPECT_TRUE(shown()["trial"].is_null());
+  EXPECT_EQ(ask("try", based_on("b = 2\n")).status, 200);
+}
+
 TEST_F(Configuration, ThatIsTooLargeIsRefused) {
   WebSettings settings;
   settings.max_body_bytes = 1024;

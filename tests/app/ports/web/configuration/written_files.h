@@ -10,12 +10,17 @@
 
 namespace orbwatch::app::web::tests {
 
-/// Files of a configuration in memory, and what was asked of them.
+/// Files of a configuration in memory, and what was asked of them. The checksum of a text is the
+/// text.
 class WrittenFiles final : public ConfigurationFiles {
  public:
   Result<State> read() const override {
     const std::lock_guard lock(mutex);
-    return state;
+    State now = state;
+    for (const auto& [name, text] : now.files) {
+      if (!now.versions.contains(name)) now.versions[name] = {text, "2020-11-21T20:57:46Z", "root"};
+    }
+    return now;
   }
   /// A line for each change behind the rig's.
   Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const override {
@@ -62,7 +67,8 @@ class WrittenFiles final : public ConfigurationFiles {
   }
 
   mutable std::mutex mutex;
-  State state{"site.toml", {{"site.toml", "# mine\n"}, {"rig.toml", "a = 1\n"}}, {}, "", {}, {}};
+  State state{"site.toml", {{"site.toml", "# mine\n"}, {"rig.toml", "a = 1\n"}}, {}, "", {}, {},
+              {}};
 
  private:
   Result<Change> change_of(const Texts& texts) const {

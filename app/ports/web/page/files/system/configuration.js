@@ -10,9 +10,11 @@ const plain = (text) => text.replaceAll("\r\n", "\n");
 
 // One file. What is not touched is never sent, so no byte of it changes.
 class FileEditor {
-  constructor({ name, text, may_change: mayChange }) {
+  constructor({ name, text, may_change: mayChange, checksum }) {
     this.name = name;
     this.onDisk = text;
+    this.checksum = checksum;  // of what is on the disk
+    this.basis = checksum;     // of what the text here was made of
     this.area = element("textarea", { rows: 16, spellcheck: false, readOnly: !mayChange, wrap: "off" });
     this.area.setAttribute("aria-label", name);
     this.mark = element("span", {});
@@ -23,8 +25,10 @@ class FileEditor {
       setTimeout(() => URL.revokeObjectURL(download.href), kKeptMs);
     });
     download.href = "#";
+    this.reload = element("button", { type: "button", hidden: true }, texts.reloadFile);
+    this.reload.addEventListener("click", () => this.#takeFromDisk());
     this.root = element("details", {}, element("summary", {}, name, " ", this.mark), this.area,
-      element("p", {}, download));
+      element("p", {}, download, " ", this.reload));
     this.area.addEventListener("input", () => this.#showMark());
     this.take(text);
   }
@@ -34,6 +38,20 @@ class FileEditor {
     this.base = text;
     this.area.value = text;
     this.#showMark();
+  }
+
+  // What somebody else has changed meanwhile is not taken over under a change made here.
+  update({ text, checksum }) {
+    const mayFollow = !this.isChanged || this.text === text;
+    this.onDisk = text;
+    this.checksum = checksum;
+    if (mayFollow) this.#takeFromDisk();
+    else this.#showMark();
+  }
+
+  #takeFromDisk() {
+    this.basis = this.checksum;
+    this.take(this.onDisk);
   }
 
   get text() {
@@ -47,7 +65,9 @@ class FileEditor {
   }
 
   #showMark() {
-    setText(this.mark, this.isChanged ? texts.changed : "");
+    const isOutdated = this.basis !== this.checksum;
+    this.reload.hidden = !isOutdated;
+    setText(this.mark, isOutdated ? texts.changedElsewhere : this.isChanged ? texts.changed : "");
   }
 }
 
@@ -76,9 +96,7 @@ export class Configuration {
       if (!editor) {
         this.#add(new FileEditor(file));
       } else if (editor.onDisk !== file.text) {
-        const wasChanged = editor.isChanged;
-        editor.onDisk = file.text;
-        editor.take(wasChanged ? editor.text : file.text);
+        editor.update(file);
       }
     }
   }
@@ -112,6 +130,10 @@ export class Configuration {
   #changed() {
     const changed = [...this.#editors.values()].filter((editor) => editor.isChanged);
     if (changed.length === 0) return null;
-    return { files: Object.fromEntries(changed.map((editor) => [editor.name, editor.text])) };
+    const known = changed.filter((editor) => editor.basis);
+    return {
+      files: Object.fromEntries(changed.map((editor) => [editor.name, editor.text])),
+      based_on: Object.fromEntries(known.map((editor) => [editor.name, editor.basis])),
+    };
   }
 }

@@ -71,8 +71,10 @@ export class Trial {
     const answer = await answerTo(`/api/v1/${verb}_${this.what}`, { ...changes, ...more });
     this.difference.hidden = Boolean(answer.refused);
     setText(this.difference, answer.difference ?? "");
-    if (answer.refused) this.say(texts.refused(answer.refused), true);
-    return answer.refused ? null : answer;
+    if (!answer.refused) return answer;
+    this.say(texts.refused(answer.refused), true);
+    await this.refresh();  // a file may have been changed by somebody else
+    return null;
   }
 
   async #check() {
