@@ -127,14 +127,15 @@ void WebSink::watch() {
   }
 }
 
+/// First what is being done, a restart for example, so that its answer is still sent.
 void WebSink::stop() {
   is_running_ = false;
   thread_.stop();
-  listeners_.close();
   commands_.stop();
-  look_around_.stop();
   configuration_.stop();
   desk_.stop();
+  listeners_.close();
+  look_around_.stop();
   access_.stop();
   for (const auto& view : views_) view->stop();
   pixels_.stop();

@@ -32,7 +32,7 @@ void SlowWork::work_all() {
       next = std::move(waiting_.front());
       waiting_.pop_front();
     }
-    if (!next.exchange->is_answered()) next.exchange->answer(next.work());
+    if (next.exchange->begin_effect()) next.exchange->answer(next.work());
   }
 }
 

@@ -25,7 +25,8 @@ class SlowWork {
   void start();
   void stop() { thread_.stop(); }
 
-  /// `work` makes the answer; it is not done when the request was answered by its deadline.
+  /// `work` makes the answer. It is not begun when the request was answered by its deadline; once
+  /// begun its answer is given, however late.
   void run(const ExchangePtr& exchange, std::function<Response()> work);
 
   std::chrono::nanoseconds cpu_time() const { return thread_.cpu_time(); }

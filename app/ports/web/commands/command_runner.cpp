@@ -66,7 +66,11 @@ void CommandRunner::carry_out_all() {
       waiting_.pop_front();
     }
     if (next.exchange->is_answered()) continue;
-    const CommandResult result = record_->carry_out({kClient, ++number_}, next.command, handler_);
+    // Noting it waits for the disk, perhaps beyond the request's deadline.
+    const auto handle = [&](const Command& command) {
+      return next.exchange->begin_effect() ? handler_(command) : CommandResult::NotCarriedOut;
+    };
+    const CommandResult result = record_->carry_out({kClient, ++number_}, next.command, handle);
     next.on_result(result);
     answer(*next.exchange, result);
   }

@@ -15,7 +15,8 @@
 namespace orbwatch::app::web {
 
 /// Carries commands out one after the other on a thread of its own, since that waits for the disk,
-/// and answers their requests. One whose request was answered by its deadline is not carried out.
+/// and answers their requests. One whose request was answered by its deadline is not carried out;
+/// once its handler has begun, its result is the answer, however late.
 /// Thread rule: start and stop by one owner; the rest on any thread.
 class CommandRunner {
  public:

@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/ports/web/http/address.h"
 
@@ -28,11 +29,10 @@ struct Ends {
     }
   }
   void end() {
-    for (const auto& exchange : exchanges) {
-      exchange->answer(error_response(503, "there was no answer in time"));
-    }
+    for (const auto& exchange : exchanges) exchange->give_up(no_answer());
     for (const auto& stream : streams) stream->end();
   }
+  static Response no_answer() { return error_response(503, "there was no answer in time"); }
 };
 
 }  // namespace
@@ -55,12 +55,14 @@ Connections::Connection* Connections::add(int socket, std::string peer, std::siz
 void Connections::remove(Connection* connection) {
   const std::lock_guard lock(mutex_);
   all_.remove_if([connection](const Connection& one) { return &one == connection; });
+  sent_.notify_all();
 }
 
 bool Connections::begin_answer(Connection* connection, const ExchangePtr& exchange) {
   const std::lock_guard lock(mutex_);
   connection->deadline = hal::Clock::now() + timeout_;
   connection->exchange = exchange;
+  connection->is_answering = true;
   return !is_closing_ && !connection->is_beyond;
 }
 
@@ -75,6 +77,7 @@ bool Connections::begin_stream(Connection* connection, const std::shared_ptr<Str
   const std::lock_guard lock(mutex_);
   connection->may_go_on = std::move(may_go_on);
   connection->exchange.reset();
+  connection->is_answering = false;
   connection->stream = stream;
   connection->deadline = hal::TimePoint::max();
   return !is_closing_;
@@ -86,6 +89,8 @@ void Connections::end_answer(Connection* connection) {
   connection->stream.reset();
   connection->may_go_on = nullptr;
   connection->deadline = hal::Clock::now() + timeout_;
+  connection->is_answering = false;
+  sent_.notify_all();
 }
 
 std::size_t Connections::end_overdue(hal::TimePoint now) {
@@ -96,14 +101,19 @@ std::size_t Connections::end_overdue(hal::TimePoint now) {
     for (Connection& connection : all_) {
       const bool is_overdue = now >= connection.deadline;
       const bool may_go_on = !connection.may_go_on || connection.may_go_on();
-      if (!is_overdue && may_go_on && !has_gone(connection.socket)) continue;
+      const bool gone = has_gone(connection.socket);
+      const bool had_gone = std::exchange(connection.has_gone, gone);
+      if (!is_overdue && may_go_on && !gone) continue;
       if (is_overdue) {
         ++overdue;
         connection.deadline = hal::TimePoint::max();  // counted once, however late it is removed
       }
       const bool waits_for_answer = !connection.exchange.expired();
+      const bool asks_nothing = gone && had_gone && !connection.is_answering;
       ends.add(connection);
-      if (is_overdue && !waits_for_answer) ::shutdown(connection.socket, SHUT_RDWR);
+      if ((is_overdue && !waits_for_answer) || asks_nothing) {
+        ::shutdown(connection.socket, SHUT_RDWR);
+      }
     }
   }
   ends.end();
@@ -118,6 +128,17 @@ void Connections::end_all() {
     for (const Connection& connection : all_) ends.add(connection);
   }
   ends.end();
+  std::vector<ExchangePtr> unanswered;
+  {
+    std::unique_lock lock(mutex_);
+    sent_.wait_for(lock, kLongestFlush,
+                   [this] { return std::ranges::none_of(all_, &Connection::is_answering); });
+    for (const Connection& connection : all_) {
+      if (auto exchange = connection.exchange.lock()) unanswered.push_back(std::move(exchange));
+    }
+  }
+  // The library cannot end while one is suspended.
+  for (const auto& exchange : unanswered) exchange->answer(Ends::no_answer());
 }
 
 }  // namespace orbwatch::app::web

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <list>
 #include <memory>
@@ -21,9 +22,11 @@ class Connections {
   struct Connection {
     int socket = -1;
     std::string peer;
-    std::string key;          ///< the peer's address_key()
-    bool is_beyond = false;   ///< its address had enough; shut down, and nothing is asked of it
-    hal::TimePoint deadline;  ///< max(): none
+    std::string key;            ///< the peer's address_key()
+    bool is_beyond = false;     ///< its address had enough; shut down, and nothing is asked of it
+    hal::TimePoint deadline;    ///< max(): none
+    bool is_answering = false;  ///< from a request that is whole to the end of its answer
+    bool has_gone = false;      ///< its client had at the last look
     std::weak_ptr<Exchange> exchange;
     std::weak_ptr<StreamSender> stream;
     std::function<bool()> may_go_on;  ///< of the stream; empty: always
@@ -49,14 +52,19 @@ class Connections {
   void end_answer(Connection* connection);
 
   /// Ends connections that are overdue, whose client has gone or whose stream may not go on;
-  /// returns how many were overdue.
+  /// returns how many were overdue. One that waits for no answer is shut down when its client had
+  /// gone at the last call, too: what was sent before may still be read meanwhile.
   std::size_t end_overdue(hal::TimePoint now);
-  /// Ends them all, and refuses more work.
+  /// Refuses more work, and answers what waits for its answer. Waits until all answers are sent,
+  /// those to requests that have taken effect as well, for kLongestFlush at most.
   void end_all();
+
+  static constexpr std::chrono::seconds kLongestFlush{1};
 
  private:
   const std::chrono::milliseconds timeout_;
   std::mutex mutex_;
+  std::condition_variable sent_;
   std::list<Connection> all_;
   bool is_closing_ = false;
 };

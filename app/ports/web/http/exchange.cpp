@@ -6,6 +6,22 @@ namespace orbwatch::app::web {
 
 bool Exchange::answer(Response response) {
   const std::lock_guard lock(mutex_);
+  return answer_locked(std::move(response));
+}
+
+bool Exchange::begin_effect() {
+  const std::lock_guard lock(mutex_);
+  if (is_answered_) return false;
+  has_effect_ = true;
+  return true;
+}
+
+bool Exchange::give_up(Response response) {
+  const std::lock_guard lock(mutex_);
+  return !has_effect_ && answer_locked(std::move(response));
+}
+
+bool Exchange::answer_locked(Response response) {
   if (is_answered_) return false;
   is_answered_ = true;
   response_ = std::move(response);

@@ -12,7 +12,7 @@ struct MHD_Connection;
 namespace orbwatch::app::web {
 
 /// A request and its one answer, which may come later and from any thread; meanwhile no thread
-/// waits. answer and is_answered are thread-safe.
+/// waits. Thread-safe but for body and response_or_suspend.
 class Exchange {
  public:
   explicit Exchange(Request request) : request_(std::move(request)) {}
@@ -23,6 +23,12 @@ class Exchange {
   bool answer(Response response);
   bool is_answered() const;
 
+  /// Before what was requested takes effect: from now on no deadline answers in place of the
+  /// result, which must follow. False: it was answered, and the effect must not come.
+  bool begin_effect();
+  /// As answer(), by the server's deadline. False also once the effect has begun.
+  bool give_up(Response response);
+
   /// For the server: the body that has arrived.
   std::string& body() { return request_.body; }
   /// For the server: the answer, or nullopt and the connection is suspended until it comes.
@@ -30,8 +36,11 @@ class Exchange {
 
  private:
   Request request_;
+  bool answer_locked(Response response);
+
   mutable std::mutex mutex_;
   bool is_answered_ = false;
+  bool has_effect_ = false;
   std::optional<Response> response_;
   MHD_Connection* suspended_ = nullptr;  ///< null: not suspended
 };

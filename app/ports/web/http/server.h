@@ -47,7 +47,7 @@ class Server {
   /// Listens. `settings` and `counts` outlive it. Error: address and reason.
   static Result<std::unique_ptr<Server>> open(const WebSettings& settings, Endpoint endpoint,
                                               Handler handler, ServerCounts& counts);
-  /// Ends all connections.
+  /// Ends all connections, as Connections::end_all() does.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <condition_variable>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <vector>
 
 #include "tests/app/ports/web/served.h"
@@ -141,6 +144,30 @@ TEST_F(Commands, AHeldHandlerDelaysNoOtherRequest) {
   EXPECT_EQ(clients.front()->answer().status, 200);
 }
 
+/// Whether this process has a thread of that name.
+bool has_thread(const std::string& name) {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream in(task.path() / "comm");
+    std::string found;
+    if (std::getline(in, found) && found == name) return true;
+  }
+  return false;
+}
+
+/// As restart does, which has everything stopped as soon as it is done.
+TEST_F(Commands, WhatIsBeingDoneIsAnsweredAlthoughTheServerEnds) {
+  is_held = true;
+  Client client(port());
+  client.send(request_text("POST", "/api/v1/command/restart", kJsonHeader, "{}"));
+  ASSERT_TRUE(eventually([&] { return count() == 1; }));
+  std::jthread end([this] { sink->stop(); });
+  ASSERT_TRUE(eventually([] { return !has_thread("web"); })) << "its end has not begun";
+  release();
+  const Answer answer = client.answer();
+  EXPECT_EQ(answer.status, 200) << answer.body;
+  EXPECT_THAT(answer.body, HasSubstr("done"));
+}
+
 class HurriedCommands : public Commands {
  protected:
   HurriedCommands() { timeout = std::chrono::milliseconds(300); }
@@ -156,6 +183,7 @@ TEST_F(HurriedCommands, ACommandThatWaitedTooLongIsNotCarriedOut) {
   }
   EXPECT_EQ(second.answer().status, 503);
   release();
+  EXPECT_EQ(first.answer().status, 200) << "what was begun is answered by its result";
   EXPECT_EQ(post("stop", "{}").status, 200);
   EXPECT_EQ(count(), 2U) << "the second start was carried out";
   EXPECT_EQ(received.back().code, CommandCode::Stop);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -29,6 +30,8 @@ class Pair {
   }
 
   int server() const { return server_.get(); }
+  /// The client sends no more.
+  void half_close() const { ::shutdown(client_.get(), SHUT_WR); }
   /// Whether the client sees the end.
   bool is_shut() const {
     char byte = 0;
@@ -85,6 +88,57 @@ TEST(Connections, OneThatIsOverdueIsCountedOnceHoweverLateItIsRemoved) {
   EXPECT_EQ(connections.end_overdue(late), 1U);
   EXPECT_TRUE(pair.is_shut());
   EXPECT_EQ(connections.end_overdue(late), 0U);
+}
+
+TEST(Connections, AClientThatHasGoneKeepsNoPlaceUnlessItsAnswerIsUnderWay) {
+  Connections connections(kTimeout);
+  const Pair silent, answered, there;
+  auto* const gone = connections.add(silent.server(), "10.0.0.7", 8);
+  auto* const asking = connections.add(answered.server(), "10.0.0.7", 8);
+  connections.add(there.server(), "10.0.0.7", 8);
+  const auto exchange = std::make_shared<Exchange>(Request{});
+  EXPECT_TRUE(connections.begin_answer(asking, exchange));
+  silent.half_close();
+  answered.half_close();
+  const auto now = gone->deadline - seconds(1);
+  EXPECT_EQ(connections.end_overdue(now), 0U);
+  EXPECT_FALSE(silent.is_shut()) << "what it sent before may still be read";
+  EXPECT_EQ(connections.end_overdue(now), 0U);
+  EXPECT_TRUE(silent.is_shut());
+  EXPECT_FALSE(answered.is_shut()) << "it may read what it asked for";
+  EXPECT_TRUE(exchange->is_answered());
+  EXPECT_FALSE(there.is_shut());
+}
+
+TEST(Connections, WhatHasTakenEffectIsNotAnsweredByTheDeadline) {
+  Connections connections(kTimeout);
+  const Pair pair;
+  auto* const connection = connections.add(pair.server(), "10.0.0.7", 1);
+  const auto exchange = std::make_shared<Exchange>(Request{});
+  ASSERT_TRUE(connections.begin_answer(connection, exchange));
+  ASSERT_TRUE(exchange->begin_effect());
+  connections.end_overdue(connection->deadline + seconds(1));
+  EXPECT_FALSE(exchange->is_answered());
+  EXPECT_TRUE(exchange->answer({}));
+  EXPECT_FALSE(exchange->begin_effect()) << "the client has its answer";
+}
+
+TEST(Connections, TheirEndWaitsForAnswersThatAreBeingSent) {
+  Connections connections(kTimeout);
+  const Pair pair;
+  auto* const connection = connections.add(pair.server(), "10.0.0.7", 1);
+  const auto exchange = std::make_shared<Exchange>(Request{});
+  ASSERT_TRUE(connections.begin_answer(connection, exchange));
+  ASSERT_TRUE(exchange->begin_effect());
+  std::atomic<bool> is_sent{false};
+  std::jthread server([&] {
+    exchange->answer({});
+    connections.begin_sending(connection);
+    is_sent = true;
+    connections.end_answer(connection);
+  });
+  connections.end_all();
+  EXPECT_TRUE(is_sent);
 }
 
 }  // namespace
