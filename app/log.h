@@ -22,16 +22,17 @@ struct LogRecord {
   LogFields fields;
 };
 
-/// Logs one line, never mixed with that of another thread: to the process's LogWriter, or without
-/// one by write_text(). Thread-safe; allocates and may wait for the reader, so never on the frame
-/// path.
+/// Logs one line, never mixed with that of another thread: to the process's LogWriter, which is
+/// waited for at most LogWriter::kLongestWait, or without one by write_text(). Thread-safe;
+/// allocates and may wait, so never on the frame path or under a lock that others wait for.
 void log_line(LogLevel level, std::string_view text, const LogFields& fields = {});
 
 /// log_line() about one camera, whose name begins the line and is its field.
 void log_camera(LogLevel level, std::string_view camera, std::string_view text);
 
-/// As log_line() with the text joined, for the frame path: with a LogWriter it neither allocates
-/// nor waits for the reader. Lines too many at once are dropped and counted, a long one is cut.
+/// As log_line() with the text joined, for the frame path and for threads that serve many: with a
+/// LogWriter it neither allocates nor waits for the reader. Lines too many at once are dropped and
+/// counted, a long one is cut.
 void log_soon(LogLevel level, std::initializer_list<std::string_view> text,
               const LogFields& fields = {});
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <mutex>
-#include <optional>
+#include <string>
 #include <string_view>
 
 #include "app/log.h"
@@ -14,23 +16,26 @@
 
 namespace orbwatch::app {
 
-/// Writes the log of the process while it lives: one at a time. A thread of its own writes what
-/// comes from the frame path by log_soon(); log_line() writes on the caller's, after all that came
-/// before. Made before the threads that log, and outlives them.
+/// Writes the log of the process while it lives, on a thread of its own and in the order in which
+/// it came. log_line() returns when its line is written, as long as somebody reads the log: a
+/// reader that does not, a pipe or a stalled journal, holds it up once for kLongestWait, and nobody
+/// any more until it reads on. Made before the threads that log, and outlives them.
 class LogWriter {
  public:
   /// May wait and allocate; never called twice at once.
   using Output = std::function<void(const LogRecord&)>;
 
-  /// Lines of the frame path that may wait for the reader; more are dropped.
+  /// Lines that may wait for the reader; more are dropped and counted.
   static constexpr std::size_t kMaxWaiting = 64;
-  /// Bytes of such a line; the rest is cut.
+  /// Bytes of a line of the frame path; the rest is cut.
   static constexpr std::size_t kMaxText = 512;
+  /// For a reader that does not read.
+  static constexpr std::chrono::seconds kLongestWait{1};
 
   explicit LogWriter(Output output);
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
-  /// Writes what waits.
+  /// Writes what waits; waits for the reader as long as it takes.
   ~LogWriter();
 
   /// The one that lives, or null.
@@ -40,8 +45,8 @@ class LogWriter {
   void write_soon(LogLevel level, std::initializer_list<std::string_view> text,
                   const LogFields& fields);
 
-  /// Returns when all that was logged before is written.
-  void flush();
+  /// Returns when all that was logged before is written. False: not within `patience`.
+  bool flush(std::chrono::milliseconds patience = std::chrono::hours(1));
 
  private:
   template <std::size_t kMost>
@@ -58,22 +63,28 @@ class LogWriter {
   struct Waiting {
     LogLevel level = LogLevel::Info;
     Text<kMaxText> text{};
+    std::string rest{};  ///< of a line beyond kMaxText, by log_line()
     Text<64> camera{};
     Text<32> fault{};
     std::uint64_t trigger = 0;
   };
 
-  std::optional<Waiting> next();
+  Waiting* add(LogLevel level, std::initializer_list<std::string_view> text,
+               const LogFields& fields);
   void write_waiting();
-  void write_dropped();
+  bool write_next();
 
   const Output output_;
-  std::mutex writing_;                        ///< held while output_ is called
   std::mutex queue_;                          ///< held for a copy, never while output_ is called
+  std::condition_variable progress_;          ///< a line was written
   std::array<Waiting, kMaxWaiting> waiting_;  ///< a ring; under queue_, as all below
   std::size_t oldest_ = 0;
   std::size_t count_ = 0;
+  std::uint64_t added_ = 0;    ///< lines since the start
+  std::uint64_t written_ = 0;  ///< those of them
   std::uint64_t dropped_ = 0;
+  bool is_writing_ = false;
+  bool is_stalled_ = false;  ///< somebody waited in vain since a line was written
   hal::Thread thread_;
 };
 

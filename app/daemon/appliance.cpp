@@ -26,9 +26,9 @@ std::function<Health()> health_of(const Configuration& configuration,
 }
 
 /// The lines as configured; simulated ones are connected as the machine's settings say.
-std::unique_ptr<Lines> open_lines(const Configuration& site) {
+std::shared_ptr<Lines> open_lines(const Configuration& site) {
   const std::vector<LineSettings> settings{site.lines.begin(), site.lines.end()};
-  return std::make_unique<Lines>(settings, [machine = site.simulation](const std::string& line) {
+  return std::make_shared<Lines>(settings, [machine = site.simulation](const std::string& line) {
     return simulation::is_connected(machine, line);
   });
 }
@@ -54,8 +54,8 @@ Appliance::~Appliance() {
   lines_->stop();
 }
 
-Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site,
-                                                   std::function<void()> restart, Program program) {
+Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart restart,
+                                                   Program program) {
   if (auto checked = hal::check(site.site.threads); !checked) {
     return tl::unexpected(checked.error());
   }

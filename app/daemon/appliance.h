@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "app/files/resolve.h"
 #include "app/health/health_sampler.h"
 #include "app/model/program.h"
+#include "app/model/restart.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
@@ -27,10 +27,9 @@ namespace orbwatch::app {
 /// among the attempts. Thread rule: one owner.
 class Appliance {
  public:
-  /// Opens the lines and cameras that are there. `site` outlives it. `restart` requests a new start
-  /// on any thread and returns. `program` is for the interfaces. Error: the files.
-  static Result<std::unique_ptr<Appliance>> make(const Resolved& site,
-                                                 std::function<void()> restart,
+  /// Opens the lines and cameras that are there. `site` outlives it. `program` is for the
+  /// interfaces. Error: the files.
+  static Result<std::unique_ptr<Appliance>> make(const Resolved& site, Restart restart,
                                                  Program program = {});
   /// Stops what runs: first the pipeline, which calls the others.
   ~Appliance();
@@ -46,11 +45,15 @@ class Appliance {
   /// See Pipeline::pacing_camera().
   std::size_t pacing_camera() const { return pipeline_->pacing_camera(); }
 
-  /// Every interface says from now on that the files are wrong and the last good ones run.
+  /// Every interface says from now on that the files are wrong and the last good ones run. On any
+  /// thread.
   void report_refused_configuration() { configuration_refused_ = true; }
 
   /// What is missing, to be tried again by the owner when it is due.
   Attempts& attempts() { return attempts_; }
+
+  /// For Lines::make_safe() on another thread, also while this one's end hangs.
+  std::weak_ptr<Lines> lines() const { return lines_; }
 
  private:
   explicit Appliance(const Resolved& site);
@@ -62,7 +65,7 @@ class Appliance {
   const std::shared_ptr<hal::SharedThreads> background_;
   HealthSampler health_;
   std::optional<Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
-  const std::unique_ptr<Lines> lines_;
+  const std::shared_ptr<Lines> lines_;
   std::vector<hal::Camera*> cameras_;  ///< the pipeline's
   CameraSet absent_;
   std::optional<SnapshotSink> snapshots_;

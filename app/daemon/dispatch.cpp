@@ -24,7 +24,8 @@ CommandResult learn_clean_ball(CameraWatch& watch, std::size_t camera) {
 }
 
 CommandResult restart(const Receivers& receivers) {
-  receivers.restart();
+  if (!receivers.restart.check()) return CommandResult::NotPossible;
+  receivers.restart.request();
   return CommandResult::Done;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <functional>
-
 #include "app/model/command.h"
+#include "app/model/restart.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
@@ -18,10 +17,11 @@ struct Receivers {
   SnapshotSink* snapshots;  ///< null: no folder for them is configured
   CameraWatch& watch;
   AlignmentDesk& alignment;
-  std::function<void()> restart;  ///< requests it and returns
+  Restart restart;
 };
 
-/// Executes a command that passed check(): the one list of handlers. Thread-safe, does not wait.
+/// Executes a command that passed check(): the one list of handlers. Thread-safe. Waits for nobody
+/// but in restart and in accepting an alignment, which check the files before.
 CommandResult dispatch(const Command& command, const Receivers& receivers);
 
 }  // namespace orbwatch::app

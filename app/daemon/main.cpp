@@ -1,14 +1,10 @@
 #include <getopt.h>
-#include <pthread.h>
+#include <linux/close_range.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -17,22 +13,16 @@
 #include <string>
 #include <utility>
 
-#include "app/daemon/appliance.h"
-#include "app/daemon/attempts.h"
 #include "app/daemon/build.h"
-#include "app/daemon/configuration_choice.h"
-#include "app/daemon/installed_configuration.h"
 #include "app/daemon/interfaces.h"
+#include "app/daemon/supervision.h"
 #include "app/exit_status.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
-#include "app/files/trial.h"
 #include "app/log.h"
 #include "app/log_writer.h"
 #include "app/recent_log.h"
 #include "app/service/journal.h"
-#include "app/service/progress_notice.h"
-#include "app/service/service_manager.h"
 #include "app/version.h"
 #include "proc/remap/remap.h"
 
@@ -85,116 +75,6 @@ std::optional<Arguments> parse(int argc, char** argv, ExitStatus& status) {
   return status == ExitStatus::Done ? std::optional(arguments) : std::nullopt;
 }
 
-/// Signals that end or restart are delivered to the one thread that waits for them.
-sigset_t block_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
-}
-
-/// How often a service looks for the request of a trial, which comes as a file.
-constexpr std::chrono::seconds kTrialPause{1};
-
-/// What the main thread waits for besides signals.
-struct Waiting {
-  const std::filesystem::path file;
-  const std::optional<std::filesystem::path> folder = service_folder();
-  hal::TimePoint trial_ends = hal::TimePoint::max();  ///< max: no trial runs
-  std::uint32_t checksum = 0;                         ///< of what runs
-
-  hal::TimePoint due(const Attempts& attempts) const {
-    const auto next = std::min(attempts.due(), trial_ends);
-    return folder ? std::min(next, hal::Clock::now() + kTrialPause) : next;
-  }
-};
-
-/// 0: none came until `due`.
-int wait_for_signal(const sigset_t& signals, hal::TimePoint due) {
-  if (due == hal::TimePoint::max()) {
-    int signal = 0;
-    return sigwait(&signals, &signal) == 0 ? signal : 0;
-  }
-  const auto left = std::max(hal::Clock::duration(0), due - hal::Clock::now());
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(left);
-  // 32 bit on armhf.
-  const timespec timeout{
-      static_cast<std::time_t>(seconds.count()),
-      static_cast<decltype(timespec::tv_nsec)>(std::chrono::nanoseconds(left - seconds).count())};
-  return std::max(0, sigtimedwait(&signals, nullptr, &timeout));
-}
-
-/// A trial is requested, or the one that runs has ended: by its time, or cancelled. A confirmed one
-/// goes on, it is what the files say.
-bool asks_for_restart(Waiting& waiting) {
-  if (!waiting.folder) return false;
-  if (is_trial_requested(*waiting.folder)) return true;
-  if (waiting.trial_ends == hal::TimePoint::max()) return false;
-  const auto running = running_trial(*waiting.folder);
-  if (running && !*running) {
-    const auto confirmed = confirmed_trial(*waiting.folder);
-    if (confirmed && *confirmed) return false;  // its files are being written
-    waiting.trial_ends = hal::TimePoint::max();
-    const auto files = resolve(waiting.file);
-    return !files || files->checksum != waiting.checksum;
-  }
-  return hal::Clock::now() >= waiting.trial_ends;
-}
-
-/// Waits for the end, and takes up what is missing. A restart with wrong files is refused here, and
-/// the daemon keeps running. True: start again.
-bool wait_for_end(const sigset_t& signals, Waiting waiting, Appliance& appliance) {
-  while (true) {
-    const int signal = wait_for_signal(signals, waiting.due(appliance.attempts()));
-    if (signal == SIGTERM || signal == SIGINT) {
-      log_line(LogLevel::Info, "ended by signal " + std::to_string(signal));
-      return false;
-    }
-    appliance.attempts().run(hal::Clock::now());
-    if (asks_for_restart(waiting)) {
-      log_line(LogLevel::Info, "restarts for another configuration");
-      return true;
-    }
-    if (signal != SIGHUP) continue;
-    const auto checked = check_restart(waiting.file);
-    if (checked) {
-      log_line(LogLevel::Info, "restarts with its files read again");
-      return true;
-    }
-    log_line(LogLevel::Error, "does not restart: " + checked.error().message);
-    appliance.report_refused_configuration();
-  }
-}
-
-/// The notice is one of its watchers if someone reads it.
-Result<> start(Appliance& appliance, ProgressNotice& notice) {
-  if (!has_service_manager()) return appliance.start();
-  return notice.start().and_then([&] { return appliance.start({&notice}); });
-}
-
-/// Runs until a signal. True: to be started again.
-Result<bool> run(const Chosen& chosen, const sigset_t& signals, const std::filesystem::path& file,
-                 std::shared_ptr<const RecentLog> log) {
-  ProgressNotice notice(chosen.refusal);  // outlives the run
-  const auto files = std::make_shared<InstalledConfiguration>(file, chosen);
-  auto appliance = Appliance::make(
-      chosen.site, [] { ::kill(::getpid(), SIGHUP); },
-      {files, std::move(log), versions("orbwatchd"), commanders_text(chosen.site.site.sinks)});
-  if (!appliance) return tl::unexpected(appliance.error());
-  if (!chosen.refusal.empty()) (*appliance)->report_refused_configuration();
-  if (auto started = start(**appliance, notice); !started) return tl::unexpected(started.error());
-  keep(chosen);
-  Waiting waiting{.file = file, .checksum = chosen.site.checksum};
-  if (chosen.trial) {
-    waiting.trial_ends = hal::Clock::now() + std::chrono::seconds(chosen.trial->seconds);
-    files->set_trial_end(waiting.trial_ends);
-  }
-  const bool restarts = wait_for_end(signals, waiting, **appliance);
-  restarts ? notify_restart() : notify_end();
-  return restarts;
-}
-
 Result<> check(const std::filesystem::path& file) {
   const auto site = resolve(file);
   if (!site) return tl::unexpected(site.error());
@@ -203,11 +83,39 @@ Result<> check(const std::filesystem::path& file) {
   });
 }
 
-/// The same program with the same arguments; returns only when that fails.
-Result<> start_again(LogWriter& log, char** argv) {
-  log.flush();
+/// The same program with the same arguments, without what an end that hangs has left open; returns
+/// only when that fails.
+Result<> start_again(char** argv) {
+  if (::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC) != 0) {
+    log_soon(LogLevel::Warning, {"open files stay open: ", std::strerror(errno)});
+  }
   ::execv("/proc/self/exe", argv);
   return fail(std::string("cannot start again: ") + std::strerror(errno));
+}
+
+ExitStatus status_of(const Result<>& result) {
+  if (result) return ExitStatus::Done;
+  log_line(LogLevel::Error, result.error().message);
+  return ExitStatus::Failed;
+}
+
+/// Runs until a signal. Does not return after an end that hangs, or that the log does not take.
+ExitStatus run(const sigset_t& signals, const std::filesystem::path& file,
+               std::shared_ptr<const RecentLog> recent, LogWriter& log, char** argv) {
+  Supervision supervision(signals, file, std::move(recent));
+  const auto end = supervision.run();
+  if (!end) return status_of(tl::unexpected(end.error()));
+  const bool is_orderly = supervision.finish(*end);
+  ExitStatus status = ExitStatus::Done;
+  if (*end == Supervision::End::Restart) {
+    log.flush(Supervision::kLongestAbandonment);
+    status = status_of(start_again(argv));
+  } else if (is_orderly) {
+    status = status_of(supervision.result());
+  }
+  const bool is_logged = log.flush(Supervision::kLongestAbandonment);
+  if (!is_orderly || !is_logged) ::_exit(static_cast<int>(status));
+  return status;
 }
 
 ExitStatus main(int argc, char** argv) {
@@ -221,22 +129,9 @@ ExitStatus main(int argc, char** argv) {
     output(record);
   });
   const auto kernel = remap::requested_kernel();
-  Result<> result;
-  if (!kernel) {
-    result = tl::unexpected(kernel.error());
-  } else if (arguments->check) {
-    result = check(arguments->config);
-  } else {
-    result = choose(arguments->config)
-                 .and_then([&](const Chosen& chosen) {
-                   return run(chosen, signals, arguments->config, recent);
-                 })
-                 .and_then(
-                     [&](bool restarts) { return restarts ? start_again(log, argv) : Result<>(); });
-  }
-  if (result) return ExitStatus::Done;
-  log_line(LogLevel::Error, result.error().message);
-  return ExitStatus::Failed;
+  if (!kernel) return status_of(tl::unexpected(kernel.error()));
+  if (arguments->check) return status_of(check(arguments->config));
+  return run(signals, arguments->config, recent, log, argv);
 }
 
 }  // namespace

@@ -17,8 +17,10 @@ hal::Clock::duration pause_of(std::chrono::microseconds period) {
 
 }  // namespace
 
-ProgressNotice::ProgressNotice(std::string remark)
-    : remark_(std::move(remark)), pause_(pause_of(watchdog_period())) {}
+ProgressNotice::ProgressNotice(std::string remark, std::function<bool()> is_supervised)
+    : remark_(std::move(remark)),
+      is_supervised_(std::move(is_supervised)),
+      pause_(pause_of(watchdog_period())) {}
 
 Result<> ProgressNotice::start() {
   progress_.open();
@@ -34,6 +36,7 @@ void ProgressNotice::stop() {
 void ProgressNotice::accept(const Status& status) {
   const auto now = hal::Clock::now();
   if (state_ == status.state && now - sent_ < pause_) return;
+  if (is_supervised_ && !is_supervised_()) return;
   state_ = status.state;
   sent_ = now;
   progress_.put(status.state);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -11,11 +12,13 @@
 namespace orbwatch::app {
 
 /// Forwards the pipeline's progress to the service manager: its first status makes the service
-/// ready, later ones feed the watchdog, four times in its period. Nothing else feeds it.
+/// ready, later ones feed the watchdog, four times in its period. Nothing else feeds it, and
+/// nothing does while nobody supervises the process, however well the pipeline works.
 class ProgressNotice : public Sink {
  public:
-  /// `remark` follows the state in the service's status; empty: none.
-  explicit ProgressNotice(std::string remark = {});
+  /// `remark` follows the state in the service's status; empty: none. `is_supervised` is called by
+  /// the pipeline; null: always.
+  explicit ProgressNotice(std::string remark = {}, std::function<bool()> is_supervised = nullptr);
   ~ProgressNotice() override { stop(); }
 
   Result<> start() override;
@@ -28,6 +31,7 @@ class ProgressNotice : public Sink {
   void send();
 
   const std::string remark_;
+  const std::function<bool()> is_supervised_;
   const hal::Clock::duration pause_;  ///< between two messages of the same state
   // The pipeline's thread.
   std::optional<SystemState> state_;

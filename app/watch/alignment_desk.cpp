@@ -14,8 +14,7 @@ std::optional<AlignmentProposal> found(AlignmentProposal proposal) { return prop
 
 }  // namespace
 
-AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch,
-                             std::function<void()> restart)
+AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch, Restart restart)
     : site_(site),
       watch_(watch),
       restart_(std::move(restart)),
@@ -123,19 +122,23 @@ CommandResult AlignmentDesk::begin(std::size_t camera, bool is_possible, Task ta
 
 void AlignmentDesk::work() {
   const Finding finding = task_(rig_);
-  const std::lock_guard lock(mutex_);
-  const std::size_t camera = *std::exchange(busy_, std::nullopt);
-  if (!finding) {
-    states_[camera] = ProposalState::Refused;
-    desks_[camera].refusal = finding.error().message;
-    log_camera(LogLevel::Warning, name(camera), "nothing found: " + finding.error().message);
-    return;
+  std::size_t camera = 0;
+  std::string said;
+  {
+    const std::lock_guard lock(mutex_);
+    camera = *std::exchange(busy_, std::nullopt);
+    if (!finding) {
+      states_[camera] = ProposalState::Refused;
+      desks_[camera].refusal = finding.error().message;
+      said = "nothing found: " + finding.error().message;
+    } else if (*finding) {
+      said = add_step(camera, **finding);
+    } else {
+      show_steps(camera);
+    }
   }
-  if (*finding) {
-    add_step(camera, **finding);
-  } else {
-    show_steps(camera);
-  }
+  if (said.empty()) return;
+  log_camera(finding ? LogLevel::Info : LogLevel::Warning, name(camera), said);
 }
 
 /// As it would be if the camera's proposal were accepted.
@@ -152,14 +155,15 @@ Result<optics::BallProjection> AlignmentDesk::proposed_ball(std::size_t camera) 
   });
 }
 
-void AlignmentDesk::add_step(std::size_t camera, AlignmentProposal proposal) {
+/// Returns what the log is to say of it once mutex_ is free: others wait for that.
+std::string AlignmentDesk::add_step(std::size_t camera, AlignmentProposal proposal) {
   std::vector<AlignmentProposal>& steps = desks_[camera].steps;
-  log_camera(LogLevel::Info, name(camera),
-             "an alignment is proposed: " + proposal.method + ", " + proposal.quality +
-                 "; accept_alignment puts it in force, with a restart");
+  std::string said = "an alignment is proposed: " + proposal.method + ", " + proposal.quality +
+                     "; accept_alignment puts it in force, with a restart";
   if (steps.size() == kMostSteps) steps.erase(steps.begin());
   steps.push_back(std::move(proposal));
   show_steps(camera);
+  return said;
 }
 
 /// In the figures.
@@ -195,15 +199,19 @@ CommandResult AlignmentDesk::turn(std::size_t camera, const optics::YawPitchRoll
 CommandResult AlignmentDesk::state(std::size_t camera, const std::string& method,
                                    const Change& change) {
   if (!has(camera)) return CommandResult::ArgumentOutOfRange;
-  const std::lock_guard lock(mutex_);
-  if (busy_) return CommandResult::Busy;
-  auto proposal = stated(camera, method, change);
-  if (!proposal) {
-    desks_[camera].refusal = proposal.error().message;
-    return CommandResult::ArgumentOutOfRange;
+  std::string said;
+  {
+    const std::lock_guard lock(mutex_);
+    if (busy_) return CommandResult::Busy;
+    auto proposal = stated(camera, method, change);
+    if (!proposal) {
+      desks_[camera].refusal = proposal.error().message;
+      return CommandResult::ArgumentOutOfRange;
+    }
+    desks_[camera].refusal.clear();
+    said = add_step(camera, std::move(*proposal));
   }
-  desks_[camera].refusal.clear();
-  add_step(camera, std::move(*proposal));
+  log_camera(LogLevel::Info, name(camera), said);
   return CommandResult::Done;
 }
 
@@ -268,26 +276,41 @@ CommandResult AlignmentDesk::revert(std::size_t camera) {
   }
   const auto before = accepted_.before(name(camera));
   if (before && *before) return put_in_force(camera, **before);
+  if (!before) {
+    return refuse(camera, "not reverted: " + before.error().message, CommandResult::NotCarriedOut);
+  }
   const std::lock_guard lock(mutex_);
   busy_.reset();
-  if (before) return CommandResult::NotPossible;
-  log_camera(LogLevel::Error, name(camera), "not reverted: " + before.error().message);
-  return CommandResult::NotCarriedOut;
+  return CommandResult::NotPossible;
+}
+
+/// For the caller who has set busy_, which is reset.
+CommandResult AlignmentDesk::refuse(std::size_t camera, const std::string& why,
+                                    CommandResult result) {
+  log_camera(LogLevel::Error, name(camera), why);
+  const std::lock_guard lock(mutex_);
+  busy_.reset();
+  desks_[camera].refusal = why;
+  return result;
 }
 
 /// For the caller who has set busy_, which is reset.
 CommandResult AlignmentDesk::put_in_force(std::size_t camera, const CalibrationEntry& entry) {
+  if (const auto possible = restart_.check(); !possible) {
+    return refuse(camera, "not accepted: " + possible.error().message, CommandResult::NotPossible);
+  }
   const auto number = accepted_.add(entry);
-  const std::lock_guard lock(mutex_);
-  busy_.reset();
   if (!number) {
-    log_camera(LogLevel::Error, name(camera), "not accepted: " + number.error().message);
-    return CommandResult::NotCarriedOut;
+    return refuse(camera, "not accepted: " + number.error().message, CommandResult::NotCarriedOut);
   }
   log_camera(LogLevel::Info, name(camera),
              "alignment " + std::to_string(*number) + " is accepted; restarts with it");
-  forget_proposal(camera);
-  restart_();
+  {
+    const std::lock_guard lock(mutex_);
+    busy_.reset();
+    forget_proposal(camera);
+  }
+  restart_.request();
   return CommandResult::Done;
 }
 
@@ -312,12 +335,15 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
   }
   auto corrected = finder_.correct(site_.rig, camera);
   if (!corrected) return;
+  std::string said;
   {
     const std::lock_guard lock(mutex_);
     if (busy_) return;
-    add_step(camera, std::move(*corrected));
+    said = add_step(camera, std::move(*corrected));
   }
-  accept(camera);
+  log_camera(LogLevel::Info, name(camera), said);
+  // One that is refused is not found again each second.
+  if (accept(camera) != CommandResult::Done) drifting_since_[camera].reset();
 }
 
 void AlignmentDesk::report(std::array<CameraWatchStatus, kMaxCameras>& figures) const {

@@ -13,6 +13,7 @@
 #include "app/files/resolve.h"
 #include "app/model/alignment.h"
 #include "app/model/command.h"
+#include "app/model/restart.h"
 #include "app/watch/accepted_alignments.h"
 #include "app/watch/alignment_finder.h"
 #include "app/watch/alignment_pictures.h"
@@ -35,8 +36,8 @@ class AlignmentDesk : public AlignmentSource {
   /// Older steps are forgotten.
   static constexpr std::size_t kMostSteps = 200;
 
-  /// `watch` outlives it. `restart` requests it and returns.
-  AlignmentDesk(const Resolved& site, CameraWatch& watch, std::function<void()> restart);
+  /// `watch` outlives it.
+  AlignmentDesk(const Resolved& site, CameraWatch& watch, Restart restart);
   ~AlignmentDesk() override;
 
   // Commands. ArgumentOutOfRange: no such camera; Busy: another one is being found;
@@ -70,9 +71,10 @@ class AlignmentDesk : public AlignmentSource {
 
   /// Takes the last step back. NotPossible: there is none.
   CommandResult undo(std::size_t camera);
-  /// Puts the proposal in force. NotPossible: there is none, or the last finding was refused.
+  /// Puts the proposal in force. NotPossible: there is none, the last finding was refused, or the
+  /// files of the configuration do not permit the restart.
   CommandResult accept(std::size_t camera);
-  /// Puts what counted before in force. NotPossible: the rig file counts.
+  /// Puts what counted before in force. NotPossible: the rig file counts, or as accept().
   CommandResult revert(std::size_t camera);
   /// Forgets the proposal. NotPossible: there is none.
   CommandResult discard(std::size_t camera);
@@ -112,19 +114,20 @@ class AlignmentDesk : public AlignmentSource {
   Result<AlignmentProposal> stated(std::size_t camera, const std::string& method,
                                    const Change& change) const;
   CommandResult put_in_force(std::size_t camera, const CalibrationEntry& entry);
+  CommandResult refuse(std::size_t camera, const std::string& why, CommandResult result);
   void correct_lasting_drifts();
   void correct_lasting_drift(std::size_t camera, hal::TimePoint now);
 
   // Under mutex_.
   Result<optics::Rig> proposed_rig(std::size_t camera) const;
   Result<optics::BallProjection> proposed_ball(std::size_t camera) const;
-  void add_step(std::size_t camera, AlignmentProposal proposal);
+  std::string add_step(std::size_t camera, AlignmentProposal proposal);
   void show_steps(std::size_t camera);
   void forget_proposal(std::size_t camera);
 
   const Resolved& site_;
   CameraWatch& watch_;
-  const std::function<void()> restart_;
+  const Restart restart_;
   AlignmentFinder finder_;
   AcceptedAlignments accepted_;  ///< of whoever has set busy_
   AlignmentPictures pictures_;

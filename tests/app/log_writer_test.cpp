@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -94,6 +95,25 @@ TEST(LogWriterTest, WithoutAReaderNobodyWaitsAndWhatIsDroppedIsCounted) {
   log_soon(LogLevel::Info, {"later"});
   log.flush();
   EXPECT_EQ(reader.lines().back(), "later") << "said once";
+}
+
+TEST(LogWriterTest, AReaderThatDoesNotReadHoldsALineUpOnce) {
+  Reader reader;
+  LogWriter log(reader.output());
+  reader.stop_reading();
+  const std::string longest(2 * LogWriter::kMaxText, 'x');
+  log_line(LogLevel::Info, longest);
+  const auto began = std::chrono::steady_clock::now();
+  log_line(LogLevel::Info, "second");
+  log_line(LogLevel::Info, "third");
+  EXPECT_LT(std::chrono::steady_clock::now() - began, LogWriter::kLongestWait)
+      << "it is known to be stalled";
+  EXPECT_FALSE(log.flush(std::chrono::milliseconds(1)));
+  reader.go_on();
+  EXPECT_TRUE(log.flush());
+  EXPECT_THAT(reader.lines(), ElementsAre(longest, "second", "third"));
+  log_line(LogLevel::Info, "fourth");
+  EXPECT_EQ(reader.lines().back(), "fourth") << "it is waited for again";
 }
 
 TEST(LogWriterTest, CutsALineThatIsTooLong) {

@@ -87,7 +87,7 @@ Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::stri
                                const BenchSettings& settings, const BenchWatch& watch) {
   const auto& cancelled = watch.cancelled;
   BenchSink sink(settings.seconds);
-  auto made = Appliance::make(site, [] {});
+  auto made = Appliance::make(site, {[] { return Result<>(); }, [] {}});
   if (!made) return tl::unexpected(made.error());
   Appliance& appliance = **made;
   if (auto started = appliance.start({&sink}); !started) return tl::unexpected(started.error());

@@ -1,9 +1,10 @@
 #include "app/ports/console/console_sink.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <utility>
 
 #include "app/model/readings.h"
@@ -58,8 +59,8 @@ std::string line_of(const ComponentReadings& entry) {
 
 }  // namespace
 
-ConsoleSink::ConsoleSink(ConsoleSettings settings, StatusNames names, std::ostream& out)
-    : settings_(settings), names_(std::move(names)), out_(out) {}
+ConsoleSink::ConsoleSink(ConsoleSettings settings, StatusNames names, int file)
+    : settings_(settings), names_(std::move(names)), out_(file) {}
 
 ConsoleSink::~ConsoleSink() { stop(); }
 
@@ -68,7 +69,7 @@ Result<> ConsoleSink::start() {
       std::chrono::duration<double>(settings_.period));
   started_ = hal::Clock::now();
   thread_.start("console", hal::ThreadRole::Background, [this, period] {
-    for (auto due = started_ + period; thread_.wait_until(due); due += period) print(due);
+    for (auto due = started_ + period; thread_.wait_until(due); due += period) print("", due);
   });
   return {};
 }
@@ -78,31 +79,36 @@ void ConsoleSink::accept(const Status& status) {
   status_ = status;
 }
 
-void ConsoleSink::print(hal::TimePoint now) {
+void ConsoleSink::print(std::string_view heading, hal::TimePoint now) {
   Status status;
   {
     const std::lock_guard lock(mutex_);
     status = status_;
   }
   std::string text =
-      "after " + std::to_string(std::chrono::round<std::chrono::seconds>(now - started_).count()) +
-      " s\n";
+      std::string(heading) + "after " +
+      std::to_string(std::chrono::round<std::chrono::seconds>(now - started_).count()) + " s\n";
   for (const auto& entry : status_readings({status, names_, now, {}})) {
     text += "  " + line_of(entry) + "\n";
   }
-  out_ << text << std::flush;
+  if (!out_.write(text)) ++dropped_;
+}
+
+std::vector<InterfaceMetric> ConsoleSink::metrics() const {
+  std::vector<InterfaceMetric> all;
+  add_metrics(all, {"console"}, ConsoleCounts{dropped_}, {});
+  return all;
 }
 
 void ConsoleSink::stop() {
   if (!thread_.is_running()) return;
   thread_.stop();
-  out_ << "at the end, ";
-  print(hal::Clock::now());
+  print("at the end, ", hal::Clock::now());
 }
 
 std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const SinkContext& context) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<ConsoleSink>(settings, context.names, std::cout);
+  return std::make_unique<ConsoleSink>(settings, context.names, STDOUT_FILENO);
 }
 
 }  // namespace orbwatch::app

@@ -1,12 +1,18 @@
 #pragma once
 
-#include <iosfwd>
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
+#include "app/model/field.h"
+#include "app/model/interface_metric.h"
 #include "app/model/sink.h"
 #include "app/model/status_report.h"
+#include "app/ports/console/waitless_output.h"
 #include "hal/thread/thread.h"
 #include "proc/settings/settings.h"
 
@@ -25,24 +31,42 @@ void visit(Visitor& v, ConsoleSettings& console) {
   v.optional("period", console.period, Range::between(0.1, 3600), "Seconds between two prints");
 }
 
-/// Prints every component of the status with its values, once a period and when it stops.
+#define ORBWATCH_CONSOLE_FIGURES(FIELD) \
+  FIELD(std::uint64_t, dropped, kCount, "Prints dropped because standard output was not read")
+
+/// What a console counts of itself.
+struct ConsoleCounts {
+  ORBWATCH_CONSOLE_FIGURES(ORBWATCH_FIELD_MEMBER)
+};
+
+template <class Visit>
+constexpr void for_each_field(std::type_identity<ConsoleCounts>, Visit&& visit) {
+  using Part = ConsoleCounts;
+  ORBWATCH_CONSOLE_FIGURES(ORBWATCH_VISIT_FIELD)
+}
+
+/// Prints every component of the status with its values, once a period and when it stops. A print
+/// that its reader does not take is dropped: nothing waits for the reader, the end neither.
 class ConsoleSink final : public Sink {
  public:
-  ConsoleSink(ConsoleSettings settings, StatusNames names, std::ostream& out);
+  /// `file` is open for writing and outlives it.
+  ConsoleSink(ConsoleSettings settings, StatusNames names, int file);
   ~ConsoleSink() override;
 
   Result<> start() override;
   void stop() override;
   std::chrono::nanoseconds cpu_time() const override { return thread_.cpu_time(); }
+  std::vector<InterfaceMetric> metrics() const override;
   void accept(const ViewPtr&) override {}
   void accept(const Status& status) override;
 
  private:
-  void print(hal::TimePoint now);
+  void print(std::string_view heading, hal::TimePoint now);
 
   ConsoleSettings settings_;
   StatusNames names_;
-  std::ostream& out_;
+  WaitlessOutput out_;  ///< the thread's while it runs, else the owner's
+  std::atomic<std::uint64_t> dropped_{0};
   hal::TimePoint started_;
   std::mutex mutex_;
   Status status_;

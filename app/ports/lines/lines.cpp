@@ -54,6 +54,7 @@ Lines::Lines(const std::vector<LineSettings>& settings,
 Lines::~Lines() { stop(); }
 
 Result<> Lines::start() {
+  const std::lock_guard lock(running_);
   for (const auto& asking : asking_) {
     if (auto started = asking->start("trigger"); !started) return started;
   }
@@ -61,6 +62,19 @@ Result<> Lines::start() {
 }
 
 void Lines::stop() {
+  const std::lock_guard lock(running_);
+  stop_threads();
+}
+
+void Lines::make_safe() {
+  const std::lock_guard lock(running_);
+  stop_threads();
+  // One that is refused has a fault already.
+  for (hal::DigitalOutput* const output : outputs_) static_cast<void>(output->set(false));
+}
+
+/// With running_ held.
+void Lines::stop_threads() {
   thread_.stop();
   for (const auto& asking : asking_) asking->stop();
 }
@@ -102,6 +116,7 @@ void Lines::open_output(std::size_t index, const LineSettings& settings) {
       back_end(settings.back_end), hal::OutputSettings{wire.address, wire.active_low, wire.bias},
       on_fault(index, settings.name), hal::Clock::now());
   thread_.add(*output);
+  outputs_.push_back(output.get());
   if (is_pulsed(settings.use)) {
     add_pulses(settings, std::move(output));
   } else {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace orbwatch::app {
 
 /// The configured lines at run time. As a sink it reports the pipeline's state on the lines
 /// process_ok and alarm. Its threads run from start to stop; edges before that are lost. Thread
-/// rule: as Sink's; open and trigger before start.
+/// rule: as Sink's; open and trigger before start; make_safe on any.
 class Lines : public Sink {
  public:
   /// Opens all lines. One that is not there, or fails later, is a fault and taken up when it comes.
@@ -56,6 +57,9 @@ class Lines : public Sink {
 
   Result<> start() override;
   void stop() override;
+  /// Stops, and sets every output inactive, while the owner waits for something else that hangs.
+  /// Waits for devices.
+  void make_safe();
   void accept(const ViewPtr&) override {}
   void accept(const Status& status) override;
 
@@ -65,6 +69,7 @@ class Lines : public Sink {
     std::unique_ptr<hal::WatchedInput> line;
   };
 
+  void stop_threads();
   void open_input(std::size_t index, const LineSettings& settings);
   void open_output(std::size_t index, const LineSettings& settings);
   void add_pulses(const LineSettings& settings, std::unique_ptr<hal::DigitalOutput> output);
@@ -85,7 +90,9 @@ class Lines : public Sink {
   std::vector<hal::PulseOutput*> trigger_outputs_;  ///< of pulses_, in the configuration's order
   std::vector<std::unique_ptr<hal::WatchdogOutput>> process_ok_;
   std::vector<std::unique_ptr<hal::WatchdogOutput>> alarms_;
-  hal::LineThread thread_;  ///< stops before the others' end
+  std::vector<hal::DigitalOutput*> outputs_;  ///< all
+  std::mutex running_;                        ///< held while the threads start or stop
+  hal::LineThread thread_;                    ///< stops before the others' end
 };
 
 }  // namespace orbwatch::app

@@ -87,10 +87,11 @@ void ModbusSink::report_forbidden(int socket) {
   if (!forbidden_.is_new(host)) return;
   std::vector<std::string> writers = settings_.writers;
   writers.push_back(modbus::text_of(host));
-  log_line(LogLevel::Warning, "modbus: refuses to let " + writers.back() +
-                                  " write; if it may, the line for [modbus] of the site file is "
-                                  "writers = " +
-                                  quoted(writers));
+  // Other clients wait for this thread. A list too long for the log is cut at its end.
+  log_soon(LogLevel::Warning, {"modbus: refuses to let ", writers.back(),
+                               " write; if it may, the line for [modbus] of the site file is "
+                               "writers = ",
+                               quoted(writers)});
 }
 
 Result<> ModbusSink::open_serial_line() {
@@ -102,9 +103,9 @@ Result<> ModbusSink::open_serial_line() {
       },
       [this](const Result<>& line) {
         serial_is_lost_ = !line;
-        log_line(line ? LogLevel::Info : LogLevel::Warning,
-                 line ? "modbus: the serial line " + settings_.serial->device + " is back"
-                      : line.error().message);
+        log_soon(line ? LogLevel::Info : LogLevel::Warning,
+                 {line ? "modbus: the serial line " + settings_.serial->device + " is back"
+                       : line.error().message});
       },
       counters_);
   if (!server) return tl::unexpected(server.error());

@@ -86,7 +86,14 @@ class Dispatch : public testing::Test {
 
   CommandResult command(CommandCode code, double argument = 0) {
     return dispatch({code, {argument}}, {*pipeline, *lines, snapshots ? &*snapshots : nullptr,
-                                         watch, alignment, [this] { ++restarts; }});
+                                         watch, alignment, restart()});
+  }
+  Restart restart() {
+    return {[this]() -> Result<> {
+              if (may_restart) return {};
+              return fail("the files are wrong");
+            },
+            [this] { ++restarts; }};
   }
   /// A frame that becomes a set.
   Status next_set(std::size_t camera = 0) {
@@ -116,9 +123,10 @@ class Dispatch : public testing::Test {
   std::optional<SnapshotSink> snapshots;
   std::uint64_t sets = 0;
   int restarts = 0;
+  bool may_restart = true;
   const Resolved site{};  // without cameras
   CameraWatch watch{site, hal::SharedThreads::alone()};
-  AlignmentDesk alignment{site, watch, [this] { ++restarts; }};
+  AlignmentDesk alignment{site, watch, restart()};
 };
 
 TEST_F(Dispatch, ATriggerMakesAResultOfTheNextSetOfAFreeCamera) {
@@ -212,6 +220,13 @@ TEST_F(Dispatch, ARestartIsAskedForOnce) {
   start({hal::TriggerMode::Off});
   EXPECT_EQ(command(CommandCode::Restart), CommandResult::Done);
   EXPECT_EQ(restarts, 1);
+}
+
+TEST_F(Dispatch, ARestartThatTheFilesDoNotPermitIsRefused) {
+  start({hal::TriggerMode::Off});
+  may_restart = false;
+  EXPECT_EQ(command(CommandCode::Restart), CommandResult::NotPossible);
+  EXPECT_EQ(restarts, 0);
 }
 
 TEST_F(Dispatch, AllElseGoesToThePipeline) {

@@ -1,6 +1,8 @@
 #include <dirent.h>
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/ptrace.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <cstring>
@@ -48,6 +50,13 @@ class HungThread {
 
   bool is_hung() const { return is_hung_; }
 
+  /// Returns when something else has ended the thread, which waits for its tracer then.
+  void await_end() const {
+    int status = 0;
+    while (::waitpid(thread_, &status, __WALL) == thread_ && WIFSTOPPED(status)) {
+    }
+  }
+
  private:
   const pid_t thread_;
   bool is_hung_ = false;
@@ -84,6 +93,34 @@ TEST_F(Service, AHungPipelineIsNotFedByAnythingElse) {
     EXPECT_GT(read("system_frame_set"), 0);
   }
   manager.await("WATCHDOG=1");
+}
+
+/// It ends trials and receives SIGTERM: without it nobody would notice a trial that has to end.
+TEST_F(Service, AHungMainThreadIsNotFedByThePipeline) {
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  Subprocess daemon = start(write_config(small_machine()));
+  manager.await("STATUS=running");
+  {
+    const HungThread main(daemon.pid());
+    ASSERT_TRUE(main.is_hung());
+    EXPECT_TRUE(manager.falls_silent(2 * kWatchdog, 20));
+    EXPECT_GT(read("system_frame_set"), 0);
+  }
+  manager.await("WATCHDOG=1");
+}
+
+/// A driver that does not answer; see appliance_thread.h.
+TEST_F(Service, EndsAlthoughADriverHangs) {
+  const NotifySocket manager(folder / "notify", kWatchdog);
+  Subprocess daemon = start(write_config(small_machine()));
+  manager.await("STATUS=running");
+  const HungThread hung(thread_of(daemon.pid(), "appliance"));
+  ASSERT_TRUE(hung.is_hung());
+  daemon.send(SIGTERM);
+  manager.await("STOPPING=1");
+  hung.await_end();
+  EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+  EXPECT_THAT(daemon.output(), HasSubstr("ends without waiting for what hangs"));
 }
 
 /// Darkness, a pulled cable, a camera that was never there: the pipeline has to prove itself then,
@@ -281,6 +318,71 @@ TEST_F(Configured, GoesBackWithoutConfirmation) {
   EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
   EXPECT_THAT(daemon.output(), HasSubstr("was not confirmed"));
   EXPECT_EQ(configure({"--confirm"}).first, 1);
+}
+
+TEST_F(Configured, GoesBackAlthoughADriverHangs) {
+  Subprocess daemon = run();
+  begin_trial("10");
+  const HungThread hung(thread_of(daemon.pid(), "appliance"));
+  ASSERT_TRUE(hung.is_hung());
+  hung.await_end();
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
+  EXPECT_THAT(daemon.output(), HasSubstr("was not confirmed"));
+}
+
+/// A pipe that is full and that nobody reads: the log and the console go to it.
+class Unread {
+ public:
+  explicit Unread(const fs::path& path) {
+    EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    file_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  }
+  Unread(const Unread&) = delete;
+  Unread& operator=(const Unread&) = delete;
+  ~Unread() { ::close(file_); }
+
+  void fill() const {
+    const std::string many(4096, '.');
+    while (::write(file_, many.data(), many.size()) > 0) {
+    }
+    while (::write(file_, ".", 1) > 0) {
+    }
+  }
+
+ private:
+  int file_ = -1;
+};
+
+TEST_F(Configured, GoesBackAndEndsAlthoughNobodyReadsTheLog) {
+  for (const char* file : {"site.toml", "new/site.toml"}) {
+    const std::string text = contents(folder / file);
+    const std::string console = "[console]\nenabled = true\nperiod = 0.1\n";
+    std::ofstream(folder / file) << std::string(text).insert(text.find("[modbus]"), console);
+  }
+  const Unread output(folder / "daemon.log");
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  output.fill();
+  old_checksum = read("system_configuration_checksum");
+  EXPECT_EQ(configure({(folder / "new/site.toml").string(), "--seconds", "10"}).first, 0);
+  manager.await("READY=1");
+  EXPECT_NE(read("system_configuration_checksum"), old_checksum);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
+  daemon.send(SIGTERM);
+  manager.await("STOPPING=1");
+  EXPECT_EQ(daemon.wait(), 0);
+}
+
+TEST_F(Configured, KeepsAChangeThatSomebodyMadeMeanwhile) {
+  Subprocess daemon = run();
+  begin_trial("3600");
+  std::ofstream(config, std::ios::app) << "# by hand\n";
+  const auto [code, said] = configure({"--confirm"});
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(said, HasSubstr("site.toml was changed by "));
+  EXPECT_THAT(contents(config), HasSubstr("# by hand"));
 }
 
 TEST_F(Configured, GoesBackAfterAPowerCut) {

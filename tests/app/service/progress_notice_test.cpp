@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "app/service/service_manager.h"
 #include "tests/support/notify_socket.h"
 #include "tests/support/temporary_folder.h"
@@ -59,6 +61,25 @@ TEST(ProgressNotice, TheFirstStatusIsReadinessAndTheNextFeedsTheWatchdog) {
   ASSERT_TRUE(running);
   EXPECT_THAT(*running, HasSubstr("WATCHDOG=1\nSTATUS=running"));
   EXPECT_FALSE(manager.next(milliseconds(50))) << "without progress nothing feeds it";
+}
+
+TEST(ProgressNotice, FeedsNothingWhileNobodySupervises) {
+  const tests::TemporaryFolder folder;
+  const NotifySocket manager(folder / "notify", milliseconds(0));
+  ::setenv("WATCHDOG_USEC", "1", 1);
+  std::atomic<bool> is_supervised = true;
+  ProgressNotice notice("", [&] { return is_supervised.load(); });
+  ASSERT_TRUE(notice.start());
+  Status status;
+  notice.accept(status);
+  ASSERT_TRUE(manager.next(kPatience));
+  is_supervised = false;
+  status.state = SystemState::Running;
+  notice.accept(status);
+  EXPECT_FALSE(manager.next(milliseconds(50)));
+  is_supervised = true;
+  notice.accept(status);
+  EXPECT_THAT(manager.next(kPatience).value_or(""), HasSubstr("WATCHDOG=1\nSTATUS=running"));
 }
 
 TEST(ProgressNotice, WithoutAWatchdogOnlyChangesAreSent) {

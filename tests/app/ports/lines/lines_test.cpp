@@ -95,6 +95,18 @@ TEST_F(StatusLines, AlarmsBeyondTheirCountAreNone) {
   EXPECT_TRUE(becomes(left, true, true));
 }
 
+/// As while the owner hangs in something else.
+TEST_F(StatusLines, AreMadeSafeByAnotherThread) {
+  EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
+  std::thread([this] { lines->make_safe(); }).join();
+  ASSERT_TRUE(lines->start()) << "the inputs see what became of the outputs";
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (lines->process_inputs()[0]->active() == true && std::chrono::steady_clock::now() < end) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(lines->process_inputs()[0]->active(), false);
+}
+
 TEST(MissingLines, AreFaultsUntilTheyCome) {
   std::atomic<bool> there = false;
   Lines lines({line("door", LineUse::ProcessInput, "DOOR"), line("ok", LineUse::ProcessOk, "OK")},
