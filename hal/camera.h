@@ -151,6 +151,10 @@ class Camera {
   /// keeps this scale until it is configured again.
   virtual std::optional<CountScale> count_scale() const { return std::nullopt; }
 
+  /// Of the configured camera: an addition to a message that its format is not the expected one,
+  /// such as "; its EXIF orientation turns its 640x480"; empty: nothing explains it.
+  virtual std::string format_note() const { return {}; }
+
  protected:
   explicit Camera(CameraInfo info) : info_(std::move(info)) {}
 

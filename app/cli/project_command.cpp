@@ -114,7 +114,7 @@ Result<std::vector<hal::DecodedPicture>> read_pictures(const std::vector<ChosenC
     if (!read) return tl::unexpected(read.error());
     const Picture& picture = read->picture;
     if (auto fits = check_picture_size(camera, {picture.width, picture.height}); !fits) {
-      return fail(camera.picture.string() + ": " + fits.error().message);
+      return fail(camera.picture.string() + ": " + fits.error().message + exif_note(*read));
     }
     pictures.push_back(std::move(*read));
     const Picture& first = pictures.front().picture;

@@ -113,7 +113,7 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Reso
     }
   }
   if (const auto usable = check_format(*format, settings, site.rig_camera(index)); !usable) {
-    return hal::fail(hal::Fault::WrongFormat, usable.error().message);
+    return hal::fail(hal::Fault::WrongFormat, usable.error().message + camera.format_note());
   }
   const auto scale = scale_of_counts(camera, settings);
   if (!scale) return hal::fail(hal::Fault::WrongFormat, scale.error().message);

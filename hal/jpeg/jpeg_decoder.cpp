@@ -109,6 +109,8 @@ JpegDecoder::~JpegDecoder() = default;
 
 bool JpegDecoder::is_flawed() const { return reader_->is_flawed(); }
 
+std::size_t JpegDecoder::picture_bytes() const { return reader_->picture_bytes(); }
+
 Result<JpegSize> JpegDecoder::read_size(std::span<const std::byte> jpeg) {
   if (auto opened = reader_->open(jpeg); !opened) return tl::unexpected(opened.error());
   const jpeg_decompress_struct& picture = reader_->picture();

@@ -23,7 +23,8 @@ class JpegReader;
 
 /// libjpeg-turbo in strict mode: data that it would repair (a truncated file, a broken code, bytes
 /// lost on USB) is an error here, because a repaired picture must not be measured. Padding before a
-/// marker and a missing end marker, which many USB cameras send, are no errors. Reads grey and
+/// marker, a missing end marker, and other data in its place, which many USB cameras send, are no
+/// errors. Reads grey and
 /// YCbCr pictures, baseline and progressive, also without the standard Huffman tables, which USB
 /// cameras omit. Thread-bound and reusable.
 class JpegDecoder {
@@ -34,6 +35,8 @@ class JpegDecoder {
   /// Whether the picture checked or decoded last had such padding, or no end marker: see
   /// JpegReader::is_flawed().
   bool is_flawed() const;
+  /// Of the picture checked or decoded last: see JpegReader::picture_bytes().
+  std::size_t picture_bytes() const;
 
   /// Errors: not a JPEG picture, header damaged, CMYK.
   Result<JpegSize> read_size(std::span<const std::byte> jpeg);

@@ -10,6 +10,8 @@ namespace {
 /// A progressive picture may have any number of scans; the limit bounds the time of a hostile one.
 constexpr int kMostScans = 500;
 
+constexpr const char* kDamaged = "damaged JPEG picture: ";
+
 }  // namespace
 
 JpegReader::JpegReader() { create(); }
@@ -31,6 +33,11 @@ void JpegReader::on_error(j_common_ptr picture) {
   auto& reader = *static_cast<JpegReader*>(picture->client_data);
   picture->err->format_message(picture, reader.message_);
   reader.leave();
+}
+
+void JpegReader::on_bad_marker(j_common_ptr picture) {
+  static_cast<JpegReader*>(picture->client_data)->met_bad_marker_ = true;
+  on_error(picture);
 }
 
 /// Levels below 0 are warnings, the others traces.
@@ -59,7 +66,7 @@ void JpegReader::on_progress(j_common_ptr picture) {
 void JpegReader::create() {
   picture_.err = jpeg_std_error(&errors_);
   picture_.client_data = this;
-  errors_.error_exit = on_error;
+  errors_.error_exit = on_bad_marker;
   errors_.emit_message = on_message;
   progress_.progress_monitor = on_progress;
   is_created_ = completes([this] { jpeg_create_decompress(&picture_); });
@@ -68,17 +75,30 @@ void JpegReader::create() {
 
 /// After a bad header, libjpeg-turbo 2.1 reads the next picture as the rest of it, and it keeps the
 /// tables of damaged pictures. So it is created again after an error.
-tl::unexpected<Error> JpegReader::failed(const char* what) {
-  std::string message = std::string(what) + message_;
+void JpegReader::create_again() {
   jpeg_destroy_decompress(&picture_);
   create();
+}
+
+Result<> JpegReader::failed(const char* what) {
+  std::string message = std::string(what) + message_;
+  create_again();
   return fail(std::move(message));
+}
+
+/// Where the marker begins at which libjpeg gave up: it has read a marker's code before it judges.
+std::size_t JpegReader::bytes_before_marker() const {
+  const std::size_t read = jpeg_.size() - std::min(jpeg_.size(), picture_.src->bytes_in_buffer);
+  const bool is_behind = read >= 2 && jpeg_[read - 2] == std::byte{0xff};
+  return is_behind ? read - 2 : read;
 }
 
 Result<> JpegReader::open(std::span<const std::byte> jpeg) {
   if (!is_created_) return fail("JPEG decoder: out of memory");
   has_padding_ = false;
   broke_off_ = false;
+  met_bad_marker_ = false;
+  jpeg_ = jpeg;
   const auto* const bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
   const bool read = completes([this, bytes, size = jpeg.size()] {
     jpeg_abort_decompress(&picture_);
@@ -89,15 +109,26 @@ Result<> JpegReader::open(std::span<const std::byte> jpeg) {
   return {};
 }
 
+/// Pictures of several scans are read to their end here. Where a scan that could be the last one is
+/// followed by other data, they are read again without that, since libjpeg cannot resume.
+template <class Call>
+Result<> JpegReader::start(Call call) {
+  if (completes(call)) return {};
+  if (!met_bad_marker_) return failed(kDamaged);
+  broke_off_ = true;
+  if (!is_complete()) return failed(kDamaged);
+  const std::span<const std::byte> before = jpeg_.first(bytes_before_marker());
+  create_again();
+  return open(before).and_then([&] { return completes(call) ? Result<>() : failed(kDamaged); });
+}
+
 Result<> JpegReader::start_grey(unsigned reduction) {
-  const bool started = completes([this, reduction] {
+  return start([this, reduction] {
     picture_.out_color_space = JCS_GRAYSCALE;
     picture_.scale_num = 1;
     picture_.scale_denom = reduction;
     jpeg_start_decompress(&picture_);
   });
-  if (!started) return failed("damaged JPEG picture: ");
-  return {};
 }
 
 Result<> JpegReader::read_grey(const ImageView<std::uint8_t>& target) {
@@ -107,17 +138,15 @@ Result<> JpegReader::read_grey(const ImageView<std::uint8_t>& target) {
       jpeg_read_scanlines(&picture_, &row, 1);
     }
   });
-  if (!read) return failed("damaged JPEG picture: ");
+  if (!read) return failed(kDamaged);
   return {};
 }
 
 Result<> JpegReader::start_components() {
-  const bool started = completes([this] {
+  return start([this] {
     picture_.raw_data_out = TRUE;
     jpeg_start_decompress(&picture_);
   });
-  if (!started) return failed("damaged JPEG picture: ");
-  return {};
 }
 
 Result<> JpegReader::read_components(JSAMPIMAGE rows) {
@@ -125,7 +154,7 @@ Result<> JpegReader::read_components(JSAMPIMAGE rows) {
     jpeg_read_raw_data(&picture_, rows,
                        static_cast<JDIMENSION>(picture_.max_v_samp_factor * DCTSIZE));
   });
-  if (!read) return failed("damaged JPEG picture: ");
+  if (!read) return failed(kDamaged);
   return {};
 }
 
@@ -135,8 +164,13 @@ Result<> JpegReader::finish() {
     while (jpeg_consume_input(&picture_) != JPEG_REACHED_EOI) {
     }
   });
-  if (!ended) return failed("damaged JPEG picture: ");
-  if (!is_complete()) return fail("damaged JPEG picture: ends early");
+  broke_off_ |= !ended;
+  picture_bytes_ = ended ? jpeg_.size() - std::min(jpeg_.size(), picture_.src->bytes_in_buffer)
+                         : bytes_before_marker();
+  const bool is_whole = is_complete();
+  if (!ended && !is_whole) return failed(kDamaged);
+  if (!ended) create_again();
+  if (!is_whole) return fail("damaged JPEG picture: ends early");
   return {};
 }
 

@@ -45,23 +45,33 @@ class JpegReader {
   /// blocks wide. Errors: damaged.
   Result<> read_components(JSAMPIMAGE rows);
 
-  /// Reads up to the end of the picture. Errors: data is missing, or damaged.
+  /// Reads up to the end of the picture, or to what stands in place of its end marker. Errors: data
+  /// is missing, or damaged.
   Result<> finish();
 
-  /// The picture has more data before a marker than it needs, or lacks only its end marker. Cameras
-  /// send it so, and no pixel is missing; but too much data may also be the only trace of a bit
-  /// that was sent wrong.
+  /// The picture has more data before a marker than it needs, or lacks only its end marker, be it
+  /// that the data ends there or that other data follows. Cameras send it so, and no pixel is
+  /// missing; but too much data may also be the only trace of a bit that was sent wrong.
   bool is_flawed() const { return has_padding_ || broke_off_; }
+
+  /// Of the picture that was finished last: its bytes up to and with the end marker, if it has one,
+  /// without other data that follows.
+  std::size_t picture_bytes() const { return picture_bytes_; }
 
  private:
   void create();
+  void create_again();
   template <class Call>
   bool completes(Call call);
-  tl::unexpected<Error> failed(const char* what);
+  template <class Call>
+  Result<> start(Call call);
+  Result<> failed(const char* what);
   bool is_complete() const;
+  std::size_t bytes_before_marker() const;
 
   [[noreturn]] void leave();
   [[noreturn]] static void on_error(j_common_ptr picture);
+  [[noreturn]] static void on_bad_marker(j_common_ptr picture);
   static void on_message(j_common_ptr picture, int level);
   static void on_progress(j_common_ptr picture);
 
@@ -72,7 +82,11 @@ class JpegReader {
   char message_[JMSG_LENGTH_MAX]{};
   bool is_created_ = false;
   bool has_padding_ = false;
-  bool broke_off_ = false;  ///< the data ended before the picture's end marker
+  bool broke_off_ = false;  ///< the data ended, or was other data, before the picture's end marker
+  /// libjpeg gave up at a marker: it only warns of damage between them.
+  bool met_bad_marker_ = false;
+  std::span<const std::byte> jpeg_;  ///< since open()
+  std::size_t picture_bytes_ = 0;
 };
 
 }  // namespace orbwatch::hal

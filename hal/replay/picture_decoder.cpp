@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hal/jpeg/jpeg_decoder.h"
+#include "hal/replay/exif_orientation.h"
 #include "hal/replay/png_check.h"
 
 namespace orbwatch::hal {
@@ -21,8 +22,12 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
 struct CheckedFile {
-  std::uint32_t side = 0;  ///< the longer one
+  std::uint32_t width = 0;  ///< as the picture lies in the file
+  std::uint32_t height = 0;
   bool is_flawed = false;
+  std::size_t jpeg_bytes = 0;  ///< of a flawed JPEG picture, without what follows it
+
+  std::uint32_t side() const { return std::max(width, height); }
 };
 
 /// OpenCV repairs a damaged file and reports it on stderr only; so the file is checked first.
@@ -30,7 +35,7 @@ Result<CheckedFile> check_file(std::span<const std::byte> file) {
   if (is_png(file)) {
     const auto size = check_png(file);
     if (!size) return tl::unexpected(size.error());
-    return CheckedFile{std::max(size->width, size->height)};
+    return CheckedFile{size->width, size->height};
   }
   constexpr std::array kJpegStart{std::byte{0xff}, std::byte{0xd8}, std::byte{0xff}};
   if (file.size() < kJpegStart.size() ||
@@ -40,10 +45,13 @@ Result<CheckedFile> check_file(std::span<const std::byte> file) {
   JpegDecoder decoder;
   const auto size = decoder.read_size(file);
   if (!size) return tl::unexpected(size.error());
-  const auto side = static_cast<std::uint32_t>(std::max(size->width, size->height));
-  if (side > kMaxSide) return CheckedFile{side};
+  CheckedFile checked{static_cast<std::uint32_t>(size->width),
+                      static_cast<std::uint32_t>(size->height)};
+  if (checked.side() > kMaxSide) return checked;
   if (auto whole = decoder.check(file); !whole) return tl::unexpected(whole.error());
-  return CheckedFile{side, decoder.is_flawed()};
+  checked.is_flawed = decoder.is_flawed();
+  checked.jpeg_bytes = decoder.picture_bytes();
+  return checked;
 }
 
 Result<DecodedPicture> to_picture(const cv::Mat& image) {
@@ -75,11 +83,51 @@ Result<DecodedPicture> to_picture(const cv::Mat& image) {
   return decoded;
 }
 
+/// The picture as its EXIF orientation says that it is to be seen.
+cv::Mat upright(const cv::Mat& image, int orientation) {
+  constexpr int kFirstTransposed = 5;
+  cv::Mat turned = image;
+  if (orientation >= kFirstTransposed) cv::transpose(image, turned);
+  constexpr int kUpsideDown = 0, kMirrored = 1, kBoth = -1;
+  switch (orientation) {
+    case 2:
+    case 6:
+      cv::flip(turned, turned, kMirrored);
+      break;
+    case 3:
+    case 7:
+      cv::flip(turned, turned, kBoth);
+      break;
+    case 4:
+    case 8:
+      cv::flip(turned, turned, kUpsideDown);
+      break;
+    default:
+      break;
+  }
+  return turned;
+}
+
+/// OpenCV reads EXIF from the first APP1 segment only, so a JPEG picture is turned here.
+cv::Mat decode_upright(std::span<const std::byte> file) {
+  const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8UC1,
+                      const_cast<std::byte*>(file.data()));
+  constexpr int kAsItIs = cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH;
+  if (is_png(file)) return cv::imdecode(bytes, kAsItIs);
+  return upright(cv::imdecode(bytes, kAsItIs | cv::IMREAD_IGNORE_ORIENTATION),
+                 exif_orientation(file));
+}
+
+/// The picture's own data and an end marker: OpenCV cannot do without.
+std::vector<std::byte> with_end_marker(std::span<const std::byte> jpeg) {
+  std::vector<std::byte> ended(jpeg.begin(), jpeg.end());
+  ended.insert(ended.end(), {std::byte{0xff}, std::byte{0xd9}});
+  return ended;
+}
+
 Result<DecodedPicture> decode_checked(std::span<const std::byte> file) {
   try {
-    const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8UC1,
-                        const_cast<std::byte*>(file.data()));
-    const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
+    const cv::Mat image = decode_upright(file);
     if (image.empty()) return fail("damaged picture: cannot be decoded");
     return to_picture(image);
   } catch (const cv::Exception& error) {
@@ -90,6 +138,12 @@ Result<DecodedPicture> decode_checked(std::span<const std::byte> file) {
 }
 
 }  // namespace
+
+std::string exif_note(const DecodedPicture& decoded) {
+  if (!decoded.is_turned) return {};
+  return "; its EXIF orientation turns its " + std::to_string(decoded.picture.height) + "x" +
+         std::to_string(decoded.picture.width);
+}
 
 bool has_picture_name(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -105,13 +159,16 @@ Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::stri
   if (file.size() > kMaxFileBytes) return named("is larger than 1 GiB");
   const auto checked = check_file(file);
   if (!checked) return named(checked.error().message);
-  if (checked->side > kMaxSide) {
-    return named("is " + std::to_string(checked->side) + " pixels long or wide; at most " +
+  if (checked->side() > kMaxSide) {
+    return named("is " + std::to_string(checked->side()) + " pixels long or wide; at most " +
                  std::to_string(kMaxSide) + " are read");
   }
-  auto decoded = decode_checked(file);
+  auto decoded = checked->is_flawed
+                     ? decode_checked(with_end_marker(file.first(checked->jpeg_bytes)))
+                     : decode_checked(file);
   if (!decoded) return named(decoded.error().message);
   decoded->is_flawed = checked->is_flawed;
+  decoded->is_turned = static_cast<std::uint32_t>(decoded->picture.width) != checked->width;
   return decoded;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "proc/image/picture.h"
@@ -16,14 +17,19 @@ struct DecodedPicture {
   Picture picture;  ///< Grey, Y16, Rgb or Rgb16, rows without padding
   std::unique_ptr<std::byte[]> storage;
   bool is_flawed = false;  ///< see JpegDecoder::is_flawed()
+  bool is_turned = false;  ///< EXIF orientation exchanged width and height
 };
+
+/// An addition to a message on a picture's size: "; its EXIF orientation turns its 640x480"; empty
+/// unless EXIF exchanged width and height.
+std::string exif_note(const DecodedPicture& decoded);
 
 /// True for the file extensions of read_picture, regardless of case.
 bool has_picture_name(const std::filesystem::path& path);
 
 /// Decodes a JPEG or PNG file in memory. Grey stays grey and 16 bit stay 16 bit; alpha is dropped;
-/// EXIF orientation is applied. `name` is for messages. Errors: another kind of file, truncated or
-/// damaged, a side above kMaxSide. Reentrant.
+/// the orientation in EXIF is applied, see exif_orientation(). `name` is for messages. Errors:
+/// another kind of file, truncated or damaged, a side above kMaxSide. Reentrant.
 Result<DecodedPicture> decode_picture(std::span<const std::byte> file, std::string_view name);
 
 /// Reads and decodes one file. Errors as decode_picture, and no such file or not readable.

@@ -85,6 +85,7 @@ PictureFolder::PictureFolder(std::vector<std::filesystem::path> files, bool loop
     : files_(std::move(files)), loop_(loop) {
   const Picture& picture = first.picture;
   format_ = {picture.format, picture.colour_space, picture.width, picture.height, 0.0};
+  size_note_ = exif_note(first);
   if (picture_bytes(format_) > kKeptFolderBytes / files_.size()) return;
   kept_.reserve(files_.size());
   kept_.emplace_back(std::move(first));
@@ -101,8 +102,9 @@ DeviceResult<DecodedPicture> PictureFolder::load(std::size_t index) const {
       picture.height != format_.height) {
     return fail(Fault::WrongFormat, files_[index].string() + ": " +
                                         describe(picture.format, picture.width, picture.height) +
-                                        "; the first picture is " +
-                                        describe(format_.format, format_.width, format_.height));
+                                        exif_note(*decoded) + "; the first picture is " +
+                                        describe(format_.format, format_.width, format_.height) +
+                                        size_note_);
   }
   return std::move(*decoded);
 }

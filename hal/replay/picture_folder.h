@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,7 @@ class PictureFolder : public Recording {
   static Result<std::unique_ptr<Recording>> open(const std::filesystem::path& folder, bool loop);
 
   const StreamFormat& format() const override { return format_; }
+  std::string size_note() const override { return size_note_; }
   DeviceResult<> show(std::uint64_t number, FrameBuffer& target,
                       const std::stop_token& stop) override;
 
@@ -42,6 +44,7 @@ class PictureFolder : public Recording {
   std::vector<std::filesystem::path> files_;
   bool loop_;
   StreamFormat format_;
+  std::string size_note_;
   std::vector<DeviceResult<DecodedPicture>> kept_;  ///< one per file, or empty when too large
 };
 

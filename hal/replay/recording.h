@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <stop_token>
+#include <string>
 
 #include "hal/camera.h"
 #include "hal/fault.h"
@@ -19,6 +20,9 @@ class Recording {
 
   /// Size and format of every picture, and the recorded rate; 0: unknown.
   virtual const StreamFormat& format() const = 0;
+
+  /// An addition to a message on its size: see exif_note().
+  virtual std::string size_note() const { return {}; }
 
   /// Copies the pixels of picture `number` into `target`, which has the recording's size and
   /// format, and sets its status where the picture is flawed. A looped recording shows number

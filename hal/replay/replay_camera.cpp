@@ -57,7 +57,8 @@ Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
   if ((request.width != 0 && request.width != format.width) ||
       (request.height != 0 && request.height != format.height)) {
     return fail(who + "asked for " + to_text(request.width, request.height) +
-                ", the recording has " + to_text(format.width, format.height));
+                ", the recording has " + to_text(format.width, format.height) +
+                (*recording)->size_note());
   }
   for (const double rate :
        {kFolderFrameRate, format.frame_rate, settings_.frame_rate, request.frame_rate}) {
@@ -72,6 +73,10 @@ Result<StreamFormat> ReplayCamera::do_configure(const StreamRequest& request) {
   format_ = format;
   pool_ = make_frame_pool(format.format, format.width, format.height, request.buffers);
   return format;
+}
+
+std::string ReplayCamera::format_note() const {
+  return recording_ ? recording_->size_note() : std::string();
 }
 
 void ReplayCamera::run(const std::stop_token& stop) {

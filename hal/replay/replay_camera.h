@@ -24,6 +24,8 @@ class ReplayCamera : public Camera {
   explicit ReplayCamera(ReplaySettings settings);
   ~ReplayCamera() override;
 
+  std::string format_note() const override;
+
  protected:
   /// Opens the recording. A requested rate precedes the settings'. Errors: no folder of pictures or
   /// video, empty, cannot be decoded; another size than requested; a rate above kMaxFrameRate.

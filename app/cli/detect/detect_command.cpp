@@ -52,15 +52,16 @@ std::vector<Option> declare(DetectOptions& o) {
 }
 
 /// The ball's place, from the lens that a calibration file states.
-Result<optics::BallSight> sight(const std::filesystem::path& calibration,
-                                const DetectedBall& ball) {
+/// `size_note`: see hal::exif_note().
+Result<optics::BallSight> sight(const std::filesystem::path& calibration, const DetectedBall& ball,
+                                const std::string& size_note) {
   TextFiles files;
   const auto intrinsics = read_calibration(calibration, files);
   if (!intrinsics) return tl::unexpected(intrinsics.error());
   if (intrinsics->width != ball.width || intrinsics->height != ball.height) {
     return fail(calibration.string() + " is for pictures of " + std::to_string(intrinsics->width) +
                 "x" + std::to_string(intrinsics->height) + ", this one has " +
-                std::to_string(ball.width) + "x" + std::to_string(ball.height));
+                std::to_string(ball.width) + "x" + std::to_string(ball.height) + size_note);
   }
   const auto lens = optics::Lens::make(*intrinsics);
   if (!lens) return tl::unexpected(lens.error());
@@ -82,7 +83,7 @@ Result<std::string> detect(const DetectOptions& o, const std::filesystem::path& 
   if (!detection) return fail(file.string() + ": " + detection.error().message);
   DetectedBall ball{picture.width, picture.height, *detection, std::nullopt};
   if (!o.calibration.empty()) {
-    const auto place = sight(o.calibration, ball);
+    const auto place = sight(o.calibration, ball, exif_note(*decoded));
     if (!place) return tl::unexpected(place.error());
     ball.sight = *place;
   }

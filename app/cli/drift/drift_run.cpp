@@ -15,15 +15,15 @@ namespace fs = std::filesystem;
 using align::DriftLevel;
 using align::DriftMonitor;
 
-Error about(const fs::path& file, const Error& error) {
-  return {file.string() + ": " + error.message};
+Error about(const fs::path& file, const Error& error, const hal::DecodedPicture& picture) {
+  return {file.string() + ": " + error.message + exif_note(picture)};
 }
 
 Result<> refer_to(DriftMonitor& monitor, const fs::path& file) {
   const auto reference = hal::read_picture(file);
   if (!reference) return tl::unexpected(reference.error());
   return monitor.refer_to(reference->picture).map_error([&](const Error& error) {
-    return about(file, error);
+    return about(file, error, *reference);
   });
 }
 
@@ -59,7 +59,7 @@ Result<DriftRun> watch(const align::DriftSubject& subject, const align::DriftLim
     const std::chrono::duration<double> time(static_cast<double>(run.frames) / sequence.rate);
     const auto state =
         monitor->observe(decoded->picture, std::chrono::duration_cast<DriftMonitor::Time>(time));
-    if (!state) return tl::unexpected(about(file, state.error()));
+    if (!state) return tl::unexpected(about(file, state.error(), *decoded));
     note(*state, file, run);
   }
   return run;

@@ -23,7 +23,8 @@ Result<hal::DecodedPicture> picture_of(const std::filesystem::path& file,
   if (picture.width == camera.width && picture.height == camera.height) return decoded;
   return fail(file.string() + " has " + std::to_string(picture.width) + "x" +
               std::to_string(picture.height) + " pixels, camera " + camera.name + " of the rig " +
-              std::to_string(camera.width) + "x" + std::to_string(camera.height));
+              std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+              exif_note(*decoded));
 }
 
 /// The rig's, or else what is found in the picture.

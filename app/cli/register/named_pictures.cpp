@@ -27,7 +27,8 @@ Result<NamedPictures> read_named_pictures(const std::string& word) {
     named.pictures.push_back(std::move(*decoded));
     const Picture &first = named.pictures.front().picture, &last = named.pictures.back().picture;
     if (last.width != first.width || last.height != first.height || last.format != first.format) {
-      return fail(file.string() + " is of another size or kind than the pictures before it");
+      return fail(file.string() + " is of another size or kind than the pictures before it" +
+                  exif_note(named.pictures.back()));
     }
   }
   return named;

@@ -81,7 +81,8 @@ Result<> check_size(const optics::RigCamera& camera, const NamedPictures& named)
   if (picture.width == camera.width && picture.height == camera.height) return {};
   return fail("camera " + camera.name + " has pictures of " + std::to_string(camera.width) + "x" +
               std::to_string(camera.height) + " in the rig, these have " +
-              std::to_string(picture.width) + "x" + std::to_string(picture.height));
+              std::to_string(picture.width) + "x" + std::to_string(picture.height) +
+              exif_note(named.pictures.front()));
 }
 
 /// The outline as the picture shows it.

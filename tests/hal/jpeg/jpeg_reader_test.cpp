@@ -152,6 +152,41 @@ TEST_P(JpegCoding, MayHavePaddingBeforeItsEnd) {
   EXPECT_FALSE(decoder.is_flawed()) << "of an earlier picture";
 }
 
+TEST_P(JpegCoding, MayHaveOtherDataInPlaceOfItsEnd) {
+  const Bytes jpeg = compress(GetParam());
+  JpegDecoder decoder;
+  const Decoded whole(decoder, jpeg);
+  const std::size_t picture = jpeg.size() - kMarkerBytes;
+  const Bytes unknown_marker{std::byte{0xff}, std::byte{0x02}, std::byte{7}, std::byte{9}};
+  const Bytes bad_length{std::byte{0xff}, std::byte{0xc4}, std::byte{0}, std::byte{1}};
+  for (const Bytes& other : {jpeg, unknown_marker, bad_length}) {
+    Bytes followed(jpeg.begin(), jpeg.end() - kMarkerBytes);
+    followed.insert(followed.end(), other.begin(), other.end());
+    const Decoded decoded(decoder, followed);
+    // An arithmetic-coded scan does not tell that it is whole.
+    ASSERT_EQ(decoded.is_refused(), GetParam().arithmetic) << decoded.error;
+    EXPECT_EQ(decoder.check(followed).has_value(), !GetParam().arithmetic);
+    if (GetParam().arithmetic) continue;
+    EXPECT_EQ(decoded.memory, whole.memory);
+    EXPECT_TRUE(decoder.is_flawed());
+    EXPECT_EQ(decoder.picture_bytes(), picture);
+    EXPECT_EQ(Decoded(decoder, jpeg).memory, whole.memory) << "the next picture";
+    EXPECT_FALSE(decoder.is_flawed());
+    EXPECT_EQ(decoder.picture_bytes(), jpeg.size());
+  }
+}
+
+TEST_P(JpegCoding, IsRefusedWhereOtherDataFollowsBeforeItIsWhole) {
+  const Bytes jpeg = compress(GetParam());
+  JpegDecoder decoder;
+  for (const std::size_t missing : {std::size_t{20}, jpeg.size() / 4}) {
+    Bytes followed(jpeg.begin(), jpeg.end() - static_cast<std::ptrdiff_t>(missing));
+    followed.insert(followed.end(), jpeg.begin(), jpeg.end());
+    EXPECT_TRUE(Decoded(decoder, followed).is_refused()) << missing;
+    EXPECT_FALSE(decoder.check(followed)) << missing;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Codings, JpegCoding,
                          testing::Values(Coding{"sequential"},
                                          Coding{.name = "restarts", .restart_rows = 1},

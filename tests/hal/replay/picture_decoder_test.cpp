@@ -2,15 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "tests/hal/replay/exif_pictures.h"
 #include "tests/hal/replay/picture_files.h"
 
 namespace orbwatch::hal {
 namespace {
 
+using tests::app1;
+using tests::exif;
+using tests::jpeg_of;
+using tests::jpeg_with;
 using tests::TemporaryFolder;
 
 /// Each sample of each channel differs from its neighbours; channels are B G R as OpenCV has them.
@@ -79,13 +88,6 @@ TEST(PictureDecoder, DropsAlpha) {
   EXPECT_EQ(decoded->picture.format, PixelFormat::Rgb);
 }
 
-std::vector<std::byte> jpeg_of(const cv::Mat& image) {
-  std::vector<unsigned char> jpeg;
-  EXPECT_TRUE(cv::imencode(".jpg", image, jpeg));
-  const auto* first = reinterpret_cast<const std::byte*>(jpeg.data());
-  return {first, first + jpeg.size()};
-}
-
 TEST(PictureDecoder, ReadsGreyAndColourJpeg) {
   const auto grey = decode_picture(jpeg_of(cv::Mat(20, 30, CV_8UC1, cv::Scalar(77))), "grey");
   ASSERT_TRUE(grey) << grey.error().message;
@@ -100,28 +102,80 @@ TEST(PictureDecoder, ReadsGreyAndColourJpeg) {
   EXPECT_NEAR(pixel[2], 20, 3);
 }
 
-TEST(PictureDecoder, HonoursExifOrientation) {
-  cv::Mat image(16, 32, CV_8UC1, cv::Scalar(0));
-  image(cv::Rect(0, 0, 16, 16)).setTo(255);  // left half
-  auto jpeg = jpeg_of(image);
-  // TIFF header, one entry: 0x0112 Orientation, SHORT, count 1, value 6 (turn clockwise to see it).
-  const std::string exif(
-      "\xff\xe1\x00\x22"
-      "Exif\0\0"
-      "MM\0\x2a\0\0\0\x08"
-      "\0\x01"
-      "\x01\x12\0\x03\0\0\0\x01\0\x06\0\0"
-      "\0\0\0\0",
-      36);
-  const auto* bytes = reinterpret_cast<const std::byte*>(exif.data());
-  jpeg.insert(jpeg.begin() + 2, bytes, bytes + exif.size());
-  const auto decoded = decode_picture(jpeg, "turned");
+const std::string kXmp = app1(std::string("http://ns.adobe.com/xap/1.0/\0<x/>", 33));
+
+/// Turned clockwise to be seen, so that the left half is on top.
+void expect_turned(const std::vector<std::byte>& jpeg, const std::string& what) {
+  const auto decoded = decode_picture(jpeg, what);
   ASSERT_TRUE(decoded) << decoded.error().message;
-  EXPECT_EQ(decoded->picture.width, 16);
-  EXPECT_EQ(decoded->picture.height, 32);
+  ASSERT_EQ(decoded->picture.width, 16) << what;
+  ASSERT_EQ(decoded->picture.height, 32) << what;
   const auto view = decoded->picture.samples<std::uint8_t>();
-  EXPECT_GT(view.at(8, 4)[0], 250) << "the left half must be on top";
-  EXPECT_LT(view.at(8, 28)[0], 5);
+  EXPECT_GT(view.at(8, 4)[0], 250) << what;
+  EXPECT_LT(view.at(8, 28)[0], 5) << what;
+  EXPECT_EQ(exif_note(*decoded), "; its EXIF orientation turns its 32x16");
+}
+
+TEST(PictureDecoder, HonoursExifOrientationInAnyApp1Segment) {
+  constexpr char kTurnClockwise = 6;
+  expect_turned(jpeg_with(exif(kTurnClockwise)), "EXIF alone");
+  expect_turned(jpeg_with(exif(kTurnClockwise) + kXmp), "EXIF, XMP");
+  expect_turned(jpeg_with(kXmp + exif(kTurnClockwise)), "XMP, EXIF");
+  expect_turned(jpeg_with(app1(std::string(50000, 'x')) + kXmp + exif(kTurnClockwise)), "long XMP");
+  expect_turned(jpeg_with(kXmp + exif(kTurnClockwise) + exif(1)), "the first EXIF counts");
+  std::string little_endian = exif(0);
+  little_endian.replace(10, 20,
+                        std::string("II\x2a\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0", 20));
+  expect_turned(jpeg_with(kXmp + little_endian), "little endian");
+}
+
+TEST(PictureDecoder, ShowsEachExifOrientationUpright) {
+  // Where the bright left half of the stored picture lies when it is seen.
+  const std::array<std::string_view, 10> expected{"left", "left", "right",  "right",  "left",
+                                                  "top",  "top",  "bottom", "bottom", "left"};
+  for (std::size_t n = 0; n < expected.size(); ++n) {
+    const auto decoded = decode_picture(jpeg_with(exif(static_cast<char>(n))), "turned");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    const auto view = decoded->picture.samples<std::uint8_t>();
+    const int right = decoded->picture.width - 1, bottom = decoded->picture.height - 1;
+    const bool at_start = view.at(0, 0)[0] > 128;
+    const bool along_row = (view.at(right, 0)[0] > 128) == at_start;
+    const std::string_view bright =
+        along_row ? (at_start ? "top" : "bottom") : (at_start ? "left" : "right");
+    EXPECT_EQ(bright, expected[n]) << "orientation " << n;
+    EXPECT_EQ(bottom > right, along_row) << "orientation " << n;
+  }
+}
+
+TEST(PictureDecoder, LeavesAPictureWithDamagedExifAsItLies) {
+  std::string beyond = exif(6);
+  beyond[17] = '\x7f';  // of the directory's offset
+  for (const std::string& segments : {app1("Exif"), app1(std::string("Exif\0\0", 6)),
+                                      app1(std::string("Exif\0\0MM", 8)), beyond, kXmp}) {
+    const auto decoded = decode_picture(jpeg_with(segments), "as it lies");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_EQ(decoded->picture.width, 32);
+    EXPECT_EQ(exif_note(*decoded), "");
+  }
+}
+
+TEST(PictureDecoder, TakesAJpegWithOtherDataInPlaceOfItsEnd) {
+  for (const int progressive : {0, 1}) {
+    std::vector<unsigned char> whole;
+    ASSERT_TRUE(
+        cv::imencode(".jpg", pattern(CV_8UC3), whole, {cv::IMWRITE_JPEG_PROGRESSIVE, progressive}));
+    std::vector<unsigned char> followed(whole.begin(), whole.end() - 2);
+    followed.insert(followed.end(), whole.begin(), whole.end());
+    const auto bytes = [](const std::vector<unsigned char>& file) {
+      return std::as_bytes(std::span(file));
+    };
+    const auto expected = decode_picture(bytes(whole), "whole");
+    const auto decoded = decode_picture(bytes(followed), "followed");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(decoded->is_flawed);
+    EXPECT_FALSE(expected->is_flawed);
+    EXPECT_EQ(std::memcmp(decoded->storage.get(), expected->storage.get(), 9 * 13 * 3), 0);
+  }
 }
 
 /// Decodes and returns the error; whatever the libraries print is a failure as well.

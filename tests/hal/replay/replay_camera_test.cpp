@@ -8,6 +8,7 @@
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/hal/replay/exif_pictures.h"
 #include "tests/hal/replay/picture_files.h"
 #include "tests/hal/replay/test_video.h"
 
@@ -285,6 +286,19 @@ TEST(ReplayCamera, SaysWhyItCannotPlay) {
   write_pictures(folder, 1);
   EXPECT_THAT(error(folder.path(), {.width = 9}), HasSubstr("8x6"));
   EXPECT_EQ(error(folder.path(), {.width = 8, .height = 6}), "");
+}
+
+TEST(ReplayCamera, NamesExifWhereItExchangesWidthAndHeight) {
+  constexpr char kTurnClockwise = 6;
+  const TemporaryFolder folder;
+  tests::write_file(folder / "phone.jpg", tests::jpeg_with(tests::exif(kTurnClockwise)));
+  ReplayCamera camera(settings_for(folder.path()));
+  const auto refused = camera.configure({.width = 32, .height = 16});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("the recording has 16x32; its EXIF orientation turns its 32x16"));
+  ASSERT_TRUE(camera.configure({}));
+  EXPECT_EQ(camera.format_note(), "; its EXIF orientation turns its 32x16");
 }
 
 }  // namespace
