@@ -11,12 +11,23 @@
 #include "app/files/finding.h"
 #include "app/files/plain_names.h"
 #include "hal/atomic_file.h"
+#include "proc/optics/named_distortion.h"
 
 namespace orbwatch::app {
 namespace {
 
 using optics::Distortion;
 using optics::Intrinsics;
+
+/// The shortest text that reads back as the same number.
+std::string text_of(double number) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+  std::string text(buffer, end);
+  // A YAML reader would take "1" for a whole number.
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
 
 /// What a calibration file lacks; leaves this file as an Error.
 struct Unusable {
@@ -38,8 +49,11 @@ T scalar(const YAML::Node& node, const char* key, const char* kind) {
   }
 }
 
+/// Numbers of a matrix beyond rows x cols: refused, or read as well.
+enum class Surplus { Refused, Read };
+
 /// The numbers of a matrix {rows, cols, data}.
-std::vector<double> matrix(const YAML::Node& file, const char* key) {
+std::vector<double> matrix(const YAML::Node& file, const char* key, Surplus surplus) {
   const YAML::Node node = required(file, key);
   const YAML::Node data = node.IsMap() ? node["data"] : YAML::Node(YAML::NodeType::Undefined);
   if (!data || !data.IsSequence() || !node["rows"] || !node["cols"]) {
@@ -47,7 +61,8 @@ std::vector<double> matrix(const YAML::Node& file, const char* key) {
   }
   const auto rows = scalar<std::uint16_t>(node["rows"], key, "a matrix with a number of rows");
   const auto columns = scalar<std::uint16_t>(node["cols"], key, "a matrix with a number of cols");
-  if (data.size() != std::size_t{rows} * columns) {
+  const std::size_t expected = std::size_t{rows} * columns;
+  if (data.size() < expected || (data.size() > expected && surplus == Surplus::Refused)) {
     throw Unusable{std::string(key) + " has " + std::to_string(data.size()) + " numbers, not " +
                    std::to_string(rows) + "x" + std::to_string(columns)};
   }
@@ -59,9 +74,13 @@ std::vector<double> matrix(const YAML::Node& file, const char* key) {
 }
 
 void set_camera_matrix(Intrinsics& intrinsics, const YAML::Node& file) {
-  const std::vector<double> k = matrix(file, "camera_matrix");
-  const bool shaped =
-      k.size() == 9 && k[1] == 0 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
+  const std::vector<double> k = matrix(file, "camera_matrix", Surplus::Refused);
+  const bool shaped = k.size() == 9 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
+  if (shaped && k[1] != 0) {
+    throw Unusable{"camera_matrix has a skew (" + text_of(k[1]) +
+                   "), which must be 0; calibrate again with cv::fisheye::CALIB_FIX_SKEW, which "
+                   "ROS' cameracalibrator calls --fisheye-fix-skew"};
+  }
   if (!shaped) throw Unusable{"camera_matrix must be [fx, 0, cx, 0, fy, cy, 0, 0, 1]"};
   intrinsics.fx = k[0];
   intrinsics.cx = k[2];
@@ -85,22 +104,13 @@ Intrinsics intrinsics_of(const YAML::Node& file) {
   intrinsics.width = scalar<int>(required(file, "image_width"), "image_width", "a whole number");
   intrinsics.height = scalar<int>(required(file, "image_height"), "image_height", "a whole number");
   set_camera_matrix(intrinsics, file);
-  const std::vector<double> coefficients = matrix(file, "distortion_coefficients");
+  // ROS' camera_calibration of some years wrote cols: 5 above the 8 numbers of rational_polynomial.
+  const std::vector<double> coefficients = matrix(file, "distortion_coefficients", Surplus::Read);
   const auto set =
       set_distortion(intrinsics, distortion_model(file, coefficients.size()), coefficients);
   if (!set) throw Unusable{set.error().message};
   if (const auto lens = optics::Lens::make(intrinsics); !lens) throw Unusable{lens.error().message};
   return intrinsics;
-}
-
-/// The shortest text that reads back as the same number.
-std::string text_of(double number) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
-  std::string text(buffer, end);
-  // A YAML reader would take "1" for a whole number.
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
 }
 
 /// A matrix the way its format writes it: OpenCV marks the type.
@@ -115,43 +125,32 @@ std::string matrix_text(const std::string& key, int columns, const std::vector<d
          data + "]\n";
 }
 
-struct NamedDistortion {
-  std::string model;
-  std::vector<double> coefficients;
-};
-
-NamedDistortion named_distortion(const Intrinsics& intrinsics) {
-  const auto& k = intrinsics.coefficients;
-  const auto first = [&](int count) { return std::vector<double>(k.begin(), k.begin() + count); };
-  if (intrinsics.distortion == Distortion::Fisheye) return {"equidistant", first(4)};
-  if (k[5] == 0 && k[6] == 0 && k[7] == 0) return {"plumb_bob", first(5)};
-  return {"rational_polynomial", first(8)};
-}
-
 }  // namespace
 
 Result<> set_distortion(Intrinsics& intrinsics, std::string_view model,
                         std::span<const double> coefficients) {
-  // OpenCV's longer lists add thin prisms and a tilted sensor, which are 0 unless asked for.
+  // OpenCV and drivers write longer lists than the model takes, the rest 0: for other models, thin
+  // prisms and a tilted sensor.
   const std::size_t given = coefficients.size();
   std::size_t used = given;
   while (used > 0 && coefficients[used - 1] == 0) --used;
-  const auto taken = [&](bool right, const char* count) -> Result<> {
-    if (right && used <= 8) return {};
+  const auto taken = [&](bool are_enough, std::size_t most, const char* count) -> Result<> {
+    if (are_enough && used <= most) return {};
     return fail(std::string(model) + " takes " + count + " coefficients; " + std::to_string(given) +
-                " are given");
+                " are given" +
+                (used > most ? ", and number " + std::to_string(used) + " is not 0" : ""));
   };
   Result<> counted;
   Distortion distortion = used == 0 ? Distortion::None : Distortion::Pinhole;
   if (model == "none") {
-    counted = taken(used == 0, "no");
+    counted = taken(true, 0, "no");
   } else if (model == "plumb_bob") {
-    counted = taken(given == 4 || given == 5, "4 or 5");
+    counted = taken(given >= 4, 5, "4 or 5");
   } else if (model == "rational_polynomial") {
-    counted = taken(given == 8 || given == 12 || given == 14, "8");
+    counted = taken(given == 4 || given == 5 || given >= 8, 8, "8");
   } else if (model == "equidistant") {
     distortion = Distortion::Fisheye;
-    counted = taken(given == 4, "4");
+    counted = taken(given >= 4, 4, "4");
   } else {
     std::string known;
     for (const auto name : kDistortionModels)
@@ -194,7 +193,9 @@ Result<std::string> calibration_text(const Intrinsics& intrinsics, const std::st
                 "\" in a calibration; use letters, digits and single _, a letter first");
   }
   const Intrinsics& i = intrinsics;
-  const NamedDistortion distortion = named_distortion(i);
+  const auto [model, used] = optics::named_distortion(i);
+  const auto count = static_cast<int>(used);
+  const std::vector<double> coefficients(i.coefficients.begin(), i.coefficients.begin() + count);
   const std::string size = "image_width: " + std::to_string(i.width) +
                            "\nimage_height: " + std::to_string(i.height) + "\n";
   const std::string camera_matrix =
@@ -202,12 +203,11 @@ Result<std::string> calibration_text(const Intrinsics& intrinsics, const std::st
   if (format == CalibrationFormat::OpenCv) {
     return "%YAML:1.0\n---\n" + size + camera_matrix +
            "fisheye_model: " + (i.distortion == Distortion::Fisheye ? "1\n" : "0\n") +
-           matrix_text("distortion_coefficients", 1, distortion.coefficients, format);
+           matrix_text("distortion_coefficients", 1, coefficients, format);
   }
-  const int count = static_cast<int>(distortion.coefficients.size());
   return size + "camera_name: " + name + "\n" + camera_matrix +
-         "distortion_model: " + distortion.model + "\n" +
-         matrix_text("distortion_coefficients", count, distortion.coefficients, format) +
+         "distortion_model: " + std::string(model) + "\n" +
+         matrix_text("distortion_coefficients", count, coefficients, format) +
          matrix_text("rectification_matrix", 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}, format) +
          matrix_text("projection_matrix", 4, {i.fx, 0, i.cx, 0, 0, i.fy, i.cy, 0, 0, 0, 1, 0},
                      format);

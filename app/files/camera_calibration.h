@@ -17,15 +17,16 @@ inline constexpr std::array<std::string_view, 4> kDistortionModels{
     "none", "plumb_bob", "rational_polynomial", "equidistant"};
 
 /// Sets the distortion from its name and its coefficients in OpenCV's order: plumb_bob k1 k2 p1 p2
-/// [k3], rational_polynomial k1 k2 p1 p2 k3 k4 k5 k6, equidistant k1 k2 k3 k4. A pinhole whose
-/// coefficients are all 0 has none. Errors: an unknown name, a wrong count, a number that is not
-/// finite.
+/// [k3], rational_polynomial k1 k2 p1 p2 [k3] [k4 k5 k6], equidistant k1 k2 k3 k4. More of them are
+/// 0. A pinhole whose coefficients are all 0 has none. Errors: an unknown name, too few
+/// coefficients, another one that is not 0, a number that is not finite.
 Result<> set_distortion(optics::Intrinsics& intrinsics, std::string_view model,
                         std::span<const double> coefficients);
 
 /// Reads a calibration as OpenCV's calibration program or ROS' camera_calibration writes it; they
 /// have their keys in common. OpenCV's has no name of the distortion: it follows from
-/// fisheye_model and from how many coefficients there are. Errors: one line with the file, and with
+/// fisheye_model and from how many coefficients there are. Their rows and cols need not fit, if
+/// there are more than these say. Errors: one line with the file, and with
 /// the key or line that is wrong; also what optics::Lens refuses.
 Result<optics::Intrinsics> read_calibration(const std::filesystem::path& file, TextFiles& files);
 

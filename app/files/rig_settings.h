@@ -127,7 +127,7 @@ void visit(Visitor& v, IntrinsicsSettings& lens) {
                 "In ROS' names; equidistant is OpenCV's fisheye");
   v.optional_if(here, when, "coefficients", lens.coefficients, kAnyNumber,
                 "In OpenCV's order: plumb_bob k1 k2 p1 p2 [k3], rational_polynomial k1 k2 p1 p2 k3 "
-                "k4 k5 k6, equidistant k1 k2 k3 k4");
+                "k4 k5 k6, equidistant k1 k2 k3 k4; others must be 0");
 }
 
 template <class Visitor>

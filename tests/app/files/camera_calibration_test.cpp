@@ -66,6 +66,42 @@ std::string ros_with(const std::string& what, const std::string& with) {
   return replaced(what, with, kRos);
 }
 
+std::string ros_with_coefficients(const std::string& model, int columns,
+                                  const std::string& numbers) {
+  const std::size_t from = kRos.find("distortion_model"), to = kRos.find("rectification_matrix");
+  return kRos.substr(0, from) + "distortion_model: " + model +
+         "\ndistortion_coefficients:\n  rows: 1\n  cols: " + std::to_string(columns) +
+         "\n  data: [" + numbers + "]\n" + kRos.substr(to);
+}
+
+TEST(CameraCalibration, MoreCoefficientsThatAre0ChangeNothing) {
+  const std::string five = "-0.21, 0.08, 0.0011, -0.0007, 0.01";
+  const std::string four = "0.01, -0.02, 0.003, 0.001";
+  const auto same = [](const std::string& model, int count, const std::string& numbers,
+                       const std::string& plain_model, int plain_count) {
+    std::string longer = numbers;
+    for (int n = plain_count; n < count; ++n) longer += ", 0.0";
+    const auto plain =
+        parse_calibration(ros_with_coefficients(plain_model, plain_count, numbers), "plain");
+    const auto read = parse_calibration(ros_with_coefficients(model, count, longer), "longer");
+    ASSERT_TRUE(plain) << plain.error().message;
+    ASSERT_TRUE(read) << model << count << ": " << read.error().message;
+    expect_same(*read, *plain);
+  };
+  for (const int count : {8, 12, 14}) same("plumb_bob", count, five, "plumb_bob", 5);
+  for (const int count : {5, 8, 12, 14}) same("rational_polynomial", count, five, "plumb_bob", 5);
+  same("rational_polynomial", 4, four, "plumb_bob", 4);
+  for (const int count : {5, 8}) same("equidistant", count, four, "equidistant", 4);
+}
+
+TEST(CameraCalibration, ReadsCoefficientsBelowAShapeThatIsTooSmall) {
+  const std::string eight = "-0.21, 0.08, 0.0011, -0.0007, 0.01, 0.02, 0.001, 0.002";
+  const auto right = parse_calibration(ros_with_coefficients("rational_polynomial", 8, eight), "a");
+  const auto read = parse_calibration(ros_with_coefficients("rational_polynomial", 5, eight), "a");
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, *right);
+}
+
 TEST(CameraCalibration, ReadsWhatRosWrites) {
   const auto read = parse_calibration(kRos, "a.yaml");
   ASSERT_TRUE(read) << read.error().message;
@@ -221,7 +257,12 @@ INSTANTIATE_TEST_SUITE_P(
                 {"camera_matrix must be a matrix"}},
         Refusal{"MatrixOfWords", ros_with("430.21554970319971", "far"), {"camera_matrix"}},
         Refusal{"MatrixNested", ros_with("430.21554970319971", "[430]"), {"camera_matrix"}},
-        Refusal{"Skewed", ros_with("430.21554970319971, 0.0", "430.2, 0.1"), {"[fx, 0, cx"}},
+        Refusal{"Skewed",
+                ros_with("430.21554970319971, 0.0", "430.2, 0.125"),
+                {"skew (0.125)", "cv::fisheye::CALIB_FIX_SKEW", "--fisheye-fix-skew"}},
+        Refusal{"Mirrored",
+                ros_with("0.0, 0.0, 1.0]\ndistortion", "0.0, 0.0, -1.0]\ndistortion"),
+                {"[fx, 0, cx"}},
         Refusal{"NegativeFocalLength", ros_with("430.21554970319971", "-430"), {"fx"}},
         Refusal{"NanFocalLength", ros_with("430.21554970319971", ".nan"), {"fx"}},
         Refusal{"InfiniteFocalLength", ros_with("430.21554970319971", ".inf"), {"fx"}},
@@ -229,9 +270,25 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NanCentre", ros_with("306.6913434743704", ".nan"), {"cx"}},
         Refusal{"UnknownModel", ros_with("plumb_bob", "kannala"), {"kannala", "equidistant"}},
         Refusal{"ModelIsList", ros_with("plumb_bob", "[plumb_bob]"), {"distortion_model"}},
-        Refusal{
-            "TooManyForModel", ros_with("plumb_bob", "equidistant"), {"takes 4", "5 are given"}},
-        Refusal{"TooFewForModel", ros_with("plumb_bob", "rational_polynomial"), {"takes 8"}},
+        Refusal{"TooManyForModel",
+                ros_with_coefficients("equidistant", 5, "0.1, 0, 0, 0, 0.01"),
+                {"takes 4", "5 are given", "number 5 is not 0"}},
+        Refusal{"SixthOfPlumbBob",
+                ros_with_coefficients("plumb_bob", 8, "0.1, 0, 0, 0, 0, 0.02, 0, 0"),
+                {"takes 4 or 5", "8 are given", "number 6 is not 0"}},
+        Refusal{"ThinPrism",
+                ros_with_coefficients("rational_polynomial", 12,
+                                      "0.1, 0, 0, 0, 0, 0.02, 0, 0, 0, 0.001, 0, 0"),
+                {"takes 8", "12 are given", "number 10 is not 0"}},
+        Refusal{"TooFewForPlumbBob",
+                ros_with_coefficients("plumb_bob", 3, "0.1, 0, 0"),
+                {"takes 4 or 5", "3 are given"}},
+        Refusal{"TooFewForModel",
+                ros_with_coefficients("rational_polynomial", 6, "0.1, 0, 0, 0, 0, 0.02"),
+                {"takes 8", "6 are given"}},
+        Refusal{"FewerThanItsShape",
+                ros_with_coefficients("plumb_bob", 8, "0.1, 0, 0, 0, 0"),
+                {"5 numbers, not 1x8"}},
         Refusal{"NanCoefficient", ros_with("-0.33758562758914146", ".nan"), {"finite"}},
         Refusal{"Folds", ros_with("-0.33758562758914146", "-500"), {"folds"}},
         Refusal{"NoCoefficients",
