@@ -70,8 +70,8 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
   for (const Recipe& recipe : site.recipes) {
     for (const ViewSettings& view : recipe.views) context.views[view.index] = published(site, view);
   }
-  for (const CameraSettings& camera : site.site.cameras) {
-    context.camera_encodings.push_back(camera.encoding);
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    context.cameras.push_back({site.site.cameras[i].encoding, site.rig_camera(i).intrinsics});
   }
   return context;
 }

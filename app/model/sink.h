@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "hal/thread/shared_threads.h"
 #include "proc/image/pixel_format.h"
 #include "proc/image/result.h"
+#include "proc/optics/lens.h"
 #include "proc/optics/scene_proxy.h"
 #include "proc/optics/view_projection.h"
 
@@ -48,6 +50,12 @@ struct PublishedView {
   std::vector<PublishedSource> sources{};
 };
 
+/// How a camera's own picture is offered to the outside.
+struct PublishedCamera {
+  PixelFormat encoding = PixelFormat::Rgb;   ///< or Bgr or Grey
+  std::optional<optics::Intrinsics> lens{};  ///< of that picture; nullopt: not calibrated
+};
+
 class AlignmentSource;
 class CommandRecord;
 class Fleet;
@@ -55,10 +63,10 @@ class Fleet;
 /// What every sink is made with, besides its own settings.
 struct SinkContext {
   StatusNames names;
-  std::vector<PublishedView> views;           ///< by place in names.views
-  std::vector<PixelFormat> camera_encodings;  ///< Rgb, Bgr or Grey, by place in names.cameras
-  optics::Ball ball;                          ///< machine frame, mm
-  optics::SceneProxy scene;                   ///< around it
+  std::vector<PublishedView> views;      ///< by place in names.views
+  std::vector<PublishedCamera> cameras;  ///< by place in names.cameras
+  optics::Ball ball;                     ///< machine frame, mm
+  optics::SceneProxy scene;              ///< around it
   CommandHandler handler;
   std::shared_ptr<CommandRecord> record;           ///< of the commands that go to `handler`
   std::shared_ptr<hal::SharedThreads> background;  ///< for encoders

@@ -36,7 +36,7 @@ struct DdsSettings {
   RosGeneration ros = RosGeneration::Iron;
   /// By name; what is not in them is published as a default one.
   std::map<std::string, PublishedView> views{};
-  std::map<std::string, PixelFormat> cameras{};  ///< encoding: Rgb, Bgr or Grey
+  std::map<std::string, PublishedCamera> cameras{};
 };
 
 inline bool takes_commands(const DdsSettings& dds) {

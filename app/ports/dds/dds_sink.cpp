@@ -14,11 +14,6 @@ namespace {
 /// Between two checks of the host's addresses.
 constexpr auto kCheckPeriod = std::chrono::seconds(1);
 
-PixelFormat encoding(const DdsSettings& settings, const std::string& camera) {
-  const auto found = settings.cameras.find(camera);
-  return found == settings.cameras.end() ? PixelFormat::Rgb : found->second;
-}
-
 /// One by which other computers reach this one, if there is any.
 std::string reachable(const std::set<std::string>& addresses) {
   const auto other = std::ranges::find_if(
@@ -28,12 +23,6 @@ std::string reachable(const std::set<std::string>& addresses) {
 }
 
 }  // namespace
-
-DdsSink::CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera,
-                                    const std::shared_ptr<hal::SharedThreads>& threads)
-    : name(camera),
-      ball(ball_topic(settings.prefix, camera), encoding(settings, camera), settings.jpeg,
-           threads) {}
 
 DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
                  Addresses addresses, std::shared_ptr<CommandRecord> record,
@@ -45,6 +34,7 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
       addresses_(std::move(addresses)),
       selected_(image_topic(settings_.prefix, kSelectedView), PixelFormat::Rgb, settings_.jpeg,
                 threads),
+      selected_info_(image_topic(settings_.prefix, kSelectedView)),
       status_topics_(settings_.prefix, names_),
       fleet_(std::move(identity), std::move(fleet), threads),
       takes_commands_(takes_commands(settings_) && handler),
@@ -113,10 +103,11 @@ Result<> DdsSink::join() {
     if (const auto opened = view->open(entity); !opened) return opened;
   }
   for (const auto& camera : cameras_) {
-    if (const auto opened = camera->ball.open(entity); !opened) return opened;
+    if (const auto opened = camera->open(entity); !opened) return opened;
   }
   fleet_.open(entity, reachable(bound_addresses()));
   return selected_.open(entity)
+      .and_then([&] { return selected_info_.open(entity); })
       .and_then([&] { return status_topics_.open(entity); })
       .and_then([&] { return takes_commands_ ? commands_.open(entity) : Result<>(); })
       .and_then([&] { return discovery_.open(entity, settings_.ros); })
@@ -127,7 +118,7 @@ Result<> DdsSink::join() {
 std::chrono::nanoseconds DdsSink::cpu_time() const {
   std::chrono::nanoseconds time = thread_.cpu_time() + selected_.cpu_time() + fleet_.cpu_time();
   for (const auto& view : views_) time += view->cpu_time();
-  for (const auto& camera : cameras_) time += camera->ball.cpu_time();
+  for (const auto& camera : cameras_) time += camera->cpu_time();
   return time;
 }
 
@@ -137,8 +128,9 @@ std::vector<const TopicWriter*> DdsSink::writers() const {
     all.insert(all.end(), writers.begin(), writers.end());
   };
   for (const auto& view : views_) add(view->writers());
-  for (const auto& camera : cameras_) add(camera->ball.writers());
+  for (const auto& camera : cameras_) add(camera->writers());
   add(selected_.writers());
+  add({&selected_info_.writer()});
   add(status_topics_.writers());
   add(fleet_.writers());
   if (takes_commands_) add({&commands_.results()});
@@ -166,8 +158,9 @@ void DdsSink::leave() {
   discovery_.close();
   commands_.close();
   for (const auto& view : views_) view->close();  // before selected_, to which they write, too
-  for (const auto& camera : cameras_) camera->ball.close();
+  for (const auto& camera : cameras_) camera->close();
   selected_.close();
+  selected_info_.close();
   status_topics_.close();
   fleet_.close();
   participant_.leave();
@@ -218,12 +211,9 @@ void DdsSink::accept_frames(const hal::FrameSet& set) {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const hal::Frame& frame = set.frames[i];
     if (!frame || set.held[i]) continue;
-    CameraTopics& camera = *cameras_[i];
     // By the set's conversion, so that a frame exposed with the set has the stamp of its views.
     const auto exposed = utc_ + (frame->metadata.exposure_start - set.stamp);
-    const TimeMessage stamp = to_message(exposed);
-    camera.ball.ask(stamp);
-    camera.ball.accept({frame, frame->picture, stamp, &camera.name, true});
+    cameras_[i]->accept(frame, to_message(exposed));
   }
 }
 
@@ -251,7 +241,11 @@ void DdsSink::accept(const ViewPtr& view) {
   const StampedPicture picture{view, view->picture, utc(view->stamp), &topics.name()};
   const bool is_selected = view->index == selected_view_;
   topics.accept(view, picture, is_selected ? &selected_ : nullptr);
-  if (is_selected) fleet_.accept(picture);
+  if (!is_selected) return;
+  fleet_.accept(picture);
+  if (view->spec.kind == optics::ViewKind::Perspective) {
+    selected_info_.accept({view->spec, picture.stamp, &topics.name()});
+  }
 }
 
 void DdsSink::accept(const Status& status) {
@@ -274,6 +268,8 @@ void DdsSink::run() {
     commands_.serve();
     while (const auto notice = notices_.try_take()) status_topics_.publish(*notice);
     for (const auto& view : views_) view->publish_info();
+    for (const auto& camera : cameras_) camera->publish_info();
+    selected_info_.publish();
     if (const auto status = status_.try_take()) {
       status_topics_.publish(*status, commands_.counts(), [this] { return statistics(); });
       fleet_.publish({status->status, names_, hal::Clock::now(), to_utc(status->stamp)});
@@ -284,8 +280,9 @@ void DdsSink::run() {
 DdsStatistics DdsSink::statistics() const {
   DdsStatistics statistics;
   for (const auto& view : views_) view->report(statistics.topics);
-  for (const auto& camera : cameras_) camera->ball.report(statistics.topics);
+  for (const auto& camera : cameras_) camera->report(statistics.topics);
   selected_.report(statistics.topics);
+  statistics.topics.push_back(selected_info_.statistics());
   for (const TopicWriter* topic : status_topics_.writers()) {
     statistics.topics.push_back(topic->statistics());
   }
@@ -341,7 +338,7 @@ std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context
     settings.views[names.views[i]] = context.views[i];
   }
   for (std::size_t i = 0; i < names.cameras.size(); ++i) {
-    settings.cameras[names.cameras[i]] = context.camera_encodings[i];
+    settings.cameras[names.cameras[i]] = context.cameras[i];
   }
   ApplianceIdentity identity{settings.name, version_of(context.program), settings.prefix,
                              context.page};

@@ -16,6 +16,8 @@
 #include "app/ports/dds/fleet/fleet_member.h"
 #include "app/ports/dds/participant/network_addresses.h"
 #include "app/ports/dds/participant/participant.h"
+#include "app/ports/dds/pictures/camera_topics.h"
+#include "app/ports/dds/pictures/info_topic.h"
 #include "app/ports/dds/pictures/picture_topic.h"
 #include "app/ports/dds/pictures/view_topics.h"
 #include "app/ports/dds/ros/ros_node.h"
@@ -23,7 +25,6 @@
 #include "app/ports/dds/status/status_topics.h"
 #include "app/ports/dds/topics/type_watch.h"
 #include "hal/back_off.h"
-#include "hal/frame/buffer_count.h"
 #include "hal/thread/mailbox.h"
 #include "hal/thread/thread.h"
 
@@ -73,14 +74,6 @@ class DdsSink final : public Sink {
   DdsStatistics statistics() const;
 
  private:
-  struct CameraTopics {
-    CameraTopics(const DdsSettings& settings, const std::string& camera,
-                 const std::shared_ptr<hal::SharedThreads>& threads);
-
-    const std::string name;
-    PictureTopics ball;
-    static_assert(PictureTopics::kTopics <= hal::kFrameReaders);
-  };
   /// Every alarm may be acknowledged and change in one frame set: room for four of those.
   static constexpr std::size_t kMaxNotices = 8 * signals::kMaxAlarms;
 
@@ -104,6 +97,7 @@ class DdsSink final : public Sink {
   std::vector<std::unique_ptr<ViewTopics>> views_;
   std::vector<std::unique_ptr<CameraTopics>> cameras_;
   PictureTopics selected_;
+  InfoTopic selected_info_;
   hal::Mailbox<StampedStatus> status_;
   BoundedQueue<StampedNotice, kMaxNotices> notices_;
   std::atomic<bool> running_{false};

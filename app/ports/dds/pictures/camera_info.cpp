@@ -3,28 +3,37 @@
 #include <algorithm>
 #include <array>
 
+#include "proc/optics/named_distortion.h"
+
 namespace orbwatch::app {
 namespace {
 
 // The C API takes no const pointers, but a write changes nothing.
-constexpr std::string_view kPlumbBob = "plumb_bob";
-constexpr std::array<double, 5> kNoDistortion{};
+template <class T>
+T* unchanged(const T* data) {
+  return const_cast<T*>(data);
+}
 
-CameraInfoMessage message_of(const optics::Intrinsics& view) {
+}  // namespace
+
+CameraInfoMessage camera_info(const optics::Intrinsics& lens, const std::string& frame_id,
+                              const TimeMessage& stamp) {
+  const auto [model, count] = optics::named_distortion(lens);
+  const auto length = static_cast<std::uint32_t>(count);
   CameraInfoMessage message{};
-  message.height = static_cast<std::uint32_t>(view.height);
-  message.width = static_cast<std::uint32_t>(view.width);
-  message.distortion_model = const_cast<char*>(kPlumbBob.data());
-  message.d = {kNoDistortion.size(), kNoDistortion.size(),
-               const_cast<double*>(kNoDistortion.data()), false};
-  const std::array k{view.fx, 0.0,     view.cx,  //
-                     0.0,     view.fy, view.cy,  //
+  message.header = {stamp, unchanged(frame_id.c_str())};
+  message.height = static_cast<std::uint32_t>(lens.height);
+  message.width = static_cast<std::uint32_t>(lens.width);
+  message.distortion_model = unchanged(model.data());
+  message.d = {length, length, unchanged(lens.coefficients.data()), false};
+  const std::array k{lens.fx, 0.0,     lens.cx,  //
+                     0.0,     lens.fy, lens.cy,  //
                      0.0,     0.0,     1.0};
   const std::array r{1.0, 0.0, 0.0,  //
                      0.0, 1.0, 0.0,  //
                      0.0, 0.0, 1.0};
-  const std::array p{view.fx, 0.0,     view.cx, 0.0,  //
-                     0.0,     view.fy, view.cy, 0.0,  //
+  const std::array p{lens.fx, 0.0,     lens.cx, 0.0,  //
+                     0.0,     lens.fy, lens.cy, 0.0,  //
                      0.0,     0.0,     1.0,     0.0};
   std::ranges::copy(k, message.k);
   std::ranges::copy(r, message.r);
@@ -32,17 +41,12 @@ CameraInfoMessage message_of(const optics::Intrinsics& view) {
   return message;
 }
 
-}  // namespace
-
-Result<CameraInfoMessage> camera_info(const optics::ViewSpec& view, std::string& frame_id,
-                                      const TimeMessage& stamp) {
+Result<optics::Intrinsics> lens_of(const optics::ViewSpec& view) {
   const auto projection = optics::ViewProjection::make(view);
   if (!projection) return tl::unexpected(projection.error());
   const auto intrinsics = projection->intrinsics();
-  if (!intrinsics) return fail("camera_info: view " + frame_id + " is not a perspective one");
-  CameraInfoMessage message = message_of(*intrinsics);
-  message.header = {stamp, frame_id.data()};
-  return message;
+  if (!intrinsics) return fail("only a perspective view has a camera_info");
+  return *intrinsics;
 }
 
 }  // namespace orbwatch::app

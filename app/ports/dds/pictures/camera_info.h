@@ -5,18 +5,22 @@
 #include "app/ports/dds/generated/camera_info.h"
 #include "app/ports/dds/participant/time_message.h"
 #include "proc/image/result.h"
+#include "proc/optics/lens.h"
 #include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
 
 using CameraInfoMessage = sensor_msgs_msg_dds__CameraInfo_;
 
-/// The calibration of a perspective view: a pinhole without distortion, in the optical frame of ROS
-/// (REP 103: x right, y down, z into the picture; pixel centres at integers), which is that of the
-/// view's picture. The message leads to `frame_id`, which has to outlive it. Errors: as
+/// The calibration of a picture of this lens, in the optical frame of ROS (REP 103: x right, y
+/// down, z into the picture; pixel centres at integers). Its rectified picture keeps the camera
+/// matrix. The message leads to `lens` and `frame_id`, which have to outlive it. Reentrant.
+CameraInfoMessage camera_info(const optics::Intrinsics& lens, const std::string& frame_id,
+                              const TimeMessage& stamp);
+
+/// The pinhole without distortion that takes the picture of a perspective view. Errors: as
 /// ViewProjection::make; views of other kinds, which no pinhole describes. Reentrant; allocates
 /// nothing but errors.
-Result<CameraInfoMessage> camera_info(const optics::ViewSpec& view, std::string& frame_id,
-                                      const TimeMessage& stamp);
+Result<optics::Intrinsics> lens_of(const optics::ViewSpec& view);
 
 }  // namespace orbwatch::app

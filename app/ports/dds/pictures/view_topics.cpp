@@ -1,6 +1,5 @@
 #include "app/ports/dds/pictures/view_topics.h"
 
-#include "app/ports/dds/pictures/camera_info.h"
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {
@@ -18,54 +17,48 @@ ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& view,
     : name_(view),
       picture_(image_topic(settings.prefix, view), published(settings, view).encoding,
                settings.jpeg, threads) {
+  const bool is_perspective = published(settings, view).spec.kind == optics::ViewKind::Perspective;
+  if (is_perspective) info_.emplace(image_topic(settings.prefix, view));
   if (published(settings, view).measured) {
     measured_.emplace(radiometric_topic(settings.prefix, view),
                       std::make_unique<RawPictureWriter>(PixelFormat::Grey), threads);
   }
-  if (published(settings, view).spec.kind == optics::ViewKind::Perspective) {
-    info_.emplace(sensor_msgs_msg_dds__CameraInfo__desc, camera_info_topic(settings.prefix, view));
+  if (is_perspective && measured_) {
+    measured_info_.emplace(radiometric_topic(settings.prefix, view));
   }
 }
 
 Result<> ViewTopics::open(const Entity& participant) {
   return picture_.open(participant)
       .and_then([&] { return measured_ ? measured_->open(participant) : Result<>(); })
-      .and_then([&] { return info_ ? info_->open(participant, frame_qos()) : Result<>(); });
+      .and_then([&] { return info_ ? info_->open(participant) : Result<>(); })
+      .and_then([&] { return measured_info_ ? measured_info_->open(participant) : Result<>(); });
 }
 
 void ViewTopics::close() {
   picture_.close();
   if (measured_) measured_->close();
   if (info_) info_->close();
-  spec_.discard();
+  if (measured_info_) measured_info_->close();
 }
 
 void ViewTopics::accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same) {
   picture_.accept(picture, same);
+  const StampedCalibration calibration{view->spec, picture.stamp, &name_};
+  if (info_) info_->accept(calibration);
   const bool narrow = view->radiometric.empty();
   if (measured_ && !(narrow && view->luminance.empty())) {
     measured_->accept({view,
                        narrow ? picture_of(PixelFormat::Grey, view->luminance)
                               : picture_of(PixelFormat::Y16, view->radiometric),
                        picture.stamp, &name_});
-  }
-  if (!info_) return;
-  if (info_->has_reader()) {
-    spec_.put({view->spec, picture.stamp});
-  } else {
-    info_->count_unread();
+    if (measured_info_) measured_info_->accept(calibration);
   }
 }
 
 void ViewTopics::publish_info() {
-  const auto stamped = spec_.try_take();
-  if (!stamped) return;
-  const auto message = camera_info(stamped->spec, name_, stamped->stamp);
-  if (message) {
-    info_->write(&*message);
-  } else {
-    info_->count_failure(message.error().message);
-  }
+  if (info_) info_->publish();
+  if (measured_info_) measured_info_->publish();
 }
 
 std::chrono::nanoseconds ViewTopics::cpu_time() const {
@@ -75,16 +68,16 @@ std::chrono::nanoseconds ViewTopics::cpu_time() const {
 std::vector<const TopicWriter*> ViewTopics::writers() const {
   std::vector<const TopicWriter*> writers = picture_.writers();
   if (measured_) writers.push_back(&measured_->writer());
-  if (info_) writers.push_back(&*info_);
+  if (info_) writers.push_back(&info_->writer());
+  if (measured_info_) writers.push_back(&measured_info_->writer());
   return writers;
 }
 
 void ViewTopics::report(std::vector<TopicStatistics>& topics) const {
   picture_.report(topics);
   if (measured_) topics.push_back(measured_->statistics());
-  if (!info_) return;
-  topics.push_back(info_->statistics());
-  topics.back().replaced = spec_.drops();
+  if (info_) topics.push_back(info_->statistics());
+  if (measured_info_) topics.push_back(measured_info_->statistics());
 }
 
 }  // namespace orbwatch::app

@@ -6,14 +6,14 @@
 
 #include "app/model/view.h"
 #include "app/ports/dds/dds_settings.h"
+#include "app/ports/dds/pictures/info_topic.h"
 #include "app/ports/dds/pictures/picture_topic.h"
-#include "hal/thread/mailbox.h"
 
 namespace orbwatch::app {
 
-/// The topics of one view: its picture for people, its measured plane, and the calibration of a
-/// perspective view.
-/// Thread rule: accept by one thread; publish_info, open and close by one owner; report by any.
+/// The topics of one view: its picture for people and its measured plane, of a perspective view
+/// each with its calibration. Thread rule: accept by one thread; publish_info, open and close by
+/// one owner; report by any.
 class ViewTopics {
  public:
   ViewTopics(const DdsSettings& settings, const std::string& view,
@@ -27,7 +27,7 @@ class ViewTopics {
   /// Queues what has readers; returns at once. `picture` is the view's picture for people; `same`:
   /// see PictureTopics.
   void accept(const ViewPtr& view, const StampedPicture& picture, PictureTopics* same);
-  /// Writes the calibration of the newest view, if it has a reader.
+  /// Writes the calibrations of the newest pictures, if they have readers.
   void publish_info();
 
   std::chrono::nanoseconds cpu_time() const;
@@ -36,16 +36,11 @@ class ViewTopics {
   void report(std::vector<TopicStatistics>& topics) const;
 
  private:
-  struct StampedSpec {
-    optics::ViewSpec spec;
-    TimeMessage stamp;
-  };
-
   std::string name_;
   PictureTopics picture_;
   std::optional<PictureTopic> measured_;
-  std::optional<TopicWriter> info_;
-  hal::Mailbox<StampedSpec> spec_;
+  std::optional<InfoTopic> info_;
+  std::optional<InfoTopic> measured_info_;
 };
 
 }  // namespace orbwatch::app

@@ -15,10 +15,11 @@ inline std::string ros_topic(std::string_view prefix, std::string_view name) {
 /// DDS topic names as ROS 2 derives them from its own: "rt/" before the ROS name. The topics:
 ///   rt/<prefix>/<view>/image_raw              the picture for people
 ///   rt/<prefix>/<view>/radiometric/image_raw  the measured plane, mono16 counts or mono8
-///   rt/<prefix>/<view>/camera_info            the calibration of a perspective view
 ///   rt/<prefix>/selected/image_raw            the view that Status::selected_view names
 ///   rt/<prefix>/<camera>/ball/image_raw       a camera's own picture
 ///   .../image_raw/compressed                  each but the measured ones as JPEG
+///   .../camera_info                           beside image_raw: the calibration of its picture, of
+///                                             a perspective view or a camera with a known lens
 ///   rt/<prefix>/process_state                 the process state
 ///   rt/<prefix>/event                         events
 ///   rt/<prefix>/command                       requests to orbwatch
@@ -31,11 +32,12 @@ inline std::string image_topic(std::string_view prefix, std::string_view view) {
 inline std::string radiometric_topic(std::string_view prefix, std::string_view view) {
   return ros_topic(prefix, view) + "/radiometric/image_raw";
 }
-inline std::string camera_info_topic(std::string_view prefix, std::string_view view) {
-  return ros_topic(prefix, view) + "/camera_info";
-}
 inline std::string ball_topic(std::string_view prefix, std::string_view camera) {
   return ros_topic(prefix, camera) + "/ball/image_raw";
+}
+/// The topic of the calibration beside an image topic, where ROS 2 looks for it.
+inline std::string camera_info_topic(std::string_view raw) {
+  return std::string(raw.substr(0, raw.rfind('/'))) + "/camera_info";
 }
 /// The JPEG topic beside an image topic.
 inline std::string compressed_topic(std::string_view raw) {

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/ports/dds/pictures/camera_info.h"
 #include "app/ports/dds/status/diagnostics.h"
 #include "app/ports/dds/topics/topic_names.h"
 #include "hal/frame/frame_pool.h"
@@ -314,37 +313,6 @@ TEST_F(DdsSinkTest, CompressedIsAJpegOfTheSamePicture) {
     return seen;
   }));
   EXPECT_EQ(of_topic(sink_, "rt/orbwatch/front/image_raw").written, 0u) << "nobody reads it";
-}
-
-TEST_F(DdsSinkTest, CameraInfoHasTheStampAndTheLensOfItsView) {
-  const tests::TopicReader<CameraInfoMessage> infos(sensor_msgs_msg_dds__CameraInfo__desc,
-                                                    "rt/orbwatch/front/camera_info", frame_qos());
-  const ImageReader images("rt/orbwatch/front/image_raw");
-  const auto view = make_view(kFront, "front", 1, kWidth, kHeight);
-  view->spec = {.kind = optics::ViewKind::Perspective,
-                .orientation = {},
-                .h_fov = 90,
-                .v_fov = std::nullopt,
-                .width = kWidth,
-                .height = kHeight};
-  Status status;
-  status.stamp = view->stamp;
-  std::optional<std::chrono::nanoseconds> info_stamp, image_stamp;
-  ASSERT_TRUE(eventually([&] {
-    tests::hand_over(sink_, view);
-    sink_.accept(status);
-    infos.take([&](const CameraInfoMessage& message) {
-      EXPECT_STREQ(message.header.frame_id, "front");
-      EXPECT_EQ(message.width, static_cast<std::uint32_t>(kWidth));
-      EXPECT_NEAR(message.k[0], kWidth / 2.0, 1e-9) << "tan 45 degrees";
-      EXPECT_NEAR(message.k[2], (kWidth - 1) / 2.0, 1e-9);
-      info_stamp = since_epoch(message.header.stamp);
-    });
-    images.take(
-        [&](const ImageMessage& message) { image_stamp = since_epoch(message.header.stamp); });
-    return info_stamp && image_stamp;
-  }));
-  EXPECT_EQ(*info_stamp, *image_stamp);
 }
 
 TEST_F(DdsSinkTest, DiagnosticsComeOnceASecond) {

@@ -25,16 +25,17 @@ TEST(CameraInfo, ProjectsAsTheViewDoes) {
   for (const ViewSpec& spec : {ViewSpec{ViewKind::Perspective, {}, {}, {}, 640, 480},
                                ViewSpec{ViewKind::Perspective, {30, -20, 10}, 60, 70, 641, 333},
                                ViewSpec{ViewKind::Perspective, {-120, 5, 0}, 1.5, {}, 99, 1080}}) {
-    std::string frame = "front";
-    const auto info = camera_info(spec, frame, {});
-    ASSERT_TRUE(info) << info.error().message;
+    const std::string frame = "front";
+    const auto lens = lens_of(spec);
+    ASSERT_TRUE(lens) << lens.error().message;
+    const CameraInfoMessage info = camera_info(*lens, frame, {});
     const auto view = optics::ViewProjection::make(spec).value();
     const auto turned = optics::rotation(spec.orientation);
     for (const auto& [right, down] : {std::pair{0.0, 0.0}, {0.2, 0.1}, {-0.01, 0.3}}) {
       // The reference frame has x right, y ahead, z up.
       const auto pixel = view.pixel(optics::normalized(turned * optics::Vec3{right, 1, -down}));
       ASSERT_TRUE(pixel);
-      const auto told = by_message(*info, {3 * right, 3 * down, 3, 1});
+      const auto told = by_message(info, {3 * right, 3 * down, 3, 1});
       EXPECT_NEAR(told.u, pixel->u, 1e-9 * spec.width / 0.01);
       EXPECT_NEAR(told.v, pixel->v, 1e-9 * spec.height / 0.01);
     }
@@ -42,9 +43,9 @@ TEST(CameraInfo, ProjectsAsTheViewDoes) {
 }
 
 TEST(CameraInfo, IsThatOfAnUndistortedMonocularCamera) {
-  std::string frame = "front";
-  const auto info =
-      camera_info({ViewKind::Perspective, {}, 90.0, {}, 640, 480}, frame, {17, 18}).value();
+  const std::string frame = "front";
+  const auto lens = lens_of({ViewKind::Perspective, {}, 90.0, {}, 640, 480}).value();
+  const CameraInfoMessage info = camera_info(lens, frame, {17, 18});
   EXPECT_EQ(info.header.stamp.sec, 17);
   EXPECT_EQ(info.header.stamp.nanosec, 18U);
   EXPECT_STREQ(info.header.frame_id, "front");
@@ -66,16 +67,42 @@ TEST(CameraInfo, IsThatOfAnUndistortedMonocularCamera) {
   EXPECT_FALSE(info.roi.do_rectify);
 }
 
+TEST(CameraInfo, HasTheDistortionOfALens) {
+  struct Case {
+    optics::Distortion distortion;
+    std::array<double, 8> coefficients;
+    const char* model;
+    std::uint32_t count;
+  };
+  const std::string frame = "colour";
+  for (const auto& [distortion, coefficients, model, count] :
+       {Case{optics::Distortion::None, {}, "plumb_bob", 5},
+        Case{optics::Distortion::Pinhole, {-0.2, 0.1, 1e-3, 2e-3, 0.05}, "plumb_bob", 5},
+        Case{optics::Distortion::Pinhole,
+             {-0.2, 0.1, 1e-3, 2e-3, 0.05, 0.3, 0.01, 2e-3},
+             "rational_polynomial",
+             8},
+        Case{optics::Distortion::Fisheye, {0.1, -0.02, 1e-3, 2e-3}, "equidistant", 4}}) {
+    const optics::Intrinsics lens{64, 48, 100, 101, 31, 23, distortion, coefficients};
+    const CameraInfoMessage info = camera_info(lens, frame, {});
+    EXPECT_STREQ(info.distortion_model, model);
+    ASSERT_EQ(info.d._length, count);
+    for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(info.d._buffer[i], coefficients[i]);
+    EXPECT_EQ(info.k[0], 100);
+    EXPECT_EQ(info.k[4], 101);
+    EXPECT_EQ(info.p[6], 23);
+  }
+}
+
 TEST(CameraInfo, OtherKindsHaveNone) {
-  std::string frame = "wide";
   for (const ViewKind kind : {ViewKind::Equirectangular, ViewKind::Cylindrical,
                               ViewKind::Stereographic, ViewKind::Fisheye}) {
-    const auto info = camera_info({kind, {}, {}, {}, 640, 320}, frame, {});
-    ASSERT_FALSE(info);
-    EXPECT_EQ(info.error().message, "camera_info: view wide is not a perspective one");
+    const auto lens = lens_of({kind, {}, {}, {}, 640, 320});
+    ASSERT_FALSE(lens);
+    EXPECT_EQ(lens.error().message, "only a perspective view has a camera_info");
   }
-  EXPECT_FALSE(camera_info({ViewKind::Ball, {}, {}, {}, 640, 320}, frame, {}));
-  EXPECT_FALSE(camera_info({ViewKind::Perspective, {}, 180.0, {}, 640, 320}, frame, {}));
+  EXPECT_FALSE(lens_of({ViewKind::Ball, {}, {}, {}, 640, 320}));
+  EXPECT_FALSE(lens_of({ViewKind::Perspective, {}, 180.0, {}, 640, 320}));
 }
 
 }  // namespace

@@ -61,9 +61,8 @@ TEST_F(MessageWire, CompressedImage) {
 }
 
 TEST_F(MessageWire, CameraInfo) {
-  CameraInfoMessage info =
-      camera_info({optics::ViewKind::Perspective, {}, 90.0, {}, 640, 480}, frame_, {17, 18})
-          .value();
+  const auto lens = lens_of({optics::ViewKind::Perspective, {}, 90.0, {}, 640, 480}).value();
+  CameraInfoMessage info = camera_info(lens, frame_, {17, 18});
   info.binning_x = 1;
   info.binning_y = 2;
   info.roi = {3, 4, 5, 6, true};

@@ -9,6 +9,11 @@ TEST(TopicNamesTest, AreThoseOfRos2) {
   EXPECT_EQ(image_topic("orbwatch", "front"), "rt/orbwatch/front/image_raw");
   EXPECT_EQ(radiometric_topic("orbwatch", "front"), "rt/orbwatch/front/radiometric/image_raw");
   EXPECT_EQ(image_topic("cell3/orbwatch", kSelectedView), "rt/cell3/orbwatch/selected/image_raw");
+  EXPECT_EQ(camera_info_topic(image_topic("orbwatch", "front")), "rt/orbwatch/front/camera_info");
+  EXPECT_EQ(camera_info_topic(radiometric_topic("orbwatch", "front")),
+            "rt/orbwatch/front/radiometric/camera_info");
+  EXPECT_EQ(camera_info_topic(ball_topic("orbwatch", "colour")),
+            "rt/orbwatch/colour/ball/camera_info");
   EXPECT_EQ(process_state_topic("orbwatch"), "rt/orbwatch/process_state");
   EXPECT_EQ(event_topic("orbwatch"), "rt/orbwatch/event");
   EXPECT_EQ(command_topic("orbwatch"), "rt/orbwatch/command");
