@@ -40,6 +40,7 @@ struct CameraContext {
   double frame_rate = 0;        ///< per second; 0: the camera's own
   double kelvin_per_count = 0;  ///< 0: not radiometric
   std::vector<ScriptedFault> faults;
+  double kelvin_offset = 0;  ///< K, of a count of 0
 };
 
 /// The requested stream. Zero leaves the choice to the camera.
@@ -52,7 +53,7 @@ struct StreamRequest {
   std::size_t buffers = kFreeRunningBuffers;
 };
 
-/// What a camera says of its counts.
+/// What a camera says of its counts, which begin at 0 K.
 struct CountScale {
   double kelvin_per_count = 0;  ///< 0: they are not proportional to temperature
   std::string said_by;          ///< the feature and its value: "IRFormat is Radiometric"
@@ -66,6 +67,7 @@ struct StreamFormat {
   int height = 0;
   double frame_rate = 0;
   double kelvin_per_count = 0;  ///< of a radiometric camera, once its controls are set
+  double kelvin_offset = 0;     ///< K, of its count 0
 };
 
 /// What a camera had to say of its frames since start().

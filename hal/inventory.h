@@ -35,6 +35,7 @@ struct CameraEntry {
   std::string bus;                 ///< the port that it is connected to
   std::vector<std::string> paths;  ///< all its device nodes and links, or its other names
   std::string problem;             ///< why the rest is unknown; else empty
+  std::string advice;              ///< how it may have to be configured; mostly empty
   std::vector<CameraMode> modes;
   std::vector<CameraControl> controls;
 };

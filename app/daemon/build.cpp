@@ -223,6 +223,7 @@ hal::StreamFormat expected_format(const Resolved& site, std::size_t camera) {
   format.kelvin_per_count = radiometry.kelvin_per_count > 0 ? radiometry.kelvin_per_count
                             : radiometry.says_scale         ? kAssumedKelvinPerCount
                                                             : 0;
+  format.kelvin_offset = radiometry.kelvin_offset;
   format.width = site.rig_camera(camera).width;
   format.height = site.rig_camera(camera).height;
   format.frame_rate = settings.stream.frame_rate;

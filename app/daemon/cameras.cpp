@@ -24,9 +24,14 @@ std::vector<ControlSettings> controls_of(const Resolved& site, std::size_t camer
   return controls;
 }
 
-/// A triggered camera's frames queue.
-hal::StreamRequest stream_of(const CameraSettings& settings) {
+/// A triggered camera's frames queue. A V4L2 camera often offers several sizes, of which only the
+/// rig's can be used: beside the picture, the picture with lines of telemetry.
+hal::StreamRequest stream_of(const CameraSettings& settings, const optics::RigCamera& rig) {
   hal::StreamRequest stream = settings.stream;
+  if (std::holds_alternative<hal::V4l2Settings>(settings.back_end)) {
+    if (stream.width == 0) stream.width = rig.width;
+    if (stream.height == 0) stream.height = rig.height;
+  }
   const bool triggered = settings.trigger.mode != hal::TriggerMode::Off;
   stream.buffers = triggered ? hal::kTriggeredBuffers : hal::kFreeRunningBuffers;
   return stream;
@@ -40,7 +45,9 @@ Result<> check_format(const hal::StreamFormat& format, const CameraSettings& set
     return fail(delivers + ", of which no view can be made");
   }
   if (settings.radiometry.is_radiometric() && format.format != PixelFormat::Y16) {
-    return fail("is radiometric but " + delivers + "; a radiometric camera delivers y16");
+    return fail("is radiometric but " + delivers +
+                "; a radiometric camera delivers y16, which is to be stated as its pixel_format, "
+                "also where a driver calls its 16 bit words YUYV");
   }
   if (format.width == rig.width && format.height == rig.height) return {};
   return fail("delivers " + std::to_string(format.width) + "x" + std::to_string(format.height) +
@@ -74,6 +81,10 @@ Result<double> scale_of_counts(const hal::Camera& camera, const CameraSettings& 
     return fail("has kelvin_per_count " + kelvin_text(stated) + ", but says " +
                 kelvin_text(said->kelvin_per_count) + ": " + said->said_by);
   }
+  if (settings.radiometry.kelvin_offset != 0) {
+    return fail("has kelvin_offset " + kelvin_text(settings.radiometry.kelvin_offset) +
+                ", but says counts that begin at 0 K: " + said->said_by);
+  }
   return said->kelvin_per_count;
 }
 
@@ -83,7 +94,7 @@ std::unique_ptr<hal::Camera> make_camera(
     const CameraSettings& settings, const std::shared_ptr<const simulation::Machine>& machine) {
   const simulation::SimulationContext context{
       {settings.name, settings.stream.frame_rate, settings.radiometry.kelvin_per_count,
-       settings.faults},
+       settings.faults, settings.radiometry.kelvin_offset},
       machine};
   auto camera =
       std::visit([&context](const auto& back_end) { return make_camera(back_end, context); },
@@ -105,7 +116,7 @@ Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& s
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
                                                  std::size_t index) {
   const CameraSettings& settings = site.site.cameras[index];
-  auto format = camera.configure(stream_of(settings));
+  auto format = camera.configure(stream_of(settings, site.rig_camera(index)));
   if (!format) return hal::fail(hal::Fault::Unplugged, format.error().message);
   for (const ControlSettings& control : controls_of(site, index)) {
     if (const auto done = camera.set(control.name, control.value); !done) {
@@ -118,6 +129,7 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Reso
   const auto scale = scale_of_counts(camera, settings);
   if (!scale) return hal::fail(hal::Fault::WrongFormat, scale.error().message);
   format->kelvin_per_count = *scale;
+  format->kelvin_offset = settings.radiometry.kelvin_offset;
   return *format;
 }
 

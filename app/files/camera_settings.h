@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <variant>
@@ -108,6 +109,11 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.optional("kelvin_per_count", camera.radiometry.kelvin_per_count, Range::above(0, 10),
              "Radiometric scale of a 16-bit thermal camera, which must be the one that the camera "
              "says, if it does; else it is none");
+  v.optional("kelvin_offset", camera.radiometry.kelvin_offset, Range::above(-1000, 1000),
+             "Temperature of its count 0, K: T[K] = kelvin_per_count * count + kelvin_offset; "
+             "273.15 where counts begin at 0 degC");
+  v.require(camera.radiometry.kelvin_offset == 0 || camera.radiometry.kelvin_per_count > 0,
+            "kelvin_offset", "needs kelvin_per_count");
   v.optional(
       "radiometric", camera.radiometry.says_scale,
       "It is a thermal camera, genicam, that says kelvin_per_count itself, which need not be "
@@ -130,6 +136,11 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.tables("control", camera.controls, 0, 64,
            "Settings of the camera, applied in this order, for v4l2, libcamera and genicam");
   v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
+  if (const auto* const v4l2 = std::get_if<hal::V4l2Settings>(&camera.back_end)) {
+    v.require(v4l2->frame_height == 0 ||
+                  v4l2->first_row + std::max(camera.stream.height, 1) <= v4l2->frame_height,
+              "height", "v4l2's first_row and the height must not exceed frame_height together");
+  }
   v.require(!std::holds_alternative<simulation::SimulatedCameraSettings>(camera.back_end) ||
                 (camera.stream.width && camera.stream.height),
             "back_end", "simulated needs width and height");

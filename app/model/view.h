@@ -54,6 +54,7 @@ struct View {
   /// radiometric one does not see. Empty unless measured, or somebody needs them.
   ImageView<std::uint16_t> counts;
   double kelvin_per_count = 0;  ///< of `counts`, also while nobody needs them; 0: it has none
+  double kelvin_offset = 0;     ///< K, of a count of 0
 
   UntouchedVector<std::uint8_t> bytes;   ///< behind picture and validity
   UntouchedVector<std::uint16_t> words;  ///< behind luminance, or radiometric and counts

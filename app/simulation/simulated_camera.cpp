@@ -90,7 +90,8 @@ Result<hal::StreamFormat> SimulatedCamera::do_configure(const hal::StreamRequest
     pinhole_ =
         look_at(settings_.position, machine.ball.centre, settings_.horizontal_fov, width, height);
     renderer_ = std::make_unique<const Renderer>(
-        machine_, pinhole_, Sensor{settings_.kind, settings_.kelvin_per_count});
+        machine_, pinhole_,
+        Sensor{settings_.kind, settings_.kelvin_per_count, settings_.kelvin_offset});
     const auto row_samples =
         static_cast<std::size_t>(width) *
         static_cast<std::size_t>(orbwatch::info(renderer_->format()).channels());
@@ -176,7 +177,10 @@ void SimulatedCamera::add_noise(hal::FrameBuffer& buffer) const {
 std::unique_ptr<hal::Camera> make_camera(SimulatedCameraSettings settings,
                                          const SimulationContext& context) {
   settings.name = context.name;
-  if (context.kelvin_per_count > 0) settings.kelvin_per_count = context.kelvin_per_count;
+  if (context.kelvin_per_count > 0) {
+    settings.kelvin_per_count = context.kelvin_per_count;
+    settings.kelvin_offset = context.kelvin_offset;
+  }
   settings.faults = context.faults;
   return std::make_unique<SimulatedCamera>(context.machine, std::move(settings));
 }

@@ -33,8 +33,9 @@ struct SimulatedCameraSettings {
   int height = 1000;
   double frame_rate = 15;          ///< per second, unless configure() asks for another rate
   double noise_sigma = 1;          ///< counts, Gaussian; 0: none
-  double kelvin_per_count = 0.04;  ///< thermal only: sample = T in K / kelvin_per_count
+  double kelvin_per_count = 0.04;  ///< thermal only: see kelvin_of_counts()
   std::vector<hal::ScriptedFault> faults{};
+  double kelvin_offset = 0;  ///< thermal only: K, of a count of 0
 };
 
 inline constexpr std::array kCameraKinds{Word{"colour", CameraKind::Colour},

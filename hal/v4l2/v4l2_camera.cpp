@@ -57,7 +57,9 @@ Result<> V4l2Camera::check() const {
 /// Sets format and controls of an opened device.
 DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_format,
                                   const StreamRequest& request) {
-  const auto negotiated = negotiate_format(device, {pixel_format, settings_.colour, request});
+  const auto negotiated =
+      negotiate_format(device, {pixel_format, settings_.colour, request, settings_.frame_height,
+                                settings_.first_row, settings_.is_radiometric});
   if (!negotiated) return tl::unexpected(negotiated.error());
   std::vector<Control> controls;
   {
@@ -184,8 +186,9 @@ Result<std::shared_ptr<FrameBuffer>> V4l2Camera::intact_frame(
   return captured.frame;
 }
 
-std::unique_ptr<Camera> make_camera(const V4l2Settings& settings, const CameraContext&) {
-  return std::make_unique<V4l2Camera>(settings);
+std::unique_ptr<Camera> make_camera(V4l2Settings settings, const CameraContext& context) {
+  settings.is_radiometric = context.kelvin_per_count > 0;
+  return std::make_unique<V4l2Camera>(std::move(settings));
 }
 
 }  // namespace orbwatch::hal

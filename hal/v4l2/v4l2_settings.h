@@ -6,6 +6,7 @@
 
 #include "hal/camera.h"
 #include "hal/v4l2/format/pixel_coding.h"
+#include "proc/image/picture.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::hal {
@@ -20,6 +21,9 @@ struct V4l2Settings {
   std::string device = "/dev/video0";
   std::string pixel_format = "auto";  ///< one of kPixelCodingNames
   bool colour = true;                 ///< see frame_format()
+  int frame_height = 0;               ///< see FormatRequest
+  int first_row = 0;                  ///< see FormatRequest
+  bool is_radiometric = false;        ///< no key: the site states kelvin_per_count
 };
 
 template <class Visitor>
@@ -27,13 +31,22 @@ void visit(Visitor& v, V4l2Settings& settings) {
   v.required("device", settings.device,
              "Device node, or what survives replugging: a link in /dev/v4l/by-id or by-path, or "
              "the place on a bus (usb-0000:00:14.0-1)");
-  v.optional("pixel_format", settings.pixel_format, kPixelCodingNames,
-             "What the camera sends; auto: the first that it has in the size and at the rate");
+  v.optional(
+      "pixel_format", settings.pixel_format, kPixelCodingNames,
+      "What the camera sends; auto: the first that it has in the size and at the rate; y16 with "
+      "kelvin_per_count: also the 16 bit words of a thermal camera that calls them YUYV");
   v.optional("colour", settings.colour,
              "Make colour of a sensor's mosaic and of MJPEG; else the mosaic stays as it is, and "
              "of MJPEG the luminance");
+  v.optional("frame_height", settings.frame_height, Range::between(1, kMaxSide),
+             "Height of the frames that the camera sends, px, where the picture is a part of them: "
+             "below another picture, or beside lines of telemetry; else the picture's");
+  v.optional("first_row", settings.first_row, Range::between(0, kMaxSide - 1),
+             "First row of the picture in these frames");
+  v.require(settings.first_row == 0 || settings.first_row < settings.frame_height, "first_row",
+            "needs a frame_height above it");
 }
 
-std::unique_ptr<Camera> make_camera(const V4l2Settings& settings, const CameraContext& context);
+std::unique_ptr<Camera> make_camera(V4l2Settings settings, const CameraContext& context);
 
 }  // namespace orbwatch::hal

@@ -29,8 +29,11 @@ Result<> check(const std::string& name, double value, double above, double up_to
 }
 
 Result<> check(const RadiometrySettings& s) {
-  constexpr double kHottest = 10000;  // degC
+  constexpr double kHottest = 10000;       // degC
+  constexpr double kLargestOffset = 1000;  // K
   return check("kelvin_per_count", s.kelvin_per_count, 0, 10)
+      .and_then(
+          [&] { return check("kelvin_offset", s.kelvin_offset, -kLargestOffset, kLargestOffset); })
       .and_then([&] { return check("wavelength (um)", s.wavelength, 0.1, 100); })
       .and_then([&] { return check("emissivity", s.emissivity.value_or(1), 0, 1); })
       .and_then([&] { return check("reflectivity", s.reflectivity.value_or(1), 0, 1); })
@@ -57,7 +60,8 @@ Radiometry::Radiometry(const RadiometrySettings& settings) : settings_(settings)
 }
 
 double Radiometry::exact_celsius(double counts) const {
-  const double camera = counts * settings_.kelvin_per_count;
+  const double camera =
+      kelvin_of_counts(counts, settings_.kelvin_per_count, settings_.kelvin_offset);
   const double rho = reflectivity(), eps = emissivity(), um = settings_.wavelength;
   if (rho == 1 && eps == 1) return camera - kZeroCelsius;
   const double ball = radiance(um, settings_.ball_temperature + kZeroCelsius);
@@ -70,12 +74,15 @@ double Radiometry::exact_celsius(double counts) const {
 
 double Radiometry::counts(double celsius) const {
   const double target = celsius + kZeroCelsius;
+  const auto counts_of = [this](double kelvin) {
+    return counts_of_kelvin(kelvin, settings_.kelvin_per_count, settings_.kelvin_offset);
+  };
   const double rho = reflectivity(), eps = emissivity(), um = settings_.wavelength;
-  if (rho == 1 && eps == 1) return target / settings_.kelvin_per_count;
+  if (rho == 1 && eps == 1) return counts_of(target);
   const double ball = radiance(um, settings_.ball_temperature + kZeroCelsius);
   const double around = radiance(um, settings_.surroundings + kZeroCelsius);
   const double scene = eps * radiance(um, target) + (1 - eps) * around;
-  return temperature(um, rho * scene + (1 - rho) * ball) / settings_.kelvin_per_count;
+  return counts_of(temperature(um, rho * scene + (1 - rho) * ball));
 }
 
 }  // namespace orbwatch::signals

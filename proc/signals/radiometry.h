@@ -9,7 +9,7 @@
 namespace orbwatch::signals {
 
 /// How a camera's counts represent temperature, that of a black body:
-/// T[K] = kelvin_per_count * count.
+/// T[K] = kelvin_per_count * count + kelvin_offset.
 struct RadiometrySettings {
   double kelvin_per_count = 0;           ///< 0: not stated
   bool says_scale = false;               ///< the camera itself says kelvin_per_count
@@ -18,12 +18,13 @@ struct RadiometrySettings {
   double surroundings = 20;              ///< degC, of what the target reflects
   std::optional<double> reflectivity{};  ///< of the ball, (0, 1]; nullopt: 1
   double ball_temperature = 20;          ///< degC, for what the ball emits itself
+  double kelvin_offset = 0;              ///< K, of a count of 0
 
   bool is_radiometric() const { return kelvin_per_count > 0 || says_scale; }
 };
 
-/// What a camera's table [camera.radiometry] states; kelvin_per_count and says_scale are keys of
-/// the camera's own table, the rest are the region's.
+/// What a camera's table [camera.radiometry] states; kelvin_per_count, kelvin_offset and says_scale
+/// are keys of the camera's own table, the rest are the region's.
 template <class Visitor>
 void visit(Visitor& v, RadiometrySettings& radiometry) {
   v.require(radiometry.is_radiometric(), "wavelength",
@@ -64,8 +65,8 @@ class Radiometry {
     return below + (counts - static_cast<double>(whole)) * (celsius_[whole + 1] - below);
   }
 
-  /// The counts of a target at `celsius`, for thresholds; may lie beyond 65535. For radiometric
-  /// ones; not for the frame path.
+  /// The counts of a target at `celsius`, for thresholds; may lie below 0 or beyond 65535. For
+  /// radiometric ones; not for the frame path.
   double counts(double celsius) const;
 
  private:

@@ -39,6 +39,7 @@ Json json_of(const hal::CameraEntry& camera) {
           {"bus", camera.bus},
           {"paths", list_of(camera.paths)},
           {"problem", camera.problem},
+          {"advice", camera.advice},
           {"modes", list_of(camera.modes)},
           {"controls", list_of(camera.controls)}};
 }

@@ -30,7 +30,9 @@ std::string camera_text(const SetupCamera& camera) {
                      toml_line("height", std::to_string(format.height));
   if (format.frame_rate > 0) text += toml_line("frame_rate", toml_number(format.frame_rate));
   if (is_thermal(camera)) {
-    text += "# kelvin_per_count = 0.04       # of the camera's data sheet, if it is radiometric\n";
+    text +=
+        "# kelvin_per_count = 0.04       # of the camera's data sheet, if it is radiometric\n"
+        "# kelvin_offset = 273.15        # besides, if its counts begin at 0 degC\n";
   }
   return text + back_end_text(camera.back_end);
 }

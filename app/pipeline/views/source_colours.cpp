@@ -7,7 +7,9 @@ namespace orbwatch::app {
 double full_scale(const hal::StreamFormat& format) { return (1 << info(format.format).bits) - 1; }
 
 double counts_of(double value, const hal::StreamFormat& format) {
-  if (format.kelvin_per_count > 0) return (value + kZeroCelsius) / format.kelvin_per_count;
+  if (format.kelvin_per_count > 0) {
+    return counts_of_kelvin(value + kZeroCelsius, format.kelvin_per_count, format.kelvin_offset);
+  }
   return value / 100 * full_scale(format);
 }
 

@@ -108,7 +108,9 @@ void ViewRenderer::render(const hal::FrameSet& set, const FramePyramids& pyramid
   view.frame_set = set.id;
   view.stamp = set.stamp;
   describe(view, colours);
-  view.kelvin_per_count = has_counts() ? plan_.sources[*raw_].format.kelvin_per_count : 0;
+  const hal::StreamFormat raw = has_counts() ? plan_.sources[*raw_].format : hal::StreamFormat();
+  view.kelvin_per_count = raw.kelvin_per_count;
+  view.kelvin_offset = raw.kelvin_offset;
 
   MutablePicture measured;
   if (!view.luminance.empty()) measured = picture_of(PixelFormat::Grey, view.luminance);

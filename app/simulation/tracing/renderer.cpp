@@ -59,7 +59,8 @@ std::size_t Renderer::index(int u, int v) const {
 }
 
 std::uint16_t Renderer::counts(double celsius) const {
-  const double exact = (celsius + kZeroCelsius) / sensor_.kelvin_per_count;
+  const double exact =
+      counts_of_kelvin(celsius + kZeroCelsius, sensor_.kelvin_per_count, sensor_.kelvin_offset);
   return static_cast<std::uint16_t>(std::clamp(std::round(exact), 0.0, 65535.0));
 }
 

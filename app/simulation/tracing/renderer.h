@@ -18,7 +18,8 @@ namespace orbwatch::app::simulation {
 /// What turns light or temperature into samples.
 struct Sensor {
   CameraKind kind = CameraKind::Colour;
-  double kelvin_per_count = 0.04;  ///< thermal: sample = temperature in K / kelvin_per_count
+  double kelvin_per_count = 0.04;  ///< thermal: see kelvin_of_counts()
+  double kelvin_offset = 0;        ///< K, of a count of 0
 };
 
 /// Which pixels render() traces anew: those that may show something that moves, or all of them. The

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <system_error>
 
+#include "hal/v4l2/device/thermal_advice.h"
 #include "hal/v4l2/device/v4l2_controls.h"
 #include "hal/v4l2/format/v4l2_format.h"
 
@@ -70,6 +71,16 @@ std::vector<CameraMode> modes_of(const V4l2Device& device) {
   return modes;
 }
 
+std::string advice_of(const V4l2Device& device) {
+  std::string all;
+  for (const std::uint32_t fourcc : device.formats()) {
+    const std::vector<FrameSizeOffer> sizes = device.sizes(fourcc);
+    const std::string advice = thermal_advice(fourcc, sizes);
+    if (!advice.empty()) all += (all.empty() ? "" : "; ") + advice;
+  }
+  return all;
+}
+
 /// "1 = manual mode"
 std::vector<std::string> menu_of(const V4l2Device& device, const v4l2_query_ext_ctrl& control) {
   std::vector<std::string> menu;
@@ -111,6 +122,7 @@ CameraEntry describe(const V4l2Device& device) {
                     .bus = device.bus(),
                     .paths = {device.path()},
                     .problem = {},
+                    .advice = advice_of(device),
                     .modes = modes_of(device),
                     .controls = {}};
   for (auto control = device.next_control(0); control; control = device.next_control(control->id)) {

@@ -91,9 +91,9 @@ Result<std::shared_ptr<FrameBuffer>> FrameDecoder::decode(std::span<const std::b
 Result<> FrameDecoder::decode_into(const MutablePicture& target,
                                    std::span<const std::byte> samples) {
   if (format_.coding.packing == Packing::Jpeg) return decode_jpeg(target, samples);
-  if (target.format == PixelFormat::Bgr) return decode_mosaic(target, samples.data());
+  const std::byte* row = samples.data() + format_.layout.planes[0].offset;
+  if (target.format == PixelFormat::Bgr) return decode_mosaic(target, row);
   const auto unpacked = target.samples<std::uint16_t>();
-  const std::byte* row = samples.data();
   for (int y = 0; y < target.height; ++y, row += format_.layout.planes[0].stride) {
     unpack_row(format_.coding.packing, row, target.width, unpacked.row(y));
   }

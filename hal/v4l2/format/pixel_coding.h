@@ -87,6 +87,10 @@ inline constexpr std::array kPixelCodings{
     PixelCoding{"y10p", V4L2_PIX_FMT_Y10P, PixelFormat::Y10, Packing::Mipi10},
 };
 
+/// 16 bit words that a thermal camera sends as YUYV, since a UVC device of the day can say no more:
+/// not in the table, because nothing but the settings tells them from a picture.
+inline constexpr PixelCoding kWordsAsYuyv{"y16", V4L2_PIX_FMT_YUYV, PixelFormat::Y16};
+
 /// What the settings allow: "auto" and the names above.
 inline constexpr auto kPixelCodingNames = [] {
   std::array<std::string_view, kPixelCodings.size() + 1> names{"auto"};

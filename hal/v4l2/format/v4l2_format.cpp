@@ -46,13 +46,35 @@ ColourSpace colour_space(const PixelCoding& coding, const DriverFormat& format) 
   return colour_space_of(format);
 }
 
+/// Cuts the picture out of the device's frames. False: it does not lie in them, or shares pixel
+/// groups with what is cut.
+bool cut(NegotiatedFormat& format, const FormatRequest& wanted) {
+  if (wanted.frame_height == 0) return true;
+  const int first = wanted.first_row;
+  const int height = wanted.stream.height != 0 ? wanted.stream.height : wanted.frame_height - first;
+  const PixelCoding& coding = format.coding;
+  const auto is_whole_to = [&](int row) {
+    return is_whole(coding, wanted.colour, format.stream.width, row);
+  };
+  if (coding.packing == Packing::Jpeg || height > wanted.frame_height - first) return false;
+  if (!is_whole_to(height) || (first != 0 && !is_whole_to(first))) return false;
+  const PixelFormatInfo& facts = info(coding.format);
+  for (std::size_t n = 0; n < format.layout.plane_count; ++n) {
+    DriverLayout::Plane& plane = format.layout.planes[n];
+    plane.offset += plane.stride * static_cast<std::size_t>(first >> facts.planes[n].shift_y);
+  }
+  format.stream.height = height;
+  return true;
+}
+
 /// The driver's answer to one candidate; nullopt when it is not usable.
 DeviceResult<std::optional<NegotiatedFormat>> try_format(V4l2Device& device,
                                                          const PixelCoding& coding,
                                                          const FormatRequest& wanted) {
   const auto current = device.format();
   if (!current) return tl::unexpected(current.error());
-  const StreamRequest& request = wanted.stream;
+  StreamRequest request = wanted.stream;
+  if (wanted.frame_height != 0) request.height = wanted.frame_height;
   DriverFormat ask;
   ask.width = request.width != 0 ? static_cast<std::uint32_t>(request.width) : current->width;
   ask.height = request.height != 0 ? static_cast<std::uint32_t>(request.height) : current->height;
@@ -66,21 +88,54 @@ DeviceResult<std::optional<NegotiatedFormat>> try_format(V4l2Device& device,
   }
   const auto rate = device.set_frame_rate(request.frame_rate);
   if (!rate) return tl::unexpected(rate.error());
-  return NegotiatedFormat{coding,
+  NegotiatedFormat format{coding,
                           driver_layout(coding, *got),
                           {frame_format(coding, wanted.colour), colour_space(coding, *got),
                            static_cast<int>(got->width), static_cast<int>(got->height), *rate}};
+  if (!cut(format, wanted)) return std::nullopt;
+  return format;
 }
 
-std::vector<PixelCoding> candidates(const V4l2Device& device, std::string_view wanted) {
+bool offers(const V4l2Device& device, std::uint32_t fourcc) {
   const auto offered = device.formats();
+  return std::ranges::find(offered, fourcc) != offered.end();
+}
+
+std::vector<PixelCoding> candidates(const V4l2Device& device, const FormatRequest& wanted) {
   std::vector<PixelCoding> found;
   for (const PixelCoding& coding : kPixelCodings) {
-    const bool is_wanted = wanted == "auto" || wanted == coding.name;
-    const bool has = std::find(offered.begin(), offered.end(), coding.fourcc) != offered.end();
-    if (is_wanted && has) found.push_back(coding);
+    const bool is_wanted = wanted.pixel_format == "auto" || wanted.pixel_format == coding.name;
+    if (is_wanted && offers(device, coding.fourcc)) found.push_back(coding);
+  }
+  if (found.empty() && wanted.is_radiometric && wanted.pixel_format == kWordsAsYuyv.name &&
+      offers(device, kWordsAsYuyv.fourcc)) {
+    found.push_back(kWordsAsYuyv);
   }
   return found;
+}
+
+/// What may help where a thermal camera's frames are not what they are called.
+std::string advice(const V4l2Device& device, const FormatRequest& wanted) {
+  std::string text;
+  if (wanted.pixel_format == kWordsAsYuyv.name && !wanted.is_radiometric &&
+      offers(device, kWordsAsYuyv.fourcc)) {
+    text += "; 16 bit words that a thermal camera calls YUYV are read with kelvin_per_count";
+  }
+  const StreamRequest& picture = wanted.stream;
+  if (wanted.frame_height != 0 || picture.height == 0) return text;
+  for (const std::uint32_t fourcc : device.formats()) {
+    const PixelCoding* const coding = find_coding(fourcc);
+    if (!coding || coding->packing == Packing::Jpeg) continue;
+    for (const FrameSizeOffer& size : device.sizes(fourcc)) {
+      const bool is_higher = size.min_width == static_cast<std::uint32_t>(picture.width) &&
+                             size.min_height == size.max_height &&
+                             size.min_height > static_cast<std::uint32_t>(picture.height);
+      if (is_higher) {
+        return text + "; frame_height and first_row cut a picture out of higher frames";
+      }
+    }
+  }
+  return text;
 }
 
 FaultReport refusal(const V4l2Device& device, const FormatRequest& wanted) {
@@ -89,8 +144,13 @@ FaultReport refusal(const V4l2Device& device, const FormatRequest& wanted) {
   if (wanted.stream.width != 0 || wanted.stream.height != 0) {
     asked += " " + side(wanted.stream.width) + "x" + side(wanted.stream.height);
   }
+  if (wanted.frame_height != 0) {
+    asked += " from row " + std::to_string(wanted.first_row) + " of " +
+             std::to_string(wanted.frame_height);
+  }
   return {Fault::WrongFormat, device.path() + ": cannot deliver " + asked +
-                                  " as whole progressive pictures; it offers " + offers_of(device)};
+                                  " as whole progressive pictures; it offers " + offers_of(device) +
+                                  advice(device, wanted)};
 }
 
 }  // namespace
@@ -114,7 +174,7 @@ std::string size_text(const FrameSizeOffer& size) {
 
 DeviceResult<NegotiatedFormat> negotiate_format(V4l2Device& device, const FormatRequest& wanted) {
   std::optional<PixelCoding> slower;
-  for (const PixelCoding& coding : candidates(device, wanted.pixel_format)) {
+  for (const PixelCoding& coding : candidates(device, wanted)) {
     const auto negotiated = try_format(device, coding, wanted);
     if (!negotiated) return tl::unexpected(negotiated.error());
     if (!*negotiated) continue;

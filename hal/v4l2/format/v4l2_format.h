@@ -15,6 +15,12 @@ struct FormatRequest {
   std::string_view pixel_format = "auto";  ///< one of kPixelCodingNames
   bool colour = true;                      ///< see frame_format()
   StreamRequest stream;
+  /// Height of the device's frames, px; 0: the picture's. The picture is stream.height of their
+  /// rows, all if that is 0, from first_row on.
+  int frame_height = 0;
+  int first_row = 0;
+  /// Its samples are counts of temperature: "y16" is also kWordsAsYuyv, where there is no Y16.
+  bool is_radiometric = false;
 };
 
 /// What a device will deliver, and what its frames become.
@@ -31,7 +37,7 @@ struct NegotiatedFormat {
 
 /// Sets format, size and rate. "auto" selects the first of kPixelCodings with the requested size
 /// and rate, else the first with the size. The size is honoured, or refused with a list of the
-/// offers; the rate is the driver's nearest.
+/// offers and what would help; the rate is the driver's nearest. JPEG pictures cannot be cut.
 DeviceResult<NegotiatedFormat> negotiate_format(V4l2Device& device, const FormatRequest& wanted);
 
 /// A four-character code as text: "YUYV", "Y16-BE" for big-endian formats.

@@ -55,15 +55,20 @@ class ThermalCamera : public hal::Camera {
   std::optional<hal::CountScale> says_;
 };
 
-hal::DeviceResult<double> scale_of(const signals::RadiometrySettings& radiometry,
-                                   std::optional<hal::CountScale> says) {
+hal::DeviceResult<hal::StreamFormat> opened(const signals::RadiometrySettings& radiometry,
+                                            std::optional<hal::CountScale> says) {
   Resolved site;
   site.site.cameras.emplace_back().radiometry = radiometry;
   optics::RigCamera& rig = site.rig.cameras.emplace_back();
   rig.width = rig.height = 8;
   site.rig_cameras = {0};
   ThermalCamera camera(std::move(says));
-  return open_camera(camera, site, 0).map([](const hal::StreamFormat& format) {
+  return open_camera(camera, site, 0);
+}
+
+hal::DeviceResult<double> scale_of(const signals::RadiometrySettings& radiometry,
+                                   std::optional<hal::CountScale> says) {
+  return opened(radiometry, std::move(says)).map([](const hal::StreamFormat& format) {
     return format.kelvin_per_count;
   });
 }
@@ -74,6 +79,32 @@ TEST(OpenCamera, TheScaleOfCountsIsTheStatedOneOrTheCameras) {
   EXPECT_EQ(scale_of({.kelvin_per_count = 0.1}, linear), 0.1);
   EXPECT_EQ(scale_of({.says_scale = true}, linear), 0.1);
   EXPECT_EQ(scale_of({}, linear), 0) << "percent of full scale, as long as the site says so";
+}
+
+TEST(OpenCamera, CountsMayBeginAtAnyTemperature) {
+  const auto format = opened({.kelvin_per_count = 0.1, .kelvin_offset = 273.15}, {});
+  ASSERT_TRUE(format) << format.error().detail;
+  EXPECT_EQ(format->kelvin_per_count, 0.1);
+  EXPECT_EQ(format->kelvin_offset, 273.15);
+}
+
+/// Asked for a stream of no stated size of a camera with this back-end.
+hal::StreamRequest requested_of(BackEndSettings back_end) {
+  Resolved site;
+  site.site.cameras.emplace_back().back_end = std::move(back_end);
+  optics::RigCamera& rig = site.rig.cameras.emplace_back();
+  rig.width = rig.height = 8;
+  site.rig_cameras = {0};
+  RequestedCamera camera;
+  EXPECT_TRUE(open_camera(camera, site, 0));
+  return camera.requested;
+}
+
+TEST(OpenCamera, AV4l2CameraIsAskedForTheRigsSize) {
+  const hal::StreamRequest v4l2 = requested_of(hal::V4l2Settings{});
+  EXPECT_EQ(v4l2.width, 8);
+  EXPECT_EQ(v4l2.height, 8);
+  EXPECT_EQ(requested_of(hal::ReplaySettings{}).width, 0);
 }
 
 TEST(OpenCamera, AScaleThatContradictsTheCameraIsRefused) {
@@ -95,6 +126,10 @@ TEST(OpenCamera, AScaleThatContradictsTheCameraIsRefused) {
                 testing::HasSubstr("no temperatures: IRFormat is Radiometric; set it with"));
   }
   EXPECT_THAT(refusal({.says_scale = true}, {}), testing::HasSubstr("state kelvin_per_count"));
+  EXPECT_EQ(refusal({.kelvin_per_count = 0.1, .kelvin_offset = 5},
+                    hal::CountScale{0.1, "IRFormat is TemperatureLinear100mK"}),
+            "has kelvin_offset 5, but says counts that begin at 0 K: IRFormat is "
+            "TemperatureLinear100mK");
 }
 
 }  // namespace

@@ -96,6 +96,19 @@ value = 8000)",
   EXPECT_EQ(controls[1].value, 8000);
 }
 
+TEST_F(ConfigurationFile, SaysWhichRowsOfAFrameAreThePicture) {
+  const auto c = parse(replaced("\"usb-1\"", "\"usb-1\"\nframe_height = 160\nfirst_row = 80",
+                                replaced("name = \"a\"",
+                                         "name = \"a\"\nheight = 80\nkelvin_per_count = 0.1\n"
+                                         "kelvin_offset = 273.15",
+                                         kV4l2)));
+  ASSERT_TRUE(c) << c.error().message;
+  const auto& part = std::get<hal::V4l2Settings>(c->site.cameras[0].back_end);
+  EXPECT_EQ(part.frame_height, 160);
+  EXPECT_EQ(part.first_row, 80);
+  EXPECT_EQ(c->site.cameras[0].radiometry.kelvin_offset, 273.15);
+}
+
 std::string triggered(const std::string& keys, const std::string& lines = kLines) {
   return replaced("name = \"a\"", "name = \"a\"\n" + keys) + lines;
 }
@@ -220,6 +233,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"UnknownPixelFormat",
                 replaced("\"usb-1\"", "\"usb-1\"\npixel_format = \"h264\"", kV4l2),
                 {"site.toml:8: camera.v4l2.pixel_format", "h264", "auto, yuyv, uyvy, nv12"}},
+        Refusal{"RowsBeyondTheFrame",
+                replaced("\"usb-1\"", "\"usb-1\"\nframe_height = 160\nfirst_row = 81",
+                         replaced("name = \"a\"", "name = \"a\"\nheight = 80", kV4l2)),
+                {"site.toml:4: camera.height", "must not exceed frame_height"}},
+        Refusal{"RowWithoutAFrame",
+                replaced("\"usb-1\"", "\"usb-1\"\nfirst_row = 80", kV4l2),
+                {"site.toml:8: camera.v4l2.first_row", "needs a frame_height"}},
         Refusal{"NoSuchCamera",
                 replaced("camera = \"a\"", "camera = \"b\""),
                 {"site.toml:13:", "\"b\"", "there are: a"}},

@@ -222,6 +222,9 @@ INSTANTIATE_TEST_SUITE_P(
                          "kelvin_per_count = 0.04\n[camera.radiometry]\nball_reflectivity = 0\n"
                          "[camera.replay]"),
                 {"camera.radiometry.ball_reflectivity", "0.05 to 1"}},
+        Refusal{"OffsetWithoutAScale",
+                replaced("[camera.replay]", "kelvin_offset = 273.15\n[camera.replay]"),
+                {"camera.kelvin_offset", "needs kelvin_per_count"}},
         Refusal{"SnapshotsNowhere", kValid + "[snapshot]\nkeep = 5\n", {"snapshot.folder"}},
         Refusal{"NoSnapshotStays",
                 kValid + "[snapshot]\nfolder = \"p\"\nkeep = 0\n",

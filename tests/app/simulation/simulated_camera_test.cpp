@@ -90,6 +90,22 @@ SimulatedCameraSettings small(CameraKind kind = CameraKind::Colour) {
   return settings;
 }
 
+TEST(SimulatedCamera, CountsBeginAtTheOffset) {
+  const auto machine = machine_of_seed();
+  SimulatedCamera camera(machine, small(CameraKind::Thermal));
+  ASSERT_TRUE(camera.configure({}));
+  const auto words_of = [&](double offset) {
+    const Renderer renderer(machine, camera.pinhole(), {CameraKind::Thermal, 0.1, offset});
+    std::vector<std::uint16_t> words(renderer.size() / 2);
+    renderer.render(0, reinterpret_cast<std::byte*>(words.data()));
+    return words;
+  };
+  const auto from_0_kelvin = words_of(0), from_100_kelvin = words_of(100);
+  for (std::size_t i = 0; i < from_0_kelvin.size(); ++i) {
+    ASSERT_EQ(from_100_kelvin[i], from_0_kelvin[i] - 1000) << i;
+  }
+}
+
 TEST(SimulatedCamera, SaysWhatItIsAndWhatItDelivers) {
   SimulatedCamera camera(machine_of_seed(), small(CameraKind::Thermal));
   EXPECT_EQ(camera.info().id, "small");

@@ -25,7 +25,7 @@ double counts_by_bisection(const RadiometrySettings& s, double celsius) {
     const double middle = (low + high) / 2;
     (planck(um, middle) < seen ? low : high) = middle;
   }
-  return (low + kZero) / s.kelvin_per_count;
+  return (low + kZero - s.kelvin_offset) / s.kelvin_per_count;
 }
 
 TEST(Radiometry, WithoutCalibrationIsTheCamerasScaleExactly) {
@@ -36,6 +36,37 @@ TEST(Radiometry, WithoutCalibrationIsTheCamerasScaleExactly) {
     EXPECT_NEAR(scale.celsius(counts), counts * 0.04 - kZero, 1e-4);
   }
   EXPECT_DOUBLE_EQ(scale.counts(1400), (1400 + kZero) / 0.04);
+}
+
+TEST(Radiometry, CountsMayBeginAtAnyTemperature) {
+  const auto tenths_of_celsius =
+      Radiometry::make({.kelvin_per_count = 0.1, .kelvin_offset = kZero}).value();
+  EXPECT_NEAR(tenths_of_celsius.celsius(0), 0, 1e-4);
+  EXPECT_NEAR(tenths_of_celsius.celsius(12345), 1234.5, 1e-3);
+  EXPECT_DOUBLE_EQ(tenths_of_celsius.counts(1234.5), 12345);
+  EXPECT_LT(tenths_of_celsius.counts(-20), 0);
+  const auto refused = [](double offset) {
+    return !Radiometry::make({.kelvin_per_count = 0.1, .kelvin_offset = offset});
+  };
+  EXPECT_TRUE(refused(1001));
+  EXPECT_TRUE(refused(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(refused(-100));
+}
+
+TEST(Radiometry, UndoesBallAndEmissivityOfCountsWithAnOffset) {
+  const RadiometrySettings settings{.kelvin_per_count = 0.04,
+                                    .wavelength = 3.9,
+                                    .emissivity = 0.8,
+                                    .surroundings = 35,
+                                    .reflectivity = 0.9,
+                                    .ball_temperature = 60,
+                                    .kelvin_offset = 173.15};
+  const auto scale = Radiometry::make(settings).value();
+  for (const double celsius : {600.0, 1400.0, 2100.0}) {
+    const double counts = counts_by_bisection(settings, celsius);
+    EXPECT_NEAR(scale.counts(celsius), counts, 1e-3 * counts);
+    EXPECT_NEAR(scale.celsius(counts), celsius, 0.2);
+  }
 }
 
 TEST(Radiometry, UndoesBallAndEmissivity) {

@@ -31,7 +31,9 @@ Pixel pixel_of(const View& view, const optics::ViewProjection& projection, const
   pixel.intensity = kPercentPerByte * (view.luminance.empty() ? luma_of(view.picture, x, y)
                                                               : *view.luminance.at(x, y));
   if (!view.counts.empty() && *view.counts.at(x, y) > 0) {
-    pixel.temperature = view.kelvin_per_count * *view.counts.at(x, y) - kZeroCelsius;
+    pixel.temperature =
+        kelvin_of_counts(*view.counts.at(x, y), view.kelvin_per_count, view.kelvin_offset) -
+        kZeroCelsius;
   }
   pixel.direction = projection.direction(at.u, at.v);
   const double closeness = pixel.direction ? scene.hit(*pixel.direction).closeness : 0;

@@ -42,7 +42,7 @@ TEST(ListJson, HasEveryFieldOfEveryEntry) {
     "cameras": [
       {"camera": "/dev/v4l/by-id/usb-cam", "back_end": "v4l2", "model": "Cam 1",
        "driver": "uvcvideo", "bus": "usb-0000:00:14.0-1",
-       "paths": ["/dev/v4l/by-id/usb-cam", "/dev/video0"], "problem": "",
+       "paths": ["/dev/v4l/by-id/usb-cam", "/dev/video0"], "problem": "", "advice": "",
        "modes": [{"format": "yuyv", "size": "640x480", "frame_rates": [30, 7.5]},
                  {"format": "mjpeg", "size": "1920x1080", "frame_rates": []}],
        "controls": [{"control": "gain", "minimum": -5, "maximum": 100, "step": 1, "default": 0,
@@ -51,7 +51,7 @@ TEST(ListJson, HasEveryFieldOfEveryEntry) {
                      "default": 3, "state": "read only",
                      "values": ["1 = manual", "3 = aperture"]}]},
       {"camera": "/dev/video2", "back_end": "v4l2", "model": "", "driver": "", "bus": "",
-       "paths": [], "problem": "cannot be opened", "modes": [], "controls": []}],
+       "paths": [], "problem": "cannot be opened", "advice": "", "modes": [], "controls": []}],
     "chips": [
       {"chip": "gpio-sim", "path": "/dev/gpiochip1", "problem": "",
        "lines": [{"line": 2, "name": "TRIGGER_IN", "direction": "input", "consumer": "orbwatchd"},
@@ -73,7 +73,7 @@ TEST(ListJson, IsValidWhateverDevicesSayOfThemselves) {
     {"camera": "quote \" backslash \\ newline \n escape \u001b nul \u0000 delete \u007f",
      "model": "gr\u00fc\u00df \u20ac \ud83d\udcf7",
      "driver": "\ufffd|\ufffd\ufffd|\ufffd\ufffd\ufffd|\ufffd\ufffd\ufffd\ufffd|\ufffd|\ufffd",
-     "back_end": "", "bus": "", "paths": [], "problem": "",
+     "back_end": "", "bus": "", "paths": [], "problem": "", "advice": "",
      "modes": [{"format": "", "size": "", "frame_rates": [null, null, 0.1]}],
      "controls": [{"control": "wide", "minimum": -9223372036854775808,
                    "maximum": 0.25, "step": 0, "default": 0, "state": "",

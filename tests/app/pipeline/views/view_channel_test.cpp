@@ -87,6 +87,7 @@ TEST_F(ViewChannelTest, AMeasuredViewIsRenderedEvenThen) {
 
 TEST_F(ViewChannelTest, ADisplayViewHasCountsOfTemperatureWhileTheyAreNeeded) {
   plan.sources[0].format.kelvin_per_count = 0.04;
+  plan.sources[0].format.kelvin_offset = 273.15;
   buffers.emplace(buffers_for(plan));
   ViewChannel channel(plan);
   channel.set_reading(PixelFormat::Rgb, true);
@@ -95,6 +96,7 @@ TEST_F(ViewChannelTest, ADisplayViewHasCountsOfTemperatureWhileTheyAreNeeded) {
   ASSERT_FALSE(view->counts.empty());
   EXPECT_EQ(*view->counts.at(48, 32), 0x0101);
   EXPECT_EQ(view->kelvin_per_count, 0.04);
+  EXPECT_EQ(view->kelvin_offset, 273.15);
   EXPECT_TRUE(view->radiometric.empty()) << "it does not measure";
   channel.take();
   channel.set_reading(PixelFormat::Rgb, false);

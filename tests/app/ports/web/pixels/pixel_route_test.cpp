@@ -17,7 +17,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kWidth = 64, kHeight = 48;
-constexpr double kKelvinPerCount = 0.04;
+constexpr double kKelvinPerCount = 0.04, kKelvinOffset = 173.15;
 /// Where there are counts but no camera is shown, and the other way round.
 constexpr int kBlindColumn = 3, kUncountedColumn = 5;
 
@@ -57,6 +57,7 @@ class ServedPixels : public Served {
     EXPECT_TRUE(eventually([&] { return sink->needs(index, view->stamp).jpeg; }));
     if (sink->needs(index, view->stamp).counts && !is_late) view->counts = view->radiometric;
     view->kelvin_per_count = kKelvinPerCount;
+    view->kelvin_offset = kKelvinOffset;
     sent = view;
     sink->accept(view);
   }
@@ -91,7 +92,7 @@ TEST_F(ServedPixels, ComeFromThePictureThatWasSentUnderTheNumber) {
   const std::uint64_t second = send(0, 90);
   EXPECT_EQ(second, first + 1);
   const auto counts = [](const ViewPtr& view, int u, int v) {
-    return kKelvinPerCount * *view->radiometric.at(u, v) - 273.15;
+    return kKelvinPerCount * *view->radiometric.at(u, v) + kKelvinOffset - 273.15;
   };
   EXPECT_NEAR(seen(first, 40, 30)["temperature"], counts(first_view, 40, 30), 1e-9);
   EXPECT_NEAR(seen(second, 40, 30)["temperature"], counts(sent, 40, 30), 1e-9);

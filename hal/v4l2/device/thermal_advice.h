@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "hal/v4l2/device/v4l2_device.h"
+
+namespace orbwatch::hal {
+
+/// How a thermal camera that offers a format in these sizes has to be configured where its frames
+/// are not what they are called: 16 bit words as YUYV below a picture, or lines of telemetry beside
+/// it. Empty for other sizes. Reentrant.
+std::string thermal_advice(std::uint32_t fourcc, std::span<const FrameSizeOffer> sizes);
+
+}  // namespace orbwatch::hal

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace orbwatch::tests {
+
+/// A V4L2 device without a driver. A program that links this has its own open, close, ioctl and
+/// mmap, which answer for kFakeDevice and leave all else to the kernel: it offers one format of 16
+/// bit per pixel in a few sizes, and delivers a frame every hundredth of a second.
+struct FakeDevice {
+  std::uint32_t fourcc = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes;  ///< width, height
+  /// Fills a frame of the current size, row by row without padding.
+  void (*draw)(std::span<std::uint16_t> words, std::size_t width) = nullptr;
+};
+
+inline constexpr const char* kFakeDevice = "/dev/video-fake";
+
+/// Connects the device, in place of the one before. Only while no camera runs.
+void connect(const FakeDevice& device);
+
+}  // namespace orbwatch::tests
