@@ -75,6 +75,21 @@ TEST_F(Https, SpeaksNoOldVersion) {
   EXPECT_EQ(client.version(), "TLSv1.2");
 }
 
+TEST_F(Https, SpeaksNoSuiteWithCbc) {
+  start(secure());
+  const auto is_served = [&](const char* ciphers) {
+    return TlsClient(https(), "127.0.0.1", TLS1_2_VERSION, 0, ciphers).is_secure();
+  };
+  for (const char* refused : {"ECDHE-ECDSA-AES128-SHA", "ECDHE-ECDSA-AES256-SHA",
+                              "ECDHE-ECDSA-AES128-SHA256", "ECDHE-ECDSA-AES256-SHA384"}) {
+    EXPECT_FALSE(is_served(refused)) << refused;
+  }
+  for (const char* served : {"ECDHE-ECDSA-AES128-GCM-SHA256", "ECDHE-ECDSA-AES256-GCM-SHA384",
+                             "ECDHE-ECDSA-CHACHA20-POLY1305"}) {
+    EXPECT_TRUE(is_served(served)) << served;
+  }
+}
+
 TEST_F(Https, ItsCookieNeverCrossesTheNetworkInTheClear) {
   add_one_of_each_role();
   start(secure());

@@ -15,9 +15,10 @@ namespace orbwatch::app::web::tests {
 /// was shown.
 class TlsClient : public Client {
  public:
-  /// `newest`: the newest version of TLS that it speaks; 0: any.
+  /// `newest`: the newest version of TLS that it speaks; 0: any. `ciphers`: those of TLS 1.2 in
+  /// OpenSSL's names; null: any.
   explicit TlsClient(int port, const char* host = "127.0.0.1", int newest = 0,
-                     int receive_buffer = 0)
+                     int receive_buffer = 0, const char* ciphers = nullptr)
       : Client(port, receive_buffer, host), context_(SSL_CTX_new(TLS_client_method())) {
     // What is sent to a server that has closed is no end of the test.
     std::signal(SIGPIPE, SIG_IGN);
@@ -25,6 +26,9 @@ class TlsClient : public Client {
     SSL_CTX_set_security_level(context_.get(), 0);
     SSL_CTX_set_min_proto_version(context_.get(), TLS1_VERSION);
     SSL_CTX_set_max_proto_version(context_.get(), newest);
+    if (ciphers) {
+      EXPECT_EQ(SSL_CTX_set_cipher_list(context_.get(), ciphers), 1);
+    }
     tls_.reset(SSL_new(context_.get()));
     SSL_set_fd(tls_.get(), get());
     is_secure_ = SSL_connect(tls_.get()) == 1;
