@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <utility>
 
 #include "app/log.h"
@@ -19,6 +21,22 @@ std::filesystem::path logins_file(const std::filesystem::path& folder) {
 
 /// One for all that cannot be a name, so that they take no place of others.
 std::string limited_name(const std::string& name) { return check_name(name) ? name : "(no name)"; }
+
+/// Of 127.0.0.0/8 one address only: a program of this computer has all others at its disposal.
+bool is_this_computer(const std::string& peer) { return peer == "127.0.0.1" || peer == "::1"; }
+
+LoginLimits::Attempt attempt_of(const std::string& name, const std::string& peer) {
+  return {limited_name(name), address_key(peer), is_this_computer(peer)};
+}
+
+LoginLimits::Attempt code_attempt_of(const std::string& peer) {
+  return {"", address_key(peer), is_this_computer(peer)};
+}
+
+Access::Refusal too_many(const std::string& what, std::chrono::seconds wait) {
+  return {429, "too many wrong " + what + "; try again in " + std::to_string(wait.count()) + " s",
+          wait};
+}
 
 }  // namespace
 
@@ -38,7 +56,7 @@ void Access::start(bool gives_code) {
   }
   const std::lock_guard files(files_mutex_);
   gives_code_ = gives_code;
-  load();
+  load(Cause::Start);
 }
 
 void Access::stop() {
@@ -47,26 +65,73 @@ void Access::stop() {
 
 Access::FileMark Access::mark() const {
   struct stat about {};
-  if (::stat(users_file(folder_).c_str(), &about) != 0) return {};
-  return {about.st_mtim.tv_sec, about.st_mtim.tv_nsec, about.st_size, about.st_ino};
+  if (::stat(users_file(folder_).c_str(), &about) != 0) {
+    FileMark absent;
+    absent.error = errno;
+    return absent;
+  }
+  return {0, about.st_mtim.tv_sec, about.st_mtim.tv_nsec, about.st_size, about.st_ino};
 }
+
+bool Access::is_outdated() const {
+  if (folder_.empty()) return false;
+  const FileMark present = mark();
+  const std::lock_guard lock(mutex_);
+  return present != mark_;
+}
+
+/// Asks the file system each time: between a first password and the next refresh() nobody is
+/// trusted any more.
+bool Access::may_trust() const { return folder_.empty() || mark().error == ENOENT; }
 
 void Access::refresh() {
   const std::lock_guard files(files_mutex_);
-  if (!folder_.empty() && mark() != mark_) load();
+  if (is_outdated()) load(Cause::OtherProcess);
 }
 
-void Access::load() {
-  mark_ = mark();
-  auto loaded = load_users(users_file(folder_));
+/// Once there were users, a file that is gone (unmounted, removed) is a fault and no open door.
+Result<std::optional<Users>> Access::load_checked() {
+  const auto file = users_file(folder_);
+  auto loaded = load_users(file);
+  if (!loaded) return loaded;
+  if (!*loaded) {
+    if (!had_users_) return loaded;
+    return fail(file.string() + ": is gone, although passwords were set");
+  }
+  had_users_ = true;
+  if (const auto kept = keep_that_users_exist(file); !kept) {
+    log_line(LogLevel::Error, "web: " + kept.error().message);
+  }
+  return loaded;
+}
+
+void Access::load(Cause cause) {
+  const FileMark present = mark();
+  auto loaded = load_checked();
   const std::string fault = loaded ? "" : loaded.error().message;
   if (!fault.empty()) log_line(LogLevel::Error, "web: nobody can log in: " + fault);
   const std::string code = code_for(loaded);
   const std::lock_guard lock(mutex_);
+  mark_ = present;
   code_ = code;
   fault_ = fault;
   state_ = !loaded ? State::Unusable : *loaded ? State::Users : State::Nobody;
-  users_ = loaded && *loaded ? std::move(**loaded) : Users{};
+  // A file that is gone or damaged for a while is no reason to forget failures when it is back.
+  if (!loaded) return;
+  Users now = *loaded ? std::move(**loaded) : Users{};
+  forgive_new_passwords(now, cause);
+  users_ = std::move(now);
+}
+
+/// Whoever sets a password at the board may log in with it at once, from anywhere.
+void Access::forgive_new_passwords(const Users& now, Cause cause) {
+  if (cause == Cause::Start) return;
+  for (const User& user : now.users) {
+    const User* before = users_.find(user.name);
+    if (before && before->password == user.password) continue;
+    limits_.forgive_name(user.name);
+    if (cause == Cause::OtherProcess) limits_.forgive_addresses();
+  }
 }
 
 /// Empty: there is none. It ends with the first password.
@@ -110,56 +175,88 @@ bool Access::has_users() const {
 
 Users Access::users() const {
   const std::lock_guard lock(mutex_);
-  return users_;
+  return state_ == State::Users ? users_ : Users{};
 }
 
 Caller Access::caller(const Credentials& credentials) {
-  const std::lock_guard lock(mutex_);
-  if (state_ == State::Unusable) return {};
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_ == State::Unusable) return {};
+    if (state_ == State::Users && !credentials.token.empty()) {
+      const ApiToken* token = users_.find_token(token_hash(credentials.token));
+      return token ? Caller{token->name, token->role} : Caller{};
+    }
+    if (state_ == State::Users) {
+      const User* user = credentials.session.empty()
+                             ? nullptr
+                             : sessions_.use(credentials.session, users_, clock_());
+      return user ? Caller{user->name, user->role} : Caller{};
+    }
+  }
+  const bool is_trusted = is_loopback(credentials.peer) && may_trust();
+  return {"", is_trusted ? Role::Administrator : Role::Nobody};
+}
+
+/// Under mutex_.
+std::optional<Access::Refusal> Access::judge_login(const std::string& name,
+                                                   const std::string& peer) const {
+  if (state_ == State::Unusable) return Refusal{503, "nobody can log in: " + fault_};
   if (state_ == State::Nobody) {
-    return {"", is_loopback(credentials.peer) ? Role::Administrator : Role::Nobody};
+    return Refusal{409,
+                   "there are no users yet: POST /api/v1/set_user, or orbwatch password, makes the "
+                   "first one"};
   }
-  if (!credentials.token.empty()) {
-    const ApiToken* token = users_.find_token(token_hash(credentials.token));
-    return token ? Caller{token->name, token->role} : Caller{};
+  const auto wait = limits_.wait(attempt_of(name, peer), clock_());
+  if (wait.count() == 0) return std::nullopt;
+  return too_many("passwords for this name or from this address", wait);
+}
+
+/// Under mutex_.
+std::optional<Access::Refusal> Access::judge_first_password(const std::string& peer) const {
+  if (code_.empty()) {
+    return Refusal{409, "no code is valid: a password is set, or only this computer is served"};
   }
-  if (credentials.session.empty()) return {};
-  const User* user = sessions_.use(credentials.session, users_, clock_());
-  return user ? Caller{user->name, user->role} : Caller{};
+  const auto wait = limits_.wait(code_attempt_of(peer), clock_());
+  if (wait.count() == 0) return std::nullopt;
+  return too_many("codes", wait);
+}
+
+/// With another users file than was read nothing is sure.
+std::optional<Access::Refusal> Access::login_refusal(const std::string& name,
+                                                     const std::string& peer) const {
+  if (is_outdated()) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  return judge_login(name, peer);
+}
+
+std::optional<Access::Refusal> Access::first_password_refusal(const std::string& peer) const {
+  if (is_outdated()) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  return judge_first_password(peer);
+}
+
+bool Access::is_familiar(const std::string& name, const std::string& peer) const {
+  const std::lock_guard lock(mutex_);
+  return limits_.is_familiar(attempt_of(name, peer));
 }
 
 tl::expected<User, Access::Refusal> Access::judge(const std::string& name,
                                                   const std::string& password,
                                                   const std::string& peer) {
   refresh();
-  const std::string limited = limited_name(name), address = address_key(peer);
   User user;
   {
     const std::lock_guard lock(mutex_);
-    if (state_ == State::Unusable) {
-      return tl::unexpected(Refusal{503, "nobody can log in: " + fault_});
-    }
-    if (state_ == State::Nobody) {
-      return tl::unexpected(Refusal{409,
-                                    "there are no users yet: POST /api/v1/set_user, or orbwatch "
-                                    "password, makes the first one"});
-    }
-    if (const auto wait = limits_.wait(limited, address, clock_()); wait.count() > 0) {
-      return tl::unexpected(Refusal{429,
-                                    "too many wrong passwords for this name or from this address; "
-                                    "try again in " +
-                                        std::to_string(wait.count()) + " s",
-                                    wait});
-    }
+    if (auto refusal = judge_login(name, peer)) return tl::unexpected(std::move(*refusal));
     if (const User* found = users_.find(name)) user = *found;
   }
   const bool is_right = is_password(user.password, password);
   {
     const std::lock_guard lock(mutex_);
     if (is_right) {
-      limits_.succeeded(limited);
+      limits_.succeeded(attempt_of(name, peer));
     } else {
-      limits_.failed(limited, address, clock_());
+      limits_.failed(attempt_of(name, peer), clock_());
     }
   }
   if (is_right) return user;
@@ -185,12 +282,14 @@ std::string Access::begin(const User& user) {
   return token;
 }
 
-void Access::logout(const std::string& session) {
+bool Access::logout(const std::string& session) {
+  bool was_there = false;
   {
     const std::lock_guard lock(mutex_);
-    sessions_.end(session);
+    was_there = sessions_.end(session);
   }
-  keep();
+  if (was_there) keep();
+  return was_there;
 }
 
 Access::Token Access::change_password(const std::string& name, const std::string& old_password,
@@ -215,22 +314,11 @@ Access::Token Access::change_password(const std::string& name, const std::string
 
 tl::expected<void, Access::Refusal> Access::judge_code(const std::string& code,
                                                        const std::string& peer) {
-  // No user's name, so that its failures count by themselves.
-  static const std::string kCode = "(first code)";
-  const std::string address = address_key(peer);
   {
     const std::lock_guard lock(mutex_);
-    if (code_.empty()) {
-      return tl::unexpected(Refusal{409,
-                                    "no code is valid: a password is set, or only this "
-                                    "computer is served"});
-    }
-    if (const auto wait = limits_.wait(kCode, address, clock_()); wait.count() > 0) {
-      return tl::unexpected(Refusal{
-          429, "too many wrong codes; try again in " + std::to_string(wait.count()) + " s", wait});
-    }
+    if (auto refusal = judge_first_password(peer)) return tl::unexpected(std::move(*refusal));
     if (is_code(code_, code)) return {};
-    limits_.failed(kCode, address, clock_());
+    limits_.failed(code_attempt_of(peer), clock_());
   }
   ++failures_;
   keep();
@@ -253,6 +341,10 @@ Access::Token Access::set_first_password(const std::string& code, const std::str
     return {};
   });
   if (!changed) return tl::unexpected(Refusal{409, changed.error().message});
+  {
+    const std::lock_guard lock(mutex_);
+    limits_.succeeded(attempt_of(first.name, peer));
+  }
   return begin(first);
 }
 
@@ -260,7 +352,7 @@ Result<> Access::change(const std::function<Result<>(Users&)>& change) {
   if (folder_.empty()) return fail("there is no state folder to keep users in");
   auto changed = change_users(users_file(folder_), change);
   const std::lock_guard files(files_mutex_);
-  load();
+  load(Cause::OwnChange);
   return changed;
 }
 

@@ -19,11 +19,12 @@ namespace orbwatch::app::web {
 
 /// Says who a caller is, by the users file of the state folder. Until a first password is set
 /// there, whoever is on this computer is administrator and nobody else is anything; a file that
-/// cannot be used makes everybody nobody.
+/// cannot be used, or is gone after it has been there, makes everybody nobody.
 ///
-/// Thread rule: caller, has_users, failures and users on any thread, they wait for nothing; refresh
-/// on any thread, too, it waits for the disk; the rest on one thread at a time, it waits for the
-/// disk, login and change_password for a hash, too.
+/// Thread rule: caller, login_refusal, first_password_refusal, is_familiar, has_users, failures and
+/// users on any thread, they wait for nothing; refresh on any thread, too, it waits for the disk;
+/// the rest on one thread at a time, it waits for the disk, login and change_password for a hash,
+/// too.
 class Access {
  public:
   /// Why somebody was not let in.
@@ -46,14 +47,23 @@ class Access {
   /// Reads the users again when their file has changed.
   void refresh();
 
+  /// Trust without a password ends when the users file appears, before refresh() reads it.
   Caller caller(const Credentials& credentials);
   bool has_users() const;
   /// Wrong passwords and codes since start.
   std::uint64_t failures() const { return failures_; }
 
+  /// Why login() and set_first_password() would refuse whatever password or code is sent; nullopt:
+  /// they would judge it.
+  std::optional<Refusal> login_refusal(const std::string& name, const std::string& peer) const;
+  std::optional<Refusal> first_password_refusal(const std::string& peer) const;
+  /// Whether the name has logged in before from this address.
+  bool is_familiar(const std::string& name, const std::string& peer) const;
+
   /// The token of a new session.
   Token login(const std::string& name, const std::string& password, const std::string& peer);
-  void logout(const std::string& session);
+  /// False: there was no such session.
+  bool logout(const std::string& session);
   /// Of whoever knows the present one; ends the sessions of the user and begins a new one.
   Token change_password(const std::string& name, const std::string& old_password,
                         const std::string& new_password, const std::string& peer);
@@ -68,15 +78,24 @@ class Access {
   static Utc utc_now();
 
  private:
+  /// What tells one version of the users file from another.
   struct FileMark {
+    int error = 0;  ///< of stat; 0: the file is there
     std::int64_t seconds = 0, nanoseconds = 0, size = 0;
     std::uint64_t number = 0;
     bool operator==(const FileMark&) const = default;
   };
   enum class State { Nobody, Users, Unusable };
+  enum class Cause { Start, OwnChange, OtherProcess };
 
   FileMark mark() const;
-  void load();  ///< under files_mutex_
+  bool is_outdated() const;
+  bool may_trust() const;
+  void load(Cause cause);                                     ///< under files_mutex_
+  Result<std::optional<Users>> load_checked();                ///< under files_mutex_
+  void forgive_new_passwords(const Users& now, Cause cause);  ///< under mutex_
+  std::optional<Refusal> judge_login(const std::string& name, const std::string& peer) const;
+  std::optional<Refusal> judge_first_password(const std::string& peer) const;
   std::string code_for(const Result<std::optional<Users>>& loaded) const;
   tl::expected<void, Refusal> judge_code(const std::string& code, const std::string& peer);
   void keep();
@@ -87,16 +106,17 @@ class Access {
   const std::filesystem::path folder_;
   const ClockOfUtc clock_;
   std::mutex files_mutex_;   ///< also while the users file is read; before mutex_
-  FileMark mark_;            ///< of the users file as it was read; under files_mutex_
   bool gives_code_ = false;  ///< under files_mutex_
+  bool had_users_ = false;   ///< under files_mutex_
 
   std::atomic<std::uint64_t> failures_{0};
 
   mutable std::mutex
-      mutex_;  ///< of what follows; never held while the disk or a hash is waited for
+      mutex_;      ///< of what follows; never held while the disk or a hash is waited for
+  FileMark mark_;  ///< of the users file as it was read
   State state_ = State::Nobody;
   std::string fault_;
-  Users users_;
+  Users users_;       ///< the newest that were read
   std::string code_;  ///< for the first password; empty: there is none
   Sessions sessions_;
   LoginLimits limits_;

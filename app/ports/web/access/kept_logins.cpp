@@ -20,6 +20,28 @@ Json entries_json(const std::vector<LoginLimits::Entry>& entries) {
   return list;
 }
 
+Json familiar_json(const std::vector<LoginLimits::Familiar>& familiar) {
+  Json list = Json::array();
+  for (const auto& [address, failed] : familiar) {
+    list.push_back({{"name", failed.key},
+                    {"address", address},
+                    {"failures", failed.failures},
+                    {"last", to_number(failed.last)}});
+  }
+  return list;
+}
+
+/// Absent in the files of versions before.
+std::vector<LoginLimits::Familiar> to_familiar(const Json& all) {
+  std::vector<LoginLimits::Familiar> familiar;
+  for (const Json& one : all.value("familiar", Json::array())) {
+    familiar.push_back({one.at("address").get<std::string>(),
+                        {one.at("name").get<std::string>(), one.at("failures").get<int>(),
+                         to_utc(one.at("last"))}});
+  }
+  return familiar;
+}
+
 std::vector<LoginLimits::Entry> to_entries(const Json& list) {
   std::vector<LoginLimits::Entry> entries;
   for (const Json& one : list) {
@@ -43,7 +65,7 @@ Result<> load_logins(const std::filesystem::path& file, Sessions& sessions, Logi
                       one.at("password").get<std::string>(), to_utc(one.at("begun")),
                       to_utc(one.at("used"))});
     }
-    limits.restore(to_entries(all.at("names")), to_entries(all.at("addresses")));
+    limits.restore(to_entries(all.at("names")), to_entries(all.at("addresses")), to_familiar(all));
     sessions.restore(std::move(kept));
   } catch (const Json::exception&) {
     return fail(file.string() + ": is damaged; everybody has to log in anew");
@@ -63,7 +85,8 @@ Result<> save_logins(const std::filesystem::path& file, const Sessions& sessions
   }
   const Json all{{"sessions", kept},
                  {"names", entries_json(limits.names())},
-                 {"addresses", entries_json(limits.addresses())}};
+                 {"addresses", entries_json(limits.addresses())},
+                 {"familiar", familiar_json(limits.familiar())}};
   // A name that somebody tried may be no text.
   return write_private(file, all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -5,8 +5,9 @@
 #include "app/ports/web/access/login_limits.h"
 #include "app/ports/web/access/sessions.h"
 
-/// Sessions and failed logins in logins.json of the state folder, so that a restart neither logs
-/// anybody out nor lets guessing begin anew. All reentrant; they wait for the disk.
+/// Sessions, failed logins and familiar addresses in logins.json of the state folder, so that a
+/// restart neither logs anybody out nor lets guessing begin anew. All reentrant; they wait for the
+/// disk.
 namespace orbwatch::app::web {
 
 /// An absent file holds nothing. Errors: read_private(); it is damaged.

@@ -9,39 +9,67 @@ namespace orbwatch::app::web {
 
 using Utc = std::chrono::sys_seconds;
 
-/// Slows guessing of passwords down. After kFree failures for a name or from an address each
-/// further one doubles the wait, for a name up to a minute, so that nobody locks others out for
-/// long, for an address up to a quarter of an hour. An hour without a failure forgets them.
-/// Thread-bound.
+/// Slows guessing of passwords and codes down. After kFree failures each further one doubles the
+/// wait. Failures count
+/// - where the name has logged in before from this address (familiar): for the two together, so
+/// that
+///   nobody else makes the user wait there;
+/// - from anywhere else: for the address, and for the name from all such addresses together, so
+/// that
+///   many addresses guess no faster than one; from this computer for the address alone.
+/// A success forgives the address. An hour without a failure forgets. Thread-bound.
 class LoginLimits {
  public:
   static constexpr int kFree = 5;
+  /// From all unfamiliar addresses together, from a familiar one and from this computer.
   static constexpr std::chrono::seconds kLongestForName{60};
   static constexpr std::chrono::seconds kLongestForAddress{900};
   static constexpr std::chrono::seconds kForgetAfter{3600};
-  /// Of names and of addresses; one more forgets the one whose failure is longest ago.
+  /// Limit for names and for addresses; one more replaces the one with the fewest failures.
   static constexpr std::size_t kMostKept = 512;
+  /// Limits for familiar addresses; one more replaces the one whose login is longest ago.
+  static constexpr std::size_t kMostFamiliarOfName = 8;
+  static constexpr std::size_t kMostFamiliar = 512;
 
+  /// What is tried, and from where.
+  struct Attempt {
+    std::string name;       ///< of a user; empty: the code for the first password
+    std::string address;    ///< address_key() of the client
+    bool is_local = false;  ///< from this computer
+  };
   struct Entry {
     std::string key;
     int failures = 0;
     Utc last{};  ///< failure
   };
+  struct Familiar {
+    std::string address;
+    Entry failed;  ///< its key is the name
+  };
 
-  /// How long it takes until the next try is allowed; 0: now.
-  std::chrono::seconds wait(const std::string& name, const std::string& address, Utc now) const;
-  void failed(const std::string& name, const std::string& address, Utc now);
-  /// Forgets the name's failures; an address may go on guessing others.
-  void succeeded(const std::string& name);
+  /// Time until the next attempt is allowed; 0: now.
+  std::chrono::seconds wait(const Attempt& attempt, Utc now) const;
+  void failed(const Attempt& attempt, Utc now);
+  /// A login with the right password.
+  void succeeded(const Attempt& attempt);
+  bool is_familiar(const Attempt& attempt) const;
+  /// The name has another password: nobody waits for it.
+  void forgive_name(const std::string& name);
+  void forgive_addresses() { addresses_.clear(); }
 
   /// For the disk.
   const std::vector<Entry>& names() const { return names_; }
   const std::vector<Entry>& addresses() const { return addresses_; }
-  void restore(std::vector<Entry> names, std::vector<Entry> addresses);
+  const std::vector<Familiar>& familiar() const { return familiar_; }
+  void restore(std::vector<Entry> names, std::vector<Entry> addresses,
+               std::vector<Familiar> familiar);
 
  private:
+  const Familiar* find_familiar(const Attempt& attempt) const;
+
   std::vector<Entry> names_;
   std::vector<Entry> addresses_;
+  std::vector<Familiar> familiar_;  ///< newest login last
 };
 
 }  // namespace orbwatch::app::web

@@ -34,8 +34,9 @@ const User* Sessions::use(std::string_view token, const Users& users, Utc now) {
   return user;
 }
 
-void Sessions::end(std::string_view token) {
-  std::erase_if(all_, [hash = token_hash(token)](const Session& one) { return one.hash == hash; });
+bool Sessions::end(std::string_view token) {
+  const std::string hash = token_hash(token);
+  return std::erase_if(all_, [&](const Session& one) { return one.hash == hash; }) > 0;
 }
 
 /// Also one from the future, after the clock was set back.

@@ -35,7 +35,8 @@ class Sessions {
   std::string begin(const User& user, Utc now);
   /// The user of a session, which is used by that; null: there is none such.
   const User* use(std::string_view token, const Users& users, Utc now);
-  void end(std::string_view token);
+  /// False: there is none such.
+  bool end(std::string_view token);
 
   /// For the disk.
   const std::vector<Session>& all() const { return all_; }

@@ -59,6 +59,20 @@ Json list_of(const std::vector<One>& all, const char* secret_name, std::string O
   return list;
 }
 
+std::filesystem::path marker_of(const std::filesystem::path& file) {
+  return file.parent_path() / "password-is-set";
+}
+
+/// Nullopt: there is no file.
+Result<std::optional<Users>> read_users(const std::filesystem::path& file) {
+  const auto text = read_private(file);
+  if (!text) return tl::unexpected(text.error());
+  if (!*text) return std::nullopt;
+  auto users = parse_users(**text);
+  if (!users) return fail(file.string() + ": " + users.error().message);
+  return std::move(*users);
+}
+
 }  // namespace
 
 const User* Users::find(std::string_view name) const {
@@ -115,24 +129,34 @@ Result<Users> parse_users(std::string_view text) {
 }
 
 Result<std::optional<Users>> load_users(const std::filesystem::path& file) {
-  const auto text = read_private(file);
-  if (!text) return tl::unexpected(text.error());
-  if (!*text) return std::nullopt;
-  auto users = parse_users(**text);
-  if (!users) return fail(file.string() + ": " + users.error().message);
-  return std::move(*users);
+  auto users = read_users(file);
+  if (!users || *users) return users;
+  const auto marker = read_private(marker_of(file));
+  if (!marker) return tl::unexpected(marker.error());
+  if (!*marker) return std::nullopt;
+  return fail(file.string() +
+              ": is gone, although a password was set; set one by `sudo orbwatch password`, or "
+              "remove " +
+              marker_of(file).string() + " as well to begin without users");
+}
+
+Result<> keep_that_users_exist(const std::filesystem::path& file) {
+  const auto marker = read_private(marker_of(file));
+  if (marker && *marker) return {};
+  return write_private(marker_of(file), "users.json exists; without it nobody is let in\n");
 }
 
 Result<> change_users(const std::filesystem::path& file,
                       const std::function<Result<>(Users&)>& change) {
   return with_lock(file, [&]() -> Result<> {
-    auto loaded = load_users(file);
+    auto loaded = read_users(file);
     if (!loaded) return tl::unexpected(loaded.error());
     Users users = loaded->value_or(Users{});
     if (auto changed = change(users); !changed) return changed;
     const std::string text = users_text(users);
     if (const auto valid = parse_users(text); !valid) return tl::unexpected(valid.error());
-    return write_private(file, text);
+    if (auto written = write_private(file, text); !written) return written;
+    return keep_that_users_exist(file);
   });
 }
 

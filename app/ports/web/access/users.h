@@ -53,11 +53,17 @@ Result<> check_name(std::string_view name);
 std::string users_text(const Users& users);
 Result<Users> parse_users(std::string_view text);
 
-/// Nullopt: nobody has set a password yet. Errors: as read_private() and parse_users().
+/// Nullopt: nobody has set a password yet. Errors: as read_private() and parse_users(); the file is
+/// absent although it is kept that users exist.
 Result<std::optional<Users>> load_users(const std::filesystem::path& file);
 
-/// Changes the file, no matter which process does so meanwhile; an absent one holds nobody. Errors:
-/// those of `change`, as load_users(), the result is no valid file, write_private().
+/// Keeps beside the file that users exist, so that a file that is lost later is a fault. Error: as
+/// write_private().
+Result<> keep_that_users_exist(const std::filesystem::path& file);
+
+/// Changes the file, no matter which process does so meanwhile; an absent one holds nobody. Keeps
+/// that users exist. Errors: those of `change`, as read_private() and parse_users(), the result is
+/// no valid file, write_private().
 Result<> change_users(const std::filesystem::path& file,
                       const std::function<Result<>(Users&)>& change);
 

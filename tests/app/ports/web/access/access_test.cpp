@@ -168,6 +168,97 @@ TEST_F(AccessTest, AFileThatCannotBeUsedLetsNobodyIn) {
   EXPECT_THAT(refused.error().what, HasSubstr("chmod 600"));
 }
 
+/// The state folder was unmounted, or somebody has removed the file.
+TEST_F(AccessTest, UsersThatAreGoneLetNobodyInAlsoAfterARestart) {
+  add("admin", Role::Administrator);
+  std::filesystem::rename(users_file(folder.path()), folder / "elsewhere");
+  access->refresh();
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+    const auto refused = access->login("admin", kPassword, kPeer);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().status, 503);
+    EXPECT_THAT(refused.error().what, HasSubstr("is gone, although"));
+    EXPECT_EQ(access->set_first_password("", kPassword, "127.0.0.1").error().status, 409);
+    restart();
+  }
+  std::filesystem::rename(folder / "elsewhere", users_file(folder.path()));
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer));
+}
+
+TEST_F(AccessTest, AFolderThatVanishesOpensNoDoor) {
+  add("admin", Role::Administrator);
+  const TemporaryFolder other;
+  std::filesystem::rename(folder.path(), other / "away");
+  access->refresh();
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+  std::filesystem::rename(other / "away", folder.path());
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer));
+}
+
+TEST_F(AccessTest, APasswordSetAtTheBoardReplacesUsersThatAreGone) {
+  add("admin", Role::Administrator);
+  std::filesystem::remove(users_file(folder.path()));
+  restart();
+  add("admin", Role::Administrator);
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer));
+}
+
+/// Before the file is read again.
+TEST_F(AccessTest, TrustEndsWithThePasswordAtOnce) {
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Administrator);
+  ASSERT_TRUE(change_users(users_file(folder.path()), [&](Users& users) {
+    return set_user(users, "admin", Role::Administrator, "$hash");
+  }));
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+}
+
+class Guessed : public AccessTest {
+ protected:
+  static std::string guesser(int number) { return "10.0.1." + std::to_string(number); }
+  /// From 16 addresses, each as often as it may, for a while.
+  void guess(seconds duration) {
+    for (const Utc end = now + duration; now < end; now += seconds(1)) {
+      for (int i = 0; i < 16; ++i) {
+        if (access->login_refusal("admin", guesser(i))) continue;
+        ASSERT_EQ(access->login("admin", "a wrong guess", guesser(i)).error().status, 401);
+      }
+    }
+  }
+};
+
+TEST_F(Guessed, ByOthersKeepsNobodyOutWhereTheyHaveLoggedIn) {
+  add("admin", Role::Administrator);
+  ASSERT_TRUE(access->login("admin", kPassword, kPeer));
+  guess(seconds(40));
+  restart();
+  guess(seconds(2));
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer));
+  EXPECT_TRUE(access->login("admin", kPassword, "127.0.0.1")) << "on this computer";
+  EXPECT_EQ(access->login("admin", kPassword, "127.0.0.9").error().status, 429)
+      << "any program there may have this address";
+  EXPECT_EQ(access->login("admin", kPassword, "10.0.0.77").error().status, 429);
+}
+
+TEST_F(Guessed, WaitsEndWithAPasswordSetAtTheBoard) {
+  add("admin", Role::Administrator);
+  guess(seconds(40));
+  EXPECT_EQ(access->login("admin", kPassword, guesser(0)).error().status, 429);
+  add("admin", Role::Administrator);
+  EXPECT_TRUE(access->login("admin", kPassword, guesser(0)));
+}
+
+TEST_F(Guessed, SuccessForgivesAnAddressThatManyShare) {
+  add("admin", Role::Administrator);
+  add("kim", Role::Operator);
+  for (int i = 0; i < LoginLimits::kFree - 1; ++i) {
+    EXPECT_EQ(access->login("kim", "a typing error", kPeer).error().status, 401);
+  }
+  EXPECT_TRUE(access->login("kim", kPassword, kPeer));
+  EXPECT_EQ(access->login("admin", "a typing error", kPeer).error().status, 401);
+  EXPECT_TRUE(access->login("admin", kPassword, kPeer));
+}
+
 TEST_F(AccessTest, NoFileHoldsAPasswordOrAToken) {
   add("admin", Role::Administrator);
   const std::string token = access->login("admin", kPassword, kPeer).value();
