@@ -120,6 +120,7 @@ void WebSink::watch() {
   while (thread_.wait_until(hal::Clock::now() + kWatchPeriod)) {
     listeners_.watch();
     access_.refresh();
+    audit_.write_due(std::chrono::system_clock::now());
     pixels_.release_unwanted(hal::Clock::now());
     history_.advance(hal::Clock::now());
     if (!status_feed_->is_wanted()) continue;
@@ -137,6 +138,7 @@ void WebSink::stop() {
   listeners_.close();
   look_around_.stop();
   access_.stop();
+  audit_.write_all();
   for (const auto& view : views_) view->stop();
   pixels_.stop();
 }
@@ -276,7 +278,7 @@ void WebSink::run_command(const CommandInfo& info, const ExchangePtr& exchange) 
                                 {}};
   commands_.run(*command, exchange, [this, entry](CommandResult result) {
     web::Audit::Entry noted = entry;
-    noted.time = web::Access::utc_now();
+    noted.time = std::chrono::system_clock::now();
     noted.result = operator_text(result);
     audit_.note(noted);
   });

@@ -6,11 +6,14 @@
 #include <utility>
 
 #include "app/ports/web/access/secret.h"
+#include "app/ports/web/http/address.h"
 
 namespace orbwatch::app::web {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int kOk = 200, kTooManyRequests = 429, kUnavailable = 503;
 
 Response done() { return json_response(R"({"result_text":"done"})"); }
 
@@ -52,35 +55,90 @@ Result<> remove(std::vector<One>& all, const std::string& name, const char* what
 }  // namespace
 
 Route AccessDesk::changing(const char* path, Role role, const char* description,
-                           std::vector<BodyMember> body, Handler handler) {
+                           std::vector<BodyMember> body, Handler handler, Refuse refuse) {
+  const Task task{role, handler, refuse};
   Route route{"POST", path, role, description, std::string(kJson), {}};
   route.body = body;
-  route.serve = [this, handler, body = std::move(body)](const ExchangePtr& exchange) {
+  route.serve = [this, task, body = std::move(body)](const ExchangePtr& exchange) {
     auto members = parse_members(body, exchange->request().body);
     if (!members) {
       exchange->answer(error_response(400, members.error().message));
       return;
     }
-    work_.run(exchange, [this, handler, exchange, members = std::move(*members)] {
-      return answer_and_note(exchange, members, handler);
-    });
+    receive(exchange, std::move(*members), task);
   };
   return route;
 }
 
-/// What was refused because of too many is not noted: it would push everything else out.
-Response AccessDesk::answer_and_note(const ExchangePtr& exchange, const Members& members,
-                                     Handler handler) {
+/// On a thread of the server, which must not wait.
+void AccessDesk::receive(const ExchangePtr& exchange, Members members, const Task& task) {
   const web::Request& sent = exchange->request();
-  Request request{sent, members, access_.caller(credentials_of(sent)).name};
-  Response response = (this->*handler)(request);
-  constexpr int kDone = 200, kTooMany = 429, kBusy = 503;
-  if (response.status != kTooMany && response.status != kBusy) {
-    const std::string name = sent.path.substr(sent.path.rfind('/') + 1);
-    audit_.note({Access::utc_now(), request.user, sent.peer, name, request.before, request.after,
-                 response.status == kDone ? "done" : "refused"});
+  if (task.refuse) {
+    Request request{sent, members, ""};
+    if (const auto refusal = (this->*task.refuse)(request)) {
+      exchange->answer(refuse_unknown(request, *refusal));
+      return;
+    }
   }
+  const SlowWork::Asker asker = this->asker(sent, members);
+  work_.run(exchange, asker, [this, task, exchange, members = std::move(members)] {
+    return answer_and_note(exchange, members, task);
+  });
+}
+
+Audit::Entry AccessDesk::entry_of(const Request& request, bool is_done) {
+  const std::string& path = request.sent.path;
+  return {std::chrono::system_clock::now(), request.user,   request.sent.peer,
+          path.substr(path.rfind('/') + 1), request.before, request.after,
+          is_done ? "done" : "refused"};
+}
+
+/// A fault of this computer is nobody's attempt.
+Response AccessDesk::refuse_unknown(Request& request, const Access::Refusal& refusal) {
+  constexpr std::uint64_t kMostRefused = 20;
+  if (refusal.status == kUnavailable) return refused(refusal);
+  const auto count = audit_.note_refused(entry_of(request, false));
+  if (count <= kMostRefused || refusal.status == kTooManyRequests) return refused(refusal);
+  const std::chrono::seconds wait = Repetitions::kPeriod;
+  return refused({kTooManyRequests,
+                  "too many refused requests from this address; try again in " +
+                      std::to_string(wait.count()) + " s",
+                  wait});
+}
+
+/// A user who has logged in from an address before need not wait there for guesses of others.
+SlowWork::Asker AccessDesk::asker(const web::Request& sent, const Members& members) const {
+  const Caller caller = access_.caller(credentials_of(sent));
+  if (caller.role != Role::Nobody) return {true, caller.name};
+  const std::string address = address_key(sent.peer);
+  const auto user = members.find("user");
+  return {user != members.end() && access_.is_familiar(user->second, sent.peer), address};
+}
+
+/// Roles are judged anew, since the request may have waited.
+Response AccessDesk::answer_and_note(const ExchangePtr& exchange, const Members& members,
+                                     const Task& task) {
+  const web::Request& sent = exchange->request();
+  access_.refresh();
+  const Caller caller = access_.caller(credentials_of(sent));
+  if (caller.role < task.role) {
+    return error_response(401, "the role that this needs has ended meanwhile; log in");
+  }
+  Request request{sent, members, caller.name};
+  Response response = (this->*task.handler)(request);
+  note(request, task, response.status);
   return response;
+}
+
+/// Requests that were refused because of too many are counted where they come without a role, and
+/// else not noted: they would push everything else out.
+void AccessDesk::note(const Request& request, const Task& task, int status) {
+  if (status == kUnavailable || request.changes_nothing) return;
+  if (task.role == Role::Nobody && status != kOk) {
+    audit_.note_refused(entry_of(request, false));
+  } else if (status != kTooManyRequests) {
+    audit_.note(entry_of(request, status == kOk), request.before + request.after);
+  }
 }
 
 Route AccessDesk::shown(const char* path, Role role, const char* description,
@@ -103,13 +161,13 @@ std::vector<Route> AccessDesk::routes() {
   routes.push_back(shown("/api/v1/session", Role::Nobody, "Who asks, and whether there are users",
                          &AccessDesk::session));
   routes.push_back(changing("/api/v1/login", Role::Nobody, "Begins a session, kept in a cookie",
-                            {user, password}, &AccessDesk::login));
+                            {user, password}, &AccessDesk::login, &AccessDesk::refuse_login));
   routes.push_back(
       changing("/api/v1/set_first_password", Role::Nobody,
                "Makes the first administrator, admin, while there are no users, and "
                "begins a session",
                {{"code", "As the log and `orbwatch password --show` have it"}, password},
-               &AccessDesk::set_first_password));
+               &AccessDesk::set_first_password, &AccessDesk::refuse_first_password));
   routes.push_back(
       changing("/api/v1/logout", Role::Viewer, "Ends the session", {}, &AccessDesk::logout));
   routes.push_back(changing("/api/v1/set_password", Role::Viewer,
@@ -137,7 +195,10 @@ std::vector<Route> AccessDesk::routes() {
 
 void AccessDesk::show_audit(const ExchangePtr& exchange) {
   constexpr std::size_t kMostShown = 500;
-  work_.run(exchange, [this] { return json_response(audit_.newest(kMostShown)); });
+  work_.run(exchange, asker(exchange->request(), {}), [this] {
+    audit_.write_all();
+    return json_response(audit_.newest(kMostShown));
+  });
 }
 
 /// "kim: viewer"; empty: there is no such user.
@@ -167,18 +228,28 @@ Response AccessDesk::logged_in(const web::Request& request, const Access::Token&
   return response;
 }
 
+// Only a known name is noted: a password may have been typed in its place.
+std::optional<Access::Refusal> AccessDesk::refuse_login(Request& request) const {
+  const std::string& user = request.members.at("user");
+  request.after = role_of(user);
+  return access_.login_refusal(user, request.sent.peer);
+}
+
+std::optional<Access::Refusal> AccessDesk::refuse_first_password(Request& request) const {
+  return access_.first_password_refusal(request.sent.peer);
+}
+
 Response AccessDesk::login(Request& request) {
   const std::string& user = request.members.at("user");
   const auto token = access_.login(user, request.members.at("password"), request.sent.peer);
   if (token) request.user = user;
-  // Only a known name: a password may have been typed in its place.
   request.after = role_of(user);
   return logged_in(request.sent, token);
 }
 
 Response AccessDesk::logout(Request& request) {
   const std::string* session = request.sent.cookie(session_cookie(request.sent));
-  if (session) access_.logout(*session);
+  request.changes_nothing = !session || !access_.logout(*session);
   Response response = done();
   response.headers.emplace_back("Set-Cookie", cookie(request.sent, "", std::chrono::seconds(0)));
   return response;
@@ -200,6 +271,16 @@ Response AccessDesk::set_first_password(Request& request) {
   return logged_in(request.sent, token);
 }
 
+/// Trust in this computer ends with the first password, whoever sets it meanwhile.
+Result<> AccessDesk::change(const Request& request, const std::function<Result<>(Users&)>& change) {
+  return access_.change([&](Users& all) -> Result<> {
+    if (request.user.empty() && !all.users.empty()) {
+      return fail("a password has been set meanwhile; log in");
+    }
+    return change(all);
+  });
+}
+
 Response AccessDesk::set_user(Request& request) {
   const std::string &user = request.members.at("user"), &password = request.members.at("password");
   std::optional<Role> role;
@@ -219,7 +300,7 @@ Response AccessDesk::set_user(Request& request) {
   }
   request.before = role_of(user);
   const auto changed =
-      access_.change([&](Users& all) { return web::set_user(all, user, role, hash); });
+      change(request, [&](Users& all) { return web::set_user(all, user, role, hash); });
   if (changed) request.after = role_of(user) + (hash.empty() ? "" : ", another password");
   return done_or(changed);
 }
@@ -227,7 +308,7 @@ Response AccessDesk::set_user(Request& request) {
 Response AccessDesk::remove_user(Request& request) {
   const std::string& user = request.members.at("user");
   request.before = role_of(user);
-  return done_or(access_.change([&](Users& all) { return remove(all.users, user, "user"); }));
+  return done_or(change(request, [&](Users& all) { return remove(all.users, user, "user"); }));
 }
 
 Response AccessDesk::create_token(Request& request) {
@@ -236,7 +317,7 @@ Response AccessDesk::create_token(Request& request) {
   if (!role) return error_response(400, role.error().message);
   if (auto named = check_name(name); !named) return error_response(400, named.error().message);
   const std::string token = random_token();
-  const auto added = access_.change([&](Users& all) -> Result<> {
+  const auto added = change(request, [&](Users& all) -> Result<> {
     if (std::ranges::find(all.tokens, name, &ApiToken::name) != all.tokens.end()) {
       return fail("there is a token " + name + " already; revoke it first");
     }
@@ -250,7 +331,7 @@ Response AccessDesk::create_token(Request& request) {
 Response AccessDesk::revoke_token(Request& request) {
   const std::string& name = request.members.at("name");
   const auto removed =
-      access_.change([&](Users& all) { return remove(all.tokens, name, "token"); });
+      change(request, [&](Users& all) { return remove(all.tokens, name, "token"); });
   if (removed) request.before = name;
   return done_or(removed);
 }

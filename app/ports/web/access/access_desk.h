@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,26 @@ class AccessDesk {
     const Members& members;
     std::string user;               ///< who asks
     std::string before{}, after{};  ///< for the audit
+    bool changes_nothing = false;   ///< has no place in the audit
   };
   using Handler = Response (AccessDesk::*)(Request&);
+  /// What is refused to a client without a role whatever secret it sends; nullopt: nothing.
+  using Refuse = std::optional<Access::Refusal> (AccessDesk::*)(Request&) const;
 
+  /// What is done with a request: at once, and at the desk.
+  struct Task {
+    Role role = Role::Administrator;
+    Handler handler = nullptr;
+    Refuse refuse = nullptr;
+  };
+
+  /// `refuse` null: nothing is refused at once.
   Route changing(const char* path, Role role, const char* description, std::vector<BodyMember> body,
-                 Handler handler);
+                 Handler handler, Refuse refuse = nullptr);
+  void receive(const ExchangePtr& exchange, Members members, const Task& task);
+  Response refuse_unknown(Request& request, const Access::Refusal& refusal);
+  SlowWork::Asker asker(const web::Request& sent, const Members& members) const;
+  Result<> change(const Request& request, const std::function<Result<>(Users&)>& change);
   Route shown(const char* path, Role role, const char* description,
               Response (AccessDesk::*handler)(const web::Request&) const);
 
@@ -52,7 +68,11 @@ class AccessDesk {
   Response remove_user(Request& request);
   Response create_token(Request& request);
   Response revoke_token(Request& request);
-  Response answer_and_note(const ExchangePtr& exchange, const Members& members, Handler handler);
+  std::optional<Access::Refusal> refuse_login(Request& request) const;
+  std::optional<Access::Refusal> refuse_first_password(Request& request) const;
+  Response answer_and_note(const ExchangePtr& exchange, const Members& members, const Task& task);
+  void note(const Request& request, const Task& task, int status);
+  static Audit::Entry entry_of(const Request& request, bool is_done);
   void show_audit(const ExchangePtr& exchange);
   std::string role_of(const std::string& user) const;
   Response logged_in(const web::Request& request, const Access::Token& token) const;

@@ -1,90 +1,101 @@
 #include "app/ports/web/access/audit.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <system_error>
+#include <utility>
 
-#include "app/log.h"
-#include "app/model/utc_text.h"
-#include "app/state/private_file.h"
-#include "hal/thread/file_descriptor.h"
+#include "app/ports/web/http/address.h"
 
 namespace orbwatch::app::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using AuditEntries = std::vector<nlohmann::ordered_json>;
 
-std::string line_of(const Audit::Entry& entry) {
-  const Json line{{"time", utc_text(entry.time).value_or("")},
-                  {"who", entry.who},
-                  {"from", entry.from},
-                  {"what", entry.what},
-                  {"before", entry.before},
-                  {"after", entry.after},
-                  {"result", entry.result}};
-  // A name that somebody tried may be no text.
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string kind_of(std::initializer_list<std::string> parts) {
+  std::string kind;
+  for (const std::string& part : parts) kind += part + '\n';
+  return kind;
 }
 
-/// Begins a new line when a power cut has left a part of one. False with errno.
-bool append(const std::filesystem::path& file, std::string line) {
-  const hal::FileDescriptor opened(::open(
-      file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR));
-  struct stat about {};
-  if (!opened.is_open() || ::fstat(opened.get(), &about) != 0) return false;
-  char last = '\n';
-  if (about.st_size > 0 && ::pread(opened.get(), &last, 1, about.st_size - 1) != 1) return false;
-  if (last != '\n') line.insert(0, 1, '\n');
-  return ::write(opened.get(), line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
-         ::fdatasync(opened.get()) == 0;
+bool is_earlier(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
+  return a.value("time", "") < b.value("time", "");
 }
 
-void add_lines(const std::filesystem::path& file, std::vector<Json>& entries) {
-  const auto text = read_private(file);
-  if (!text || !*text) return;
-  std::istringstream lines(**text);
-  for (std::string line; std::getline(lines, line);) {
-    Json entry = Json::parse(line, nullptr, false);
-    if (entry.is_object()) entries.push_back(std::move(entry));
+/// Keeps the order of each, also where the clock was set back in between.
+AuditEntries merge(AuditEntries a, AuditEntries b) {
+  AuditEntries merged;
+  merged.reserve(a.size() + b.size());
+  auto next_a = a.begin(), next_b = b.begin();
+  while (next_a != a.end() && next_b != b.end()) {
+    auto& next = is_earlier(*next_b, *next_a) ? next_b : next_a;
+    merged.push_back(std::move(*next++));
   }
+  std::move(next_a, a.end(), std::back_inserter(merged));
+  std::move(next_b, b.end(), std::back_inserter(merged));
+  return merged;
 }
 
 }  // namespace
 
-void Audit::note(const Entry& entry) {
-  if (folder_.empty()) return;
-  const std::string line = line_of(entry);
-  const std::lock_guard lock(mutex_);
-  std::error_code absent;
-  const auto size = std::filesystem::file_size(file(), absent);
-  const bool is_full = !absent && size + line.size() > kMostBytes;
-  if (is_full && ::rename(file().c_str(), file_before().c_str()) != 0) {
-    log_line(LogLevel::Error,
-             file().string() + ": cannot be renamed: " + std::system_category().message(errno));
-    return;
+Audit::Audit(const std::filesystem::path& state_folder)
+    : file_(state_folder, "audit"), refused_file_(state_folder, "audit-refused") {}
+
+void Audit::note(const Entry& entry, const std::string& subject) {
+  {
+    const std::lock_guard lock(mutex_);
+    const std::string kind = kind_of({entry.who, entry.what, entry.result, subject});
+    if (!repetitions_.count(kind, entry).is_noted) return;
   }
-  if (append(file(), line)) return;
-  log_line(LogLevel::Error, file().string() +
-                                ": cannot be written: " + std::system_category().message(errno) +
-                                "; lost: " + line.substr(0, line.size() - 1));
+  file_.append({entry});
+}
+
+std::uint64_t Audit::note_refused(const Entry& entry) {
+  const std::string kind = kind_of({address_key(entry.from), entry.what, entry.after});
+  const std::lock_guard lock(mutex_);
+  const auto counted = refused_.count(kind, entry);
+  if (counted.is_noted) waiting_.push_back(entry);
+  return counted.count;
+}
+
+void Audit::write_due(Repetitions::Time now) {
+  std::vector<Entry> counts, refused_counts;
+  {
+    const std::lock_guard lock(mutex_);
+    counts = repetitions_.take_due(now);
+    refused_counts = refused_.take_due(now);
+  }
+  write_waiting(std::move(counts), std::move(refused_counts));
+}
+
+void Audit::write_all() {
+  std::vector<Entry> counts, refused_counts;
+  {
+    const std::lock_guard lock(mutex_);
+    counts = repetitions_.take_all();
+    refused_counts = refused_.take_all();
+  }
+  write_waiting(std::move(counts), std::move(refused_counts));
+}
+
+void Audit::write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_counts) {
+  std::vector<Entry> refused;
+  {
+    const std::lock_guard lock(mutex_);
+    refused = std::exchange(waiting_, {});
+  }
+  std::ranges::move(refused_counts, std::back_inserter(refused));
+  // By the order of kinds before.
+  std::ranges::stable_sort(refused, {}, &Entry::time);
+  std::ranges::stable_sort(counts, {}, &Entry::time);
+  file_.append(counts);
+  refused_file_.append(refused);
 }
 
 std::string Audit::newest(std::size_t most) const {
-  std::vector<Json> entries;
-  if (!folder_.empty()) {
-    const std::lock_guard lock(mutex_);
-    add_lines(file_before(), entries);
-    add_lines(file(), entries);
-  }
-  if (entries.size() > most) {
-    entries.erase(entries.begin(), entries.end() - static_cast<std::ptrdiff_t>(most));
-  }
-  return Json{{"entries", entries}}.dump();
+  AuditEntries refused = refused_file_.newest(std::min(most, kMostRefusedShown));
+  AuditEntries entries = file_.newest(most - refused.size());
+  return nlohmann::ordered_json{{"entries", merge(std::move(entries), std::move(refused))}}.dump();
 }
 
 }  // namespace orbwatch::app::web

@@ -1,5 +1,6 @@
 #include "app/ports/web/access/slow_work.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace orbwatch::app::web {
@@ -10,12 +11,16 @@ void SlowWork::start() {
   });
 }
 
-void SlowWork::run(const ExchangePtr& exchange, std::function<Response()> work) {
+void SlowWork::run(const ExchangePtr& exchange, const Asker& asker,
+                   std::function<Response()> work) {
   bool is_full = false;
   {
     const std::lock_guard lock(mutex_);
-    is_full = waiting_.size() == kMostWaiting;
-    if (!is_full) waiting_.push_back({exchange, std::move(work)});
+    Queue& queue = asker.is_known ? known_ : unknown_;
+    const auto own = static_cast<std::size_t>(std::ranges::count(queue, asker.key, &Waiting::key));
+    is_full =
+        queue.size() == kMostWaiting || own >= (asker.is_known ? kMostOfKnown : kMostOfUnknown);
+    if (!is_full) queue.push_back({asker.key, exchange, std::move(work)});
   }
   if (!is_full) return thread_.wake();
   Response response = error_response(503, busy_);
@@ -23,14 +28,21 @@ void SlowWork::run(const ExchangePtr& exchange, std::function<Response()> work) 
   exchange->answer(std::move(response));
 }
 
+SlowWork::Queue& SlowWork::next_queue() {
+  const bool is_turn_of_unknown = was_known_ && !unknown_.empty();
+  was_known_ = !known_.empty() && !is_turn_of_unknown;
+  return was_known_ ? known_ : unknown_;
+}
+
 void SlowWork::work_all() {
   while (!thread_.stop_requested()) {
     Waiting next;
     {
       const std::lock_guard lock(mutex_);
-      if (waiting_.empty()) return;
-      next = std::move(waiting_.front());
-      waiting_.pop_front();
+      Queue& queue = next_queue();
+      if (queue.empty()) return;
+      next = std::move(queue.front());
+      queue.pop_front();
     }
     if (next.exchange->begin_effect()) next.exchange->answer(next.work());
   }

@@ -96,7 +96,7 @@ std::vector<Route> ConfigurationDesk::routes() {
   routes.push_back({"GET", "/api/v1/configuration", Role::Integrator,
                     "The files of the configuration as they are on the disk, and what runs instead",
                     std::string(kJson), [this](const ExchangePtr& exchange) {
-                      work_.run(exchange, [this] { return show(); });
+                      work_.run(exchange, asker(exchange), [this] { return show(); });
                     }});
   routes.push_back(changing("/api/v1/check_configuration",
                             "Checks the configuration with these texts in place of some files, and "
@@ -131,16 +131,24 @@ Route ConfigurationDesk::changing(const char* path, const char* description,
   Route route{"POST", path, Role::Integrator, description, std::string(kJson), {}};
   route.body = std::move(body);
   route.serve = [this, read, handler](const ExchangePtr& exchange) {
-    work_.run(exchange,
+    work_.run(exchange, asker(exchange),
               [this, read, handler, exchange] { return answer_and_note(exchange, read, handler); });
   };
   return route;
+}
+
+/// Everybody who comes here has a role.
+SlowWork::Asker ConfigurationDesk::asker(const ExchangePtr& exchange) const {
+  return {true, access_.caller(credentials_of(exchange->request())).name};
 }
 
 Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read read,
                                             Handler handler) {
   const web::Request& request = exchange->request();
   Sent sent{access_.caller(credentials_of(request))};
+  if (sent.caller.role < Role::Integrator) {
+    return error_response(401, "the role that this needs has ended meanwhile; log in");
+  }
   const std::string name = request.path.substr(request.path.rfind('/') + 1);
   if (const auto right = read(request.body, sent); !right) {
     return error_response(400, right.error().message);
@@ -148,8 +156,8 @@ Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read re
   Response response = (this->*handler)(sent);
   if (handler != &ConfigurationDesk::check && handler != &ConfigurationDesk::check_recipe) {
     constexpr int kDone = 200;
-    audit_.note({Access::utc_now(), sent.caller.name, request.peer, name, sent.before, sent.after,
-                 response.status == kDone ? "done" : "refused"});
+    audit_.note({std::chrono::system_clock::now(), sent.caller.name, request.peer, name,
+                 sent.before, sent.after, response.status == kDone ? "done" : "refused"});
   }
   return response;
 }

@@ -37,6 +37,7 @@ class ConfigurationDesk {
 
   Route changing(const char* path, const char* description, std::vector<BodyMember> body, Read read,
                  Handler handler);
+  SlowWork::Asker asker(const ExchangePtr& exchange) const;
   Response answer_and_note(const ExchangePtr& exchange, Read read, Handler handler);
 
   Response show() const;

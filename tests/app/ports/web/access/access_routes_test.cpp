@@ -142,6 +142,25 @@ TEST_F(AccessRoutes, APasswordSetByAnotherProcessCountsSoon) {
   EXPECT_EQ(login("viewer", "forgotten no more").status, 200);
 }
 
+/// Until the server reads the file again.
+TEST_F(AccessRoutes, ThisComputerMakesNoTokenOnceAPasswordIsSet) {
+  start();
+  EXPECT_EQ(get(port(), "/api/v1/users").status, 200);
+  add_one_of_each_role();
+  const std::string asked = R"({"name":"backdoor","role":"administrator"})";
+  EXPECT_EQ(post("/api/v1/create_token", asked, kPageHeaders).status, 401);
+  EXPECT_EQ(load_users(users_file(state_folder)).value()->tokens.size(), kRoles.size());
+}
+
+TEST_F(AccessRoutes, BeforeTheFirstPasswordLoginsAreRefusedAtOnceAndLimited) {
+  start();
+  std::map<int, int> answers;
+  for (int i = 0; i < 100; ++i) ++answers[login("admin", kPassword).status];
+  EXPECT_EQ(answers, (std::map<int, int>{{409, 20}, {429, 80}}));
+  add_one_of_each_role();
+  EXPECT_EQ(login("administrator", kPassword).status, 200) << "the limit is of refusals only";
+}
+
 /// Of all that an administrator can read.
 TEST_F(AccessRoutes, NoReplyHoldsASecret) {
   add_one_of_each_role();

@@ -54,7 +54,7 @@ TEST(Audit, IsBoundedAndKeepsTheNewest) {
   const TemporaryFolder folder;
   Audit audit(folder.path());
   Audit::Entry large = numbered(0);
-  large.after = std::string(Audit::kMostBytes / 50, 'x');
+  large.after = std::string(AuditFile::kMostBytes / 50, 'x');
   constexpr int kNoted = 170;
   for (int i = 0; i < kNoted; ++i) {
     large.what = std::to_string(i);
@@ -62,7 +62,7 @@ TEST(Audit, IsBoundedAndKeepsTheNewest) {
   }
   EXPECT_EQ(folder.files(), 2);
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-    EXPECT_LE(entry.file_size(), Audit::kMostBytes);
+    EXPECT_LE(entry.file_size(), AuditFile::kMostBytes);
   }
   const json all = entries(audit);
   EXPECT_GT(all.size(), 49U);
@@ -85,6 +85,44 @@ TEST(Audit, ALineThatWasCutTakesNoOtherWithIt) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0]["what"], "1");
   EXPECT_EQ(all[1]["what"], "3");
+}
+
+Audit::Entry refused_login(int number, const std::string& from) {
+  Audit::Entry entry = numbered(number);
+  entry.who.clear();
+  entry.from = from;
+  entry.what = "login";
+  entry.result = "refused";
+  entry.time += std::chrono::seconds(number);
+  return entry;
+}
+
+TEST(Audit, RefusedClientsHaveFilesOfTheirOwnAndFewOfTheLinesShown) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  audit.note(numbered(1));
+  for (int i = 0; i < 5000; ++i) {
+    audit.note_refused(
+        refused_login(i, "10.1." + std::to_string(i / 256) + "." + std::to_string(i % 256)));
+  }
+  audit.write_all();
+  const json all = entries(audit, 100);
+  EXPECT_EQ(all.size(), Audit::kMostRefusedShown + 1);
+  EXPECT_EQ(all.front()["what"], "1");
+  EXPECT_EQ(all.back()["from"], "(others)");
+  EXPECT_LT(std::filesystem::file_size(folder / "audit-refused.jsonl"), 200'000U);
+  EXPECT_LT(std::filesystem::file_size(folder / "audit.jsonl"), 200U);
+}
+
+TEST(Audit, CountsOfANetworkOfIpv6AreOne) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  for (int i = 0; i < 100; ++i) audit.note_refused(refused_login(i, "fd00::" + std::to_string(i)));
+  audit.write_due(Repetitions::Time(std::chrono::seconds(1'800'000'100)));
+  EXPECT_EQ(entries(audit).size(), 1U);
+  audit.write_due(Repetitions::Time(std::chrono::seconds(1'800'000'700)));
+  ASSERT_EQ(entries(audit).size(), 2U);
+  EXPECT_EQ(entries(audit)[1]["result"], "refused, 99 more");
 }
 
 class AuditServed : public AccessServed {
@@ -144,10 +182,63 @@ TEST_F(AuditServed, SaysWhoDidWhat) {
   expect(7, "administrator", "create_token", "", "plc: viewer", "done");
 }
 
-TEST_F(AuditServed, ALoginFloodPushesNothingOut) {
+TEST_F(AuditServed, GuessesAreNotedOnceAndCounted) {
   for (int i = 0; i < 30; ++i) login("administrator", "a wrong guess");
-  EXPECT_LE(shown().size(), static_cast<std::size_t>(LoginLimits::kFree) + 3);
-  EXPECT_GE(shown().size(), static_cast<std::size_t>(LoginLimits::kFree));
+  const json all = shown();
+  ASSERT_EQ(all.size(), 2U) << all.dump(1);
+  EXPECT_EQ(all[0]["result"], "refused");
+  EXPECT_EQ(all[1]["result"], "refused, 29 more");
+  EXPECT_EQ(all[1]["after"], "administrator: administrator");
+}
+
+/// Neither the disk nor the desk is asked for: `busy` would be 503.
+TEST_F(AuditServed, WhoHasNoAccountPushesNothingOut) {
+  const std::string body = json{{"code", "AAAA-AAAA"}, {"password", kPassword}}.dump();
+  std::map<int, int> answers;
+  constexpr int kSent = 300;
+  for (int i = 0; i < kSent; ++i) {
+    ++answers[post("/api/v1/set_first_password", body, kPageHeaders).status];
+  }
+  EXPECT_EQ(answers, (std::map<int, int>{{409, 20}, {429, kSent - 20}}));
+  const json all = shown();
+  ASSERT_EQ(all.size(), 2U) << all.dump(1);
+  EXPECT_EQ(all[1]["result"], "refused, 299 more");
+  EXPECT_FALSE(std::filesystem::exists(folder / "audit.jsonl")) << "a file of its own";
+}
+
+TEST_F(AuditServed, TurningAViewAgainAndAgainIsCounted) {
+  const std::string headers = by_token(Role::Operator) + kJsonHeader;
+  for (int i = 0; i < 60; ++i) {
+    const std::string view = json{{"view", i % 2}}.dump();
+    ASSERT_EQ(post("/api/v1/command/select_view", view, headers).status, 200);
+  }
+  ASSERT_EQ(post("/api/v1/command/stop", "{}", headers).status, 409);
+  const json all = shown();
+  ASSERT_EQ(all.size(), Audit::kFree + 2) << all.dump(1);
+  EXPECT_EQ(all[Audit::kFree]["result"], "not possible with this configuration");
+  EXPECT_EQ(all.back()["result"], "done, 40 more");
+  EXPECT_EQ(all.back()["after"], R"({"view":1})");
+}
+
+TEST_F(AuditServed, LoggingOutWithoutASessionIsNoAct) {
+  const std::string headers = by_token(Role::Viewer) + kPageHeaders;
+  EXPECT_EQ(post("/api/v1/logout", "{}", headers).status, 200);
+  EXPECT_EQ(post("/api/v1/logout", "{}", headers + "Cookie: orbwatch_session=x\r\n").status, 200);
+  EXPECT_EQ(shown().size(), 0U);
+  const std::string session = session_of("viewer");
+  EXPECT_EQ(post("/api/v1/logout", "{}", session + kPageHeaders).status, 200);
+  EXPECT_EQ(shown().back()["what"], "logout");
+}
+
+/// Changes of users are told apart, however many there are.
+TEST_F(AuditServed, EveryUserThatIsAddedIsNoted) {
+  const std::string admin = by_token(Role::Administrator) + kJsonHeader;
+  constexpr int kAdded = 30;
+  for (int i = 0; i < kAdded; ++i) {
+    const json token{{"name", "program-" + std::to_string(i)}, {"role", "viewer"}};
+    ASSERT_EQ(post("/api/v1/create_token", token.dump(), admin).status, 200);
+  }
+  EXPECT_EQ(shown().size(), static_cast<std::size_t>(kAdded));
 }
 
 }  // namespace

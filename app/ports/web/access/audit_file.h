@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/ports/web/access/audit_entry.h"
+
+namespace orbwatch::app::web {
+
+/// Audit entries on the disk, as lines of JSON: NAME.jsonl of the state folder and, once it is
+/// full, the one before, NAME.1.jsonl. Only its owner reads them. Thread-safe; waits for the disk.
+class AuditFile {
+ public:
+  /// Largest size of a file, which then becomes the one before: a few thousand entries.
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+
+  /// An empty folder: nothing is kept.
+  AuditFile(std::filesystem::path state_folder, std::string name)
+      : folder_(std::move(state_folder)), name_(std::move(name)) {}
+
+  /// Logs an error when they cannot be written.
+  void append(const std::vector<AuditEntry>& entries);
+
+  /// The newest entries, the newest last. Lines that a power cut left in part are omitted.
+  std::vector<nlohmann::ordered_json> newest(std::size_t most) const;
+
+ private:
+  std::filesystem::path file() const { return folder_ / (name_ + ".jsonl"); }
+  std::filesystem::path file_before() const { return folder_ / (name_ + ".1.jsonl"); }
+  void append_lines(const std::string& lines);
+
+  const std::filesystem::path folder_;
+  const std::string name_;
+  mutable std::mutex mutex_;  ///< also while the disk is waited for
+};
+
+}  // namespace orbwatch::app::web
