@@ -48,6 +48,11 @@ Bytes checked(std::span<const std::uint8_t> bytes) {
 class Line {
  public:
   void send(std::span<const std::uint8_t> bytes, milliseconds silence) {
+    if (silence >= RtuFramer::kMaxGap && framer_.is_waiting()) {
+      framer_.end();
+      while (const auto frame = framer_.next()) check(*frame);
+      require(!framer_.is_waiting(), "bytes that wait after the end");
+    }
     sent_.insert(sent_.end(), bytes.begin(), bytes.end());
     // The first of several reads comes after the silence.
     while (!bytes.empty()) {

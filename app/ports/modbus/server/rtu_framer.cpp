@@ -12,10 +12,6 @@ constexpr std::size_t kUnit = 1;
 constexpr std::size_t kChecksum = 2;
 constexpr std::size_t kShortestFrame = kUnit + 1 + kChecksum;
 
-/// The longest gap inside a frame. Adapters pause for up to 16 ms; masters repeat a request after
-/// 100 ms or more.
-constexpr std::chrono::milliseconds kMaxGap{50};
-
 /// The checksum (V1.02, 6.2.2) over one more byte.
 std::uint16_t checked(std::uint16_t checksum, std::uint8_t byte) {
   checksum ^= byte;
@@ -47,21 +43,23 @@ bool is_checked(std::span<const std::uint8_t> frame) {
 void RtuFramer::push(std::span<const std::uint8_t> bytes, hal::Clock::duration silence) {
   if (silence >= pause_) {
     is_lost_ = false;
-    const bool may_go_on = size_ > 0 && is_for_us(buffer_[0]) && silence < kMaxGap;
-    if (size_ > 0 && !may_go_on) {
+    const std::size_t begun = this->bytes().size();
+    const bool may_go_on = begun > 0 && is_for_us(this->bytes()[0]) && silence < kMaxGap;
+    if (begun > 0 && !may_go_on) {
       ++errors_;
-      size_ = 0;
+      spoil(begun);
     }
-    after_pause_ = size_;
+    if (silence >= kMaxGap) drop(0);
+    after_pause_ = this->bytes().size();
   }
-  if (is_lost_) return;
   std::ranges::copy(bytes, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
   size_ += bytes.size();
+  if (is_lost_) spoil(bytes.size());
 }
 
 std::optional<std::span<const std::uint8_t>> RtuFramer::next() {
-  drop(std::exchange(returned_, 0));
-  while (size_ > 0) {
+  if (returned_ > 0) drop(std::exchange(returned_, 0));
+  while (!bytes().empty()) {
     const auto length = frame_length(bytes());
     // The bytes before the pause may be noise.
     const bool is_noise =
@@ -70,12 +68,40 @@ std::optional<std::span<const std::uint8_t>> RtuFramer::next() {
       resynchronise();
     } else if (*length == 0) {
       return std::nullopt;
-    } else if (is_for_us(buffer_[0])) {
+    } else if (is_for_us(bytes()[0])) {
       returned_ = *length;
       return bytes().first(returned_);
     } else {
       ++other_units_;
       drop(*length);
+    }
+  }
+  return std::nullopt;
+}
+
+void RtuFramer::end() {
+  const auto request = last_request();
+  // What was spoilt is counted.
+  const bool is_whole = request && request->data() <= bytes().data();
+  if (!bytes().empty() && !is_whole) ++errors_;
+  size_ = request ? request->size() : 0;
+  if (request) std::ranges::copy(*request, buffer_.begin());
+  spoilt_ = after_pause_ = 0;
+  is_lost_ = false;
+}
+
+/// The request that ends the bytes, or comes before one stray byte. The longest frame decides: a
+/// shorter one at its end would be a part of it. So one for another unit is not answered either.
+std::optional<std::span<const std::uint8_t>> RtuFramer::last_request() const {
+  const auto all = std::span(buffer_).first(size_);
+  for (std::size_t stray = 0; stray <= 1 && stray < all.size(); ++stray) {
+    const auto sent = all.first(all.size() - stray);
+    const std::size_t longest = std::min(sent.size(), kLongestFrame);
+    for (std::size_t length = longest; length >= kShortestFrame; --length) {
+      const auto frame = sent.last(length);
+      if (!is_checked(frame)) continue;
+      if (!is_for_us(frame[0])) return std::nullopt;
+      if (frame_length(frame) == length) return frame;
     }
   }
   return std::nullopt;
@@ -99,12 +125,28 @@ std::optional<std::size_t> RtuFramer::frame_length(std::span<const std::uint8_t>
 void RtuFramer::resynchronise() {
   ++errors_;
   is_lost_ = after_pause_ == 0;
-  drop(is_lost_ ? size_ : after_pause_);
+  spoil(is_lost_ ? bytes().size() : after_pause_);
 }
 
+/// The next `count` bytes are no frame. Of those only the newest are kept, enough for a frame and
+/// a stray byte.
+void RtuFramer::spoil(std::size_t count) {
+  spoilt_ += count;
+  after_pause_ -= std::min(after_pause_, count);
+  constexpr std::size_t kKept = kLongestFrame;
+  if (spoilt_ <= kKept) return;
+  const auto kept = std::span(buffer_).first(size_).subspan(spoilt_ - kKept);
+  std::ranges::copy(kept, buffer_.begin());
+  size_ = kept.size();
+  spoilt_ = kKept;
+}
+
+/// The next `count` bytes are a frame, or there is a silence: nothing before them is of use.
 void RtuFramer::drop(std::size_t count) {
-  std::ranges::copy(bytes().subspan(count), buffer_.begin());
-  size_ -= count;
+  const auto rest = bytes().subspan(count);
+  std::ranges::copy(rest, buffer_.begin());
+  size_ = rest.size();
+  spoilt_ = 0;
   after_pause_ -= std::min(after_pause_, count);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,12 +18,18 @@ namespace orbwatch::app::modbus {
 /// By the standard a frame ends with a pause of 3.5 characters. USB adapters deliver one frame in
 /// pieces with longer pauses, or two frames in one piece. So a frame ends where its function code
 /// says, or else where its checksum matches; a pause only marks where the next frame may begin
-/// after an error. Knows no device and no clock. Thread-bound.
+/// after an error. Bytes that are not a frame are kept until the line is silent: a master that
+/// waits for its answer has sent its request last, whatever was in front of it.
+/// Knows no device and no clock. Thread-bound.
 class RtuFramer {
  public:
   /// Unit, protocol data unit of 253 bytes at most, checksum.
   static constexpr std::size_t kLongestFrame = 256;
   static constexpr int kBroadcast = 0;
+
+  /// The longest gap inside a frame. Adapters pause for up to 16 ms; masters repeat a request after
+  /// 100 ms or more.
+  static constexpr std::chrono::milliseconds kMaxGap{50};
 
   /// A silence of `pause` or longer is a pause.
   RtuFramer(int unit_id, hal::Clock::duration pause) : unit_id_(unit_id), pause_(pause) {}
@@ -35,6 +42,15 @@ class RtuFramer {
   /// there. Invalidates the frame returned before.
   std::optional<std::span<const std::uint8_t>> next();
 
+  /// Bytes wait for the rest of their frame, or for a silence.
+  bool is_waiting() const { return size_ > returned_; }
+
+  /// The line was silent for kMaxGap: what waits is not continued. next() returns the request at
+  /// its end, if there is one; the rest is dropped. One stray byte may follow the request. A frame
+  /// for this unit that lies inside the bytes of another one is not at their end, since that one's
+  /// checksum follows. Only when next() returned nullopt.
+  void end();
+
   /// Bytes that were no frame were dropped so many times.
   std::uint64_t errors() const { return errors_; }
 
@@ -42,19 +58,25 @@ class RtuFramer {
   std::uint64_t other_units() const { return other_units_; }
 
  private:
-  std::span<const std::uint8_t> bytes() const { return std::span(buffer_).first(size_); }
+  /// The bytes behind those that are known to be no frame.
+  std::span<const std::uint8_t> bytes() const {
+    return std::span(buffer_).first(size_).subspan(spoilt_);
+  }
   bool is_for_us(std::uint8_t unit) const { return unit == unit_id_ || unit == kBroadcast; }
   std::optional<std::size_t> frame_length(std::span<const std::uint8_t> bytes) const;
+  std::optional<std::span<const std::uint8_t>> last_request() const;
   void resynchronise();
+  void spoil(std::size_t count);
   void drop(std::size_t count);
 
   const int unit_id_;
   const hal::Clock::duration pause_;
-  std::array<std::uint8_t, 2 * kLongestFrame> buffer_{};
+  std::array<std::uint8_t, 3 * kLongestFrame> buffer_{};
   std::size_t size_ = 0;
+  std::size_t spoilt_ = 0;       ///< bytes at the front that are no frame, kept for end()
   std::size_t returned_ = 0;     ///< length of the frame at the front that next() returned
-  std::size_t after_pause_ = 0;  ///< place of the last pause in the buffer; 0: none
-  bool is_lost_ = false;         ///< bytes are dropped until the next pause
+  std::size_t after_pause_ = 0;  ///< place of the last pause in bytes(); 0: none
+  bool is_lost_ = false;         ///< bytes are no frame until the next pause
   std::uint64_t errors_ = 0;
   std::uint64_t other_units_ = 0;
 };

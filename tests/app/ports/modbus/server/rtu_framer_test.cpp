@@ -31,6 +31,16 @@ class RtuFramerTest : public testing::Test {
     return frames;
   }
 
+  /// After the bytes the line is silent.
+  std::vector<Bytes> push_last(const Bytes& bytes) {
+    std::vector<Bytes> frames = push(bytes, kLong);
+    if (!framer_.is_waiting()) return frames;
+    framer_.end();
+    while (const auto frame = framer_.next()) frames.emplace_back(frame->begin(), frame->end());
+    EXPECT_FALSE(framer_.is_waiting());
+    return frames;
+  }
+
   RtuFramer framer_{kUnit, std::chrono::microseconds(1750)};
 };
 
@@ -157,6 +167,111 @@ TEST_F(RtuFramerTest, FromNoiseNoFrameIsMadeAndAfterItTheNextIsFound) {
   // By chance one in 65536 of those with our unit has a right checksum, at each of some places.
   EXPECT_LT(made, cases / 200);
   EXPECT_GT(framer_.errors(), static_cast<unsigned>(cases / 2));
+}
+
+const Bytes kWriteRequest = rtu_frame(kUnit, {16, 0, 0, 0, 2, 4, 0, 9, 0, 8});
+const Bytes kReadIdentity = rtu_frame(kUnit, {43, 14, 1, 0});
+const Bytes kUnknownRequest = rtu_frame(kUnit, {100, 1, 2, 3});
+
+TEST_F(RtuFramerTest, StrayBytesInFrontOfARequestDoNotCostIt) {
+  for (const Bytes& request : {kRead, kWriteRequest, kReadIdentity, kUnknownRequest}) {
+    for (int byte = 0; byte < 256; ++byte) {
+      const auto stray = static_cast<std::uint8_t>(byte);
+      EXPECT_EQ(push_last(joined({{stray}, request})), Frames{request}) << byte;
+      EXPECT_EQ(push_last(joined({{stray, stray, 0xff}, request})), Frames{request}) << byte;
+      EXPECT_EQ(push_last(joined({{stray}, request, {stray}})), Frames{request}) << byte;
+    }
+  }
+}
+
+TEST_F(RtuFramerTest, EachStrayBeginningIsOneError) {
+  push_last(joined({{3}, kRead}));
+  EXPECT_EQ(framer_.errors(), 1U);
+  push_last(joined({{kUnit}, kRead}));
+  EXPECT_EQ(framer_.errors(), 2U);
+  push_last({1, 2, 3});
+  EXPECT_EQ(framer_.errors(), 3U);
+  push_last(kRead);
+  EXPECT_EQ(framer_.errors(), 3U);
+}
+
+TEST_F(RtuFramerTest, ARequestBehindHalfOfAnotherOneIsFound) {
+  for (const Bytes& broken : {kRead, kWriteRequest, rtu_frame(3, {4, 0, 0, 0, 1})}) {
+    for (std::size_t cut = 1; cut < broken.size(); ++cut) {
+      const Bytes half(broken.begin(), broken.begin() + static_cast<std::ptrdiff_t>(cut));
+      EXPECT_EQ(push_last(joined({half, kWriteRequest})), Frames{kWriteRequest}) << cut;
+    }
+  }
+}
+
+TEST_F(RtuFramerTest, ARequestBehindMuchNoiseIsFoundWhereverAdaptersCutIt) {
+  std::mt19937 random(20240605);
+  constexpr int kLines = 200;
+  int found = 0;
+  for (int i = 0; i < kLines; ++i) {
+    Bytes line(1 + random() % (3 * RtuFramer::kLongestFrame));
+    for (auto& byte : line) byte = static_cast<std::uint8_t>(random());
+    line.insert(line.end(), kRead.begin(), kRead.end());
+    std::vector<Bytes> frames;
+    for (std::size_t at = 0; at < line.size();) {
+      const std::size_t size =
+          std::min(line.size() - at, std::size_t{1 + random() % RtuFramer::kLongestFrame});
+      const auto begin = line.begin() + static_cast<std::ptrdiff_t>(at);
+      const auto got = push(Bytes(begin, begin + static_cast<std::ptrdiff_t>(size)),
+                            at == 0             ? kLong
+                            : random() % 4 == 0 ? kPause
+                                                : kNone);
+      frames.insert(frames.end(), got.begin(), got.end());
+      at += size;
+    }
+    if (framer_.is_waiting()) framer_.end();
+    while (const auto frame = framer_.next()) frames.emplace_back(frame->begin(), frame->end());
+    found += !frames.empty() && frames.back() == kRead ? 1 : 0;
+  }
+  // By chance one in 65536 of the longer endings has a right checksum, too.
+  EXPECT_GE(found, kLines - 4);
+}
+
+TEST_F(RtuFramerTest, ARequestInsideAnotherUnitsFrameIsNotAnswered) {
+  Bytes pdu{16, 0, 0, 0, 4, 8};
+  pdu.insert(pdu.end(), kRead.begin(), kRead.end());
+  const Bytes other = rtu_frame(3, pdu);
+  EXPECT_EQ(push_last(other), Frames{});
+  EXPECT_EQ(push_last(joined({{0xff}, other})), Frames{}) << "behind a stray byte";
+  EXPECT_EQ(push_last(joined({{kUnit}, other})), Frames{});
+  Bytes damaged = other;
+  damaged[3] ^= 1;
+  EXPECT_EQ(push_last(damaged), Frames{});
+  EXPECT_EQ(push_last(joined({{0xff}, rtu_frame(3, {4, 0, 0, 0, 1})})), Frames{});
+  // Cut anywhere, with pauses as adapters make them but in front of the inner one.
+  for (std::size_t at = 1; at < other.size(); ++at) {
+    const auto middle = other.begin() + static_cast<std::ptrdiff_t>(at);
+    EXPECT_EQ(push(joined({{0xff}, Bytes(other.begin(), middle)}), kLong), Frames{}) << at;
+    EXPECT_EQ(push(Bytes(middle, other.end()), kNone), Frames{}) << at;
+    framer_.end();
+    EXPECT_FALSE(framer_.next()) << at;
+  }
+}
+
+/// Bytes in front of a frame that leave its checksum as it is.
+Bytes neutral_bytes() {
+  for (int first = 0; first < 256; ++first) {
+    for (int second = 0; second < 256; ++second) {
+      const Bytes bytes{static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)};
+      Bytes frame = joined({bytes, kRead});
+      const Bytes checked = rtu_frame(bytes[0], Bytes(frame.begin() + 1, frame.end() - 2));
+      if (checked == frame) return bytes;
+    }
+  }
+  return {};
+}
+
+TEST_F(RtuFramerTest, AnotherUnitsFrameThatEndsLikeARequestIsNotAnswered) {
+  const Bytes bytes = neutral_bytes();
+  ASSERT_EQ(bytes.size(), 2U);
+  ASSERT_NE(bytes[0], kUnit);
+  EXPECT_EQ(push_last(joined({bytes, kRead})), Frames{});
+  EXPECT_EQ(push_last(joined({{0xff}, bytes, kRead})), Frames{});
 }
 
 }  // namespace
