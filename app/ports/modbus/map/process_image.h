@@ -40,16 +40,18 @@ struct PlcStatus {
   ORBWATCH_MODBUS_PLC_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
 };
 
-#define ORBWATCH_MODBUS_COUNTERS(FIELD)                                                     \
-  FIELD(std::uint64_t, answered, kCount, "Requests answered, with or without an exception") \
-  FIELD(std::uint64_t, refused, kCount,                                                     \
-        "Requests answered with an exception, or not at all because they were not Modbus")  \
-  FIELD(std::uint64_t, dropped, kCount,                                                     \
-        "Connections closed by the server: too many, too slow, or not Modbus")              \
-  FIELD(std::uint64_t, connections, kCount, "Open connections")                             \
-  FIELD(std::uint64_t, serial_errors, kCount,                                               \
-        "On the serial line: frames with a wrong checksum or cut off, and noise")           \
-  FIELD(std::uint64_t, serial_other_units, kCount, "On the serial line: frames of other units")
+#define ORBWATCH_MODBUS_COUNTERS(FIELD)                                                         \
+  FIELD(std::uint64_t, answered, kCount, "Requests answered, with or without an exception")     \
+  FIELD(std::uint64_t, refused, kCount,                                                         \
+        "Requests answered with an exception, or not at all because they were not Modbus")      \
+  FIELD(std::uint64_t, dropped, kCount,                                                         \
+        "Connections closed by the server: too many, too slow, or not Modbus")                  \
+  FIELD(std::uint64_t, connections, kCount, "Open connections")                                 \
+  FIELD(std::uint64_t, serial_errors, kCount,                                                   \
+        "On the serial line: frames with a wrong checksum or cut off, and noise")               \
+  FIELD(std::uint64_t, serial_other_units, kCount, "On the serial line: frames of other units") \
+  FIELD(std::uint64_t, serial_echoes, kCount,                                                   \
+        "On the serial line: own answers that the adapter echoed; they are dropped")
 
 #define ORBWATCH_MODBUS_SERVER_FIGURES(FIELD)                                                \
   FIELD(std::uint64_t, uptime, kUptime, "Since the server started: smaller after a restart") \

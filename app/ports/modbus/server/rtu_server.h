@@ -8,15 +8,17 @@
 #include "app/ports/modbus/map/process_image.h"
 #include "app/ports/modbus/modbus_settings.h"
 #include "app/ports/modbus/server/responder.h"
-#include "app/ports/modbus/server/rtu_framer.h"
 #include "app/ports/modbus/server/transport.h"
 #include "hal/clock.h"
 #include "hal/thread/file_descriptor.h"
 
 namespace orbwatch::app::modbus {
 
+class EchoFilter;
+
 /// Modbus RTU: serves one unit on a serial line. A line that cannot be opened, or disconnects as
-/// adapters on USB may, is opened again after 1 s, then every 2 s.
+/// adapters on USB may, is opened again after 1 s, then every 2 s. Drops its own answers where the
+/// adapter echoes them.
 /// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
 class RtuServer {
  public:
@@ -27,10 +29,13 @@ class RtuServer {
   /// thread.
   using OnLine = std::function<void(const Result<>& line)>;
 
+  /// Called once, when the line returned an answer, on the serving thread.
+  using OnEcho = std::function<void()>;
+
   /// Errors: the settings. `counters` outlives the server.
   static Result<std::unique_ptr<RtuServer>> open(const ModbusSerialSettings& settings,
                                                  Answer answer, OnLine on_line,
-                                                 ServerCounters& counters);
+                                                 ServerCounters& counters, OnEcho on_echo = {});
 
   /// Serves until stop().
   void run();
@@ -39,22 +44,28 @@ class RtuServer {
 
  private:
   RtuServer(const ModbusSerialSettings& settings, std::unique_ptr<RtuTransport> transport,
-            Answer answer, OnLine on_line, ServerCounters& counters)
+            Answer answer, OnLine on_line, ServerCounters& counters, OnEcho on_echo)
       : settings_(settings),
         transport_(std::move(transport)),
         answer_(std::move(answer)),
         on_line_(std::move(on_line)),
-        counters_(counters) {}
+        counters_(counters),
+        on_echo_(std::move(on_echo)) {}
+
+  struct Reception;
 
   bool is_stopped_within(hal::Clock::duration time) const;
   Result<> serve_line();
-  void answer_frames(RtuFramer& framer);
+  void receive(Reception& line, std::span<const std::uint8_t> bytes);
+  bool answer_frame(EchoFilter& echoes, std::span<const std::uint8_t> frame);
+  void count(Reception& line);
 
   const ModbusSerialSettings settings_;
   const std::unique_ptr<RtuTransport> transport_;
   const Answer answer_;
   const OnLine on_line_;
   ServerCounters& counters_;
+  OnEcho on_echo_;  ///< empty once it was called
   hal::EventFd stop_;
 };
 

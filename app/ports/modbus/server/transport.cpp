@@ -1,11 +1,14 @@
 #include "app/ports/modbus/server/transport.h"
 
+#include <fcntl.h>
 #include <modbus.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <system_error>
 
 #include "app/ports/modbus/server/rtu_framer.h"
 
@@ -52,13 +55,15 @@ Result<Transport::Context> Transport::prepared(_modbus* context) {
 }
 
 bool Transport::reply(std::span<const std::uint8_t> request, _modbus_mapping_t& mapping) {
-  return modbus_reply(context_.get(), request.data(), static_cast<int>(request.size()), &mapping) >=
-         0;
+  const bool is_written =
+      modbus_reply(context_.get(), request.data(), static_cast<int>(request.size()), &mapping) >= 0;
+  return deliver() && is_written;
 }
 
 bool Transport::refuse(std::span<const std::uint8_t> request, Exception exception) {
-  return modbus_reply_exception(context_.get(), request.data(),
-                                static_cast<unsigned int>(exception)) >= 0;
+  const bool is_written = modbus_reply_exception(context_.get(), request.data(),
+                                                 static_cast<unsigned int>(exception)) >= 0;
+  return deliver() && is_written;
 }
 
 Result<std::unique_ptr<TcpTransport>> TcpTransport::create(std::vector<int> unit_ids) {
@@ -90,20 +95,43 @@ Result<std::unique_ptr<RtuTransport>> RtuTransport::create(const ModbusSerialSet
   auto context = prepared(modbus_new_rtu(settings.device.c_str(), settings.baud_rate,
                                          letter_of(settings.parity), 8, settings.stop_bits));
   if (!context) return tl::unexpected(context.error());
-  return std::unique_ptr<RtuTransport>(new RtuTransport(std::move(*context), settings.device));
+  std::unique_ptr<RtuTransport> made(new RtuTransport(std::move(*context), settings.device));
+  std::array<int, 2> ends{-1, -1};
+  if (::pipe2(ends.data(), O_NONBLOCK | O_CLOEXEC) != 0) {
+    return fail("modbus: no pipe for answers: " + std::system_category().message(errno));
+  }
+  made->encoded_ = hal::FileDescriptor(ends[0]);
+  made->encoder_ = hal::FileDescriptor(ends[1]);
+  return made;
 }
 
 RtuTransport::~RtuTransport() { close(); }
 
 Result<> RtuTransport::open() {
-  if (modbus_connect(context_.get()) == 0) return {};
-  return fail("modbus: cannot open the serial line " + device_ + ": " + modbus_strerror(errno) +
-              "; check cable and device");
+  if (modbus_connect(context_.get()) != 0) {
+    return fail("modbus: cannot open the serial line " + device_ + ": " + modbus_strerror(errno) +
+                "; check cable and device");
+  }
+  line_ = modbus_get_socket(context_.get());
+  modbus_set_socket(context_.get(), encoder_.get());
+  return {};
 }
 
-void RtuTransport::close() { modbus_close(context_.get()); }
+/// libmodbus restores the line's settings.
+void RtuTransport::close() {
+  if (line_ < 0) return;
+  modbus_set_socket(context_.get(), std::exchange(line_, -1));
+  modbus_close(context_.get());
+}
 
-int RtuTransport::descriptor() const { return modbus_get_socket(context_.get()); }
+bool RtuTransport::deliver() {
+  std::array<std::uint8_t, RtuFramer::kLongestFrame> answer;
+  const ssize_t size = ::read(encoded_.get(), answer.data(), answer.size());
+  if (size <= 0) return false;
+  const ssize_t written = ::write(line_, answer.data(), static_cast<std::size_t>(size));
+  if (written > 0) sent_.assign(answer.data(), answer.data() + written);
+  return written == size;
+}
 
 bool RtuTransport::refuse(std::span<const std::uint8_t> request, Exception exception) {
   return is_broadcast(request) || Transport::refuse(request, exception);
@@ -114,8 +142,9 @@ bool RtuTransport::send(std::span<const std::uint8_t> request, std::span<const s
   std::vector<std::uint8_t> answer{request[0]};
   answer.insert(answer.end(), pdu.begin(), pdu.end());
   // "Raw request" means: libmodbus appends the checksum only. It suits answers as well.
-  return modbus_send_raw_request(context_.get(), answer.data(), static_cast<int>(answer.size())) >=
-         0;
+  const bool is_written =
+      modbus_send_raw_request(context_.get(), answer.data(), static_cast<int>(answer.size())) >= 0;
+  return deliver() && is_written;
 }
 
 }  // namespace orbwatch::app::modbus

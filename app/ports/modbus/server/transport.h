@@ -10,6 +10,7 @@
 
 #include "app/ports/modbus/modbus_settings.h"
 #include "app/ports/modbus/server/request.h"
+#include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 
 // libmodbus' own names for what its header declares.
@@ -50,6 +51,9 @@ class Transport {
   /// Prepares a context for answering. Errors: `context` is nullptr.
   static Result<Context> prepared(_modbus* context);
 
+  /// Called after libmodbus has written an answer. False: it could not be sent.
+  virtual bool deliver() { return true; }
+
   Context context_;
 
  private:
@@ -78,7 +82,8 @@ class TcpTransport final : public Transport {
 
 /// Modbus RTU on a serial line configured by libmodbus. libmodbus' receiver is not used: it does
 /// not find the end of a request with an unknown function, and after a request for another unit it
-/// expects that unit's answer, although the next frame may be a request for this one.
+/// expects that unit's answer, although the next frame may be a request for this one. It writes its
+/// answers into a pipe, because the bytes on the line must be known: they may come back.
 class RtuTransport final : public Transport {
  public:
   /// Does not open the line. Errors: a setting that is not allowed.
@@ -90,7 +95,10 @@ class RtuTransport final : public Transport {
   void close();
 
   /// Of the open line, non-blocking, for reading.
-  int descriptor() const;
+  int descriptor() const { return line_; }
+
+  /// The bytes sent since the last call: the answer to the newest request; empty: it has none.
+  std::vector<std::uint8_t> take_sent() { return std::exchange(sent_, {}); }
 
   /// RtuFramer returns no others.
   bool is_ours(std::span<const std::uint8_t> /*request*/) const override { return true; }
@@ -102,8 +110,14 @@ class RtuTransport final : public Transport {
   RtuTransport(Context context, std::string device)
       : Transport(std::move(context), kChecksum), device_(std::move(device)) {}
 
+  bool deliver() override;
+
   static constexpr std::size_t kChecksum = 2;
   const std::string device_;
+  int line_ = -1;                ///< libmodbus closes it
+  hal::FileDescriptor encoded_;  ///< the pipe's end for reading
+  hal::FileDescriptor encoder_;  ///< the one that libmodbus writes to
+  std::vector<std::uint8_t> sent_;
 };
 
 }  // namespace orbwatch::app::modbus

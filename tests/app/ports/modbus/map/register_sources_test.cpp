@@ -395,6 +395,7 @@ void RegisterSources::expect_server_and_plc() {
   expect([](S s) { ++s.server.connections; }, {"modbus_connections"});
   expect([](S s) { ++s.server.serial_errors; }, {"modbus_serial_errors"});
   expect([](S s) { ++s.server.serial_other_units; }, {"modbus_serial_other_units"});
+  expect([](S s) { ++s.server.serial_echoes; }, {"modbus_serial_echoes"});
   expect([](S s) { s.plc.heartbeat -= milliseconds(1); }, {"plc_heartbeat_age"});
   expect([](S s) { s.plc.alive = true; }, {"plc_alive?", "plc_alive", "status_bits"});
   expect([](S s) { s.plc.silent = true; }, {"plc_silent", "fault_bits"});
