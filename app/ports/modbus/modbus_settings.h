@@ -44,8 +44,10 @@ struct ModbusSettings {
   std::string address = "0.0.0.0";
   /// Not the registered port 502, which needs CAP_NET_BIND_SERVICE. 0: any free port.
   int port = 1502;
-  /// One more client closes the connection that was idle for longest.
+  /// Idle connections stay; one more client closes the one that was idle for longest.
   int max_connections = 16;
+  /// s without a packet after which TCP keep-alive probes whether the client is still there.
+  int keep_alive_s = 60;
   /// Numeric addresses or prefixes (10.0.0.0/24, fd00::/8) of the clients that may read; empty: all
   /// of them.
   std::vector<std::string> readers;
@@ -63,8 +65,8 @@ struct ModbusSettings {
 
   /// From the first byte of a request to its last.
   std::chrono::milliseconds frame_timeout{1000};
-  /// Without a request.
-  std::chrono::milliseconds idle_timeout{60000};
+  /// A writer's connection without a request for so long makes room for a reader.
+  std::chrono::milliseconds idle_time{60000};
   /// Without word from the pipeline, which promises ten a second; then nothing it said is served
   /// as valid any more.
   std::chrono::milliseconds status_timeout{2000};
@@ -100,8 +102,12 @@ void visit(Visitor& v, ModbusSettings& modbus) {
   v.optional("enabled", modbus.enabled, "Serve Modbus");
   v.optional("address", modbus.address, "Numeric address to listen on");
   v.optional("port", modbus.port, Range::between(0, 65535), "0: any free port");
-  v.optional("max_connections", modbus.max_connections, Range::between(1, 1000),
-             "One more client closes the connection that was idle for longest");
+  v.optional(
+      "max_connections", modbus.max_connections, Range::between(1, 1000),
+      "Idle connections stay open; one more client closes the one that was idle for longest");
+  v.optional("keep_alive_s", modbus.keep_alive_s, Range::between(1, 7200),
+             "Silence after which TCP keep-alive probes whether a client is still there; without "
+             "an answer its connection is closed 30 s later");
   v.optional("readers", modbus.readers,
              "Numeric addresses or prefixes (10.0.0.0/24) of clients that may read; []: all");
   require_networks(v, "readers", modbus.readers);

@@ -55,9 +55,19 @@ Result<> ModbusSink::make_responder() {
       plc_->carry_out();
     }
   });
+  start_supervision();
   const std::lock_guard lock(mutex_);
   received_at_ = hal::Clock::now();  // the status time-out starts here
   return {};
+}
+
+/// Neither a line that is not open nor a command that waits for the disk may delay it.
+void ModbusSink::start_supervision() {
+  if (settings_.plc_timeout_ms == 0) return;
+  supervision_thread_.start("modbus plc", [this] {
+    while (supervision_thread_.wait_until(plc_->supervise(hal::Clock::now()))) {
+    }
+  });
 }
 
 Result<> ModbusSink::open_tcp() {
@@ -72,7 +82,7 @@ Result<> ModbusSink::open_tcp() {
         if (outcome == modbus::Outcome::Forbidden) report_forbidden(socket);
         return outcome;
       },
-      [this] { return plc_->supervise(hal::Clock::now()); }, counters_);
+      counters_);
   if (!server) return tl::unexpected(server.error());
   tcp_ = std::move(*server);
   tcp_thread_.start("modbus", [this] { tcp_->run(); });
@@ -107,7 +117,13 @@ Result<> ModbusSink::open_serial_line() {
                  {line ? "modbus: the serial line " + settings_.serial->device + " is back"
                        : line.error().message});
       },
-      counters_);
+      counters_,
+      [this] {
+        log_line(LogLevel::Warning,
+                 "modbus: the serial line " + settings_.serial->device +
+                     " returns the answers sent on it, because its adapter receives while it "
+                     "sends; they are dropped. Switch the echo off if the adapter has a switch");
+      });
   if (!server) return tl::unexpected(server.error());
   serial_line_ = std::move(*server);
   serial_thread_.start("modbus rtu", [this] { serial_line_->run(); });
@@ -120,6 +136,7 @@ void ModbusSink::stop() {
   tcp_thread_.stop();
   serial_thread_.stop();
   command_thread_.stop();
+  supervision_thread_.stop();
   const std::lock_guard lock(served_);
   tcp_.reset();
   serial_line_.reset();
@@ -153,7 +170,8 @@ std::vector<InterfaceMetric> ModbusSink::metrics() const {
 }
 
 std::chrono::nanoseconds ModbusSink::cpu_time() const {
-  return tcp_thread_.cpu_time() + serial_thread_.cpu_time() + command_thread_.cpu_time();
+  return tcp_thread_.cpu_time() + serial_thread_.cpu_time() + command_thread_.cpu_time() +
+         supervision_thread_.cpu_time();
 }
 
 void ModbusSink::accept(const Status& status) {

@@ -23,9 +23,10 @@ namespace orbwatch::app {
 
 /// The Modbus server for PLCs: serves the newest status by the register map, keeps results until
 /// they are acknowledged, and carries commands out. One thread for all clients on TCP, one for the
-/// serial line if configured, and one for commands, which wait for the disk. The newest status
-/// wins; of results the first ResultQueue::kDepth wait. Thread rule: as Sink; statistics() is
-/// thread-safe, port() is for the thread of start().
+/// serial line if configured, one for commands, which wait for the disk, and one that supervises
+/// the PLC if its heartbeat has a timeout, whichever line it uses. The newest status wins; of
+/// results the first ResultQueue::kDepth wait. Thread rule: as Sink; statistics() is thread-safe,
+/// port() is for the thread of start().
 class ModbusSink final : public Sink {
  public:
   /// `handler` is called on the sink's threads.
@@ -55,6 +56,7 @@ class ModbusSink final : public Sink {
 
  private:
   Result<> make_responder();
+  void start_supervision();
   Result<> open_tcp();
   Result<> open_serial_line();
   modbus::ProcessImage process_image() const;
@@ -82,6 +84,7 @@ class ModbusSink final : public Sink {
   hal::Thread tcp_thread_;
   hal::Thread serial_thread_;
   hal::Thread command_thread_;
+  hal::Thread supervision_thread_;
 };
 
 }  // namespace orbwatch::app

@@ -24,6 +24,10 @@ constexpr std::uint64_t kFirstConnection = 2;
 /// Limits unread answers of one client; the kernel doubles it for its bookkeeping.
 constexpr int kSendBuffer = 16384;
 
+/// TCP keep-alive: s between two probes, and how many without an answer end a connection.
+constexpr int kProbePeriod = 10;
+constexpr int kProbes = 3;
+
 /// After the process ran out of file descriptors.
 constexpr std::chrono::seconds kAcceptPause{1};
 
@@ -71,10 +75,9 @@ int watch_file(int epoll, int operation, int file, std::uint64_t id, std::uint32
 }  // namespace
 
 Result<std::unique_ptr<TcpServer>> TcpServer::open(const ModbusSettings& settings, Answer answer,
-                                                   Timer timer, ServerCounters& counters) {
+                                                   ServerCounters& counters) {
   if (auto checked = check(settings); !checked) return tl::unexpected(checked.error());
-  std::unique_ptr<TcpServer> server(
-      new TcpServer(settings, std::move(answer), std::move(timer), counters));
+  std::unique_ptr<TcpServer> server(new TcpServer(settings, std::move(answer), counters));
   auto access = AccessList::create(settings.readers, settings.writers);
   if (!access) return tl::unexpected(access.error());
   server->access_ = std::move(*access);
@@ -125,7 +128,7 @@ void TcpServer::run() {
   std::array<epoll_event, 32> events;
   for (;;) {
     const int count = ::epoll_wait(epoll_.get(), events.data(), static_cast<int>(events.size()),
-                                   hal::poll_timeout(next_deadline(timer_())));
+                                   hal::poll_timeout(next_deadline()));
     for (int i = 0; i < count; ++i) {
       const std::uint64_t id = events[static_cast<std::size_t>(i)].data.u64;
       if (id == kStop) return;
@@ -162,10 +165,8 @@ void TcpServer::accept_client() {
     ++counters_.dropped;
     return;
   }
-  const int on = 1;
   const std::uint64_t id = next_id_++;
-  if (::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on)) != 0 ||
-      ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof(kSendBuffer)) != 0 ||
+  if (!set_up(socket.get()) ||
       watch_file(epoll_.get(), EPOLL_CTL_ADD, socket.get(), id, EPOLLIN) != 0) {
     ++counters_.dropped;
     return;
@@ -178,6 +179,21 @@ void TcpServer::accept_client() {
   counters_.connections = connections_.size();
 }
 
+/// A client whose computer was switched off, or whose cable was pulled, is known by its silence to
+/// the kernel's probes, or to an answer.
+bool TcpServer::set_up(int socket) const {
+  const auto set = [socket](int level, int option, int value) {
+    return ::setsockopt(socket, level, option, &value, sizeof(value)) == 0;
+  };
+  const auto lost_after = std::chrono::seconds(settings_.keep_alive_s + kProbes * kProbePeriod);
+  return set(IPPROTO_TCP, TCP_NODELAY, 1) && set(SOL_SOCKET, SO_SNDBUF, kSendBuffer) &&
+         set(SOL_SOCKET, SO_KEEPALIVE, 1) &&
+         set(IPPROTO_TCP, TCP_KEEPIDLE, settings_.keep_alive_s) &&
+         set(IPPROTO_TCP, TCP_KEEPINTVL, kProbePeriod) && set(IPPROTO_TCP, TCP_KEEPCNT, kProbes) &&
+         set(IPPROTO_TCP, TCP_USER_TIMEOUT,
+             static_cast<int>(std::chrono::milliseconds(lost_after).count()));
+}
+
 /// The client in the backlog would wake epoll again and again until a descriptor is free.
 void TcpServer::pause_accepting() {
   accepting_ = watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, 0) != 0;
@@ -186,18 +202,20 @@ void TcpServer::pause_accepting() {
 
 /// A full server closes the oldest unused connection (Modbus Messaging on TCP/IP Implementation
 /// Guide): readers before writers, then connections without a request, then those of the host with
-/// most connections. So neither readers nor many connections can displace a PLC. A reader never
-/// displaces a writer.
+/// most connections. So neither readers nor many connections can displace a PLC. A reader displaces
+/// no writer but an idle one.
 bool TcpServer::has_room_for(Permission permission) {
   if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return true;
-  const auto of_host = [this](const Connection& connection) {
-    return std::ranges::count(connections_, connection.host, &Connection::host);
-  };
-  const auto least = std::ranges::min_element(connections_, {}, [&](const Connection& connection) {
-    return std::tuple(connection.may_write, connection.requests > 0, -of_host(connection),
+  const auto idle_since = hal::Clock::now() - settings_.idle_time;
+  const auto rank = [&](const Connection& connection) {
+    const bool is_protected = permission != Permission::Write && connection.may_write &&
+                              connection.last_request > idle_since;
+    const auto of_host = std::ranges::count(connections_, connection.host, &Connection::host);
+    return std::tuple(is_protected, connection.may_write, connection.requests > 0, -of_host,
                       connection.last_request);
-  });
-  if (least->may_write && permission != Permission::Write) return false;
+  };
+  const auto least = std::ranges::min_element(connections_, {}, rank);
+  if (std::get<0>(rank(*least))) return false;
   ++counters_.dropped;
   drop(least);
   return true;
@@ -257,9 +275,8 @@ std::vector<TcpServer::Client> TcpServer::clients() const {
 }
 
 hal::TimePoint TcpServer::deadline(const Connection& connection) const {
-  const auto idle = connection.last_request + settings_.idle_timeout;
-  if (connection.framer.is_empty()) return idle;
-  return std::min(idle, connection.frame_begin + settings_.frame_timeout);
+  return connection.framer.is_empty() ? hal::TimePoint::max()
+                                      : connection.frame_begin + settings_.frame_timeout;
 }
 
 void TcpServer::drop_overdue() {
@@ -269,10 +286,11 @@ void TcpServer::drop_overdue() {
   counters_.connections = connections_.size();
 }
 
-/// `next`, or the deadline of a connection before it.
-hal::TimePoint TcpServer::next_deadline(hal::TimePoint next) const {
+/// The first deadline of a connection or of accepting.
+hal::TimePoint TcpServer::next_deadline() const {
+  auto next = accepting_ ? hal::TimePoint::max() : accept_again_;
   for (const Connection& connection : connections_) next = std::min(next, deadline(connection));
-  return accepting_ ? next : std::min(next, accept_again_);
+  return next;
 }
 
 }  // namespace orbwatch::app::modbus

@@ -19,8 +19,9 @@
 namespace orbwatch::app::modbus {
 
 /// Modbus TCP: accepts permitted clients, forwards their requests frame by frame, and closes
-/// connections that are too slow, idle, do not receive answers, or do not speak Modbus. Sockets are
-/// non-blocking: no client delays another.
+/// connections that are too slow, do not receive answers, or do not speak Modbus. An idle one stays
+/// while there is room; TCP keep-alive detects clients that have gone. Sockets are non-blocking: no
+/// client delays another.
 /// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
 class TcpServer {
  public:
@@ -28,13 +29,10 @@ class TcpServer {
   using Answer =
       std::function<Outcome(int socket, std::span<const std::uint8_t> frame, bool may_write)>;
 
-  /// Called on the serving thread, again at the returned time or earlier.
-  using Timer = std::function<hal::TimePoint()>;
-
   /// Listens: clients can connect before run(). Errors: address or port cannot be used. `counters`
   /// outlives the server.
   static Result<std::unique_ptr<TcpServer>> open(const ModbusSettings& settings, Answer answer,
-                                                 Timer timer, ServerCounters& counters);
+                                                 ServerCounters& counters);
 
   /// The listening port.
   int port() const { return port_; }
@@ -67,11 +65,8 @@ class TcpServer {
   };
   using Connections = std::vector<Connection>;
 
-  TcpServer(const ModbusSettings& settings, Answer answer, Timer timer, ServerCounters& counters)
-      : settings_(settings),
-        answer_(std::move(answer)),
-        timer_(std::move(timer)),
-        counters_(counters) {}
+  TcpServer(const ModbusSettings& settings, Answer answer, ServerCounters& counters)
+      : settings_(settings), answer_(std::move(answer)), counters_(counters) {}
 
   Result<> listen();
   Result<> watch();
@@ -83,12 +78,12 @@ class TcpServer {
   void drop(Connections::iterator connection);
   void drop_overdue();
   void publish_clients();
+  bool set_up(int socket) const;
   hal::TimePoint deadline(const Connection& connection) const;
-  hal::TimePoint next_deadline(hal::TimePoint next) const;
+  hal::TimePoint next_deadline() const;
 
   const ModbusSettings settings_;
   const Answer answer_;
-  const Timer timer_;
   ServerCounters& counters_;
   AccessList access_;
   hal::FileDescriptor listener_;

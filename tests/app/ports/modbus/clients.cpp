@@ -22,7 +22,7 @@ ModbusSettings loopback() {
   ModbusSettings settings;
   settings.address = "127.0.0.1";
   settings.port = 0;
-  settings.frame_timeout = settings.idle_timeout = settings.status_timeout = std::chrono::hours(1);
+  settings.frame_timeout = settings.idle_time = settings.status_timeout = std::chrono::hours(1);
   return settings;
 }
 

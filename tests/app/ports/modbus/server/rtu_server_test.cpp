@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -245,6 +247,107 @@ TEST_F(ModbusRtu, AMasterThatNeverReadsStopsNobody) {
     deaf.send(rtu_frame(kUnit, {4, 0, 0, 0, 96}));
     ASSERT_EQ(tcp.read_input(0, 1), 0);
   }
+}
+
+/// The master's end of a line whose adapter receives what the appliance sends: each answer comes
+/// back to it, in pieces of `piece` bytes, in front of the next request.
+class EchoingMaster {
+ public:
+  explicit EchoingMaster(const std::string& path) : master_(path) {}
+
+  /// The answer; returned to its sender.
+  Bytes ask(const Bytes& request, std::size_t size, std::size_t piece) {
+    master_.send(request);
+    const Bytes answer = master_.receive(size);
+    for (std::size_t at = 0; at < answer.size(); at += piece) {
+      const auto begin = answer.begin() + static_cast<std::ptrdiff_t>(at);
+      master_.send(Bytes(begin, begin + std::ptrdiff_t(std::min(piece, answer.size() - at))));
+    }
+    return answer;
+  }
+
+ private:
+  RawMaster master_;
+};
+
+const auto kHeartbeatRegister = static_cast<std::uint8_t>(address_of("plc_heartbeat"));
+
+TEST_F(ModbusRtu, ItsOwnAnswersThatComeBackAreNotAnswered) {
+  start();
+  const Bytes read = rtu_frame(kUnit, kReadVersion);
+  EchoingMaster master(cable_.master());
+  testing::internal::CaptureStderr();
+  std::uint64_t answered = 0;
+  for (const std::size_t piece : {100U, 3U, 1U}) {
+    for (std::uint8_t value = 1; value <= 5; ++value) {
+      const Bytes write = rtu_frame(kUnit, {6, 0, kHeartbeatRegister, 0, value});
+      ASSERT_EQ(master.ask(write, 8, piece), write);
+      ASSERT_EQ(master.ask(read, 7, piece), rtu_frame(kUnit, version()));
+      answered += 2;
+    }
+  }
+  EXPECT_TRUE(eventually([&] { return statistics().serial_echoes == answered; }));
+  EXPECT_EQ(statistics().answered, answered);
+  EXPECT_EQ(statistics().serial_errors, 0U);
+  sink_->stop();
+  const std::string log = testing::internal::GetCapturedStderr();
+  const std::size_t said = log.find("returns the answers sent on it");
+  ASSERT_NE(said, log.npos) << log;
+  EXPECT_EQ(log.find("returns the answers sent on it", said + 1), log.npos) << log;
+}
+
+TEST_F(ModbusRtu, AMasterThatRepeatsItsWriteIsAnswered) {
+  start();
+  RawMaster master(cable_.master());
+  const Bytes write = rtu_frame(kUnit, {6, 0, kHeartbeatRegister, 0, 5});
+  for (int i = 0; i < 3; ++i) {
+    master.send(rtu_frame(kUnit, kReadVersion));
+    ASSERT_EQ(master.receive(7), rtu_frame(kUnit, version()));
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      master.send(write);
+      ASSERT_EQ(master.receive(8), write) << repetition;
+    }
+  }
+  EXPECT_EQ(statistics().serial_echoes, 0U);
+}
+
+TEST_F(ModbusRtu, ARequestBehindStrayBytesIsAnswered) {
+  start();
+  RawMaster master(cable_.master());
+  const Bytes request = rtu_frame(kUnit, kReadVersion);
+  const Bytes half(request.begin(), request.begin() + 5);
+  std::uint64_t errors = 0;
+  for (const Bytes& front : {Bytes{0}, Bytes{0xff}, Bytes{kUnit}, Bytes{3, 0, 0xff}, half}) {
+    Bytes line = front;
+    line.insert(line.end(), request.begin(), request.end());
+    master.send(line);
+    ASSERT_EQ(master.receive(7), rtu_frame(kUnit, version())) << int{front[0]};
+    EXPECT_TRUE(eventually([&] { return statistics().serial_errors > errors; }));
+    errors = statistics().serial_errors;
+  }
+}
+
+/// What a PLC on the serial line commands, while another program has the port of Modbus TCP.
+TEST_F(ModbusRtu, ASilentPlcIsSupervisedWithoutTcp) {
+  ModbusSink other(tests::loopback(), tests::accept_all);
+  ASSERT_TRUE(other.start());
+  ModbusSettings settings = tests::loopback();
+  settings.port = other.port();
+  settings.plc_timeout_ms = 200;
+  settings.serial = {.device = cable_.device(), .parity = Parity::None, .unit_id = kUnit};
+  std::atomic<int> active{-1};
+  ModbusSink sink(settings, [&](const Command& command) {
+    if (command.code == CommandCode::SetProcessActive) {
+      active = static_cast<int>(command.arguments[0]);
+    }
+    return CommandResult::Done;
+  });
+  ASSERT_FALSE(sink.start()) << "the port is in use";
+  Plc plc(cable_.master(), kUnit);
+  constexpr auto kCode = static_cast<std::uint16_t>(CommandCode::SetProcessActive);
+  ASSERT_EQ(plc.command(0, {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, kCode, 1}), 0);
+  EXPECT_TRUE(eventually([&] { return active == 0; })) << "its heartbeat does not change";
+  sink.stop();
 }
 
 /// The reports of the server about its line.

@@ -2,7 +2,10 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include <fstream>
+#include <iomanip>
 #include <memory>
+#include <sstream>
 
 #include "tests/app/ports/modbus/clients.h"
 
@@ -146,18 +149,56 @@ TEST_F(ModbusAbuse, AStreamOfRequestsThatIsNeverAtRestIsNoPartialFrame) {
   }
 }
 
-TEST_F(ModbusAbuse, QuietConnectionsAreDropped) {
+/// The timer that the kernel runs for the server's end of its one connection, by
+/// /proc/net/tcp: 2 is keep-alive's.
+std::string timer_of_connection(int port) {
+  std::ifstream sockets("/proc/self/net/tcp");
+  std::ostringstream local;
+  local << ':' << std::uppercase << std::hex << std::setw(4) << std::setfill('0') << port;
+  std::string line;
+  while (std::getline(sockets, line)) {
+    std::istringstream fields(line);
+    std::string number, address, peer, state, queues, timer;
+    fields >> number >> address >> peer >> state >> queues >> timer;
+    if (address.ends_with(local.str()) && state == "01") return timer.substr(0, 2);
+  }
+  return "none";
+}
+
+TEST_F(ModbusAbuse, AnIdleConnectionStaysAndIsProbed) {
   ModbusSettings settings = loopback();
-  settings.idle_timeout = std::chrono::seconds(1);
-  sink_ = std::make_unique<ModbusSink>(settings, accept_all);
-  ASSERT_TRUE(sink_->start());
-  RawClient never_asked(port());
-  RawClient asked_once(port());
-  ASSERT_TRUE(asked_once.send(kRead));
-  EXPECT_EQ(tests::receive_pdu(asked_once), kAnswer);
-  EXPECT_TRUE(never_asked.is_closed_by_server());
-  EXPECT_TRUE(asked_once.is_closed_by_server());
-  EXPECT_TRUE(eventually([&] { return statistics().connections == 0; }));
+  settings.idle_time = std::chrono::milliseconds(1);
+  start(settings);
+  const auto connected = statistics().answered;
+  // The server's loop turns after the time is over.
+  RawClient other(port());
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(other.send(kRead));
+    ASSERT_EQ(tests::receive_pdu(other), kAnswer);
+  }
+  EXPECT_EQ(statistics().connections, 2U);
+  EXPECT_EQ(statistics().dropped, 0U);
+  EXPECT_TRUE(plc_is_served());
+  EXPECT_GT(statistics().answered, connected);
+  EXPECT_TRUE(eventually([&] { return timer_of_connection(port()) == "02"; }));
+}
+
+TEST_F(ModbusAbuse, AReaderTakesThePlaceOfAnIdleWriterOnly) {
+  ModbusSettings settings = loopback();
+  settings.max_connections = 2;
+  settings.writers = {"127.0.0.1"};
+  settings.idle_time = std::chrono::milliseconds(200);
+  start(settings);
+  RawClient idle(port());
+  ASSERT_TRUE(idle.send(kRead));
+  ASSERT_EQ(tests::receive_pdu(idle), kAnswer);
+  const auto end = hal::Clock::now() + 2 * settings.idle_time;
+  while (hal::Clock::now() < end) ASSERT_TRUE(plc_is_served());
+  RawClient reader(port(), "127.0.0.2");
+  ASSERT_TRUE(reader.send(kRead));
+  EXPECT_EQ(tests::receive_pdu(reader), kAnswer);
+  EXPECT_TRUE(idle.is_closed_by_server());
+  EXPECT_TRUE(plc_is_served());
 }
 
 TEST_F(ModbusAbuse, AClientThatTakesNoAnswersIsDropped) {
