@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/model/result_number.h"
+
 namespace orbwatch::app {
 namespace {
 
@@ -113,7 +115,7 @@ void Measurement::measure(const hal::FrameSet& set) {
   } else {
     recipe_->skip();
   }
-  if (is_result(set)) ++results_;
+  if (is_result(set)) result_ = next_result(result_);
 }
 
 void Measurement::idle(bool blind) {
@@ -187,7 +189,7 @@ void Measurement::notify_of(const CompiledRecipe& recipe, const signals::AlarmEv
 }
 
 void Measurement::report(Status& status) const {
-  status.result = results_;
+  status.result = result_;
   status.recipe = recipe_->plan().number;
   status.recipe_refused = switch_.has_failed();
   status.process_active = active_;

@@ -110,7 +110,7 @@ class Measurement {
   bool paused_ = false;
   std::uint64_t frame_set_ = 0;
   hal::TimePoint stamp_{};
-  std::uint64_t results_ = 0;
+  std::uint64_t result_ = 0;  ///< number of the newest; 0: none yet
   std::uint64_t notices_ = 0;
   bool active_ = false;  ///< as far as it was known last
   std::atomic<bool> pause_requested_{false};

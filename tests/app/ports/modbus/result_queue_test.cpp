@@ -5,6 +5,8 @@
 #include <deque>
 #include <random>
 
+#include "app/model/result_number.h"
+
 namespace orbwatch::app::modbus {
 namespace {
 
@@ -42,6 +44,21 @@ TEST(ResultQueue, OnlyTheOldestIsAcknowledged) {
   queue.acknowledge(5);
   queue.acknowledge(5);  // a repeated write
   EXPECT_EQ(queue.oldest().status.result, 6U);
+}
+
+TEST(ResultQueue, EachNumberCanBeAcknowledgedBeyond32Bits) {
+  constexpr std::uint64_t kFirst = 0xffff'fffd;
+  ResultQueue queue;
+  std::uint64_t number = kFirst;
+  for (int n = 0; n < 6; ++n, number = next_result(number)) {
+    queue.push(result(number));
+    const auto shown = static_cast<std::uint32_t>(queue.oldest().status.result);
+    EXPECT_NE(shown, 0U) << "reads as no result";
+    queue.acknowledge(shown);
+    EXPECT_EQ(queue.status().count, 0U) << number;
+  }
+  EXPECT_EQ(number, kFirst + 7) << "one number is left out";
+  EXPECT_EQ(next_result(0), 1U);
 }
 
 TEST(ResultQueue, RefusesTheNewestWhenFullAndSaysSoUntilItIsEmpty) {
