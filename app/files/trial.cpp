@@ -94,6 +94,8 @@ Result<std::optional<Trial>> take_trial(const fs::path& folder) {
   fs::rename(requested_in(folder), running_in(folder), error);
   if (error == std::errc::no_such_file_or_directory) return std::nullopt;
   if (error) return fail(requested_in(folder).string() + ": " + error.message());
+  // A trial that resets the board would be requested again at each boot.
+  if (auto taken = hal::sync_folder(folder); !taken) return tl::unexpected(taken.error());
   return running_trial(folder);
 }
 

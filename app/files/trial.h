@@ -39,7 +39,8 @@ bool is_trial_requested(const std::filesystem::path& folder);
 Result<std::optional<Trial>> requested_trial(const std::filesystem::path& folder);
 
 /// The requested one; it runs from now on, and is requested no more, so that it is run once.
-/// Nullopt: none. Error: it is damaged.
+/// From when this returns also a power cut does not bring the request back. Nullopt: none. Errors:
+/// it is damaged; the folder cannot be written, and it must not run.
 Result<std::optional<Trial>> take_trial(const std::filesystem::path& folder);
 
 /// The one that runs; nullopt: none, it was confirmed or ended. Error: it is damaged.

@@ -2,18 +2,40 @@
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "app/files/file_version.h"
 #include "tests/support/temporary_folder.h"
+
+namespace {
+
+std::function<void(int)> on_fsync;  // before it is carried out
+
+}  // namespace
+
+/// In the place of the C library's, for this program.
+extern "C" int fsync(int file) {
+  if (on_fsync) on_fsync(file);
+  return static_cast<int>(::syscall(SYS_fsync, file));
+}
 
 namespace orbwatch::app {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+
+bool is_folder(int file, const fs::path& folder) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file, &opened) == 0 && ::stat(folder.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
 
 class TrialFile : public testing::Test {
  protected:
@@ -34,6 +56,19 @@ TEST_F(TrialFile, IsTakenOnceAndRunsUntilItsEnd) {
   EXPECT_TRUE(running_trial(folder_.path()).value());
   EXPECT_TRUE(end_trial(folder_.path()));
   EXPECT_EQ(running_trial(folder_.path()).value(), std::nullopt);
+}
+
+/// A trial that resets the board would otherwise be requested again at each boot.
+TEST_F(TrialFile, IsTakenForGoodBeforeItRuns) {
+  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
+  int synced = 0;
+  on_fsync = [&](int file) {
+    if (is_folder(file, folder_.path()) && !fs::exists(requested_)) ++synced;
+  };
+  const auto taken = take_trial(folder_.path());
+  on_fsync = nullptr;
+  EXPECT_TRUE(taken && *taken);
+  EXPECT_EQ(synced, 1) << "the folder, after the request is gone";
 }
 
 TEST_F(TrialFile, IsCancelledBeforeItRunsAndWhileItRuns) {
