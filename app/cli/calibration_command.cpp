@@ -40,7 +40,9 @@ struct Calibrations {
 Result<Calibrations> read(const std::filesystem::path& config) {
   const auto site = read_site(config);
   if (!site) return tl::unexpected(site.error());
-  Calibrations calibrations{calibration_file(state_folder(site->state_folder)), 0, {}};
+  const auto folder = state_folder(site->state_folder, config);
+  if (!folder) return tl::unexpected(folder.error());
+  Calibrations calibrations{calibration_file(*folder), 0, {}};
   const auto rig = rig_checksum(site->rig.path);
   if (!rig) return tl::unexpected(rig.error());
   calibrations.rig = *rig;

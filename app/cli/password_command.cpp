@@ -114,10 +114,11 @@ Result<std::string> first_password_line(const std::filesystem::path& folder) {
 Result<std::string> show(const PasswordOptions& o) {
   const auto site = read_site(site_file(o.config));
   if (!site) return tl::unexpected(site.error());
-  const auto folder = state_folder(site->state_folder);
-  const auto certificate = certificate_line(std::get<WebSettings>(site->sinks), folder);
+  const auto folder = state_folder(site->state_folder, site_file(o.config));
+  if (!folder) return tl::unexpected(folder.error());
+  const auto certificate = certificate_line(std::get<WebSettings>(site->sinks), *folder);
   if (!certificate) return certificate;
-  return first_password_line(folder).map(
+  return first_password_line(*folder).map(
       [&](const std::string& password) { return *certificate + password; });
 }
 
@@ -125,12 +126,14 @@ Result<std::string> set_password(const PasswordOptions& o, const std::string& na
   if (auto named = web::check_name(name); !named) return tl::unexpected(named.error());
   const auto site = read_site(site_file(o.config));
   if (!site) return tl::unexpected(site.error());
+  const auto folder = state_folder(site->state_folder, site_file(o.config));
+  if (!folder) return tl::unexpected(folder.error());
   const auto password = read_password(name);
   if (!password) return password;
   if (auto right = web::check_password(*password); !right) return tl::unexpected(right.error());
   const auto hash = web::hash_password(*password);
   if (!hash) return hash;
-  const auto file = web::users_file(state_folder(site->state_folder));
+  const auto file = web::users_file(*folder);
   const auto changed = web::change_users(file, [&](web::Users& users) -> Result<> {
     const bool is_new = users.find(name) == nullptr;
     const auto role = is_new && !o.role ? role_of_new(users) : o.role;

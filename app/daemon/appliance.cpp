@@ -6,7 +6,6 @@
 #include "app/daemon/cameras.h"
 #include "app/health/board_health.h"
 #include "app/log.h"
-#include "app/state/state_folder.h"
 #include "hal/thread/scheduling.h"
 #include "proc/remap/remap.h"
 
@@ -37,7 +36,7 @@ std::shared_ptr<Lines> open_lines(const Configuration& site) {
 
 Appliance::Appliance(const Resolved& site)
     : site_(site),
-      record_(std::make_shared<CommandRecord>(state_folder(site.site.state_folder))),
+      record_(std::make_shared<CommandRecord>(site.site.state_folder)),
       background_(std::make_shared<hal::SharedThreads>(
           hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
           static_cast<std::size_t>(site.site.threads.background))),

@@ -27,8 +27,8 @@ namespace orbwatch::app {
 /// among the attempts. Thread rule: one owner.
 class Appliance {
  public:
-  /// Opens the lines and cameras that are there. `site` outlives it. `program` is for the
-  /// interfaces. Error: the files.
+  /// Opens the lines and cameras that are there. `site` outlives it and has a state folder.
+  /// `program` is for the interfaces. Error: the files.
   static Result<std::unique_ptr<Appliance>> make(const Resolved& site, Restart restart,
                                                  Program program = {});
   /// Stops what runs: first the pipeline, which calls the others.

@@ -1,6 +1,6 @@
 #include "app/daemon/configuration_choice.h"
 
-#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include "app/daemon/build.h"
@@ -52,15 +52,21 @@ std::optional<Chosen> choose_confirmed(const std::filesystem::path& folder,
   return Chosen{std::move(*site), why, {}};
 }
 
-}  // namespace
-
-std::optional<std::filesystem::path> service_folder() {
-  if (std::getenv("STATE_DIRECTORY") == nullptr) return std::nullopt;
-  return state_folder({});
+/// Whatever ran with this folder before, it is this configuration file's now: so the unit says.
+void take_over(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto before = record_owner(folder, file);
+  if (!before) {
+    log_line(LogLevel::Warning,
+             "does not record whose state folder it is: " + before.error().message);
+  } else if (*before) {
+    log_line(LogLevel::Warning, folder.string() + ": was the state folder of " +
+                                    (*before)->string() + ", is that of " + file.string() + " now");
+  }
 }
 
-Result<Chosen> choose(const std::filesystem::path& file) {
-  const auto folder = service_folder();
+/// A trial, the files, or what ran last.
+Result<Chosen> choose_texts(const std::optional<std::filesystem::path>& folder,
+                            const std::filesystem::path& file) {
   if (folder) {
     if (end_trial(*folder)) {
       log_line(LogLevel::Warning, "the new configuration was not confirmed: the files count again");
@@ -75,6 +81,35 @@ Result<Chosen> choose(const std::filesystem::path& file) {
   if (!last_good) return fail(site.error().message + "; " + last_good.error().message);
   log_line(LogLevel::Error, site.error().message + "; the last good configuration runs");
   return Chosen{std::move(*last_good), site.error().message, {}};
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> service_folder() { return state_directory(); }
+
+Result<Chosen> choose(const std::filesystem::path& file) {
+  const auto folder = service_folder();
+  if (folder) take_over(*folder, file);
+  auto chosen = choose_texts(folder, file);
+  if (!chosen || !chosen->site.site.state_folder.empty()) return chosen;
+  auto settled = folder ? Result<std::filesystem::path>(*folder) : state_folder({}, file);
+  if (!settled) return tl::unexpected(settled.error());
+  chosen->site.site.state_folder = std::move(*settled);
+  return chosen;
+}
+
+bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  if (!is_trial_requested(folder)) return false;
+  const auto trial = requested_trial(folder);
+  if (trial && !*trial) return false;
+  if (trial && (*trial)->site == file) return true;
+  const std::string why = trial
+                              ? "it is for " + (*trial)->site.string() + ", this orbwatchd runs " +
+                                    file.string() + "; say --config to orbwatch configure"
+                              : trial.error().message;
+  log_line(LogLevel::Error, "does not try the new configuration: " + why);
+  drop_request(folder);
+  return false;
 }
 
 Result<> check_restart(const std::filesystem::path& file) {

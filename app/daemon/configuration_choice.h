@@ -20,10 +20,15 @@ struct Chosen {
 /// has no STATE_DIRECTORY. Not while the environment is changed.
 std::optional<std::filesystem::path> service_folder();
 
+/// Whether a trial of the configuration `file` is requested in the service's folder. A request that
+/// is damaged or for another configuration file is refused: logged and dropped.
+bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// What runs: of a service, a confirmed trial that is not written yet; a requested trial, once;
 /// else what the files say; if they are wrong, of a service, the last good configuration. A trial
-/// that a run before left unconfirmed has ended. Error: the files', and why there is no last good
-/// configuration.
+/// that a run before left unconfirmed has ended. A service records in its folder that it is this
+/// file's. Error: the files', and why there is no last good configuration; no service, and the
+/// state folder is another configuration's.
 Result<Chosen> choose(const std::filesystem::path& file);
 
 /// Whether the files say what can run. Error: why not.

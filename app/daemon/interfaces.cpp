@@ -8,7 +8,6 @@
 
 #include "app/daemon/build.h"
 #include "app/model/fleet.h"
-#include "app/state/state_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -51,7 +50,7 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
   context.handler = std::move(handler);
   context.record = std::move(record);
   context.background = std::move(background);
-  context.state_folder = state_folder(site.site.state_folder);
+  context.state_folder = site.site.state_folder;
   context.alignment = alignment;
   context.program = std::move(program);
   // Files that make an impossible scene or recipe were refused by build().

@@ -86,7 +86,7 @@ void RestartWatch::watch() {
 /// goes on, it is what the files say.
 bool RestartWatch::asks_for_restart() {
   if (!folder_) return false;
-  if (is_trial_requested(*folder_)) return true;
+  if (is_trial_for(*folder_, file_)) return true;
   if (trial_end_.load() == hal::TimePoint::max()) return false;
   const auto running = running_trial(*folder_);
   if (running && !*running) {

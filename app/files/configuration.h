@@ -51,7 +51,7 @@ struct Configuration {
   std::vector<Located<RecipeFile>> recipes;  ///< the first one is measured from the start
   PlaceSettings place;
   std::optional<SnapshotSettings> snapshot;
-  /// Of what must outlast a restart; empty: see state_folder().
+  /// Of what must outlast a restart. As read: empty if the file names none; see state_folder().
   std::filesystem::path state_folder;
   SinkSettings sinks;
 };
@@ -66,9 +66,11 @@ template <class Visitor>
 void visit(Visitor& v, Configuration& configuration) {
   v.required("rig", configuration.rig,
              "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
-  v.optional("state_folder", configuration.state_folder,
-             "Of the record of commands, 16 KiB; else systemd's STATE_DIRECTORY, or "
-             "/var/lib/orbwatch");
+  v.optional(
+      "state_folder", configuration.state_folder,
+      "Folder of what must outlast a restart: commands, users, alignments; default: systemd's "
+      "STATE_DIRECTORY, else /var/lib/orbwatch-NAME for /etc/orbwatch/NAME/site.toml, "
+      "/var/lib/orbwatch for any other file");
   v.table("pipeline", configuration.pipeline, "Frame budget and workers");
   v.table("threads", configuration.threads, "How the kernel treats the frame path");
   v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");

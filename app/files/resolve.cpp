@@ -232,9 +232,14 @@ class Resolver {
   PictureUses sharpened_;  ///< by all views
 };
 
+/// Leaves it empty where it is another machine's: files of this one by themselves are right.
+void settle_state_folder(Configuration& site, const std::filesystem::path& file) {
+  site.state_folder = state_folder(site.state_folder, file).value_or(std::filesystem::path());
+}
+
 /// Puts the alignments that were accepted for this rig in the place of what its file says.
 Result<> calibrate(Resolved& resolved, TextFiles& files) {
-  const auto file = calibration_file(state_folder(resolved.site.state_folder));
+  const auto file = calibration_file(resolved.site.state_folder);
   const auto entries = load_calibrations(file, files);
   if (!entries) return tl::unexpected(entries.error());
   if (entries->empty()) return {};
@@ -265,11 +270,16 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   }
   if (finding.message) return fail(*finding.message);
   resolved.rig = std::move(*rig);
-  if (auto done = calibrate(resolved, files); !done) return tl::unexpected(done.error());
+  settle_state_folder(resolved.site, folder / std::filesystem::path(name).filename());
+  const bool has_state = !resolved.site.state_folder.empty();
+  if (has_state) {
+    if (auto done = calibrate(resolved, files); !done) return tl::unexpected(done.error());
+  }
   if (auto done = resolve_references(resolved, name); !done) return tl::unexpected(done.error());
   resolved.checksum = files.checksum();
   resolved.texts = files.texts();
-  const auto calibration = calibration_file(state_folder(resolved.site.state_folder));
+  if (!has_state) return resolved;
+  const auto calibration = calibration_file(resolved.site.state_folder);
   resolved.calibration[calibration] = resolved.texts[calibration];
   resolved.texts.erase(calibration);
   return resolved;

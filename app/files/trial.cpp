@@ -89,6 +89,11 @@ Result<std::optional<Trial>> requested_trial(const fs::path& folder) {
   return read(requested_in(folder));
 }
 
+void drop_request(const fs::path& folder) {
+  std::error_code none;
+  fs::remove(requested_in(folder), none);
+}
+
 Result<std::optional<Trial>> take_trial(const fs::path& folder) {
   std::error_code error;
   fs::rename(requested_in(folder), running_in(folder), error);

@@ -38,6 +38,9 @@ bool is_trial_requested(const std::filesystem::path& folder);
 /// That one; nullopt: none. Error: it is damaged.
 Result<std::optional<Trial>> requested_trial(const std::filesystem::path& folder);
 
+/// Forgets the requested one, if any.
+void drop_request(const std::filesystem::path& folder);
+
 /// The requested one; it runs from now on, and is requested no more, so that it is run once.
 /// From when this returns also a power cut does not bring the request back. Nullopt: none. Errors:
 /// it is damaged; the folder cannot be written, and it must not run.

@@ -1,16 +1,131 @@
 #include "app/state/state_folder.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "hal/atomic_file.h"
+#include "hal/regular_file.h"
 
 namespace orbwatch::app {
+namespace {
 
-std::filesystem::path state_folder(const std::filesystem::path& configured) {
-  if (!configured.empty()) return configured;
-  const char* const folders = std::getenv("STATE_DIRECTORY");
+namespace fs = std::filesystem;
+
+constexpr std::string_view kService = "orbwatch";
+
+/// Of a list of folders in the environment.
+std::optional<fs::path> first_folder(const char* variable) {
+  const char* const folders = std::getenv(variable);
   const std::string_view all = folders != nullptr ? folders : "";
   const std::string_view first = all.substr(0, all.find(':'));
-  return first.empty() ? "/var/lib/orbwatch" : std::filesystem::path(first);
+  if (first.empty()) return std::nullopt;
+  return fs::path(first);
+}
+
+fs::path owner_record(const fs::path& folder) { return folder / "configuration"; }
+
+fs::path in_full(const fs::path& file) {
+  std::error_code none;
+  const fs::path absolute = fs::absolute(file, none);
+  return (none ? file : absolute).lexically_normal();
+}
+
+/// A symbolic link names the same file.
+bool is_same(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return a == b || fs::equivalent(a, b, none);
+}
+
+bool is_owned_by(const fs::path& folder, const fs::path& configuration) {
+  const auto owner = owner_of(folder);
+  return owner && is_same(*owner, configuration);
+}
+
+/// The state folder of the unit that runs this configuration file.
+std::string name_for(const fs::path& configuration) {
+  const fs::path folder = configuration.parent_path();
+  const bool is_instance =
+      configuration.filename() == "site.toml" && folder.parent_path() == "/etc/orbwatch";
+  return std::string(kService) + (is_instance ? "-" + folder.filename().string() : "");
+}
+
+/// Those of all machines on this board, sorted.
+std::vector<fs::path> service_folders(const fs::path& lib) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator it(lib, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (name == kService || name.starts_with(std::string(kService) + "-")) {
+      folders.push_back(it->path());
+    }
+  }
+  std::ranges::sort(folders);
+  return folders;
+}
+
+std::vector<fs::path> folders_of(const fs::path& configuration, const fs::path& lib) {
+  auto folders = service_folders(lib);
+  std::erase_if(folders, [&](const fs::path& f) { return !is_owned_by(f, configuration); });
+  return folders;
+}
+
+/// Error: the folder records another configuration file. `owned`: those that record this one.
+Result<fs::path> check_owner(const fs::path& folder, const fs::path& configuration,
+                             const std::vector<fs::path>& owned) {
+  const auto owner = owner_of(folder);
+  if (!owner || is_same(*owner, configuration)) return folder;
+  const std::string own = owned.empty() ? "FOLDER" : owned.front().string();
+  return fail(folder.string() + ": is the state folder of " + owner->string() + ", not of " +
+              configuration.string() + "; say --config " + owner->string() +
+              ", or before the command STATE_DIRECTORY=" + own +
+              (owned.empty() ? ", the folder of the other one" : ""));
+}
+
+}  // namespace
+
+std::optional<fs::path> state_directory() { return first_folder("STATE_DIRECTORY"); }
+
+std::optional<fs::path> runtime_directory() { return first_folder("RUNTIME_DIRECTORY"); }
+
+Result<fs::path> state_folder(const fs::path& configured, const fs::path& configuration,
+                              const fs::path& lib) {
+  if (!configured.empty()) return configured;
+  const fs::path own = in_full(configuration);
+  const std::vector<fs::path> owned = folders_of(own, lib);
+  if (const auto given = state_directory()) return check_owner(*given, own, owned);
+  const fs::path usual = lib / name_for(own);
+  if (owned.empty() || std::ranges::count(owned, usual) > 0) return check_owner(usual, own, owned);
+  if (owned.size() == 1) return owned.front();
+  std::string text = own.string() + ": several folders are its state folder; say before the command";
+  for (const fs::path& folder : owned) {
+    text += (folder == owned.front() ? " STATE_DIRECTORY=" : " or STATE_DIRECTORY=") +
+            folder.string();
+  }
+  return fail(text);
+}
+
+std::optional<fs::path> owner_of(const fs::path& folder) {
+  auto text = hal::read_regular_file(owner_record(folder));
+  if (!text) return std::nullopt;
+  if (text->ends_with('\n')) text->pop_back();
+  if (text->empty()) return std::nullopt;
+  return fs::path(*text);
+}
+
+Result<std::optional<fs::path>> record_owner(const fs::path& folder,
+                                             const fs::path& configuration) {
+  const fs::path own = in_full(configuration);
+  const auto before = owner_of(folder);
+  if (before == own) return std::nullopt;
+  std::error_code none;  // write_file() says what is wrong with the folder
+  fs::create_directories(folder, none);
+  return hal::write_file(owner_record(folder), own.string() + "\n").map([&] {
+    return before && !is_same(*before, own) ? before : std::nullopt;
+  });
 }
 
 }  // namespace orbwatch::app

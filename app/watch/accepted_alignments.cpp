@@ -6,7 +6,6 @@
 #include "app/files/calibration_file.h"
 #include "app/log.h"
 #include "app/model/utc_text.h"
-#include "app/state/state_folder.h"
 
 namespace orbwatch::app {
 namespace {
@@ -21,7 +20,7 @@ CalibrationEntry rig_files(const std::string& camera) {
 }  // namespace
 
 AcceptedAlignments::AcceptedAlignments(const Resolved& site)
-    : site_(site), file_(calibration_file(state_folder(site.site.state_folder))) {}
+    : site_(site), file_(calibration_file(site.site.state_folder)) {}
 
 std::uint32_t AcceptedAlignments::rig() const {
   return rig_checksum(site_.site.rig.path).value_or(0);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/log.h"
-#include "app/state/state_folder.h"
 
 namespace orbwatch::app {
 
@@ -54,7 +53,7 @@ void CameraWatch::Watched::serve_readers() {
 
 CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::SharedThreads>& threads)
     : threads_(threads) {
-  const auto folder = state_folder(site.site.state_folder);
+  const auto& folder = site.site.state_folder;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     const CameraSettings& settings = site.site.cameras[i];
     cameras_.emplace_back();

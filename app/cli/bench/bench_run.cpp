@@ -1,8 +1,13 @@
 #include "app/cli/bench/bench_run.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "app/cli/bench/bench_sink.h"
@@ -81,13 +86,37 @@ double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
   return pacing.frame_rate > 0 ? pacing.frame_rate : camera.frames_per_second;
 }
 
+/// A folder of the run's own: what it sees is nothing that the machine should remember.
+class TemporaryState {
+ public:
+  explicit TemporaryState(const Resolved& site) : site_(site) {
+    std::string name =
+        (std::filesystem::temp_directory_path(error_) / "orbwatch-bench-XXXXXX").string();
+    if (!error_ && ::mkdtemp(name.data()) == nullptr) error_.assign(errno, std::generic_category());
+    if (!error_) site_.site.state_folder = name;
+  }
+  TemporaryState(const TemporaryState&) = delete;
+  TemporaryState& operator=(const TemporaryState&) = delete;
+  ~TemporaryState() {
+    if (!error_) std::filesystem::remove_all(site_.site.state_folder, error_);
+  }
+  const std::error_code& error() const { return error_; }
+  const Resolved& site() const { return site_; }
+
+ private:
+  std::error_code error_;
+  Resolved site_;
+};
+
 }  // namespace
 
 Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
                                const BenchSettings& settings, const BenchWatch& watch) {
   const auto& cancelled = watch.cancelled;
   BenchSink sink(settings.seconds);
-  auto made = Appliance::make(site, {[] { return Result<>(); }, [] {}});
+  const TemporaryState state(site);
+  if (state.error()) return fail("no temporary folder: " + state.error().message());
+  auto made = Appliance::make(state.site(), {[] { return Result<>(); }, [] {}});
   if (!made) return tl::unexpected(made.error());
   Appliance& appliance = **made;
   if (auto started = appliance.start({&sink}); !started) return tl::unexpected(started.error());

@@ -63,7 +63,8 @@ Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
   return texts;
 }
 
-Result<std::string> try_out(const Options& o, const fs::path& file) {
+/// `folder`: of the orbwatchd that runs the installed file.
+Result<std::string> try_out(const Options& o, const fs::path& file, const fs::path& folder) {
   const auto texts = new_texts(file, o.config);
   if (!texts) return tl::unexpected(texts.error());
   const auto trial = checked_trial(o.config, *texts, o.seconds);
@@ -72,7 +73,7 @@ Result<std::string> try_out(const Options& o, const fs::path& file) {
   for (const auto& [path, lines] : differences_from_files(trial->texts)) difference += lines;
   if (difference.empty()) return "changes nothing\n";
   if (o.dry_run) return difference;
-  if (auto asked = request_trial(state_folder({}), *trial); !asked) {
+  if (auto asked = request_trial(folder, *trial); !asked) {
     return tl::unexpected(asked.error());
   }
   return difference + "runs for " + std::to_string(o.seconds) +
@@ -91,14 +92,15 @@ Result<std::string> run(Options o, const std::vector<std::string>& words) {
   o.config = fs::absolute(site_file(o.config)).lexically_normal();
   const std::size_t ways = words.size() + (o.confirm ? 1 : 0) + (o.cancel ? 1 : 0);
   if (ways != 1) return usage_error("say FILE, --confirm or --cancel");
-  const fs::path folder = state_folder({});
-  if (o.confirm) return confirm(folder);
-  if (o.cancel) return cancel_trial(folder).map([] { return std::string("goes back\n"); });
+  const auto folder = state_folder({}, o.config);
+  if (!folder) return tl::unexpected(folder.error());
+  if (o.confirm) return confirm(*folder);
+  if (o.cancel) return cancel_trial(*folder).map([] { return std::string("goes back\n"); });
   if (o.seconds < kShortestTrial || o.seconds > kLongestTrial) {
     return usage_error("--seconds is " + std::to_string(o.seconds) +
                        "; it must be from 10 to 3600");
   }
-  return try_out(o, words.front());
+  return try_out(o, words.front(), *folder);
 }
 
 std::function<Result<>(const std::string&)> seconds_option(int& target) {

@@ -79,13 +79,16 @@ constexpr const char* kTail = R"(.SH ENVIRONMENT
 The configuration file, where none is given.
 .TP
 .B STATE_DIRECTORY
-The folder of what must outlast a restart, where the configuration names none.
+The folder of what must outlast a restart, where the configuration names none. With
+.B \-\-config
+of another machine on this board it need not be set: its orbwatchd records there which
+configuration it runs.
 .SH FILES
 .TP
 .I /etc/orbwatch/site.toml
 The configuration, which names the files of rig and recipes.
 .TP
-.I /var/lib/orbwatch
+.IR /var/lib/orbwatch ", " /var/lib/orbwatch\-NAME
 What must outlast a restart: commands, alignments, the last good configuration.
 .SH SEE ALSO
 .BR systemctl (1),

@@ -10,6 +10,10 @@ constexpr double kFull = 20;         // MiB: an accepted alignment may not be ke
 constexpr double kNearlyFull = 500;  // MiB
 
 Diagnosis folder_diagnosis(const FolderFacts& folder) {
+  if (!folder.error.empty()) {
+    return fault(folder.use + " folder: " + folder.error,
+                 "sudo STATE_DIRECTORY=FOLDER orbwatch doctor --config FILE");
+  }
   const std::string who = folder.use + " " + folder.path.string() + ": ";
   const std::string room = "df -h " + folder.path.string() + " shows it; remove what is not needed";
   if (folder.read_only) {

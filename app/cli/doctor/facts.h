@@ -91,6 +91,7 @@ struct FolderFacts {
   std::optional<double> free{};        ///< MiB
   std::optional<double> free_share{};  ///< percent
   bool read_only = false;
+  std::string error{};  ///< why it is not known; empty: it is
 };
 
 struct WatchdogFacts {

@@ -69,8 +69,12 @@ FolderFacts folder_facts(const Sources& sources, const std::string& use, const f
 
 void gather_folders(const Sources& sources, Facts& facts) {
   if (!facts.site) return;
-  const fs::path state = state_folder(facts.site->state_folder);
-  facts.folders.push_back(folder_facts(sources, "state", state));
+  const auto state = state_folder(facts.site->state_folder, facts.configuration.file);
+  if (state) {
+    facts.folders.push_back(folder_facts(sources, "state", *state));
+  } else {
+    facts.folders.push_back({.use = "state", .path = {}, .error = state.error().message});
+  }
   if (facts.site->snapshot) {
     facts.folders.push_back(folder_facts(sources, "snapshots", facts.site->snapshot->folder));
   }

@@ -15,7 +15,9 @@ namespace {
 Result<std::vector<LineSettings>> lines_of(const std::filesystem::path& file) {
   const auto read = read_site(file);
   if (read) return std::vector<LineSettings>(read->lines.begin(), read->lines.end());
-  const auto last_good = resolve_last_good(state_folder({}), file);
+  const auto folder = state_folder({}, file);
+  if (!folder) return tl::unexpected(folder.error());
+  const auto last_good = resolve_last_good(*folder, file);
   if (!last_good) return fail(read.error().message + "; " + last_good.error().message);
   const auto& lines = last_good->site.lines;
   return std::vector<LineSettings>(lines.begin(), lines.end());

@@ -11,6 +11,7 @@
 
 #include "app/files/calibration_file.h"
 #include "app/files/trial.h"
+#include "app/state/state_folder.h"
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/support/journal_socket.h"
 #include "tests/support/notify_socket.h"
@@ -413,6 +414,34 @@ TEST_F(Configured, EndsWhereATrialWasRequestedJustBefore) {
   daemon.send(SIGTERM);
   manager.await("STOPPING=1");
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+}
+
+/// Of two machines on one board, the other one's.
+TEST_F(Configured, RefusesARequestForAnotherConfigurationWithoutARestart) {
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  for (const char* other : {"/etc/orbwatch/second/site.toml", ""}) {
+    ASSERT_TRUE(app::request_trial(folder.path(), {.site = other, .texts = {}, .seconds = 3600}));
+    ASSERT_TRUE(eventually(daemon, [&] { return !app::is_trial_requested(folder.path()); }));
+  }
+  std::ofstream(folder / "trial.json") << "{";
+  ASSERT_TRUE(says(daemon, "trial.json: is damaged")) << daemon.output();
+  EXPECT_FALSE(app::is_trial_requested(folder.path()));
+  EXPECT_THAT(daemon.output(), HasSubstr("it is for /etc/orbwatch/second/site.toml"));
+  EXPECT_THAT(daemon.output(), testing::Not(HasSubstr("restarts")));
+}
+
+TEST_F(Configured, RecordsWhoseStateFolderItIs) {
+  ASSERT_TRUE(app::record_owner(folder.path(), "/etc/orbwatch/before.toml"));
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  EXPECT_EQ(app::owner_of(folder.path()), config);
+  EXPECT_THAT(daemon.output(), HasSubstr("was the state folder of /etc/orbwatch/before.toml"));
+  const auto [code, said] =
+      configure({"--cancel", "--config", (folder / "new/site.toml").string()});
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(said,
+              HasSubstr("is the state folder of " + fs::path(config).lexically_normal().string()));
 }
 
 TEST_F(Configured, RefusesWhatIsWrongAndChangesNothing) {

@@ -71,6 +71,13 @@ TEST_F(TrialFile, IsTakenForGoodBeforeItRuns) {
   EXPECT_EQ(synced, 1) << "the folder, after the request is gone";
 }
 
+TEST_F(TrialFile, IsForgottenWhenItIsRefused) {
+  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
+  drop_request(folder_.path());
+  EXPECT_FALSE(is_trial_requested(folder_.path()));
+  drop_request(folder_.path());
+}
+
 TEST_F(TrialFile, IsCancelledBeforeItRunsAndWhileItRuns) {
   EXPECT_THAT(cancel_trial(folder_.path()).error().message, HasSubstr("no configuration waits"));
   ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
