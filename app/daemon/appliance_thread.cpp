@@ -6,6 +6,7 @@
 #include "app/daemon/configuration_choice.h"
 #include "app/daemon/installed_configuration.h"
 #include "app/daemon/interfaces.h"
+#include "app/daemon/run_records.h"
 #include "app/service/progress_notice.h"
 #include "app/service/service_manager.h"
 #include "app/version.h"
@@ -38,6 +39,8 @@ Result<> ApplianceThread::run() {
   if (!chosen) return tl::unexpected(chosen.error());
   RestartWatch& restarts = context_.restarts;
   restarts.begin(*chosen);
+  remove_leftovers(chosen->site);
+  record_outputs(chosen->site);
   ProgressNotice notice(chosen->refusal, context_.is_supervised);  // outlives the run
   const auto files = std::make_shared<InstalledConfiguration>(context_.file, *chosen);
   auto appliance = Appliance::make(

@@ -83,6 +83,9 @@ The folder of what must outlast a restart, where the configuration names none. W
 .B \-\-config
 of another machine on this board it need not be set: its orbwatchd records there which
 configuration it runs.
+.TP
+.B RUNTIME_DIRECTORY
+The folder in which a service records the outputs that it drives.
 .SH FILES
 .TP
 .I /etc/orbwatch/site.toml

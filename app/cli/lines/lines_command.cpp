@@ -2,6 +2,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
+#include "app/files/driven_lines.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
 #include "app/ports/lines/safe_state.h"
@@ -11,8 +12,17 @@
 namespace orbwatch::app {
 namespace {
 
-/// The lines that orbwatchd used: of the file, or of what ran last if it is wrong.
-Result<std::vector<LineSettings>> lines_of(const std::filesystem::path& file) {
+namespace fs = std::filesystem;
+
+/// Where the orbwatchd of this file recorded the outputs that it drove. Error: the state folder is
+/// another machine's.
+Result<fs::path> record_folder(const fs::path& file) {
+  if (auto folder = runtime_directory()) return std::move(*folder);
+  return state_folder({}, file);
+}
+
+/// Lines of the file, or of what ran last if it is wrong.
+Result<std::vector<LineSettings>> lines_of_file(const fs::path& file) {
   const auto read = read_site(file);
   if (read) return std::vector<LineSettings>(read->lines.begin(), read->lines.end());
   const auto folder = state_folder({}, file);
@@ -23,12 +33,16 @@ Result<std::vector<LineSettings>> lines_of(const std::filesystem::path& file) {
   return std::vector<LineSettings>(lines.begin(), lines.end());
 }
 
-Result<std::string> set_safe(const std::filesystem::path& file) {
-  const auto lines = lines_of(file);
+Result<std::string> set_safe(const fs::path& file) {
+  const auto folder = record_folder(file);
+  if (!folder) return tl::unexpected(folder.error());
+  const auto driven = driven_lines(*folder);
+  const auto lines =
+      driven && *driven ? Result<std::vector<LineSettings>>(**driven) : lines_of_file(file);
   if (!lines) return tl::unexpected(lines.error());
   hal::GpioLines gpio;
   std::string text;
-  std::string errors;
+  std::string errors = driven ? "" : driven.error().message;
   for (const SafeOutput& output : make_safe(*lines, gpio)) {
     if (output.error.empty()) {
       text += output.name + ": inactive\n";
@@ -37,6 +51,7 @@ Result<std::string> set_safe(const std::filesystem::path& file) {
     }
   }
   if (!errors.empty()) return fail(errors);
+  forget_driven_lines(*folder);
   return text.empty() ? "the configuration has no output\n" : text;
 }
 
@@ -48,8 +63,9 @@ Result<std::string> lines_command(const std::vector<std::string>& arguments) {
   return run_command(
       arguments,
       {.usage = "Usage: orbwatch lines --safe [--config FILE]\n\n"
-                "Sets the GPIO outputs of a configuration inactive and releases them, after an\n"
-                "orbwatchd that was killed. The service runs it at its end.\n\n",
+                "Sets the GPIO outputs that orbwatchd drove inactive and releases them, after it\n"
+                "was killed. Without its record of them they are those of the configuration. The\n"
+                "service runs it at its end.\n\n",
        .options = {{"safe", 0, "", "set all outputs inactive", flag_option(safe)},
                    {"config", 'c', "FILE", "that of orbwatchd (default: as orbwatchd)",
                     text_option(config)}}},

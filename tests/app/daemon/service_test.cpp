@@ -444,6 +444,64 @@ TEST_F(Configured, RecordsWhoseStateFolderItIs) {
               HasSubstr("is the state folder of " + fs::path(config).lexically_normal().string()));
 }
 
+TEST_F(Configured, RemovesWhatAPowerCutLeftHalfWritten) {
+  fs::create_directory(folder / state_folder);
+  std::vector<fs::path> left;
+  for (const fs::path& folder_written : {folder.path(), folder / state_folder}) {
+    left.push_back(folder_written / "calibration.toml.7-12.part");
+    std::ofstream(left.back()) << "half";
+  }
+  const fs::path other = folder / "notes.part";
+  std::ofstream(other) << "a user's";
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  for (const fs::path& file : left) EXPECT_FALSE(fs::exists(file)) << file;
+  EXPECT_TRUE(fs::exists(other));
+}
+
+/// No computer has these lines: the message shows which ones were tried.
+class Outputs : public Configured {
+ protected:
+  Outputs() {
+    std::ofstream(config, std::ios::app) << line("of_file");
+    std::ofstream(folder / "new/site.toml", std::ios::app) << line("of_trial");
+  }
+  static std::string line(const std::string& name) {
+    return "[[line]]\nname = \"" + name +
+           "\"\nuse = \"process_ok\"\nline_name = \"NO_SUCH_LINE\"\n";
+  }
+  std::string made_safe() const {
+    Subprocess program({ORBWATCH_PROGRAM, "lines", "--safe"}, folder.path() / "lines.log");
+    program.wait();
+    return program.output();
+  }
+};
+
+TEST_F(Outputs, AreMadeSafeAsTheyRanInATrial) {
+  {
+    Subprocess daemon = run();
+    begin_trial("3600");
+    daemon.send(SIGKILL);
+  }
+  EXPECT_THAT(made_safe(), HasSubstr("of_trial"));
+}
+
+TEST_F(Outputs, AreMadeSafeAsTheyRanAfterTheFileWasEdited) {
+  const fs::path runtime = folder / "run";
+  fs::create_directory(runtime);
+  ::setenv("RUNTIME_DIRECTORY", runtime.c_str(), 1);
+  {
+    Subprocess daemon = run();
+    manager.await("READY=1");
+    fs::copy_file(folder / "new/site.toml", config, fs::copy_options::overwrite_existing);
+    daemon.send(SIGKILL);
+  }
+  EXPECT_THAT(made_safe(), HasSubstr("of_file"));
+  fs::remove_all(runtime / "driven-lines.toml");
+  EXPECT_THAT(made_safe(), HasSubstr("of_trial")) << "without a record, as the file says";
+  ::unsetenv("RUNTIME_DIRECTORY");
+}
+
 TEST_F(Configured, RefusesWhatIsWrongAndChangesNothing) {
   std::ofstream(folder / "new/recipe.toml") << "nonsense = ";
   const auto [code, said] = configure({(folder / "new/site.toml").string()});
