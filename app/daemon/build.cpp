@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/daemon/view_memory.h"
 #include "app/pictures/colour_maps.h"
 #include "app/pipeline/views/source_colours.h"
 #include "app/ports/dds/security/participant_security.h"
@@ -306,6 +307,7 @@ Result<> check_keys(const Resolved& site, Dates dates) {
 }
 
 Result<> check_site(const Resolved& site, Dates dates) {
+  if (auto fits = check_view_memory(site); !fits) return fits;
   const auto formats = expected_formats(site);
   auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
   if (!proxy) return tl::unexpected(proxy.error());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/daemon/build.h"
+#include "app/daemon/view_memory.h"
 #include "app/files/site_file.h"
 #include "app/log.h"
 #include "app/state/state_folder.h"
@@ -13,7 +14,9 @@ namespace {
 
 Result<Resolved> resolve_and_check(const std::filesystem::path& file, const FileTexts& instead) {
   return resolve(file, instead).and_then([](Resolved site) {
-    return check_keys(site, Dates::Ignored).map([&] { return std::move(site); });
+    return check_view_memory(site)
+        .and_then([&] { return check_keys(site, Dates::Ignored); })
+        .map([&] { return std::move(site); });
   });
 }
 

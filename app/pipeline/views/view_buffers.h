@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +13,15 @@
 #include "hal/frame/buffer_pool.h"
 
 namespace orbwatch::app {
+
+/// Bytes of a buffer that become resident: of a display view its picture, of up to three bytes per
+/// pixel, and its validity; of a measured view the words that are measured in, too.
+constexpr std::uint64_t display_bytes(int width, int height) {
+  return std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+constexpr std::uint64_t measured_bytes(int width, int height) {
+  return display_bytes(width, height) / 4 * 6;
+}
 
 /// A buffer for any view of that size. What it is not used for never becomes resident.
 View make_view(int width, int height);
