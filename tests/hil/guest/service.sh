@@ -36,8 +36,7 @@ is_started_again() { (($(property NRestarts) > $1)); }
 install() {
   local folder=$1
   shift
-  # What the installer changed stays.
-  apt-get install -y -o Dpkg::Options::=--force-confold "$@" "$folder"/orbwatch_*_arm64.deb
+  apt-get install -y "$@" "$folder"/orbwatch_*_arm64.deb </dev/null
 }
 
 connect_network() { ip address add "$machine_address/24" dev eth0 && ip link set eth0 up; }

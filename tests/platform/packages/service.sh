@@ -11,6 +11,7 @@ test_service() {
   check "the service is active then" has ActiveState active
   check "it measures the simulated machine, says mbpoll" wait_for "$patience" measures
   check "what is installed is as it was packed" inside sh -c 'test -z "$(dpkg --verify orbwatch)"'
+  check "and no file that users edit is a conffile" test -z "$(inside dpkg-query -W -f '${Conffiles}' orbwatch)"
   test_programs
   test_start
   test_killed
@@ -68,7 +69,7 @@ test_start() {
   say "       resident: $(awk '/^VmRSS/ {printf "%.0f MB", $2 / 1000}' "/proc/$(process)/status")"
 }
 
-# process: its number outside of the system.
+# process: its number outside of the system, of several machines all.
 process() { pgrep --ns "$leader" --nslist pid --exact orbwatchd; }
 
 # came_back BEFORE: a new process measures, and the outputs were made safe in between.
@@ -134,28 +135,67 @@ test_configured() {
 }
 
 test_second_machine() {
-  inside sh -c 'mkdir /etc/orbwatch/second && cd /etc/orbwatch && cp -r rig.toml recipes second &&
-    sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/" site.toml >second/site.toml'
-  check "a second machine on the board" inside systemctl start orbwatch@second.service
-  modbus_port=1503
-  check "is measured, too" wait_for "$patience" measures
-  modbus_port=1502
+  check "a second machine on the board" begin_second_machine
   check "beside the first one" wait_for "$patience" measures
-  inside systemctl stop orbwatch@second.service
+  test_second_configured
+  end_second_machine
+}
+
+begin_second_machine() {
+  inside sh -c 'mkdir /etc/orbwatch/second && cd /etc/orbwatch && cp -r rig.toml recipes second &&
+    sed "s/^port = 1502/port = 1503/; s/^domain = 0/domain = 1/" site.toml >second/site.toml' &&
+    inside systemctl enable --now orbwatch@second.service && wait_for "$patience" second_measures
+}
+
+# of_second COMMAND...: reads the registers of the second machine.
+of_second() { modbus_port=1503 "$@"; }
+second_measures() { of_second measures; }
+
+end_second_machine() {
+  inside systemctl disable --now orbwatch@second.service
   inside rm -r /etc/orbwatch/second /var/lib/orbwatch-second
 }
 
+# What is said for the second machine in root's shell, which knows no state folder.
+test_second_configured() {
+  local first second site=/etc/orbwatch/second/site.toml
+  first=$(register system_configuration_checksum) second=$(of_second register system_configuration_checksum)
+  inside sh -c 'cp -r /etc/orbwatch/second /root/new && sed -i "s/^name = \"[a-z]*\"/&  # tried/" /root/new/site.toml'
+  check "orbwatch configure --config SECOND" inside orbwatch configure /root/new/site.toml --config $site
+  check "has the second machine run it" \
+    wait_for "$patience" of_second reads_another system_configuration_checksum "$second"
+  check "and the first one as before" is system_configuration_checksum "$first"
+  check "--confirm, too" inside orbwatch configure --confirm --config $site
+  check "writes its files" inside grep -F '# tried' $site
+  check "orbwatch password --config SECOND" inside sh -c "echo correct horse battery | orbwatch password --config $site"
+  check "sets that of the second machine only" \
+    inside sh -c 'test -e /var/lib/orbwatch-second/users.json && ! test -e /var/lib/orbwatch/users.json'
+  inside rm -r /root/new
+}
+
 test_others() {
+  check "a second machine is there" begin_second_machine
+  local before
+  before=$(property InvocationID orbwatch@second.service)
   check "the module for libcamera is missed" inside sh -c 'orbwatch --version | grep -x "libcamera not installed"'
   check "the other packages" inside sh -c 'apt-get install -y /packages/*.deb'
   check "the service runs on" wait_for "$patience" measures
+  check "the second machine was restarted, too" wait_for "$patience" invoked_again "$before"
+  end_second_machine
   check "the module for libcamera is loaded" inside sh -c 'orbwatch --version | grep -E "^libcamera v?[0-9]"'
   check "and that for GenICam" inside sh -c 'orbwatch --version | grep -E "^genicam 0\.8\."'
   check "manuals and message types" inside test -e /usr/share/doc/orbwatch-doc/html/index.html \
     -a -e /usr/share/orbwatch-msgs/modbus/registers.csv
 }
 
+invoked_again() {
+  local now
+  now=$(property InvocationID orbwatch@second.service)
+  [[ -n $now && $now != "$1" ]]
+}
+
 test_removal() {
+  check "a second machine is there" begin_second_machine
   check "apt removes it" inside sh -c 'apt-get remove -y "orbwatch*"'
   check "nothing runs" inside sh -c '! systemctl is-active orbwatch.service && ! pgrep orbwatchd'
   check "configuration and state are kept" inside test -e /etc/orbwatch/site.toml -a -e /var/lib/orbwatch/last-good.json

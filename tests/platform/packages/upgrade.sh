@@ -7,15 +7,20 @@ test_upgrade() {
   check "it measures" wait_for "$patience" measures
   an_installer_was_here
   check "it measures what the installer wrote" wait_for "$patience" measures
+  check "and a second machine" begin_second_machine
   files_of_state before
-  check "apt upgrades to $version" inside sh -c \
-    "apt-get install -y -o Dpkg::Options::=--force-confold /packages/orbwatch_*_$architecture.deb"
+  inside sh -c 'cd /etc && find orbwatch -type f -exec sha256sum {} + | sort' >"$work/configuration-before"
+  # As unattended-upgrades does: no answer, no option of dpkg.
+  check "apt upgrades to $version, and asks nothing" inside sh -c \
+    "apt-get install -y /packages/orbwatch_*_$architecture.deb </dev/null"
+  check "it is configured" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
   check "it measures on" wait_for "$patience" measures
-  check "by the new program" sh -c '! readlink "/proc/$1/exe" | grep deleted' sh "$(process)"
-  check "the changed site is kept" inside grep -F 'name = "gate"' /etc/orbwatch/site.toml
-  check "the changed rig is kept, the new one is beside it" inside sh -c \
-    'grep -F "Measured on site" /etc/orbwatch/rig.toml && test -e /etc/orbwatch/rig.toml.dpkg-dist'
-  check "an unchanged recipe is the new one" inside sh -c '! grep -F "# As of" /etc/orbwatch/recipes/demo.toml'
+  check "and the second machine" wait_for "$patience" second_measures
+  check "both by the new program" programs_are_there
+  inside sh -c 'cd /etc && find orbwatch -type f -exec sha256sum {} + | sort' >"$work/configuration-after"
+  check "the configuration is what it was, and nothing is beside it" \
+    diff "$work/configuration-before" "$work/configuration-after"
+  end_second_machine
   files_of_state after
   check "commands and calibration are kept" diff "$work/state-before" "$work/state-after"
   check "the calibration is read" inside sh -c 'orbwatch calibration history | grep -F "for another rig file"'
@@ -23,6 +28,16 @@ test_upgrade() {
   check "a downgrade is refused with a sentence" downgrade_is_refused
   check "version $version runs on" wait_for "$patience" measures
   check "and is installed" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
+}
+
+# A process of a replaced program has one that is deleted.
+programs_are_there() {
+  local each programs=0
+  for each in $(process); do
+    programs=$((programs + 1))
+    ! readlink "/proc/$each/exe" | grep deleted || return
+  done
+  ((programs == 2))
 }
 
 an_installer_was_here() {
