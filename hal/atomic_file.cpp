@@ -39,27 +39,55 @@ bool is_synced(const std::filesystem::path& folder) {
   return opened.is_open() && (::fsync(opened.get()) == 0 || errno == EINVAL);
 }
 
-/// Whoever could read or write the file before, still can.
-void keep_mode(const std::filesystem::path& path, const FileDescriptor& file) {
-  constexpr mode_t kPermissions = 0777;
+constexpr mode_t kOwnersAlone = 0600;
+constexpr mode_t kReadable = 0644;
+constexpr mode_t kPermissions = 0777;
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+/// Gives a file that root has made to whom it is for. False: errno says why not.
+bool give_away(const FileDescriptor& file, const struct stat& owner) {
+  struct stat made {};
+  if (::fstat(file.get(), &made) != 0) return false;
+  const bool is_right = made.st_uid == owner.st_uid && made.st_gid == owner.st_gid;
+  return is_right || ::fchown(file.get(), owner.st_uid, owner.st_gid) == 0;
+}
+
+/// Sets owner and mode of the file that is going to be `path`. False: errno says why not.
+bool set_access(const std::filesystem::path& path, FileAccess access, const FileDescriptor& file) {
+  struct stat folder {};
   struct stat before {};
-  if (!file.is_open() || ::stat(path.c_str(), &before) != 0) return;
-  static_cast<void>(::fchmod(file.get(), before.st_mode & kPermissions));
+  if (::stat(folder_of(path).c_str(), &folder) != 0) return false;
+  // A link is replaced, not what it leads to, which may be anybody's.
+  const bool replaces = ::lstat(path.c_str(), &before) == 0 && S_ISREG(before.st_mode);
+  const bool has_owner = replaces && before.st_uid != 0;
+  if (::geteuid() == 0 && !give_away(file, has_owner ? before : folder)) return false;
+  if (access == FileAccess::Owner) return true;
+  // A file system without modes refuses, and shows those that it was mounted with.
+  if (replaces) {
+    static_cast<void>(::fchmod(file.get(), before.st_mode & kPermissions));
+  } else if (access == FileAccess::Folder) {
+    static_cast<void>(::fchmod(file.get(), kOwnersAlone | (folder.st_mode & kReadable)));
+  }
+  return true;
 }
 
 }  // namespace
 
-Result<> write_file(const std::filesystem::path& path, std::string_view text) {
+Result<> write_file(const std::filesystem::path& path, std::string_view text, FileAccess access) {
   static std::atomic<unsigned> serial{0};
   const std::string temporary =
       path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
+  const mode_t mode = access == FileAccess::Umask ? 0666 : kOwnersAlone;
   const FileDescriptor file(
-      ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
+      ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode));
   // The lock, which ends with the process, says that the file is no leftover. Where a file system
   // has no locks, leftovers are not removed either.
   if (file.is_open()) static_cast<void>(::flock(file.get(), LOCK_EX));
-  keep_mode(path, file);
-  const bool is_replaced = file.is_open() && write_all(file, text) && ::fsync(file.get()) == 0 &&
+  const bool is_replaced = file.is_open() && set_access(path, access, file) &&
+                           write_all(file, text) && ::fsync(file.get()) == 0 &&
                            ::rename(temporary.c_str(), path.c_str()) == 0;
   if (is_replaced && is_synced(path.parent_path())) return {};
   const std::string reason = std::system_category().message(errno);
@@ -67,9 +95,10 @@ Result<> write_file(const std::filesystem::path& path, std::string_view text) {
   return fail(path.string() + ": cannot be written: " + reason);
 }
 
-Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  return write_file(path,
-                    std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                    FileAccess access) {
+  return write_file(
+      path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), access);
 }
 
 Result<> sync_folder(const std::filesystem::path& folder) {

@@ -216,7 +216,7 @@ Result<std::string> calibration_text(const Intrinsics& intrinsics, const std::st
 Result<> write_calibration(const std::filesystem::path& file, const Intrinsics& intrinsics,
                            const std::string& name, CalibrationFormat format) {
   return calibration_text(intrinsics, name, format).and_then([&](const std::string& text) {
-    return hal::write_file(file, text);
+    return hal::write_file(file, text, hal::FileAccess::Folder);
   });
 }
 

@@ -169,7 +169,7 @@ Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment&
         // Files that the rig names count from its new folder now.
         const auto there = parse_rig(text, out.string(), out.parent_path());
         if (!there) return tl::unexpected(there.error());
-        return hal::write_file(out, text);
+        return hal::write_file(out, text, hal::FileAccess::Folder);
       });
 }
 

@@ -25,7 +25,7 @@ Result<> keep(const std::filesystem::path& file, const FileTexts& texts) {
   for (const auto& [path, text] : texts) json[path.string()] = text;
   // Comments may have any bytes.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  return hal::write_file(file, json.dump(1, ' ', false, kReplace) + "\n");
+  return hal::write_file(file, json.dump(1, ' ', false, kReplace) + "\n", hal::FileAccess::Owner);
 }
 
 Result<FileTexts> read_kept(const std::filesystem::path& file, const std::string& if_absent) {

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "hal/thread/file_descriptor.h"
+#include "tests/support/service_user.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::hal {
@@ -51,6 +54,92 @@ TEST(WriteFile, KeepsTheModeOfTheFile) {
   EXPECT_EQ(text(file), "new");
   EXPECT_EQ(fs::status(file).permissions(), mode);
 }
+
+/// A folder that root has made for a service.
+class FileOfTheService : public testing::TestWithParam<mode_t> {
+ protected:
+  void SetUp() override {
+    ORBWATCH_WITHOUT_ROOT_SKIPPED();
+    make("etc", 0, 02775);
+    make("state", tests::kService, 0750);
+    fs::permissions(folder.path(), fs::perms(0755));
+  }
+
+  void make(const char* name, uid_t owner, mode_t mode) {
+    fs::create_directory(folder / name);
+    ASSERT_EQ(::chown((folder / name).c_str(), owner, tests::kService), 0);
+    ASSERT_EQ(::chmod((folder / name).c_str(), mode), 0);
+  }
+  bool is_written(uid_t user, const fs::path& file, FileAccess access) const {
+    return tests::as_user(user, GetParam(),
+                          [&] { return write_file(file, "text", access).has_value(); });
+  }
+  static bool is_read(uid_t user, const fs::path& file) {
+    return tests::as_user(user, 0, [&] { return text(file) == "text"; });
+  }
+
+  const tests::TemporaryFolder folder;
+};
+
+TEST_P(FileOfTheService, IsReadByItWhoeverWritesIt) {
+  for (const uid_t user : {uid_t{0}, tests::kService, tests::kMember}) {
+    const fs::path file = folder / "etc" / std::to_string(user);
+    for (const char* what : {"new", "replaced"}) {
+      ASSERT_TRUE(is_written(user, file, FileAccess::Folder)) << user;
+      EXPECT_TRUE(is_read(tests::kService, file)) << what << " by " << user;
+    }
+  }
+  const fs::path file = folder / "state/calibration.toml";
+  for (const uid_t user : {uid_t{0}, tests::kService}) {
+    for (const char* what : {"new", "replaced"}) {
+      ASSERT_TRUE(is_written(user, file, FileAccess::Folder)) << user;
+      EXPECT_TRUE(is_read(tests::kService, file)) << what << " by " << user;
+      EXPECT_FALSE(is_read(tests::kStranger, file)) << what << " by " << user;
+    }
+    fs::remove(file);
+  }
+}
+
+TEST_P(FileOfTheService, IsItsOwnAgainWhenRootReplacesIt) {
+  const fs::path file = folder / "state/calibration.toml";
+  ASSERT_TRUE(is_written(tests::kService, file, FileAccess::Folder));
+  ASSERT_TRUE(is_written(0, file, FileAccess::Folder));
+  struct stat about {};
+  ASSERT_EQ(::stat(file.c_str(), &about), 0);
+  EXPECT_EQ(about.st_uid, tests::kService);
+  // One that an earlier version left to root.
+  ASSERT_EQ(::chown(file.c_str(), 0, 0), 0);
+  ASSERT_TRUE(is_written(0, file, FileAccess::Folder));
+  EXPECT_TRUE(is_read(tests::kService, file));
+}
+
+TEST_P(FileOfTheService, IsForItAloneWhereItMayHoldSecrets) {
+  for (const uid_t user : {uid_t{0}, tests::kService}) {
+    const fs::path file = folder / "state" / std::to_string(user);
+    ASSERT_TRUE(is_written(user, file, FileAccess::Owner));
+    fs::permissions(file, fs::perms(0644));  // as an earlier version left it
+    ASSERT_TRUE(is_written(user, file, FileAccess::Owner));
+    EXPECT_TRUE(is_read(tests::kService, file)) << user;
+    EXPECT_FALSE(is_read(tests::kMember, file)) << user;
+  }
+}
+
+TEST_P(FileOfTheService, IsNeverWhatALinkLeadsTo) {
+  const fs::path secret = folder / "secret";
+  std::ofstream(secret) << "of root";
+  fs::permissions(secret, fs::perms(0600));
+  fs::create_symlink(secret, folder / "state/link");
+  ASSERT_TRUE(is_written(0, folder / "state/link", FileAccess::Folder));
+  EXPECT_TRUE(is_read(tests::kService, folder / "state/link"));
+  EXPECT_EQ(text(secret), "of root");
+}
+
+INSTANTIATE_TEST_SUITE_P(Umask, FileOfTheService, testing::Values(0, 0022, 0027, 0077),
+                         [](const auto& mask) {
+                           std::ostringstream name;
+                           name << std::oct << std::setw(3) << std::setfill('0') << mask.param;
+                           return name.str();
+                         });
 
 TEST(RemoveUnfinished, RemovesWhatIsLeftAndNothingElse) {
   const tests::TemporaryFolder folder;

@@ -134,9 +134,10 @@ Result<> write_site(const Setup& setup, const std::filesystem::path& folder) {
     }
     if (!written) return written;
   }
-  return hal::write_file(folder / kRecipeFile, recipe_text(setup))
-      .and_then([&] { return hal::write_file(folder / kRigFile, rig_text(setup)); })
-      .and_then([&] { return hal::write_file(folder / kSiteFile, site_text(setup)); });
+  constexpr auto kAccess = hal::FileAccess::Folder;
+  return hal::write_file(folder / kRecipeFile, recipe_text(setup), kAccess)
+      .and_then([&] { return hal::write_file(folder / kRigFile, rig_text(setup), kAccess); })
+      .and_then([&] { return hal::write_file(folder / kSiteFile, site_text(setup), kAccess); });
 }
 
 /// Whether the daemon would run it.

@@ -43,6 +43,14 @@ class LastGood : public testing::Test {
   fs::path state_ = folder_ / "state";
 };
 
+/// It repeats texts that others may not be meant to read.
+TEST_F(LastGood, IsForItsOwnerAlone) {
+  ASSERT_TRUE(keep_last_good(state_, resolve(site_).value()));
+  for (const char* name : {"last-good.json", "last-good-calibration.json"}) {
+    EXPECT_EQ(fs::status(state_ / name).permissions(), fs::perms(0600)) << name;
+  }
+}
+
 TEST_F(LastGood, RunsWhateverBecomesOfTheFiles) {
   const auto good = resolve(site_);
   ASSERT_TRUE(good) << good.error().message;
