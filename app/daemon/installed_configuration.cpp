@@ -81,6 +81,10 @@ std::vector<fs::path> InstalledConfiguration::state_folders() const {
 Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
   State state{name_of(file_), {}, {}, refusal_};
   for (const fs::path& file : named_files()) {
+    if (is_private(file)) {
+      state.outside[name_of(file)] = kPrivateText;
+      continue;
+    }
     TextFiles files;
     auto text = files.read(file, "a file of the configuration");
     std::error_code none;                                    // `text` says what is wrong

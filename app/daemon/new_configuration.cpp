@@ -1,6 +1,7 @@
 #include "app/daemon/new_configuration.h"
 
 #include "app/daemon/build.h"
+#include "app/daemon/replaceable_file.h"
 #include "app/files/resolve.h"
 #include "app/files/text_difference.h"
 
@@ -32,7 +33,9 @@ Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int se
   }
   Trial trial{site, {}, seconds};
   for (const auto& [file, text] : resolved->texts) {
-    if (!name_beside(site, file)) continue;
+    // A secret that the configuration names stays where it is, and is not repeated anywhere.
+    const bool is_kept = texts.contains(file) || !is_private(file);
+    if (!is_kept || !name_beside(site, file)) continue;
     trial.texts[file] = text;
     TextFiles read;
     read.add(text);

@@ -15,8 +15,8 @@ std::optional<std::string> name_beside(const std::filesystem::path& site,
                                        const std::filesystem::path& file);
 
 /// A trial of the configuration file `site` with `texts` in place of it and of files beside it,
-/// checked as it will stand there, as by `orbwatchd --check`. Errors: also a text that no file
-/// names.
+/// checked as it will stand there, as by `orbwatchd --check`. Of the files that stay it has those
+/// that are not private. Errors: also a text that no file names.
 Result<Trial> checked_trial(const std::filesystem::path& site, const FileTexts& texts, int seconds);
 
 /// By their file, the lines by which texts differ from the files, see text_difference().

@@ -21,14 +21,18 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   return std::ranges::mismatch(above, there).in1 == above.end();
 }
 
+bool is_private(const fs::file_status& status) {
+  constexpr fs::perms kOthers = fs::perms::group_all | fs::perms::others_all;
+  return fs::exists(status) && (status.permissions() & kOthers) == fs::perms::none;
+}
+
 Result<> check_present(const fs::path& file, const fs::file_status& status, bool is_named) {
   if (!is_named) {
     return fail(file.string() +
                 ": exists, and the configuration does not name it; send a file that it names, or a "
                 "new one");
   }
-  constexpr fs::perms kOthers = fs::perms::group_all | fs::perms::others_all;
-  if ((status.permissions() & kOthers) == fs::perms::none) {
+  if (is_private(status)) {
     return fail(file.string() +
                 ": only its owner may read it, as a secret; a file of the configuration has mode "
                 "0640 or 0644");
@@ -37,12 +41,21 @@ Result<> check_present(const fs::path& file, const fs::file_status& status, bool
 }
 
 Result<> check_new(const fs::path& file) {
-  if (std::ranges::count(kEndings, file.extension().string()) > 0) return {};
+  if (is_configuration_name(file)) return {};
   return fail(file.string() +
               ": a new file of the configuration must end with .toml, .yaml or .yml");
 }
 
 }  // namespace
+
+bool is_configuration_name(const fs::path& file) {
+  return std::ranges::count(kEndings, file.extension().string()) > 0;
+}
+
+bool is_private(const fs::path& file) {
+  std::error_code none;  // what cannot be looked at is not read either
+  return is_private(fs::status(file, none));
+}
 
 Result<> check_replaceable(const fs::path& file, const fs::path& site,
                            const std::set<fs::path>& named, const std::vector<fs::path>& state) {

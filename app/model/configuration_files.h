@@ -34,7 +34,7 @@ class ConfigurationFiles {
   struct State {
     std::string site;              ///< name of the configuration file
     Texts files;                   ///< as they are on the disk
-    Texts outside;                 ///< others; not to be changed here
+    Texts outside;                 ///< others, a word in place of private ones; not to be changed
     std::string refusal;           ///< why they do not run, but the last good ones; empty: they do
     std::optional<Texts> trial{};  ///< runs in place of them, or is about to; nullopt: none
     std::optional<double> seconds_left{};  ///< until it goes back; nullopt: it does not run yet

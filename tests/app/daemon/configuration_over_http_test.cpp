@@ -78,6 +78,25 @@ TEST_F(ConfigurationOverHttp, IsReadAsItIsOnTheDisk) {
   EXPECT_EQ(texts.size(), 3U);
 }
 
+TEST_F(ConfigurationOverHttp, ShowsNoPrivateFile) {
+  fs::permissions(folder / "recipe.toml", fs::perms(0600));
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  for (const auto& file : shown()["files"]) {
+    if (file["name"] != "recipe.toml") continue;
+    EXPECT_FALSE(file["may_change"]);
+    EXPECT_THAT(file["text"].get<std::string>(), HasSubstr("only its owner may read it"));
+  }
+  EXPECT_THAT(shown().dump(), Not(HasSubstr("hot_spot_threshold")));
+  // Neither in a trial of another file.
+  const Answer tried =
+      ask("try", {{"files", {{"rig.toml", kSmallRig + "# by hand\n"}}}, {"seconds", 60}});
+  ASSERT_EQ(tried.status, 200) << tried.body;
+  manager.await("READY=1");
+  EXPECT_THAT(shown().dump(), Not(HasSubstr("hot_spot_threshold")));
+  EXPECT_THAT(contents(folder / "trial-running.json"), Not(HasSubstr("hot_spot_threshold")));
+}
+
 TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   fs::permissions(folder / "recipe.toml", fs::perms(0640));
   Subprocess daemon = start(config);
