@@ -20,6 +20,14 @@ Result<Resolved> resolve_and_check(const std::filesystem::path& file, const File
   });
 }
 
+/// Tells who asked for a trial.
+void report(const std::filesystem::path& folder, const std::string& refusal) {
+  if (const auto told = report_trial(folder, refusal); !told) {
+    log_line(LogLevel::Warning, "who asked for the new configuration is not told what became of "
+                                "it: " + told.error().message);
+  }
+}
+
 /// Nullopt: none was requested for this file, or it is wrong, which is logged.
 std::optional<Chosen> choose_trial(const std::filesystem::path& folder,
                                    const std::filesystem::path& file) {
@@ -32,6 +40,7 @@ std::optional<Chosen> choose_trial(const std::filesystem::path& folder,
     site = resolve_and_check(file, (*trial)->texts);
   }
   if (site) return Chosen{std::move(*site), {}, std::move(*trial)};
+  report(folder, site.error().message);
   end_trial(folder);
   log_line(LogLevel::Error, "does not try the new configuration: " + site.error().message);
   return std::nullopt;
@@ -110,6 +119,7 @@ bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::pa
                               ? "it is for " + (*trial)->site.string() + ", this orbwatchd runs " +
                                     file.string() + "; say --config to orbwatch configure"
                               : trial.error().message;
+  report(folder, why);
   log_line(LogLevel::Error, "does not try the new configuration: " + why);
   drop_request(folder);
   return false;
@@ -122,7 +132,8 @@ Result<> check_restart(const std::filesystem::path& file) {
 
 void keep(const Chosen& chosen) {
   const auto folder = service_folder();
-  if (!folder || !chosen.refusal.empty() || chosen.trial) return;
+  if (!folder || !chosen.refusal.empty()) return;
+  if (chosen.trial) return report(*folder, {});
   if (const auto kept = keep_last_good(*folder, chosen.site); !kept) {
     log_line(LogLevel::Warning, "what runs is not kept: " + kept.error().message);
   }

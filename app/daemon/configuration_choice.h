@@ -34,7 +34,7 @@ Result<Chosen> choose(const std::filesystem::path& file);
 /// Whether the files say what can run. Error: why not.
 Result<> check_restart(const std::filesystem::path& file);
 
-/// After a start: what runs is good, unless it is a trial.
+/// After a start: what runs is good, unless it is a trial, of which who asked for it is told.
 void keep(const Chosen& chosen);
 
 }  // namespace orbwatch::app

@@ -17,25 +17,18 @@ namespace fs = std::filesystem;
 fs::path requested_in(const fs::path& folder) { return folder / "trial.json"; }
 fs::path running_in(const fs::path& folder) { return folder / "trial-running.json"; }
 fs::path confirmed_in(const fs::path& folder) { return folder / "trial-confirmed.json"; }
+fs::path report_in(const fs::path& folder) { return folder / "trial-report.json"; }
 
-Result<std::optional<Trial>> read(const fs::path& file) {
+/// What `parse` makes of a file; it may throw what the JSON library throws. Nullopt: no such file.
+template <class Parsed>
+Result<std::optional<Parsed>> read_json(const fs::path& file,
+                                        Parsed (*parse)(const nlohmann::json&)) {
   std::error_code none;  // read_regular_file() says what is wrong
   if (!fs::exists(file, none) && !none) return std::nullopt;
   const auto text = hal::read_regular_file(file, kMostTexts);
   if (!text) return tl::unexpected(text.error());
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
   try {
-    Trial trial{json.at("site").get<std::string>(), {}, json.at("seconds").get<int>()};
-    for (const auto& [path, kept] : json.at("files").items()) {
-      trial.texts[path] = kept.get<std::string>();
-    }
-    // Absent in a trial that an older version requested.
-    const auto based_on = json.find("based_on");
-    if (based_on == json.end()) return trial;
-    for (const auto& [path, checksum] : based_on->items()) {
-      trial.based_on[path] = checksum.get<std::uint32_t>();
-    }
-    return trial;
+    return parse(nlohmann::json::parse(*text));
   } catch (const nlohmann::json::exception&) {
     return fail(file.string() + ": is damaged");
   }
@@ -56,6 +49,24 @@ Result<> check_unchanged(const Trial& trial) {
   return {};
 }
 
+Trial trial_of(const nlohmann::json& json) {
+  Trial trial{json.at("site").get<std::string>(), {}, json.at("seconds").get<int>()};
+  for (const auto& [path, kept] : json.at("files").items()) {
+    trial.texts[path] = kept.get<std::string>();
+  }
+  // Absent in a trial that an older version requested.
+  const auto based_on = json.find("based_on");
+  if (based_on == json.end()) return trial;
+  for (const auto& [path, checksum] : based_on->items()) {
+    trial.based_on[path] = checksum.get<std::uint32_t>();
+  }
+  return trial;
+}
+
+std::string refusal_of(const nlohmann::json& json) { return json.at("refusal").get<std::string>(); }
+
+Result<std::optional<Trial>> read(const fs::path& file) { return read_json<Trial>(file, trial_of); }
+
 }  // namespace
 
 std::map<fs::path, std::uint32_t> checksums_of(const FileTexts& texts) {
@@ -73,8 +84,10 @@ Result<> request_trial(const fs::path& folder, const Trial& trial) {
                             {"seconds", trial.seconds},
                             {"files", files},
                             {"based_on", based_on}};
+  std::error_code none;  // of a request before
+  fs::remove(report_in(folder), none);
   try {
-    return hal::write_file(requested_in(folder), json.dump(1) + "\n");
+    return hal::write_file(requested_in(folder), json.dump(1) + "\n", hal::FileAccess::Owner);
   } catch (const nlohmann::json::type_error&) {
     return fail(trial.site.string() + ": it or a file that it names is not UTF-8");
   }
@@ -143,7 +156,7 @@ Result<std::optional<std::vector<fs::path>>> finish_confirmed(const fs::path& fo
     const auto present = hal::read_regular_file(path);
     if (present && *present == text) return {};
     written.push_back(path);
-    return hal::write_file(path, text);
+    return hal::write_file(path, text, hal::FileAccess::Folder);
   };
   for (const auto& [path, text] : (*trial)->texts) {
     if (path == (*trial)->site) continue;
@@ -156,6 +169,17 @@ Result<std::optional<std::vector<fs::path>>> finish_confirmed(const fs::path& fo
   std::error_code none;
   fs::remove(confirmed_in(folder), none);
   return written;
+}
+
+Result<> report_trial(const fs::path& folder, const std::string& refusal) {
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // a message may quote a file
+  return hal::write_file(report_in(folder),
+                         nlohmann::json{{"refusal", refusal}}.dump(1, ' ', false, kReplace) + "\n",
+                         hal::FileAccess::Owner);
+}
+
+Result<std::optional<std::string>> trial_report(const fs::path& folder) {
+  return read_json<std::string>(report_in(folder), refusal_of);
 }
 
 bool end_trial(const fs::path& folder) {

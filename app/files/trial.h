@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/files/text_file.h"
@@ -17,6 +18,8 @@ namespace orbwatch::app {
 ///
 ///     request_trial() --> trial.json --take_trial()--> trial-running.json --end_trial()--> nothing
 ///                                           confirm_trial() --> trial-confirmed.json --> its files
+///
+/// These files are for their owner alone: they repeat texts that others may not be meant to read.
 struct Trial {
   std::filesystem::path site;  ///< the configuration file that it is in place of
   FileTexts texts;             ///< by the path of the file that each will be
@@ -29,8 +32,8 @@ struct Trial {
 /// The checksums of these files as they are now.
 std::map<std::filesystem::path, std::uint32_t> checksums_of(const FileTexts& texts);
 
-/// Asks the daemon that has this folder for a trial. Atomic. Errors: a text is not UTF-8; as
-/// hal::write_file().
+/// Asks the daemon that has this folder for a trial, and forgets what became of one before. Atomic.
+/// Errors: a text is not UTF-8; as hal::write_file().
 Result<> request_trial(const std::filesystem::path& folder, const Trial& trial);
 
 /// Whether one was requested and not taken yet.
@@ -48,6 +51,11 @@ Result<std::optional<Trial>> take_trial(const std::filesystem::path& folder);
 
 /// The one that runs; nullopt: none, it was confirmed or ended. Error: it is damaged.
 Result<std::optional<Trial>> running_trial(const std::filesystem::path& folder);
+
+/// Tells who asked for a trial why it does not run; empty: it does. Error: as hal::write_file().
+Result<> report_trial(const std::filesystem::path& folder, const std::string& refusal);
+/// That of the last request; nullopt: it is not known yet. Error: it is damaged.
+Result<std::optional<std::string>> trial_report(const std::filesystem::path& folder);
 
 /// None runs any more. Returns whether one did.
 bool end_trial(const std::filesystem::path& folder);

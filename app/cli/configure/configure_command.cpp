@@ -1,10 +1,13 @@
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/cli/command.h"
+#include "app/cli/configure/await_trial.h"
 #include "app/cli/options/options.h"
 #include "app/daemon/new_configuration.h"
+#include "app/daemon/replaceable_file.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
 #include "app/files/trial.h"
@@ -20,12 +23,12 @@ constexpr const char* kConfigureUsage =
     "Usage: orbwatch configure FILE [--seconds N] [--dry-run]\n"
     "       orbwatch configure --confirm | --cancel\n"
     "\n"
-    "Checks a new configuration file and all files that it names, shows what they change, and has\n"
-    "the running orbwatchd run them. The installed files stay as they are until --confirm, which\n"
-    "writes them. Without it orbwatchd goes back to them after N seconds, and after any end: a\n"
-    "crash, a power cut. The files that FILE names stand in its folder, as they are to stand in "
-    "the\n"
-    "folder of the installed one.\n"
+    "Checks a new configuration file and all files that it names, shows what they change, has the\n"
+    "running orbwatchd run them, and waits until it does or says why it does not. The installed\n"
+    "files stay as they are until --confirm, which writes them. Without it orbwatchd goes back to\n"
+    "them after N seconds, and after any end: a crash, a power cut. The files that FILE names "
+    "stand\n"
+    "in its folder, as they are to stand in the folder of the installed one.\n"
     "\n";
 
 struct Options {
@@ -63,21 +66,39 @@ Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
   return texts;
 }
 
+/// Root may replace any file: a folder that somebody else has prepared must not have it replace a
+/// key. Files with the ending of a configuration may be there and not be named yet.
+Result<> check_places(const FileTexts& texts, const fs::path& config, const fs::path& folder) {
+  std::vector<fs::path> state{folder};
+  std::set<fs::path> named{config};
+  if (const auto present = resolve(config)) {
+    if (!present->site.state_folder.empty()) state.push_back(present->site.state_folder);
+    for (const auto& [path, text] : present->texts) named.insert(path);
+  }
+  for (const auto& [path, text] : texts) {
+    if (is_configuration_name(path)) named.insert(path);
+    if (auto allowed = check_replaceable(path, config, named, state); !allowed) return allowed;
+  }
+  return {};
+}
+
 /// `folder`: of the orbwatchd that runs the installed file.
 Result<std::string> try_out(const Options& o, const fs::path& file, const fs::path& folder) {
   const auto texts = new_texts(file, o.config);
   if (!texts) return tl::unexpected(texts.error());
+  if (const auto allowed = check_places(*texts, o.config, folder); !allowed) {
+    return tl::unexpected(allowed.error());
+  }
   const auto trial = checked_trial(o.config, *texts, o.seconds);
   if (!trial) return tl::unexpected(trial.error());
   std::string difference;
   for (const auto& [path, lines] : differences_from_files(trial->texts)) difference += lines;
   if (difference.empty()) return "changes nothing\n";
   if (o.dry_run) return difference;
-  if (auto asked = request_trial(folder, *trial); !asked) {
-    return tl::unexpected(asked.error());
-  }
-  return difference + "runs for " + std::to_string(o.seconds) +
-         " seconds from now on; keep it with: orbwatch configure --confirm\n";
+  return request_trial(folder, *trial).and_then([&] { return await_trial(folder); }).map([&] {
+    return difference + "runs for " + std::to_string(o.seconds) +
+           " seconds from now on; keep it with: orbwatch configure --confirm\n";
+  });
 }
 
 Result<std::string> confirm(const fs::path& folder) {

@@ -15,6 +15,7 @@
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/support/journal_socket.h"
 #include "tests/support/notify_socket.h"
+#include "tests/support/service_user.h"
 
 /// `orbwatchd` as a service manager sees it.
 namespace orbwatch::tests {
@@ -500,6 +501,56 @@ TEST_F(Outputs, AreMadeSafeAsTheyRanAfterTheFileWasEdited) {
   fs::remove_all(runtime / "driven-lines.toml");
   EXPECT_THAT(made_safe(), HasSubstr("of_trial")) << "without a record, as the file says";
   ::unsetenv("RUNTIME_DIRECTORY");
+}
+
+/// A folder that somebody else has prepared.
+TEST_F(Configured, ReplacesNoPrivateFile) {
+  const std::string lens = "[camera.intrinsics]\nfile = \"key.pem\"\n";
+  const std::string key = "of the page\n";
+  std::ofstream(folder / "key.pem") << key;
+  fs::permissions(folder / "key.pem", fs::perms(0600));
+  std::string rig = contents(folder / "new/rig.toml");
+  const std::size_t begin = rig.find("[camera.intrinsics]"), end = rig.find("[camera.pose]");
+  rig.replace(begin, end - begin, lens);
+  std::ofstream(folder / "new/rig.toml") << rig;
+  std::ofstream(folder / "new/key.pem")
+      << "image_width: 200\nimage_height: 200\ncamera_name: a\ncamera_matrix: {rows: 3, cols: 3, "
+         "data: [1143, 0, "
+         "99.5, 0, 1143, 99.5, 0, 0, 1]}\ndistortion_model: plumb_bob\n"
+         "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n";
+  const auto [code, said] = configure({(folder / "new/site.toml").string(), "--dry-run"});
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(said, HasSubstr("key.pem: exists, and the configuration does not name it"));
+  EXPECT_THAT(said, testing::Not(HasSubstr(key))) << "nor is it shown";
+}
+
+/// On a hardened board root's umask is 077.
+TEST_F(Configured, IsReadByTheServiceWhateverRootsUmask) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  const fs::path program = folder / "orbwatchd";
+  fs::copy_file(ORBWATCHD_PROGRAM, program);
+  std::ofstream(folder / "new/lamp.toml") << kSmallRecipe;  // a file that is new
+  std::string site = contents(folder / "new/site.toml");
+  site.replace(site.rfind("recipe.toml"), 11, "lamp.toml");
+  std::ofstream(folder / "new/site.toml") << site;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    give_to_service(entry.path());
+  }
+  give_to_service(folder.path());
+  fs::permissions(folder.path(), fs::perms(0750));
+  Subprocess daemon({"/usr/bin/setpriv", "--reuid=" + std::to_string(kService),
+                     "--regid=" + std::to_string(kService), "--clear-groups", program.string()},
+                    folder / "daemon.log");
+  const mode_t before = ::umask(0077);
+  begin_trial("3600");
+  const auto [code, said] = configure({"--confirm"});
+  ::umask(before);
+  EXPECT_EQ(code, 0) << said;
+  EXPECT_TRUE(as_service(
+      0, [&] { return !contents(folder / "lamp.toml").empty() && !contents(config).empty(); }));
+  daemon.send(SIGHUP);
+  manager.await("READY=1");
+  EXPECT_EQ(read("system_configuration_refused"), 0) << daemon.output();
 }
 
 TEST_F(Configured, RefusesWhatIsWrongAndChangesNothing) {

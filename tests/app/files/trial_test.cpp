@@ -89,6 +89,20 @@ TEST_F(TrialFile, IsCancelledBeforeItRunsAndWhileItRuns) {
   EXPECT_EQ(running_trial(folder_.path()).value(), std::nullopt);
 }
 
+/// Its texts may repeat a file that is not for everybody.
+TEST_F(TrialFile, IsForItsOwnerAlone) {
+  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
+  EXPECT_EQ(fs::status(requested_).permissions(), fs::perms(0600));
+}
+
+TEST_F(TrialFile, ReportsWhatBecameOfIt) {
+  EXPECT_EQ(trial_report(folder_.path()).value(), std::nullopt);
+  ASSERT_TRUE(report_trial(folder_.path(), "a lens of \xff"));
+  EXPECT_THAT(trial_report(folder_.path()).value().value(), HasSubstr("a lens of "));
+  ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
+  EXPECT_EQ(trial_report(folder_.path()).value(), std::nullopt) << "it is of another one";
+}
+
 TEST_F(TrialFile, ThatIsDamagedIsRefused) {
   for (const char* text : {"", "{", "[]", "{\"site\": 1}"}) {
     std::ofstream(requested_) << text;

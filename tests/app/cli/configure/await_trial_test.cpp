@@ -1,0 +1,72 @@
+#include "app/cli/configure/await_trial.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "app/files/trial.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orbwatch::app {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+constexpr TrialPatience kLong{milliseconds(60'000), milliseconds(60'000)};
+
+/// A trial was requested; the test is the daemon.
+class AwaitTrial : public testing::Test {
+ protected:
+  AwaitTrial() {
+    EXPECT_TRUE(report_trial(folder.path(), "of a request before"));
+    EXPECT_TRUE(request_trial(folder.path(), {"/etc/site.toml", {}, 60}));
+  }
+
+  /// Empty: it runs.
+  std::string refusal(const TrialPatience& patience) const {
+    const auto awaited = await_trial(folder.path(), patience);
+    return awaited ? "" : awaited.error().message;
+  }
+
+  const orbwatch::tests::TemporaryFolder folder;
+};
+
+TEST_F(AwaitTrial, EndsWhenItRuns) {
+  std::thread daemon([&] {
+    EXPECT_TRUE(take_trial(folder.path()));
+    EXPECT_TRUE(report_trial(folder.path(), {}));
+  });
+  EXPECT_EQ(refusal(kLong), "");
+  daemon.join();
+}
+
+TEST_F(AwaitTrial, SaysWhyItDoesNotRun) {
+  std::thread daemon([&] {
+    EXPECT_TRUE(take_trial(folder.path()));
+    EXPECT_TRUE(report_trial(folder.path(), "site.toml:1: is wrong"));
+    EXPECT_TRUE(end_trial(folder.path()));
+  });
+  EXPECT_THAT(refusal(kLong), HasSubstr("site.toml:1: is wrong"));
+  daemon.join();
+}
+
+TEST_F(AwaitTrial, SaysThatItEnded) {
+  EXPECT_TRUE(take_trial(folder.path()));
+  EXPECT_TRUE(end_trial(folder.path())) << "the process ended, the next one found it";
+  EXPECT_THAT(refusal(kLong), HasSubstr("ended before it ran"));
+}
+
+TEST_F(AwaitTrial, WithdrawsWhatNobodyTakes) {
+  EXPECT_THAT(refusal({milliseconds(1), milliseconds(1)}),
+              HasSubstr("no orbwatchd has taken it up"));
+  EXPECT_FALSE(is_trial_requested(folder.path()));
+}
+
+TEST_F(AwaitTrial, SaysThatADaemonIsSilent) {
+  EXPECT_TRUE(take_trial(folder.path()));
+  EXPECT_THAT(refusal({milliseconds(1), milliseconds(1)}), HasSubstr("does not say that it runs"));
+}
+
+}  // namespace
+}  // namespace orbwatch::app
