@@ -8,6 +8,7 @@
 #include "app/files/calibration_file.h"
 #include "app/files/resolve.h"
 #include "app/files/site_file.h"
+#include "app/state/private_file.h"
 #include "app/state/state_folder.h"
 
 namespace orbwatch::app {
@@ -37,20 +38,23 @@ struct Calibrations {
   std::vector<CalibrationEntry> entries;
 };
 
-Result<Calibrations> read(const std::filesystem::path& config) {
+/// Without its entries.
+Result<Calibrations> locate(const std::filesystem::path& config) {
   const auto site = read_site(config);
   if (!site) return tl::unexpected(site.error());
   const auto folder = state_folder(site->state_folder, config);
   if (!folder) return tl::unexpected(folder.error());
-  Calibrations calibrations{calibration_file(*folder), 0, {}};
-  const auto rig = rig_checksum(site->rig.path);
-  if (!rig) return tl::unexpected(rig.error());
-  calibrations.rig = *rig;
+  return rig_checksum(site->rig.path).map([&](std::uint32_t rig) {
+    return Calibrations{calibration_file(*folder), rig, {}};
+  });
+}
+
+Result<> load(Calibrations& calibrations) {
   TextFiles files;
   auto entries = load_calibrations(calibrations.file, files);
   if (!entries) return tl::unexpected(entries.error());
   calibrations.entries = std::move(*entries);
-  return calibrations;
+  return {};
 }
 
 /// Whether an alignment counts now, in words.
@@ -134,10 +138,20 @@ Result<std::string> run(const std::filesystem::path& config, bool json,
   if (json && what != "history") return usage_error("--json is for history");
   const auto number = what == "restore" ? parse_whole(what, words[1]) : Result<int>(0);
   if (!number) return usage_error(number.error().message);
-  auto all = read(config);
+  auto all = locate(config);
   if (!all) return tl::unexpected(all.error());
-  if (what == "history") return json ? history_json(*all) : history_text(*all);
-  return what == "restore" ? restore(*all, *number) : reset(*all, words[1]);
+  if (what == "history") {
+    return load(*all).map([&] { return json ? history_json(*all) : history_text(*all); });
+  }
+  Result<std::string> text;
+  // A running orbwatchd may accept one meanwhile.
+  return with_lock(all->file,
+                   [&]() -> Result<> {
+                     if (auto loaded = load(*all); !loaded) return loaded;
+                     text = what == "restore" ? restore(*all, *number) : reset(*all, words[1]);
+                     return {};
+                   })
+      .and_then([&] { return text; });
 }
 
 }  // namespace

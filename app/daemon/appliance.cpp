@@ -54,6 +54,7 @@ Appliance::~Appliance() {
 }
 
 Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart restart,
+                                                   AcceptanceCheck check_acceptance,
                                                    Program program) {
   if (auto checked = hal::check(site.site.threads); !checked) {
     return tl::unexpected(checked.error());
@@ -67,7 +68,7 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   plan->background = all.background_;
   // It must not delay the pictures that somebody waits for.
   all.watch_.emplace(site, hal::SharedThreads::alone("watch"));
-  all.alignment_.emplace(site, *all.watch_, restart);
+  all.alignment_.emplace(site, *all.watch_, restart.request, std::move(check_acceptance));
   all.interfaces_.emplace(
       site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
       all.record_, all.background_, all.snapshots(), &*all.alignment_, std::move(program));

@@ -30,6 +30,7 @@ class Appliance {
   /// Opens the lines and cameras that are there. `site` outlives it and has a state folder.
   /// `program` is for the interfaces. Error: the files.
   static Result<std::unique_ptr<Appliance>> make(const Resolved& site, Restart restart,
+                                                 AcceptanceCheck check_acceptance,
                                                  Program program = {});
   /// Stops what runs: first the pipeline, which calls the others.
   ~Appliance();

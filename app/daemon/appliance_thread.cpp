@@ -45,6 +45,9 @@ Result<> ApplianceThread::run() {
   const auto files = std::make_shared<InstalledConfiguration>(context_.file, *chosen);
   auto appliance = Appliance::make(
       chosen->site, {[&restarts] { return restarts.check(); }, [&restarts] { restarts.restart(); }},
+      [&](const CalibrationEntry& entry) {
+        return check_acceptance(context_.file, chosen->site, entry);
+      },
       {files, context_.log, versions("orbwatchd"), commanders_text(chosen->site.site.sinks)});
   if (!appliance) return tl::unexpected(appliance.error());
   if (!chosen->refusal.empty()) (*appliance)->report_refused_configuration();

@@ -20,11 +20,22 @@ Result<Resolved> resolve_and_check(const std::filesystem::path& file, const File
   });
 }
 
+/// The one file of alignments as it will be with another entry.
+Result<FileTexts> with_accepted(FileTexts calibration, CalibrationEntry entry) {
+  auto& [file, text] = *calibration.begin();
+  TextFiles files(calibration);
+  auto entries = load_calibrations(file, files);
+  if (!entries) return tl::unexpected(entries.error());
+  accept(*entries, std::move(entry));
+  text = calibrations_text(*entries);
+  return calibration;
+}
+
 /// Tells who asked for a trial.
 void report(const std::filesystem::path& folder, const std::string& refusal) {
   if (const auto told = report_trial(folder, refusal); !told) {
-    log_line(LogLevel::Warning, "who asked for the new configuration is not told what became of "
-                                "it: " + told.error().message);
+    log_line(LogLevel::Warning,
+             "the report on the new configuration is not written: " + told.error().message);
   }
 }
 
@@ -128,6 +139,38 @@ bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::pa
 Result<> check_restart(const std::filesystem::path& file) {
   return resolve(file).and_then(
       [](const Resolved& site) { return check_site(site, Dates::Ignored); });
+}
+
+Result<> check_acceptance(const std::filesystem::path& file, const Resolved& running,
+                          CalibrationEntry entry) {
+  if (const auto folder = service_folder()) {
+    const auto trial = running_trial(*folder);
+    if (!trial) return tl::unexpected(trial.error());
+    if (*trial) {
+      return fail(
+          "a new configuration is on trial, and the restart would end it; confirm or revert it "
+          "first");
+    }
+  }
+  // A damaged file of alignments is written anew when one is accepted.
+  const auto next = resolve(file, running.calibration);
+  if (!next) {
+    return fail("orbwatchd cannot restart with its files; correct them first: " +
+                next.error().message);
+  }
+  if (next->rig_checksum != running.rig_checksum) {
+    return fail(
+        next->site.rig.path.string() +
+        ": the rig was changed since the start, and the alignment is for the one that runs; "
+        "restart first, then align again");
+  }
+  entry.rig = running.rig_checksum;
+  return with_accepted(running.calibration, std::move(entry))
+      .and_then([&](const FileTexts& accepted) { return resolve(file, accepted); })
+      .and_then([](const Resolved& site) { return check_site(site, Dates::Ignored); })
+      .map_error([](const Error& error) {
+        return Error{"orbwatchd cannot run with it: " + error.message};
+      });
 }
 
 void keep(const Chosen& chosen) {

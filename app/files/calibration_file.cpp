@@ -130,23 +130,34 @@ Result<std::vector<CalibrationEntry>> load_calibrations(const std::filesystem::p
   return entries;
 }
 
-Result<> save_calibrations(const std::filesystem::path& file,
-                           const std::vector<CalibrationEntry>& entries) {
+std::string calibrations_text(const std::vector<CalibrationEntry>& entries) {
   std::string text =
       "# Alignments that orbwatchd accepted, in force instead of what the rig file says.\n"
       "# `orbwatch calibration history` lists them, `orbwatch calibration restore` goes back.\n";
   const std::size_t kept = std::min(entries.size(), kMaxCalibrations);
   for (std::size_t n = entries.size() - kept; n < entries.size(); ++n) text += text_of(entries[n]);
-  return hal::write_file(file, text);
+  return text;
+}
+
+Result<> save_calibrations(const std::filesystem::path& file,
+                           const std::vector<CalibrationEntry>& entries) {
+  return hal::write_file(file, calibrations_text(entries), hal::FileAccess::Folder);
 }
 
 Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
   std::error_code error;
-  std::filesystem::path kept;
+  fs::path kept;
   for (int n = 1; n == 1 || error == std::errc::file_exists; ++n) {
     kept = file.string() + ".damaged-" + std::to_string(n);
-    std::filesystem::create_hard_link(file, kept, error);
+    fs::create_hard_link(file, kept, error);
   }
+  if (!error) return kept;
+  // Another user's file gets no second name (fs.protected_hardlinks), as on some file systems none
+  // does. One that cannot be read either is moved.
+  if (fs::copy_file(file, kept, error)) return kept;
+  fs::remove(kept, error);  // a part of the copy
+  fs::rename(file, kept, error);
   if (error) return fail(kept.string() + ": cannot be written: " + error.message());
   return kept;
 }
@@ -156,8 +167,9 @@ std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entr
   std::vector<CalibrationEntry> newest;
   std::set<std::string> done;
   for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+    if (entry->rig != rig) continue;
     const bool is_newest = done.insert(camera_of(*entry).camera).second;
-    if (is_newest && entry->rig == rig) newest.insert(newest.begin(), *entry);
+    if (is_newest) newest.insert(newest.begin(), *entry);
   }
   return newest;
 }

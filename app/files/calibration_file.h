@@ -42,16 +42,19 @@ Result<std::uint32_t> rig_checksum(const std::filesystem::path& rig, const FileT
 Result<std::vector<CalibrationEntry>> load_calibrations(const std::filesystem::path& file,
                                                         TextFiles& files);
 
-/// Writes them as load_calibrations() reads them, the newest kMaxCalibrations. Error: as
-/// hal::write_file().
+/// The text of which load_calibrations() makes the newest kMaxCalibrations of them.
+std::string calibrations_text(const std::vector<CalibrationEntry>& entries);
+
+/// Writes that text. Error: as hal::write_file().
 Result<> save_calibrations(const std::filesystem::path& file,
                            const std::vector<CalibrationEntry>& entries);
 
-/// Gives a damaged file a second name beside it, so that nothing is lost when it is written anew.
-/// Returns that name. Error: why it has none.
+/// Keeps a damaged file beside it, so that nothing is lost when it is written anew: by a second
+/// name, as a copy, or, where neither is possible, under another name only. Returns that name.
+/// Error: why it has none.
 Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file);
 
-/// What counts now for that rig: of each camera the newest entry, oldest first.
+/// What counts now for that rig: of each camera the newest entry for it, oldest first.
 std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entries,
                                        std::uint32_t rig);
 

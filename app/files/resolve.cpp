@@ -239,12 +239,13 @@ void settle_state_folder(Configuration& site, const std::filesystem::path& file)
 
 /// Puts the alignments that were accepted for this rig in the place of what its file says.
 Result<> calibrate(Resolved& resolved, TextFiles& files) {
+  // By the texts that were read: the files may be others by now.
+  const auto rig = rig_checksum(resolved.site.rig.path, files.texts());
+  if (!rig) return tl::unexpected(rig.error());
+  resolved.rig_checksum = *rig;
   const auto file = calibration_file(resolved.site.state_folder);
   const auto entries = load_calibrations(file, files);
   if (!entries) return tl::unexpected(entries.error());
-  if (entries->empty()) return {};
-  const auto rig = rig_checksum(resolved.site.rig.path, files.instead());
-  if (!rig) return tl::unexpected(rig.error());
   resolved.alignments = in_force(*entries, *rig);
   for (const CalibrationEntry& entry : resolved.alignments) {
     if (auto applied = apply(entry.alignment, resolved.rig); !applied) {

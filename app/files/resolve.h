@@ -28,9 +28,10 @@ struct Resolved {
   std::vector<Recipe> recipes;           ///< by place in site.recipes
   /// Views: those of the configuration, then those of the recipes, where one name is one view.
   StatusNames names;
-  std::uint32_t checksum = 0;  ///< CRC-32 of all the files
-  FileTexts texts;             ///< of all hand-written files
-  FileTexts calibration;       ///< of the one file of accepted alignments; empty text: no such file
+  std::uint32_t checksum = 0;      ///< CRC-32 of all the files
+  std::uint32_t rig_checksum = 0;  ///< of rig and lenses as they were read, see rig_checksum()
+  FileTexts texts;                 ///< of all hand-written files
+  FileTexts calibration;  ///< of the one file of accepted alignments; empty text: no such file
 
   const optics::RigCamera& rig_camera(std::size_t camera) const {
     return rig.cameras[rig_cameras[camera]];

@@ -6,6 +6,7 @@
 #include "app/files/calibration_file.h"
 #include "app/log.h"
 #include "app/model/utc_text.h"
+#include "app/state/private_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -22,10 +23,6 @@ CalibrationEntry rig_files(const std::string& camera) {
 AcceptedAlignments::AcceptedAlignments(const Resolved& site)
     : site_(site), file_(calibration_file(site.site.state_folder)) {}
 
-std::uint32_t AcceptedAlignments::rig() const {
-  return rig_checksum(site_.site.rig.path).value_or(0);
-}
-
 /// Keeps a damaged file aside; then the alignments that run.
 Result<std::vector<CalibrationEntry>> AcceptedAlignments::load_or_mend() {
   TextFiles files;
@@ -39,11 +36,16 @@ Result<std::vector<CalibrationEntry>> AcceptedAlignments::load_or_mend() {
 }
 
 Result<int> AcceptedAlignments::add(CalibrationEntry entry) {
-  auto entries = load_or_mend();
-  if (!entries) return tl::unexpected(entries.error());
-  entry.rig = rig();
-  accept(*entries, std::move(entry));
-  return save_calibrations(file_, *entries).map([&] { return entries->back().number; });
+  entry.rig = site_.rig_checksum;
+  int number = 0;
+  const auto add_to_file = [&]() -> Result<> {
+    auto entries = load_or_mend();
+    if (!entries) return tl::unexpected(entries.error());
+    accept(*entries, std::move(entry));
+    number = entries->back().number;
+    return save_calibrations(file_, *entries);
+  };
+  return with_lock(file_, add_to_file).map([&] { return number; });
 }
 
 Result<std::optional<CalibrationEntry>> AcceptedAlignments::before(
@@ -51,8 +53,8 @@ Result<std::optional<CalibrationEntry>> AcceptedAlignments::before(
   TextFiles files;
   auto entries = load_calibrations(file_, files);
   if (!entries) return tl::unexpected(entries.error());
-  std::erase_if(*entries, [&, rig = rig()](const CalibrationEntry& entry) {
-    return camera_of(entry).camera != camera || entry.rig != rig;
+  std::erase_if(*entries, [&](const CalibrationEntry& entry) {
+    return camera_of(entry).camera != camera || entry.rig != site_.rig_checksum;
   });
   if (entries->empty()) return std::nullopt;
   entries->pop_back();

@@ -16,9 +16,10 @@ class AcceptedAlignments {
   /// `site` outlives it.
   explicit AcceptedAlignments(const Resolved& site);
 
-  /// Adds an alignment, for the rig file as it is now: what changed it since the start is not in
-  /// force yet. A damaged file is kept aside and written anew with what runs. Returns the number.
-  /// Error: as load_calibrations(), keep_damaged() and save_calibrations().
+  /// Adds an alignment for the rig that runs, with which it was found, whatever the rig file says
+  /// by now. A damaged file is kept aside and written anew with what runs. Waits for other programs
+  /// that change the file. Returns the number. Error: as load_calibrations(), keep_damaged(),
+  /// save_calibrations() and with_lock().
   Result<int> add(CalibrationEntry entry);
 
   /// What counted for a camera before the one that counts now; without an alignment: the rig file
@@ -31,8 +32,6 @@ class AcceptedAlignments {
 
  private:
   Result<std::vector<CalibrationEntry>> load_or_mend();
-  /// 0: it cannot be read.
-  std::uint32_t rig() const;
 
   const Resolved& site_;
   const std::filesystem::path file_;

@@ -12,12 +12,23 @@ namespace {
 
 std::optional<AlignmentProposal> found(AlignmentProposal proposal) { return proposal; }
 
+/// To be accepted.
+CalibrationEntry entry_of(const AlignmentProposal& proposal) {
+  CalibrationEntry entry;
+  entry.method = proposal.method;
+  entry.quality = proposal.quality;
+  entry.alignment.cameras.push_back(proposal.alignment);
+  return entry;
+}
+
 }  // namespace
 
-AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch, Restart restart)
+AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch,
+                             std::function<void()> restart, AcceptanceCheck check_acceptance)
     : site_(site),
       watch_(watch),
       restart_(std::move(restart)),
+      check_acceptance_(std::move(check_acceptance)),
       finder_(site, watch),
       accepted_(site),
       pictures_(watch),
@@ -180,20 +191,23 @@ void AlignmentDesk::forget_proposal(std::size_t camera) {
 }
 
 CommandResult AlignmentDesk::move_outline(std::size_t camera, const optics::Vec2& centre) {
-  return state(camera, "outline by hand",
-               [&](optics::Outline& outline, optics::Mat3&) { outline.centre = centre; });
+  return state(
+      camera, "outline by hand",
+      [&](optics::Outline& outline, optics::Mat3&) { outline.centre = centre; });
 }
 
 CommandResult AlignmentDesk::shape_outline(std::size_t camera, double rx, double ry, double angle) {
-  return state(camera, "outline by hand", [&](optics::Outline& outline, optics::Mat3&) {
-    outline = {outline.centre, rx, ry, angle};
-  });
+  return state(camera, "outline by hand",
+               [&](optics::Outline& outline, optics::Mat3&) {
+                 outline = {outline.centre, rx, ry, angle};
+               });
 }
 
 CommandResult AlignmentDesk::turn(std::size_t camera, const optics::YawPitchRoll& turn) {
-  return state(camera, "turned by hand", [&](optics::Outline&, optics::Mat3& registration) {
-    registration = optics::rotation(turn) * registration;
-  });
+  return state(camera, "turned by hand",
+               [&](optics::Outline&, optics::Mat3& registration) {
+                 registration = optics::rotation(turn) * registration;
+               });
 }
 
 CommandResult AlignmentDesk::state(std::size_t camera, const std::string& method,
@@ -258,10 +272,7 @@ CommandResult AlignmentDesk::accept(std::size_t camera) {
     const std::lock_guard lock(mutex_);
     if (busy_) return CommandResult::Busy;
     if (states_[camera] != ProposalState::Ready) return CommandResult::NotPossible;
-    const AlignmentProposal& proposal = desks_[camera].steps.back();
-    entry.method = proposal.method;
-    entry.quality = proposal.quality;
-    entry.alignment.cameras.push_back(proposal.alignment);
+    entry = entry_of(desks_[camera].steps.back());
     busy_ = camera;
   }
   return put_in_force(camera, entry);
@@ -294,10 +305,16 @@ CommandResult AlignmentDesk::refuse(std::size_t camera, const std::string& why,
   return result;
 }
 
+/// The log says what repeats itself once.
+bool AlignmentDesk::is_new_refusal(std::size_t camera, const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(desks_[camera].refusal, why) != why;
+}
+
 /// For the caller who has set busy_, which is reset.
 CommandResult AlignmentDesk::put_in_force(std::size_t camera, const CalibrationEntry& entry) {
-  if (const auto possible = restart_.check(); !possible) {
-    return refuse(camera, "not accepted: " + possible.error().message, CommandResult::NotPossible);
+  if (const auto allowed = check_acceptance_(entry); !allowed) {
+    return refuse(camera, "not accepted: " + allowed.error().message, CommandResult::NotPossible);
   }
   const auto number = accepted_.add(entry);
   if (!number) {
@@ -310,7 +327,7 @@ CommandResult AlignmentDesk::put_in_force(std::size_t camera, const CalibrationE
     busy_.reset();
     forget_proposal(camera);
   }
-  restart_.request();
+  restart_();
   return CommandResult::Done;
 }
 
@@ -335,6 +352,12 @@ void AlignmentDesk::correct_lasting_drift(std::size_t camera, hal::TimePoint now
   }
   auto corrected = finder_.correct(site_.rig, camera);
   if (!corrected) return;
+  if (const auto allowed = check_acceptance_(entry_of(*corrected)); !allowed) {
+    drifting_since_[camera].reset();  // not each second
+    const std::string why = "its drift is not corrected: " + allowed.error().message;
+    if (is_new_refusal(camera, why)) log_camera(LogLevel::Warning, name(camera), why);
+    return;
+  }
   std::string said;
   {
     const std::lock_guard lock(mutex_);

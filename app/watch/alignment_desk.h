@@ -13,7 +13,6 @@
 #include "app/files/resolve.h"
 #include "app/model/alignment.h"
 #include "app/model/command.h"
-#include "app/model/restart.h"
 #include "app/watch/accepted_alignments.h"
 #include "app/watch/alignment_finder.h"
 #include "app/watch/alignment_pictures.h"
@@ -21,6 +20,10 @@
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
+
+/// Whether an alignment that is accepted now would be in force after a restart. Error: why not.
+/// Waits for the checks of a whole configuration. On any thread.
+using AcceptanceCheck = std::function<Result<>(const CalibrationEntry&)>;
 
 /// Finds new alignments of a running site's cameras on command, changes them, and puts those that
 /// are accepted in force: an entry in the file of calibrations, and a restart. What is found or
@@ -36,8 +39,9 @@ class AlignmentDesk : public AlignmentSource {
   /// Older steps are forgotten.
   static constexpr std::size_t kMostSteps = 200;
 
-  /// `watch` outlives it.
-  AlignmentDesk(const Resolved& site, CameraWatch& watch, Restart restart);
+  /// `watch` outlives it. `restart` requests it and returns.
+  AlignmentDesk(const Resolved& site, CameraWatch& watch, std::function<void()> restart,
+                AcceptanceCheck check_acceptance);
   ~AlignmentDesk() override;
 
   // Commands. ArgumentOutOfRange: no such camera; Busy: another one is being found;
@@ -71,10 +75,10 @@ class AlignmentDesk : public AlignmentSource {
 
   /// Takes the last step back. NotPossible: there is none.
   CommandResult undo(std::size_t camera);
-  /// Puts the proposal in force. NotPossible: there is none, the last finding was refused, or the
-  /// files of the configuration do not permit the restart.
+  /// Puts the proposal in force. NotPossible: there is none, the last finding was refused, or it
+  /// would not be in force after the restart; the report says why.
   CommandResult accept(std::size_t camera);
-  /// Puts what counted before in force. NotPossible: the rig file counts, or as accept().
+  /// Puts what counted before in force. NotPossible: the rig file counts, or as of accept().
   CommandResult revert(std::size_t camera);
   /// Forgets the proposal. NotPossible: there is none.
   CommandResult discard(std::size_t camera);
@@ -115,6 +119,7 @@ class AlignmentDesk : public AlignmentSource {
                                    const Change& change) const;
   CommandResult put_in_force(std::size_t camera, const CalibrationEntry& entry);
   CommandResult refuse(std::size_t camera, const std::string& why, CommandResult result);
+  bool is_new_refusal(std::size_t camera, const std::string& why);
   void correct_lasting_drifts();
   void correct_lasting_drift(std::size_t camera, hal::TimePoint now);
 
@@ -127,7 +132,8 @@ class AlignmentDesk : public AlignmentSource {
 
   const Resolved& site_;
   CameraWatch& watch_;
-  const Restart restart_;
+  const std::function<void()> restart_;
+  const AcceptanceCheck check_acceptance_;
   AlignmentFinder finder_;
   AcceptedAlignments accepted_;  ///< of whoever has set busy_
   AlignmentPictures pictures_;

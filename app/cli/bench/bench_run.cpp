@@ -116,7 +116,8 @@ Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::stri
   BenchSink sink(settings.seconds);
   const TemporaryState state(site);
   if (state.error()) return fail("no temporary folder: " + state.error().message());
-  auto made = Appliance::make(state.site(), {[] { return Result<>(); }, [] {}});
+  auto made = Appliance::make(state.site(), {[] { return Result<>(); }, [] {}},
+                              [](const CalibrationEntry&) { return Result<>(); });
   if (!made) return tl::unexpected(made.error());
   Appliance& appliance = **made;
   if (auto started = appliance.start({&sink}); !started) return tl::unexpected(started.error());

@@ -6,7 +6,9 @@
 #include <sstream>
 #include <string>
 
+#include "app/files/calibration_file.h"
 #include "app/files/resolve.h"
+#include "app/files/trial.h"
 #include "app/model/command.h"
 #include "app/model/status.h"
 #include "hal/replay/picture_folder.h"
@@ -132,6 +134,71 @@ TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {
   EXPECT_NEAR(reverted->rig.cameras.front().outline->centre.u, 205.3, 1e-9);
   ASSERT_EQ(command(daemon, CommandCode::RevertAlignment, {0}), CommandResult::Done);
   ASSERT_TRUE(says(daemon, "restored 1: turned by hand")) << daemon.output();
+}
+
+/// By the texts of its files, which a person edits while it runs.
+class AlignmentOfAnotherRig : public AlignmentCommands {
+ protected:
+  void propose(Subprocess& daemon) {
+    ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+    ASSERT_EQ(command(daemon, CommandCode::MoveOutline, {0, 20225, 16175}), CommandResult::Done);
+    ASSERT_TRUE(proposes(daemon, ProposalState::Ready)) << daemon.output();
+  }
+  std::vector<app::CalibrationEntry> accepted() const {
+    app::TextFiles files;
+    return app::load_calibrations(app::calibration_file(folder / state_folder), files).value();
+  }
+  static std::string moved_rig() {
+    std::string rig = kRecordingRig;
+    return rig.replace(rig.find("205.3"), 5, "190.0");
+  }
+};
+
+TEST_F(AlignmentOfAnotherRig, IsNotAcceptedAfterTheRigFileWasEdited) {
+  Subprocess daemon = start(site());
+  propose(daemon);
+  std::ofstream(folder / "rig.toml") << moved_rig();
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_TRUE(says(daemon, "the rig was changed since the start")) << daemon.output();
+  EXPECT_TRUE(accepted().empty());
+  EXPECT_TRUE(proposes(daemon, ProposalState::Ready)) << "it waits for the rig that it is for";
+  std::ofstream(folder / "rig.toml") << kRecordingRig;
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+}
+
+TEST_F(AlignmentOfAnotherRig, IsNotAcceptedInATrial) {
+  ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+  const std::string config = site();
+  const app::Trial trial{config, {{folder / "rig.toml", moved_rig()}}, 3600};
+  ASSERT_TRUE(app::request_trial(folder.path(), trial));
+  Subprocess daemon = start(config);
+  ::unsetenv("STATE_DIRECTORY");
+  propose(daemon);
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_TRUE(says(daemon, "a new configuration is on trial")) << daemon.output();
+  EXPECT_TRUE(accepted().empty());
+  ASSERT_TRUE(app::confirm_trial(folder.path()));
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+}
+
+TEST_F(AlignmentOfAnotherRig, IsNotAcceptedWhileTheLastGoodConfigurationRuns) {
+  ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
+  const std::string config = site();
+  {
+    Subprocess daemon = start(config);
+    propose(daemon);
+    ASSERT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+    ASSERT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
+  }
+  std::ofstream(folder / "rig.toml") << "nonsense = ";
+  Subprocess daemon = start(config);
+  ::unsetenv("STATE_DIRECTORY");
+  propose(daemon);
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_TRUE(says(daemon, "cannot restart with its files")) << daemon.output();
+  EXPECT_EQ(accepted().size(), 1U) << "the one that counts";
 }
 
 /// A calibrated camera in front of the ball, which a tool with a lamp moves around. The rig has the

@@ -126,7 +126,8 @@ class Dispatch : public testing::Test {
   bool may_restart = true;
   const Resolved site{};  // without cameras
   CameraWatch watch{site, hal::SharedThreads::alone()};
-  AlignmentDesk alignment{site, watch, restart()};
+  AlignmentDesk alignment{site, watch, [this] { ++restarts; },
+                          [](const auto&) { return Result<>(); }};
 };
 
 TEST_F(Dispatch, ATriggerMakesAResultOfTheNextSetOfAFreeCamera) {

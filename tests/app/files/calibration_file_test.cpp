@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "app/files/resolve.h"
 #include "app/files/rig_file.h"
 #include "tests/app/files/machine_files.h"
 
@@ -154,6 +155,25 @@ TEST_F(CalibrationFile, RefusesAFileThatItDidNotWrite) {
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("calibration.toml:2: entry.number"), std::string::npos)
       << read.error().message;
+}
+
+TEST_F(CalibrationFile, AnEntryForAnotherRigHidesNone) {
+  std::vector<CalibrationEntry> entries = some();
+  CalibrationEntry other = outline_of("a", 99);
+  other.rig = kThisRig - 1;
+  accept(entries, other);
+  const auto counts = in_force(entries, kThisRig);
+  ASSERT_EQ(counts.size(), 2U);
+  EXPECT_EQ(camera_of(counts[1]).outline->rx, 31);
+}
+
+TEST_F(CalibrationFile, IsForTheRigAsItWasRead) {
+  std::ofstream(folder / "site.toml") << "state_folder = \"state\"\n" << kValid;
+  const auto before = resolve(folder / "site.toml");
+  ASSERT_TRUE(before) << before.error().message;
+  EXPECT_EQ(before->rig_checksum, rig_checksum(folder / "rig.toml").value());
+  std::ofstream(folder / "rig.toml") << kRig << "# edited\n";
+  EXPECT_NE(before->rig_checksum, rig_checksum(folder / "rig.toml").value());
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class ConfigurationFile : public testing::Test {
     return resolve_text(text, "site.toml", folder.path());
   }
 
-  tests::TemporaryFolder folder;
+  orbwatch::tests::TemporaryFolder folder;
 };
 
 inline const std::string kLines = R"(

@@ -1,0 +1,95 @@
+#include "app/watch/accepted_alignments.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "app/files/calibration_file.h"
+#include "tests/app/files/machine_files.h"
+#include "tests/support/service_user.h"
+
+namespace orbwatch::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Accepted : public ConfigurationFile {
+ protected:
+  Accepted() {
+    std::ofstream(folder / "site.toml") << "state_folder = \"state\"\n" << kValid;
+    fs::create_directory(folder / "state");
+  }
+
+  Resolved read() const { return resolve(folder / "site.toml").value(); }
+  std::vector<CalibrationEntry> entries() const {
+    TextFiles files;
+    return load_calibrations(file, files).value();
+  }
+  static CalibrationEntry outline_of(double radius) {
+    CalibrationEntry entry;
+    entry.method = "by hand";
+    entry.quality = "stated";
+    entry.alignment.cameras.push_back(
+        {.camera = "a", .outline = optics::Outline{{50, 40}, radius, radius, 0}});
+    return entry;
+  }
+
+  const fs::path file = calibration_file(folder / "state");
+};
+
+TEST_F(Accepted, AreForTheRigThatRunsWhateverItsFileSays) {
+  const Resolved running = read();
+  AcceptedAlignments accepted(running);
+  ASSERT_TRUE(accepted.add(outline_of(31)));
+  std::ofstream(folder / "rig.toml") << kRig << "# edited\n";
+  ASSERT_TRUE(accepted.add(outline_of(32)));
+  EXPECT_EQ(entries().back().rig, running.rig_checksum);
+  EXPECT_TRUE(read().alignments.empty()) << "none is for the rig of now";
+  const auto before = accepted.before("a");
+  ASSERT_TRUE(before && *before);
+  EXPECT_EQ(camera_of(**before).outline->rx, 31);
+}
+
+TEST_F(Accepted, AreNotLostWhereOthersChangeThemAtTheSameTime) {
+  const Resolved running = read();
+  constexpr int kEach = 25;
+  constexpr int kWriters = 4;
+  std::vector<std::thread> writers;
+  for (int n = 0; n < kWriters; ++n) {
+    writers.emplace_back([&] {
+      AcceptedAlignments accepted(running);
+      for (int k = 0; k < kEach; ++k) EXPECT_TRUE(accepted.add(outline_of(31)));
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  const auto all = entries();
+  ASSERT_EQ(all.size(), kWriters * kEach);
+  for (std::size_t n = 0; n < all.size(); ++n) EXPECT_EQ(all[n].number, n + 1);
+}
+
+/// As root's programs of earlier versions left it.
+TEST_F(Accepted, AreKeptAsideWhereTheServiceMayNotReadThem) {
+  ORBWATCH_WITHOUT_ROOT_SKIPPED();
+  const Resolved running = read();
+  ASSERT_TRUE(AcceptedAlignments(running).add(outline_of(31)));
+  const Resolved with_it = read();
+  orbwatch::tests::give_to_service(folder.path());
+  orbwatch::tests::give_to_service(folder / "state");
+  fs::permissions(file, fs::perms(0600));  // root's
+  fs::remove(file.string() + ".lock");
+  EXPECT_EQ(orbwatch::tests::as_service(
+                0027, [&] { return AcceptedAlignments(with_it).add(outline_of(32)).has_value(); }),
+            true);
+  const auto all = entries();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(camera_of(all[0]).outline->rx, 31) << "that of the alignments that run";
+  EXPECT_TRUE(fs::exists(file.string() + ".damaged-1"));
+}
+
+}  // namespace
+}  // namespace orbwatch::app
