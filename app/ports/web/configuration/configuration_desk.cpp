@@ -60,7 +60,7 @@ std::string side_of(const std::string& difference, char side) {
 }
 
 /// To the second, of moments as ISO 8601 has them.
-bool is_earlier(std::string_view moment, std::string_view other) {
+bool is_before(std::string_view moment, std::string_view other) {
   constexpr std::size_t kToTheSecond = std::string_view("2026-11-21T20:57:46").size();
   return moment.substr(0, kToTheSecond) < other.substr(0, kToTheSecond);
 }
@@ -202,7 +202,7 @@ std::string ConfigurationDesk::changer_of(const std::string& name,
   std::string who;
   for (const Json& entry : audit.value("entries", Json::array())) {
     if (entry.value("what", "") != "confirm_configuration" || entry.value("result", "") != "done" ||
-        is_earlier(entry.value("time", ""), now.time)) {
+        is_before(entry.value("time", ""), now.time)) {
       continue;
     }
     std::istringstream files(entry.value("after", ""));
