@@ -25,7 +25,7 @@ constexpr const char* kPasswordUsage =
     "the user; with the first one there, nobody sees or does anything there without logging in.\n"
     "A forgotten password is replaced in this way, without loss of anything else. It is asked\n"
     "for twice on a terminal, or is a line of standard input. A running orbwatchd takes it up\n"
-    "by itself.\n\n"
+    "by itself, and ends waits after wrong passwords.\n\n"
     "With --show it changes nothing, and prints the fingerprint of the certificate of HTTPS, to\n"
     "compare with the browser's, and while no password is set the code with which a browser on\n"
     "another computer sets the first one.\n\n";

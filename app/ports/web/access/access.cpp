@@ -22,7 +22,7 @@ std::filesystem::path logins_file(const std::filesystem::path& folder) {
 /// One for all that cannot be a name, so that they take no place of others.
 std::string limited_name(const std::string& name) { return check_name(name) ? name : "(no name)"; }
 
-/// Of 127.0.0.0/8 one address only: a program of this computer has all others at its disposal.
+/// One address of 127.0.0.0/8 only: any program of this computer can use all others.
 bool is_this_computer(const std::string& peer) { return peer == "127.0.0.1" || peer == "::1"; }
 
 LoginLimits::Attempt attempt_of(const std::string& name, const std::string& peer) {
@@ -89,7 +89,7 @@ void Access::refresh() {
   if (is_outdated()) load(Cause::OtherProcess);
 }
 
-/// Once there were users, a file that is gone (unmounted, removed) is a fault and no open door.
+/// A file that is gone (unmounted, removed) after there were users is a fault, not an open door.
 Result<std::optional<Users>> Access::load_checked() {
   const auto file = users_file(folder_);
   auto loaded = load_users(file);
@@ -123,7 +123,7 @@ void Access::load(Cause cause) {
   users_ = std::move(now);
 }
 
-/// Whoever sets a password at the board may log in with it at once, from anywhere.
+/// A password that is set at the board lets its user log in at once, from anywhere.
 void Access::forgive_new_passwords(const Users& now, Cause cause) {
   if (cause == Cause::Start) return;
   for (const User& user : now.users) {
@@ -221,7 +221,7 @@ std::optional<Access::Refusal> Access::judge_first_password(const std::string& p
   return too_many("codes", wait);
 }
 
-/// With another users file than was read nothing is sure.
+/// A users file that is not read yet leaves the decision to the desk, which reads it.
 std::optional<Access::Refusal> Access::login_refusal(const std::string& name,
                                                      const std::string& peer) const {
   if (is_outdated()) return std::nullopt;
@@ -237,7 +237,8 @@ std::optional<Access::Refusal> Access::first_password_refusal(const std::string&
 
 bool Access::is_familiar(const std::string& name, const std::string& peer) const {
   const std::lock_guard lock(mutex_);
-  return limits_.is_familiar(attempt_of(name, peer));
+  const LoginLimits::Attempt attempt = attempt_of(name, peer);
+  return attempt.is_local || limits_.is_familiar(attempt);
 }
 
 tl::expected<User, Access::Refusal> Access::judge(const std::string& name,

@@ -53,11 +53,11 @@ class Access {
   /// Wrong passwords and codes since start.
   std::uint64_t failures() const { return failures_; }
 
-  /// Why login() and set_first_password() would refuse whatever password or code is sent; nullopt:
-  /// they would judge it.
+  /// The refusal with which login() and set_first_password() answer any password or code at
+  /// present; nullopt: they judge it.
   std::optional<Refusal> login_refusal(const std::string& name, const std::string& peer) const;
   std::optional<Refusal> first_password_refusal(const std::string& peer) const;
-  /// Whether the name has logged in before from this address.
+  /// True: the name has logged in before from this address, or it is this computer.
   bool is_familiar(const std::string& name, const std::string& peer) const;
 
   /// The token of a new session.
@@ -78,7 +78,7 @@ class Access {
   static Utc utc_now();
 
  private:
-  /// What tells one version of the users file from another.
+  /// Identifies a version of the users file.
   struct FileMark {
     int error = 0;  ///< of stat; 0: the file is there
     std::int64_t seconds = 0, nanoseconds = 0, size = 0;

@@ -70,7 +70,7 @@ Route AccessDesk::changing(const char* path, Role role, const char* description,
   return route;
 }
 
-/// On a thread of the server, which must not wait.
+/// Runs on a thread of the server; does not wait.
 void AccessDesk::receive(const ExchangePtr& exchange, Members members, const Task& task) {
   const web::Request& sent = exchange->request();
   if (task.refuse) {
@@ -93,7 +93,7 @@ Audit::Entry AccessDesk::entry_of(const Request& request, bool is_done) {
           is_done ? "done" : "refused"};
 }
 
-/// A fault of this computer is nobody's attempt.
+/// 503 is a fault of the appliance, not an attempt.
 Response AccessDesk::refuse_unknown(Request& request, const Access::Refusal& refusal) {
   constexpr std::uint64_t kMostRefused = 20;
   if (refusal.status == kUnavailable) return refused(refusal);

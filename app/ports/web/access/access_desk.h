@@ -38,10 +38,10 @@ class AccessDesk {
     bool changes_nothing = false;   ///< has no place in the audit
   };
   using Handler = Response (AccessDesk::*)(Request&);
-  /// What is refused to a client without a role whatever secret it sends; nullopt: nothing.
+  /// The refusal that a client without a role gets whatever secret it sends; nullopt: none.
   using Refuse = std::optional<Access::Refusal> (AccessDesk::*)(Request&) const;
 
-  /// What is done with a request: at once, and at the desk.
+  /// Handling of a request at once and at the desk.
   struct Task {
     Role role = Role::Administrator;
     Handler handler = nullptr;

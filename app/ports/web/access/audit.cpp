@@ -85,7 +85,7 @@ void Audit::write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_
     refused = std::exchange(waiting_, {});
   }
   std::ranges::move(refused_counts, std::back_inserter(refused));
-  // By the order of kinds before.
+  // They come in the order of their kinds.
   std::ranges::stable_sort(refused, {}, &Entry::time);
   std::ranges::stable_sort(counts, {}, &Entry::time);
   file_.append(counts);

@@ -21,7 +21,7 @@ using Utc = std::chrono::sys_seconds;
 class LoginLimits {
  public:
   static constexpr int kFree = 5;
-  /// From all unfamiliar addresses together, from a familiar one and from this computer.
+  /// Longest waits: of all unfamiliar addresses for a name, of a familiar one, of this computer.
   static constexpr std::chrono::seconds kLongestForName{60};
   static constexpr std::chrono::seconds kLongestForAddress{900};
   static constexpr std::chrono::seconds kForgetAfter{3600};
@@ -31,7 +31,7 @@ class LoginLimits {
   static constexpr std::size_t kMostFamiliarOfName = 8;
   static constexpr std::size_t kMostFamiliar = 512;
 
-  /// What is tried, and from where.
+  /// A name or the code that is tried, and the address it comes from.
   struct Attempt {
     std::string name;       ///< of a user; empty: the code for the first password
     std::string address;    ///< address_key() of the client

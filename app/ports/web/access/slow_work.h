@@ -24,7 +24,7 @@ class SlowWork {
   static constexpr std::size_t kMostOfKnown = 4;
   static constexpr std::size_t kMostOfUnknown = 2;
 
-  /// Who waits.
+  /// A client that waits.
   struct Asker {
     bool is_known = false;  ///< has a role, or asks from where the user has logged in before
     std::string key;        ///< a name or an address

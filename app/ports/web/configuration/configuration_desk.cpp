@@ -137,7 +137,7 @@ Route ConfigurationDesk::changing(const char* path, const char* description,
   return route;
 }
 
-/// Everybody who comes here has a role.
+/// Every caller here has a role.
 SlowWork::Asker ConfigurationDesk::asker(const ExchangePtr& exchange) const {
   return {true, access_.caller(credentials_of(exchange->request())).name};
 }
