@@ -15,7 +15,7 @@ namespace orbwatch::app::web {
 class Sessions {
  public:
   /// Of one user; one more ends the one that was unused longest.
-  static constexpr std::size_t kMostOfUser = 8;
+  static constexpr std::size_t kMostOfUser = 32;
 
   struct Limits {
     std::chrono::seconds idle{};
