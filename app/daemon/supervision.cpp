@@ -106,7 +106,8 @@ bool Supervision::finish(End end) {
   is_orderly = restarts_.end(std::max(left, std::chrono::milliseconds(0))) && is_orderly;
   if (is_orderly) return true;
   log_soon(LogLevel::Warning,
-           {"ends without waiting for what hangs: a driver, the disk or the log"});
+           {"ends without waiting for what hangs or still starts: a driver, the disk, "
+            "the log"});
   if (!appliance_.has_ended() && !appliance_.abandon(restarts, kLongestAbandonment)) {
     log_soon(LogLevel::Error, {"the outputs hang, too: they may be active"});
   }

@@ -7,6 +7,7 @@ import json
 import socket
 import struct
 import unittest
+import urllib.error
 import urllib.request
 
 from selenium.webdriver.common.by import By
@@ -76,7 +77,8 @@ class SystemPage(PageCase):
         text = self.appliance.site.read_text(encoding="utf-8")
         self.appliance.site.write_text("nonsense = \n" + text, encoding="utf-8")
         self.addCleanup(lambda: self.appliance.site.write_text(text, encoding="utf-8"))
-        self.appliance.command("restart")
+        with self.assertRaisesRegex(urllib.error.HTTPError, "409"):
+            self.appliance.command("restart")
         eventually("why it does not restart", lambda: any(
             row[1] == "error" and "demo.toml:1" in row[2] for row in self.rows("#log")))
         self.assertEqual(self.browser.complaints(), [])

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <sstream>
@@ -96,6 +98,21 @@ TEST_F(AlignmentCommands, AProposalCanBeDiscarded) {
   EXPECT_EQ(command(daemon, CommandCode::DiscardAlignment, {0}), CommandResult::Done);
   EXPECT_TRUE(proposes(daemon, ProposalState::None)) << daemon.output();
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+}
+
+/// Done would be untrue: the restart that puts it in force is refused.
+TEST_F(AlignmentCommands, IsNotAcceptedWhileTheFilesAreWrong) {
+  Subprocess daemon = start(site());
+  ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
+  ASSERT_EQ(command(daemon, CommandCode::MoveOutline, {0, 20225, 16175}), CommandResult::Done);
+  std::ofstream(folder / "recipe.toml") << "is no TOML";
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
+  EXPECT_TRUE(says(daemon, "not accepted: ")) << daemon.output();
+  EXPECT_TRUE(proposes(daemon, ProposalState::Ready)) << "it is not lost";
+  EXPECT_FALSE(std::filesystem::exists(app::calibration_file(folder / state_folder)));
+  std::ofstream(folder / "recipe.toml") << kRecordingRecipe;
+  EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::Done);
+  EXPECT_TRUE(says(daemon, "camera colour: alignment 1 of ")) << daemon.output();
 }
 
 TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {

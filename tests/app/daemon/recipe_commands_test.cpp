@@ -198,7 +198,7 @@ TEST_F(RecipeCommands, ARestartReadsTheFilesAgainUnlessTheyAreWrong) {
   const std::string out_of_view = "directions = [[60, 40], [70, 40], [60, 50]]\n";
   std::string second = kSecondRecipe;
   write_second(second.insert(second.find("hot_spot_threshold"), out_of_view));
-  EXPECT_EQ(command(daemon, CommandCode::Restart), CommandResult::Done);
+  EXPECT_EQ(command(daemon, CommandCode::Restart), CommandResult::NotPossible);
   ASSERT_TRUE(says(daemon, "does not restart: ")) << daemon.output();
   EXPECT_NE(daemon.output().find("second.toml: region all: "), std::string::npos)
       << "each file is right by itself: " << daemon.output();

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <mutex>
 
+#include "app/log_writer.h"
 #include "tests/app/ports/modbus/clients.h"
 #include "tests/support/network_namespace.h"
 
@@ -288,6 +290,29 @@ TEST(ModbusWriters, SaysWhoTheyAre) {
   EXPECT_EQ(commanders(settings), "over Modbus from [\"10.0.0.7\", \"10.1.0.0/24\"]");
   settings.enabled = false;
   EXPECT_EQ(commanders(settings), "");
+}
+
+/// A journal that is stalled: the PLC must not wait for it.
+TEST(ModbusWriters, AreServedWhileNobodyReadsTheLogOfARefusal) {
+  std::mutex reading;
+  std::unique_lock unread(reading);
+  LogWriter log([&reading](const LogRecord&) { const std::lock_guard reads(reading); });
+  ModbusSettings settings = loopback();
+  settings.writers = {"127.0.0.2"};
+  ModbusSink sink(settings, [](const Command&) { return CommandResult::Done; });
+  ASSERT_TRUE(sink.start());
+  const auto command = static_cast<std::uint8_t>(kCommand);
+  const tests::Bytes write{16, 0, command, 0, 2, 4, 0, 1, 0, 1};
+  RawClient stranger(sink.port());
+  const auto began = std::chrono::steady_clock::now();
+  ASSERT_TRUE(stranger.send(tests::frame(write)));
+  EXPECT_EQ(tests::receive_pdu(stranger), (tests::Bytes{0x90, 1}));
+  RawClient writer(sink.port(), "127.0.0.2");
+  ASSERT_TRUE(writer.send(tests::frame(write)));
+  EXPECT_EQ(tests::receive_pdu(writer), (tests::Bytes{16, 0, command, 0, 2}));
+  EXPECT_LT(std::chrono::steady_clock::now() - began, LogWriter::kLongestWait);
+  unread.unlock();
+  sink.stop();
 }
 
 TEST(ModbusWriters, OthersMayOnlyRead) {
