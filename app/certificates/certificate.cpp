@@ -10,6 +10,8 @@
 #include <ctime>
 #include <optional>
 
+#include "hal/calendar_time.h"
+
 namespace orbwatch::app {
 namespace {
 
@@ -101,8 +103,11 @@ bool set_subject(X509* certificate, const std::string& name) {
 }
 
 bool set_validity(X509* certificate, const ValidityPeriod& validity) {
+  // Days from 1970 on, because time_t may have 32 bit.
   const auto set = [](ASN1_TIME* field, std::chrono::sys_seconds time) {
-    return ASN1_TIME_set(field, time.time_since_epoch().count()) != nullptr;
+    const auto day = std::chrono::floor<std::chrono::days>(time);
+    return ASN1_TIME_adj(field, 0, static_cast<int>(day.time_since_epoch().count()),
+                         static_cast<long>((time - day).count())) != nullptr;
   };
   return set(X509_getm_notBefore(certificate), validity.from) &&
          set(X509_getm_notAfter(certificate), validity.until);
@@ -111,7 +116,7 @@ bool set_validity(X509* certificate, const ValidityPeriod& validity) {
 std::optional<std::chrono::sys_seconds> time_of(const ASN1_TIME* time) {
   std::tm calendar{};
   if (ASN1_TIME_to_tm(time, &calendar) != 1) return std::nullopt;
-  return std::chrono::sys_seconds(std::chrono::seconds(timegm(&calendar)));
+  return hal::moment_of(calendar);
 }
 
 /// Instead of a prompt on the terminal.
@@ -120,9 +125,7 @@ int no_password(char*, int, int, void*) { return 0; }
 }  // namespace
 
 std::string date_text(std::chrono::sys_seconds time, const char* format) {
-  const std::time_t seconds = time.time_since_epoch().count();
-  std::tm calendar{};
-  gmtime_r(&seconds, &calendar);
+  const std::tm calendar = hal::calendar_time(time);
   char text[32];
   return {text, std::strftime(text, sizeof text, format, &calendar)};
 }

@@ -12,6 +12,8 @@
 #include <optional>
 #include <set>
 
+#include "hal/calendar_time.h"
+
 namespace orbwatch::app {
 namespace {
 
@@ -134,7 +136,7 @@ std::optional<std::chrono::sys_seconds> read_date(const std::string& text) {
     rest = end;
   }
   if (*rest != '\0') return std::nullopt;
-  return std::chrono::sys_seconds(std::chrono::seconds(timegm(&calendar))) - zone;
+  return hal::moment_of(calendar) - zone;
 }
 
 std::string criteria(const std::string& name, const std::vector<std::string>& topics) {

@@ -69,6 +69,17 @@ TEST(PermissionsTest, OfOtherProductsAreRead) {
   EXPECT_FALSE(contains(grant->domains, 0) || contains(grant->domains, 3));
 }
 
+/// Where time_t has 32 bit, it ends in January 2038.
+TEST(PermissionsTest, DatesBeyondTheEndOf32BitAreReadAsTheyWereWritten) {
+  const sys_seconds from(sys_days(std::chrono::July / 1 / 2045));
+  const sys_seconds until(sys_days(std::chrono::December / 31 / 2105));
+  const auto read =
+      read_permissions(permissions_document({"CN=plc", {from, until}, {{3, 3}}, {{"rt/a"}, {}}}));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->front().validity.from, from);
+  EXPECT_EQ(read->front().validity.until, until);
+}
+
 TEST(PermissionsTest, RefusesWhatIsNone) {
   for (const std::string wrong : {"", "<", "<dds>", "<a></b>", "</a>", "text", "<a/><b/>"}) {
     EXPECT_FALSE(read_permissions(wrong)) << wrong;
