@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/health/system_file.h"
+#include "hal/synchronised_clock.h"
 
 namespace orbwatch::app {
 namespace {
@@ -134,7 +135,7 @@ double BoardHealth::processor_load() {
 
 void note_clock(int state, const timex& clock, Health& health) {
   if (state < 0) return;
-  const bool synchronised = (clock.status & STA_UNSYNC) == 0;
+  const bool synchronised = hal::is_synchronised(clock);
   health.clock_synchronised = synchronised ? 1 : 0;
   if (!synchronised) return;
   health.clock_estimated_error = static_cast<double>(clock.esterror) / 1000;

@@ -7,6 +7,7 @@
 #include "app/ports/web/http/address.h"
 #include "app/ports/web/tls/redirect.h"
 #include "hal/host.h"
+#include "hal/synchronised_clock.h"
 
 namespace orbwatch::app::web {
 namespace {
@@ -20,6 +21,10 @@ std::vector<std::string> http_addresses(const std::string& address) {
 }
 
 std::chrono::sys_seconds utc_now() { return *now_for(Dates::Checked); }
+
+ClockState clock_state() {
+  return hal::is_clock_synchronised() ? ClockState::Synchronised : ClockState::Unsure;
+}
 
 }  // namespace
 
@@ -57,7 +62,7 @@ Result<> Listeners::open_http() {
 
 Result<ServerCertificate> Listeners::certificate() const {
   return settings_.certificate.empty()
-             ? self_made_certificate(state_folder_, own_hosts(settings_), utc_now())
+             ? self_made_certificate(state_folder_, own_hosts(settings_), utc_now(), clock_state())
              : named_certificate(settings_, now_for(Dates::Checked));
 }
 
@@ -91,7 +96,7 @@ void Listeners::watch() {
   const std::lock_guard lock(mutex_);
   for (const auto& server : http_) server->end_overdue();
   if (https_) https_->end_overdue();
-  if (certificate_ && is_due(*certificate_, utc_now())) renew();
+  if (certificate_ && is_due(*certificate_, utc_now(), clock_state())) renew();
 }
 
 /// What fails is tried again, since the old one stays due. Without a new one it is shown.

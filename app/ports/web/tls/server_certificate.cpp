@@ -100,11 +100,11 @@ Result<std::optional<ServerCertificate>> kept_certificate(const fs::path& folder
 
 Result<ServerCertificate> self_made_certificate(const fs::path& folder,
                                                 const std::vector<std::string>& hosts,
-                                                sys_seconds now) {
+                                                sys_seconds now, ClockState clock) {
   if (folder.empty()) return fail("web: there is no state folder to keep a certificate in");
   auto kept = kept_certificate(folder);
   if (!kept) log_line(LogLevel::Warning, "web: makes another certificate: " + kept.error().message);
-  if (kept && *kept && !is_due(**kept, now) && is_for_all(**kept, hosts)) {
+  if (kept && *kept && !is_due(**kept, now, clock) && is_for_all(**kept, hosts)) {
     return std::move(**kept);
   }
   return make(self_made_file(folder), hosts, now).map_error([](const Error& error) {
@@ -112,8 +112,10 @@ Result<ServerCertificate> self_made_certificate(const fs::path& folder,
   });
 }
 
-bool is_due(const ServerCertificate& certificate, sys_seconds now) {
-  return certificate.is_self_made && now >= certificate.validity.until - kRenewedBefore;
+bool is_due(const ServerCertificate& certificate, sys_seconds now, ClockState clock) {
+  const bool is_early = clock == ClockState::Synchronised && now < certificate.validity.from;
+  return certificate.is_self_made &&
+         (is_early || now >= certificate.validity.until - kRenewedBefore);
 }
 
 std::vector<std::string> own_hosts(const WebSettings& settings) {

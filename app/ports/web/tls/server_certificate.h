@@ -36,15 +36,22 @@ Result<ServerCertificate> named_certificate(const WebSettings& settings, const N
 /// damaged.
 Result<std::optional<ServerCertificate>> kept_certificate(const std::filesystem::path& folder);
 
+/// The system's clock: Unsure until it follows a time server.
+enum class ClockState { Unsure, Synchronised };
+
 /// The kept one as long as it is usable, not due and made for `hosts`; else a new one, kept with
 /// mode 0600. Complains in the log about one that is not usable. Error: a new one cannot be
 /// written.
 Result<ServerCertificate> self_made_certificate(const std::filesystem::path& folder,
                                                 const std::vector<std::string>& hosts,
-                                                std::chrono::sys_seconds now);
+                                                std::chrono::sys_seconds now,
+                                                ClockState clock = ClockState::Unsure);
 
-/// Whether a self-made one is to be replaced. Not before its begin: then the clock is wrong.
-bool is_due(const ServerCertificate& certificate, std::chrono::sys_seconds now);
+/// Whether a self-made one is to be replaced: it ends soon, or `clock` is synchronised and it
+/// begins later than now, made while the clock was ahead. With an unsure clock the latter stays,
+/// because the clock is as likely to be behind.
+bool is_due(const ServerCertificate& certificate, std::chrono::sys_seconds now,
+            ClockState clock = ClockState::Unsure);
 
 /// The names and addresses by which this computer is reached, as far as they are known beforehand.
 std::vector<std::string> own_hosts(const WebSettings& settings);

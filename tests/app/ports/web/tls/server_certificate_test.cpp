@@ -83,6 +83,22 @@ TEST_F(ServerCertificateTest, AClockThatStartsInThePastReplacesNone) {
   EXPECT_EQ(self_made()->fingerprint, made->fingerprint);
 }
 
+TEST_F(ServerCertificateTest, OneOfTheFutureIsReplacedOnceTheClockIsRight) {
+  const auto right = now;
+  now += days(26000);
+  const auto made = self_made();
+  ASSERT_TRUE(made) << made.error().message;
+  now = right;
+  EXPECT_FALSE(is_due(*made, now, ClockState::Unsure)) << "the clock may be behind";
+  EXPECT_EQ(self_made()->fingerprint, made->fingerprint);
+  EXPECT_TRUE(is_due(*made, now, ClockState::Synchronised));
+  const auto next = self_made_certificate(folder.path(), kHosts, now, ClockState::Synchronised);
+  ASSERT_TRUE(next) << next.error().message;
+  EXPECT_NE(next->fingerprint, made->fingerprint);
+  EXPECT_FALSE(is_due(*next, now, ClockState::Synchronised));
+  EXPECT_FALSE(is_due(*next, now - days(1), ClockState::Synchronised)) << "clocks differ";
+}
+
 TEST_F(ServerCertificateTest, ADamagedOrOpenFileIsReplaced) {
   const auto made = self_made();
   ASSERT_TRUE(made) << made.error().message;
