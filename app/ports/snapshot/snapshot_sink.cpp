@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "app/log.h"
@@ -19,7 +20,9 @@
 namespace orbwatch::app {
 namespace {
 
-/// 20260131T235959.123Z: sorts by time.
+namespace fs = std::filesystem;
+
+/// 20260131T235959.123Z
 std::string stamp_text(hal::TimePoint moment) {
   std::string text = utc_text(hal::to_utc(moment)).value_or("");
   std::erase_if(text, [](char c) { return c == '-' || c == ':'; });
@@ -31,15 +34,6 @@ std::string name_of(const View& view) {
   return std::string(view.name) + "_" + stamp_text(view.stamp) + "_" +
          std::to_string(view.frame_set);
 }
-
-/// A snapshot in the folder: its time, and the common part of its files' names.
-struct Snapshot {
-  std::string stamp;
-  std::string name;
-  bool operator<(const Snapshot& other) const {
-    return std::tie(stamp, name) < std::tie(other.stamp, other.name);
-  }
-};
 
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kWord =
@@ -59,8 +53,9 @@ bool remove_end(std::string_view& text, std::string_view end) {
   return true;
 }
 
-/// The snapshot of a file written here, VIEW_STAMP_NUMBER[_measured].png; nullopt for other files.
-std::optional<Snapshot> snapshot_of(const std::filesystem::path& file) {
+/// The common part of the names of a snapshot's files, of one that is written here:
+/// VIEW_STAMP_NUMBER[_measured].png; nullopt for other files.
+std::optional<std::string> snapshot_of(const fs::path& file) {
   constexpr std::size_t kStamp = 20;
   const std::string file_name = file.filename().string();
   std::string_view name = file_name;
@@ -74,7 +69,41 @@ std::optional<Snapshot> snapshot_of(const std::filesystem::path& file) {
   const bool is_ours = is_stamp(stamp) && remove_end(view, "_") && !view.empty() &&
                        view.find_first_not_of(kWord) == view.npos;
   if (!is_ours) return std::nullopt;
-  return Snapshot{std::string(stamp), std::string(name)};
+  return std::string(name);
+}
+
+/// A snapshot in the folder.
+struct Snapshot {
+  fs::file_time_type written{};  ///< the newest of its files
+  std::vector<fs::path> files{};
+};
+/// By the common part of the names.
+using Snapshots = std::map<std::string, Snapshot>;
+
+Snapshots snapshots_in(const fs::path& folder, std::error_code& error) {
+  Snapshots found;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const auto name = snapshot_of(it->path());
+    if (!name) continue;
+    std::error_code gone;  // removed meanwhile
+    const auto written = it->last_write_time(gone);
+    if (gone) continue;
+    Snapshot& snapshot = found[*name];
+    snapshot.written = std::max(snapshot.written, written);
+    snapshot.files.push_back(it->path());
+  }
+  return found;
+}
+
+/// Makes `newest` the one that was written last, whatever the clock said when others were written:
+/// so the times of modification are an order that outlasts the process.
+void order_last(Snapshot& newest, fs::file_time_type others, std::error_code& error) {
+  // FAT counts two seconds.
+  for (const auto step : {std::chrono::milliseconds(1), std::chrono::milliseconds(2000)}) {
+    if (error || newest.written > others || newest.files.empty()) return;
+    fs::last_write_time(newest.files.front(), others + step, error);
+    if (!error) newest.written = fs::last_write_time(newest.files.front(), error);
+  }
 }
 
 }  // namespace
@@ -186,19 +215,21 @@ Result<> SnapshotSink::write(const View& view, const std::string& name) {
   return {};
 }
 
-/// `newest` stays, also when the clock was set back and its name is not the last.
+/// `newest` counts as the one that was written last, also when the clock was set back.
 Result<> SnapshotSink::remove_oldest(const std::string& newest) {
-  std::map<Snapshot, std::vector<std::filesystem::path>> others;
   std::error_code error;
-  for (std::filesystem::directory_iterator it(settings_.folder, error), end; !error && it != end;
-       it.increment(error)) {
-    const auto snapshot = snapshot_of(it->path());
-    if (snapshot && snapshot->name != newest) others[*snapshot].push_back(it->path());
-  }
+  Snapshots snapshots = snapshots_in(settings_.folder, error);
+  Snapshot last = std::exchange(snapshots[newest], {});
+  snapshots.erase(newest);
+  std::vector<std::pair<fs::file_time_type, std::string>> order;
+  order.reserve(snapshots.size());
+  for (const auto& [name, snapshot] : snapshots) order.emplace_back(snapshot.written, name);
+  std::ranges::sort(order);
+  if (!order.empty()) order_last(last, order.back().first, error);
   const auto keep = static_cast<std::size_t>(settings_.keep) - 1;
-  for (auto oldest = others.begin(); !error && others.size() > keep; others.erase(oldest++)) {
-    for (const auto& file : oldest->second) {
-      if (!error) std::filesystem::remove(file, error);
+  for (std::size_t i = 0; i + keep < order.size(); ++i) {
+    for (const fs::path& file : snapshots[order[i].second].files) {
+      if (!error) fs::remove(file, error);
     }
   }
   if (error) return fail(settings_.folder.string() + ": " + error.message());

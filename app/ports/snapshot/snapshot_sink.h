@@ -31,8 +31,9 @@ void visit(Visitor& v, SnapshotSettings& snapshot) {
 
 /// Writes a view's next picture as PNG on request, on a thread of its own:
 /// VIEW_YYYYMMDDTHHMMSS.mmmZ_FRAMESET.png by the UTC of its exposure. A raw measured plane is
-/// written as VIEW_..._measured.png. Keeps the newest ones; other files in the folder are not
-/// touched. At most one picture of each view waits to be written.
+/// written as VIEW_..._measured.png. Keeps the ones that were written last, by the files' times of
+/// modification: where the clock was set back, a new file is dated just behind the newest one.
+/// Other files in the folder are not touched. At most one picture of each view waits to be written.
 /// Thread rule: as Sink's; request on any thread.
 class SnapshotSink final : public Sink {
  public:

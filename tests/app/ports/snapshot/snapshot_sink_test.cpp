@@ -258,6 +258,32 @@ TEST_F(SnapshotSinkTest, KeepsWhatItJustWroteWhenTheClockWasPutBack) {
   EXPECT_FALSE(picture("_2.png").empty());
 }
 
+/// A board without a clock of its own starts in 1970 until it has reached a time server; here the
+/// others are of the future.
+TEST_F(SnapshotSinkTest, NewOnesAreNotTheOldestAfterTheClockWasPutBack) {
+  const fs::path pictures = folder.path() / "pictures";
+  fs::create_directory(pictures);
+  const auto future = fs::file_time_type::clock::now() + std::chrono::hours(24 * 365 * 10);
+  for (const char* name : {"room_20450101T000000.000Z_1.png", "room_20450101T000001.000Z_2.png",
+                           "door_20450101T000002.000Z_3.png"}) {
+    std::ofstream(pictures / name) << "a picture";
+    fs::last_write_time(pictures / name, future);
+  }
+  start(3);
+  take(view(0, 11));
+  EXPECT_EQ(files().size(), 3U);
+  take(view(0, 12, Measured::Radiometric));
+  start(3);  // a restart must not forget the order
+  take(view(0, 13));
+  EXPECT_EQ(files().size(), 4U);
+  for (const char* kept : {"_11.png", "_12.png", "_12_measured.png", "_13.png"}) {
+    EXPECT_FALSE(picture(kept).empty()) << kept;
+  }
+  take(view(0, 14));
+  EXPECT_TRUE(picture("_11.png").empty());
+  EXPECT_FALSE(picture("_14.png").empty());
+}
+
 TEST_F(SnapshotSinkTest, MakesItsFolderOrSaysWhyNot) {
   SnapshotSink deep({folder.path() / "a/b/c", 1});
   EXPECT_TRUE(deep.start());
