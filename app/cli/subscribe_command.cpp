@@ -55,7 +55,8 @@ Result<std::string> subscribe_command(const std::vector<std::string>& arguments)
   return run_command(
       arguments,
       {.usage = "Usage: orbwatch subscribe [options]\n\n"
-                "Reads views and process state over DDS. Fails when a topic brought nothing.\n\n",
+                "Reads views and process state over DDS. Fails when a topic brought nothing, and\n"
+                "at once when its type is one that cannot be read.\n\n",
        .options = declare(o),
        .notes = kSubscribeNotes},
       [&](const auto&) { return read_topics(o); });

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <set>
 
+#include "app/cli/dds/writer_types.h"
 #include "app/ports/dds/participant/dds_log.h"
 #include "app/ports/dds/participant/participant.h"
 #include "app/ports/dds/topics/topic_names.h"
@@ -92,7 +93,20 @@ bool has_enough(const Subscriptions& subscriptions, int count) {
          });
 }
 
-Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
+/// Error: one of the topics is written with a type that it is not read with.
+Result<> check_types(const Subscriptions& subscriptions, WriterTypes& types) {
+  const auto now = hal::Clock::now();
+  if (const auto updated = types.update(now); !updated) return updated;
+  for (const auto& subscription : subscriptions) {
+    const std::string type = types.unreadable(subscription->reader(), now);
+    if (type.empty()) continue;
+    return fail("DDS: topic " + subscription->report().topic + " has the type " + type_text(type) +
+                ", which cannot be read here: " + readable_types());
+  }
+  return {};
+}
+
+Result<> read(const Subscriptions& subscriptions, WriterTypes& types, const Entity& wait_set,
               const SubscribeOptions& options, const std::atomic<bool>& cancelled,
               std::ostream& out) {
   const auto print = [&](const auto& item) {
@@ -110,6 +124,7 @@ Result<> read(const Subscriptions& subscriptions, const Entity& wait_set,
     for (const auto& subscription : subscriptions) {
       if (const auto taken = subscription->take(each); !taken) return taken;
     }
+    if (const auto checked = check_types(subscriptions, types); !checked) return checked;
     if (options.each) out.flush();
     const auto seconds = schedule.line_due(hal::Clock::now());
     if (!seconds || !options.stats) continue;
@@ -145,9 +160,11 @@ Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
   const auto subscriptions = make_subscriptions(options);
   if (!subscriptions) return tl::unexpected(subscriptions.error());
 
-  const auto done = open(*subscriptions, participant->entity())
+  WriterTypes types;
+  const auto done = types.open(participant->entity())
+                        .and_then([&] { return open(*subscriptions, participant->entity()); })
                         .and_then([&](const Entity& wait_set) {
-                          return read(*subscriptions, wait_set, options, cancelled, out);
+                          return read(*subscriptions, types, wait_set, options, cancelled, out);
                         })
                         .and_then([&] { return save(*subscriptions, options); });
   if (!done) return tl::unexpected(done.error());

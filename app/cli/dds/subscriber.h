@@ -31,8 +31,8 @@ struct SubscribeOptions {
 /// the newest images at the end. Topics that end in /process_state carry process states, in
 /// /compressed JPEG pictures, all others images; invalid samples are refused and counted. Lines go
 /// to `out`. Returns an entry per topic, in the order asked for. Thread-bound; `cancelled` is
-/// checked ten times a second. Errors: a topic twice, no usable network interface, a file that
-/// cannot be written.
+/// checked ten times a second. Errors: a topic twice, no usable network interface, a topic that is
+/// written with another type only, after WriterTypes::kDiscovery, a file that cannot be written.
 Result<std::vector<TopicReport>> subscribe(const SubscribeOptions& options,
                                            const std::atomic<bool>& cancelled, std::ostream& out);
 

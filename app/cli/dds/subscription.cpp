@@ -6,6 +6,7 @@
 
 #include "app/cli/dds/received_image.h"
 #include "app/cli/dds/received_state.h"
+#include "app/cli/dds/writer_types.h"
 #include "app/ports/dds/pictures/image_message.h"
 #include "hal/jpeg/jpeg_decoder.h"
 
@@ -125,6 +126,14 @@ class ProcessStateSubscription final : public Subscription {
 bool is_compressed_topic(std::string_view topic) { return topic.ends_with(kCompressed); }
 
 bool is_process_state_topic(std::string_view topic) { return topic.ends_with(kProcessState); }
+
+std::string readable_types() {
+  return "topics that end in " + std::string(kProcessState) + " are read as " +
+         type_text(orbwatch_msgs_msg_dds__ProcessState__desc.m_typename) + ", in " +
+         std::string(kCompressed) + " as " +
+         type_text(sensor_msgs_msg_dds__CompressedImage__desc.m_typename) + ", all others as " +
+         type_text(sensor_msgs_msg_dds__Image__desc.m_typename);
+}
 
 std::string full_topic(std::string_view topic) {
   if (topic.starts_with('/')) topic.remove_prefix(1);

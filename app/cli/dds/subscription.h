@@ -20,6 +20,9 @@ bool is_compressed_topic(std::string_view topic);
 /// Whether the topic of that name carries the process state.
 bool is_process_state_topic(std::string_view topic);
 
+/// The types that topics are read with, in words: by their names.
+std::string readable_types();
+
 /// The DDS name of a topic given with or without "rt/" or a leading "/".
 std::string full_topic(std::string_view topic);
 

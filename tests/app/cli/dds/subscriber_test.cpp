@@ -10,6 +10,7 @@
 #include <ostream>
 #include <streambuf>
 
+#include "app/cli/dds/writer_types.h"
 #include "app/ports/dds/dds_sink.h"
 #include "app/ports/dds/pictures/image_message.h"
 #include "tests/app/hand_over.h"
@@ -301,6 +302,41 @@ TEST_F(SubscriberTest, EndsByItselfAndSaysThatNothingCame) {
   EXPECT_EQ((*report)[0].received + (*report)[1].received, 0u);
   EXPECT_EQ(folder_.files(), 0);
   EXPECT_THAT(text.text(), HasSubstr("rt/orbwatch/selected/image_raw: nothing, lost 0\n"));
+}
+
+TEST_F(SubscriberTest, EndsWithTheTypeOfATopicThatItCannotRead) {
+  const auto* const topic = "rt/robot/state_of_it";
+  const ForeignWriter writer(tests::DdsNetwork::kSinkDomain,
+                             orbwatch_msgs_msg_dds__ProcessState__desc, topic, state_qos());
+  Subscriber subscriber({.topics = {topic}});
+  ASSERT_TRUE(eventually([&] { return subscriber.has_ended(); })) << "it waits for ever";
+  const auto report = subscriber.cancel();
+  ASSERT_FALSE(report);
+  for (const char* part : {topic, "orbwatch_msgs/msg/ProcessState", "sensor_msgs/msg/Image",
+                           "sensor_msgs/msg/CompressedImage"}) {
+    EXPECT_THAT(report.error().message, HasSubstr(part));
+  }
+}
+
+TEST_F(SubscriberTest, ReadsATopicThatOthersWriteWithAnotherTypeToo) {
+  const ForeignWriter other(tests::DdsNetwork::kSinkDomain,
+                            orbwatch_msgs_msg_dds__ProcessState__desc, kFrontTopic, state_qos());
+  const ForeignWriter writer(tests::DdsNetwork::kSinkDomain, sensor_msgs_msg_dds__Image__desc,
+                             kFrontTopic, frame_qos());
+  Subscriber subscriber({.topics = {kFrontTopic}, .seconds = 3});
+  ASSERT_TRUE(writer.wait_for_reader());
+  SmallImage image;
+  writer.write(image.get());
+  ASSERT_TRUE(eventually([&] { return subscriber.has_ended(); }));
+  const auto report = subscriber.cancel();
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ((*report)[0].received, 1u);
+}
+
+TEST(TypeText, IsThatOfRosOnOneLine) {
+  EXPECT_EQ(type_text("sensor_msgs::msg::dds_::Image_"), "sensor_msgs/msg/Image");
+  EXPECT_EQ(type_text("Temperature"), "Temperature");
+  EXPECT_EQ(type_text("a\n\x1b[2J"), "a??[2J");
 }
 
 TEST_F(SubscriberTest, WhatCannotBeDoneIsRefused) {
