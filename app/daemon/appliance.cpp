@@ -85,6 +85,21 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   return made;
 }
 
+/// The recipe as if it was commanded again. Measuring is stopped already.
+void Appliance::restore(const Selection& selection) {
+  if (selection.stopped) {
+    log_line(LogLevel::Info, "measuring stays stopped, as before the restart");
+  }
+  if (selection.recipe == 0) return;
+  const bool is_there = pipeline_->select_recipe(selection.recipe) == CommandResult::Done;
+  const std::string recipe = "recipe " + std::to_string(selection.recipe);
+  log_line(is_there ? LogLevel::Info : LogLevel::Warning,
+           is_there ? recipe + " is selected, as before the restart"
+                    : recipe +
+                          ", selected before the restart, is not there any more; begins with "
+                          "the first one");
+}
+
 std::array<CameraWatchStatus, kMaxCameras> Appliance::watched() const {
   auto figures = watch_->figures();
   alignment_->report(figures);
@@ -102,7 +117,11 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   sinks.insert(sinks.begin(), lines_.get());
   sinks.push_back(&*watch_);
   sinks.insert(sinks.end(), watchers.begin(), watchers.end());
+  // What was stopped before a restart of this process must not measure for a moment.
+  const Selection selection = record_->selection();
+  if (selection.stopped) pipeline_->stop_measuring();
   if (auto started = pipeline_->start(sinks); !started) return started;
+  restore(selection);
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!absent_[i]) continue;
     attempts_.add_camera(

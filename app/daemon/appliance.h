@@ -59,6 +59,7 @@ class Appliance {
  private:
   explicit Appliance(const Resolved& site);
   std::array<CameraWatchStatus, kMaxCameras> watched() const;
+  void restore(const Selection& selection);
   SnapshotSink* snapshots() { return snapshots_ ? &*snapshots_ : nullptr; }
 
   const Resolved& site_;

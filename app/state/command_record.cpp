@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/log.h"
+#include "app/state/process_identity.h"
 
 namespace orbwatch::app {
 namespace {
@@ -21,12 +22,47 @@ struct StoredEntry {
   std::uint16_t result = 0;
   std::uint32_t reserved = 0;
 };
+struct StoredSelection {
+  std::uint64_t start = 0;  ///< of the process that it is kept for
+  std::uint32_t process = 0;
+  std::uint16_t recipe = 0;
+  std::uint16_t stopped = 0;
+  std::array<char, 40> boot{};
+};
 struct StoredRecord {
   std::uint32_t count = 0;
   std::uint32_t plc_is_unknown = 0;
   std::array<StoredEntry, CommandRecord::kMaxClients> entries{};
+  StoredSelection selection{};  ///< zero in files of releases before it
 };
 static_assert(sizeof(StoredRecord) <= sizeof(SlotFile::Content));
+
+/// A command that was carried out.
+void note(const Command& command, Selection& selection) {
+  if (command.code == CommandCode::SelectRecipe) {
+    selection.recipe = static_cast<std::uint16_t>(command.integer(0));
+  }
+  if (command.code == CommandCode::Start) selection.stopped = false;
+  if (command.code == CommandCode::Stop) selection.stopped = true;
+}
+
+StoredSelection to_store(const Selection& selection) {
+  const ProcessIdentity process = this_process();
+  StoredSelection stored{.start = process.start,
+                         .process = process.id,
+                         .recipe = selection.recipe,
+                         .stopped = selection.stopped ? std::uint16_t{1} : std::uint16_t{0}};
+  std::ranges::copy(process.boot, stored.boot.begin());
+  return stored;
+}
+
+/// Nothing of another process's.
+Selection kept(const StoredSelection& selection) {
+  const StoredSelection own = to_store({});
+  const bool is_own = own.start != 0 && selection.start == own.start &&
+                      selection.process == own.process && selection.boot == own.boot;
+  return is_own ? Selection{selection.recipe, selection.stopped != 0} : Selection{};
+}
 
 }  // namespace
 
@@ -52,11 +88,16 @@ std::vector<CommandRecord::Entry> CommandRecord::entries() const {
   return entries_;
 }
 
+Selection CommandRecord::selection() const {
+  const std::lock_guard lock(mutex_);
+  return selection_;
+}
+
 CommandResult CommandRecord::carry_out(const CommandId& id, const Command& command,
                                        const CommandHandler& handler) {
   if (!begin(id, command.code)) return CommandResult::NotCarriedOut;
   const CommandResult result = handler(command);
-  finish(id, result);
+  finish(id, command, result);
   return result;
 }
 
@@ -72,8 +113,9 @@ bool CommandRecord::begin(const CommandId& id, CommandCode code) {
   return false;
 }
 
-void CommandRecord::finish(const CommandId& id, CommandResult result) {
+void CommandRecord::finish(const CommandId& id, const Command& command, CommandResult result) {
   const std::lock_guard lock(mutex_);
+  if (result == CommandResult::Done) note(command, selection_);
   const auto entry = std::ranges::find(entries_, id, &Entry::id);
   if (entry == entries_.end()) return;  // removed meanwhile: 256 others came
   entry->result = result;
@@ -101,6 +143,7 @@ void CommandRecord::load(const SlotFile::Content& content) {
   StoredRecord stored;
   std::memcpy(&stored, content.data(), sizeof stored);
   knows_plc_ = stored.plc_is_unknown == 0;
+  selection_ = kept(stored.selection);
   for (std::size_t i = 0; i < std::min<std::size_t>(stored.count, kMaxClients); ++i) {
     const StoredEntry& entry = stored.entries[i];
     entries_.push_back(
@@ -112,7 +155,8 @@ void CommandRecord::load(const SlotFile::Content& content) {
 bool CommandRecord::save() {
   if (!file_) return true;
   StoredRecord stored{.count = static_cast<std::uint32_t>(entries_.size()),
-                      .plc_is_unknown = knows_plc_ ? 0U : 1U};
+                      .plc_is_unknown = knows_plc_ ? 0U : 1U,
+                      .selection = to_store(selection_)};
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     stored.entries[i] = {entry.id.client, entry.id.number, entry.command,

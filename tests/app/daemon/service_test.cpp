@@ -167,6 +167,46 @@ TEST_F(Service, AWrongConfigurationLeavesTheLastGoodOneRunning) {
   ::unsetenv("STATE_DIRECTORY");
 }
 
+/// Its own restarts come unasked, in the middle of the machine's work.
+TEST_F(Service, ARestartOfItsOwnChangesNoRecipeAndStartsNothing) {
+  using app::CommandCode;
+  using app::CommandResult;
+  constexpr int kStopped = 4;
+  std::string recipe = kSmallRecipe;
+  recipe.replace(recipe.find("\"pool\""), 6, "\"other\"");
+  std::ofstream(folder / "other.toml") << recipe;
+  const std::string config =
+      write_config(small_machine() + "[[recipe]]\nnumber = 2\nfile = \"other.toml\"\n", kSmallRig,
+                   "process_active = \"command\"\n" + kSmallRecipe);
+  const auto restart = [&](Subprocess& daemon) {
+    EXPECT_EQ(command(daemon, CommandCode::Restart), CommandResult::Done);
+    EXPECT_TRUE(says(daemon, "recipe 1 is selected, as before the restart"));
+    EXPECT_TRUE(eventually(daemon, [&] { return read("system_recipe") == 1; })) << daemon.output();
+  };
+  {
+    Subprocess daemon = start(config);
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
+    ASSERT_EQ(read("system_recipe"), 2) << "the first one of the files";
+    ASSERT_EQ(command(daemon, CommandCode::SelectRecipe, {1}), CommandResult::Done);
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_recipe") == 1; }));
+    ASSERT_EQ(command(daemon, CommandCode::SetProcessActive, {1}), CommandResult::Done);
+    ASSERT_TRUE(eventually(daemon, [&] { return read("system_process_active") == 1; }));
+    restart(daemon);
+    EXPECT_EQ(read("system_process_active"), 0) << "who sees the process must say so";
+    EXPECT_NE(read("system_state"), kStopped);
+    ASSERT_EQ(command(daemon, CommandCode::Stop), CommandResult::Done);
+    restart(daemon);
+    EXPECT_TRUE(says(daemon, "measuring stays stopped"));
+    EXPECT_TRUE(eventually(daemon, [&] { return read("system_state") == kStopped; }));
+    daemon.send(SIGKILL);
+    daemon.wait();
+  }
+  Subprocess daemon = start(config);
+  ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; }));
+  EXPECT_EQ(read("system_recipe"), 2) << "after a crash it is as after every start";
+  EXPECT_NE(read("system_state"), kStopped);
+}
+
 TEST_F(Service, TheJournalHasCameraAndFault) {
   const std::string log = folder.path() / "daemon.log";
   std::ofstream(log) << "";

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <optional>
 #include <thread>
@@ -71,6 +73,35 @@ TEST_F(CommandRecordTest, NotesTheCommandBeforeItIsCarriedOutAndItsResultBeforeT
     return CommandResult::Busy;
   });
   EXPECT_THAT(on_disk(), ElementsAre(Entry{{kPlcClient, 7}, kStopCode, CommandResult::Busy}));
+}
+
+TEST_F(CommandRecordTest, KeepsWhatWasSelectedForThisProcessOnly) {
+  const auto give = [&](CommandRecord& record, CommandCode code, double argument,
+                        CommandResult result) {
+    static std::uint64_t number = 0;
+    record.carry_out({kPlcClient, ++number}, {code, {argument}},
+                     [&](const Command&) { return result; });
+  };
+  auto record = open();
+  EXPECT_EQ(record->selection(), Selection());
+  give(*record, CommandCode::SelectRecipe, 7, CommandResult::Done);
+  give(*record, CommandCode::SelectRecipe, 8, CommandResult::ArgumentOutOfRange);
+  give(*record, CommandCode::Stop, 0, CommandResult::Done);
+  EXPECT_EQ(record->selection(), (Selection{7, true}));
+  give(*record, CommandCode::Start, 0, CommandResult::Done);
+  record.reset();
+  record = open();
+  EXPECT_EQ(record->selection(), (Selection{7, false}));
+  record.reset();
+  const pid_t other = ::fork();
+  ASSERT_GE(other, 0);
+  if (other == 0) {
+    const bool has_none = CommandRecord(folder_.path()).selection() == Selection();
+    ::_exit(has_none ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(other, &status, 0), other);
+  EXPECT_EQ(status, 0) << "another process must not continue";
 }
 
 TEST_F(CommandRecordTest, WithoutAFolderTheFirstOfEachClientIsNotCarriedOut) {

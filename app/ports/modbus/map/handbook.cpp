@@ -162,6 +162,7 @@ Texts layout_numbers() {
   const ModbusSettings defaults;
   set("PORT", defaults.port);
   set("STALE", std::chrono::duration_cast<std::chrono::seconds>(defaults.status_timeout).count());
+  set("IDLE", std::chrono::duration_cast<std::chrono::seconds>(defaults.idle_time).count());
   return texts;
 }
 

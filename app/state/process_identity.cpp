@@ -1,0 +1,37 @@
+#include "app/state/process_identity.h"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+namespace orbwatch::app {
+namespace {
+
+/// Of proc_pid_stat(5): the name in brackets may hold anything, so fields count from behind it.
+std::uint64_t start_time() {
+  constexpr int kStart = 22, kFirstBehindName = 3;
+  std::ifstream file("/proc/self/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == text.npos) return 0;
+  std::istringstream fields(text.substr(name_end + 1));
+  std::string field;
+  for (int number = kFirstBehindName; number < kStart; ++number) fields >> field;
+  std::uint64_t start = 0;
+  return fields >> start ? start : 0;
+}
+
+}  // namespace
+
+ProcessIdentity this_process() {
+  ProcessIdentity identity{.id = static_cast<std::uint32_t>(::getpid()), .start = start_time()};
+  std::ifstream boot("/proc/sys/kernel/random/boot_id");
+  const bool is_read = static_cast<bool>(
+      boot.read(identity.boot.data(), static_cast<std::streamsize>(identity.boot.size())));
+  return is_read && identity.start != 0 ? identity : ProcessIdentity{};
+}
+
+}  // namespace orbwatch::app
