@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono;
 
 /// A self-made certificate, as it is read again.
-Certificate made(const ValidityPeriod& validity) {
+Certificate certificate_for(const ValidityPeriod& validity) {
   const auto credential = make_credential("ball", CertificateUse::Serve, validity);
   EXPECT_TRUE(credential);
   return certificate_from_pem(to_pem(credential->certificate).value()).value();
@@ -24,7 +24,7 @@ std::string as_written(const ASN1_TIME* time) {
 TEST(CertificateDates, BeyondTheEndOf32BitAreWrittenAndReadAsTheyAre) {
   const ValidityPeriod validity{sys_days(2045y / July / 1) + 1h + 2min + 3s,
                                 sys_days(2105y / December / 31) + 23h + 59min + 59s};
-  const Certificate certificate = made(validity);
+  const Certificate certificate = certificate_for(validity);
   EXPECT_EQ(as_written(X509_get0_notBefore(certificate.get())), "450701010203Z");
   EXPECT_EQ(as_written(X509_get0_notAfter(certificate.get())), "21051231235959Z")
       << "RFC 5280, 4.1.2.5: from 2050 on with four digits of the year";
