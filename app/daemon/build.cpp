@@ -81,9 +81,33 @@ class Builder {
   }
 
  private:
+  bool is_registered(const SourceSettings& source) const {
+    return site_.rig_camera(source.camera.index).is_registered;
+  }
+
+  /// The sources of a view but those of which nobody knows where they look: they would put things
+  /// in wrong places. One alone is shown as it is.
+  std::vector<SourceSettings> shown_together(const ViewSettings& view) const {
+    std::vector<SourceSettings> shown;
+    for (const SourceSettings& source : view.sources) {
+      if (is_registered(source)) shown.push_back(source);
+    }
+    if (shown.empty()) shown.push_back(view.sources.front());
+    return shown;
+  }
+
+  /// Nothing is measured at a place that is not known.
+  Result<> check_measured(const MeasuredViewSettings& view) const {
+    const SourceSettings& measured = view.sources[view.measured.index];
+    if (is_registered(measured)) return {};
+    return fail("view " + view.name + ": camera " + measured.camera.name +
+                ", which measures it, is not registered; register it (`orbwatch register`, or the "
+                "commands register_camera and accept_alignment), or name another camera");
+  }
+
   Result<ViewPlan> plan_view(const ViewSettings& view, const optics::Rig& rig) const {
     std::vector<ViewSource> sources;
-    for (const SourceSettings& source : view.sources) {
+    for (const SourceSettings& source : shown_together(view)) {
       const std::size_t camera = source.camera.index;
       auto ball = optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
       if (!ball) return tl::unexpected(ball.error());
@@ -115,9 +139,12 @@ class Builder {
     RecipePlan plan;
     plan.number = site_.site.recipes[index].number;
     for (const MeasuredViewSettings& view : recipe.views) {
-      auto planned = plan_view(view);
+      auto planned = check_measured(view).and_then([&] { return plan_view(view); });
       if (!planned) return tl::unexpected(planned.error());
-      planned->measured = view.measured.index;
+      const std::size_t camera = view.sources[view.measured.index].camera.index;
+      planned->measured = static_cast<std::size_t>(
+          std::ranges::find(planned->sources, camera, &ViewSource::camera) -
+          planned->sources.begin());
       plan.views.push_back(std::move(*planned));
     }
     for (const RegionOfInterest& region : recipe.regions) {

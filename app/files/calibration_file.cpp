@@ -64,7 +64,7 @@ CalibrationEntry entry_of(const EntrySettings& settings) {
   CameraAlignment camera{.camera = settings.camera, .pose = settings.pose};
   if (settings.limb) {
     camera.outline = outline(*settings.limb);
-    camera.registration = registration(*settings.limb);
+    if (settings.limb->registered) camera.registration = registration(*settings.limb);
   }
   if (const auto& lens = settings.lens) {
     camera.intrinsics.emplace();
@@ -98,7 +98,8 @@ std::string text_of(const CalibrationEntry& entry) {
     text += "[entry.pose]\n" + toml_pose(*camera.pose);
   } else if (const auto& limb = camera.outline) {
     text += "[entry.outline]\n" + toml_outline(*limb) +
-            toml_line("rotation_matrix", toml_matrix(camera.registration.value_or(optics::Mat3{})));
+            (camera.registration ? toml_line("rotation_matrix", toml_matrix(*camera.registration))
+                                 : toml_line("registered", "false"));
   }
   return text;
 }

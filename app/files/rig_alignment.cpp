@@ -17,6 +17,7 @@ void apply(const CameraAlignment& alignment, optics::RigCamera& camera) {
     camera.pose = alignment.pose;
     camera.outline.reset();
     camera.registration = {};
+    camera.is_registered = true;
     camera.alpha.reset();
     camera.distance.reset();
     return;
@@ -24,7 +25,9 @@ void apply(const CameraAlignment& alignment, optics::RigCamera& camera) {
   if (!alignment.outline && !alignment.registration) return;
   camera.pose.reset();
   if (alignment.outline) camera.outline = alignment.outline;
-  if (alignment.registration) camera.registration = *alignment.registration;
+  if (!alignment.registration) return;
+  camera.registration = *alignment.registration;
+  camera.is_registered = true;
 }
 
 }  // namespace

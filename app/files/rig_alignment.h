@@ -13,8 +13,9 @@ namespace orbwatch::app {
 struct CameraAlignment {
   std::string camera;
   std::optional<optics::Outline> outline{};
-  std::optional<optics::Mat3> registration{};  ///< of the outline; excludes `pose`
-  std::optional<optics::Pose> pose{};          ///< instead of outline and registration
+  /// Of the outline; excludes `pose`. None: as before, perhaps not registered.
+  std::optional<optics::Mat3> registration{};
+  std::optional<optics::Pose> pose{};  ///< instead of outline and registration
   std::optional<optics::Intrinsics> intrinsics{};
 };
 

@@ -28,6 +28,7 @@ std::vector<Value> values(const CameraAlignment& alignment) {
               {"angle", toml_number(limb->angle)}};
   }
   if (alignment.registration) {
+    values.push_back({"registered", std::nullopt});
     values.push_back({"rotation", std::nullopt});
     values.push_back({"rotation_matrix", toml_matrix(*alignment.registration)});
   }
@@ -119,7 +120,8 @@ bool states(const optics::RigCamera& camera, const CameraAlignment& alignment) {
   const bool outline = !limb || (camera.outline && same(camera.outline->rx, limb->rx) &&
                                  same(camera.outline->centre.u, limb->centre.u));
   return outline &&
-         (!alignment.registration || agrees(camera.registration, *alignment.registration));
+         (!alignment.registration ||
+          (camera.is_registered && agrees(camera.registration, *alignment.registration)));
 }
 
 /// The camera's tables are written in a way that only a person can change.

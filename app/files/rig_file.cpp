@@ -51,6 +51,7 @@ optics::RigCamera build_camera(const RigCameraSettings& settings, TextFiles& fil
   if (settings.limb) {
     camera.outline = outline(*settings.limb);
     camera.registration = registration(*settings.limb);
+    camera.is_registered = settings.limb->registered;
     camera.alpha = settings.limb->alpha;
     camera.distance = settings.limb->distance;
   }

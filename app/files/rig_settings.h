@@ -43,6 +43,7 @@ struct OutlineSettings {
   std::optional<double> distance;
   std::optional<std::array<double, 3>> rotation;
   std::optional<optics::Mat3> rotation_matrix;
+  bool registered = true;
 };
 
 struct RigCameraSettings : optics::RigCamera {
@@ -144,6 +145,11 @@ void visit(Visitor& v, OutlineSettings& outline) {
              "Registration to the reference, deg: [yaw, pitch, roll]");
   v.optional("rotation_matrix", outline.rotation_matrix, kAnyNumber,
              "The same as 3x3 matrix by rows: v_reference = R v_camera");
+  v.optional("registered", outline.registered,
+             "false: the registration is not known yet, and the camera is left out of merged and "
+             "measured views until it is registered");
+  v.require(outline.registered || (!outline.rotation && !outline.rotation_matrix), "registered",
+            "a camera with a rotation is registered; leave out one of them");
   v.require(outline.radius.has_value() != outline.radii.has_value(), "radius",
             "give either radius or radii");
   v.require(!outline.rotation || !outline.rotation_matrix, "rotation_matrix",

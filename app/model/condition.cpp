@@ -15,6 +15,11 @@ Severity severity_of(WatchLevel level) {
   return level == WatchLevel::Warning ? Severity::Warning : Severity::None;
 }
 
+Severity severity_of(AlignmentLevel level) {
+  if (level == AlignmentLevel::NotRegistered) return Severity::Warning;
+  return severity_of(static_cast<WatchLevel>(level));
+}
+
 Severity severity_of(SystemState state) {
   switch (state) {
     case SystemState::Starting:
@@ -58,15 +63,16 @@ Condition condition_of(const CameraStatus& camera) {
   }
   Condition condition{camera.fault == hal::Fault::None ? Severity::None : Severity::Alarm,
                       std::string(operator_text(camera.fault))};
-  const auto add = [&](const char* what, WatchLevel level) {
+  const auto add = [&](const char* what, auto level) {
     condition.severity = std::max(condition.severity, severity_of(level));
-    if (level >= WatchLevel::Warning) {
-      condition.text += std::string("; its ") + what + " is " + std::string(operator_text(level));
+    if (severity_of(level) > Severity::None) {
+      condition.text += std::string("; ") + what + " is " + std::string(operator_text(level));
     }
   };
-  add("alignment", camera.alignment);
-  add("focus", camera.focus);
-  add("ball's dirt", camera.cleanliness);
+  const bool is_registered = camera.alignment != AlignmentLevel::NotRegistered;
+  add(is_registered ? "its alignment" : "it", camera.alignment);
+  add("its focus", camera.focus);
+  add("its ball's dirt", camera.cleanliness);
   return condition;
 }
 

@@ -194,6 +194,29 @@ constexpr std::string_view operator_text(WatchLevel level) {
   return {};
 }
 
+/// How a camera stands to its alignment: as a WatchLevel, or it has none. The numbers go to the
+/// PLC: append, never renumber.
+enum class AlignmentLevel : std::uint8_t {
+  NotMeasured = 0,
+  Good = 1,
+  Warning = 2,
+  Alarm = 3,
+  NotRegistered = 4,  ///< the rig does not say where it looks
+};
+
+/// The same level by its number.
+constexpr AlignmentLevel alignment_level(WatchLevel level) {
+  return static_cast<AlignmentLevel>(level);
+}
+
+/// The one place of the operator's text for each level. Empty for a number that is none.
+constexpr std::string_view operator_text(AlignmentLevel level) {
+  if (level == AlignmentLevel::NotRegistered) {
+    return "not registered, and left out of merged and measured views";
+  }
+  return operator_text(static_cast<WatchLevel>(level));
+}
+
 /// What has become of the alignment that was asked for last. The numbers go to the PLC: append,
 /// never renumber.
 enum class ProposalState : std::uint8_t {
@@ -219,7 +242,7 @@ constexpr std::string_view operator_text(ProposalState state) {
 }
 
 #define ORBWATCH_WATCH_FIGURES(FIELD)                                                              \
-  FIELD(WatchLevel, alignment, kCode, "Whether the camera sees the ball where it was aligned")     \
+  FIELD(AlignmentLevel, alignment, kCode, "Whether the camera sees the ball where it was aligned") \
   FIELD(double, drift_error, kAngle,                                                               \
         "Error of the directions that views show, rms, since it was aligned")                      \
   FIELD(double, drift_shift, kPercent, "Shift of the ball's picture, of its radius")               \

@@ -5,6 +5,7 @@
 
 #include "app/log.h"
 #include "app/watch/alignment_state.h"
+#include "app/watch/drift_correction.h"
 #include "proc/align/register/registration.h"
 
 namespace orbwatch::app {
@@ -193,20 +194,20 @@ void AlignmentDesk::forget_proposal(std::size_t camera) {
 CommandResult AlignmentDesk::move_outline(std::size_t camera, const optics::Vec2& centre) {
   return state(
       camera, "outline by hand",
-      [&](optics::Outline& outline, optics::Mat3&) { outline.centre = centre; });
+      [&](optics::Outline& outline, std::optional<optics::Mat3>&) { outline.centre = centre; });
 }
 
 CommandResult AlignmentDesk::shape_outline(std::size_t camera, double rx, double ry, double angle) {
   return state(camera, "outline by hand",
-               [&](optics::Outline& outline, optics::Mat3&) {
+               [&](optics::Outline& outline, std::optional<optics::Mat3>&) {
                  outline = {outline.centre, rx, ry, angle};
                });
 }
 
 CommandResult AlignmentDesk::turn(std::size_t camera, const optics::YawPitchRoll& turn) {
   return state(camera, "turned by hand",
-               [&](optics::Outline&, optics::Mat3& registration) {
-                 registration = optics::rotation(turn) * registration;
+               [&](optics::Outline&, std::optional<optics::Mat3>& registration) {
+                 registration = optics::rotation(turn) * registration.value_or(optics::Mat3{});
                });
 }
 
@@ -236,8 +237,8 @@ Result<AlignmentProposal> AlignmentDesk::stated(std::size_t camera, const std::s
   const auto seen = align::by_outline(*rig, rig->cameras[site_.rig_cameras[camera]]);
   if (!seen) return tl::unexpected(seen.error());
   CameraAlignment alignment{
-      .camera = seen->name, .outline = seen->outline, .registration = seen->registration};
-  change(*alignment.outline, *alignment.registration);
+      .camera = seen->name, .outline = seen->outline, .registration = known_registration(*seen)};
+  change(*alignment.outline, alignment.registration);
   return apply({.cameras = {alignment}}, *rig).map([&] {
     return AlignmentProposal{alignment, method, "stated, not measured"};
   });

@@ -99,8 +99,10 @@ class AlignmentDesk : public AlignmentSource {
  private:
   using Finding = Result<std::optional<AlignmentProposal>>;  ///< none: a point was marked
   using Task = std::function<Finding(const optics::Rig& rig)>;
-  /// Changes the camera as it is to be, of which it has outline and registration.
-  using Change = std::function<void(optics::Outline& outline, optics::Mat3& registration)>;
+  /// Changes the camera as it is to be, of which it has the outline and, if it is registered, the
+  /// registration.
+  using Change =
+      std::function<void(optics::Outline& outline, std::optional<optics::Mat3>& registration)>;
 
   /// What is proposed for one camera, under mutex_.
   struct Desk {

@@ -66,7 +66,8 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
   const auto drift = monitor_.observe(picture, stamp.time_since_epoch());
   if (!drift) return;  // another size: the camera has a fault
   drift_ = *drift;
-  figures.alignment = level_of(drift_.level);
+  const WatchLevel level = level_of(drift_.level);
+  figures.alignment = alignment_level(level);
   const bool is_measured = drift_.level != align::DriftLevel::NotMeasured;
   const double radius = optics::mean_radius(drift_.outline);
   figures.drift_error = is_measured ? drift_.direction_error : signals::kNotValid;
@@ -74,7 +75,7 @@ void AlignmentWatch::observe(const Picture& picture, hal::TimePoint stamp,
       is_measured ? kPercentOfRadius * std::hypot(drift_.motion.u, drift_.motion.v) / radius
                   : signals::kNotValid;
   if (!is_referred_ && drift_.level == align::DriftLevel::Good) keep(picture);
-  log_level(figures.alignment);
+  log_level(level);
 }
 
 void AlignmentWatch::keep(const Picture& picture) {

@@ -57,6 +57,7 @@ CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::Shared
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
     const CameraSettings& settings = site.site.cameras[i];
     cameras_.emplace_back();
+    is_registered_.push_back(site.rig_camera(i).is_registered);
     if (!settings.watch.enabled) continue;
     auto watched = make(settings, site, i, folder, threads);
     if (watched) {
@@ -132,9 +133,11 @@ void CameraWatch::accept(const Status& status) {
 std::array<CameraWatchStatus, kMaxCameras> CameraWatch::figures() const {
   std::array<CameraWatchStatus, kMaxCameras> all;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (!cameras_[i]) continue;
-    const std::lock_guard lock(cameras_[i]->mutex);
-    all[i] = cameras_[i]->figures;
+    if (cameras_[i]) {
+      const std::lock_guard lock(cameras_[i]->mutex);
+      all[i] = cameras_[i]->figures;
+    }
+    if (!is_registered_[i]) all[i].alignment = AlignmentLevel::NotRegistered;
   }
   return all;
 }

@@ -57,6 +57,7 @@ class CameraWatch : public Sink {
   void ask(std::size_t camera, std::function<void(RecordedPicture)> reader);
 
   /// Those that watch.
+  std::vector<bool> is_registered_;  ///< by camera
   const std::shared_ptr<hal::SharedThreads>& threads() const { return threads_; }
 
   /// The ball was cleaned: its figure counts from what is seen now. For a camera that is watched.

@@ -4,11 +4,15 @@
 
 namespace orbwatch::app {
 
+std::optional<optics::Mat3> known_registration(const optics::RigCamera& camera) {
+  return camera.is_registered ? std::optional(camera.registration) : std::nullopt;
+}
+
 Result<CameraAlignment> with_outline(const optics::Rig& rig, const optics::RigCamera& camera,
                                      const optics::Outline& outline) {
   return align::by_outline(rig, camera).map([&](const optics::RigCamera& seen) {
     return CameraAlignment{
-        .camera = camera.name, .outline = outline, .registration = seen.registration};
+        .camera = camera.name, .outline = outline, .registration = known_registration(seen)};
   });
 }
 
@@ -26,8 +30,9 @@ Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamer
   // Y = -forward, Z = -down.
   const optics::Mat3 axes = align::registration_of({});
   const optics::Mat3 turn = axes * align::registration_of(*drift.turn);
-  return CameraAlignment{
-      .camera = camera.name, .outline = drift.outline, .registration = camera.registration * turn};
+  CameraAlignment alignment{.camera = camera.name, .outline = drift.outline};
+  if (camera.is_registered) alignment.registration = camera.registration * turn;
+  return alignment;
 }
 
 }  // namespace orbwatch::app

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "app/files/rig_alignment.h"
 #include "proc/align/drift/drift_monitor.h"
 #include "proc/image/result.h"
@@ -12,6 +14,9 @@ namespace orbwatch::app {
 /// those of align::by_outline.
 Result<CameraAlignment> corrected(const optics::Rig& rig, const optics::RigCamera& camera,
                                   const align::DriftState& drift);
+
+/// The registration of a camera that is stated by its outline; nullopt: it is not registered.
+std::optional<optics::Mat3> known_registration(const optics::RigCamera& camera);
 
 /// The alignment of a camera that sees the ball elsewhere and is turned as before. Reentrant.
 /// Error: those of align::by_outline.

@@ -26,6 +26,7 @@ struct RigCamera {
   std::optional<double> alpha;     ///< degrees
   std::optional<double> distance;  ///< ball radii
   Mat3 registration;
+  bool is_registered = true;     ///< false: nobody knows the registration yet
   std::optional<Window> window;  ///< needs intrinsics
 };
 

@@ -77,6 +77,10 @@ Result<std::vector<ChosenCamera>> choose_from_rig(const CameraOptions& o) {
     const Named named(text);
     auto camera = find_camera(*rig, named.name);
     if (!camera) return fail(o.rig.string() + ": " + camera.error().message);
+    if (o.cameras.size() > 1 && !camera->is_registered) {
+      return fail(o.rig.string() + ": camera " + camera->name +
+                  " is not registered, and cannot be merged with others; see orbwatch register");
+    }
     if (o.model) replace_model(*o.model, *camera);
     auto ball = optics::ball_projection(*rig, *camera);
     if (!ball) return fail(o.rig.string() + ": " + ball.error().message);

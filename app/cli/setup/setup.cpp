@@ -212,6 +212,18 @@ void find_obstacle(Setup& setup, const std::filesystem::path& folder, Progress& 
 
 }  // namespace
 
+bool is_placed(const Setup& setup, const SetupCamera& camera) {
+  return camera.is_registered || camera.pose || camera.name == setup.cameras.front().name;
+}
+
+std::vector<std::string> unplaced_cameras(const Setup& setup) {
+  std::vector<std::string> names;
+  for (const SetupCamera& camera : setup.cameras) {
+    if (!is_placed(setup, camera)) names.push_back(camera.name);
+  }
+  return names;
+}
+
 optics::Rig rig_of(const Setup& setup) {
   optics::Rig rig;
   rig.ball = {setup.ball_centre.value_or(optics::Vec3{}), setup.ball_radius};

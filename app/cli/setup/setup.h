@@ -47,6 +47,13 @@ struct Setup {
   std::vector<std::string> missing;  ///< sentences for people, each with the command that adds it
 };
 
+/// Whether it is known how a camera of the setup stands to the first one. Else it is left out of
+/// merged and measured views.
+bool is_placed(const Setup& setup, const SetupCamera& camera);
+
+/// The names of the cameras of which it is not.
+std::vector<std::string> unplaced_cameras(const Setup& setup);
+
 /// What a camera without lens and distance is taken to have, ball radii.
 inline constexpr double kAssumedDistance = 12;
 

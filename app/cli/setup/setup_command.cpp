@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <iostream>
 
 #include "app/cli/command.h"
 #include "app/cli/options/options.h"
@@ -34,7 +35,11 @@ constexpr const char* kSetupNotes =
     "\n"
     "--json prints one object: site (its file), cameras [{name, outline {centre [u, v], radii [rx, "
     "ry]\n"
-    "in pixels, angle in degrees}, confidence [0, 1], registered}], missing [text].\n";
+    "in pixels, angle in degrees}, confidence [0, 1], registered}], left_out [name] of merged and\n"
+    "measured views, missing [text].\n"
+    "\n"
+    "Exit status 1, with the files written: a camera is not registered, and left out until it "
+    "is.\n";
 
 /// Enough light of a process to register by, at any usual rate within the patience.
 constexpr std::size_t kPictures = 24;
@@ -91,6 +96,18 @@ Result<> record_cameras(const SetupOptions& o, Setup& setup, Progress& progress)
   return {};
 }
 
+/// Error, after the text: a camera is left out.
+Result<std::string> said(const SetupOptions& o, const Setup& setup) {
+  const auto site = o.folder / kSiteFile;
+  std::string text = o.json ? setup_json(setup, site) : setup_text(setup, site);
+  const auto unplaced = unplaced_cameras(setup);
+  if (unplaced.empty()) return text;
+  std::cout << text << std::flush;
+  std::string names;
+  for (const std::string& name : unplaced) names += (names.empty() ? "" : ", ") + name;
+  return fail("not registered, and left out of merged and measured views: " + names);
+}
+
 Result<std::string> set_up(const SetupOptions& o) {
   if (o.folder.empty()) return usage_error("give the site's folder, -o DIR");
   Setup setup;
@@ -101,10 +118,7 @@ Result<std::string> set_up(const SetupOptions& o) {
       .and_then([&] { return read_cameras(o, setup); })
       .and_then([&] { return align_cameras(setup, o.folder, progress); })
       .and_then([&] { return place_site(setup, o.folder); })
-      .map([&] {
-        const auto site = o.folder / kSiteFile;
-        return o.json ? setup_json(setup, site) : setup_text(setup, site);
-      });
+      .and_then([&] { return said(o, setup); });
 }
 
 }  // namespace

@@ -4,6 +4,14 @@
 #include <nlohmann/json.hpp>
 
 namespace orbwatch::app {
+namespace {
+
+const char* state_of(const Setup& setup, const SetupCamera& camera) {
+  if (camera.is_registered) return ", registered";
+  return is_placed(setup, camera) ? "" : ", not registered: left out of merged and measured views";
+}
+
+}  // namespace
 
 std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
   std::string text;
@@ -13,16 +21,22 @@ std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
     std::snprintf(line, sizeof line,
                   "%-12s ball at %.1f, %.1f px, radius %.1f px, confidence %.2f%s\n",
                   camera.name.c_str(), limb.centre.u, limb.centre.v, optics::mean_radius(limb),
-                  camera.ball.confidence, camera.is_registered ? ", registered" : "");
+                  camera.ball.confidence, state_of(setup, camera));
     text += line;
   }
   for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
-  return text + "written and checked: run orbwatchd --config " + site.string() + "\n";
+  const bool is_whole = unplaced_cameras(setup).empty();
+  return text +
+         (is_whole ? "written and checked: " : "written and checked, without what is missing: ") +
+         "run orbwatchd --config " + site.string() + "\n";
 }
 
 std::string setup_json(const Setup& setup, const std::filesystem::path& site) {
   using Json = nlohmann::ordered_json;
-  Json json{{"site", site.string()}, {"cameras", Json::array()}, {"missing", setup.missing}};
+  Json json{{"site", site.string()},
+            {"cameras", Json::array()},
+            {"left_out", unplaced_cameras(setup)},
+            {"missing", setup.missing}};
   for (const SetupCamera& camera : setup.cameras) {
     const optics::Outline& limb = camera.ball.outline;
     json["cameras"].push_back({{"name", camera.name},

@@ -46,14 +46,19 @@ std::string lens_text(const SetupCamera& camera) {
   return "\n[camera.intrinsics]\n" + toml_line("file", toml_string(camera.name + ".yaml"));
 }
 
-std::string place_text(const SetupCamera& camera, double ball_radius) {
+std::string place_text(const Setup& setup, const SetupCamera& camera) {
   if (camera.pose) return "\n[camera.pose]\n" + toml_pose(*camera.pose);
   std::string text = "\n[camera.outline]               # drawn into " + camera.name + ".png\n" +
                      toml_outline(camera.ball.outline);
   if (!camera.lens) {
-    const double distance = camera.distance ? *camera.distance / ball_radius : kAssumedDistance;
+    const double distance =
+        camera.distance ? *camera.distance / setup.ball_radius : kAssumedDistance;
     text += toml_line("distance", toml_number(distance) +
                                       (camera.distance ? "" : "                   # assumed"));
+  }
+  if (!is_placed(setup, camera)) {
+    return text + toml_line("registered",
+                            "false              # nor is it shown beside others until it is");
   }
   return text + toml_line("rotation_matrix", toml_matrix(camera.registration));
 }
@@ -107,13 +112,15 @@ std::string rig_text(const Setup& setup) {
     text += "\n[[camera]]\n" + toml_line("name", toml_string(camera.name)) +
             toml_line("width", std::to_string(format.width)) +
             toml_line("height", std::to_string(format.height)) + lens_text(camera) +
-            place_text(camera, setup.ball_radius);
+            place_text(setup, camera);
   }
   return text;
 }
 
 std::string recipe_text(const Setup& setup) {
-  const auto thermal = std::ranges::find_if(setup.cameras, is_thermal);
+  const auto thermal = std::ranges::find_if(setup.cameras, [&](const SetupCamera& camera) {
+    return is_thermal(camera) && is_placed(setup, camera);
+  });
   const SetupCamera& measured = thermal == setup.cameras.end() ? setup.cameras.front() : *thermal;
   return "# The brightest place in front of the ball. `orbwatch describe recipe` explains every "
          "key.\n\nname = \"brightest\"\n\n[[view]]\nname = \"front\"\n" +

@@ -92,6 +92,33 @@ TEST_F(Setup, WithAPoseItKnowsWhereTheBallIs) {
   EXPECT_TRUE(rig.cameras[0].pose);
 }
 
+/// Two pictures that have nothing in common but the ball.
+TEST_F(Setup, LeavesOutWhatItCouldNotRegister) {
+  const std::string first = picture();
+  cv::Mat other = align::painted_ball(align::kPaintedSize, kPaintedLimb);
+  cv::flip(other, other, 1);  // no turn of a camera makes a mirror image
+  other.convertTo(other, CV_16U, 20);
+  const std::string thermal = write("thermal.png", other);
+  EXPECT_EQ(set_up({"--camera", "grey=" + first, "--camera", "thermal=" + thermal}), 1) << said;
+  EXPECT_NE(said.find("not registered: left out of merged and measured views"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("not registered, and left out of merged and measured views: thermal\n"),
+            std::string::npos)
+      << said;
+  expect_runs();
+  const optics::Rig rig = this->rig();
+  ASSERT_EQ(rig.cameras.size(), 2U);
+  EXPECT_TRUE(rig.cameras[0].is_registered);
+  EXPECT_FALSE(rig.cameras[1].is_registered);
+  std::stringstream recipe;
+  recipe << std::ifstream(path("site/recipe.toml")).rdbuf();
+  EXPECT_NE(recipe.str().find("measured = \"grey\""), std::string::npos) << recipe.str();
+  EXPECT_EQ(run({"project", "-o", path("view.png"), "--rig", path("site/rig.toml"), "--camera",
+                 "grey=" + first, "--camera", "thermal=" + first}),
+            1);
+  EXPECT_NE(said.find("camera thermal is not registered"), std::string::npos) << said;
+}
+
 TEST_F(Setup, OverwritesOnlyWhenItIsTold) {
   ASSERT_EQ(set_up({"--camera", picture()}), 0) << said;
   write("site/rig.toml", std::string("by hand"));

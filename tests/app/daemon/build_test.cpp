@@ -266,5 +266,53 @@ TEST(Check, FindsThresholdsThatNothingReaches) {
             "none");
 }
 
+/// The demo's site, of whose cameras nobody knows where one looks.
+Resolved with_unregistered(std::size_t camera) {
+  Resolved site = demo();
+  site.rig.cameras[site.rig_cameras[camera]].is_registered = false;
+  return site;
+}
+
+TEST(Build, AnUnregisteredCameraIsLeftOutOfMergedViews) {
+  Resolved site = with_unregistered(kThermalCamera);
+  site.recipes.clear();
+  ViewSettings alone = site.site.views.front();
+  alone.name = "alone";
+  alone.sources.erase(alone.sources.begin() + 1, alone.sources.end());
+  alone.sources.front().camera.index = kThermalCamera;
+  ViewSettings merged = alone;
+  merged.sources.push_back(merged.sources.front());
+  merged.sources.back().camera.index = 0;
+  site.site.views = {{alone}, {merged}};
+  const auto plan = build(site, formats(site));
+  ASSERT_TRUE(plan) << plan.error().message;
+  ASSERT_EQ(plan->views[0].sources.size(), 1U);
+  EXPECT_EQ(plan->views[0].sources[0].camera, kThermalCamera) << "as it is";
+  ASSERT_EQ(plan->views[1].sources.size(), 1U);
+  EXPECT_EQ(plan->views[1].sources[0].camera, 0U);
+}
+
+TEST(Build, AnUnregisteredCameraDoesNotMeasure) {
+  const auto measuring = check_site(with_unregistered(kThermalCamera), Dates::Ignored);
+  ASSERT_FALSE(measuring);
+  EXPECT_THAT(measuring.error().message, testing::AllOf(testing::HasSubstr("is not registered"),
+                                                        testing::HasSubstr("orbwatch register")));
+}
+
+/// Another camera of a measured view is left out, and the one that measures is found again.
+TEST(Build, AnUnregisteredCameraIsLeftOutOfMeasuredViews) {
+  Resolved site = with_unregistered(0);
+  for (MeasuredViewSettings& view : first(site).views) {
+    ASSERT_EQ(view.sources[view.measured.index].camera.index, kThermalCamera);
+  }
+  const auto plan = build(site, formats(site));
+  ASSERT_TRUE(plan) << plan.error().message;
+  for (const ViewPlan& view : plan->recipes.front()->plan().views) {
+    ASSERT_EQ(view.sources.size(), 1U);
+    EXPECT_EQ(view.measured, 0U);
+    EXPECT_EQ(view.sources[0].camera, kThermalCamera);
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::app

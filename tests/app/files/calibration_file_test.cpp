@@ -157,6 +157,23 @@ TEST_F(CalibrationFile, RefusesAFileThatItDidNotWrite) {
       << read.error().message;
 }
 
+TEST_F(CalibrationFile, AnOutlineAloneDoesNotRegisterACamera) {
+  std::vector<CalibrationEntry> entries;
+  accept(entries, outline_of("a", 31));
+  accept(entries, outline_of("a", 32));
+  entries[0].alignment.cameras[0].registration.reset();
+  const auto read = written(entries);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_FALSE(camera_of(read[0]).registration);
+  EXPECT_TRUE(camera_of(read[1]).registration);
+  auto rig = load_rig(folder / "rig.toml").value();
+  rig.cameras[0].is_registered = false;
+  ASSERT_TRUE(apply(read[0].alignment, rig));
+  EXPECT_FALSE(rig.cameras[0].is_registered);
+  ASSERT_TRUE(apply(read[1].alignment, rig));
+  EXPECT_TRUE(rig.cameras[0].is_registered);
+}
+
 TEST_F(CalibrationFile, AnEntryForAnotherRigHidesNone) {
   std::vector<CalibrationEntry> entries = some();
   CalibrationEntry other = outline_of("a", 99);

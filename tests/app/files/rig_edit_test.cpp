@@ -91,6 +91,23 @@ TEST(RigEdit, PutsAnOutlineInThePlaceOfAPose) {
   EXPECT_EQ(a.outline->rx, 280);
 }
 
+TEST(RigEdit, RegistersACamera) {
+  std::string unregistered = kRig;
+  unregistered.replace(unregistered.find("rotation = [90, 0, 0]"), 21, "registered = false");
+  EXPECT_FALSE(camera(unregistered, 1).is_registered);
+  const optics::Outline limb{{400, 300}, 260.25, 259.5, 12};
+  const auto seen = aligned_rig(unregistered, "rig.toml", ".",
+                                {std::nullopt, {{.camera = "B", .outline = limb}}});
+  ASSERT_TRUE(seen) << seen.error().message;
+  EXPECT_FALSE(camera(*seen, 1).is_registered) << "its outline tells nothing";
+  const auto registered =
+      aligned_rig(unregistered, "rig.toml", ".",
+                  {std::nullopt, {{.camera = "B", .outline = limb, .registration = kTurned}}});
+  ASSERT_TRUE(registered) << registered.error().message;
+  EXPECT_TRUE(camera(*registered, 1).is_registered);
+  EXPECT_EQ(registered->find("registered"), std::string::npos) << *registered;
+}
+
 TEST(RigEdit, MovesTheBall) {
   const auto text = aligned_rig(kRig, "rig.toml", ".", {optics::Vec3{121.5, 60, 430}, {}});
   ASSERT_TRUE(text) << text.error().message;

@@ -60,7 +60,7 @@ class AlignmentWatchTest : public testing::Test {
 TEST_F(AlignmentWatchTest, SaysThatTheBallIsWhereItWas) {
   AlignmentWatch watch = this->watch();
   const CameraWatchStatus seen = after_a_second(watch, picture(0));
-  EXPECT_EQ(seen.alignment, WatchLevel::Good);
+  EXPECT_EQ(seen.alignment, AlignmentLevel::Good);
   EXPECT_LT(seen.drift_error, 0.05);
   EXPECT_LT(seen.drift_shift, 0.05);
 }
@@ -69,7 +69,7 @@ TEST_F(AlignmentWatchTest, RaisesAnAlarmWhenItMoved) {
   AlignmentWatch watch = this->watch();
   after_a_second(watch, picture(0));
   const CameraWatchStatus seen = after_a_second(watch, picture(2.3));
-  EXPECT_EQ(seen.alignment, WatchLevel::Alarm);
+  EXPECT_EQ(seen.alignment, AlignmentLevel::Alarm);
   EXPECT_NEAR(seen.drift_shift, 2, 0.2) << "2.3 of 115 px";
   EXPECT_GT(seen.drift_error, 1);
 }
@@ -81,7 +81,7 @@ TEST_F(AlignmentWatchTest, KnowsAfterARestartWhereTheBallWas) {
   }
   ASSERT_EQ(folder_.files(), 1);
   AlignmentWatch watch = this->watch();
-  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, WatchLevel::Alarm);
+  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, AlignmentLevel::Alarm);
 }
 
 TEST_F(AlignmentWatchTest, BeginsAnewWithAnotherAlignment) {
@@ -92,7 +92,7 @@ TEST_F(AlignmentWatchTest, BeginsAnewWithAnotherAlignment) {
   optics::Outline moved = kPaintedLimb;
   moved.centre.u += 2.3;
   AlignmentWatch watch = this->watch(moved);
-  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, WatchLevel::Good);
+  EXPECT_EQ(after_a_second(watch, picture(2.3)).alignment, AlignmentLevel::Good);
   EXPECT_EQ(folder_.files(), 1) << "the earlier one is gone";
 }
 
@@ -100,7 +100,7 @@ TEST_F(AlignmentWatchTest, DoesNotMeasureInTheDark) {
   AlignmentWatch watch = this->watch();
   after_a_second(watch, picture(0));
   const CameraWatchStatus seen = after_a_second(watch, cv::Mat(320, 400, CV_8U, cv::Scalar(0)));
-  EXPECT_EQ(seen.alignment, WatchLevel::NotMeasured);
+  EXPECT_EQ(seen.alignment, AlignmentLevel::NotMeasured);
   EXPECT_TRUE(std::isnan(seen.drift_error));
 }
 
@@ -113,7 +113,7 @@ TEST_F(AlignmentWatchTest, WorksWithoutAUsableFile) {
     std::ofstream(entry.path()) << "no picture";
   }
   AlignmentWatch watch = this->watch();
-  EXPECT_EQ(after_a_second(watch, picture(0)).alignment, WatchLevel::Good);
+  EXPECT_EQ(after_a_second(watch, picture(0)).alignment, AlignmentLevel::Good);
 }
 
 }  // namespace

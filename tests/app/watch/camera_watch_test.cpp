@@ -135,5 +135,16 @@ TEST_F(AlignmentPicturesTest, OfACameraWithAFaultAreRefusedAtOnce) {
   EXPECT_TRUE(ask(1));
 }
 
+TEST_F(CameraWatchTest, SaysThatACameraIsNotRegistered) {
+  EXPECT_EQ(watch->figures()[1].alignment, AlignmentLevel::NotMeasured);
+  site.rig.cameras[1].is_registered = false;
+  for (const bool is_watched : {true, false}) {
+    site.site.cameras[1].watch.enabled = is_watched;
+    watch.emplace(site, hal::SharedThreads::alone());
+    EXPECT_EQ(watch->figures()[0].alignment, AlignmentLevel::NotMeasured);
+    EXPECT_EQ(watch->figures()[1].alignment, AlignmentLevel::NotRegistered);
+  }
+}
+
 }  // namespace
 }  // namespace orbwatch::app

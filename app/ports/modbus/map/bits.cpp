@@ -170,9 +170,10 @@ std::vector<Bit> fault_bits() {
            return i < status.camera_count && status.cameras[i].fault != hal::Fault::None;
          });
   append(bits, kMaxCameras, "camera_#_moved",
-         "Camera # does not see the ball where it was aligned: see its alignment register",
+         "Camera # does not see the ball where it was aligned, or is not registered: see its "
+         "alignment register",
          [](I image, std::size_t i) {
-           return image.live.status.cameras[i].alignment >= WatchLevel::Warning;
+           return image.live.status.cameras[i].alignment >= AlignmentLevel::Warning;
          });
   append(bits, kMaxCameras, "camera_#_maintenance",
          "Camera # is out of focus or the ball is dirty: see its registers focus and cleanliness",

@@ -36,7 +36,7 @@ inline CameraStatus make_camera(Numbers& numbers) {
   camera.missed = numbers.whole();
   camera.damaged = numbers.whole();
   camera.flawed = numbers.whole();
-  camera.alignment = WatchLevel::Good;
+  camera.alignment = AlignmentLevel::Good;
   camera.drift_error = numbers.real();
   camera.drift_shift = numbers.real();
   camera.blur = numbers.real();

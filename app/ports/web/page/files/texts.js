@@ -110,7 +110,7 @@ export const texts = {
     proposal: (method, quality) => `Proposed: ${method}, ${quality}`,
     inForce: (method, quality) => `In force: ${method}${quality ? `, ${quality}` : ""}`,
     ofRig: "In force: as the rig file has it",
-    refusal: (why) => `Not found: ${why}`,
+    refusal: (why) => `Refused: ${why}`,
     waiting: (why) => `No answer (${why}): trying again`,
     notWatched: "Nothing is found or shown of this camera: it is not watched, see the log.",
   },

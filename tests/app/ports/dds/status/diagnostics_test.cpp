@@ -103,7 +103,7 @@ TEST_F(Diagnostics, CameraTellsItsFaultAndItsFigures) {
 }
 
 TEST_F(Diagnostics, CameraTellsThatItMovedOrItsBallIsDirty) {
-  status_.cameras[0].alignment = WatchLevel::Warning;
+  status_.cameras[0].alignment = AlignmentLevel::Warning;
   EXPECT_EQ(level("orbwatch: camera colour"), DiagnosticLevel::Warn);
   status_.cameras[0].cleanliness = WatchLevel::Alarm;
   const Diagnostic camera = found("orbwatch: camera colour");
