@@ -9,7 +9,7 @@
 
 namespace orbwatch::hal {
 
-/// Who may use a file that write_file() makes. A file that it replaces keeps its mode, but for
+/// Access to a file that write_file() makes. A file that it replaces keeps its mode, but for
 /// Owner.
 enum class FileAccess {
   Umask,   ///< as the umask of the process has it

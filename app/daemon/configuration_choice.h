@@ -34,10 +34,10 @@ Result<Chosen> choose(const std::filesystem::path& file);
 /// Whether the files say what can run. Error: why not.
 Result<> check_restart(const std::filesystem::path& file);
 
-/// Whether the alignment of `entry`, found with `running`, the site that runs in place of `file` or
-/// as it, would be in force after a restart. Error: why not, and what to do first: a trial runs,
-/// which the restart would end; the files are wrong; the rig that they state is another one; what
-/// they say cannot run with it.
+/// Checks that the alignment of `entry`, found with `running`, the site that runs in place of
+/// `file` or as it, would be in force after a restart. Error: why not, and what to do first: a
+/// trial runs, which the restart would end; the files are wrong; the rig that they state is another
+/// one; the site cannot run with it.
 Result<> check_acceptance(const std::filesystem::path& file, const Resolved& running,
                           CalibrationEntry entry);
 

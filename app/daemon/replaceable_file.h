@@ -8,8 +8,8 @@
 
 namespace orbwatch::app {
 
-/// Whether a file is there that only its owner may use, as a secret: a file of the configuration is
-/// none. Reentrant.
+/// True for a file that is there and that only its owner may use, as a secret: a file of the
+/// configuration is none. Reentrant.
 bool is_private(const std::filesystem::path& file);
 
 /// The text in place of a private one, for those who read a configuration.
@@ -18,7 +18,7 @@ inline constexpr const char* kPrivateText =
     "0640 "
     "or 0644\n";
 
-/// Whether its name ends as that of a file of the configuration: .toml, .yaml or .yml. Reentrant.
+/// True for a name with the ending of a file of the configuration: .toml, .yaml or .yml. Reentrant.
 bool is_configuration_name(const std::filesystem::path& file);
 
 /// Checks that a text which a client sends, or which comes from another folder, may take the place

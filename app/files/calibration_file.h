@@ -54,7 +54,7 @@ Result<> save_calibrations(const std::filesystem::path& file,
 /// Error: why it has none.
 Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file);
 
-/// What counts now for that rig: of each camera the newest entry for it, oldest first.
+/// The entries in force for that rig: of each camera the newest one for it, oldest first.
 std::vector<CalibrationEntry> in_force(const std::vector<CalibrationEntry>& entries,
                                        std::uint32_t rig);
 

@@ -239,7 +239,7 @@ void settle_state_folder(Configuration& site, const std::filesystem::path& file)
 
 /// Puts the alignments that were accepted for this rig in the place of what its file says.
 Result<> calibrate(Resolved& resolved, TextFiles& files) {
-  // By the texts that were read: the files may be others by now.
+  // The texts that were read count: the files may be others by now.
   const auto rig = rig_checksum(resolved.site.rig.path, files.texts());
   if (!rig) return tl::unexpected(rig.error());
   resolved.rig_checksum = *rig;

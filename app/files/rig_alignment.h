@@ -13,7 +13,7 @@ namespace orbwatch::app {
 struct CameraAlignment {
   std::string camera;
   std::optional<optics::Outline> outline{};
-  /// Of the outline; excludes `pose`. None: as before, perhaps not registered.
+  /// Belongs to the outline; excludes `pose`. None: as before, perhaps not registered.
   std::optional<optics::Mat3> registration{};
   std::optional<optics::Pose> pose{};  ///< instead of outline and registration
   std::optional<optics::Intrinsics> intrinsics{};

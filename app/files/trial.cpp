@@ -19,7 +19,7 @@ fs::path running_in(const fs::path& folder) { return folder / "trial-running.jso
 fs::path confirmed_in(const fs::path& folder) { return folder / "trial-confirmed.json"; }
 fs::path report_in(const fs::path& folder) { return folder / "trial-report.json"; }
 
-/// What `parse` makes of a file; it may throw what the JSON library throws. Nullopt: no such file.
+/// Parses a file; `parse` may throw what the JSON library throws. Nullopt: no such file.
 template <class Parsed>
 Result<std::optional<Parsed>> read_json(const fs::path& file,
                                         Parsed (*parse)(const nlohmann::json&)) {

@@ -194,7 +194,7 @@ constexpr std::string_view operator_text(WatchLevel level) {
   return {};
 }
 
-/// How a camera stands to its alignment: as a WatchLevel, or it has none. The numbers go to the
+/// State of a camera's alignment: a WatchLevel, or that it has none. The numbers go to the
 /// PLC: append, never renumber.
 enum class AlignmentLevel : std::uint8_t {
   NotMeasured = 0,

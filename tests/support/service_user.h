@@ -26,8 +26,8 @@ inline void give_to_service(const std::filesystem::path& file) {
   ASSERT_EQ(::chown(file.c_str(), kService, kService), 0) << file;
 }
 
-/// What `act` returns in a process of that user with that umask; false, too, where it ends
-/// otherwise. The user is in the service's group unless it is the stranger.
+/// Calls `act` in a process of that user with that umask; false also where that ends otherwise. The
+/// user is in the service's group unless it is the stranger.
 inline bool as_user(uid_t user, mode_t mask, const std::function<bool()>& act) {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -7,7 +7,7 @@
 
 namespace orbwatch::app {
 
-/// How long a daemon may take.
+/// Time that a daemon may take.
 struct TrialPatience {
   std::chrono::milliseconds taken{30'000};     ///< from the request to its being taken up
   std::chrono::milliseconds started{180'000};  ///< from then on, as the service manager grants it

@@ -47,7 +47,7 @@ struct Setup {
   std::vector<std::string> missing;  ///< sentences for people, each with the command that adds it
 };
 
-/// Whether it is known how a camera of the setup stands to the first one. Else it is left out of
+/// True: it is known how a camera of the setup stands to the first one. Else it is left out of
 /// merged and measured views.
 bool is_placed(const Setup& setup, const SetupCamera& camera);
 

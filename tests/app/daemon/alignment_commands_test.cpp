@@ -153,7 +153,7 @@ TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {
   ASSERT_TRUE(says(daemon, "restored 1: turned by hand")) << daemon.output();
 }
 
-/// By the texts of its files, which a person edits while it runs.
+/// The rig file is edited while the daemon runs.
 class AlignmentOfAnotherRig : public AlignmentCommands {
  protected:
   void propose(Subprocess& daemon) {

@@ -72,7 +72,7 @@ TEST_F(Accepted, AreNotLostWhereOthersChangeThemAtTheSameTime) {
   for (std::size_t n = 0; n < all.size(); ++n) EXPECT_EQ(all[n].number, n + 1);
 }
 
-/// As root's programs of earlier versions left it.
+/// Programs of earlier versions that root ran left such a file.
 TEST_F(Accepted, AreKeptAsideWhereTheServiceMayNotReadThem) {
   ORBWATCH_WITHOUT_ROOT_SKIPPED();
   const Resolved running = read();
