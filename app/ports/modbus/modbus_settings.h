@@ -12,6 +12,7 @@
 
 #include "app/model/sink.h"
 #include "app/ports/modbus/server/access_list.h"
+#include "hal/network.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
@@ -88,15 +89,6 @@ void visit(Visitor& v, ModbusSerialSettings& serial) {
   v.optional("may_write", serial.may_write, "Masters on this line may write");
 }
 
-/// Every text must be an address or a prefix.
-template <class Visitor>
-void require_networks(Visitor& v, const char* key, const std::vector<std::string>& texts) {
-  for (const std::string& text : texts) {
-    const auto network = modbus::parse_network(text);
-    v.require(network.has_value(), key, network ? "" : network.error().message);
-  }
-}
-
 template <class Visitor>
 void visit(Visitor& v, ModbusSettings& modbus) {
   v.optional("enabled", modbus.enabled, "Serve Modbus");
@@ -110,9 +102,9 @@ void visit(Visitor& v, ModbusSettings& modbus) {
              "an answer its connection is closed 30 s later");
   v.optional("readers", modbus.readers,
              "Numeric addresses or prefixes (10.0.0.0/24) of clients that may read; []: all");
-  require_networks(v, "readers", modbus.readers);
+  hal::require_networks(v, "readers", modbus.readers);
   v.optional("writers", modbus.writers, "Of clients that may write, and read; []: this host only");
-  require_networks(v, "writers", modbus.writers);
+  hal::require_networks(v, "writers", modbus.writers);
   v.optional("unit_ids", modbus.unit_ids, Range::between(0, 255),
              "Units that are answered; requests for others get exception 11");
   v.require(!modbus.unit_ids.empty(), "unit_ids", "names no unit, so no request would be answered");

@@ -3,16 +3,21 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/network.h"
 #include "proc/image/result.h"
 
 /// The addresses of clients, and what they may do.
 namespace orbwatch::app::modbus {
+
+using hal::HostAddress;
+using hal::Network;
+using hal::parse_network;
+using hal::text_of;
 
 /// An address of a socket in the form of system calls.
 struct SocketAddress {
@@ -23,30 +28,12 @@ struct SocketAddress {
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
 };
 
-/// The address of a host: IPv6, or IPv4 mapped into it (::ffff:a.b.c.d).
-using HostAddress = std::array<std::uint8_t, 16>;
-
 /// Parses a numeric IPv4 or IPv6 address; never waits for a name server. Reentrant.
 std::optional<SocketAddress> parse_address(const std::string& text, int port);
-
-/// As numbers are written: 10.0.0.7, fd00::1. Reentrant.
-std::string text_of(const HostAddress& host);
 
 /// The host and the port of an IPv4 or IPv6 address. Reentrant.
 HostAddress host_of(const SocketAddress& address);
 int port_of(const SocketAddress& address);
-
-/// One host, or all hosts of a CIDR prefix (RFC 4632, RFC 4291).
-struct Network {
-  HostAddress address{};
-  int prefix_length = 128;  ///< in bits of the IPv6 form
-
-  bool contains(const HostAddress& host) const;
-};
-
-/// Parses a numeric address or a prefix: 10.0.0.7, 10.0.0.0/24, fd00::/8. Errors: neither, or bits
-/// set after the prefix, as in a host's address. Reentrant.
-Result<Network> parse_network(const std::string& text);
 
 /// None: the client may not even connect. Write includes reading.
 enum class Permission : std::uint8_t { None, Read, Write };
@@ -57,8 +44,8 @@ class AccessList {
   /// Everybody may read, and the server's own host write.
   AccessList() = default;
 
-  /// Networks as for parse_network. No readers: everybody may read. Writers may read. No writers:
-  /// readers on the server's own host may write.
+  /// Networks as for hal::parse_network. No readers: everybody may read. Writers may read. No
+  /// writers: readers on the server's own host may write.
   static Result<AccessList> create(const std::vector<std::string>& readers,
                                    const std::vector<std::string>& writers);
 
