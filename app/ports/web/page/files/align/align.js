@@ -88,7 +88,7 @@ export class Align {
   async #pull(drawn, shown) {
     const { name: camera } = this.#camera;
     const directionAt = async ([u, v]) => directionOf(await (await fetched(
-      `/api/v1/alignment/direction?${new URLSearchParams({ camera, u, v })}`)).json());
+      `api/v1/alignment/direction?${new URLSearchParams({ camera, u, v })}`)).json());
     try {
       const [to, from] = await Promise.all([drawn, shown].map(directionAt));
       await this.#give("turn_camera", turnBetween(from, to));
@@ -118,7 +118,7 @@ export class Align {
   }
 
   async #look() {
-    this.#cameras = (await (await fetched("/api/v1/alignment")).json()).cameras;
+    this.#cameras = (await (await fetched("api/v1/alignment")).json()).cameras;
     for (const { name } of this.#cameras.slice(this.choice.options.length)) {
       this.choice.append(element("option", { value: name }, name));
     }
@@ -128,7 +128,7 @@ export class Align {
   async #showPicture() {
     if (!this.#camera?.is_watched) return;
     const { name } = this.#camera;
-    const path = `/api/v1/alignment/ball.jpg?camera=${encodeURIComponent(name)}`;
+    const path = `api/v1/alignment/ball.jpg?camera=${encodeURIComponent(name)}`;
     const picture = await createImageBitmap(await (await fetched(path)).blob());
     if (this.#camera.name === name) this.editor.showPicture(picture);
     picture.close();

@@ -39,7 +39,7 @@ export class ViewFields {
 
 export async function pictureOf(query) {
   const all = new URLSearchParams([...query, ["width", kSide], ["height", kSide]]);
-  const answer = await fetch(`/api/v1/alignment/view.jpg?${all}`);
+  const answer = await fetch(`api/v1/alignment/view.jpg?${all}`);
   if (!answer.ok) throw new Error((await answer.json()).error);
   return createImageBitmap(await answer.blob());
 }

@@ -11,7 +11,7 @@ function described(figure) {
 
 // By kind of component ("system", "cameras"), then by name: {description, unit}.
 export async function describeFigures() {
-  const answer = await fetch("/api/v1/openapi.json");
+  const answer = await fetch("api/v1/openapi.json");
   if (!answer.ok) throw new Error(`status ${answer.status}`);
   const kinds = (await answer.json()).components.schemas.Status.properties;
   const figures = {};
@@ -40,4 +40,4 @@ export async function answerTo(path, body) {
 
 // Empty when it was done, else why not.
 export const post = async (path, body) => (await answerTo(path, body)).refused ?? "";
-export const command = (name, body) => post(`/api/v1/command/${name}`, body);
+export const command = (name, body) => post(`api/v1/command/${name}`, body);

@@ -51,7 +51,7 @@ export class History {
 
   // `figure`: {region or camera, figure}, their names.
   constructor(figure) {
-    this.path = `/api/v1/history?${new URLSearchParams(figure)}`;
+    this.path = `api/v1/history?${new URLSearchParams(figure)}`;
   }
 
   // `at` and `now` as of performance.now().

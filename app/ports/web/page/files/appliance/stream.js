@@ -47,7 +47,7 @@ export class Stream {
 
   async #read(abort) {
     const query = new URLSearchParams(this.#views.map((name) => ["view", name]));
-    const answer = await fetch(`/api/v1/live?${query}`, { signal: abort.signal });
+    const answer = await fetch(`api/v1/live?${query}`, { signal: abort.signal });
     if (!answer.ok) throw new Error(`status ${answer.status}`);
     const framing = new Framing();
     const reader = answer.body.getReader();

@@ -115,7 +115,7 @@ export class Pointer {
   async #answer(asked) {
     const query = new URLSearchParams({ view: this.view, ...asked });
     try {
-      const answer = await fetch(`/api/v1/live/pixel?${query}`);
+      const answer = await fetch(`api/v1/live/pixel?${query}`);
       const said = await answer.json();
       return answer.ok ? { said } : { refused: said.error, isGone: answer.status === 410 };
     } catch (error) {

@@ -12,7 +12,7 @@ const kStaleMs = 2000;
 const kMarks = ["blind", "resolution", "wireFrame"];
 
 async function listViews() {
-  const answer = await fetch("/api/v1/look-around");
+  const answer = await fetch("api/v1/look-around");
   if (!answer.ok) throw new Error(`status ${answer.status}`);
   return answer.json();
 }
@@ -23,7 +23,7 @@ class Meshes {
 
   async load(name) {
     const tag = this.#tags.get(name);
-    const answer = await fetch(`/api/v1/sphere?view=${encodeURIComponent(name)}`,
+    const answer = await fetch(`api/v1/sphere?view=${encodeURIComponent(name)}`,
       { headers: tag ? { "If-None-Match": tag } : {} });
     if (answer.status === 304) return null;
     if (!answer.ok) throw new Error(`status ${answer.status}`);

@@ -21,7 +21,7 @@ export class AlarmHistory {
   async refresh(count) {
     if (count === this.#count) return;
     this.#count = count;
-    const answer = await fetch("/api/v1/history/alarms").catch(() => null);
+    const answer = await fetch("api/v1/history/alarms").catch(() => null);
     const read = answer?.ok ? await answer.json().catch(() => null) : null;
     if (read) this.#show(read.alarms.reverse());
     else this.#count = null;

@@ -24,7 +24,7 @@ export class Recipe extends EventTarget {
     if (running === this.#loaded || this.#isLoading) return;
     this.#isLoading = true;
     try {
-      this.stated = await answered("/api/v1/recipe");
+      this.stated = await answered("api/v1/recipe");
       this.#loaded = running;
       this.#changed();
     } catch (error) {
@@ -63,7 +63,7 @@ export class Recipe extends EventTarget {
   // Gives it corners where its view shows these pixels; what was not moved keeps its coordinates.
   async setRegion(region, pixels) {
     const query = new URLSearchParams({ number: this.stated.number, view: region.view, pixels: pixels.flat() });
-    const { corners, lines } = await answered(`/api/v1/recipe/polygon?${query}`);
+    const { corners, lines } = await answered(`api/v1/recipe/polygon?${query}`);
     if (this.#removed.has(region.name)) return; // meanwhile
     const keptAt = (pixel) => region.corners.find(({ pixel: before }) =>
       before?.every((part, k) => part === pixel[k]))?.at;

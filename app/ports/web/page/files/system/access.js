@@ -11,7 +11,7 @@ const section = document.getElementById("access");
 let isSending = false;  // a form: until it is answered the page does not begin anew
 
 export async function session() {
-  const answer = await fetch("/api/v1/session");
+  const answer = await fetch("api/v1/session");
   if (!answer.ok) throw new Error(`status ${answer.status}`);
   return answer.json();
 }
@@ -40,7 +40,7 @@ function showLogin() {
   showForm(texts.logInTitle, [
     field(texts.user, { name: "user", autocomplete: "username" }),
     field(texts.password, { name: "password", type: "password", autocomplete: "current-password" }),
-  ], texts.logIn, (values) => post("/api/v1/login", values));
+  ], texts.logIn, (values) => post("api/v1/login", values));
 }
 
 function newPasswordFields() {
@@ -59,7 +59,7 @@ function showFirstCode() {
     ...newPasswordFields(),
   ], texts.setPassword, async ({ code, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
-    return post("/api/v1/set_first_password", { code, password });
+    return post("api/v1/set_first_password", { code, password });
   });
 }
 
@@ -69,8 +69,8 @@ function showFirstPassword() {
     ...newPasswordFields(),
   ], texts.setPassword, async ({ user, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
-    const refused = await post("/api/v1/set_user", { user, role: "administrator", password });
-    return refused || post("/api/v1/login", { user, password });
+    const refused = await post("api/v1/set_user", { user, role: "administrator", password });
+    return refused || post("api/v1/login", { user, password });
   });
 }
 
@@ -79,7 +79,7 @@ function showAccount({ user, role, has_users: hasUsers }) {
   const button = element("button", { type: "button" }, hasUsers ? texts.logOut : texts.setPassword);
   button.addEventListener("click", async () => {
     if (!hasUsers) return showFirstPassword();
-    const refused = await post("/api/v1/logout", {});
+    const refused = await post("api/v1/logout", {});
     if (refused) setText(account.firstChild, texts.refused(refused));
     else location.reload();
   });

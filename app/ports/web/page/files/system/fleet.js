@@ -45,7 +45,7 @@ class Card {
     this.picture.hidden = pictures === 0;
     this.picture.alt = texts.fleet.picture(name);
     const query = new URLSearchParams({ appliance: id, number: pictures });
-    this.picture.src = `/api/v1/appliances/picture.jpg?${query}`;
+    this.picture.src = `api/v1/appliances/picture.jpg?${query}`;
   }
 }
 
@@ -65,7 +65,7 @@ export class Fleet {
   }
 
   async #forget() {
-    const refused = await post("/api/v1/forget_appliances", {});
+    const refused = await post("api/v1/forget_appliances", {});
     if (refused) setText(this.said, texts.refused(refused));
     else this.#read();
   }
@@ -73,7 +73,7 @@ export class Fleet {
   async #read() {
     clearTimeout(this.#again);
     if (this.root.hidden) return;
-    const answer = document.hidden ? null : await fetch("/api/v1/appliances").catch(() => null);
+    const answer = document.hidden ? null : await fetch("api/v1/appliances").catch(() => null);
     const read = await answer?.json().catch(() => null);
     if (read?.error) setText(this.said, texts.refused(read.error));
     else if (read?.missing) setText(this.said, texts.fleet.missing(read.missing));

@@ -59,7 +59,7 @@ export class Interfaces {
   async #read() {
     clearTimeout(this.#again);
     if (!this.opened.open) return;
-    const answer = document.hidden ? null : await fetch("/api/v1/interfaces").catch(() => null);
+    const answer = document.hidden ? null : await fetch("api/v1/interfaces").catch(() => null);
     const read = await answer?.json().catch(() => null);
     setText(this.said, read?.error ? texts.refused(read.error) : "");
     if (answer?.ok && read) this.#show(read);
@@ -85,7 +85,7 @@ export class Interfaces {
 
 // Versions, and who may command, once.
 export async function showAbout(root) {
-  const answer = await fetch("/api/v1/about").catch(() => null);
+  const answer = await fetch("api/v1/about").catch(() => null);
   if (!answer?.ok) return;
   const { versions, commanders } = await answer.json();
   const { root: shown, body } = table([texts.program, texts.version], texts.about);

@@ -34,7 +34,7 @@ export class Log {
     if (!this.opened.open || asked !== this.#asked) return;
     const query = new URLSearchParams({
       lines: kMostShown, level: this.level.value, after: this.#newest });
-    const answer = document.hidden ? null : await fetch(`/api/v1/log?${query}`).catch(() => null);
+    const answer = document.hidden ? null : await fetch(`api/v1/log?${query}`).catch(() => null);
     const read = await answer?.json().catch(() => null);
     if (asked !== this.#asked) return;
     setText(this.said, read?.error ? texts.refused(read.error) : "");

@@ -22,13 +22,13 @@ export class People {
     this.opened = element("details", { id: "people" }, element("summary", {}, texts.peopleTitle),
       this.said,
       element("h3", {}, texts.people), this.users.root,
-      this.#form(texts.setUser, "/api/v1/set_user", [
+      this.#form(texts.setUser, "api/v1/set_user", [
         field(texts.user, { name: "user", autocomplete: "off" }), roleField(),
         field(texts.newPassword(kLeastCharacters), {
           name: "password", type: "password", minLength: kLeastCharacters,
           autocomplete: "new-password" })]),
       element("h3", {}, texts.programs), this.tokens.root,
-      this.#form(texts.createToken, "/api/v1/create_token", [
+      this.#form(texts.createToken, "api/v1/create_token", [
         field(texts.program, { name: "name", autocomplete: "off" }), roleField()]),
       element("h3", {}, texts.audit), this.done.root);
     this.opened.addEventListener("toggle", () => this.opened.open && this.#refresh());
@@ -65,7 +65,7 @@ export class People {
   }
 
   async #refresh() {
-    const answers = await Promise.all(["users", "audit"].map((what) => fetch(`/api/v1/${what}`)));
+    const answers = await Promise.all(["users", "audit"].map((what) => fetch(`api/v1/${what}`)));
     const refused = answers.find((answer) => !answer.ok);
     if (refused) {
       const { error } = await refused.json();
@@ -73,9 +73,9 @@ export class People {
     }
     const [people, audit] = await Promise.all(answers.map((answer) => answer.json()));
     this.users.body.replaceChildren(...people.users.map((one) =>
-      this.#row(one, texts.remove, "/api/v1/remove_user", { user: one.name })));
+      this.#row(one, texts.remove, "api/v1/remove_user", { user: one.name })));
     this.tokens.body.replaceChildren(...people.tokens.map((one) =>
-      this.#row(one, texts.revoke, "/api/v1/revoke_token", { name: one.name })));
+      this.#row(one, texts.revoke, "api/v1/revoke_token", { name: one.name })));
     const entries = audit.entries.slice(-kShownEntries).reverse();
     this.done.body.replaceChildren(...entries.map((entry) => element("tr", {},
       ...["time", "who", "from", "what", "before", "after", "result"].map((key) =>

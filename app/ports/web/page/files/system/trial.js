@@ -4,7 +4,7 @@ import { answerTo } from "../appliance/api.js";
 import { element, setText } from "../elements/elements.js";
 import { texts } from "../texts.js";
 
-const kPath = "/api/v1/configuration";
+const kPath = "api/v1/configuration";
 const kUsualSeconds = 60;
 const kAgainMs = 1000;
 
@@ -68,7 +68,7 @@ export class Trial {
   async #send(verb, more) {
     const changes = this.changes();
     if (!changes) return this.say(texts.nothingChanged), null;
-    const answer = await answerTo(`/api/v1/${verb}_${this.what}`, { ...changes, ...more });
+    const answer = await answerTo(`api/v1/${verb}_${this.what}`, { ...changes, ...more });
     this.difference.hidden = Boolean(answer.refused);
     setText(this.difference, answer.difference ?? "");
     if (!answer.refused) return answer;
@@ -91,7 +91,7 @@ export class Trial {
   }
 
   async #end(what, done) {
-    const { refused } = await answerTo(`/api/v1/${what}_configuration`, {});
+    const { refused } = await answerTo(`api/v1/${what}_configuration`, {});
     this.say(refused ? texts.refused(refused) : done, Boolean(refused));
     if (!refused) this.#trial = null;
     await this.refresh();
