@@ -117,6 +117,17 @@ class AlignCase(PageCase):
                          [])
 
 
+class Fingers(AlignCase):
+    def test_two_fingers_zoom_the_ball(self):
+        self.open()
+        picture = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg")
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
+        # Away from handles and edges, which a finger drags.
+        allowed = self.browser.execute_script(
+            "return getComputedStyle(arguments[0]).touchAction", picture)
+        self.assertIn(allowed, ("manipulation", "pan-x pan-y pinch-zoom"))
+
+
 class Outline(AlignCase):
     def tearDown(self):
         if (self.camera() or {}).get("proposed"):

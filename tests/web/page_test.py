@@ -160,6 +160,36 @@ class Page(PageCase):
         self.browser.switch_to.window(self.browser.window_handles[0])
         self.expect_pictures(VIEWS)
 
+    def sends_no_pictures(self):
+        """While the pipeline goes on."""
+        before = self.appliance.status()
+        eventually("more frame sets", lambda: self.appliance.status()["system"]["frame_set"]
+                   > before["system"]["frame_set"] + 15)
+        return self.appliance.status()["web"]["pictures_sent"] == before["web"]["pictures_sent"]
+
+    def test_pages_that_show_no_views_take_none(self):
+        self.open()
+        for page in ("align", "system", "fleet"):
+            self.browser.find_element(By.CSS_SELECTOR, "nav a[href='#/live']").click()
+            self.expect_pictures(VIEWS)
+            self.browser.find_element(By.CSS_SELECTOR, f"nav a[href='#/{page}']").click()
+            with self.subTest(page=page):
+                eventually("no picture is sent", self.sends_no_pictures)
+                self.assertIn("running", self.browser.text("#condition"))
+        self.expect_no_complaint()
+
+    def test_what_cannot_be_pressed_looks_so(self):
+        self.open("align")
+        looks = eventually("buttons that can be pressed and others", lambda: (
+            found := self.browser.execute_script("""
+                const looks = { true: [], false: [] };
+                for (const button of document.querySelectorAll('#align button')) {
+                  looks[button.disabled].push(Number(getComputedStyle(button).opacity));
+                }
+                return looks;""")) and found["true"] and found["false"] and found)
+        self.assertEqual(set(looks["false"]), {1})
+        self.assertLess(max(looks["true"]), 0.6)
+
     def test_pictures_come_back_after_a_restart_of_the_daemon(self):
         self.open()
         self.expect_pictures(VIEWS)

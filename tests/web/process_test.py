@@ -69,6 +69,28 @@ class RecipeOnThePage(PageCase):
         self.assertGreater(pressed, dragged)
         return pressed
 
+    def test_a_limit_grips_on_its_whole_length(self):
+        Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
+        eventually("its lines", lambda: self.browser.find_elements(
+            By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
+        self.find("[data-region=pool] .strip")
+        shares = self.browser.execute_script("""
+            const shares = {};
+            for (const grip of document.querySelectorAll('[data-region=pool] .limit .grip')) {
+              const limit = grip.parentElement, box = grip.ownerSVGElement.getBoundingClientRect();
+              if (limit.getAttribute('visibility') === 'hidden') continue;
+              const y = box.top + Number(grip.getAttribute('y1'));
+              let gripped = 0;
+              for (let x = 1; x < box.width - 1; ++x) {
+                const pressed = document.elementFromPoint(box.left + x, y);
+                if (pressed?.classList.contains('grip')) ++gripped;
+              }
+              shares[limit.dataset.limit] = gripped / Math.ceil(box.width - 2);
+            }
+            return shares;""")
+        self.assertIn("1 high_warning", shares)
+        self.assertGreater(min(shares.values()), 0.99, shares)
+
     def shown(self, limit):
         return float(self.find(f"[data-region=pool] .limits [name={limit}]").get_property("value"))
 

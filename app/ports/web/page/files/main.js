@@ -66,8 +66,9 @@ const { role, has_users: hasUsers } = await admit(() => say(texts.connecting, tr
 addPages();
 const figures = await figuresOfAppliance();
 const mayChange = ["integrator", "administrator"].includes(role);
-const shown = () => [look, process].find(({ isShown }) => isShown) ?? live;
-const choose = () => stream.choose(shown().views);
+// That of the pages with pictures of views, if one of them is shown.
+const shown = () => [live, look, process].find(({ isShown }) => isShown);
+const choose = () => stream.choose(shown()?.views ?? []);
 const live = new Live(document.getElementById("live"), choose, role !== "viewer");
 const look = new Look(document.getElementById("look"), choose);
 const align = new Align(document.getElementById("align"), figures.cameras ?? {});
@@ -83,7 +84,7 @@ if (hasUsers && role === "administrator") new People(document.getElementById("sy
 new Fleet(document.getElementById("fleet"), role !== "viewer");
 const stream = new Stream(
   (message) => {
-    if (message.head.kind === "view") return shown().picture(message);
+    if (message.head.kind === "view") return shown()?.picture(message);
     const status = JSON.parse(new TextDecoder().decode(message.body));
     showCondition(status);
     live.status(status);

@@ -11,6 +11,7 @@ export class Live {
 
   // `mayCommand`: turn, mix and colour views.
   constructor(root, onChoice, mayCommand) {
+    this.root = root;
     this.onChoice = onChoice;
     this.choices = element("fieldset", {}, element("legend", {}, texts.chooseViews));
     const tiles = element("div", { id: "tiles" });
@@ -41,7 +42,7 @@ export class Live {
   async #describe() {
     this.#isStale = false;
     try {
-      const answer = await fetch("/api/v1/views");
+      const answer = await fetch("api/v1/views");
       if (!answer.ok) throw new Error(`status ${answer.status}`);
       const { views, colour_maps: maps } = await answer.json();
       for (const view of views) {
@@ -55,6 +56,10 @@ export class Live {
 
   lost() {
     this.#isStale = true;
+  }
+
+  get isShown() {
+    return !this.root.hidden;
   }
 
   get views() {
