@@ -117,7 +117,8 @@ void Listeners::renew() {
 void Listeners::serve_http(const ExchangePtr& exchange) const {
   const auto https = https_port_of(settings_);
   const Request& request = exchange->request();
-  if (!https || is_loopback(request.peer)) return handler_(exchange);
+  const bool is_here = request.passage == Passage::Direct && is_loopback(request.peer);
+  if (!https || is_here || request.passage == Passage::TrustedProxy) return handler_(exchange);
   const int open = https_port_;
   exchange->answer(to_https(request, open > 0 ? open : *https));
 }

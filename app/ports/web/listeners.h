@@ -16,9 +16,9 @@
 
 namespace orbwatch::app::web {
 
-/// The servers of HTTP and HTTPS. Over HTTP only this computer is served; where there is HTTPS
-/// others are redirected to it. Thread-safe; what is called by a server calls only ports and
-/// certificate_days.
+/// The servers of HTTP and HTTPS. Over HTTP only this computer and trusted proxies are served;
+/// where there is HTTPS others are redirected to it. Thread-safe; what is called by a server calls
+/// only ports and certificate_days.
 class Listeners {
  public:
   /// `settings` and `counts` outlive it.

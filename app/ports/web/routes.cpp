@@ -2,21 +2,45 @@
 
 #include <optional>
 
+#include "app/ports/web/http/address.h"
+
 namespace orbwatch::app::web {
 namespace {
 
-/// Of the type alone, without its parameters.
+/// Compares the media type in any case, ignoring its parameters (RFC 9110, 8.3.1).
 bool is_json(const std::string* type) {
-  return type && (*type == kJson || type->starts_with(std::string(kJson) + ";"));
+  if (!type) return false;
+  std::string_view essence = std::string_view(*type).substr(0, type->find(';'));
+  while (essence.ends_with(' ') || essence.ends_with('\t')) essence.remove_suffix(1);
+  return equal_in_any_case(essence, kJson);
 }
 
-/// By what browsers say about the page that caused a request; other clients say nothing.
+/// A host and port without the one that the scheme implies.
+std::string_view without_port(std::string_view authority, std::string_view implied) {
+  if (authority.ends_with(implied)) authority.remove_suffix(implied.size());
+  return authority;
+}
+
+/// Whether an Origin header is our own page's. Over HTTP a page of the same host over HTTPS is: a
+/// proxy may end TLS. Over HTTPS one over HTTP is not: somebody on the way may have made it.
+bool is_own_origin(std::string_view origin, const Request& request) {
+  constexpr std::string_view kHttp = "http://", kHttps = "https://";
+  const bool is_https = origin.starts_with(kHttps);
+  if (!is_https && (request.is_secure || !origin.starts_with(kHttp))) return false;
+  const std::string_view port = is_https ? ":443" : ":80";
+  origin.remove_prefix(is_https ? kHttps.size() : kHttp.size());
+  return !request.host.empty() &&
+         equal_in_any_case(without_port(origin, port), without_port(request.host, port));
+}
+
+/// By what browsers say about the page that caused a request; other clients say nothing. What a
+/// proxy makes of Host does not matter to Sec-Fetch-Site, which no script can set.
 bool is_from_foreign_page(const Request& request) {
-  const std::string* site = request.header("Sec-Fetch-Site");
-  if (site && *site != "same-origin" && *site != "none") return true;
+  if (const std::string* site = request.header("Sec-Fetch-Site")) {
+    return *site != "same-origin" && *site != "none";
+  }
   const std::string* origin = request.header("Origin");
-  const std::string* host = request.header("Host");
-  return origin && (!host || *origin != (request.is_secure ? "https://" : "http://") + *host);
+  return origin && !is_own_origin(*origin, request);
 }
 
 /// Nullopt: the caller may do this.
@@ -31,15 +55,15 @@ std::optional<Response> refusal_of_role(const Route& route, const Caller& caller
   Response response = error_response(
       401,
       needs + ": log in by POST /api/v1/login, or send the header Authorization: Bearer TOKEN");
+  if (route.takes_password) {
+    response.headers.emplace_back("WWW-Authenticate", R"(Basic realm="orbwatch", charset="UTF-8")");
+  }
   response.headers.emplace_back("WWW-Authenticate", "Bearer");
   return response;
 }
 
-/// Why a request that would change something is refused.
+/// Why a request that would change something is refused, whoever may do it.
 std::optional<Response> refusal_of_post(const Request& request) {
-  if (is_from_foreign_page(request)) {
-    return error_response(403, "a page of another host caused this request");
-  }
   // No page of another host can make a browser send this header.
   if (request.cookie(session_cookie(request)) && !request.header(kOwnPageHeader)) {
     return error_response(403, "with a session's cookie the header " + std::string(kOwnPageHeader) +
@@ -49,6 +73,19 @@ std::optional<Response> refusal_of_post(const Request& request) {
     return error_response(415, "the header must say Content-Type: application/json");
   }
   return std::nullopt;
+}
+
+/// A foreign page is refused first: its request is not the will of whoever is logged in.
+std::optional<Response> refusal_of(const Request& request, const Route& route,
+                                   const CallerOf& caller_of) {
+  const bool changes = route.method == "POST";
+  if (changes && is_from_foreign_page(request)) {
+    return error_response(403, "a page of another host caused this request");
+  }
+  const auto caller = caller_of(request, route);
+  if (!caller) return caller.error();
+  auto refusal = refusal_of_role(route, *caller);
+  return refusal || !changes ? refusal : refusal_of_post(request);
 }
 
 }  // namespace
@@ -61,8 +98,7 @@ void serve(const std::vector<Route>& routes, const CallerOf& caller_of,
   for (const Route& route : routes) {
     if (route.path != request.path) continue;
     if (route.method == method) {
-      auto refusal = refusal_of_role(route, caller_of(request));
-      if (!refusal && method == "POST") refusal = refusal_of_post(request);
+      auto refusal = refusal_of(request, route, caller_of);
       if (!refusal) return route.serve(exchange);
       exchange->answer(std::move(*refusal));
       return;

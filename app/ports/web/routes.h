@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "app/model/command.h"
@@ -47,10 +48,12 @@ struct Route {
   std::vector<BodyMember> body{};        ///< of a route that is no command
   std::vector<QueryArgument> query{};
   bool is_page = false;  ///< a file of the page, which programs do not ask for
+  /// For programs that can send a name and a password only: a token counts as the password, too.
+  bool takes_password = false;
 };
 
-/// Says who sent a request; never waits.
-using CallerOf = std::function<Caller(const Request&)>;
+/// Says who sent a request for a route, or why that is not judged; never waits.
+using CallerOf = std::function<tl::expected<Caller, Response>(const Request&, const Route&)>;
 
 /// Passes a request to the route of its method and path, compared exactly; another method is
 /// answered 405, another path 404. A caller whose role is too low is answered 401 or 403. A POST

@@ -11,6 +11,7 @@
 #include "app/model/sink.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/web/http/address.h"
+#include "hal/network.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
@@ -31,6 +32,9 @@ struct WebSettings {
   /// page reaches it by a name of its own (DNS rebinding). Numeric addresses and localhost are
   /// always right.
   std::vector<std::string> names;
+  /// Addresses and networks of reverse proxies whose Forwarded or X-Forwarded-* are believed: they
+  /// say who the client is.
+  std::vector<std::string> trusted_proxies;
 
   int max_connections = 128;
   int max_connections_per_address = 16;
@@ -50,11 +54,23 @@ struct WebSettings {
   std::chrono::milliseconds status_timeout{2000};
 };
 
-/// Nullopt: no HTTPS, and nobody is served but this computer.
+/// Nullopt: no HTTPS, and nobody is served but this computer and those behind trusted proxies.
 inline std::optional<int> https_port_of(const WebSettings& web) {
   constexpr int kHttpsPort = 8443;
   const bool is_needed = !web::is_loopback(web.address) || !web.certificate.empty();
   return web.https_port || !is_needed ? web.https_port : kHttpsPort;
+}
+
+/// Who is trusted could claim any client's address.
+template <class Visitor>
+void require_proxies(Visitor& v, const std::vector<std::string>& texts) {
+  constexpr const char* kKey = "trusted_proxies";
+  hal::require_networks(v, kKey, texts);
+  for (const std::string& text : texts) {
+    const auto network = hal::parse_network(text);
+    v.require(!network || !hal::is_everybody(*network), kKey,
+              "'" + text + "' is every address; name those of the proxies, as 10.0.0.7");
+  }
 }
 
 template <class Visitor>
@@ -82,6 +98,10 @@ void visit(Visitor& v, WebSettings& web) {
   v.optional("names", web.names,
              "Host names under which browsers reach it, besides addresses and localhost; the "
              "appliance's own certificate has them, and addresses that are here");
+  v.optional("trusted_proxies", web.trusted_proxies,
+             "Numeric addresses or prefixes (10.0.0.0/24) of reverse proxies that are believed who "
+             "their client is; see [reverse proxies](../ports/web/PROXIES.md)");
+  require_proxies(v, web.trusted_proxies);
   v.optional("max_connections", web.max_connections, Range::between(4, 1000),
              "Of HTTP, and as many of HTTPS; one more waits until another ends");
   v.optional("max_connections_per_address", web.max_connections_per_address,
@@ -103,10 +123,14 @@ void visit(Visitor& v, WebSettings& web) {
 /// Who may command over HTTP, in words; empty: nobody. Reentrant.
 inline std::string commanders(const WebSettings& settings) {
   if (!settings.enabled) return "";
-  return web::is_loopback(settings.address)
-             ? "over HTTP from this host only, by role once there are users"
-             : "over HTTP from this host and over HTTPS on " + settings.address +
-                   ", by role once there are users";
+  std::string where = "over HTTP from this host";
+  if (!web::is_loopback(settings.address)) where += " and over HTTPS on " + settings.address;
+  if (!settings.trusted_proxies.empty()) {
+    where += " and through trusted proxies";
+  } else if (web::is_loopback(settings.address)) {
+    where += " only";
+  }
+  return where + ", by role once there are users";
 }
 
 std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context);

@@ -29,6 +29,12 @@ double seconds_between(hal::TimePoint from, hal::TimePoint to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+/// For programs that may know no other header of their own than a name and a password.
+web::Route for_players(web::Route route) {
+  route.takes_password = true;
+  return route;
+}
+
 /// index.html is the root, too.
 std::vector<web::Route> page_routes() {
   std::vector<web::Route> routes;
@@ -102,7 +108,7 @@ Result<> WebSink::start() {
 
 void WebSink::begin() {
   commands_.start();
-  access_.start(https_port_of(settings_).has_value());
+  access_.start(https_port_of(settings_) || !settings_.trusted_proxies.empty());
   desk_.start();
   configuration_.start();
   is_running_ = true;
@@ -110,8 +116,11 @@ void WebSink::begin() {
 }
 
 void WebSink::pass_on(const ExchangePtr& exchange) {
-  const auto caller_of = [this](const web::Request& request) {
-    return access_.caller(web::credentials_of(request));
+  const auto caller_of = [this](const web::Request& request, const web::Route& route) {
+    return access_
+        .player(route.takes_password ? web::player_credentials_of(request)
+                                     : web::credentials_of(request))
+        .map_error(web::refused);
   };
   web::serve(routes_, caller_of, exchange);
 }
@@ -218,13 +227,14 @@ std::vector<web::Route> WebSink::make_routes() {
        by(&WebSink::serve_status)},
       {"GET", "/api/v1/openapi.json", Role::Viewer, "This description", json,
        by(&WebSink::serve_description)},
-      {"GET", "/metrics", Role::Viewer, "The status for Prometheus", std::string(kMetrics),
-       by(&WebSink::serve_metrics)},
-      {"GET", "/snapshot.jpg", Role::Viewer, "The view's next picture", std::string(web::kJpeg),
-       by(&WebSink::serve_snapshot), web::ViewArgument::One},
-      {"GET", "/stream.mjpg", Role::Viewer,
-       "The view's pictures as MJPEG, for players and recorders",
-       std::string(web::MjpegStream::kType), by(&WebSink::serve_stream), web::ViewArgument::One},
+      for_players({"GET", "/metrics", Role::Viewer, "The status for Prometheus",
+                   std::string(kMetrics), by(&WebSink::serve_metrics)}),
+      for_players({"GET", "/snapshot.jpg", Role::Viewer, "The view's next picture",
+                   std::string(web::kJpeg), by(&WebSink::serve_snapshot), web::ViewArgument::One}),
+      for_players({"GET", "/stream.mjpg", Role::Viewer,
+                   "The view's pictures as MJPEG, for players and recorders",
+                   std::string(web::MjpegStream::kType), by(&WebSink::serve_stream),
+                   web::ViewArgument::One}),
       {"GET", "/api/v1/live", Role::Viewer,
        "Status and views over one connection. Of each message first a line of JSON that says what "
        "and how many bytes follow",
@@ -271,7 +281,7 @@ void WebSink::run_command(const CommandInfo& info, const ExchangePtr& exchange) 
   command->giver = Giver(who.empty() ? "over HTTP" : who);
   const web::Audit::Entry entry{{},
                                 who,
-                                request.peer,
+                                web::client_address(request),
                                 std::string(info.name),
                                 before ? web::arguments_text(info, *before) : "",
                                 web::arguments_text(info, *command),
@@ -345,7 +355,7 @@ void WebSink::serve_snapshot(const ExchangePtr& exchange) const {
 void WebSink::serve_stream(const ExchangePtr& exchange) {
   const auto* view = find_view(exchange->request().argument("view"), exchange);
   if (!view) return;
-  start_stream(exchange, web::MjpegStream::kType,
+  start_stream(exchange, web::player_credentials_of(exchange->request()), web::MjpegStream::kType,
                std::make_shared<web::MjpegStream>(view->feed(), stream_counts_));
 }
 
@@ -360,12 +370,12 @@ void WebSink::serve_live(const ExchangePtr& exchange) {
       sources.push_back({name, view->feed()});
     }
   }
-  start_stream(exchange, web::LiveStream::kType,
+  start_stream(exchange, web::credentials_of(exchange->request()), web::LiveStream::kType,
                std::make_shared<web::LiveStream>(std::move(sources), stream_counts_));
 }
 
-void WebSink::start_stream(const ExchangePtr& exchange, std::string_view type,
-                           std::shared_ptr<web::Stream> stream) {
+void WebSink::start_stream(const ExchangePtr& exchange, web::Credentials credentials,
+                           std::string_view type, std::shared_ptr<web::Stream> stream) {
   if (server_counts_.streams >= static_cast<std::uint64_t>(settings_.max_streams)) {
     ++server_counts_.full;
     exchange->answer(web::error_response(503, "all streams are taken: max_streams of [web]"));
@@ -374,7 +384,7 @@ void WebSink::start_stream(const ExchangePtr& exchange, std::string_view type,
   web::Response response;
   response.type = type;
   response.stream = std::move(stream);
-  response.may_go_on = [this, credentials = web::credentials_of(exchange->request())] {
+  response.may_go_on = [this, credentials = std::move(credentials)] {
     return access_.caller(credentials).role >= Role::Viewer;
   };
   exchange->answer(std::move(response));

@@ -77,8 +77,8 @@ class WebSink final : public Sink {
   void serve_snapshot(const web::ExchangePtr& exchange) const;
   void serve_stream(const web::ExchangePtr& exchange);
   void serve_live(const web::ExchangePtr& exchange);
-  void start_stream(const web::ExchangePtr& exchange, std::string_view type,
-                    std::shared_ptr<web::Stream> stream);
+  void start_stream(const web::ExchangePtr& exchange, web::Credentials credentials,
+                    std::string_view type, std::shared_ptr<web::Stream> stream);
   const web::ViewEncoder* find_view(const std::string* name,
                                     const web::ExchangePtr& exchange) const;
 

@@ -29,7 +29,7 @@ LoginLimits::Attempt attempt_of(const std::string& name, const std::string& peer
   return {limited_name(name), address_key(peer), is_this_computer(peer)};
 }
 
-LoginLimits::Attempt code_attempt_of(const std::string& peer) {
+LoginLimits::Attempt nameless_attempt_of(const std::string& peer) {
   return {"", address_key(peer), is_this_computer(peer)};
 }
 
@@ -216,7 +216,7 @@ std::optional<Access::Refusal> Access::judge_first_password(const std::string& p
   if (code_.empty()) {
     return Refusal{409, "no code is valid: a password is set, or only this computer is served"};
   }
-  const auto wait = limits_.wait(code_attempt_of(peer), clock_());
+  const auto wait = limits_.wait(nameless_attempt_of(peer), clock_());
   if (wait.count() == 0) return std::nullopt;
   return too_many("codes", wait);
 }
@@ -239,6 +239,24 @@ bool Access::is_familiar(const std::string& name, const std::string& peer) const
   const std::lock_guard lock(mutex_);
   const LoginLimits::Attempt attempt = attempt_of(name, peer);
   return attempt.is_local || limits_.is_familiar(attempt);
+}
+
+/// The disk is not waited for here: what is counted is kept with the next login. It counts by
+/// address alone: a name's limit would let strangers keep a recorder out.
+tl::expected<Caller, Access::Refusal> Access::player(const Credentials& credentials) {
+  if (!credentials.is_password || !has_users()) return caller(credentials);
+  const auto attempt = nameless_attempt_of(credentials.peer);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto wait = limits_.wait(attempt, clock_());
+    if (wait.count() > 0) return tl::unexpected(too_many("passwords from this address", wait));
+  }
+  const Caller found = caller(credentials);
+  if (found.role != Role::Nobody) return found;
+  ++failures_;
+  const std::lock_guard lock(mutex_);
+  limits_.failed(attempt, clock_());
+  return found;
 }
 
 tl::expected<User, Access::Refusal> Access::judge(const std::string& name,
@@ -319,7 +337,7 @@ tl::expected<void, Access::Refusal> Access::judge_code(const std::string& code,
     const std::lock_guard lock(mutex_);
     if (auto refusal = judge_first_password(peer)) return tl::unexpected(std::move(*refusal));
     if (is_code(code_, code)) return {};
-    limits_.failed(code_attempt_of(peer), clock_());
+    limits_.failed(nameless_attempt_of(peer), clock_());
   }
   ++failures_;
   keep();

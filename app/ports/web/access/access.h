@@ -21,7 +21,7 @@ namespace orbwatch::app::web {
 /// there, whoever is on this computer is administrator and nobody else is anything; a file that
 /// cannot be used, or is gone after it has been there, makes everybody nobody.
 ///
-/// Thread rule: caller, login_refusal, first_password_refusal, is_familiar, has_users, failures and
+/// Thread rule: caller, player, login_refusal, first_password_refusal, is_familiar, has_users, failures and
 /// users on any thread, they wait for nothing; refresh on any thread, too, it waits for the disk;
 /// the rest on one thread at a time, it waits for the disk, login and change_password for a hash,
 /// too.
@@ -49,6 +49,9 @@ class Access {
 
   /// Trust without a password ends when the users file appears, before refresh() reads it.
   Caller caller(const Credentials& credentials);
+  /// The same, and a token that came as a password and is none counts as a failed login of its
+  /// address. Refusal: 429, its address has too many of them.
+  tl::expected<Caller, Refusal> player(const Credentials& credentials);
   bool has_users() const;
   /// Wrong passwords and codes since start.
   std::uint64_t failures() const { return failures_; }

@@ -17,22 +17,14 @@ constexpr int kOk = 200, kTooManyRequests = 429, kUnavailable = 503;
 
 Response done() { return json_response(R"({"result_text":"done"})"); }
 
-Response refused(const Access::Refusal& refusal) {
-  Response response = error_response(refusal.status, refusal.what);
-  if (refusal.retry_after.count() > 0) {
-    response.headers.emplace_back("Retry-After", std::to_string(refusal.retry_after.count()));
-  }
-  return response;
-}
-
 Response done_or(const Result<>& result) {
   return result ? done() : error_response(409, result.error().message);
 }
 
 std::string cookie(const web::Request& request, const std::string& token,
                    std::chrono::seconds age) {
-  return std::string(session_cookie(request)) + "=" + token +
-         "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(age.count()) +
+  return std::string(session_cookie(request)) + "=" + token + "; Path=" + request.prefix +
+         "/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(age.count()) +
          (request.is_secure ? "; Secure" : "");
 }
 
@@ -53,6 +45,14 @@ Result<> remove(std::vector<One>& all, const std::string& name, const char* what
 }
 
 }  // namespace
+
+Response refused(const Access::Refusal& refusal) {
+  Response response = error_response(refusal.status, refusal.what);
+  if (refusal.retry_after.count() > 0) {
+    response.headers.emplace_back("Retry-After", std::to_string(refusal.retry_after.count()));
+  }
+  return response;
+}
 
 Route AccessDesk::changing(const char* path, Role role, const char* description,
                            std::vector<BodyMember> body, Handler handler, Refuse refuse) {
@@ -88,7 +88,7 @@ void AccessDesk::receive(const ExchangePtr& exchange, Members members, const Tas
 
 Audit::Entry AccessDesk::entry_of(const Request& request, bool is_done) {
   const std::string& path = request.sent.path;
-  return {std::chrono::system_clock::now(), request.user,   request.sent.peer,
+  return {std::chrono::system_clock::now(), request.user,   client_address(request.sent),
           path.substr(path.rfind('/') + 1), request.before, request.after,
           is_done ? "done" : "refused"};
 }
@@ -110,9 +110,9 @@ Response AccessDesk::refuse_unknown(Request& request, const Access::Refusal& ref
 SlowWork::Asker AccessDesk::asker(const web::Request& sent, const Members& members) const {
   const Caller caller = access_.caller(credentials_of(sent));
   if (caller.role != Role::Nobody) return {true, caller.name};
-  const std::string address = address_key(sent.peer);
+  const std::string address = address_key(client_address(sent));
   const auto user = members.find("user");
-  return {user != members.end() && access_.is_familiar(user->second, sent.peer), address};
+  return {user != members.end() && access_.is_familiar(user->second, client_address(sent)), address};
 }
 
 /// Roles are judged anew, since the request may have waited.
@@ -232,16 +232,16 @@ Response AccessDesk::logged_in(const web::Request& request, const Access::Token&
 std::optional<Access::Refusal> AccessDesk::refuse_login(Request& request) const {
   const std::string& user = request.members.at("user");
   request.after = role_of(user);
-  return access_.login_refusal(user, request.sent.peer);
+  return access_.login_refusal(user, client_address(request.sent));
 }
 
 std::optional<Access::Refusal> AccessDesk::refuse_first_password(Request& request) const {
-  return access_.first_password_refusal(request.sent.peer);
+  return access_.first_password_refusal(client_address(request.sent));
 }
 
 Response AccessDesk::login(Request& request) {
   const std::string& user = request.members.at("user");
-  const auto token = access_.login(user, request.members.at("password"), request.sent.peer);
+  const auto token = access_.login(user, request.members.at("password"), client_address(request.sent));
   if (token) request.user = user;
   request.after = role_of(user);
   return logged_in(request.sent, token);
@@ -258,12 +258,12 @@ Response AccessDesk::logout(Request& request) {
 Response AccessDesk::set_password(Request& request) {
   return logged_in(request.sent,
                    access_.change_password(request.user, request.members.at("old"),
-                                           request.members.at("new"), request.sent.peer));
+                                           request.members.at("new"), client_address(request.sent)));
 }
 
 Response AccessDesk::set_first_password(Request& request) {
   const auto token = access_.set_first_password(request.members.at("code"),
-                                                request.members.at("password"), request.sent.peer);
+                                                request.members.at("password"), client_address(request.sent));
   if (token) {
     request.user = kFirstUser;
     request.after = role_of(request.user);

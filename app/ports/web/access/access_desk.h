@@ -14,6 +14,9 @@
 
 namespace orbwatch::app::web {
 
+/// The answer to whoever was not let in. Reentrant.
+Response refused(const Access::Refusal& refusal);
+
 /// The routes by which people and programs log in, and by which the administrator says who they
 /// are. Thread rule: start and stop by one owner; the routes on any thread.
 class AccessDesk {

@@ -1,21 +1,66 @@
 #include "app/ports/web/access/caller.h"
 
+#include <sodium.h>
 #include <strings.h>
 
+#include <optional>
+
+#include "app/ports/web/http/address.h"
+
 namespace orbwatch::app::web {
+namespace {
+
+/// What follows the scheme in Authorization (RFC 9110, 11.4); nullopt: it is not there.
+std::optional<std::string> authorization_by(const Request& request, std::string_view scheme) {
+  const std::string* sent = request.header("Authorization");
+  if (!sent || sent->size() <= scheme.size() || (*sent)[scheme.size()] != ' ' ||
+      ::strncasecmp(sent->c_str(), scheme.data(), scheme.size()) != 0) {
+    return std::nullopt;
+  }
+  const std::size_t begin = sent->find_first_not_of(' ', scheme.size());
+  return begin == std::string::npos ? "" : sent->substr(begin);
+}
+
+/// The password in "user:password" as Base64; empty: it is not that.
+std::string password_in(const std::string& base64) {
+  std::string text(base64.size(), '\0');
+  std::size_t size = 0;
+  if (::sodium_base642bin(reinterpret_cast<unsigned char*>(text.data()), text.size(), base64.data(),
+                          base64.size(), nullptr, &size, nullptr,
+                          sodium_base64_VARIANT_ORIGINAL) != 0) {
+    return "";
+  }
+  text.resize(size);
+  const std::size_t colon = text.find(':');
+  return colon == std::string::npos ? "" : text.substr(colon + 1);
+}
+
+}  // namespace
 
 std::string_view session_cookie(const Request& request) {
-  return request.is_secure ? kSecureSessionCookie : kSessionCookie;
+  if (!request.is_secure) return kSessionCookie;
+  return request.prefix.empty() ? kSecureSessionCookie : kSecurePathCookie;
+}
+
+std::string client_address(const Request& request) {
+  const bool is_address = request.passage == Passage::Direct || !is_loopback(request.peer);
+  return is_address ? request.peer : request.peer + " (by proxy)";
 }
 
 Credentials credentials_of(const Request& request) {
-  constexpr std::string_view kBearer = "Bearer ";
-  Credentials credentials{request.peer, {}, {}};
+  Credentials credentials;
+  credentials.peer = client_address(request);
   if (const std::string* cookie = request.cookie(session_cookie(request)))
     credentials.session = *cookie;
-  const std::string* sent = request.header("Authorization");
-  if (sent && ::strncasecmp(sent->c_str(), kBearer.data(), kBearer.size()) == 0) {
-    credentials.token = sent->substr(kBearer.size());
+  credentials.token = authorization_by(request, "Bearer").value_or("");
+  return credentials;
+}
+
+Credentials player_credentials_of(const Request& request) {
+  Credentials credentials = credentials_of(request);
+  if (const auto sent = authorization_by(request, "Basic")) {
+    credentials.token = password_in(*sent);
+    credentials.is_password = true;
   }
   return credentials;
 }

@@ -156,7 +156,7 @@ Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read re
   Response response = (this->*handler)(sent);
   if (handler != &ConfigurationDesk::check && handler != &ConfigurationDesk::check_recipe) {
     constexpr int kDone = 200;
-    audit_.note({std::chrono::system_clock::now(), sent.caller.name, request.peer, name,
+    audit_.note({std::chrono::system_clock::now(), sent.caller.name, client_address(request), name,
                  sent.before, sent.after, response.status == kDone ? "done" : "refused"});
   }
   return response;

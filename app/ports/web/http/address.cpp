@@ -12,17 +12,23 @@
 namespace orbwatch::app::web {
 namespace {
 
-bool equal_in_any_case(std::string_view a, std::string_view b) {
-  return std::ranges::equal(
-      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 bool is_port(std::string_view text) {
   return !text.empty() && text.size() <= 5 &&
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+/// A name without the dot of the root at its end (RFC 1034, 3.1).
+std::string_view without_root(std::string_view name) {
+  if (name.ends_with('.')) name.remove_suffix(1);
+  return name;
+}
+
 }  // namespace
+
+bool equal_in_any_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
 
 std::optional<SocketAddress> parse_address(const std::string& text, int port) {
   addrinfo hints{};
@@ -95,8 +101,9 @@ bool is_own_host(std::string_view header, const std::vector<std::string>& names)
   const bool is_v6 = host->front() == '[';
   const std::string text(is_v6 ? host->substr(1, host->size() - 2) : *host);
   if (::inet_pton(is_v6 ? AF_INET6 : AF_INET, text.c_str(), number.data()) == 1) return true;
-  return equal_in_any_case(*host, "localhost") || std::ranges::any_of(names, [&](const auto& name) {
-           return equal_in_any_case(*host, name);
+  const std::string_view asked = without_root(*host);
+  return equal_in_any_case(asked, "localhost") || std::ranges::any_of(names, [&](const auto& name) {
+           return equal_in_any_case(asked, without_root(name));
          });
 }
 

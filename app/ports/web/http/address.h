@@ -37,8 +37,10 @@ std::string address_key(const std::string& peer);
 /// malformed.
 std::optional<std::string_view> host_in(std::string_view header);
 
+bool equal_in_any_case(std::string_view a, std::string_view b);
+
 /// Whether a Host header (RFC 9110, 7.2) names this appliance: a numeric address, localhost or one
-/// of `names`, in any case, with or without a port.
+/// of `names`, in any case, with or without a port and the root's dot at a name's end.
 bool is_own_host(std::string_view header, const std::vector<std::string>& names);
 
 }  // namespace orbwatch::app::web

@@ -58,6 +58,19 @@ void Connections::remove(Connection* connection) {
   sent_.notify_all();
 }
 
+bool Connections::count_for(Connection* connection, const std::string& client, std::size_t most) {
+  std::string key = address_key(client);
+  const std::lock_guard lock(mutex_);
+  connection->client.clear();
+  const auto others = std::ranges::count_if(all_, [&](const Connection& one) {
+    return &one != connection && !one.is_beyond &&
+           (one.client.empty() ? one.key == key : one.client == key);
+  });
+  if (static_cast<std::size_t>(others) >= most) return false;
+  connection->client = std::move(key);
+  return true;
+}
+
 bool Connections::begin_answer(Connection* connection, const ExchangePtr& exchange) {
   const std::lock_guard lock(mutex_);
   connection->deadline = hal::Clock::now() + timeout_;
@@ -85,6 +98,7 @@ bool Connections::begin_stream(Connection* connection, const std::shared_ptr<Str
 
 void Connections::end_answer(Connection* connection) {
   const std::lock_guard lock(mutex_);
+  connection->client.clear();
   connection->exchange.reset();
   connection->stream.reset();
   connection->may_go_on = nullptr;

@@ -23,6 +23,7 @@ class Connections {
     int socket = -1;
     std::string peer;
     std::string key;            ///< the peer's address_key()
+    std::string client;         ///< address_key() of the client whom its proxy serves; empty: none
     bool is_beyond = false;     ///< its address had enough; shut down, and nothing is asked of it
     hal::TimePoint deadline;    ///< max(): none
     bool is_answering = false;  ///< from a request that is whole to the end of its answer
@@ -38,6 +39,10 @@ class Connections {
   /// since several threads take connections at once.
   Connection* add(int socket, std::string peer, std::size_t most);
   void remove(Connection* connection);
+
+  /// Counts a proxy's connection for the client whose request it passes on, until that is
+  /// answered. False: the client has `most` others.
+  bool count_for(Connection* connection, const std::string& client, std::size_t most);
 
   /// Its request has arrived whole, and the answer has as long. False: the server or the connection
   /// is closing, and the exchange will not be ended by end_all().

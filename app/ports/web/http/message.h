@@ -14,17 +14,24 @@ namespace orbwatch::app::web {
 /// Names and values in the order in which they were sent.
 using Values = std::vector<std::pair<std::string, std::string>>;
 
+/// The way of a request from its client. A proxy that is not trusted shows itself by its headers
+/// only, and nothing that they say is believed.
+enum class Passage { Direct, UntrustedProxy, TrustedProxy };
+
 /// A request as it arrived, whole.
 struct Request {
   std::string method;
-  std::string target;  ///< as sent, with the query
+  std::string target;  ///< as sent, with the query, in origin-form (RFC 9112, 3.2.1)
   std::string path;    ///< decoded, without the query
   Values query;        ///< decoded
   Values headers;
   Values cookies;
   std::string body;
-  std::string peer;        ///< the client's numeric address
-  bool is_secure = false;  ///< it came over HTTPS
+  std::string peer;        ///< the client's numeric address, by a trusted proxy as that says
+  bool is_secure = false;  ///< the client sent it over HTTPS
+  std::string host;        ///< that the client asked, with any port; empty: HTTP/1.0 named none
+  std::string prefix;      ///< the proxy's path of our root, as /cell4/orbwatch; empty: its root
+  Passage passage = Passage::Direct;
 
   /// The first value of that name, compared exactly; null: none.
   const std::string* argument(std::string_view name) const;

@@ -10,10 +10,12 @@
 #include <charconv>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "app/ports/web/http/address.h"
+#include "app/ports/web/http/forwarding.h"
 #include "app/ports/web/http/reply.h"
 
 namespace orbwatch::app::web {
@@ -65,7 +67,8 @@ Connections::Connection* connection_of(MHD_Connection* connection) {
 /// A request whose body may still be on its way.
 struct Arriving {
   std::string target;
-  ExchangePtr exchange;  ///< null: its head is still on its way
+  ExchangePtr exchange;             ///< null: its head is still on its way
+  std::optional<Response> refusal;  ///< of its form
   bool is_too_large = false;
   bool was_handled = false;
 };
@@ -89,7 +92,9 @@ struct Server::Callbacks {
                             std::size_t* upload_size, void** state);
 
   static void begin(const Server& server, MHD_Connection* connection, const char* url,
-                    const char* method, Arriving& arriving);
+                    const char* method, const char* version, Arriving& arriving);
+  static std::optional<Response> refusal(Server& server, Connections::Connection& connection,
+                                         Arriving& arriving);
   static void handle(Server& server, Connections::Connection& connection, Arriving& arriving);
   static MHD_Result send(Server& server, MHD_Connection* connection, Arriving& arriving);
   static MHD_Result send_stream(Server& server, MHD_Connection* connection,
@@ -110,8 +115,12 @@ void Server::Callbacks::connection(void* self, MHD_Connection* connection, void*
       ::MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS)->client_addr;
   set_option(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsentBytes);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
-  const auto most = static_cast<std::size_t>(server.settings_.max_connections_per_address);
-  Connections::Connection* added = server.connections_.add(socket, host_text(peer), most);
+  const std::string host = host_text(peer);
+  // Those of a proxy are its clients', and count for them with each request.
+  const std::size_t most = is_trusted(host, server.own_.trusted_proxies)
+                               ? std::numeric_limits<std::size_t>::max()
+                               : server.most_of_an_address();
+  Connections::Connection* added = server.connections_.add(socket, host, most);
   ++server.counts_.connections;
   if (added->is_beyond) ++server.counts_.turned_away;
   *context = added;
@@ -125,12 +134,12 @@ void Server::Callbacks::completed(void* self, MHD_Connection* connection, void**
 }
 
 MHD_Result Server::Callbacks::request(void* self, MHD_Connection* connection, const char* url,
-                                      const char* method, const char* /*version*/,
-                                      const char* upload, std::size_t* upload_size, void** state) {
+                                      const char* method, const char* version, const char* upload,
+                                      std::size_t* upload_size, void** state) {
   auto& server = *static_cast<Server*>(self);
   auto& arriving = *static_cast<Arriving*>(*state);
   if (!arriving.exchange) {
-    begin(server, connection, url, method, arriving);
+    begin(server, connection, url, method, version, arriving);
     // Refused before it is sent.
     return arriving.is_too_large ? send(server, connection, arriving) : MHD_YES;
   }
@@ -150,7 +159,7 @@ void* Server::Callbacks::target(void* /*self*/, const char* target,
 }
 
 void Server::Callbacks::begin(const Server& server, MHD_Connection* connection, const char* url,
-                              const char* method, Arriving& arriving) {
+                              const char* method, const char* version, Arriving& arriving) {
   Request request;
   request.method = method;
   request.target = std::move(arriving.target);
@@ -165,30 +174,38 @@ void Server::Callbacks::begin(const Server& server, MHD_Connection* connection, 
     const auto parsed = std::from_chars(length->data(), length->data() + length->size(), bytes);
     arriving.is_too_large = parsed.ec != std::errc() || bytes > server.settings_.max_body_bytes;
   }
+  arriving.refusal = settle_form(request, version, server.own_);
   arriving.exchange = std::make_shared<Exchange>(std::move(request));
+}
+
+/// Nullopt: the request is to be served.
+std::optional<Response> Server::Callbacks::refusal(Server& server,
+                                                   Connections::Connection& connection,
+                                                   Arriving& arriving) {
+  if (!server.connections_.begin_answer(&connection, arriving.exchange)) {
+    return error_response(503, "the connection is being closed");
+  }
+  const std::string& client = arriving.exchange->request().peer;
+  if (client != connection.peer &&
+      !server.connections_.count_for(&connection, client, server.most_of_an_address())) {
+    ++server.counts_.turned_away;
+    return error_response(429, "the client has max_connections_per_address of [web] already");
+  }
+  if (!arriving.refusal && arriving.is_too_large) {
+    arriving.refusal =
+        error_response(413, "the body is larger than " +
+                                std::to_string(server.settings_.max_body_bytes) + " bytes");
+  }
+  if (arriving.refusal) ++server.counts_.refused;
+  return std::move(arriving.refusal);
 }
 
 void Server::Callbacks::handle(Server& server, Connections::Connection& connection,
                                Arriving& arriving) {
   arriving.was_handled = true;
   ++server.counts_.requests;
-  Exchange& exchange = *arriving.exchange;
-  const std::string* host = exchange.request().header(MHD_HTTP_HEADER_HOST);
-  if (!server.connections_.begin_answer(&connection, arriving.exchange)) {
-    exchange.answer(error_response(503, "the connection is being closed"));
-  } else if (exchange.request().target.find("%00") != std::string::npos) {
-    // The library's C strings were cut there.
-    ++server.counts_.refused;
-    exchange.answer(error_response(400, "a zero byte has no place in a path or a query"));
-  } else if (arriving.is_too_large) {
-    ++server.counts_.refused;
-    exchange.answer(error_response(
-        413,
-        "the body is larger than " + std::to_string(server.settings_.max_body_bytes) + " bytes"));
-  } else if (!host || !is_own_host(*host, server.settings_.names)) {
-    ++server.counts_.refused;
-    exchange.answer(error_response(
-        421, "the Host header names another host; names of this one belong into names of [web]"));
+  if (auto refused = refusal(server, connection, arriving)) {
+    arriving.exchange->answer(std::move(*refused));
   } else {
     server.handler_(arriving.exchange);
   }
@@ -237,7 +254,14 @@ Result<std::unique_ptr<Server>> Server::open(const WebSettings& settings, Endpoi
   return server;
 }
 
+std::size_t Server::most_of_an_address() const {
+  return static_cast<std::size_t>(settings_.max_connections_per_address);
+}
+
 Result<> Server::listen() {
+  auto trusted = hal::parse_networks(settings_.trusted_proxies);
+  if (!trusted) return fail("web: trusted_proxies: " + trusted.error().message);
+  own_ = {settings_.names, std::move(*trusted)};
   auto address = parse_address(endpoint_.address, endpoint_.port);
   const std::string where = endpoint_.address + " port " + std::to_string(endpoint_.port);
   if (!address) return fail("web: " + where + ": is no numeric address");

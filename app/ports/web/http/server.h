@@ -10,6 +10,7 @@
 #include "app/ports/web/http/connections.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/http/pem_pair.h"
+#include "app/ports/web/http/request_form.h"
 #include "app/ports/web/web_settings.h"
 #include "proc/image/result.h"
 
@@ -44,7 +45,8 @@ class Server {
   /// at once or keeps the exchange and answers later.
   using Handler = std::function<void(const ExchangePtr&)>;
 
-  /// Listens. `settings` and `counts` outlive it. Error: address and reason.
+  /// Listens. `settings` and `counts` outlive it. Errors: address and reason; a trusted proxy is
+  /// neither an address nor a network.
   static Result<std::unique_ptr<Server>> open(const WebSettings& settings, Endpoint endpoint,
                                               Handler handler, ServerCounts& counts);
   /// Ends all connections, as Connections::end_all() does.
@@ -62,9 +64,11 @@ class Server {
 
   Server(const WebSettings& settings, Endpoint endpoint, Handler handler, ServerCounts& counts);
   Result<> listen();
+  std::size_t most_of_an_address() const;
 
   const WebSettings& settings_;
   Endpoint endpoint_;
+  ServerNames own_;
   const Handler handler_;
   ServerCounts& counts_;
   Connections connections_;

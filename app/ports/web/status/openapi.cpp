@@ -132,6 +132,7 @@ Json operation_of(const Route& route) {
   if (route.role != Role::Nobody) {
     operation["x-role"] = std::string(word_for(kRoles, route.role));
     operation["security"] = Json::array({{{"session", Json::array()}}, {{"token", Json::array()}}});
+    if (route.takes_password) operation["security"].push_back({{"password", Json::array()}});
   }
   if (!route.body.empty()) {
     operation["requestBody"] = {
@@ -173,23 +174,31 @@ std::string openapi_json(const std::vector<Route>& routes) {
     paths[route.path][route.method == "GET" ? "get" : "post"] = operation_of(route);
   }
   const Json text{{"type", "string"}};
-  const Json all{{"openapi", "3.0.3"},
-                 {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
-                 {"paths", std::move(paths)},
-                 {"components",
-                  {{"securitySchemes",
-                    {{"session",
-                      {{"type", "apiKey"},
-                       {"in", "cookie"},
-                       {"name", std::string(kSessionCookie)},
-                       {"description", "Over HTTPS " + std::string(kSecureSessionCookie)}}},
-                     {"token", {{"type", "http"}, {"scheme", "bearer"}}}}},
-                   {"schemas",
-                    {{"Status", status_schema()},
-                     {"CommandAnswer",
-                      {{"type", "object"},
-                       {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
-                     {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
+  const Json all{
+      {"openapi", "3.0.3"},
+      {"info", {{"title", "orbwatch"}, {"version", ORBWATCH_VERSION}}},
+      // Counts from where this description is, also below a path of a proxy.
+      {"servers", Json::array({{{"url", "../.."}}})},
+      {"paths", std::move(paths)},
+      {"components",
+       {{"securitySchemes",
+         {{"session",
+           {{"type", "apiKey"},
+            {"in", "cookie"},
+            {"name", std::string(kSessionCookie)},
+            {"description", "Over HTTPS " + std::string(kSecureSessionCookie) +
+                                ", below a path of a proxy " + std::string(kSecurePathCookie)}}},
+          {"token", {{"type", "http"}, {"scheme", "bearer"}}},
+          {"password",
+           {{"type", "http"},
+            {"scheme", "basic"},
+            {"description", "A token as the password, with any name"}}}}},
+        {"schemas",
+         {{"Status", status_schema()},
+          {"CommandAnswer",
+           {{"type", "object"},
+            {"properties", {{"result", {{"type", "integer"}}}, {"result_text", text}}}}},
+          {"Error", {{"type", "object"}, {"properties", {{"error", text}}}}}}}}}};
   return all.dump();
 }
 

@@ -18,14 +18,17 @@ bool is_path(const std::string& target) {
 }  // namespace
 
 Response to_https(const Request& request, int port) {
-  const std::string* header = request.header("Host");
-  const auto host = header ? host_in(*header) : std::nullopt;
+  const auto host = host_in(request.host);
   if (!host || host->empty()) return error_response(400, "the Host header is missing or malformed");
   std::string place = "https://" + std::string(*host);
   if (port != kHttpsPort) place += ":" + std::to_string(port);
   place += is_path(request.target) ? request.target : "/";
   if (request.method != "GET" && request.method != "HEAD") {
-    return error_response(403, "other computers are served over HTTPS only: " + place);
+    return error_response(
+        403, "other computers are served over HTTPS only: " + place +
+                 (request.passage == Passage::UntrustedProxy
+                      ? "; through a reverse proxy only if trusted_proxies of [web] has its address"
+                      : ""));
   }
   // Not a permanent one: the port may change.
   constexpr int kTemporaryRedirect = 307;

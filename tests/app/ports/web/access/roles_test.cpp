@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <filesystem>
 #include <set>
 
 #include "app/ports/web/page/page_files.h"
@@ -17,10 +18,26 @@ using testing::HasSubstr;
 constexpr std::array kEveryRole{Role::Nobody, Role::Viewer, Role::Operator, Role::Integrator,
                                 Role::Administrator};
 
+/// The way of a request to the server.
+struct Way {
+  const char* name;
+  std::vector<std::string> trusted_proxies;
+  std::string headers;  ///< that a proxy adds
+};
+
+const std::string kForwardedHeaders =
+    "X-Forwarded-For: 203.0.113.9\r\nX-Forwarded-Proto: https\r\n";
+const std::array kWays{Way{"Direct", {}, ""}, Way{"TrustedProxy", {"127.0.0.1"}, kForwardedHeaders},
+                       Way{"UntrustedProxy", {}, kForwardedHeaders}};
+
 class Roles : public AccessServed {
  protected:
   void SetUp() override {
     AccessServed::SetUp();
+    add_one_of_each_role();
+    serve();
+  }
+  void serve(const std::vector<std::string>& trusted_proxies = {}) {
     handler = [this](const Command&) {
       ++carried_out;
       return CommandResult::Done;
@@ -28,8 +45,8 @@ class Roles : public AccessServed {
     program.files = std::make_shared<WrittenFiles>();
     tables = [] { return std::vector<InterfaceTable>(); };
     program.log = std::make_shared<RecentLog>();
-    add_one_of_each_role();
     WebSettings settings;
+    settings.trusted_proxies = trusted_proxies;
     settings.max_connections_per_address = 100;  // those that were closed count for a moment
     start(settings);
   }
@@ -63,22 +80,52 @@ class Roles : public AccessServed {
   std::atomic<int> carried_out{0};
 };
 
-TEST_F(Roles, EachProgramGetsWhatItsRoleMayAndNothingElse) {
+/// Each route and role on each way.
+class RolesByWay : public Roles, public testing::WithParamInterface<Way> {
+ protected:
+  void SetUp() override { AccessServed::SetUp(); }
+  void serve_with_users() {
+    add_one_of_each_role();
+    serve(GetParam().trusted_proxies);
+  }
+  std::string sent(const std::string& headers) const { return GetParam().headers + headers; }
+};
+
+TEST_P(RolesByWay, EachProgramGetsWhatItsRoleMayAndNothingElse) {
+  serve_with_users();
   ASSERT_GT(sink->routes().size(), kCommands.size() + kPageFiles.size());
   for (const Route& route : sink->routes()) {
-    for (const Role role : kEveryRole) expect_what_is_declared(route, role, by_token(role));
+    for (const Role role : kEveryRole) expect_what_is_declared(route, role, sent(by_token(role)));
   }
   EXPECT_GT(carried_out, 0);
 }
 
-TEST_F(Roles, EachPersonGetsWhatTheirRoleMayAndNothingElse) {
+TEST_P(RolesByWay, EachPersonGetsWhatTheirRoleMayAndNothingElse) {
+  serve_with_users();
   std::map<Role, std::string> sessions{{Role::Nobody, ""}};
-  for (const auto& [name, role] : kRoles) sessions[role] = session_of(std::string(name));
+  for (const auto& [name, role] : kRoles) {
+    sessions[role] =
+        cookie_of(post("/api/v1/login",
+                       nlohmann::json{{"user", std::string(name)}, {"password", kPassword}}.dump(),
+                       sent(kPageHeaders)));
+    ASSERT_FALSE(sessions[role].empty()) << name;
+  }
   for (const Route& route : sink->routes()) {
     if (route.path == "/api/v1/logout") continue;
-    for (const Role role : kEveryRole) expect_what_is_declared(route, role, sessions[role]);
+    for (const Role role : kEveryRole) expect_what_is_declared(route, role, sent(sessions[role]));
   }
 }
+
+TEST_P(RolesByWay, WithoutUsersOnlyThisComputerItselfMayDoAnything) {
+  serve(GetParam().trusted_proxies);
+  const Role role = GetParam().headers.empty() ? Role::Administrator : Role::Nobody;
+  for (const Route& route : sink->routes()) expect_what_is_declared(route, role, sent(""));
+  EXPECT_EQ(carried_out > 0, role == Role::Administrator);
+  EXPECT_FALSE(std::filesystem::exists(users_file(state_folder)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, RolesByWay, testing::ValuesIn(kWays),
+                         [](const auto& way) { return std::string(way.param.name); });
 
 TEST_F(Roles, OnlyThePageAndTheWayInAreForEverybody) {
   std::set<std::string> open;

@@ -11,7 +11,7 @@ Response redirected(const std::string& host, const std::string& target, int port
   Request request;
   request.method = "GET";
   request.target = target;
-  request.headers = {{"Host", host}};
+  request.host = host;
   return to_https(request, port);
 }
 
@@ -45,7 +45,7 @@ TEST(ToHttps, RefusesWhatWouldChangeSomething) {
   Request request;
   request.method = "POST";
   request.target = "/api/v1/login";
-  request.headers = {{"Host", "10.0.0.7"}};
+  request.host = "10.0.0.7";
   const Response response = to_https(request, 8443);
   EXPECT_EQ(response.status, 403);
   EXPECT_THAT(*response.body, HasSubstr("https://10.0.0.7:8443/api/v1/login"));

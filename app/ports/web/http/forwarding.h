@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/ports/web/http/message.h"
+#include "hal/network.h"
+#include "proc/image/result.h"
+
+/// Requests that reverse proxies pass on. All reentrant.
+namespace orbwatch::app::web {
+
+/// Whether a header shows that a proxy passed the request on, whatever its value: Forwarded
+/// (RFC 7239), Via, X-Real-IP or any X-Forwarded-*.
+bool is_passed_on(const Values& headers);
+
+/// Whether a connection's numeric address is in `trusted`.
+bool is_trusted(const std::string& peer, const std::vector<hal::Network>& trusted);
+
+/// Sets the passage of a request that came from `peer`. From a trusted proxy also sets, as far as
+/// the headers say so, the client's address (the last one in X-Forwarded-For or Forwarded that is
+/// not trusted), host and prefix, and whether the client asked over HTTPS. Errors: Forwarded and
+/// X-Forwarded-For name different clients, so that the client may have sent one of them; Forwarded
+/// is malformed; the prefix is not a path.
+Result<> take_forwarding(Request& request, const std::vector<hal::Network>& trusted);
+
+}  // namespace orbwatch::app::web

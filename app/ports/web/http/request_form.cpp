@@ -1,0 +1,62 @@
+#include "app/ports/web/http/request_form.h"
+
+#include <algorithm>
+
+#include "app/ports/web/http/address.h"
+#include "app/ports/web/http/forwarding.h"
+
+namespace orbwatch::app::web {
+namespace {
+
+constexpr int kBadRequest = 400, kMisdirected = 421;
+
+/// How long the scheme of an absolute target is, with the two slashes; 0: the target has none.
+std::size_t scheme_size(std::string_view target) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (equal_in_any_case(target.substr(0, scheme.size()), scheme)) return scheme.size();
+  }
+  return 0;
+}
+
+/// The host in the target counts, whatever the Host header says. Its characters are not escaped, so
+/// that the decoded path begins with them as the target does.
+void take_absolute_form(Request& request) {
+  const std::size_t scheme = scheme_size(request.target);
+  if (scheme == 0) return;
+  const std::size_t end =
+      std::min(request.target.find_first_of("/?", scheme), request.target.size());
+  request.host = request.target.substr(scheme, end - scheme);
+  request.target.erase(0, end);
+  request.path.erase(0, end);
+  if (!request.target.starts_with('/')) request.target.insert(0, "/");
+  if (request.path.empty()) request.path = "/";
+}
+
+}  // namespace
+
+std::optional<Response> settle_form(Request& request, std::string_view version,
+                                    const ServerNames& own) {
+  if (request.target.find("%00") != std::string::npos) {
+    // The library's C strings were cut there.
+    return error_response(kBadRequest, "a zero byte has no place in a path or a query");
+  }
+  const auto hosts = std::ranges::count_if(
+      request.headers, [](const auto& header) { return equal_in_any_case(header.first, "Host"); });
+  if (hosts > 1) return error_response(kBadRequest, "the request has more than one Host header");
+  if (hosts == 1) request.host = *request.header("Host");
+  take_absolute_form(request);
+  if (auto taken = take_forwarding(request, own.trusted_proxies); !taken) {
+    return error_response(kBadRequest, taken.error().message);
+  }
+  if (request.host.empty() && hosts == 0 && version == "HTTP/1.0") return std::nullopt;
+  const auto host = host_in(request.host);
+  if (!host || host->empty()) {
+    return error_response(kBadRequest, "the Host header is missing or malformed");
+  }
+  if (is_own_host(request.host, own.names)) return std::nullopt;
+  return error_response(
+      kMisdirected,
+      "the Host header names another host; names of this one belong into names of [web]");
+}
+
+}  // namespace orbwatch::app::web
