@@ -45,9 +45,11 @@ Result<> check_format(const hal::StreamFormat& format, const CameraSettings& set
     return fail(delivers + ", of which no view can be made");
   }
   if (settings.radiometry.is_radiometric() && format.format != PixelFormat::Y16) {
-    return fail("is radiometric but " + delivers +
-                "; a radiometric camera delivers y16, which is to be stated as its pixel_format, "
-                "also where a driver calls its 16 bit words YUYV");
+    const bool is_v4l2 = std::holds_alternative<hal::V4l2Settings>(settings.back_end);
+    return fail("is radiometric but " + delivers + "; a radiometric camera delivers y16" +
+                (is_v4l2 ? ": state pixel_format = \"y16\", also for 16 bit words that the driver "
+                           "calls YUYV"
+                         : ""));
   }
   if (format.width == rig.width && format.height == rig.height) return {};
   return fail("delivers " + std::to_string(format.width) + "x" + std::to_string(format.height) +

@@ -101,9 +101,9 @@ void visit(Visitor& v, CameraSettings& camera) {
   v.required("name", camera.name, "Its name in the rig; views and messages use it too");
   v.one_of("back_end", camera.back_end, "Where its frames come from");
   v.optional("width", camera.stream.width, kSide,
-             "Picture width, px, as in the rig; else the camera's own");
+             "Picture width, px, as in the rig; else the camera's own, of v4l2 the rig's");
   v.optional("height", camera.stream.height, kSide,
-             "Picture height, px, as in the rig; else the camera's own");
+             "Picture height, px, as in the rig; else the camera's own, of v4l2 the rig's");
   v.optional("frame_rate", camera.stream.frame_rate, Range::between(0.01, hal::kMaxFrameRate),
              "Frames per second; else the camera's own");
   v.optional("kelvin_per_count", camera.radiometry.kelvin_per_count, Range::above(0, 10),

@@ -100,6 +100,21 @@ hal::StreamRequest requested_of(BackEndSettings back_end) {
   return camera.requested;
 }
 
+TEST(OpenCamera, ARadiometricV4l2CameraOfAnotherFormatIsToldHowToBeConfigured) {
+  Resolved site;
+  CameraSettings& settings = site.site.cameras.emplace_back();
+  settings.radiometry.kelvin_per_count = 0.04;
+  settings.back_end = hal::V4l2Settings{};
+  optics::RigCamera& rig = site.rig.cameras.emplace_back();
+  rig.width = rig.height = 8;
+  site.rig_cameras = {0};
+  RequestedCamera camera;
+  const auto format = open_camera(camera, site, 0);
+  ASSERT_FALSE(format);
+  EXPECT_EQ(format.error().fault, hal::Fault::WrongFormat);
+  EXPECT_THAT(format.error().detail, testing::HasSubstr("state pixel_format = \"y16\""));
+}
+
 TEST(OpenCamera, AV4l2CameraIsAskedForTheRigsSize) {
   const hal::StreamRequest v4l2 = requested_of(hal::V4l2Settings{});
   EXPECT_EQ(v4l2.width, 8);

@@ -242,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"RowsBeyondTheFrame",
                 replaced("\"usb-1\"", "\"usb-1\"\nframe_height = 160\nfirst_row = 81",
                          replaced("name = \"a\"", "name = \"a\"\nheight = 80", kV4l2)),
-                {"site.toml:4: camera.height", "must not exceed frame_height"}},
+                {"site.toml:5: camera.height", "must not exceed frame_height"}},
         Refusal{"RowWithoutAFrame",
                 replaced("\"usb-1\"", "\"usb-1\"\nfirst_row = 80", kV4l2),
                 {"site.toml:8: camera.v4l2.first_row", "needs a frame_height"}},

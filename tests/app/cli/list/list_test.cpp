@@ -23,6 +23,7 @@ hal::Inventory two_cameras_and_a_chip() {
                          .bus = "usb-0000:00:14.0-1",
                          .paths = {"/dev/v4l/by-id/usb-cam", "/dev/video0"},
                          .problem = "",
+                         .advice = "",
                          .modes = {{"yuyv", "640x480", {30, 7.5}}, {"mjpeg", "1920x1080", {}}},
                          .controls = {}};
   plain.controls = {{"gain", -5, 100, 1, 0, "", {}},
@@ -31,6 +32,7 @@ hal::Inventory two_cameras_and_a_chip() {
   broken.id = "/dev/video2";
   broken.back_end = "v4l2";
   broken.problem = "cannot be opened";
+  broken.advice = "160x122 has 2 lines of telemetry";
   return {{plain, broken},
           {{.path = "/dev/gpiochip1",
             .label = "gpio-sim",
@@ -51,7 +53,8 @@ TEST(ListJson, HasEveryFieldOfEveryEntry) {
                      "default": 3, "state": "read only",
                      "values": ["1 = manual", "3 = aperture"]}]},
       {"camera": "/dev/video2", "back_end": "v4l2", "model": "", "driver": "", "bus": "",
-       "paths": [], "problem": "cannot be opened", "advice": "", "modes": [], "controls": []}],
+       "paths": [], "problem": "cannot be opened",
+       "advice": "160x122 has 2 lines of telemetry", "modes": [], "controls": []}],
     "chips": [
       {"chip": "gpio-sim", "path": "/dev/gpiochip1", "problem": "",
        "lines": [{"line": 2, "name": "TRIGGER_IN", "direction": "input", "consumer": "orbwatchd"},
@@ -102,6 +105,7 @@ paths     /dev/v4l/by-id/usb-cam, /dev/video0
 camera    /dev/video2
 back end  v4l2
 problem   cannot be opened
+advice    160x122 has 2 lines of telemetry
 
 chip  gpio-sim
 path  /dev/gpiochip1
