@@ -100,10 +100,11 @@ Result<fs::path> state_folder(const fs::path& configured, const fs::path& config
   const fs::path usual = lib / name_for(own);
   if (owned.empty() || std::ranges::count(owned, usual) > 0) return check_owner(usual, own, owned);
   if (owned.size() == 1) return owned.front();
-  std::string text = own.string() + ": several folders are its state folder; say before the command";
+  std::string text =
+      own.string() + ": several folders are its state folder; say before the command";
   for (const fs::path& folder : owned) {
-    text += (folder == owned.front() ? " STATE_DIRECTORY=" : " or STATE_DIRECTORY=") +
-            folder.string();
+    text +=
+        (folder == owned.front() ? " STATE_DIRECTORY=" : " or STATE_DIRECTORY=") + folder.string();
   }
   return fail(text);
 }
