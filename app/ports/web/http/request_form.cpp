@@ -32,6 +32,18 @@ void take_absolute_form(Request& request) {
   if (request.path.empty()) request.path = "/";
 }
 
+std::size_t count_of(const Request& request, std::string_view name) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      request.headers, [name](const auto& sent) { return equal_in_any_case(sent.first, name); }));
+}
+
+/// Whether a proxy may see another end of the body than we do (RFC 9112, 6.3), and what follows as
+/// another request.
+bool has_two_lengths(const Request& request) {
+  const std::size_t lengths = count_of(request, "Content-Length");
+  return lengths > 1 || (lengths == 1 && count_of(request, "Transfer-Encoding") > 0);
+}
+
 }  // namespace
 
 std::optional<Response> settle_form(Request& request, std::string_view version,
@@ -40,8 +52,12 @@ std::optional<Response> settle_form(Request& request, std::string_view version,
     // The library's C strings were cut there.
     return error_response(kBadRequest, "a zero byte has no place in a path or a query");
   }
-  const auto hosts = std::ranges::count_if(
-      request.headers, [](const auto& header) { return equal_in_any_case(header.first, "Host"); });
+  if (has_two_lengths(request)) {
+    Response refusal = error_response(kBadRequest, "the body's length is stated twice");
+    refusal.headers.emplace_back("Connection", "close");
+    return refusal;
+  }
+  const std::size_t hosts = count_of(request, "Host");
   if (hosts > 1) return error_response(kBadRequest, "the request has more than one Host header");
   if (hosts == 1) request.host = *request.header("Host");
   take_absolute_form(request);

@@ -162,6 +162,18 @@ TEST_F(Proxies, PassOnWhatOurOwnPageCausesAndNothingElse) {
   }
 }
 
+/// What a proxy takes for the body of one client's request must not become the next one's.
+TEST_F(Proxies, SeeTheEndOfARequestWhereWeDo) {
+  trust();
+  Client client(port());
+  client.send(
+      "POST /api/v1/login HTTP/1.1\r\nHost: plant.example\r\nContent-Length: 44\r\n"
+      "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\nGET /healthz HTTP/1.1\r\nHost: "
+      "127.0.0.1\r\n\r\n");
+  EXPECT_EQ(client.answer().status, 400);
+  EXPECT_EQ(client.rest(), "") << "what followed was answered";
+}
+
 TEST_F(Proxies, MayCheckHealthByTheOldVersion) {
   trust();
   EXPECT_EQ(status_of("GET /healthz HTTP/1.0\r\n\r\n"), 200);

@@ -61,6 +61,17 @@ TEST(RequestForm, OfTheOldVersionNeedsNone) {
   EXPECT_EQ(refusal_of(request_to("/", {{"Host", ""}}), "HTTP/1.0"), 400);
 }
 
+TEST(RequestForm, HasOneEnd) {
+  const auto status = [](Values lengths) {
+    lengths.emplace_back("Host", "board.example");
+    return refusal_of(request_to("/", std::move(lengths)));
+  };
+  EXPECT_EQ(status({{"Content-Length", "2"}}), 0);
+  EXPECT_EQ(status({{"Transfer-Encoding", "chunked"}}), 0);
+  EXPECT_EQ(status({{"Content-Length", "2"}, {"content-length", "2"}}), 400);
+  EXPECT_EQ(status({{"Content-Length", "2"}, {"Transfer-Encoding", "chunked"}}), 400);
+}
+
 TEST(RequestForm, HasNoZeroByte) {
   EXPECT_EQ(refusal_of(request_to("/%00", {{"Host", "board.example"}})), 400);
 }
