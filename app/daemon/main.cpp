@@ -1,5 +1,4 @@
 #include <getopt.h>
-#include <linux/close_range.h>
 #include <unistd.h>
 
 #include <cerrno>

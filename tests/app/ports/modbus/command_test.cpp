@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <mutex>
 
@@ -304,13 +303,11 @@ TEST(ModbusWriters, AreServedWhileNobodyReadsTheLogOfARefusal) {
   const auto command = static_cast<std::uint8_t>(kCommand);
   const tests::Bytes write{16, 0, command, 0, 2, 4, 0, 1, 0, 1};
   RawClient stranger(sink.port());
-  const auto began = std::chrono::steady_clock::now();
   ASSERT_TRUE(stranger.send(tests::frame(write)));
   EXPECT_EQ(tests::receive_pdu(stranger), (tests::Bytes{0x90, 1}));
   RawClient writer(sink.port(), "127.0.0.2");
   ASSERT_TRUE(writer.send(tests::frame(write)));
   EXPECT_EQ(tests::receive_pdu(writer), (tests::Bytes{16, 0, command, 0, 2}));
-  EXPECT_LT(std::chrono::steady_clock::now() - began, LogWriter::kLongestWait);
   unread.unlock();
   sink.stop();
 }
