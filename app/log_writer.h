@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "app/log.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
@@ -75,8 +76,8 @@ class LogWriter {
   bool write_next();
 
   const Output output_;
-  std::mutex queue_;                          ///< held for a copy, never while output_ is called
-  std::condition_variable progress_;          ///< a line was written
+  hal::PriorityMutex queue_;                  ///< held for a copy, never while output_ is called
+  std::condition_variable_any progress_;      ///< a line was written
   std::array<Waiting, kMaxWaiting> waiting_;  ///< a ring; under queue_, as all below
   std::size_t oldest_ = 0;
   std::size_t count_ = 0;

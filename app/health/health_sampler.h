@@ -8,6 +8,7 @@
 
 #include "app/model/health.h"
 #include "hal/clock.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -38,7 +39,7 @@ class HealthSampler {
 
   const std::function<Health()> read_;
   const hal::Clock::duration period_;
-  mutable std::mutex mutex_;
+  mutable hal::PriorityMutex mutex_;
   Health health_;
   hal::TimePoint read_at_;
   bool is_running_ = false;  ///< the main thread's

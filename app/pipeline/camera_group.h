@@ -17,6 +17,7 @@
 #include "hal/camera.h"
 #include "hal/lines/frame_trigger.h"
 #include "hal/sync/frame_sync.h"
+#include "hal/thread/priority_mutex.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
@@ -86,7 +87,7 @@ class CameraGroup {
     std::atomic<hal::Fault> fault{hal::Fault::None};
     bool is_otherwise = false;                 ///< than it was set; the camera's thread's
     std::atomic<hal::TimePoint> last_frame{};  ///< arrival
-    std::mutex metering;                       ///< of the camera's thread and the pipeline's
+    hal::PriorityMutex metering;               ///< of the camera's thread and the pipeline's
     SecondMeter meter;
   };
 

@@ -18,6 +18,7 @@
 #include "app/watch/ball_watch.h"
 #include "hal/fault.h"
 #include "hal/frame/frame.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -97,7 +98,7 @@ class CameraWatch : public Sink {
     hal::TimePoint stamp;  ///< of its frame set
     std::atomic<bool> looking{false};
     std::atomic<bool> cleaned{false};
-    mutable std::mutex mutex;  ///< of these two, held only while they are copied
+    mutable hal::PriorityMutex mutex;  ///< of these two, held only while they are copied
     CameraWatchStatus figures;
     std::optional<align::DriftState> drift;
     std::vector<std::function<void(RecordedPicture)>> readers;  ///< under `mutex`, too

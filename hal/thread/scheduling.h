@@ -52,8 +52,8 @@ std::vector<int> usable_cores();
 Result<> check(const ThreadSettings& settings);
 
 /// Schedules the threads that hal::Thread starts from now on by their roles, and locks the memory.
-/// Without it they are as any thread of the program. `settings` passed check(). On the main thread,
-/// before others start.
+/// Without it they are as any thread of the program. `settings` passed check(). Before threads of
+/// the frame path start.
 ThreadGrants schedule_threads(const ThreadSettings& settings);
 
 /// For hal::Thread: the calling thread has this role.

@@ -17,6 +17,7 @@
 #include "app/pipeline/measurement/recipe_switch.h"
 #include "hal/lines/process_input.h"
 #include "hal/sync/frame_set.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::app {
 
@@ -116,7 +117,7 @@ class Measurement {
   std::atomic<bool> pause_requested_{false};
   std::atomic<bool> commanded_active_{false};
   std::atomic<std::size_t> alarm_count_;  ///< of the recipe
-  std::mutex acknowledging_;              ///< of the next one, held for a copy only
+  hal::PriorityMutex acknowledging_;      ///< of the next one, held for a copy only
   Acknowledged acknowledged_;             ///< since the last watch()
   /// When the pending trigger was commanded, of hal::Clock; 0: none is pending.
   std::atomic<hal::Clock::rep> trigger_{0};

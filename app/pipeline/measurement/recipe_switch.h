@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hal/clock.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
 #include "proc/image/result.h"
 
@@ -63,8 +64,8 @@ class RecipeSwitch {
   void change(std::size_t wanted);
 
   const Apply apply_;
-  std::size_t set_to_;        ///< what the cameras are set to; the thread's
-  mutable std::mutex mutex_;  ///< never held while cameras are set
+  std::size_t set_to_;                ///< what the cameras are set to; the thread's
+  mutable hal::PriorityMutex mutex_;  ///< never held while cameras are set
   std::optional<std::size_t> requested_;
   Selection current_;  ///< returned last
   hal::TimePoint current_from_ = hal::TimePoint::min();

@@ -10,6 +10,7 @@
 
 #include "app/pipeline/views/view_plan.h"
 #include "app/pipeline/views/view_renderer.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/shared_threads.h"
 #include "proc/image/result.h"
 #include "proc/optics/rotation.h"
@@ -98,9 +99,9 @@ class PanTiltZoom {
   void compile(std::size_t view, const Request& request);
 
   const std::span<const ViewPlan> views_;
-  std::mutex requesting_;     ///< held while a request is made: each one changes the one before
-  mutable std::mutex mutex_;  ///< the frame path locks it: never held across work
-  std::vector<Slot> slots_;   ///< by view
+  std::mutex requesting_;  ///< held while a request is made: each one changes the one before
+  mutable hal::PriorityMutex mutex_;  ///< the frame path locks it: never held across work
+  std::vector<Slot> slots_;           ///< by view
   bool stopped_ = false;
   std::size_t last_ = 0;  ///< view that was compiled last; of the work
   hal::SharedThreads::Work compiler_;

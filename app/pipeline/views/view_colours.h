@@ -10,6 +10,7 @@
 #include "app/model/command.h"
 #include "app/model/view.h"
 #include "app/pipeline/views/view_plan.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::app {
 
@@ -63,8 +64,8 @@ class ViewColours {
   void make(Slot& slot, std::size_t source);
 
   const std::vector<remap::ColourMap::Table> maps_;
-  std::mutex requesting_;  ///< held while tables are made: each request changes the one before
-  std::mutex mutex_;       ///< the frame path locks it: never held across work
+  std::mutex requesting_;     ///< held while tables are made: each request changes the one before
+  hal::PriorityMutex mutex_;  ///< the frame path locks it: never held across work
   std::vector<Slot> slots_;
 };
 

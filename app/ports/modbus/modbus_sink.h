@@ -17,6 +17,7 @@
 #include "app/ports/modbus/server/seen_hosts.h"
 #include "app/ports/modbus/server/tcp_server.h"
 #include "app/state/command_record.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
@@ -68,8 +69,8 @@ class ModbusSink final : public Sink {
   const std::shared_ptr<CommandRecord> record_;
   const modbus::RegisterMap map_;
   modbus::ServerCounters counters_;
-  mutable std::mutex served_;  ///< held while what serves is made, ended or shown
-  mutable std::mutex mutex_;   ///< of these three, held only while they are copied
+  mutable std::mutex served_;         ///< held while what serves is made, ended or shown
+  mutable hal::PriorityMutex mutex_;  ///< of these three, held only while they are copied
   modbus::StampedStatus newest_;
   hal::TimePoint received_at_;
   modbus::ResultQueue results_;

@@ -26,6 +26,7 @@
 #include "app/ports/web/streams/view_encoder.h"
 #include "app/ports/web/views/view_list.h"
 #include "app/ports/web/web_settings.h"
+#include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
 
 namespace orbwatch::app {
@@ -92,7 +93,7 @@ class WebSink final : public Sink {
   std::vector<std::unique_ptr<web::ViewEncoder>> views_;  ///< by View::index
   std::vector<bool> asked_;  ///< by view: the next picture is read; accept's thread
 
-  mutable std::mutex mutex_;
+  mutable hal::PriorityMutex mutex_;
   NewestStatus newest_;  ///< under mutex_
 
   /// The status as JSON for streams, made on thread_ while one is read.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/model/alarm_notice.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::app::web {
 
@@ -34,7 +35,7 @@ class AlarmHistory {
   std::uint64_t count() const { return count_; }
 
  private:
-  mutable std::mutex mutex_;
+  mutable hal::PriorityMutex mutex_;
   std::vector<Entry> ring_;  ///< under mutex_; number n at n % kMost, from 0
   std::atomic<std::uint64_t> count_{0};
 };

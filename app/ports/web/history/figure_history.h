@@ -10,6 +10,7 @@
 #include "app/model/status_report.h"
 #include "app/ports/web/history/extremes.h"
 #include "hal/clock.h"
+#include "hal/thread/priority_mutex.h"
 
 namespace orbwatch::app::web {
 
@@ -58,7 +59,7 @@ class FigureHistory {
   void end_step(const StatusExtremes& seen);
 
   const StatusNames names_;
-  mutable std::mutex adding_;  ///< of the open step
+  mutable hal::PriorityMutex adding_;  ///< of the open step
   StatusExtremes open_;
   mutable std::mutex reading_;  ///< of what follows; the pipeline's thread never locks it
   std::vector<Track> tracks_;   ///< regions, then cameras
