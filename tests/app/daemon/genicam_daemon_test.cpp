@@ -170,11 +170,15 @@ pixel_format = "rgb"
     // A busy computer delivers late at times: counted anew from there.
     constexpr std::int64_t kSets = 50;
     auto sets = read("system_frame_set"), unmatched = read("system_unmatched");
-    ASSERT_TRUE(eventually(daemon, [&] {
-      const auto sets_now = read("system_frame_set"), unmatched_now = read("system_unmatched");
-      if (unmatched_now - unmatched > kSets / 10) sets = sets_now, unmatched = unmatched_now;
-      return sets_now >= sets + kSets;
-    })) << "never " << kSets << " pairs in succession with fewer than a tenth of the frames alone";
+    ASSERT_TRUE(eventually(daemon,
+                           [&] {
+                             const auto sets_now = read("system_frame_set"),
+                                        unmatched_now = read("system_unmatched");
+                             if (unmatched_now - unmatched > kSets / 10)
+                               sets = sets_now, unmatched = unmatched_now;
+                             return sets_now >= sets + kSets;
+                           }))
+        << "never " << kSets << " pairs in succession with fewer than a tenth of the frames alone";
     constexpr std::int64_t kCountsPerMs = 10;
     EXPECT_GT(read("system_skew_ms"), 0) << "two clocks of their own";
     EXPECT_LE(read("system_skew_ms"), kWindow * kCountsPerMs);
