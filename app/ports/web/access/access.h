@@ -21,10 +21,10 @@ namespace orbwatch::app::web {
 /// there, whoever is on this computer is administrator and nobody else is anything; a file that
 /// cannot be used, or is gone after it has been there, makes everybody nobody.
 ///
-/// Thread rule: caller, player, login_refusal, first_password_refusal, is_familiar, has_users, failures and
-/// users on any thread, they wait for nothing; refresh on any thread, too, it waits for the disk;
-/// the rest on one thread at a time, it waits for the disk, login and change_password for a hash,
-/// too.
+/// Thread rule: caller, player, login_refusal, first_password_refusal, is_familiar, has_users,
+/// failures and users on any thread, they wait for nothing; refresh on any thread, too, it waits
+/// for the disk; the rest on one thread at a time, it waits for the disk, login and change_password
+/// for a hash, too.
 class Access {
  public:
   /// Why somebody was not let in.

@@ -112,7 +112,8 @@ SlowWork::Asker AccessDesk::asker(const web::Request& sent, const Members& membe
   if (caller.role != Role::Nobody) return {true, caller.name};
   const std::string address = address_key(client_address(sent));
   const auto user = members.find("user");
-  return {user != members.end() && access_.is_familiar(user->second, client_address(sent)), address};
+  return {user != members.end() && access_.is_familiar(user->second, client_address(sent)),
+          address};
 }
 
 /// Roles are judged anew, since the request may have waited.
@@ -241,7 +242,8 @@ std::optional<Access::Refusal> AccessDesk::refuse_first_password(Request& reques
 
 Response AccessDesk::login(Request& request) {
   const std::string& user = request.members.at("user");
-  const auto token = access_.login(user, request.members.at("password"), client_address(request.sent));
+  const auto token =
+      access_.login(user, request.members.at("password"), client_address(request.sent));
   if (token) request.user = user;
   request.after = role_of(user);
   return logged_in(request.sent, token);
@@ -256,14 +258,14 @@ Response AccessDesk::logout(Request& request) {
 }
 
 Response AccessDesk::set_password(Request& request) {
-  return logged_in(request.sent,
-                   access_.change_password(request.user, request.members.at("old"),
-                                           request.members.at("new"), client_address(request.sent)));
+  return logged_in(request.sent, access_.change_password(request.user, request.members.at("old"),
+                                                         request.members.at("new"),
+                                                         client_address(request.sent)));
 }
 
 Response AccessDesk::set_first_password(Request& request) {
-  const auto token = access_.set_first_password(request.members.at("code"),
-                                                request.members.at("password"), client_address(request.sent));
+  const auto token = access_.set_first_password(
+      request.members.at("code"), request.members.at("password"), client_address(request.sent));
   if (token) {
     request.user = kFirstUser;
     request.after = role_of(request.user);
