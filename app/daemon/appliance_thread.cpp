@@ -1,12 +1,15 @@
 #include "app/daemon/appliance_thread.h"
 
+#include <string>
 #include <thread>
 #include <utility>
 
+#include "app/daemon/build.h"
 #include "app/daemon/configuration_choice.h"
 #include "app/daemon/installed_configuration.h"
 #include "app/daemon/interfaces.h"
 #include "app/daemon/run_records.h"
+#include "app/log.h"
 #include "app/service/progress_notice.h"
 #include "app/service/service_manager.h"
 #include "app/version.h"
@@ -56,6 +59,7 @@ Result<> ApplianceThread::run() {
     publish(nullptr);
     return started;
   }
+  for (const std::string& line : assumptions(chosen->site)) log_line(LogLevel::Info, line);
   keep(*chosen);
   restarts.begin_run();
   if (chosen->trial) files->set_trial_end(restarts.trial_end());

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -16,6 +18,7 @@
 #include "app/ports/web/tls/server_certificate.h"
 #include "hal/thread/scheduling.h"
 #include "proc/optics/rotation.h"
+#include "proc/signals/hot_spot/assumed_limits.h"
 
 namespace orbwatch::app {
 namespace {
@@ -27,6 +30,21 @@ constexpr double kAssumedKelvinPerCount = 0.04;
 std::size_t place_of(std::string_view colour_map) {
   const auto* const found = std::ranges::find(kColourMapNames, colour_map);
   return static_cast<std::size_t>(found - kColourMapNames.begin());
+}
+
+/// Empty: the region states all, or nothing is assumed, for lack of a scene.
+std::string assumption_text(const RegionOfInterest& stated, const RegionPlan& region) {
+  const signals::HotSpotLimits& limits = region.settings.hot_spot_limits;
+  if (!limits.need_surface()) return "";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  if (!stated.hot_spot_min_area) text << " hot_spot_min_area = " << limits.min_area << " mm2";
+  if (!stated.hot_spot_max_speed) {
+    text << (text.tellp() > 0 ? " and" : "") << " hot_spot_max_speed = " << limits.max_speed
+         << " mm/s";
+  }
+  if (text.tellp() == 0) return "";
+  return "region " + stated.name + ": assumes" + text.str() + "; state what is true of the process";
 }
 
 /// Plans views and recipes of a site for cameras of these formats.
@@ -71,6 +89,17 @@ class Builder {
       }
       return measured;
     }));
+  }
+
+  /// Limits of hot spots that a recipe leaves open, a line for each region. None: it has an error.
+  std::vector<std::string> assumptions(std::size_t recipe) const {
+    std::vector<std::string> lines;
+    const auto plan = plan_recipe(recipe);
+    for (std::size_t i = 0; plan && i < plan->regions.size(); ++i) {
+      const auto text = assumption_text(site_.recipes[recipe].regions[i], plan->regions[i]);
+      if (!text.empty()) lines.push_back(file_of(recipe) + ": " + text);
+    }
+    return lines;
   }
 
   /// Errors: as compile().
@@ -131,7 +160,11 @@ class Builder {
   template <class T>
   Result<T> named(std::size_t recipe, Result<T> result) const {
     if (result) return result;
-    return fail(site_.site.recipes[recipe].file.path.string() + ": " + result.error().message);
+    return fail(file_of(recipe) + ": " + result.error().message);
+  }
+
+  std::string file_of(std::size_t recipe) const {
+    return site_.site.recipes[recipe].file.path.string();
   }
 
   Result<RecipePlan> plan_recipe(std::size_t index) const {
@@ -193,8 +226,6 @@ class Builder {
       return scale->is_radiometric() ? scale->counts(value) : counts_of(value, format);
     };
     settings.hot_spot_threshold = threshold(region.hot_spot_threshold);
-    if (region.hot_spot_min_area) settings.hot_spot_limits.min_area = *region.hot_spot_min_area;
-    if (region.hot_spot_max_speed) settings.hot_spot_limits.max_speed = *region.hot_spot_max_speed;
     if (region.plume_threshold) settings.plume_threshold = threshold(*region.plume_threshold);
     if (region.spatter_threshold) settings.spatter_threshold = threshold(*region.spatter_threshold);
     return settings;
@@ -203,6 +234,10 @@ class Builder {
   Result<> plan_region(const RegionOfInterest& region, std::size_t camera, RecipePlan& plan) const {
     auto settings = region_settings(region, camera);
     if (!settings) return tl::unexpected(settings.error());
+    const auto assumed = signals::assumed_limits(plan.views[region.view.index].projection, scene_,
+                                                 settings->outline, formats_[camera].frame_rate);
+    settings->hot_spot_limits = {region.hot_spot_min_area.value_or(assumed.min_area),
+                                 region.hot_spot_max_speed.value_or(assumed.max_speed)};
     const auto provided = signals::provided_by(*settings, !scene_.proxy.is_far());
     for (const signals::AlarmLimits& alarm : region.alarms) {
       const signals::SignalInfo& signal = signals::kSignals[alarm.signal];
@@ -322,6 +357,18 @@ Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site) {
     recipes.push_back(std::move(*recipe));
   }
   return recipes;
+}
+
+std::vector<std::string> assumptions(const Resolved& site) {
+  const auto formats = expected_formats(site);
+  auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
+  std::vector<std::string> lines;
+  if (!proxy) return lines;
+  const Builder builder(site, formats, std::move(*proxy));
+  for (std::size_t i = 0; i < site.recipes.size(); ++i) {
+    for (std::string& line : builder.assumptions(i)) lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 Result<> check_keys(const Resolved& site, Dates dates) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "app/certificates/dates.h"
@@ -28,6 +29,10 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
 /// What the recipes measure, with the outlines and projections that build() measures by. Errors: as
 /// build().
 Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site);
+
+/// What build() assumes where recipes state nothing, in words that name file, region and key; with
+/// the formats that are expected. Empty: nothing, or the site has an error.
+std::vector<std::string> assumptions(const Resolved& site);
 
 /// Checks the keys for DDS, and certificate and key of the page, as far as files are named.
 Result<> check_keys(const Resolved& site, Dates dates);

@@ -78,6 +78,7 @@ Result<> check(const std::filesystem::path& file) {
   const auto site = resolve(file);
   if (!site) return tl::unexpected(site.error());
   return check_site(*site, Dates::Checked).map([&] {
+    for (const std::string& line : assumptions(*site)) log_line(LogLevel::Info, line);
     log_line(LogLevel::Info, commanders_text(site->site.sinks));
   });
 }

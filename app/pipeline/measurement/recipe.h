@@ -61,11 +61,12 @@ void visit(Visitor& v, RegionOfInterest& region) {
              "scale");
   v.optional("hot_spot_min_area", region.hot_spot_min_area, Range::above(0, 1e6),
              "What is smaller is a spark, or a hot spot of which too much is hidden, mm2 on the "
-             "machine's surface; needs the rig's scene");
+             "machine's surface; needs the rig's scene, with which a pixel of the view is "
+             "assumed");
   v.optional("hot_spot_max_speed", region.hot_spot_max_speed, Range::above(0, 1e5),
              "The hot spot's centre moves no faster, mm/s on the machine's surface: while it is "
              "hidden, nothing farther away is taken for it for half a second; needs the rig's "
-             "scene");
+             "scene, with which 200 is assumed, or a pixel of the view per frame if that is more");
   v.optional("plume_threshold", region.plume_threshold, threshold,
              "Where the plume around it begins, in the same unit; else it is not measured");
   v.optional("spatter_threshold", region.spatter_threshold, threshold,

@@ -153,6 +153,29 @@ TEST(Build, AlarmsOnWhatNeverHasAValueAreRefused) {
   EXPECT_EQ(refusal("hot_spot_pixels", [](auto&, auto&) {}), "none");
 }
 
+TEST(Build, LimitsOfHotSpotsAreAssumedWhereTheRecipeStatesNone) {
+  Resolved site = demo();
+  RegionOfInterest& region = first(site).regions.front();
+  region.hot_spot_min_area.reset();
+  region.hot_spot_max_speed.reset();
+  auto said = assumptions(site);
+  ASSERT_FALSE(said.empty());
+  EXPECT_THAT(said.front(),
+              testing::HasSubstr("region " + region.name + ": assumes hot_spot_min_area = "));
+  EXPECT_THAT(said.front(), testing::HasSubstr("hot_spot_max_speed = 200.0 mm/s"));
+  const std::size_t all = said.size();
+  region.hot_spot_min_area = 60;
+  said = assumptions(site);
+  EXPECT_THAT(said.front(), testing::HasSubstr("assumes hot_spot_max_speed"));
+  region.hot_spot_max_speed = 1000;
+  EXPECT_EQ(assumptions(site).size(), all - 1) << "all is stated";
+  site.rig.scene = {};
+  region.hot_spot_min_area.reset();
+  region.hot_spot_max_speed.reset();
+  for (RegionOfInterest& any : first(site).regions) any.alarms.clear();
+  EXPECT_TRUE(assumptions(site).empty()) << "no surface is known";
+}
+
 TEST(Build, ARegionBehindTheBallIsRefused) {
   Resolved site = demo();
   MeasuredViewSettings& view = first(site).views[0];
