@@ -34,10 +34,6 @@ class ConfigurationOverHttp : public Daemon {
                    "Content-Type: application/json\r\n", body.dump());
   }
   json shown() const { return json::parse(request(web_port, "GET", "/api/v1/configuration").body); }
-  static std::string contents(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   /// Of the installed recipe, with comments and another order.
   std::string other_recipe() const {
     return "# by hand \xC3\xA9\r\n" + kSmallRecipe + "# the end, without a line's";

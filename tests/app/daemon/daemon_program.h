@@ -38,6 +38,12 @@ inline int free_port() {
   return ntohs(address.sin_port);
 }
 
+/// Empty: there is no such file.
+inline std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 inline const std::string kMachine = R"(
 [ball]
 centre = [120, 60, 430]

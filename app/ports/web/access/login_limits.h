@@ -10,14 +10,11 @@ namespace orbwatch::app::web {
 using Utc = std::chrono::sys_seconds;
 
 /// Slows guessing of passwords and codes down. After kFree failures each further one doubles the
-/// wait. Failures count
-/// - where the name has logged in before from this address (familiar): for the two together, so
-/// that
-///   nobody else makes the user wait there;
-/// - from anywhere else: for the address, and for the name from all such addresses together, so
-/// that
-///   many addresses guess no faster than one; from this computer for the address alone.
-/// A success forgives the address. An hour without a failure forgets. Thread-bound.
+/// wait. Failures from an address where the name has logged in before (familiar) count for the two
+/// together, so that nobody else makes the user wait there. Those from anywhere else count for the
+/// address, and for the name from all such addresses together, so that many addresses guess no
+/// faster than one; those from this computer for the address alone. A success forgives the address.
+/// An hour without a failure forgets. Thread-bound.
 class LoginLimits {
  public:
   static constexpr int kFree = 5;
