@@ -53,7 +53,7 @@ struct StreamRequest {
   std::size_t buffers = kFreeRunningBuffers;
 };
 
-/// What a camera says of its counts, which begin at 0 K.
+/// Scale that a camera states for its counts, which begin at 0 K.
 struct CountScale {
   double kelvin_per_count = 0;  ///< 0: they are not proportional to temperature
   std::string said_by;          ///< the feature and its value: "IRFormat is Radiometric"
@@ -153,7 +153,7 @@ class Camera {
   /// keeps this scale until it is configured again.
   virtual std::optional<CountScale> count_scale() const { return std::nullopt; }
 
-  /// Of the configured camera: an addition to a message that its format is not the expected one,
+  /// Addition of the configured camera to a message that its format is not the expected one,
   /// such as "; its EXIF orientation turns its 640x480"; empty: nothing explains it.
   virtual std::string format_note() const { return {}; }
 

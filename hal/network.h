@@ -17,7 +17,7 @@ using HostAddress = std::array<std::uint8_t, 16>;
 /// Parses a numeric IPv4 or IPv6 address: 10.0.0.7, fd00::1.
 std::optional<HostAddress> parse_host(const std::string& text);
 
-/// As numbers are written: 10.0.0.7, fd00::1.
+/// Text of the numbers: 10.0.0.7, fd00::1.
 std::string text_of(const HostAddress& host);
 
 /// One host, or all hosts of a CIDR prefix (RFC 4632, RFC 4291).
@@ -35,7 +35,7 @@ Result<Network> parse_network(const std::string& text);
 /// The same for a list; the error is that of its first wrong text.
 Result<std::vector<Network>> parse_networks(const std::vector<std::string>& texts);
 
-/// Whether it holds every IPv4 or every IPv6 address.
+/// True: it holds every IPv4 or every IPv6 address.
 bool is_everybody(const Network& network);
 
 bool any_contains(const std::vector<Network>& networks, const HostAddress& host);

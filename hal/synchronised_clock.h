@@ -2,7 +2,8 @@
 
 #include <sys/timex.h>
 
-/// Whether the system's clock follows a time server, as the kernel knows it. All reentrant.
+/// State of the system's clock, as the kernel knows it: follows a time server or not. All
+/// reentrant.
 namespace orbwatch::hal {
 
 /// By what adjtimex() filled in.

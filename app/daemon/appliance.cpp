@@ -117,7 +117,7 @@ Result<> Appliance::start(const std::vector<Sink*>& watchers) {
   sinks.insert(sinks.begin(), lines_.get());
   sinks.push_back(&*watch_);
   sinks.insert(sinks.end(), watchers.begin(), watchers.end());
-  // What was stopped before a restart of this process must not measure for a moment.
+  // A process stopped before a restart of this program must not be measured for a moment.
   const Selection selection = record_->selection();
   if (selection.stopped) pipeline_->stop_measuring();
   if (auto started = pipeline_->start(sinks); !started) return started;

@@ -35,7 +35,7 @@ class ApplianceThread {
 
   void start();
 
-  /// Whether it has ended, by itself when it could not start.
+  /// True: it has ended, by itself when it could not start.
   bool has_ended() const { return ended_.is_set(); }
   /// Why it could not start. Once it has ended.
   const Result<>& result() const { return result_; }

@@ -30,8 +30,8 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
 /// build().
 Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site);
 
-/// What build() assumes where recipes state nothing, in words that name file, region and key; with
-/// the formats that are expected. Empty: nothing, or the site has an error.
+/// Assumptions of build() where recipes state nothing, in words that name file, region and key;
+/// with the formats that are expected. Empty: nothing, or the site has an error.
 std::vector<std::string> assumptions(const Resolved& site);
 
 /// Checks the keys for DDS, and certificate and key of the page, as far as files are named.

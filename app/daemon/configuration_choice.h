@@ -20,7 +20,7 @@ struct Chosen {
 /// has no STATE_DIRECTORY. Not while the environment is changed.
 std::optional<std::filesystem::path> service_folder();
 
-/// Whether a trial of the configuration `file` is requested in the service's folder. A request that
+/// True: a trial of the configuration `file` is requested in the service's folder. A request that
 /// is damaged or for another configuration file is refused: logged and dropped.
 bool is_trial_for(const std::filesystem::path& folder, const std::filesystem::path& file);
 

@@ -11,7 +11,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// How often a service looks for the request of a trial, which comes as a file.
+/// Pause between two looks of a service for the request of a trial, which comes as a file.
 constexpr std::chrono::seconds kTrialPause{1};
 
 }  // namespace

@@ -31,8 +31,8 @@ class RestartWatch {
 
   void start();
 
-  /// That was chosen and is about to run: from now on requests of trials are looked for, and a
-  /// trial ends kLongestStart from now.
+  /// Notes the configuration that is about to run: from now on requests of trials are looked for,
+  /// and a trial ends kLongestStart from now.
   void begin(const Chosen& chosen);
   /// It runs: a trial ends after its time.
   void begin_run();
@@ -42,7 +42,7 @@ class RestartWatch {
 
   /// For SIGHUP: starts again if the files permit it. Returns at once; answered once it runs.
   void ask();
-  /// Whether the files permit it. Waits for the checks. Error: why not, which was logged.
+  /// Checks that the files permit it, and waits for that. Error: why not, which was logged.
   Result<> check() const;
   /// Starts again, for files that passed check().
   void restart();
@@ -50,7 +50,7 @@ class RestartWatch {
   /// Decides nothing more. False: the check under way does not end within `patience`.
   bool end(std::chrono::milliseconds patience);
 
-  /// As TimeoutStartSec of the unit: the compiling of a large site's views.
+  /// TimeoutStartSec of the unit: the compiling of a large site's views.
   static constexpr std::chrono::minutes kLongestStart{3};
 
  private:

@@ -51,7 +51,8 @@ struct Configuration {
   std::vector<Located<RecipeFile>> recipes;  ///< the first one is measured from the start
   PlaceSettings place;
   std::optional<SnapshotSettings> snapshot;
-  /// Of what must outlast a restart. As read: empty if the file names none; see state_folder().
+  /// Folder of what must outlast a restart. Empty when read: the file names none; see
+  /// state_folder().
   std::filesystem::path state_folder;
   SinkSettings sinks;
 };

@@ -54,7 +54,7 @@ Result<std::optional<Trial>> running_trial(const std::filesystem::path& folder);
 
 /// Tells who asked for a trial why it does not run; empty: it does. Error: as hal::write_file().
 Result<> report_trial(const std::filesystem::path& folder, const std::string& refusal);
-/// That of the last request; nullopt: it is not known yet. Error: it is damaged.
+/// Report on the last request; nullopt: it is not known yet. Error: it is damaged.
 Result<std::optional<std::string>> trial_report(const std::filesystem::path& folder);
 
 /// None runs any more. Returns whether one did.

@@ -21,7 +21,7 @@ class ConfigurationFiles {
   /// By the name of their file: its path from the folder of the configuration file.
   using Texts = std::map<std::string, std::string>;
 
-  /// What a file was when it was read, and who changed it last.
+  /// A file as it was read, and who changed it last.
   struct Version {
     std::string checksum;  ///< eight hexadecimal digits
     std::string time;      ///< of that change, UTC as ISO 8601

@@ -50,7 +50,7 @@ struct PublishedView {
   std::vector<PublishedSource> sources{};
 };
 
-/// How a camera's own picture is offered to the outside.
+/// A camera's own picture as it is offered to the outside.
 struct PublishedCamera {
   PixelFormat encoding = PixelFormat::Rgb;   ///< or Bgr or Grey
   std::optional<optics::Intrinsics> lens{};  ///< of that picture; nullopt: not calibrated

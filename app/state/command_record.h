@@ -25,7 +25,7 @@ struct CommandId {
 /// sequences. Other clients have other numbers.
 inline constexpr std::uint64_t kPlcClient = 0;
 
-/// What commands selected last.
+/// Selections of the last commands.
 struct Selection {
   std::uint16_t recipe = 0;  ///< its number; 0: no command selected one
   bool stopped = false;      ///< by the command stop
@@ -73,7 +73,7 @@ class CommandRecord {
   /// By the time of the newest command, the oldest first.
   std::vector<Entry> entries() const;
 
-  /// Of this process's runs so far.
+  /// Selections of this process's runs so far.
   Selection selection() const;
 
   /// The caller judged the command to be new by entries() and by what it gave to carry_out since.

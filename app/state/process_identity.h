@@ -15,7 +15,7 @@ struct ProcessIdentity {
   bool operator==(const ProcessIdentity&) const = default;
 };
 
-/// Of this process; all zero when the kernel does not say. Reentrant.
+/// Identity of this process; all zero when the kernel does not say. Reentrant.
 ProcessIdentity this_process();
 
 }  // namespace orbwatch::app

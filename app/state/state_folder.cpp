@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kService = "orbwatch";
 
-/// Of a list of folders in the environment.
+/// First one of a list of folders in the environment.
 std::optional<fs::path> first_folder(const char* variable) {
   const char* const folders = std::getenv(variable);
   const std::string_view all = folders != nullptr ? folders : "";

@@ -5,7 +5,7 @@
 
 #include "proc/image/result.h"
 
-/// Where the orbwatchd of a configuration file keeps what must outlast a restart. Several machines
+/// Folder of what must outlast a restart of the orbwatchd of a configuration file. Several machines
 /// on one board have a folder each, which records its configuration file.
 namespace orbwatch::app {
 

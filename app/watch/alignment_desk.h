@@ -21,7 +21,7 @@
 
 namespace orbwatch::app {
 
-/// Whether an alignment that is accepted now would be in force after a restart. Error: why not.
+/// Checks that an alignment accepted now would be in force after a restart. Error: why not.
 /// Waits for the checks of a whole configuration. On any thread.
 using AcceptanceCheck = std::function<Result<>(const CalibrationEntry&)>;
 

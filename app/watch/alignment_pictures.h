@@ -16,7 +16,8 @@ namespace orbwatch::app {
 /// Makes pictures that alignments are judged by, on shared threads. Thread-safe.
 class AlignmentPictures {
  public:
-  /// Of one camera; one more is refused. A camera that delivers nothing leaves the others theirs.
+  /// Limit for one camera; one more is refused. A camera that delivers nothing leaves the others
+  /// theirs.
   static constexpr std::size_t kMostWaiting = 16;
 
   /// `watch` outlives it.
@@ -35,7 +36,7 @@ class AlignmentPictures {
     AlignmentSource::OnPicture on_picture;
     AlignmentSource::IsWanted is_wanted;
   };
-  /// What waits for one camera's next picture.
+  /// Requests that wait for one camera's next picture.
   struct Queue {
     std::vector<Wanted> waiting;
     bool is_asked = false;  ///< the watch is to copy that picture

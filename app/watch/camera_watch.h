@@ -47,7 +47,7 @@ class CameraWatch : public Sink {
     return camera < cameras_.size() && cameras_[camera] != nullptr;
   }
 
-  /// Of a camera, by the newest status.
+  /// Fault of a camera, by the newest status.
   hal::Fault fault(std::size_t camera) const { return faults_[camera]; }
 
   /// The newest drift of a camera that is watched and was seen.

@@ -35,7 +35,7 @@ class JpegDecoder {
   /// Whether the picture checked or decoded last had such padding, or no end marker: see
   /// JpegReader::is_flawed().
   bool is_flawed() const;
-  /// Of the picture checked or decoded last: see JpegReader::picture_bytes().
+  /// Bytes of the picture checked or decoded last: see JpegReader::picture_bytes().
   std::size_t picture_bytes() const;
 
   /// Errors: not a JPEG picture, header damaged, CMYK.

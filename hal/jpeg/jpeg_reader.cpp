@@ -86,7 +86,7 @@ Result<> JpegReader::failed(const char* what) {
   return fail(std::move(message));
 }
 
-/// Where the marker begins at which libjpeg gave up: it has read a marker's code before it judges.
+/// Begin of the marker at which libjpeg gave up: it has read a marker's code before it judges.
 std::size_t JpegReader::bytes_before_marker() const {
   const std::size_t read = jpeg_.size() - std::min(jpeg_.size(), picture_.src->bytes_in_buffer);
   const bool is_behind = read >= 2 && jpeg_[read - 2] == std::byte{0xff};

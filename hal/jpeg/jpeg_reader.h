@@ -54,7 +54,7 @@ class JpegReader {
   /// missing; but too much data may also be the only trace of a bit that was sent wrong.
   bool is_flawed() const { return has_padding_ || broke_off_; }
 
-  /// Of the picture that was finished last: its bytes up to and with the end marker, if it has one,
+  /// Bytes of the picture that was finished last, up to and with the end marker, if it has one,
   /// without other data that follows.
   std::size_t picture_bytes() const { return picture_bytes_; }
 

@@ -27,7 +27,7 @@ class PriorityMutex {
   bool try_lock() { return ::pthread_mutex_trylock(&mutex_) == 0; }
   void unlock() { ::pthread_mutex_unlock(&mutex_); }
 
-  /// Whether the kernel has it.
+  /// True: the kernel has it.
   bool inherits() const { return inherits_; }
 
  private:

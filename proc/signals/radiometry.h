@@ -23,7 +23,7 @@ struct RadiometrySettings {
   bool is_radiometric() const { return kelvin_per_count > 0 || says_scale; }
 };
 
-/// What a camera's table [camera.radiometry] states; kelvin_per_count, kelvin_offset and says_scale
+/// Settings of a camera's table [camera.radiometry]; kelvin_per_count, kelvin_offset and says_scale
 /// are keys of the camera's own table, the rest are the region's.
 template <class Visitor>
 void visit(Visitor& v, RadiometrySettings& radiometry) {

@@ -6,7 +6,7 @@
 #include <regex>
 #include <string>
 
-/// Where time_t has 32 bit, as on armhf of Debian 12, these functions turn dates beyond January
+/// With a time_t of 32 bit, as on armhf of Debian 12, these functions turn dates beyond January
 /// 2038 into 1901 or 1969. hal/calendar_time.h counts in 64 bit everywhere.
 namespace orbwatch::tests {
 namespace {

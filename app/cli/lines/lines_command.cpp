@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the orbwatchd of this file recorded the outputs that it drove. Error: the state folder is
+/// The record of outputs by the orbwatchd of this file. Error: the state folder is
 /// another machine's.
 Result<fs::path> record_folder(const fs::path& file) {
   if (auto folder = runtime_directory()) return std::move(*folder);

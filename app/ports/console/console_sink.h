@@ -34,7 +34,7 @@ void visit(Visitor& v, ConsoleSettings& console) {
 #define ORBWATCH_CONSOLE_FIGURES(FIELD) \
   FIELD(std::uint64_t, dropped, kCount, "Prints dropped because standard output was not read")
 
-/// What a console counts of itself.
+/// Counters of a console.
 struct ConsoleCounts {
   ORBWATCH_CONSOLE_FIGURES(ORBWATCH_FIELD_MEMBER)
 };

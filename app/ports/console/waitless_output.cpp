@@ -29,7 +29,7 @@ bool WaitlessOutput::write(std::string_view text) {
   return true;
 }
 
-/// As much as is taken at once. What can never be written is dropped.
+/// Writes as much as is taken at once. Text that can never be written is dropped.
 void WaitlessOutput::send() {
   while (!rest_.empty()) {
     ssize_t sent = -1;

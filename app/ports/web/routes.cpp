@@ -21,7 +21,7 @@ std::string_view without_port(std::string_view authority, std::string_view impli
   return authority;
 }
 
-/// Whether an Origin header is our own page's. Over HTTP a page of the same host over HTTPS is: a
+/// True: an Origin header is our own page's. Over HTTP a page of the same host over HTTPS is: a
 /// proxy may end TLS. Over HTTPS one over HTTP is not: somebody on the way may have made it.
 bool is_own_origin(std::string_view origin, const Request& request) {
   constexpr std::string_view kHttp = "http://", kHttps = "https://";

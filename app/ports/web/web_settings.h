@@ -61,7 +61,7 @@ inline std::optional<int> https_port_of(const WebSettings& web) {
   return web.https_port || !is_needed ? web.https_port : kHttpsPort;
 }
 
-/// Who is trusted could claim any client's address.
+/// A trusted proxy can claim any client's address.
 template <class Visitor>
 void require_proxies(Visitor& v, const std::vector<std::string>& texts) {
   constexpr const char* kKey = "trusted_proxies";

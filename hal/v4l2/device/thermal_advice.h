@@ -8,7 +8,7 @@
 
 namespace orbwatch::hal {
 
-/// How a thermal camera that offers a format in these sizes has to be configured where its frames
+/// Advice on configuring a thermal camera that offers a format in these sizes where its frames
 /// are not what they are called: 16 bit words as YUYV below a picture, or lines of telemetry beside
 /// it. Empty for other sizes. Reentrant.
 std::string thermal_advice(std::uint32_t fourcc, std::span<const FrameSizeOffer> sizes);

@@ -114,7 +114,7 @@ std::vector<PixelCoding> candidates(const V4l2Device& device, const FormatReques
   return found;
 }
 
-/// What may help where a thermal camera's frames are not what they are called.
+/// Advice where a thermal camera's frames are not what they are called.
 std::string advice(const V4l2Device& device, const FormatRequest& wanted) {
   std::string text;
   if (wanted.pixel_format == kWordsAsYuyv.name && !wanted.is_radiometric &&

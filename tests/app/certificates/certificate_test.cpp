@@ -20,7 +20,7 @@ std::string as_written(const ASN1_TIME* time) {
           static_cast<std::size_t>(ASN1_STRING_length(time))};
 }
 
-/// Where time_t has 32 bit, it ends in January 2038.
+/// A time_t of 32 bit ends in January 2038.
 TEST(CertificateDates, BeyondTheEndOf32BitAreWrittenAndReadAsTheyAre) {
   const ValidityPeriod validity{sys_days(2045y / July / 1) + 1h + 2min + 3s,
                                 sys_days(2105y / December / 31) + 23h + 59min + 59s};

@@ -32,7 +32,7 @@ class TwoMachines : public CommandLine {
   std::string first() const {
     return std::filesystem::path(path("first.toml")).lexically_normal().string();
   }
-  /// What is said for the second machine changes nothing at the first one.
+  /// A command for the second machine changes nothing at the first one.
   void expect_refused(std::vector<std::string> words) {
     words.insert(words.end(), {"--config", path("second.toml")});
     EXPECT_NE(run(words), 0) << said;

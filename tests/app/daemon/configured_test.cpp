@@ -183,7 +183,7 @@ TEST_F(Configured, EndsWhereATrialWasRequestedJustBefore) {
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
-/// Of two machines on one board, the other one's.
+/// Another machine on the same board has the other configuration.
 TEST_F(Configured, RefusesARequestForAnotherConfigurationWithoutARestart) {
   Subprocess daemon = run();
   manager.await("READY=1");

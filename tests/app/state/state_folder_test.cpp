@@ -21,7 +21,7 @@ class StateFolder : public testing::Test {
   StateFolder() { ::unsetenv("STATE_DIRECTORY"); }
   ~StateFolder() override { ::unsetenv("STATE_DIRECTORY"); }
 
-  /// As orbwatchd records it when it starts.
+  /// Records it as orbwatchd does when it starts.
   void runs_with(const std::string& folder, const fs::path& configuration) const {
     EXPECT_TRUE(record_owner(lib() / folder, configuration));
   }

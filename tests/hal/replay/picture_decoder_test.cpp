@@ -130,7 +130,7 @@ TEST(PictureDecoder, HonoursExifOrientationInAnyApp1Segment) {
 }
 
 TEST(PictureDecoder, ShowsEachExifOrientationUpright) {
-  // Where the bright left half of the stored picture lies when it is seen.
+  // Place of the stored picture's bright left half when it is seen.
   const std::array<std::string_view, 10> expected{"left", "left", "right",  "right",  "left",
                                                   "top",  "top",  "bottom", "bottom", "left"};
   for (std::size_t n = 0; n < expected.size(); ++n) {

@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kPriority = 10;
 
-/// As the kernel schedules the thread now: -1 - priority while it is of real time, from 0 on else.
+/// Priority by which the kernel schedules the thread now: -1 - priority while it is of real time,
+/// from 0 on else.
 int kernel_priority(pid_t thread) {
   std::ifstream in("/proc/self/task/" + std::to_string(thread) + "/stat");
   std::string text{std::istreambuf_iterator<char>(in), {}};

@@ -72,7 +72,7 @@ int list_size(const State& fake, v4l2_frmsizeenum& size) {
   return 0;
 }
 
-/// As drivers do: sets a size that it has, and keeps the current one for any other.
+/// Behaves as drivers do: sets a size that it has, and keeps the current one for any other.
 int set_format(State& fake, v4l2_format& format, bool sets) {
   v4l2_pix_format& pix = format.fmt.pix;
   const std::pair wanted{pix.width, pix.height};

@@ -81,7 +81,7 @@ std::optional<std::span<const std::uint8_t>> RtuFramer::next() {
 
 void RtuFramer::end() {
   const auto request = last_request();
-  // What was spoilt is counted.
+  // Spoilt bytes are counted.
   const bool is_whole = request && request->data() <= bytes().data();
   if (!bytes().empty() && !is_whole) ++errors_;
   size_ = request ? request->size() : 0;

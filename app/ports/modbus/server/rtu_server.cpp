@@ -52,7 +52,7 @@ bool RtuServer::is_stopped_within(hal::Clock::duration time) const {
   return ::poll(&stop, 1, static_cast<int>(wait.count())) > 0;
 }
 
-/// What is known of the bytes of an open line.
+/// State of the bytes of an open line.
 struct RtuServer::Reception {
   RtuFramer framer;
   EchoFilter echoes;

@@ -10,7 +10,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-/// What follows the scheme in Authorization (RFC 9110, 11.4); nullopt: it is not there.
+/// Credentials behind the scheme in Authorization (RFC 9110, 11.4); nullopt: there are none.
 std::optional<std::string> authorization_by(const Request& request, std::string_view scheme) {
   const std::string* sent = request.header("Authorization");
   if (!sent || sent->size() <= scheme.size() || (*sent)[scheme.size()] != ' ' ||

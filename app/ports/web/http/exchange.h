@@ -26,7 +26,7 @@ class Exchange {
   /// Before what was requested takes effect: from now on no deadline answers in place of the
   /// result, which must follow. False: it was answered, and the effect must not come.
   bool begin_effect();
-  /// As answer(), by the server's deadline. False also once the effect has begun.
+  /// Answers by the server's deadline, see answer(). False also once the effect has begun.
   bool give_up(Response response);
 
   /// For the server: the body that has arrived.

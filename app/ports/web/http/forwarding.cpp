@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// Whether quoted strings (RFC 9110, 5.6.4) may hold separators; in X-Forwarded-* they do not.
+/// Rule for separators in quoted strings (RFC 9110, 5.6.4); X-Forwarded-* has no such strings.
 enum class Quotes { None, Hold };
 
 /// The parts between separators. Nullopt: a quoted string has no end, and what a proxy appended

@@ -10,11 +10,11 @@
 /// Requests that reverse proxies pass on. All reentrant.
 namespace orbwatch::app::web {
 
-/// Whether a header shows that a proxy passed the request on, whatever its value: Forwarded
+/// True: a header shows that a proxy passed the request on, whatever its value: Forwarded
 /// (RFC 7239), Via, X-Real-IP or any X-Forwarded-*.
 bool is_passed_on(const Values& headers);
 
-/// Whether a connection's numeric address is in `trusted`.
+/// True: a connection's numeric address is in `trusted`.
 bool is_trusted(const std::string& peer, const std::vector<hal::Network>& trusted);
 
 /// Sets the passage of a request that came from `peer`. From a trusted proxy also sets, as far as

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kBadRequest = 400, kMisdirected = 421;
 
-/// How long the scheme of an absolute target is, with the two slashes; 0: the target has none.
+/// Length of an absolute target's scheme with the two slashes; 0: the target has none.
 std::size_t scheme_size(std::string_view target) {
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (equal_in_any_case(target.substr(0, scheme.size()), scheme)) return scheme.size();
@@ -37,7 +37,7 @@ std::size_t count_of(const Request& request, std::string_view name) {
       request.headers, [name](const auto& sent) { return equal_in_any_case(sent.first, name); }));
 }
 
-/// Whether a proxy may see another end of the body than we do (RFC 9112, 6.3), and what follows as
+/// True: a proxy may see another end of the body than we do (RFC 9112, 6.3), and what follows as
 /// another request.
 bool has_two_lengths(const Request& request) {
   const std::size_t lengths = count_of(request, "Content-Length");

@@ -47,7 +47,7 @@ Result<ServerCertificate> self_made_certificate(const std::filesystem::path& fol
                                                 std::chrono::sys_seconds now,
                                                 ClockState clock = ClockState::Unsure);
 
-/// Whether a self-made one is to be replaced: it ends soon, or `clock` is synchronised and it
+/// True: a self-made one is to be replaced: it ends soon, or `clock` is synchronised and it
 /// begins later than now, made while the clock was ahead. With an unsure clock the latter stays,
 /// because the clock is as likely to be behind.
 bool is_due(const ServerCertificate& certificate, std::chrono::sys_seconds now,

@@ -95,7 +95,7 @@ TEST_F(StatusLines, AlarmsBeyondTheirCountAreNone) {
   EXPECT_TRUE(becomes(left, true, true));
 }
 
-/// As while the owner hangs in something else.
+/// The owner hangs in something else.
 TEST_F(StatusLines, AreMadeSafeByAnotherThread) {
   EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
   std::thread([this] { lines->make_safe(); }).join();

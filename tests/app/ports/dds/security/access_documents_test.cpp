@@ -69,7 +69,7 @@ TEST(PermissionsTest, OfOtherProductsAreRead) {
   EXPECT_FALSE(contains(grant->domains, 0) || contains(grant->domains, 3));
 }
 
-/// Where time_t has 32 bit, it ends in January 2038.
+/// A time_t of 32 bit ends in January 2038.
 TEST(PermissionsTest, DatesBeyondTheEndOf32BitAreReadAsTheyWereWritten) {
   const sys_seconds from(sys_days(std::chrono::July / 1 / 2045));
   const sys_seconds until(sys_days(std::chrono::December / 31 / 2105));

@@ -327,7 +327,7 @@ TEST_F(ModbusRtu, ARequestBehindStrayBytesIsAnswered) {
   }
 }
 
-/// What a PLC on the serial line commands, while another program has the port of Modbus TCP.
+/// A PLC commands on the serial line while another program has the port of Modbus TCP.
 TEST_F(ModbusRtu, ASilentPlcIsSupervisedWithoutTcp) {
   ModbusSink other(tests::loopback(), tests::accept_all);
   ASSERT_TRUE(other.start());

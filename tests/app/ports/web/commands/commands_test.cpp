@@ -144,7 +144,7 @@ TEST_F(Commands, AHeldHandlerDelaysNoOtherRequest) {
   EXPECT_EQ(clients.front()->answer().status, 200);
 }
 
-/// Whether this process has a thread of that name.
+/// True: this process has a thread of that name.
 bool has_thread(const std::string& name) {
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     std::ifstream in(task.path() / "comm");
@@ -154,7 +154,7 @@ bool has_thread(const std::string& name) {
   return false;
 }
 
-/// As restart does, which has everything stopped as soon as it is done.
+/// Stops everything as soon as it is done, as restart does.
 TEST_F(Commands, WhatIsBeingDoneIsAnsweredAlthoughTheServerEnds) {
   is_held = true;
   Client client(port());

@@ -162,7 +162,7 @@ TEST_F(Proxies, PassOnWhatOurOwnPageCausesAndNothingElse) {
   }
 }
 
-/// What a proxy takes for the body of one client's request must not become the next one's.
+/// Bytes that a proxy takes for the body of one client's request must not become the next one's.
 TEST_F(Proxies, SeeTheEndOfARequestWhereWeDo) {
   trust();
   Client client(port());
