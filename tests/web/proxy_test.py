@@ -96,7 +96,8 @@ class Proxy(PageCase):
                                     wrong) as (head, _):
             self.assertIn("401", head[0])
         newest = self.asked("api/v1/audit")["entries"][-1]
-        self.assertEqual((newest["from"], newest["result"]), (CLIENT, "refused"))
+        # An address of the board that a proxy names is none of its own programs.
+        self.assertEqual((newest["from"], newest["result"]), (f"{CLIENT} (by proxy)", "refused"))
         described = self.asked("api/v1/openapi.json")
         self.assertEqual(self.browser.execute_script(
             "return new URL(arguments[0], new URL('api/v1/openapi.json', document.baseURI)).pathname",
