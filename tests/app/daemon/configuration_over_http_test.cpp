@@ -78,7 +78,8 @@ TEST_F(ConfigurationOverHttp, ShowsNoPrivateFile) {
   fs::permissions(folder / "recipe.toml", fs::perms(0600));
   Subprocess daemon = start(config);
   manager.await("READY=1");
-  for (const auto& file : shown()["files"]) {
+  const json all = shown();
+  for (const auto& file : all["files"]) {
     if (file["name"] != "recipe.toml") continue;
     EXPECT_FALSE(file["may_change"]);
     EXPECT_THAT(file["text"].get<std::string>(), HasSubstr("only its owner may read it"));
