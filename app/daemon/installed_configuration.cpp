@@ -185,7 +185,9 @@ Result<FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
   FileTexts there;
   for (const auto& [name, text] : texts) {
     const fs::path file = file_.parent_path() / name;
-    if (!may_be_changed(file, file_) || name.find('\0') != std::string::npos) {
+    // A file has one name here, by which the desk knows the one that is guarded.
+    const bool is_its_name = name_beside(file_, file) == name;
+    if (!is_its_name || !may_be_changed(file, file_) || name.find('\0') != std::string::npos) {
       return fail(name + ": is no path from the folder of the configuration to a file inside it");
     }
     if (const auto allowed = check_replaceable(file, file_, named, state); !allowed) {

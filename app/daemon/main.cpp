@@ -1,4 +1,5 @@
 #include <getopt.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -138,6 +139,9 @@ ExitStatus main(int argc, char** argv) {
 }  // namespace orbwatch::app
 
 int main(int argc, char** argv) {
+  // After start_again() the kernel calls the process "exe"; `orbwatch doctor` and people look for
+  // this.
+  ::prctl(PR_SET_NAME, "orbwatchd");
   // OpenCV would share every call among all cores, the frame path's too.
   cv::setNumThreads(1);
   return static_cast<int>(orbwatch::app::main(argc, argv));

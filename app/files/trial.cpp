@@ -140,7 +140,9 @@ Result<std::vector<fs::path>> confirm_trial(const fs::path& folder) {
   auto written = finish_confirmed(folder);
   if (!written) return tl::unexpected(written.error());
   if (*written) return std::move(**written);
-  return fail("no configuration waits for its confirmation: it was not taken up, or went back");
+  return fail(
+      "no configuration waits for its confirmation: it was confirmed already, went back or was "
+      "not taken up");
 }
 
 Result<std::optional<Trial>> confirmed_trial(const fs::path& folder) {

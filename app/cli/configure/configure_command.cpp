@@ -33,6 +33,7 @@ constexpr const char* kConfigureUsage =
 
 struct Options {
   fs::path config;
+  std::string named;  ///< the option that names it, for commands to follow; empty: none did
   int seconds = kUsualTrial;
   bool dry_run = false;
   bool confirm = false;
@@ -97,7 +98,7 @@ Result<std::string> try_out(const Options& o, const fs::path& file, const fs::pa
   if (o.dry_run) return difference;
   return request_trial(folder, *trial).and_then([&] { return await_trial(folder); }).map([&] {
     return difference + "runs for " + std::to_string(o.seconds) +
-           " seconds from now on; keep it with: orbwatch configure --confirm\n";
+           " seconds from now on; keep it with: orbwatch configure --confirm" + o.named + "\n";
   });
 }
 
@@ -110,7 +111,9 @@ Result<std::string> confirm(const fs::path& folder) {
 }
 
 Result<std::string> run(Options o, const std::vector<std::string>& words) {
+  const bool is_named = !o.config.empty();
   o.config = fs::absolute(site_file(o.config)).lexically_normal();
+  if (is_named) o.named = " --config " + o.config.string();
   const std::size_t ways = words.size() + (o.confirm ? 1 : 0) + (o.cancel ? 1 : 0);
   if (ways != 1) return usage_error("say FILE, --confirm or --cancel");
   const auto folder = state_folder({}, o.config);

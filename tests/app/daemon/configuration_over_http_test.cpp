@@ -94,6 +94,21 @@ TEST_F(ConfigurationOverHttp, ShowsNoPrivateFile) {
   EXPECT_THAT(contents(folder / "trial-running.json"), Not(HasSubstr("hot_spot_threshold")));
 }
 
+/// The role that a file needs is judged by its name.
+TEST_F(ConfigurationOverHttp, KnowsAFileByOneNameOnly) {
+  Subprocess daemon = start(config);
+  manager.await("READY=1");
+  const std::string folder_name = folder.path().filename();
+  const std::vector<std::string> names{config, "./site.toml", "../" + folder_name + "/site.toml",
+                                       "/" + folder_name, ""};
+  for (const std::string& name : names) {
+    const Answer refused = ask("try", {{"files", {{name, contents(config) + "# other\n"}}}});
+    EXPECT_EQ(refused.status, 409) << name;
+    EXPECT_THAT(refused.body, HasSubstr("is no path from the folder of the configuration")) << name;
+  }
+  EXPECT_TRUE(shown()["trial"].is_null());
+}
+
 TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   fs::permissions(folder / "recipe.toml", fs::perms(0640));
   Subprocess daemon = start(config);

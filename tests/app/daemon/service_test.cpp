@@ -32,6 +32,7 @@ TEST_F(Service, IsReadyFeedsTheWatchdogAndEnds) {
   EXPECT_THAT(reloading, HasSubstr("MONOTONIC_USEC="));
   EXPECT_THAT(reloading, HasSubstr("WATCHDOG_USEC=180000000")) << "building all anew takes time";
   EXPECT_THAT(manager.await("READY=1"), HasSubstr("WATCHDOG_USEC=1000000"));
+  EXPECT_EQ(thread_of(daemon.pid(), "orbwatchd"), daemon.pid()) << "by this name it is looked for";
 
   daemon.send(SIGTERM);
   manager.await("STOPPING=1");

@@ -22,6 +22,24 @@ mode_t mode_of(const std::filesystem::path& file) {
   return about.st_mode & 07777;
 }
 
+/// orbwatchd and `orbwatch password` write the same marker.
+TEST(PrivateFile, IsWrittenByTwoAtATime) {
+  const TemporaryFolder folder;
+  const auto file = folder / "secret";
+  std::atomic<int> failures = 0;
+  const auto write = [&](const std::string& text) {
+    for (int n = 0; n < 100; ++n) failures += write_private(file, text) ? 0 : 1;
+  };
+  std::thread other(write, "theirs");
+  write("ours");
+  other.join();
+  EXPECT_EQ(failures, 0);
+  const std::string text = read_private(file).value().value_or("");
+  EXPECT_TRUE(text == "ours" || text == "theirs") << text;
+  const auto files = std::distance(std::filesystem::directory_iterator(folder.path()), {});
+  EXPECT_EQ(files, 1) << "nothing is left";
+}
+
 TEST(PrivateFile, IsReadAsWrittenByItsOwnerOnly) {
   const TemporaryFolder folder;
   const auto file = folder / "new/secret";

@@ -164,6 +164,11 @@ void Access::keep() {
     sessions.restore(sessions_.all());
     limits = limits_;
   }
+  // In a folder that was made anew after it was removed the marker is missing, too.
+  if (has_users()) {
+    const auto kept = keep_that_users_exist(users_file(folder_));
+    if (!kept) log_line(LogLevel::Error, "web: " + kept.error().message);
+  }
   const auto saved = save_logins(logins_file(folder_), sessions, limits);
   if (!saved) log_line(LogLevel::Error, "web: " + saved.error().message);
 }

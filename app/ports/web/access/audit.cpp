@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -34,6 +36,28 @@ AuditEntries merge(AuditEntries a, AuditEntries b) {
   std::move(next_a, a.end(), std::back_inserter(merged));
   std::move(next_b, b.end(), std::back_inserter(merged));
   return merged;
+}
+
+/// The newest ones, of which each user keeps a share however many another one has; in their order.
+AuditEntries fair(AuditEntries all, std::size_t most) {
+  constexpr std::size_t kUsers = 10;
+  if (all.size() <= most) return all;
+  std::vector<bool> is_shown(all.size());
+  std::map<std::string, std::size_t> shown_of;
+  std::size_t shown = 0;
+  for (const std::size_t share : {std::max<std::size_t>(1, most / kUsers), most}) {
+    for (std::size_t i = all.size(); i-- > 0 && shown < most;) {
+      if (is_shown[i] || shown_of[all[i].value("who", "")] >= share) continue;
+      is_shown[i] = true;
+      ++shown_of[all[i].value("who", "")];
+      ++shown;
+    }
+  }
+  AuditEntries chosen;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_shown[i]) chosen.push_back(std::move(all[i]));
+  }
+  return chosen;
 }
 
 }  // namespace
@@ -94,7 +118,8 @@ void Audit::write_waiting(std::vector<Entry> counts, std::vector<Entry> refused_
 
 std::string Audit::newest(std::size_t most) const {
   AuditEntries refused = refused_file_.newest(std::min(most, kMostRefusedShown));
-  AuditEntries entries = file_.newest(most - refused.size());
+  AuditEntries entries =
+      fair(file_.newest(std::numeric_limits<std::size_t>::max()), most - refused.size());
   return nlohmann::ordered_json{{"entries", merge(std::move(entries), std::move(refused))}}.dump();
 }
 

@@ -1,6 +1,7 @@
 #include "app/ports/web/http/request_form.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "app/ports/web/http/address.h"
 #include "app/ports/web/http/forwarding.h"
@@ -44,6 +45,22 @@ bool has_two_lengths(const Request& request) {
   return lengths > 1 || (lengths == 1 && count_of(request, "Transfer-Encoding") > 0);
 }
 
+/// A token (RFC 9110, 5.6.2). The library keeps the space of "Host : a" in the name, which would
+/// then be another header than a proxy takes it for (RFC 9112, 5.1).
+bool is_token(std::string_view name) {
+  constexpr std::string_view kOthers = "!#$%&'*+-.^_`|~";
+  return !name.empty() && std::ranges::all_of(name, [&](unsigned char c) {
+    return std::isalnum(c) != 0 || kOthers.find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
+/// After a request whose end is not certain, nothing of the connection is.
+Response refused_with_its_connection(std::string_view why) {
+  Response refusal = error_response(kBadRequest, std::string(why));
+  refusal.headers.emplace_back("Connection", "close");
+  return refusal;
+}
+
 }  // namespace
 
 std::optional<Response> settle_form(Request& request, std::string_view version,
@@ -52,10 +69,12 @@ std::optional<Response> settle_form(Request& request, std::string_view version,
     // The library's C strings were cut there.
     return error_response(kBadRequest, "a zero byte has no place in a path or a query");
   }
+  const auto& headers = request.headers;
+  if (!std::ranges::all_of(headers, [](const auto& sent) { return is_token(sent.first); })) {
+    return refused_with_its_connection("the name of a header is malformed");
+  }
   if (has_two_lengths(request)) {
-    Response refusal = error_response(kBadRequest, "the body's length is stated twice");
-    refusal.headers.emplace_back("Connection", "close");
-    return refusal;
+    return refused_with_its_connection("the body's length is stated twice");
   }
   const std::size_t hosts = count_of(request, "Host");
   if (hosts > 1) return error_response(kBadRequest, "the request has more than one Host header");

@@ -196,6 +196,16 @@ TEST_F(AccessTest, AFolderThatVanishesOpensNoDoor) {
   EXPECT_TRUE(access->login("admin", kPassword, kPeer));
 }
 
+/// The end makes the folder anew, for the failures that it keeps.
+TEST_F(AccessTest, AFolderThatVanishedOpensNoDoorAfterARestart) {
+  add("admin", Role::Administrator);
+  std::filesystem::remove_all(folder.path());
+  access->refresh();
+  access->stop();
+  restart();
+  EXPECT_EQ(access->caller({"127.0.0.1", {}, {}}).role, Role::Nobody);
+}
+
 TEST_F(AccessTest, APasswordSetAtTheBoardReplacesUsersThatAreGone) {
   add("admin", Role::Administrator);
   std::filesystem::remove(users_file(folder.path()));

@@ -114,6 +114,20 @@ TEST(Audit, RefusedClientsHaveFilesOfTheirOwnAndFewOfTheLinesShown) {
   EXPECT_LT(std::filesystem::file_size(folder / "audit.jsonl"), 200U);
 }
 
+TEST(Audit, ShowsEachUsersNewestHoweverManyAnotherOneHas) {
+  const TemporaryFolder folder;
+  Audit audit(folder.path());
+  Audit::Entry of_lee = numbered(0);
+  of_lee.who = "lee";
+  audit.note(of_lee);
+  for (int number = 1; number <= 100; ++number) audit.note(numbered(number));
+  const json shown = entries(audit, 20);
+  ASSERT_EQ(shown.size(), 20U);
+  EXPECT_EQ(shown[0]["who"], "lee");
+  EXPECT_EQ(shown[1]["what"], "82");
+  EXPECT_EQ(shown[19]["what"], "100");
+}
+
 TEST(Audit, CountsOfANetworkOfIpv6AreOne) {
   const TemporaryFolder folder;
   Audit audit(folder.path());

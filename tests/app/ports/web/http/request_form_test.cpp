@@ -55,6 +55,15 @@ TEST(RequestForm, HasOneHost) {
   EXPECT_EQ(refusal_of(request_to("/", {})), 400);
 }
 
+TEST(RequestForm, HasNamesOfHeadersThatAreTokens) {
+  for (const char* name :
+       {"Via ", "X-Real-IP\t", "Host ", "", "Content-Length ", "a:b", "\xc3\xa4"}) {
+    EXPECT_EQ(refusal_of(request_to("/", {{"Host", "board.example"}, {name, "1"}})), 400) << name;
+  }
+  EXPECT_EQ(refusal_of(request_to("/", {{"Host", "board.example"}, {"x!#$%&'*+-.^_`|~9", "1"}})),
+            0);
+}
+
 TEST(RequestForm, OfTheOldVersionNeedsNone) {
   EXPECT_EQ(refusal_of(request_to("/", {}), "HTTP/1.0"), 0);
   EXPECT_EQ(refusal_of(request_to("/", {{"Host", "evil.example"}}), "HTTP/1.0"), 421);
