@@ -79,7 +79,7 @@ class PacedFrames final : public Pace {
 app::DdsSettings settings_for(Pictures pictures) {
   app::DdsSettings settings{.domain = app::tests::kDomain};
   settings.prefix = kPrefix;
-  if (pictures == Pictures::Camera) settings.cameras[kCamera] = PixelFormat::Grey;
+  if (pictures == Pictures::Camera) settings.cameras[kCamera].encoding = PixelFormat::Grey;
   if (pictures == Pictures::Jpeg) settings.jpeg.target_bytes = kJpegBytes;
   return settings;
 }
