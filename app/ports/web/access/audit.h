@@ -47,8 +47,8 @@ class Audit {
   void write_all();
 
   /// `{"entries": [...]}` as JSON, the newest last, at most kMostRefusedShown of clients without a
-  /// role; a tenth is for each user's newest ones, so that nobody pushes others' out of sight. Waits
-  /// for the disk.
+  /// role; a tenth is for each user's newest ones, so that nobody pushes others' out of sight.
+  /// Waits for the disk.
   std::string newest(std::size_t most) const;
 
  private:
