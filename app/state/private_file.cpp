@@ -5,12 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <string>
 #include <system_error>
 #include <utility>
 
+#include "hal/atomic_file.h"
 #include "hal/regular_file.h"
 
 namespace orbwatch::app {
@@ -59,23 +58,8 @@ Result<std::optional<std::string>> read_private(const fs::path& file) {
 }
 
 Result<> write_private(const fs::path& file, std::string_view text) {
-  const auto folder = open_folder(file);
-  if (!folder) return tl::unexpected(folder.error());
-  // Of this process alone: another one may write the same file. hal::remove_unfinished() knows the
-  // name.
-  static std::atomic<unsigned> serial = 0;
-  const fs::path unfinished =
-      file.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part";
-  const hal::FileDescriptor written(
-      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
-  const bool is_replaced = written.is_open() && give_to_owner_of(folder->get(), written.get()) &&
-                           hal::write_all(written, text) && ::fsync(written.get()) == 0 &&
-                           ::rename(unfinished.c_str(), file.c_str()) == 0 &&
-                           ::fsync(folder->get()) == 0;
-  if (is_replaced) return {};
-  const auto failed = cannot(file, "written");
-  ::unlink(unfinished.c_str());
-  return failed;
+  if (const auto folder = open_folder(file); !folder) return tl::unexpected(folder.error());
+  return hal::write_file(file, text, hal::FileAccess::Owner);
 }
 
 Result<> with_lock(const fs::path& file, const std::function<Result<>()>& change) {
