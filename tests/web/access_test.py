@@ -22,16 +22,6 @@ NEXT_PASSWORD = "a forgotten one replaced"
 class Access(PageCase):
     """In order: each case goes on with the users of the one before."""
 
-    def fields(self, name):
-        return self.browser.find_elements(By.CSS_SELECTOR, f"#access [name={name}]")
-
-    def fill(self, **values):
-        for name, value in values.items():
-            field = eventually(name, lambda name=name: self.fields(name))[0]
-            field.clear()
-            field.send_keys(value)
-        self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
-
     def expect_live(self):
         eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
 
@@ -77,11 +67,11 @@ class Access(PageCase):
         self.expect_live()
         self.assertEqual(self.status_of("api/v1/status"), 200)
         self.browser.find_element(By.CSS_SELECTOR, "#account button").click()
-        self.fill(password=PASSWORD, again=PASSWORD + "x")
+        self.fill_access(password=PASSWORD, again=PASSWORD + "x")
         eventually("the page says that they differ",
                    lambda: "differ" in self.browser.text("#access [role=alert]"))
         self.browser.keep_picture("first-password")
-        self.fill(password=PASSWORD, again=PASSWORD)
+        self.fill_access(password=PASSWORD, again=PASSWORD)
         eventually("the page says who it is",
                    lambda: "admin" in self.browser.text("#account"))
         self.expect_live()
@@ -95,28 +85,28 @@ class Access(PageCase):
 
     def test_2_nobody_gets_in_without_it(self):
         self.browser.get(self.appliance.address)
-        eventually("the form", lambda: self.fields("password"))
+        eventually("the form", lambda: self.access_fields("password"))
         self.assertEqual(self.browser.find_elements(By.TAG_NAME, "canvas"), [])
         self.browser.keep_picture("login")
-        self.fill(user="admin", password="not the right one")
+        self.fill_access(user="admin", password="not the right one")
         eventually("the page says so",
                    lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
         self.assertEqual(self.session()["user"], "")
-        self.fill(user="admin", password=PASSWORD)
+        self.fill_access(user="admin", password=PASSWORD)
         self.expect_live()
         self.assertEqual(self.session()["user"], "admin")
 
     def test_3_logging_out_ends_session_and_stream(self):
         self.browser.get(self.appliance.address)
-        self.fill(user="admin", password=PASSWORD)
+        self.fill_access(user="admin", password=PASSWORD)
         self.expect_live()
         self.browser.find_element(By.CSS_SELECTOR, "#account button").click()
-        eventually("the form", lambda: self.fields("password"))
+        eventually("the form", lambda: self.access_fields("password"))
         self.assertEqual(self.session()["user"], "")
 
     def test_4_a_restart_of_the_daemon_logs_nobody_out(self):
         self.browser.get(self.appliance.address)
-        self.fill(user="admin", password=PASSWORD)
+        self.fill_access(user="admin", password=PASSWORD)
         self.expect_live()
         self.appliance.stop()
         eventually("the page says so", lambda: "No connection" in self.browser.text("#condition"))
@@ -127,31 +117,31 @@ class Access(PageCase):
 
     def test_5_a_forgotten_password_is_replaced_on_the_board(self):
         self.browser.get(self.appliance.address)
-        self.fill(user="admin", password=PASSWORD)
+        self.fill_access(user="admin", password=PASSWORD)
         self.expect_live()
         subprocess.run(
             [ROOT / "build/release/app/orbwatch", "password",
              "--config", self.appliance.folder / "demo.toml"],
             input=NEXT_PASSWORD + "\n", encoding="utf-8", check=True, capture_output=True)
         # The session of whoever knew the old one ends, with its stream.
-        eventually("the form", lambda: self.fields("password"))
-        self.fill(user="admin", password=PASSWORD)
+        eventually("the form", lambda: self.access_fields("password"))
+        self.fill_access(user="admin", password=PASSWORD)
         eventually("the old one is refused",
                    lambda: "password is wrong" in self.browser.text("#access [role=alert]"))
-        self.fill(user="admin", password=NEXT_PASSWORD)
+        self.fill_access(user="admin", password=NEXT_PASSWORD)
         self.expect_live()
         self.assertEqual(self.users(), {"admin": "administrator"})
 
     def test_6_nothing_keeps_anybody_out(self):
         def show():
             self.browser.get(self.appliance.address)
-            eventually("the form", lambda: self.fields("password"))
+            eventually("the form", lambda: self.access_fields("password"))
 
         self.expect_no_barriers(show)
 
     def test_7_the_administrator_lets_others_in(self):
         self.browser.get(f"{self.appliance.address}#/system")
-        self.fill(user="admin", password=NEXT_PASSWORD)
+        self.fill_access(user="admin", password=NEXT_PASSWORD)
         self.open_people()
         people, programs = self.browser.find_elements(By.CSS_SELECTOR, "#people form")
         self.submit(people, user="kim", role="operator", password="too short")
@@ -178,7 +168,7 @@ class Access(PageCase):
     def test_8_nor_from_that_part(self):
         self.browser.look_for_barriers()
         self.browser.get(f"{self.appliance.address}#/system")
-        self.fill(user="admin", password=NEXT_PASSWORD)
+        self.fill_access(user="admin", password=NEXT_PASSWORD)
         self.open_people()
         self.assertEqual(self.browser.barriers(), [])
 

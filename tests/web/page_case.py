@@ -2,7 +2,9 @@
 
 import unittest
 
-from appliance import Appliance
+from selenium.webdriver.common.by import By
+
+from appliance import Appliance, eventually
 from browser import Browser
 
 
@@ -22,6 +24,17 @@ class PageCase(unittest.TestCase):
     def setUp(self):
         self.browser = Browser(self.ARGUMENTS)
         self.addCleanup(self.browser.close_all)
+
+    def access_fields(self, name):
+        return self.browser.find_elements(By.CSS_SELECTOR, f"#access [name={name}]")
+
+    def fill_access(self, **values):
+        """Sends the form for names, passwords and the first code, once it has these fields."""
+        for name, value in values.items():
+            field = eventually(name, lambda name=name: self.access_fields(name))[0]
+            field.clear()
+            field.send_keys(value)
+        self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
 
     def expect_no_barriers(self, show):
         """In light and in dark. `show` brings the page to what is judged."""

@@ -29,17 +29,9 @@ class Proxy(PageCase):
     def make_appliance(cls):
         return Proxied()
 
-    def fill(self, **values):
-        for name, value in values.items():
-            field = eventually(name, lambda name=name: self.browser.find_elements(
-                By.CSS_SELECTOR, f"#access [name={name}]"))[0]
-            field.clear()
-            field.send_keys(value)
-        self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
-
     def log_in(self):
         self.browser.get(self.appliance.outside)
-        self.fill(user="admin", password=PASSWORD)
+        self.fill_access(user="admin", password=PASSWORD)
         eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
 
     def asked(self, path, body=None):

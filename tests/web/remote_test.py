@@ -83,14 +83,6 @@ class Remote(PageCase):
         cls.addClassCleanup(cls.appliance.close)
         cls.appliance.start(cls.appliance.is_healthy)
 
-    def fill(self, **values):
-        for name, value in values.items():
-            field = eventually(name, lambda name=name: self.browser.find_elements(
-                By.CSS_SELECTOR, f"#access [name={name}]"))[0]
-            field.clear()
-            field.send_keys(value)
-        self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
-
     def refusal(self):
         return self.browser.text("#access [role=alert]")
 
@@ -118,13 +110,13 @@ class Remote(PageCase):
         self.browser.get(self.appliance.http_address)
         eventually("the redirect to HTTPS",
                    lambda: self.browser.current_url.startswith(self.appliance.address))
-        self.fill(code="0000-0000", password=PASSWORD, again=PASSWORD)
+        self.fill_access(code="0000-0000", password=PASSWORD, again=PASSWORD)
         eventually("the page says so", lambda: "code is wrong" in self.refusal())
         self.assertEqual(self.browser.find_elements(By.TAG_NAME, "canvas"), [])
         self.browser.keep_picture("first-code")
-        self.fill(code=code.lower(), password=PASSWORD, again=PASSWORD + "x")
+        self.fill_access(code=code.lower(), password=PASSWORD, again=PASSWORD + "x")
         eventually("the page says that they differ", lambda: "differ" in self.refusal())
-        self.fill(code=code.lower(), password=PASSWORD, again=PASSWORD)
+        self.fill_access(code=code.lower(), password=PASSWORD, again=PASSWORD)
         eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
         self.assertEqual(self.session(),
                          {"user": "admin", "role": "administrator", "has_users": True})
@@ -139,7 +131,7 @@ class Remote(PageCase):
 
     def test_4_afterwards_one_logs_in(self):
         self.browser.get(self.appliance.address)
-        self.fill(user="admin", password=PASSWORD)
+        self.fill_access(user="admin", password=PASSWORD)
         eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
         self.assertEqual(self.session()["user"], "admin")
         self.assertEqual(self.browser.complaints(), [])
