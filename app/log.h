@@ -30,7 +30,7 @@ void log_line(LogLevel level, std::string_view text, const LogFields& fields = {
 /// log_line() about one camera, whose name begins the line and is its field.
 void log_camera(LogLevel level, std::string_view camera, std::string_view text);
 
-/// As log_line() with the text joined, for the frame path and for threads that serve many: with a
+/// log_line() with the text joined, for the frame path and for threads that serve many: with a
 /// LogWriter it neither allocates nor waits for the reader. Lines too many at once are dropped and
 /// counted, a long one is cut.
 void log_soon(LogLevel level, std::initializer_list<std::string_view> text,

@@ -64,7 +64,7 @@ void LogWriter::write_soon(LogLevel level, std::initializer_list<std::string_vie
   thread_.wake();
 }
 
-/// With queue_ held. Null: there is no place, and it is dropped.
+/// Adds a line, with queue_ held. Null: there is no place, and it is dropped.
 LogWriter::Waiting* LogWriter::add(LogLevel level, std::initializer_list<std::string_view> text,
                                    const LogFields& fields) {
   if (count_ == kMaxWaiting) {

@@ -30,7 +30,7 @@ class LogWriter {
   static constexpr std::size_t kMaxWaiting = 64;
   /// Bytes of a line of the frame path; the rest is cut.
   static constexpr std::size_t kMaxText = 512;
-  /// For a reader that does not read.
+  /// Longest wait of log_line() for a reader that does not read.
   static constexpr std::chrono::seconds kLongestWait{1};
 
   explicit LogWriter(Output output);

@@ -24,7 +24,8 @@ inline std::tm calendar_time(std::chrono::sys_seconds moment) {
   return fields;
 }
 
-/// By year, month, day, hour, minute and second; those beyond their ranges are carried over.
+/// The moment of year, month, day, hour, minute and second; values beyond their ranges are carried
+/// over.
 inline std::chrono::sys_seconds moment_of(const std::tm& fields) {
   const auto month = std::chrono::year(fields.tm_year + 1900) / std::chrono::January +
                      std::chrono::months(fields.tm_mon);

@@ -6,7 +6,7 @@
 /// reentrant.
 namespace orbwatch::hal {
 
-/// By what adjtimex() filled in.
+/// Reads what adjtimex() filled in.
 inline bool is_synchronised(const timex& clock) { return (clock.status & STA_UNSYNC) == 0; }
 
 /// False also when the kernel does not say.

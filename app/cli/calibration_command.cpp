@@ -38,7 +38,7 @@ struct Calibrations {
   std::vector<CalibrationEntry> entries;
 };
 
-/// Without its entries.
+/// Place of the calibrations and checksum of the rig, without the entries.
 Result<Calibrations> locate(const std::filesystem::path& config) {
   const auto site = read_site(config);
   if (!site) return tl::unexpected(site.error());

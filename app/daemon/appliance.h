@@ -53,7 +53,7 @@ class Appliance {
   /// What is missing, to be tried again by the owner when it is due.
   Attempts& attempts() { return attempts_; }
 
-  /// For Lines::make_safe() on another thread, also while this one's end hangs.
+  /// Lines for make_safe() on another thread, also while this one's end hangs.
   std::weak_ptr<Lines> lines() const { return lines_; }
 
  private:

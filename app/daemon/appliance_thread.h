@@ -46,7 +46,7 @@ class ApplianceThread {
   /// Asks for an orderly end, before a restart or not. False: it does not come within `patience`.
   bool end(bool restarts, std::chrono::milliseconds patience);
 
-  /// After an end that does not come: the service manager is told and the outputs are set inactive,
+  /// Replaces an end that does not come: tells the service manager and sets the outputs inactive,
   /// on yet another thread. False: not within `patience`. The process is to be replaced or ended by
   /// _exit() afterwards, this object must not be destroyed.
   bool abandon(bool restarts, std::chrono::milliseconds patience);

@@ -41,7 +41,7 @@ Result<> check_restart(const std::filesystem::path& file);
 Result<> check_acceptance(const std::filesystem::path& file, const Resolved& running,
                           CalibrationEntry entry);
 
-/// After a start: what runs is good, unless it is a trial, of which who asked for it is told.
+/// Notes a start: keeps the configuration as good, or tells who asked for a trial that it runs.
 void keep(const Chosen& chosen);
 
 }  // namespace orbwatch::app

@@ -35,7 +35,7 @@ bool may_be_changed(const fs::path& file, const fs::path& site) {
          site.parent_path() / *name == file && fs::path(*name).has_filename() && *name != ".";
 }
 
-/// With the checksum of this very text, which was read before.
+/// The file's version with the checksum of this very text, which was read before.
 ConfigurationFiles::Version version_of_text(const fs::path& file, const std::string& text) {
   TextFiles read;
   read.add(text);

@@ -40,7 +40,7 @@ class RestartWatch {
   /// When the trial goes back; max: none runs.
   hal::TimePoint trial_end() const { return trial_end_; }
 
-  /// For SIGHUP: starts again if the files permit it. Returns at once; answered once it runs.
+  /// Handles SIGHUP: starts again if the files permit it. Returns at once; answered once it runs.
   void ask();
   /// Checks that the files permit it, and waits for that. Error: why not, which was logged.
   Result<> check() const;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::chrono::nanoseconds kLongestTurn = std::chrono::seconds(1);
 constexpr int kTurnsInPeriod = 4;
 
-/// For the RestartWatch, which looks whether a trial was confirmed in its last second.
+/// Time for the RestartWatch to see that a trial was confirmed in its last second.
 constexpr std::chrono::seconds kLongestLook{1};
 
 }  // namespace

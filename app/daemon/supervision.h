@@ -26,9 +26,9 @@ class Supervision {
  public:
   enum class End { Stop, Restart };
 
-  /// For the appliance's orderly end; together with what follows less than TimeoutStopSec.
+  /// Time for the appliance's orderly end; with kLongestAbandonment less than TimeoutStopSec.
   static constexpr std::chrono::seconds kLongestEnd{3};
-  /// For each of what is done in place of an orderly end.
+  /// Time for each step in place of an orderly end.
   static constexpr std::chrono::seconds kLongestAbandonment{1};
 
   /// `signals` are blocked; `file` is the configuration file.

@@ -19,8 +19,8 @@ namespace orbwatch::app {
 /// All files of a site, read together and checked against each other: every reference has its
 /// index.
 struct Resolved {
-  /// With the state folder that follows from file and environment; empty: it is another
-  /// configuration's, and no alignments count.
+  /// The configuration file, with the state folder that follows from it and the environment; an
+  /// empty one is another configuration's, and no alignments count.
   Configuration site;
   optics::Rig rig;  ///< with the alignments that are in force
   std::vector<CalibrationEntry> alignments;

@@ -45,7 +45,7 @@ Result<std::optional<Trial>> requested_trial(const std::filesystem::path& folder
 void drop_request(const std::filesystem::path& folder);
 
 /// The requested one; it runs from now on, and is requested no more, so that it is run once.
-/// From when this returns also a power cut does not bring the request back. Nullopt: none. Errors:
+/// A power cut after the return does not bring the request back. Nullopt: none. Errors:
 /// it is damaged; the folder cannot be written, and it must not run.
 Result<std::optional<Trial>> take_trial(const std::filesystem::path& folder);
 

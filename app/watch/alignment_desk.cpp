@@ -13,7 +13,7 @@ namespace {
 
 std::optional<AlignmentProposal> found(AlignmentProposal proposal) { return proposal; }
 
-/// To be accepted.
+/// The entry that accepting a proposal adds.
 CalibrationEntry entry_of(const AlignmentProposal& proposal) {
   CalibrationEntry entry;
   entry.method = proposal.method;

@@ -73,7 +73,7 @@ void Lines::make_safe() {
   for (hal::DigitalOutput* const output : outputs_) static_cast<void>(output->set(false));
 }
 
-/// With running_ held.
+/// Stops them with running_ held.
 void Lines::stop_threads() {
   thread_.stop();
   for (const auto& asking : asking_) asking->stop();

@@ -61,7 +61,7 @@ Result<> ModbusSink::make_responder() {
   return {};
 }
 
-/// Neither a line that is not open nor a command that waits for the disk may delay it.
+/// A thread of its own: no closed line and no command that waits for the disk may delay it.
 void ModbusSink::start_supervision() {
   if (settings_.plc_timeout_ms == 0) return;
   supervision_thread_.start("modbus plc", [this] {

@@ -77,7 +77,7 @@ struct Snapshot {
   fs::file_time_type written{};  ///< the newest of its files
   std::vector<fs::path> files{};
 };
-/// By the common part of the names.
+/// Snapshots by the common part of their files' names.
 using Snapshots = std::map<std::string, Snapshot>;
 
 Snapshots snapshots_in(const fs::path& folder, std::error_code& error) {

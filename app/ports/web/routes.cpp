@@ -33,8 +33,8 @@ bool is_own_origin(std::string_view origin, const Request& request) {
          equal_in_any_case(without_port(origin, port), without_port(request.host, port));
 }
 
-/// By what browsers say about the page that caused a request; other clients say nothing. What a
-/// proxy makes of Host does not matter to Sec-Fetch-Site, which no script can set.
+/// Judges by the headers in which browsers name the page that caused a request; other clients send
+/// none. No script can set Sec-Fetch-Site, and no proxy's change of Host matters to it.
 bool is_from_foreign_page(const Request& request) {
   if (const std::string* site = request.header("Sec-Fetch-Site")) {
     return *site != "same-origin" && *site != "none";

@@ -48,7 +48,7 @@ struct Route {
   std::vector<BodyMember> body{};        ///< of a route that is no command
   std::vector<QueryArgument> query{};
   bool is_page = false;  ///< a file of the page, which programs do not ask for
-  /// For programs that can send a name and a password only: a token counts as the password, too.
+  /// True: a token counts as the password, too, for programs that send a name and a password only.
   bool takes_password = false;
 };
 

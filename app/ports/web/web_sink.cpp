@@ -29,7 +29,7 @@ double seconds_between(hal::TimePoint from, hal::TimePoint to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// For programs that may know no other header of their own than a name and a password.
+/// A route for programs that can send a name and a password, and no other header of their own.
 web::Route for_players(web::Route route) {
   route.takes_password = true;
   return route;

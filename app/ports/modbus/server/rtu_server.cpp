@@ -95,7 +95,7 @@ Result<> RtuServer::serve_line() {
   }
 }
 
-/// Without bytes: the line is silent.
+/// No bytes: the line is silent.
 void RtuServer::receive(Reception& line, std::span<const std::uint8_t> bytes) {
   const auto now = hal::Clock::now();
   auto silence = now - line.last;

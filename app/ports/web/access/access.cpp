@@ -164,7 +164,7 @@ void Access::keep() {
     sessions.restore(sessions_.all());
     limits = limits_;
   }
-  // In a folder that was made anew after it was removed the marker is missing, too.
+  // The marker is missing in a folder that was made anew after it was removed.
   if (has_users()) {
     const auto kept = keep_that_users_exist(users_file(folder_));
     if (!kept) log_line(LogLevel::Error, "web: " + kept.error().message);

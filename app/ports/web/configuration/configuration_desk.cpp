@@ -59,7 +59,7 @@ std::string side_of(const std::string& difference, char side) {
   return text.substr(0, kMostNoted);
 }
 
-/// To the second, of moments as ISO 8601 has them.
+/// Order of two moments in ISO 8601, to the second.
 bool is_before(std::string_view moment, std::string_view other) {
   constexpr std::size_t kToTheSecond = std::string_view("2026-11-21T20:57:46").size();
   return moment.substr(0, kToTheSecond) < other.substr(0, kToTheSecond);

@@ -23,8 +23,8 @@ class Exchange {
   bool answer(Response response);
   bool is_answered() const;
 
-  /// Before what was requested takes effect: from now on no deadline answers in place of the
-  /// result, which must follow. False: it was answered, and the effect must not come.
+  /// Marks that the request is about to take effect: no deadline answers in place of the result
+  /// any more, which must follow. False: it was answered, and the effect must not come.
   bool begin_effect();
   /// Answers by the server's deadline, see answer(). False also once the effect has begun.
   bool give_up(Response response);

@@ -54,7 +54,8 @@ bool is_token(std::string_view name) {
   });
 }
 
-/// After a request whose end is not certain, nothing of the connection is.
+/// Closes the connection, too: where the end of a request is not certain, the next one's begin is
+/// not.
 Response refused_with_its_connection(std::string_view why) {
   Response refusal = error_response(kBadRequest, std::string(why));
   refusal.headers.emplace_back("Connection", "close");

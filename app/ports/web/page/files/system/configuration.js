@@ -40,7 +40,7 @@ class FileEditor {
     this.#showMark();
   }
 
-  // What somebody else has changed meanwhile is not taken over under a change made here.
+  // Changes by somebody else are not taken over under a change made here.
   update({ text, checksum }) {
     const mayFollow = !this.isChanged || this.text === text;
     this.onDisk = text;
