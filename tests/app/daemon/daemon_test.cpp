@@ -371,8 +371,11 @@ TEST_F(Daemon, ACameraThatCannotBeUsedIsAFaultWithItsReason) {
 }
 
 TEST_F(Daemon, ChecksAFileWithoutRunning) {
-  Subprocess program({ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine())},
-                     folder.path() / "said");
+  const std::string recipe =
+      kSmallRecipe + "hot_spot_min_area = 6\nhot_spot_max_speed = 200\n";  // nothing is assumed
+  Subprocess program(
+      {ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine(), kSmallRig, recipe)},
+      folder.path() / "said");
   EXPECT_EQ(program.wait(), 0) << program.output();
   EXPECT_EQ(program.output(),
             "orbwatch: takes commands over Modbus from this host only; over DDS from everybody in "
