@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <iomanip>
 #include <set>
@@ -35,14 +36,28 @@ bool may_be_changed(const fs::path& file, const fs::path& site) {
          site.parent_path() / *name == file && fs::path(*name).has_filename() && *name != ".";
 }
 
-/// The file's version with the checksum of this very text, which was read before.
-ConfigurationFiles::Version version_of_text(const fs::path& file, const std::string& text) {
+/// Eight hexadecimal digits of the CRC-32.
+std::string checksum_of(const std::string& text) {
   TextFiles read;
   read.add(text);
   std::ostringstream digits;
   digits << std::hex << std::setw(8) << std::setfill('0') << read.checksum();
+  return digits.str();
+}
+
+/// Error: it is not what checksum_of() gives.
+Result<std::uint32_t> parse_checksum(const std::string& name, const std::string& digits) {
+  std::uint32_t checksum = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, checksum, 16);
+  if (error == std::errc() && stop == end) return checksum;
+  return fail(name + ": \"" + digits + "\" is not a checksum of eight hexadecimal digits");
+}
+
+/// The file's version with the checksum of this very text, which was read before.
+ConfigurationFiles::Version version_of_text(const fs::path& file, const std::string& text) {
   FileVersion now = version_of(file);
-  return {digits.str(), std::move(now.time), std::move(now.account)};
+  return {checksum_of(text), std::move(now.time), std::move(now.account)};
 }
 
 /// Before it is tried out, not when it is confirmed: a file is replaced by one in the same folder.
@@ -108,7 +123,7 @@ Result<ConfigurationFiles::State> InstalledConfiguration::read() const {
   return state;
 }
 
-Result<ConfigurationFiles::Texts> InstalledConfiguration::with_changed_recipe(
+Result<ConfigurationFiles::Edit> InstalledConfiguration::with_changed_recipe(
     int number, const RecipeChange& change) const {
   const auto site = read_site(file_);
   if (!site) return tl::unexpected(site.error());
@@ -122,12 +137,12 @@ Result<ConfigurationFiles::Texts> InstalledConfiguration::with_changed_recipe(
                 ": is outside of the configuration's folder; change it on the board");
   }
   TextFiles files;
-  return files.read(file, "a TOML file")
-      .and_then(
-          [&](const std::string& text) { return changed_recipe(text, name_of(file), change); })
-      .map([&](const std::string& text) {
-        return Texts{{name_of(file), text}};
-      });
+  const auto present = files.read(file, "a TOML file");
+  if (!present) return tl::unexpected(present.error());
+  const std::string name = name_of(file);
+  return changed_recipe(*present, name, change).map([&](const std::string& text) {
+    return Edit{{{name, text}}, {{name, checksum_of(*present)}}};
+  });
 }
 
 Result<ConfigurationFiles::Change> InstalledConfiguration::check(const Texts& texts) const {
@@ -136,8 +151,7 @@ Result<ConfigurationFiles::Change> InstalledConfiguration::check(const Texts& te
       .map([this](const Trial& trial) { return change_of(trial); });
 }
 
-Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Texts& texts,
-                                                                   int seconds) {
+Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Edit& edit, int seconds) {
   const auto folder = trial_folder();
   if (!folder) return tl::unexpected(folder.error());
   const auto running = running_trial(*folder);
@@ -148,9 +162,11 @@ Result<ConfigurationFiles::Change> InstalledConfiguration::try_out(const Texts& 
   if (const auto finished = finish_confirmed(*folder); !finished) {
     return tl::unexpected(finished.error());
   }
-  const auto there = placed(texts);
+  const auto there = placed(edit.texts);
   if (!there) return tl::unexpected(there.error());
-  const auto trial = checked_trial(file_, *there, seconds);
+  const auto basis = checksums_in(edit.based_on);
+  if (!basis) return tl::unexpected(basis.error());
+  const auto trial = checked_trial(file_, *there, seconds, *basis);
   if (!trial) return tl::unexpected(trial.error());
   Change change = change_of(*trial);
   if (change.files.empty()) return fail("these texts change nothing");
@@ -196,6 +212,16 @@ Result<FileTexts> InstalledConfiguration::placed(const Texts& texts) const {
     there[file] = text;
   }
   return there;
+}
+
+Result<FileChecksums> InstalledConfiguration::checksums_in(const Basis& based_on) const {
+  FileChecksums checksums;
+  for (const auto& [name, digits] : based_on) {
+    const auto checksum = parse_checksum(name, digits);
+    if (!checksum) return tl::unexpected(checksum.error());
+    checksums[file_.parent_path() / name] = *checksum;
+  }
+  return checksums;
 }
 
 Result<fs::path> InstalledConfiguration::trial_folder() const {

@@ -24,9 +24,9 @@ class InstalledConfiguration final : public ConfigurationFiles {
   void set_trial_end(hal::TimePoint end) { trial_end_ = end; }
 
   Result<State> read() const override;
-  Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const override;
+  Result<Edit> with_changed_recipe(int number, const RecipeChange& change) const override;
   Result<Change> check(const Texts& texts) const override;
-  Result<Change> try_out(const Texts& texts, int seconds) override;
+  Result<Change> try_out(const Edit& edit, int seconds) override;
   Result<std::vector<std::string>> confirm() override;
   Result<> revert() override;
 
@@ -35,6 +35,7 @@ class InstalledConfiguration final : public ConfigurationFiles {
   std::set<std::filesystem::path> named_files() const;
   std::vector<std::filesystem::path> state_folders() const;
   Result<FileTexts> placed(const Texts& texts) const;
+  Result<FileChecksums> checksums_in(const Basis& based_on) const;
   Result<std::filesystem::path> trial_folder() const;
   Change change_of(const Trial& trial) const;
   std::string name_of(const std::filesystem::path& file) const;

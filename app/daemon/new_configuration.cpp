@@ -19,8 +19,9 @@ std::optional<std::string> name_beside(const fs::path& site, const fs::path& fil
   return name.string();
 }
 
-Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int seconds) {
-  auto based_on = checksums_of(texts);  // before the rest is read and checked, which takes time
+Result<Trial> checked_trial(const fs::path& site, const FileTexts& texts, int seconds,
+                            FileChecksums based_on) {
+  based_on.merge(checksums_of(texts));  // before the rest is read and checked, which takes time
   const auto resolved = resolve(site, texts);
   if (!resolved) return tl::unexpected(resolved.error());
   if (const auto checked = check_site(*resolved, Dates::Checked); !checked) {

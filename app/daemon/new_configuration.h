@@ -16,8 +16,10 @@ std::optional<std::string> name_beside(const std::filesystem::path& site,
 
 /// A trial of the configuration file `site` with `texts` in place of it and of files beside it,
 /// checked as it will stand there, as by `orbwatchd --check`. Of the files that stay it has those
-/// that are not private. Errors: also a text that no file names.
-Result<Trial> checked_trial(const std::filesystem::path& site, const FileTexts& texts, int seconds);
+/// that are not private. The texts are based on the files of now, except for those in `based_on`.
+/// Errors: also a text that no file names.
+Result<Trial> checked_trial(const std::filesystem::path& site, const FileTexts& texts, int seconds,
+                            FileChecksums based_on = {});
 
 /// By their file, the lines by which texts differ from the files, see text_difference().
 std::map<std::filesystem::path, std::string> differences_from_files(const FileTexts& texts);

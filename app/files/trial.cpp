@@ -69,7 +69,7 @@ Result<std::optional<Trial>> read(const fs::path& file) { return read_json<Trial
 
 }  // namespace
 
-std::map<fs::path, std::uint32_t> checksums_of(const FileTexts& texts) {
+FileChecksums checksums_of(const FileTexts& texts) {
   std::map<fs::path, std::uint32_t> checksums;
   for (const auto& [path, text] : texts) checksums[path] = version_of(path).checksum;
   return checksums;

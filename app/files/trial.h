@@ -12,6 +12,9 @@
 
 namespace orbwatch::app {
 
+/// CRC-32 of files, as FileVersion has it, by their path.
+using FileChecksums = std::map<std::filesystem::path, std::uint32_t>;
+
 /// A configuration that runs until it is confirmed, or for `seconds`. Until then the files stay as
 /// they are: whatever ends the process, the next one runs them. In the folder of what must outlast
 /// a restart:
@@ -24,13 +27,13 @@ struct Trial {
   std::filesystem::path site;  ///< the configuration file that it is in place of
   FileTexts texts;             ///< by the path of the file that each will be
   int seconds = 0;
-  /// Checksums of the files when the texts were made of them, as in FileVersion: a change since
-  /// then would be lost by the confirmation. Files that are not named may change.
-  std::map<std::filesystem::path, std::uint32_t> based_on{};
+  /// The files when the texts were made of them: a change since then would be lost by the
+  /// confirmation. Files that are not named may change.
+  FileChecksums based_on{};
 };
 
 /// The checksums of these files as they are now.
-std::map<std::filesystem::path, std::uint32_t> checksums_of(const FileTexts& texts);
+FileChecksums checksums_of(const FileTexts& texts);
 
 /// Asks the daemon that has this folder for a trial, and forgets what became of one before. Atomic.
 /// Errors: a text is not UTF-8; as hal::write_file().

@@ -30,6 +30,12 @@ class ConfigurationFiles {
   /// Checksums of the files that new texts were made of, by the name of the file.
   using Basis = std::map<std::string, std::string>;
 
+  /// New texts, and what they were made of.
+  struct Edit {
+    Texts texts;
+    Basis based_on;  ///< files that it does not name are taken as they are at the trial
+  };
+
   /// The files, besides what runs in place of them for a time.
   struct State {
     std::string site;              ///< name of the configuration file
@@ -52,18 +58,19 @@ class ConfigurationFiles {
   /// Error: a file cannot be read.
   virtual Result<State> read() const = 0;
 
-  /// The text of the file of the recipe of that number with changes, by its name; nothing else is
-  /// done. Errors: there is no such recipe, its file is not to be changed here, cannot be read or
-  /// has no place for a change.
-  virtual Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const = 0;
+  /// The text of the file of the recipe of that number with changes; nothing else is done. Errors:
+  /// there is no such recipe, its file is not to be changed here, cannot be read or has no place
+  /// for a change.
+  virtual Result<Edit> with_changed_recipe(int number, const RecipeChange& change) const = 0;
 
   /// Checks the files with these texts in place of some of them. Errors: with file, line, key, what
   /// is wrong and what is allowed; a name is not inside the folder; no file names it.
   virtual Result<Change> check(const Texts& texts) const = 0;
 
-  /// As check(), and has them run for so many seconds. Errors: also nothing differs, a trial waits
-  /// or runs, the files cannot be written, and what has no service manager's folder cannot go back.
-  virtual Result<Change> try_out(const Texts& texts, int seconds) = 0;
+  /// As check(), and has them run for so many seconds. confirm() refuses when a file is not what
+  /// they are based on. Errors: also nothing differs, a trial waits or runs, the files cannot be
+  /// written, and what has no service manager's folder cannot go back.
+  virtual Result<Change> try_out(const Edit& edit, int seconds) = 0;
 
   /// Writes the files of the trial that runs. Returns their names. Error: none runs; somebody else
   /// changed one of them meanwhile; the disk.

@@ -53,11 +53,11 @@ Result<ConfigurationBody> parse_configuration(std::string_view body) {
   ConfigurationBody parsed;
   for (const auto& [name, text] : sent[files_name].items()) {
     if (!text.is_string()) return fail(name + " is no text: " + kConfigurationForm);
-    parsed.files[name] = text.get<std::string>();
+    parsed.edit.texts[name] = text.get<std::string>();
   }
   auto basis = basis_of(sent);
   if (!basis) return tl::unexpected(basis.error());
-  parsed.based_on = std::move(*basis);
+  parsed.edit.based_on = std::move(*basis);
   const auto seconds = seconds_of(sent);
   if (!seconds) return tl::unexpected(seconds.error());
   parsed.seconds = *seconds;

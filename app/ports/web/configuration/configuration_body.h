@@ -11,8 +11,7 @@ namespace orbwatch::app::web {
 
 /// A new configuration as it is sent.
 struct ConfigurationBody {
-  ConfigurationFiles::Texts files;
-  ConfigurationFiles::Basis based_on{};
+  ConfigurationFiles::Edit edit;
   int seconds = kUsualTrial;
 };
 

@@ -184,9 +184,9 @@ Result<> ConfigurationDesk::permit(const Sent& sent) const {
   if (sent.caller.role >= Role::Administrator) return {};
   const auto state = files_->read();
   if (!state) return tl::unexpected(state.error());
-  const auto changed = sent.body.files.find(state->site);
+  const auto changed = sent.body.edit.texts.find(state->site);
   const auto present = state->files.find(state->site);
-  const bool is_other = changed != sent.body.files.end() &&
+  const bool is_other = changed != sent.body.edit.texts.end() &&
                         (present == state->files.end() || present->second != changed->second);
   if (!is_other) return {};
   return fail("another " + state->site +
@@ -215,10 +215,10 @@ std::string ConfigurationDesk::changer_of(const std::string& name,
 
 /// Error: a file is not what the new texts were made of; their change would remove the other one.
 Result<> ConfigurationDesk::check_basis(const Sent& sent) const {
-  if (sent.body.based_on.empty()) return {};
+  if (sent.body.edit.based_on.empty()) return {};
   const auto state = files_->read();
   if (!state) return tl::unexpected(state.error());
-  for (const auto& [name, checksum] : sent.body.based_on) {
+  for (const auto& [name, checksum] : sent.body.edit.based_on) {
     const auto version = state->versions.find(name);
     if (version == state->versions.end()) return fail(name + " was removed since it was read");
     const ConfigurationFiles::Version& now = version->second;
@@ -236,7 +236,7 @@ Response ConfigurationDesk::check(Sent& sent) {
   if (const auto unchanged = check_basis(sent); !unchanged) {
     return error_response(409, unchanged.error().message);
   }
-  const auto change = files_->check(sent.body.files);
+  const auto change = files_->check(sent.body.edit.texts);
   return change ? answer(change_json(*change)) : error_response(409, change.error().message);
 }
 
@@ -247,7 +247,7 @@ Response ConfigurationDesk::try_out(Sent& sent) {
   if (const auto unchanged = check_basis(sent); !unchanged) {
     return error_response(409, unchanged.error().message);
   }
-  const auto change = files_->try_out(sent.body.files, sent.body.seconds);
+  const auto change = files_->try_out(sent.body.edit, sent.body.seconds);
   if (!change) return error_response(409, change.error().message);
   sent.before = side_of(change->difference, '-');
   sent.after = side_of(change->difference, '+');
@@ -259,8 +259,8 @@ Response ConfigurationDesk::try_out(Sent& sent) {
 /// The text with the changes that were sent is what is sent.
 Result<> ConfigurationDesk::apply_changes(Sent& sent) const {
   return files_->with_changed_recipe(sent.recipe.recipe, sent.recipe.change)
-      .map([&](ConfigurationFiles::Texts texts) {
-        sent.body = {std::move(texts), {}, sent.recipe.seconds};
+      .map([&](ConfigurationFiles::Edit edit) {
+        sent.body = {std::move(edit), sent.recipe.seconds};
       });
 }
 

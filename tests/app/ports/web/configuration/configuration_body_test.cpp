@@ -11,7 +11,7 @@ TEST(ConfigurationBody, KeepsTextsByteForByte) {
   const auto body =
       parse_configuration(R"({"files": {"a.toml": "x = 1 # \u00e9\r\n\n", "b": ""}})");
   ASSERT_TRUE(body) << body.error().message;
-  EXPECT_EQ(body->files,
+  EXPECT_EQ(body->edit.texts,
             (ConfigurationFiles::Texts{{"a.toml", "x = 1 # \xC3\xA9\r\n\n"}, {"b", ""}}));
   EXPECT_EQ(body->seconds, 60);
   EXPECT_EQ(parse_configuration(R"({"files": {}, "seconds": 10})")->seconds, 10);

@@ -23,7 +23,7 @@ class WrittenFiles final : public ConfigurationFiles {
     return now;
   }
   /// A line for each change behind the rig's.
-  Result<Texts> with_changed_recipe(int number, const RecipeChange& change) const override {
+  Result<Edit> with_changed_recipe(int number, const RecipeChange& change) const override {
     const std::lock_guard lock(mutex);
     if (number != 1) return fail("there is no recipe " + std::to_string(number));
     std::string text = state.files.at("rig.toml");
@@ -34,17 +34,17 @@ class WrittenFiles final : public ConfigurationFiles {
     for (const RegionChange& region : change.regions) {
       text += region.name + " " + std::to_string(region.points.size()) + "\n";
     }
-    return Texts{{"rig.toml", text}};
+    return Edit{{{"rig.toml", text}}, {{"rig.toml", state.files.at("rig.toml")}}};
   }
   Result<Change> check(const Texts& texts) const override {
     const std::lock_guard lock(mutex);
     return change_of(texts);
   }
-  Result<Change> try_out(const Texts& texts, int seconds) override {
+  Result<Change> try_out(const Edit& edit, int seconds) override {
     const std::lock_guard lock(mutex);
-    auto change = change_of(texts);
+    auto change = change_of(edit.texts);
     if (change) {
-      state.trial = texts;
+      state.trial = edit.texts;
       state.seconds_left = seconds;
     }
     return change;
