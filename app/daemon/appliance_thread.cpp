@@ -12,12 +12,19 @@
 #include "app/log.h"
 #include "app/service/progress_notice.h"
 #include "app/service/service_manager.h"
+#include "app/state/state_folder.h"
 #include "app/version.h"
 
 namespace orbwatch::app {
 namespace {
 
 void notify_of(bool restarts) { restarts ? notify_restart() : notify_end(); }
+
+/// Not open: this is no service, or the folder cannot be written.
+Result<hal::FileDescriptor> reserve_service_folder() {
+  const auto folder = service_folder();
+  return folder ? reserve(*folder) : hal::FileDescriptor();
+}
 
 /// The notice is one of its watchers if someone reads it.
 Result<> start_noticed(Appliance& appliance, ProgressNotice& notice) {
@@ -38,6 +45,8 @@ void ApplianceThread::start() {
 }
 
 Result<> ApplianceThread::run() {
+  const auto reserved = reserve_service_folder();
+  if (!reserved) return tl::unexpected(reserved.error());
   const auto chosen = choose(context_.file);
   if (!chosen) return tl::unexpected(chosen.error());
   RestartWatch& restarts = context_.restarts;

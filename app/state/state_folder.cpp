@@ -1,6 +1,10 @@
 #include "app/state/state_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -107,6 +111,19 @@ Result<fs::path> state_folder(const fs::path& configured, const fs::path& config
         (folder == owned.front() ? " STATE_DIRECTORY=" : " or STATE_DIRECTORY=") + folder.string();
   }
   return fail(text);
+}
+
+Result<hal::FileDescriptor> reserve(const fs::path& folder) {
+  std::error_code none;  // a folder that is missing cannot be opened
+  fs::create_directories(folder, none);
+  constexpr mode_t kMode = 0644;  // a lock needs no more, and root may have been the first
+  hal::FileDescriptor file(
+      ::open((folder / "reserved").c_str(), O_RDONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kMode));
+  const bool is_taken =
+      file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!is_taken) return file;
+  return fail(folder.string() +
+              ": another orbwatchd runs with this STATE_DIRECTORY; give each one of its own");
 }
 
 std::optional<fs::path> owner_of(const fs::path& folder) {

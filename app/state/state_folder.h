@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 
 /// Folder of what must outlast a restart of the orbwatchd of a configuration file. Several machines
@@ -27,6 +28,11 @@ std::optional<std::filesystem::path> runtime_directory();
 Result<std::filesystem::path> state_folder(const std::filesystem::path& configured,
                                            const std::filesystem::path& configuration,
                                            const std::filesystem::path& lib = "/var/lib");
+
+/// Reserves `folder`, which is created, for this process until the descriptor is closed: two
+/// orbwatchd would take each other's trials and records. Not open: the folder cannot be written.
+/// Error: another process has reserved it. Reentrant.
+Result<hal::FileDescriptor> reserve(const std::filesystem::path& folder);
 
 /// The configuration file that a state folder records; nullopt: none, or not readable. Reentrant.
 std::optional<std::filesystem::path> owner_of(const std::filesystem::path& folder);

@@ -214,6 +214,18 @@ TEST_F(Configured, RecordsWhoseStateFolderItIs) {
               HasSubstr("is the state folder of " + fs::path(config).lexically_normal().string()));
 }
 
+TEST_F(Configured, IsLeftAloneByASecondOrbwatchdInTheSameFolder) {
+  Subprocess daemon = run();
+  manager.await("READY=1");
+  const std::string other = folder / "other.toml";
+  fs::copy_file(config, other);
+  Subprocess second({ORBWATCHD_PROGRAM, "--config", other}, folder / "second.log");
+  EXPECT_NE(second.wait(), 0);
+  EXPECT_THAT(second.output(), HasSubstr("another orbwatchd runs with this STATE_DIRECTORY"));
+  EXPECT_TRUE(fs::equivalent(app::owner_of(folder.path()).value(), config));
+  EXPECT_TRUE(daemon.runs());
+}
+
 TEST_F(Configured, RemovesWhatAPowerCutLeftHalfWritten) {
   fs::create_directory(folder / state_folder);
   std::vector<fs::path> left;
