@@ -65,12 +65,12 @@ void Access::stop() {
 
 Access::FileMark Access::mark() const {
   struct stat about {};
-  if (::stat(users_file(folder_).c_str(), &about) != 0) {
+  if (::lstat(users_file(folder_).c_str(), &about) != 0) {
     FileMark absent;
     absent.error = errno;
     return absent;
   }
-  return {0, about.st_mtim.tv_sec, about.st_mtim.tv_nsec, about.st_size, about.st_ino};
+  return {0, about.st_ctim.tv_sec, about.st_ctim.tv_nsec, about.st_ino};
 }
 
 bool Access::is_outdated() const {

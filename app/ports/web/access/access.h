@@ -83,8 +83,8 @@ class Access {
  private:
   /// Identifies a version of the users file.
   struct FileMark {
-    int error = 0;  ///< of stat; 0: the file is there
-    std::int64_t seconds = 0, nanoseconds = 0, size = 0;
+    int error = 0;                              ///< of lstat; 0: the file is there
+    std::int64_t seconds = 0, nanoseconds = 0;  ///< of the newest change, rights included
     std::uint64_t number = 0;
     bool operator==(const FileMark&) const = default;
   };
