@@ -16,6 +16,7 @@
 #include "app/pipeline/views/source_colours.h"
 #include "app/ports/dds/security/participant_security.h"
 #include "app/ports/web/tls/server_certificate.h"
+#include "hal/host.h"
 #include "hal/thread/scheduling.h"
 #include "proc/optics/rotation.h"
 #include "proc/signals/hot_spot/assumed_limits.h"
@@ -45,6 +46,23 @@ std::string assumption_text(const RegionOfInterest& stated, const RegionPlan& re
   }
   if (text.tellp() == 0) return "";
   return "region " + stated.name + ": assumes" + text.str() + "; state what is true of the process";
+}
+
+/// Error: the camera's counts do not reach a threshold, degC for a radiometric camera, else percent
+/// of full scale.
+Result<> check_threshold(const char* key, double value, double counts,
+                         const signals::Radiometry& scale, double full_scale) {
+  if (counts > 0 && counts <= full_scale) return {};
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << key << " is " << value;
+  if (!scale.is_radiometric()) {
+    text << "; it must be above 0 and at most 100 percent of full scale";
+  } else if (counts > 0) {
+    text << " degC; the camera's counts end at " << scale.celsius(full_scale) << " degC";
+  } else {
+    text << " degC, which is below the camera's first count";
+  }
+  return fail(text.str());
 }
 
 /// Plans views and recipes of a site for cameras of these formats.
@@ -222,13 +240,23 @@ class Builder {
     }
     const auto scale = signals::Radiometry::make(settings.radiometry);
     if (!scale) return tl::unexpected(scale.error());
-    const auto threshold = [&](double value) {
-      return scale->is_radiometric() ? scale->counts(value) : counts_of(value, format);
+    const auto in_counts = [&](const char* key, std::optional<double> value,
+                               auto& counts) -> Result<> {
+      if (!value) return {};
+      const double there =
+          scale->is_radiometric() ? scale->counts(*value) : counts_of(*value, format);
+      counts = there;
+      return check_threshold(key, *value, there, *scale, settings.full_scale);
     };
-    settings.hot_spot_threshold = threshold(region.hot_spot_threshold);
-    if (region.plume_threshold) settings.plume_threshold = threshold(*region.plume_threshold);
-    if (region.spatter_threshold) settings.spatter_threshold = threshold(*region.spatter_threshold);
-    return settings;
+    return in_counts("hot_spot_threshold", region.hot_spot_threshold, settings.hot_spot_threshold)
+        .and_then([&] {
+          return in_counts("plume_threshold", region.plume_threshold, settings.plume_threshold);
+        })
+        .and_then([&] {
+          return in_counts("spatter_threshold", region.spatter_threshold,
+                           settings.spatter_threshold);
+        })
+        .map([&] { return settings; });
   }
 
   Result<> plan_region(const RegionOfInterest& region, std::size_t camera, RecipePlan& plan) const {
@@ -360,9 +388,15 @@ Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site) {
 }
 
 std::vector<std::string> assumptions(const Resolved& site) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
+    if (site.rig_camera(i).is_registered) continue;
+    lines.push_back(site.site.rig.path.string() + ": camera " + site.names.cameras[i] +
+                    ": is not registered, and left out of merged and measured views; register it "
+                    "(`orbwatch register`, or the commands register_camera and accept_alignment)");
+  }
   const auto formats = expected_formats(site);
   auto proxy = optics::SceneProxy::make(site.rig.scene, site.rig.ball);
-  std::vector<std::string> lines;
   if (!proxy) return lines;
   const Builder builder(site, formats, std::move(*proxy));
   for (std::size_t i = 0; i < site.recipes.size(); ++i) {
@@ -380,6 +414,23 @@ Result<> check_keys(const Resolved& site, Dates dates) {
   return web::named_certificate(web, now_for(dates)).map([](const auto&) {});
 }
 
+Result<> check_ports(const Resolved& site) {
+  const auto& modbus = std::get<ModbusSettings>(site.site.sinks);
+  const auto& web = std::get<WebSettings>(site.site.sinks);
+  if (!modbus.enabled || !web.enabled || modbus.port == 0) return {};
+  const auto meets = [&modbus](const std::string& address) {
+    return address == modbus.address || hal::is_unspecified(address) ||
+           hal::is_unspecified(modbus.address);
+  };
+  const bool is_http =
+      web.port == modbus.port && std::ranges::any_of(http_addresses_of(web), meets);
+  const bool is_https = https_port_of(web) == modbus.port && meets(web.address);
+  if (!is_http && !is_https) return {};
+  return fail(std::string("[web] ") + (is_http ? "port" : "https_port") +
+              " and [modbus] port are both " + std::to_string(modbus.port) +
+              "; give each a port of its own");
+}
+
 Result<> check_site(const Resolved& site, Dates dates) {
   if (auto fits = check_view_memory(site); !fits) return fits;
   const auto formats = expected_formats(site);
@@ -394,7 +445,9 @@ Result<> check_site(const Resolved& site, Dates dates) {
   for (std::size_t i = 0; i < site.recipes.size(); ++i) {
     if (const auto checked = builder.check(i); !checked) return checked;
   }
-  return hal::check(site.site.threads).and_then([&] { return check_keys(site, dates); });
+  return hal::check(site.site.threads).and_then([&] { return check_ports(site); }).and_then([&] {
+    return check_keys(site, dates);
+  });
 }
 
 }  // namespace orbwatch::app

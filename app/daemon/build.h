@@ -30,9 +30,13 @@ Result<Recompiled> rebuild(const Resolved& site, std::vector<hal::StreamFormat> 
 /// build().
 Result<std::vector<MeasuredRecipe>> measured_recipes(const Resolved& site);
 
-/// Assumptions of build() where recipes state nothing, in words that name file, region and key;
-/// with the formats that are expected. Empty: nothing, or the site has an error.
+/// Decisions of build() where rig and recipes state nothing, in words that name the file: cameras
+/// that are left out, and limits of hot spots, by region and key, for the formats that are
+/// expected. Empty: all is stated, or the site has an error.
 std::vector<std::string> assumptions(const Resolved& site);
+
+/// Error: Modbus and the page would listen on one port.
+Result<> check_ports(const Resolved& site);
 
 /// Checks the keys for DDS, and certificate and key of the page, as far as files are named.
 Result<> check_keys(const Resolved& site, Dates dates);

@@ -41,6 +41,7 @@ Result<> detect_balls(Setup& setup, const std::filesystem::path& folder, Progres
     progress.begin("looking for the ball of " + camera.name);
     const auto ball = detect(camera.record);
     if (!ball) {
+      setup.without_ball.push_back(camera.name);
       setup.missing.push_back(camera.name + " is left out: " + ball.error().message);
       continue;
     }
@@ -216,11 +217,12 @@ bool is_placed(const Setup& setup, const SetupCamera& camera) {
   return camera.is_registered || camera.pose || camera.name == setup.cameras.front().name;
 }
 
-std::vector<std::string> unplaced_cameras(const Setup& setup) {
+std::vector<std::string> left_out(const Setup& setup) {
   std::vector<std::string> names;
   for (const SetupCamera& camera : setup.cameras) {
     if (!is_placed(setup, camera)) names.push_back(camera.name);
   }
+  names.insert(names.end(), setup.without_ball.begin(), setup.without_ball.end());
   return names;
 }
 

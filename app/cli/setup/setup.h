@@ -43,7 +43,8 @@ struct Setup {
   std::optional<optics::Vec3> ball_centre;
   std::optional<optics::Box> walls;
   std::vector<NamedBox> obstacles;
-  std::vector<SetupCamera> cameras;  ///< the first one is what others are registered to
+  std::vector<SetupCamera> cameras;       ///< the first one is what others are registered to
+  std::vector<std::string> without_ball;  ///< names of cameras that were dropped
   std::vector<std::string> missing;  ///< sentences for people, each with the command that adds it
 };
 
@@ -51,8 +52,8 @@ struct Setup {
 /// merged and measured views.
 bool is_placed(const Setup& setup, const SetupCamera& camera);
 
-/// The names of the cameras of which it is not.
-std::vector<std::string> unplaced_cameras(const Setup& setup);
+/// Names of the cameras that are not placed, then of those without a ball.
+std::vector<std::string> left_out(const Setup& setup);
 
 /// What a camera without lens and distance is taken to have, ball radii.
 inline constexpr double kAssumedDistance = 12;

@@ -100,12 +100,12 @@ Result<> record_cameras(const SetupOptions& o, Setup& setup, Progress& progress)
 Result<std::string> said(const SetupOptions& o, const Setup& setup) {
   const auto site = o.folder / kSiteFile;
   std::string text = o.json ? setup_json(setup, site) : setup_text(setup, site);
-  const auto unplaced = unplaced_cameras(setup);
-  if (unplaced.empty()) return text;
+  const auto all = left_out(setup);
+  if (all.empty()) return text;
   std::cout << text << std::flush;
   std::string names;
-  for (const std::string& name : unplaced) names += (names.empty() ? "" : ", ") + name;
-  return fail("not registered, and left out of merged and measured views: " + names);
+  for (const std::string& name : all) names += (names.empty() ? "" : ", ") + name;
+  return fail("left out of merged and measured views: " + names);
 }
 
 Result<std::string> set_up(const SetupOptions& o) {

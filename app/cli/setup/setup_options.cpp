@@ -1,6 +1,7 @@
 #include "app/cli/setup/setup_options.h"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "app/files/camera_calibration.h"
@@ -97,6 +98,19 @@ Result<> for_cameras(Setup& setup, const char* option, const std::vector<std::st
   return {};
 }
 
+/// Error: a camera would stand in the ball.
+Result<> check_distances(const Setup& setup) {
+  for (const SetupCamera& camera : setup.cameras) {
+    if (!camera.distance || *camera.distance > setup.ball_radius) continue;
+    std::ostringstream text;
+    text << "--distance " << camera.name << "=" << *camera.distance
+         << ": the camera would be in the ball, whose radius is " << setup.ball_radius
+         << " mm; give the distance from the camera to the ball's centre, mm";
+    return usage_error(text.str());
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<Option> setup_options(SetupOptions& o) {
@@ -157,7 +171,8 @@ Result<> read_machine(const SetupOptions& o, Setup& setup) {
 Result<> read_cameras(const SetupOptions& o, Setup& setup) {
   return for_cameras(setup, "calibration", o.calibrations, read_calibration_of)
       .and_then([&] { return for_cameras(setup, "pose", o.poses, read_pose_of); })
-      .and_then([&] { return for_cameras(setup, "distance", o.distances, read_distance_of); });
+      .and_then([&] { return for_cameras(setup, "distance", o.distances, read_distance_of); })
+      .and_then([&] { return check_distances(setup); });
 }
 
 }  // namespace orbwatch::app

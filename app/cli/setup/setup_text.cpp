@@ -25,7 +25,7 @@ std::string setup_text(const Setup& setup, const std::filesystem::path& site) {
     text += line;
   }
   for (const std::string& sentence : setup.missing) text += "missing: " + sentence + "\n";
-  const bool is_whole = unplaced_cameras(setup).empty();
+  const bool is_whole = left_out(setup).empty();
   return text +
          (is_whole ? "written and checked: " : "written and checked, without what is missing: ") +
          "run orbwatchd --config " + site.string() + "\n";
@@ -35,7 +35,7 @@ std::string setup_json(const Setup& setup, const std::filesystem::path& site) {
   using Json = nlohmann::ordered_json;
   Json json{{"site", site.string()},
             {"cameras", Json::array()},
-            {"left_out", unplaced_cameras(setup)},
+            {"left_out", left_out(setup)},
             {"missing", setup.missing}};
   for (const SetupCamera& camera : setup.cameras) {
     const optics::Outline& limb = camera.ball.outline;

@@ -14,12 +14,6 @@ namespace {
 
 constexpr auto kRenewalPause = std::chrono::minutes(1);
 
-/// An address of one network alone does not reach this computer's own programs.
-std::vector<std::string> http_addresses(const std::string& address) {
-  if (hal::is_unspecified(address) || is_loopback(address)) return {address};
-  return {address, address.find(':') == std::string::npos ? "127.0.0.1" : "::1"};
-}
-
 std::chrono::sys_seconds utc_now() { return *now_for(Dates::Checked); }
 
 ClockState clock_state() {
@@ -47,7 +41,7 @@ Result<> Listeners::open() {
 
 Result<> Listeners::open_http() {
   std::vector<std::unique_ptr<Server>> servers;
-  for (const std::string& address : http_addresses(settings_.address)) {
+  for (const std::string& address : http_addresses_of(settings_)) {
     auto server = Server::open(
         settings_, {address, settings_.port, std::nullopt, {}},
         [this](const ExchangePtr& exchange) { serve_http(exchange); }, counts_);

@@ -11,6 +11,7 @@
 #include "app/model/sink.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/web/http/address.h"
+#include "hal/host.h"
 #include "hal/network.h"
 #include "proc/settings/settings.h"
 
@@ -53,6 +54,12 @@ struct WebSettings {
   /// Without word from the pipeline, which promises ten a second; then it is not healthy.
   std::chrono::milliseconds status_timeout{2000};
 };
+
+/// HTTP's addresses: one of a single network does not reach this computer's own programs.
+inline std::vector<std::string> http_addresses_of(const WebSettings& web) {
+  if (hal::is_unspecified(web.address) || web::is_loopback(web.address)) return {web.address};
+  return {web.address, web.address.find(':') == std::string::npos ? "127.0.0.1" : "::1"};
+}
 
 /// Nullopt: no HTTPS, and nobody is served but this computer and those behind trusted proxies.
 inline std::optional<int> https_port_of(const WebSettings& web) {

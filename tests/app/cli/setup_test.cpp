@@ -35,11 +35,12 @@ class Setup : public CommandLine {
     return rig.value_or(optics::Rig{});
   }
 
-  /// What the daemon thinks of the site.
-  void expect_runs() {
+  /// Has the daemon check the site, which must pass with these words.
+  void expect_runs(const std::string& words = "") {
     Subprocess daemon({ORBWATCHD_PROGRAM, "--config", path("site/site.toml"), "--check"},
                       folder.path() / "checked");
     EXPECT_EQ(daemon.wait(), 0) << daemon.output();
+    EXPECT_NE(daemon.output().find(words), std::string::npos) << daemon.output();
   }
 };
 
@@ -102,10 +103,10 @@ TEST_F(Setup, LeavesOutWhatItCouldNotRegister) {
   EXPECT_EQ(set_up({"--camera", "grey=" + first, "--camera", "thermal=" + thermal}), 1) << said;
   EXPECT_NE(said.find("not registered: left out of merged and measured views"), std::string::npos)
       << said;
-  EXPECT_NE(said.find("not registered, and left out of merged and measured views: thermal\n"),
+  EXPECT_NE(said.find("orbwatch: left out of merged and measured views: thermal\n"),
             std::string::npos)
       << said;
-  expect_runs();
+  expect_runs("camera thermal: is not registered, and left out of merged and measured views");
   const optics::Rig rig = this->rig();
   ASSERT_EQ(rig.cameras.size(), 2U);
   EXPECT_TRUE(rig.cameras[0].is_registered);
@@ -117,6 +118,16 @@ TEST_F(Setup, LeavesOutWhatItCouldNotRegister) {
                  "grey=" + first, "--camera", "thermal=" + first}),
             1);
   EXPECT_NE(said.find("camera thermal is not registered"), std::string::npos) << said;
+}
+
+TEST_F(Setup, FailsAfterItHasLeftOutACameraWithoutABall) {
+  const std::string empty = write("empty.png", cv::Mat(320, 400, CV_8UC1, cv::Scalar(90)));
+  EXPECT_EQ(set_up({"--camera", "grey=" + picture(), "--camera", "other=" + empty, "--json"}), 1);
+  EXPECT_NE(said.find("left out of merged and measured views: other\n"), std::string::npos) << said;
+  const auto json = parsed(said.substr(0, said.rfind("orbwatch: ")));
+  EXPECT_EQ(json["left_out"].dump(), "[\"other\"]");
+  EXPECT_EQ(json["cameras"].size(), 1U);
+  expect_runs();
 }
 
 TEST_F(Setup, OverwritesOnlyWhenItIsTold) {
@@ -147,6 +158,9 @@ TEST_F(Setup, RefusesMistakesInOneLine) {
            {"box in no axes", with({"80", "--box=0,0,0,1,1,1"}), {"--pose"}},
            {"short pose", with({"80", "--pose", "1,2,3"}), {"3 numbers", "12"}},
            {"no lens", with({"80", "--pose", "1,2,3,1,0,0,0,0,-1,0,1,0"}), {"--calibration"}},
+           {"distance within the ball",
+            with({"80", "--distance", "39"}),
+            {"--distance grey=39", "in the ball, whose radius is 40 mm"}},
            {"negative distance", with({"80", "--distance=-4"}), {"distance", "above"}},
            {"contradiction",
             with({"80", "--pose", "10,-300,400,1,0,0,0,0,-1,0,1,0", "--calibration", "DIR/a.yaml",

@@ -270,8 +270,9 @@ TEST(Check, FindsThresholdsThatNothingReaches) {
   const auto hotter_than_the_scale = [](Resolved& site) {
     first(site).regions[0].hot_spot_threshold = 9000;
   };
-  EXPECT_NE(refusal(hotter_than_the_scale).find("region pool: "), std::string::npos)
-      << refusal(hotter_than_the_scale);
+  EXPECT_THAT(refusal(hotter_than_the_scale),
+              testing::HasSubstr("region pool: hot_spot_threshold is 9000.0 degC; the camera's "
+                                 "counts end at "));
   const auto above_full_scale = [](Resolved& site) {
     site.site.cameras[kThermalCamera].radiometry.kelvin_per_count = 0;
     for (RegionOfInterest& region : first(site).regions) region.alarms.clear();
@@ -280,13 +281,35 @@ TEST(Check, FindsThresholdsThatNothingReaches) {
     first(site).regions[0].hot_spot_threshold = 101;
     first(site).regions[1].hot_spot_threshold = 99;
   };
-  EXPECT_NE(refusal(above_full_scale).find("region pool: "), std::string::npos)
-      << refusal(above_full_scale);
+  EXPECT_THAT(refusal(above_full_scale),
+              testing::HasSubstr("region pool: hot_spot_threshold is 101.0; it must be above 0 and "
+                                 "at most 100 percent"));
   EXPECT_EQ(refusal([&](Resolved& site) {
               above_full_scale(site);
               first(site).regions[0].hot_spot_threshold = 99;
             }),
             "none");
+}
+
+TEST(Check, FindsModbusAndThePageOnOnePort) {
+  const auto on = [](int port, std::optional<int> https, const char* page, const char* plc) {
+    return refusal([=](Resolved& site) {
+      auto& web = std::get<WebSettings>(site.site.sinks);
+      auto& modbus = std::get<ModbusSettings>(site.site.sinks);
+      web.enabled = modbus.enabled = true;
+      web.port = port;
+      web.https_port = https;
+      web.address = page;
+      modbus.port = 1502;
+      modbus.address = plc;
+    });
+  };
+  EXPECT_EQ(on(8080, 8443, "0.0.0.0", "0.0.0.0"), "none");
+  EXPECT_NE(on(1502, {}, "127.0.0.1", "0.0.0.0").find("[web] port and [modbus] port are both 1502"),
+            std::string::npos);
+  EXPECT_NE(on(8080, 1502, "10.0.0.5", "::").find("[web] https_port"), std::string::npos);
+  EXPECT_EQ(on(1502, 8443, "127.0.0.1", "10.0.0.5"), "none") << "two networks";
+  EXPECT_EQ(on(8080, 1502, "10.0.0.5", "10.1.0.5"), "none");
 }
 
 /// The demo's site, of whose cameras nobody knows where one looks.
