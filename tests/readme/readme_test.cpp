@@ -23,7 +23,8 @@
 namespace orbwatch::tests {
 namespace {
 
-constexpr std::array kPages{"README.md", "platform/README.md", "app/cli/README.md"};
+constexpr std::array kPages{"README.md", "platform/INSTALL.md", "platform/README.md", "app/cli/README.md",
+                            "app/cli/GUIDE.md"};
 
 /// Run by this test, as they stand, and end with 0.
 constexpr std::array<std::string_view, 14> kRun{
