@@ -24,11 +24,11 @@ std::vector<ControlSettings> controls_of(const Resolved& site, std::size_t camer
   return controls;
 }
 
-/// A triggered camera's frames queue. A V4L2 camera often offers several sizes, of which only the
-/// rig's can be used: beside the picture, the picture with lines of telemetry.
+/// A triggered camera's frames queue. Of several sizes, such as the picture with lines of
+/// telemetry, only the rig's can be used.
 hal::StreamRequest stream_of(const CameraSettings& settings, const optics::RigCamera& rig) {
   hal::StreamRequest stream = settings.stream;
-  if (std::holds_alternative<hal::V4l2Settings>(settings.back_end)) {
+  if (facts_of(settings.back_end).takes_size_of_rig) {
     if (stream.width == 0) stream.width = rig.width;
     if (stream.height == 0) stream.height = rig.height;
   }
@@ -45,11 +45,9 @@ Result<> check_format(const hal::StreamFormat& format, const CameraSettings& set
     return fail(delivers + ", of which no view can be made");
   }
   if (settings.radiometry.is_radiometric() && format.format != PixelFormat::Y16) {
-    const bool is_v4l2 = std::holds_alternative<hal::V4l2Settings>(settings.back_end);
+    const std::string advice(facts_of(settings.back_end).radiometric_advice);
     return fail("is radiometric but " + delivers + "; a radiometric camera delivers y16" +
-                (is_v4l2 ? ": state pixel_format = \"y16\", also for 16 bit words that the driver "
-                           "calls YUYV"
-                         : ""));
+                (advice.empty() ? "" : ": " + advice));
   }
   if (format.width == rig.width && format.height == rig.height) return {};
   return fail("delivers " + std::to_string(format.width) + "x" + std::to_string(format.height) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -10,11 +11,13 @@
 #include "app/ports/lines/line_settings.h"
 #include "app/simulation/simulated_camera_settings.h"
 #include "app/watch/watch_settings.h"
+#include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
 #include "hal/genicam/genicam_settings.h"
 #include "hal/libcamera/libcamera_settings.h"
 #include "hal/lines/frame_trigger.h"
+#include "hal/module/module_list.h"
 #include "hal/replay/replay_settings.h"
 #include "hal/sync/frame_matcher.h"
 #include "hal/test_pattern/test_pattern_settings.h"
@@ -24,15 +27,52 @@
 
 namespace orbwatch::app {
 
-/// The list of camera back-ends: one line each. A settings struct has its word in the file as kName
-/// and its keys in visit(); make_camera() beside it makes the camera. Only the settings are needed
-/// to read a file.
+/// The list of camera back-ends: one line each. A settings struct has its word in the file as
+/// kName, its keys in visit() and what programs need to know in kFacts, see hal/back_end.h;
+/// make_camera() beside it makes the camera. Only the settings are needed to read a file.
 using BackEndSettings = std::variant<simulation::SimulatedCameraSettings,  //
                                      hal::ReplaySettings,                  //
                                      hal::V4l2Settings,                    //
                                      hal::LibcameraSettings,               //
                                      hal::GenicamSettings,                 //
                                      hal::TestPatternSettings>;
+
+inline const hal::BackEndFacts& facts_of(const BackEndSettings& back_end) {
+  return std::visit(
+      []<class Settings>(const Settings&) -> const hal::BackEndFacts& { return Settings::kFacts; },
+      back_end);
+}
+
+/// Empty: the back-end's cameras have none.
+inline std::string address_of(const BackEndSettings& back_end) {
+  return std::visit(
+      []<class Settings>(const Settings& settings) -> std::string {
+        if constexpr (Settings::kFacts.address_key.empty())
+          return "";
+        else
+          return settings.address();
+      },
+      back_end);
+}
+
+/// Calls function(std::type_identity<SETTINGS>()) for each back-end, in the order of the list.
+template <class Function>
+constexpr void for_each_back_end(Function&& function) {
+  const auto call = [&]<class... Settings>(std::type_identity<std::variant<Settings...>>) {
+    (function(std::type_identity<Settings>()), ...);
+  };
+  call(std::type_identity<BackEndSettings>());
+}
+
+static_assert([] {
+  bool are_listed = true;
+  for_each_back_end([&]<class Settings>(std::type_identity<Settings>) {
+    const bool is_listed =
+        std::ranges::find(hal::kModuleBackEnds, Settings::kName) != hal::kModuleBackEnds.end();
+    are_listed &= (Settings::kFacts.origin == hal::CameraOrigin::Module) == is_listed;
+  });
+  return are_listed;
+}());
 
 /// A control of a camera and its value, applied when the camera is opened.
 struct ControlSettings {
@@ -141,12 +181,10 @@ void visit(Visitor& v, CameraSettings& camera) {
                   v4l2->first_row + std::max(camera.stream.height, 1) <= v4l2->frame_height,
               "height", "v4l2's first_row and the height must not exceed frame_height together");
   }
-  v.require(!std::holds_alternative<simulation::SimulatedCameraSettings>(camera.back_end) ||
-                (camera.stream.width && camera.stream.height),
-            "back_end", "simulated needs width and height");
-  v.require(!std::holds_alternative<hal::TestPatternSettings>(camera.back_end) ||
-                (camera.stream.width && camera.stream.height),
-            "back_end", "test_pattern needs width and height");
+  const auto name =
+      std::visit([](const auto& settings) { return settings.kName; }, camera.back_end);
+  v.require(!facts_of(camera.back_end).needs_size || (camera.stream.width && camera.stream.height),
+            "back_end", std::string(name) + " needs width and height");
 }
 
 }  // namespace orbwatch::app

@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/simulation/tracing/ray.h"
+#include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
 #include "proc/settings/settings.h"
@@ -24,6 +26,8 @@ enum class CameraKind : std::uint8_t {
 /// One camera on the machine. It points at the ball's centre, upright (picture's up nearest to +Z).
 struct SimulatedCameraSettings {
   static constexpr std::string_view kName = "simulated";
+  static constexpr hal::BackEndFacts kFacts{.origin = hal::CameraOrigin::Process,
+                                            .needs_size = true};
 
   std::string name{};  ///< becomes CameraInfo::id; also part of the noise's seed
   CameraKind kind = CameraKind::Colour;
@@ -36,6 +40,10 @@ struct SimulatedCameraSettings {
   double kelvin_per_count = 0.04;  ///< thermal only: see kelvin_of_counts()
   std::vector<hal::ScriptedFault> faults{};
   double kelvin_offset = 0;  ///< thermal only: K, of a count of 0
+
+  std::optional<PixelFormat> stated_format() const {
+    return kind == CameraKind::Colour ? PixelFormat::Rgb : PixelFormat::Y16;
+  }
 };
 
 inline constexpr std::array kCameraKinds{Word{"colour", CameraKind::Colour},

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/frame/frame.h"
+#include "hal/inventory.h"
 #include "proc/image/picture.h"
 #include "proc/settings/settings.h"
 
@@ -15,6 +20,7 @@ namespace orbwatch::hal {
 /// Which GigE Vision or USB3 Vision camera, and how. Needs no header of Aravis.
 struct GenicamSettings {
   static constexpr std::string_view kName = "genicam";
+  static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Module, .address_key = "camera"};
   static constexpr int kAutomatic = 0;  ///< of packet_size
 
   /// Serial number, user-defined name, address, or the id that `orbwatch list` shows.
@@ -28,6 +34,18 @@ struct GenicamSettings {
   /// What the camera's stamps mark, of its data sheet.
   StampSource stamps_mark = StampSource::ExposureStart;
   int packet_size = kAutomatic;  ///< bytes with the headers of IP and UDP; of GigE Vision
+
+  static GenicamSettings at(std::string address) {
+    GenicamSettings settings;
+    settings.camera = std::move(address);
+    return settings;
+  }
+  std::string address() const { return camera; }
+  /// A camera that orbwatchd controls answers, but cannot be opened: it is accepted.
+  bool accepts(const CameraEntry& entry) const {
+    return std::ranges::find(entry.paths, camera) != entry.paths.end();
+  }
+  static std::optional<PixelFormat> stated_format() { return std::nullopt; }
 };
 
 inline constexpr std::array kStampMarks{Word{"exposure_start", StampSource::ExposureStart},

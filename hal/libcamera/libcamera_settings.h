@@ -1,10 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "hal/back_end.h"
 #include "hal/camera.h"
+#include "hal/inventory.h"
 #include "proc/image/picture.h"
 #include "proc/settings/settings.h"
 
@@ -22,11 +26,23 @@ struct SensorMode {
 /// Which camera of libcamera, and how. Needs no header of libcamera.
 struct LibcameraSettings {
   static constexpr std::string_view kName = "libcamera";
+  static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Module,
+                                       .address_key = "camera",
+                                       .has_board_sensors = true,
+                                       .shares_usb = true};
 
   /// libcamera's id (`cam --list`), or a part of id or sensor model that only one camera has.
   std::string camera;
   std::string pixel_format = "auto";  ///< "auto" or a name of kLibcameraFormats
   SensorMode sensor_mode = {};        ///< if set, required
+
+  static LibcameraSettings at(std::string address) { return {.camera = std::move(address)}; }
+  std::string address() const { return camera; }
+  bool accepts(const CameraEntry& entry) const {
+    return entry.problem.empty() && (entry.id.find(camera) != std::string::npos ||
+                                     entry.model.find(camera) != std::string::npos);
+  }
+  static std::optional<PixelFormat> stated_format() { return std::nullopt; }
 };
 
 template <class Visitor>

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
 #include "proc/settings/settings.h"
@@ -15,12 +17,23 @@ namespace orbwatch::hal {
 /// What a replay camera plays, and how.
 struct ReplaySettings {
   static constexpr std::string_view kName = "replay";
+  static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Files, .address_key = "source"};
 
   std::string name;              ///< becomes CameraInfo::id
   std::filesystem::path source;  ///< a folder of JPEG or PNG pictures, one, or a video file
   double frame_rate = 0;         ///< per second; 0: the video's own, 30 for a folder
   bool loop = true;              ///< false: after the last picture the camera is unplugged
   std::vector<ScriptedFault> faults = {};
+
+  /// Plays once.
+  static ReplaySettings at(const std::string& address) {
+    ReplaySettings settings;
+    settings.source = address;
+    settings.loop = false;
+    return settings;
+  }
+  std::string address() const { return source.string(); }
+  static std::optional<PixelFormat> stated_format() { return std::nullopt; }
 };
 
 /// All but what the context of a camera states.

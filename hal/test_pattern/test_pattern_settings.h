@@ -3,10 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/fault.h"
 #include "proc/image/pixel_format.h"
@@ -17,6 +19,7 @@ namespace orbwatch::hal {
 /// A camera whose pictures cost nothing; without a device (GenICam TestPattern).
 struct TestPatternSettings {
   static constexpr std::string_view kName = "test_pattern";
+  static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Process, .needs_size = true};
 
   std::string name;  ///< becomes CameraInfo::id
   PixelFormat pixel_format = PixelFormat::Grey;
@@ -25,6 +28,8 @@ struct TestPatternSettings {
   double frame_rate = 0;  ///< per second; 0: kTestPatternRate
   bool numbered = false;  ///< see paint_number()
   std::vector<ScriptedFault> faults = {};
+
+  std::optional<PixelFormat> stated_format() const { return pixel_format; }
 };
 
 inline constexpr double kTestPatternRate = 30;

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/v4l2/format/pixel_coding.h"
 #include "proc/image/picture.h"
@@ -14,6 +18,13 @@ namespace orbwatch::hal {
 /// Which V4L2 device, and how.
 struct V4l2Settings {
   static constexpr std::string_view kName = "v4l2";
+  static constexpr BackEndFacts kFacts{
+      .origin = CameraOrigin::Kernel,
+      .address_key = "device",
+      .takes_size_of_rig = true,
+      .radiometric_advice =
+          "state pixel_format = \"y16\", also for 16 bit words that the driver "
+          "calls YUYV"};
 
   /// A device node, or another name that find_v4l2_device() knows. Links in /dev/v4l/by-id or
   /// by-path and places on a bus name the same camera after it was plugged in again, while
@@ -24,6 +35,10 @@ struct V4l2Settings {
   int frame_height = 0;               ///< see FormatRequest
   int first_row = 0;                  ///< see FormatRequest
   bool is_radiometric = false;        ///< no key: the site states kelvin_per_count
+
+  static V4l2Settings at(std::string address) { return {.device = std::move(address)}; }
+  std::string address() const { return device; }
+  std::optional<PixelFormat> stated_format() const;
 };
 
 template <class Visitor>
@@ -45,6 +60,13 @@ void visit(Visitor& v, V4l2Settings& settings) {
              "First row of the picture in these frames");
   v.require(settings.first_row == 0 || settings.first_row < settings.frame_height, "first_row",
             "needs a frame_height above it");
+}
+
+/// Nullopt: the format is chosen when the camera is opened.
+inline std::optional<PixelFormat> V4l2Settings::stated_format() const {
+  const auto coding = std::ranges::find(kPixelCodings, pixel_format, &PixelCoding::name);
+  if (coding == kPixelCodings.end()) return std::nullopt;
+  return frame_format(*coding, colour);
 }
 
 std::unique_ptr<Camera> make_camera(V4l2Settings settings, const CameraContext& context);

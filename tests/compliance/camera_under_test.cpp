@@ -54,10 +54,8 @@ hal::StreamRequest CameraUnderTest::request(const app::CameraSettings& settings)
 }
 
 bool CameraUnderTest::is_scripted() const {
-  const app::BackEndSettings& back_end = settings_.cameras.front().back_end;
-  return std::holds_alternative<app::simulation::SimulatedCameraSettings>(back_end) ||
-         std::holds_alternative<hal::ReplaySettings>(back_end) ||
-         std::holds_alternative<hal::TestPatternSettings>(back_end);
+  const hal::CameraOrigin origin = app::facts_of(settings_.cameras.front().back_end).origin;
+  return origin == hal::CameraOrigin::Process || origin == hal::CameraOrigin::Files;
 }
 
 std::unique_ptr<hal::Camera> CameraUnderTest::make_unpluggable() const {

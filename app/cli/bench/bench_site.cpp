@@ -8,30 +8,12 @@
 
 #include "app/daemon/build.h"
 #include "app/daemon/cameras.h"
-#include "hal/v4l2/format/pixel_coding.h"
 
 namespace orbwatch::app {
 namespace {
 
 /// Of cameras that state none and are not connected: what most of them have.
 constexpr PixelFormat kAssumed = PixelFormat::Nv12;
-
-std::optional<PixelFormat> stated_format(const simulation::SimulatedCameraSettings& camera) {
-  return camera.kind == simulation::CameraKind::Colour ? PixelFormat::Rgb : PixelFormat::Y16;
-}
-std::optional<PixelFormat> stated_format(const hal::V4l2Settings& camera) {
-  const auto coding =
-      std::ranges::find(hal::kPixelCodings, camera.pixel_format, &hal::PixelCoding::name);
-  if (coding == hal::kPixelCodings.end()) return std::nullopt;
-  return hal::frame_format(*coding, camera.colour);
-}
-std::optional<PixelFormat> stated_format(const hal::TestPatternSettings& camera) {
-  return camera.pixel_format;
-}
-template <class Other>
-std::optional<PixelFormat> stated_format(const Other&) {
-  return std::nullopt;
-}
 
 /// What the camera itself says; nullopt: it is not there. A simulated one needs no question, and
 /// would draw its machine first.
@@ -49,7 +31,7 @@ std::pair<hal::StreamFormat, std::string> format_of(const Resolved& site, std::s
   if (const auto asked = asked_format(site, index)) return {*asked, "as the camera says"};
   hal::StreamFormat format = expected_format(site, index);
   const auto stated =
-      std::visit([](const auto& camera) { return stated_format(camera); }, settings.back_end);
+      std::visit([](const auto& camera) { return camera.stated_format(); }, settings.back_end);
   if (settings.radiometry.is_radiometric()) return {format, "as a radiometric camera"};
   format.format = stated.value_or(kAssumed);
   return {format, stated ? "as configured" : "assumed: it is not connected and states none"};

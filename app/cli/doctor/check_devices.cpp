@@ -9,7 +9,7 @@ namespace {
 
 bool needs_heaps(const Configuration& site) {
   return std::ranges::any_of(site.cameras, [](const CameraSettings& camera) {
-    return std::holds_alternative<hal::LibcameraSettings>(camera.back_end);
+    return facts_of(camera.back_end).has_board_sensors;
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <functional>
 
 #include "app/cli/doctor/gather.h"
 #include "app/health/system_file.h"
@@ -29,34 +30,35 @@ std::vector<Heap> heaps(const Sources& sources) {
   return found;
 }
 
-/// What a camera is found by, for each back-end.
+/// Searches the camera that settings of a back-end name.
 class Search {
  public:
   Search(const Sources& sources, std::string name) : sources_(sources), name_(std::move(name)) {}
 
-  CameraFacts operator()(const simulation::SimulatedCameraSettings&) const {
-    return {name_, "", Presence::Simulated};
+  template <class Settings>
+  CameraFacts operator()(const Settings& settings) const {
+    constexpr hal::CameraOrigin kOrigin = Settings::kFacts.origin;
+    if constexpr (kOrigin == hal::CameraOrigin::Process) {
+      return {name_, "", Presence::Simulated};
+    } else if constexpr (kOrigin == hal::CameraOrigin::Files) {
+      return in_files(settings.address());
+    } else if constexpr (kOrigin == hal::CameraOrigin::Kernel) {
+      return in_kernel(settings.address());
+    } else {
+      return in_module(Settings::kName, settings.address(),
+                       [&](const hal::CameraEntry& entry) { return settings.accepts(entry); });
+    }
   }
-  CameraFacts operator()(const hal::TestPatternSettings&) const {
-    return {name_, "", Presence::Simulated};
-  }
-  CameraFacts operator()(const hal::ReplaySettings& replay) const {
-    std::error_code unknown;
-    const bool there = fs::exists(replay.source, unknown);
-    return {name_, replay.source.string(), there ? Presence::There : Presence::Missing,
-            there ? "" : "there is no such file"};
-  }
-  CameraFacts operator()(const hal::V4l2Settings& v4l2) const;
-  CameraFacts operator()(const hal::LibcameraSettings& camera) const;
-  CameraFacts operator()(const hal::GenicamSettings& camera) const;
 
  private:
+  using Accepts = std::function<bool(const hal::CameraEntry&)>;
+
   CameraFacts missing(const std::string& address, std::string error,
                       const std::vector<hal::CameraEntry>& there) const;
-  /// A camera of a back-end that is a module; `is_named` says which of its cameras it is.
-  template <class IsNamed>
-  CameraFacts in_module(std::string_view back_end, const std::string& wanted,
-                        const IsNamed& is_named) const;
+  CameraFacts in_files(const std::string& address) const;
+  CameraFacts in_kernel(const std::string& address) const;
+  CameraFacts in_module(std::string_view back_end, const std::string& address,
+                        const Accepts& accepts) const;
 
   const Sources& sources_;
   std::string name_;
@@ -69,9 +71,15 @@ CameraFacts Search::missing(const std::string& address, std::string error,
   return facts;
 }
 
-CameraFacts Search::operator()(const hal::V4l2Settings& v4l2) const {
+CameraFacts Search::in_files(const std::string& address) const {
+  std::error_code unknown;
+  const bool there = fs::exists(address, unknown);
+  return {name_, address, there ? Presence::There : Presence::Missing,
+          there ? "" : "there is no such file"};
+}
+
+CameraFacts Search::in_kernel(const std::string& address) const {
   const fs::path dev = sources_.at("/dev");
-  const std::string& address = v4l2.device;
   const auto node = hal::find_v4l2_device(
       address.starts_with('/') ? sources_.at(address).string() : address, dev);
   if (!node) return missing(address, node.error().detail, hal::list_v4l2_cameras(dev));
@@ -83,41 +91,23 @@ CameraFacts Search::operator()(const hal::V4l2Settings& v4l2) const {
   return missing(address, device.error().detail, hal::list_v4l2_cameras(dev));
 }
 
-template <class IsNamed>
-CameraFacts Search::in_module(std::string_view back_end, const std::string& wanted,
-                              const IsNamed& is_named) const {
+CameraFacts Search::in_module(std::string_view back_end, const std::string& address,
+                              const Accepts& accepts) const {
   const auto cameras = sources_.module_cameras(back_end);
   if (!cameras) {
-    CameraFacts facts{name_, wanted, Presence::NoModule, cameras.error().message};
+    CameraFacts facts{name_, address, Presence::NoModule, cameras.error().message};
     facts.module = back_end;
     return facts;
   }
-  const auto whole = std::ranges::count(*cameras, wanted, &hal::CameraEntry::id);
-  const auto fitting = std::ranges::count_if(*cameras, is_named);
-  if (whole == 1 || fitting == 1) return {name_, wanted, Presence::There};
+  const auto whole = std::ranges::count(*cameras, address, &hal::CameraEntry::id);
+  const auto fitting = std::ranges::count_if(*cameras, accepts);
+  if (whole == 1 || fitting == 1) return {name_, address, Presence::There};
   const auto broken = std::ranges::find_if(
       *cameras, [](const hal::CameraEntry& entry) { return !entry.problem.empty(); });
   std::string error =
       fitting > 1 ? "several cameras have this name" : std::string(back_end) + " has none so named";
   if (broken != cameras->end()) error = broken->problem;
-  return missing(wanted, std::move(error), *cameras);
-}
-
-CameraFacts Search::operator()(const hal::LibcameraSettings& camera) const {
-  // As libcamera's module chooses: the whole id, or a part of id or model that one camera has.
-  return in_module(
-      hal::LibcameraSettings::kName, camera.camera, [&camera](const hal::CameraEntry& entry) {
-        return entry.problem.empty() && (entry.id.find(camera.camera) != std::string::npos ||
-                                         entry.model.find(camera.camera) != std::string::npos);
-      });
-}
-
-CameraFacts Search::operator()(const hal::GenicamSettings& camera) const {
-  // A camera that orbwatchd controls answers, but cannot be opened: it is there.
-  return in_module(hal::GenicamSettings::kName, camera.camera,
-                   [&camera](const hal::CameraEntry& entry) {
-                     return std::ranges::find(entry.paths, camera.camera) != entry.paths.end();
-                   });
+  return missing(address, std::move(error), *cameras);
 }
 
 }  // namespace

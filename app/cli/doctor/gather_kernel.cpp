@@ -68,11 +68,12 @@ void add_drivers(const CameraSettings& camera, const BoardFacts& board,
     if (std::ranges::find(drivers, name, &Driver::name) != drivers.end()) return;
     drivers.push_back({name, "camera " + camera.name});
   };
-  if (const auto* v4l2 = std::get_if<hal::V4l2Settings>(&camera.back_end)) {
+  const hal::BackEndFacts& facts = facts_of(camera.back_end);
+  if (facts.origin == hal::CameraOrigin::Kernel) {
     add("videodev");
-    if (v4l2->device.find("usb") != std::string::npos) add("uvcvideo");
+    if (address_of(camera.back_end).find("usb") != std::string::npos) add("uvcvideo");
   }
-  if (std::holds_alternative<hal::LibcameraSettings>(camera.back_end) && board.known) {
+  if (facts.has_board_sensors && board.known) {
     for (const std::string& driver : board.known->camera_drivers) add(driver);
   }
 }
