@@ -23,21 +23,23 @@ function say(text, isWrong) {
   condition.classList.toggle("wrong", isWrong);
 }
 
-function addPages() {
-  const names = Object.keys(texts.pages);
+function addTabs() {
   const links = new Map();
-  for (const name of names) {
-    setText(document.getElementById(`${name}-title`), texts.pages[name]);
-    links.set(name, element("a", { href: `#/${name}` }, texts.pages[name]));
+  for (const { name } of tabs) {
+    const title = texts.pages[name];
+    const heading = element("h2", { id: `${name}-title` }, title);
+    const labelled = { id: name, "aria-labelledby": heading.id, hidden: true };
+    document.querySelector("main").append(element("section", labelled, heading));
+    links.set(name, element("a", { href: `#/${name}` }, title));
   }
   document.getElementById("nav").append(...links.values());
   const turn = () => {
     const asked = location.hash.slice(2);
-    const shown = names.includes(asked) ? asked : names[0];
-    for (const name of names) {
+    const shown = links.has(asked) ? asked : tabs[0].name;
+    for (const [name, link] of links) {
       document.getElementById(name).hidden = name !== shown;
-      if (name === shown) links.get(name).setAttribute("aria-current", "page");
-      else links.get(name).removeAttribute("aria-current");
+      if (name === shown) link.setAttribute("aria-current", "page");
+      else link.removeAttribute("aria-current");
     }
   };
   addEventListener("hashchange", turn);
@@ -62,41 +64,48 @@ function showCondition(status) {
   say(isSilent ? texts.silent : state_text, isSilent || state !== 1);
 }
 
-const { role, has_users: hasUsers } = await admit(() => say(texts.connecting, true));
-addPages();
-const figures = await figuresOfAppliance();
-const mayChange = ["integrator", "administrator"].includes(role);
-// That of the pages with pictures of views, if one of them is shown.
-const shown = () => [live, look, process].find(({ isShown }) => isShown);
-const choose = () => stream.choose(shown()?.views ?? []);
-const live = new Live(document.getElementById("live"), choose, role !== "viewer");
-const look = new Look(document.getElementById("look"), choose);
-const align = new Align(document.getElementById("align"), figures.cameras ?? {});
-const process = new Process(document.getElementById("process"), figures, mayChange, choose);
-const system = new System(document.getElementById("system"), figures);
-if (role !== "viewer") new Log(document.getElementById("system"));
-showAbout(document.getElementById("system"));
-if (mayChange) {
-  new Interfaces(document.getElementById("system"));
-  new Configuration(document.getElementById("system"));
+function makeSystem(section) {
+  const system = new System(section, figures);
+  if (isAtLeast("operator")) new Log(section);
+  showAbout(section);
+  if (isAtLeast("integrator")) {
+    new Interfaces(section);
+    new Configuration(section);
+  }
+  if (session.has_users && isAtLeast("administrator")) new People(section, session);
+  return system;
 }
-if (hasUsers && role === "administrator") new People(document.getElementById("system"));
-new Fleet(document.getElementById("fleet"), role !== "viewer");
+
+// In the order of the navigation. What make() returns may have status(), picture(), lost() and views.
+const tabs = [
+  { name: "live", make: (section) => new Live(section, choose, isAtLeast("operator")) },
+  { name: "look", make: (section) => new Look(section, choose) },
+  { name: "align", make: (section) => new Align(section, figures.cameras ?? {}) },
+  { name: "process", make: (section) => new Process(section, figures, isAtLeast("integrator"), choose) },
+  { name: "system", make: makeSystem },
+  { name: "fleet", make: (section) => new Fleet(section, isAtLeast("operator")) },
+];
+
+const session = await admit(() => say(texts.connecting, true));
+// True: the user of the page may do what this role may.
+const isAtLeast = (role) => session.roles.indexOf(session.role) >= session.roles.indexOf(role);
+addTabs();
+const figures = await figuresOfAppliance();
+const made = [];
+// That of the tabs with pictures of views, if one of them is shown.
+const shown = () => made.find((tab) => tab.views && tab.isShown);
+const choose = () => stream.choose(shown()?.views ?? []);
+for (const { name, make } of tabs) made.push(make(document.getElementById(name)));
 const stream = new Stream(
   (message) => {
     if (message.head.kind === "view") return shown()?.picture(message);
     const status = JSON.parse(new TextDecoder().decode(message.body));
     showCondition(status);
-    live.status(status);
-    look.status(status);
-    align.status(status, message.received);
-    process.status(status, message.received);
-    system.status(status);
+    for (const tab of made) tab.status?.(status, message.received);
   },
   () => {
     say(texts.connecting, true);
-    live.lost();
-    look.lost();
+    for (const tab of made) tab.lost?.();
     askAgain();
   },
 );

@@ -12,6 +12,14 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
+json session_json(const std::string& user, const std::string& role, bool has_users) {
+  return {{"user", user},
+          {"role", role},
+          {"roles", {"viewer", "operator", "integrator", "administrator"}},
+          {"password_characters", 12},
+          {"has_users", has_users}};
+}
+
 class AccessRoutes : public AccessServed {
  protected:
   json session(const std::string& headers) const {
@@ -21,7 +29,7 @@ class AccessRoutes : public AccessServed {
 
 TEST_F(AccessRoutes, TheFirstPasswordIsSetFromThisComputerAndCountsFromThenOn) {
   start();
-  EXPECT_EQ(session(""), (json{{"user", ""}, {"role", "administrator"}, {"has_users", false}}));
+  EXPECT_EQ(session(""), session_json("", "administrator", false));
   EXPECT_EQ(get(port(), "/api/v1/status").status, 200);
   const Answer viewer =
       post("/api/v1/set_user",
@@ -39,7 +47,7 @@ TEST_F(AccessRoutes, TheFirstPasswordIsSetFromThisComputerAndCountsFromThenOn) {
            json{{"user", "kim"}, {"role", "administrator"}, {"password", kPassword}}.dump(),
            kPageHeaders);
   EXPECT_EQ(set.status, 200) << set.body;
-  EXPECT_EQ(session(""), (json{{"user", ""}, {"role", ""}, {"has_users", true}}));
+  EXPECT_EQ(session(""), session_json("", "", true));
   EXPECT_EQ(get(port(), "/api/v1/status").status, 401);
   EXPECT_EQ(get(port(), "/api/v1/status", session_of("kim")).status, 200);
 }

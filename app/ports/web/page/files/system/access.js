@@ -5,7 +5,6 @@ import { texts } from "../texts.js";
 
 const kRetryMs = 500;
 const kFirstUser = "admin";
-export const kLeastCharacters = 12;
 const account = document.getElementById("account");
 const section = document.getElementById("access");
 let isSending = false;  // a form: until it is answered the page does not begin anew
@@ -43,30 +42,30 @@ function showLogin() {
   ], texts.logIn, (values) => post("api/v1/login", values));
 }
 
-function newPasswordFields() {
-  const properties = { type: "password", autocomplete: "new-password", minLength: kLeastCharacters };
+function newPasswordFields(characters) {
+  const properties = { type: "password", autocomplete: "new-password", minLength: characters };
   return [
-    field(texts.newPassword(kLeastCharacters), { name: "password", ...properties }),
+    field(texts.newPassword(characters), { name: "password", ...properties }),
     field(texts.passwordAgain, { name: "again", ...properties }),
   ];
 }
 
 // On another computer than the appliance.
-function showFirstCode() {
+function showFirstCode(characters) {
   showForm(texts.firstPasswordTitle, [
     element("p", {}, texts.whereTheCodeIs(kFirstUser)),
     field(texts.code, { name: "code", autocomplete: "one-time-code" }),
-    ...newPasswordFields(),
+    ...newPasswordFields(characters),
   ], texts.setPassword, async ({ code, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
     return post("api/v1/set_first_password", { code, password });
   });
 }
 
-function showFirstPassword() {
+function showFirstPassword(characters) {
   showForm(texts.firstPasswordTitle, [
     field(texts.user, { name: "user", value: kFirstUser, autocomplete: "username" }),
-    ...newPasswordFields(),
+    ...newPasswordFields(characters),
   ], texts.setPassword, async ({ user, password, again }) => {
     if (password !== again) return texts.passwordsDiffer;
     const refused = await post("api/v1/set_user", { user, role: "administrator", password });
@@ -74,11 +73,11 @@ function showFirstPassword() {
   });
 }
 
-function showAccount({ user, role, has_users: hasUsers }) {
+function showAccount({ user, role, has_users: hasUsers, password_characters: characters }) {
   const name = hasUsers ? texts.account(user, role) : texts.noPassword;
   const button = element("button", { type: "button" }, hasUsers ? texts.logOut : texts.setPassword);
   button.addEventListener("click", async () => {
-    if (!hasUsers) return showFirstPassword();
+    if (!hasUsers) return showFirstPassword(characters);
     const refused = await post("api/v1/logout", {});
     if (refused) setText(account.firstChild, texts.refused(refused));
     else location.reload();
@@ -97,7 +96,7 @@ export async function admit(onNoAnswer) {
         return present;
       }
       if (present.has_users) showLogin();
-      else showFirstCode();
+      else showFirstCode(present.password_characters);
       return new Promise(() => {});
     } catch {
       onNoAnswer();

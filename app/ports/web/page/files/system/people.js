@@ -2,18 +2,17 @@
 import { answerTo, post } from "../appliance/api.js";
 import { element, field, setText, table } from "../elements/elements.js";
 import { texts } from "../texts.js";
-import { kLeastCharacters } from "./access.js";
 
-const kRoles = ["viewer", "operator", "integrator", "administrator"];
 const kShownEntries = 50;
 
-function roleField() {
-  const select = element("select", { name: "role" }, ...kRoles.map((role) => element("option", {}, role)));
+function roleField(roles) {
+  const select = element("select", { name: "role" }, ...roles.map((role) => element("option", {}, role)));
   return element("label", {}, texts.role, " ", select);
 }
 
 export class People {
-  constructor(root) {
+  // `session`: who uses the page, as /api/v1/session has it.
+  constructor(root, { roles, password_characters: characters }) {
     this.said = element("p", { role: "status" });
     this.users = table([texts.user, texts.role, ""], texts.people);
     this.tokens = table([texts.program, texts.role, ""], texts.programs);
@@ -23,13 +22,13 @@ export class People {
       this.said,
       element("h3", {}, texts.people), this.users.root,
       this.#form(texts.setUser, "api/v1/set_user", [
-        field(texts.user, { name: "user", autocomplete: "off" }), roleField(),
-        field(texts.newPassword(kLeastCharacters), {
-          name: "password", type: "password", minLength: kLeastCharacters,
+        field(texts.user, { name: "user", autocomplete: "off" }), roleField(roles),
+        field(texts.newPassword(characters), {
+          name: "password", type: "password", minLength: characters,
           autocomplete: "new-password" })]),
       element("h3", {}, texts.programs), this.tokens.root,
       this.#form(texts.createToken, "api/v1/create_token", [
-        field(texts.program, { name: "name", autocomplete: "off" }), roleField()]),
+        field(texts.program, { name: "name", autocomplete: "off" }), roleField(roles)]),
       element("h3", {}, texts.audit), this.done.root);
     this.opened.addEventListener("toggle", () => this.opened.open && this.#refresh());
     root.append(this.opened);
