@@ -16,11 +16,11 @@ namespace {
 using optics::Vec3;
 
 constexpr std::array kAngles{0.0, 60.0, 90.0, 120.0, 150.0};
-/// The ball's diameter, of the picture's short side: as it should be, and when it is too small.
+/// The ball's diameter relative to the picture's short side: wanted, and too small below.
 constexpr double kGoodFill = 0.9, kPoorFill = 0.7;
-constexpr double kAiryPixels = 2;       // across the Airy disc
+constexpr double kAiryPixels = 2;       // px across the Airy disc
 constexpr double kWavelength = 550e-6;  // mm
-/// From here on a lens has to be stopped down so far that little light is left.
+/// F-number above which a lens is stopped down so far that little light is left.
 constexpr double kDarkFNumber = 16;
 
 Result<> check(const Arrangement& s) {
@@ -53,7 +53,7 @@ Result<> check(const Arrangement& s) {
   return {};
 }
 
-/// `format` with its numbers, as printf.
+/// Formats the numbers like printf.
 template <class... Numbers>
 std::string text(const char* format, Numbers... numbers) {
   std::array<char, 200> line;
@@ -61,13 +61,13 @@ std::string text(const char* format, Numbers... numbers) {
   return line.data();
 }
 
-/// The nearest and the farthest of what has to be sharp, mm from the camera.
+/// The nearest and the farthest point that must be sharp, mm from the camera.
 struct Depth {
   double near, far;
 };
 
-/// The mirror image of the target, seen in the middle of the ball, and the limb. A convex mirror of
-/// radius R shows what is at u before it at u R / (2 u + R) behind it.
+/// Distances of the limb and of the target's mirror image in the middle of the ball. A convex
+/// mirror of radius R shows a point at u before it at u R / (2 u + R) behind it.
 Depth depth_of(const Arrangement& s) {
   const double radius = s.ball_diameter / 2, before = s.target_distance - radius;
   const double image = before * radius / (2 * before + radius);
@@ -76,12 +76,12 @@ Depth depth_of(const Arrangement& s) {
   return {std::min(middle, limb), std::max(middle, limb)};
 }
 
-/// Image distance over a pixel: the focal length in pixels of the focused lens.
+/// The focused lens's focal length in pixels: image distance over pixel pitch.
 double focal_pixels(const Arrangement& s, double focus) {
   return s.focal_length * focus / (focus - s.focal_length) / (s.pixel * 1e-3);
 }
 
-/// The camera on -Y of the ball, looking at it, with a room of the target's distance.
+/// A camera on -Y of the ball that looks at it, with a room at the target's distance.
 Result<optics::BallProjection> projection(const Arrangement& s, double focal,
                                           optics::Scene::Room room) {
   const optics::Ball ball{{}, s.ball_diameter / 2};
@@ -140,7 +140,7 @@ std::vector<std::string> changes(const Arrangement& s, const Advice& a) {
                "camera on the target's side of the ball",
                *s.smallest));
     }
-    // With the lens that was advised.
+    // The pixel count assumes the lens advised above.
     const double sensor = a.fill < kPoorFill || a.fill > 1 ? factor / longer : factor;
     if (sensor > 1) {
       all.push_back(text("%.2f mm in every direction needs %.1f times as many pixels across",

@@ -11,9 +11,9 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr int kMarginAround = 16;     // px around the ball that edges on the limb need
-constexpr double kDarkShare = 0.02;   // of full scale, that a tenth of the pixels must reach
-constexpr double kDarkNoise = 6;      // noise that they must reach
+constexpr int kMarginAround = 16;     // px around the ball, needed by edges on the limb
+constexpr double kDarkShare = 0.02;   // share of full scale that a tenth of the pixels must reach
+constexpr double kDarkNoise = 6;      // multiple of the noise that they must reach
 constexpr double kOverexposed = 0.5;  // share of pixels at full scale
 constexpr int kSampledRows = 256;
 
@@ -33,7 +33,7 @@ double quantile(std::vector<float>& values, double share) {
   return static_cast<double>(*place);
 }
 
-/// J. Immerkaer, Fast noise variance estimation, 1996: what is left of a picture without its planes
+/// J. Immerkaer, Fast noise variance estimation, 1996: the residual of a picture without its planes
 /// and edges; by the median, because reflections are full of edges.
 double noise_of(const cv::Mat& brightness) {
   const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
@@ -48,7 +48,7 @@ double noise_of(const cv::Mat& brightness) {
   return quantile(magnitudes, 0.5) / 0.6745 / 6;
 }
 
-/// Why a ball that is lit like that cannot be judged; else empty.
+/// Reason why a ball in this light cannot be judged; else empty.
 std::string bad_light(const BallCrop& crop) {
   std::vector<float> inside;
   const int step = std::max(1, crop.brightness.rows / kSampledRows);

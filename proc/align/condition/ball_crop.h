@@ -11,20 +11,20 @@ namespace orbwatch::align {
 /// The part of a picture that shows the ball.
 struct BallCrop {
   cv::Mat brightness;       ///< float, counts
-  optics::Outline outline;  ///< in its pixels
+  optics::Outline outline;  ///< in the crop's pixels
   double full_scale = 0;    ///< counts
   double noise = 0;         ///< standard deviation of a pixel, counts
 
-  /// Where a pixel lies on the ball: distance from the middle, 1 at the limb.
+  /// Distance of a pixel from the middle of the ball, 1 at the limb.
   double rho(double u, double v) const;
 };
 
-/// Of a picture of any format. `outline`: checked for it. Reentrant. Error: the picture shows less
-/// than half of the ball's bounding box, or it is not lit as it must be to judge what it shows:
-/// dark, or overexposed.
+/// Crops a picture of any format. `outline` must have been checked for the picture. Reentrant.
+/// Error: the picture shows less than half of the ball's bounding box, or the light does not allow
+/// the ball to be judged: dark, or overexposed.
 Result<BallCrop> crop_ball(const Picture& picture, const optics::Outline& outline);
 
-/// The same in half the size: means of 2 x 2 pixels. Reentrant.
+/// The same crop at half the size: means of 2 x 2 pixels. Reentrant.
 BallCrop halved(const BallCrop& crop);
 
 }  // namespace orbwatch::align

@@ -19,7 +19,7 @@ BallRaster raster_of(BallCrop crop) {
   const optics::Outline& limb = crop.outline;
   const double turn = optics::radians(limb.angle), c = std::cos(turn), s = std::sin(turn);
   const double a = limb.rx / kRasterRadius, b = limb.ry / kRasterRadius;
-  // The ellipse's axes map onto the circle, turned back, so that up stays up.
+  // The ellipse's axes are mapped onto the circle, then turned back, so that up stays up.
   const double uu = a * c * c + b * s * s, uv = (a - b) * c * s, vv = a * s * s + b * c * c;
   const cv::Matx23d to_picture(uu, uv, limb.centre.u - (uu + uv) * kMiddle,  //
                                uv, vv, limb.centre.v - (uv + vv) * kMiddle);

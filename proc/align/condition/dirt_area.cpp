@@ -8,19 +8,20 @@ namespace orbwatch::align {
 namespace {
 
 constexpr int kShallowest =
-    30;                       // of 255, by which a mark must be deeper than any of the clean ball
-constexpr int kSmallest = 4;  // px of a mark
-constexpr int kOtherAround = 6;    // of 127: what is around has changed
-constexpr int kChangeReach = 9;    // px around a change that belong to it
-constexpr double kSqueezed = 0.7;  // rho from which on reflections are told by their shape
+    30;  // depth (255 = full) by which a mark must exceed the clean ball's marks
+constexpr int kSmallest = 4;  // least area of a mark, px
+constexpr int kOtherAround =
+    6;  // difference (127 = full) from which on the surroundings count as changed
+constexpr int kChangeReach = 9;    // px around a change that are left out with it
+constexpr double kSqueezed = 0.7;  // rho from which on reflections are recognised by their shape
 constexpr double kSqueezeSlack = 1.4;
 constexpr int kCell = 16;           // px; detail is compared cell by cell
-constexpr double kLeastDetail = 4;  // rms, of 127, that a cell needs
+constexpr double kLeastDetail = 4;  // least rms detail of a cell (127 = full)
 constexpr int kFewestCells = 12;
-constexpr double kSamePattern = 0.8;  // correlation
-constexpr double kWeaker = 0.7;       // of the strength
+constexpr double kSamePattern = 0.8;  // least correlation
+constexpr double kWeaker = 0.7;       // most strength left, as a share
 
-/// By how much marks are deeper than the clean ball's, which may be a pixel off.
+/// Depth of marks beyond that of the clean ball's, which may be a pixel off.
 cv::Mat excess(const cv::Mat& usual, const cv::Mat& clean, const cv::Mat& judged) {
   cv::Mat around, more;
   cv::dilate(clean, around, cv::Mat::ones(3, 3, CV_8U));
@@ -30,7 +31,7 @@ cv::Mat excess(const cv::Mat& usual, const cv::Mat& clean, const cv::Mat& judged
   return kept;
 }
 
-/// Where both are judged and the room is as it was.
+/// Mask of pixels that are judged in both and whose surroundings have not changed.
 cv::Mat judged_in_both(const SmallMarks& usual, const DirtReference& clean) {
   const cv::Mat judged = usual.judged & clean.judged;
   cv::Mat difference, around_change;
@@ -54,7 +55,8 @@ struct Mark {
     u /= area, v /= area;
     uu = uu / area - u * u + 1 / 12.0, uv = uv / area - u * v, vv = vv / area - v * v + 1 / 12.0;
   }
-  /// Its extent along the radius of that across it is no more than that of a reflected round thing.
+  /// True when its extent along the radius, relative to that across it, is at most that of the
+  /// reflection of a round thing.
   bool is_reflected() const {
     const double middle = (kRasterSide - 1) / 2.0, x = u - middle, y = v - middle;
     const double rho = std::hypot(x, y) / kRasterRadius;
@@ -92,7 +94,7 @@ void add_marks(const cv::Mat& excess, DirtArea& sum) {
   }
 }
 
-/// How a cell's detail compares.
+/// Comparison of one cell's detail before and now.
 struct Comparison {
   int pixels = 0;
   double before2 = 0, now2 = 0, both = 0;

@@ -22,7 +22,7 @@ DirtReference joined(const DirtReference& a, const DirtReference& b) {
   both.around = a.around.clone();
   cv::max(a.dark, b.dark, both.dark);
   cv::max(a.bright, b.bright, both.bright);
-  // What only one has seen is known no worse by that one.
+  // Places that only one reference judged keep that one's values.
   b.detail.copyTo(both.detail, a.judged == 0);
   b.around.copyTo(both.around, a.judged == 0);
   cv::max(a.judged, b.judged, both.judged);

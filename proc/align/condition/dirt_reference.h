@@ -5,15 +5,15 @@
 
 namespace orbwatch::align {
 
-/// What a clean ball shows, to be kept with its alignment: `dark` and `bright` the deepest marks
-/// that its room has had in any light, `detail` the usual one, `judged` where that is known.
-/// Belongs to one place of camera, ball and outline.
+/// Appearance of the clean ball, to be kept with its alignment: `dark` and `bright` the deepest
+/// marks that its room has had in any light, `detail` the usual one, `judged` where those are
+/// known. Valid for one place of camera, ball and outline.
 using DirtReference = SmallMarks;
 
 /// Error: maps that are not of 8 bit and kRasterSide squared. Reentrant.
 Result<> check_reference(const DirtReference& reference);
 
-/// A reference that knows both, as of lamps on and lamps off. Both are checked. Reentrant.
+/// A reference that covers both, for example lamps on and lamps off. Both are checked. Reentrant.
 DirtReference joined(const DirtReference& a, const DirtReference& b);
 
 }  // namespace orbwatch::align

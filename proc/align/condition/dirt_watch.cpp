@@ -13,8 +13,8 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr std::size_t kFewest = (DirtWatch::kLooks + 1) / 2;  // that figures need
-constexpr double kStale = 1.5;  // windows after which a look no longer counts
+constexpr std::size_t kFewest = (DirtWatch::kLooks + 1) / 2;  // looks that a figure needs
+constexpr double kStale = 1.5;  // windows after which a look is dropped
 constexpr double kBallArea = std::numbers::pi * kRasterRadius * kRasterRadius;
 
 /// One pixel's values in those looks in which it was judged.
@@ -43,7 +43,7 @@ std::string progress(std::size_t looks, const std::string& trouble) {
          (trouble.empty() ? "" : "; the latest: " + trouble);
 }
 
-/// Calls set(place, values) for each place where `map` was judged in at least half of the looks.
+/// Calls set(place, values) for each place that was judged in `map` in at least half of the looks.
 template <class Looks, class Set>
 void for_judged(const Looks& looks, cv::Mat SmallMarks::*map, const Set& set) {
   for (int v = 0; v < kRasterSide; ++v) {
@@ -128,7 +128,7 @@ Result<SmallMarks> DirtWatch::look(const Picture& picture) const {
   }
   auto crop = crop_ball(picture, outline_);
   if (!crop) return tl::unexpected(crop.error());
-  // Odd, so that it has a middle.
+  // An odd width has a middle.
   const int widest = 2 * static_cast<int>(settings_.widest * kRasterRadius / 2) + 1;
   return small_marks(raster_of(*std::move(crop)), widest);
 }

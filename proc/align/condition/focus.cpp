@@ -14,19 +14,20 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kInner = 0.85;  // rho up to which the reflection is not squeezed too thin
-constexpr int kEdgeCell = 8;     // px; an edge is looked for in each
-constexpr int kMostBands = 64;   // rows of cells, about, in which one is looked for
+constexpr double kInner = 0.85;  // rho up to which the reflection is wide enough
+constexpr int kEdgeCell = 8;     // px; side of a cell, each searched for one edge
+constexpr int kMostBands = 64;   // rows of cells, about, that are searched
 constexpr std::size_t kMostEdges = 200;
-constexpr int kBandMargin = 1;            // rows above and below that the filter needs
-constexpr int kRays = 150;                // of the limb
+constexpr int kBandMargin = 1;            // rows above and below, needed by the filter
+constexpr int kRays = 150;                // rays through the limb
 constexpr std::size_t kFewestEdges = 10;  // edges that a figure needs
-constexpr double kSmallestBall = 40;      // px of the ball in the smallest picture that is used
+constexpr double kSmallestBall = 40;      // px; radius of the ball in the smallest picture used
 constexpr double kWide = 2;               // px of blur from which on a smaller picture fits better
-constexpr double kClipped = 0.97;         // of full scale
-constexpr double kLeastEdgeSpread = 0.1;  // of sigma, by which edges of one picture differ anyway
-// Things may be blurred in themselves, but none is sharper than the picture: which share of edges
-// is sharper than the one that counts.
+constexpr double kClipped = 0.97;         // share of full scale
+constexpr double kLeastEdgeSpread =
+    0.1;  // share of sigma by which edges of one picture differ anyway
+// Quantile of the edges' sigma that counts as the blur. Things may be blurred in themselves, but
+// none is sharper than the picture.
 constexpr double kSharper = 0.35;
 
 struct EdgeCandidate {
@@ -35,7 +36,7 @@ struct EdgeCandidate {
   float slope2;
 };
 
-/// Slopes of a picture that is smoothed a little; brightness per pixel.
+/// Slopes of a slightly smoothed picture; brightness per pixel.
 struct SmoothSlopes {
   cv::Mat u, v;
 
@@ -62,8 +63,8 @@ bool is_clipped(const BallCrop& crop, const cv::Point& pixel) {
   return high >= kClipped * crop.full_scale;
 }
 
-/// The steepest place of the cell that begins in that column of a band; `top` is the band's row in
-/// the picture. nullopt if it may be noise or is overexposed.
+/// The steepest place of the cell that begins at column `left` of a band; `top` is the band's row
+/// in the picture. nullopt if it may be noise or is overexposed.
 std::optional<EdgeCandidate> steepest(const BallCrop& crop, const SmoothSlopes& band, int left,
                                       int top) {
   const float noise = static_cast<float>(crop.noise * crop.noise);
@@ -78,7 +79,7 @@ std::optional<EdgeCandidate> steepest(const BallCrop& crop, const SmoothSlopes& 
   return best;
 }
 
-/// The steepest places of cells all over the inner ball, the steepest ones of these.
+/// The steepest place of each cell on the inner ball; the steepest ones of all.
 std::vector<EdgeCandidate> reflected_edges(const BallCrop& crop) {
   const int rows = crop.brightness.rows,
             pause = kEdgeCell * std::max(1, rows / kEdgeCell / kMostBands);
@@ -125,7 +126,7 @@ std::vector<StepEdge> fitted(const BallCrop& crop, const std::vector<EdgeCandida
   return edges;
 }
 
-/// The weighted quantile of at least one edge's sigma; px of the picture that was fitted.
+/// The weighted quantile of the edges' sigma, in px of the fitted picture. Needs at least one edge.
 Blur quantile(std::vector<StepEdge> edges) {
   std::ranges::sort(edges, {}, &StepEdge::sigma);
   const auto weight = [](const StepEdge& edge) {
@@ -143,7 +144,7 @@ Blur quantile(std::vector<StepEdge> edges) {
   return {edges[n].sigma, 1 / std::sqrt(information), static_cast<int>(edges.size())};
 }
 
-/// In the pixels of a picture that is 2^halvings as large, less what halving blurs.
+/// Blur in pixels of a picture 2^halvings as large, less the blur of halving.
 Blur in_full_size(const Blur& blur, int halvings) {
   const double scale = std::ldexp(1.0, halvings), halving = (scale * scale - 1) / 12;
   const double sigma2 = blur.sigma * blur.sigma * scale * scale - halving;
@@ -152,7 +153,7 @@ Blur in_full_size(const Blur& blur, int halvings) {
 
 using Candidates = std::function<std::vector<EdgeCandidate>(const BallCrop&)>;
 
-/// From the finest picture in which the blur is not too wide to be fitted.
+/// Blur from the finest picture in which it is narrow enough to be fitted.
 Result<Blur> blur_of(BallCrop crop, const Candidates& candidates) {
   std::optional<Blur> widest;
   for (int halvings = 0;; ++halvings) {

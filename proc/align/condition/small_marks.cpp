@@ -7,17 +7,18 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kOutermost = 0.93;      // rho; beyond it all that is reflected is thin
-constexpr double kSmoothing = 0.7;       // px
-constexpr double kDetailBlur = 4;        // px: the scale of detail
-constexpr double kWideBlur = 16;         // px: the scale of what is around
-constexpr float kNoiseReach = 3;         // times noise that a top hat may be without a mark
-constexpr double kBrightShare = 0.9;     // of pixels, that are darker than what counts as bright
-constexpr float kRelativeFloor = 0.05F;  // of bright; added to what differences are relative to
-constexpr float kDark = 0.06F;           // of bright, below which nothing is judged
-constexpr float kTooBright = 0.95F;      // of full scale
+constexpr double kOutermost = 0.93;   // rho; all reflections beyond it are thin
+constexpr double kSmoothing = 0.7;    // px
+constexpr double kDetailBlur = 4;     // px: the scale of detail
+constexpr double kWideBlur = 16;      // px: the scale of the surroundings
+constexpr float kNoiseReach = 3;      // multiple of the noise that a top hat reaches without a mark
+constexpr double kBrightShare = 0.9;  // share of pixels that are darker than the bright level
+constexpr float kRelativeFloor =
+    0.05F;  // share of the bright level; added to the divisor of relative differences
+constexpr float kDark = 0.06F;       // share of the bright level below which nothing is judged
+constexpr float kTooBright = 0.95F;  // share of full scale
 
-/// Counts that differences are compared with.
+/// Reference levels of the picture, counts.
 struct Lighting {
   float floor, noise, dark, clipped;
 };
@@ -63,7 +64,8 @@ SmallMarks small_marks(const BallRaster& raster, int widest) {
   cv::GaussianBlur(raster.brightness, smooth, {}, kSmoothing);
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {widest, widest});
   cv::morphologyEx(smooth, closed, cv::MORPH_CLOSE, disc);
-  // Of the closed picture, so that what a dark mark leaves of its surroundings is no bright one.
+  // Opening the closed picture, so that the remains around a dark mark do not count as a bright
+  // one.
   cv::morphologyEx(closed, unmarked, cv::MORPH_OPEN, disc);
   cv::GaussianBlur(smooth, mean, {}, kDetailBlur);
   cv::GaussianBlur(unmarked, wide, {}, kWideBlur);

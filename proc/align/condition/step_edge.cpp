@@ -12,13 +12,13 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kAlong = 3.5;  // px along the edge that are taken for straight
+constexpr double kAlong = 3.5;  // px along the edge that are assumed to be straight
 constexpr double kSharpest = 0.2, kWidest = kEdgeReach / 2.0;  // px
-constexpr double kMostRamp = 0.4;     // of the contrast, over the whole reach
-constexpr double kMostMisfit = 0.05;  // of the contrast, rms, besides noise
+constexpr double kMostRamp = 0.4;     // share of the contrast, over the whole reach
+constexpr double kMostMisfit = 0.05;  // share of the contrast, rms, besides noise
 
 struct Sample {
-  double across, along;  ///< px, by the first guess of the normal
+  double across, along;  ///< px, relative to the first guess of the normal
   double brightness;
 };
 
@@ -33,7 +33,7 @@ class StepModel {
 
   int NumResiduals() const { return static_cast<int>(samples_.size()); }
 
-  /// As Ceres' TinySolver wants it: the Jacobian by columns.
+  /// The interface that Ceres' TinySolver needs: the Jacobian is stored by columns.
   bool operator()(const double* p, double* residuals, double* jacobian) const {
     const double c = std::cos(p[kTurn]), s = std::sin(p[kTurn]), sigma = std::exp(p[kLogSigma]);
     const std::size_t rows = samples_.size();
@@ -76,7 +76,7 @@ std::vector<Sample> samples_around(const cv::Mat& brightness, const cv::Point& p
 
 using Solver = ceres::TinySolver<StepModel>;
 
-/// Means of both ends, half a pixel of blur.
+/// Levels from the means of both ends; half a pixel of blur.
 Solver::Parameters first_guess(const std::vector<Sample>& samples) {
   double low = 0, high = 0;
   int lows = 0, highs = 0;
@@ -90,7 +90,7 @@ Solver::Parameters first_guess(const std::vector<Sample>& samples) {
   return guess;
 }
 
-/// The standard error of the logarithm of sigma, at the rms misfit that was found.
+/// The standard error of the logarithm of sigma, at the measured rms misfit.
 double error_of_log_sigma(const StepModel& model, const Solver::Parameters& p, double misfit) {
   const int rows = model.NumResiduals();
   Eigen::VectorXd residuals(rows);
