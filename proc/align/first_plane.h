@@ -7,8 +7,8 @@
 
 namespace orbwatch::align {
 
-/// A picture's first plane as OpenCV sees it, shared with the picture and not to be written: OpenCV
-/// has no view of constant data. Reentrant.
+/// A picture's first plane as a cv::Mat that shares the picture's memory and must not be written
+/// to: OpenCV has no view of constant data. Reentrant.
 inline cv::Mat first_plane(const Picture& picture) {
   const PixelFormatInfo& facts = info(picture.format);
   const int depth = facts.bytes_per_sample() == 2 ? CV_16U : CV_8U;

@@ -16,14 +16,14 @@ inline optics::Mat3 operator*(const optics::Mat3& m, double by) {
   return {m.row0 * by, m.row1 * by, m.row2 * by};
 }
 
-/// a b^T.
+/// Outer product a b^T.
 inline optics::Mat3 outer(const optics::Vec3& a, const optics::Vec3& b) {
   return {b * a.x, b * a.y, b * a.z};
 }
 
 inline double determinant(const optics::Mat3& m) { return dot(m.row0, cross(m.row1, m.row2)); }
 
-/// Not finite for a singular matrix.
+/// The inverse; not finite for a singular matrix.
 inline optics::Mat3 inverse(const optics::Mat3& m) {
   const optics::Mat3 columns{cross(m.row1, m.row2), cross(m.row2, m.row0), cross(m.row0, m.row1)};
   return transposed(columns) * (1 / determinant(m));

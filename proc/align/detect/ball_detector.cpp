@@ -12,11 +12,11 @@ namespace orbwatch::align {
 namespace {
 
 constexpr int kSmallestSide = 64;
-/// A difference() from which on two limbs are different places. One that is less certain by no more
-/// than kRival makes the best one doubtful.
+/// A difference() from which on two limbs are different places. A second one less certain by at
+/// most kRival makes the best one doubtful.
 constexpr double kElsewhere = 0.5, kRival = 2.6;
 
-/// Whether another place looks nearly as much like a ball.
+/// True when another place looks nearly as much like a ball.
 bool has_rival(const std::vector<FoundLimb>& limbs) {
   return std::ranges::any_of(limbs, [&](const FoundLimb& other) {
     return certainty(other.evidence) > certainty(limbs.front().evidence) - kRival &&
@@ -24,7 +24,7 @@ bool has_rival(const std::vector<FoundLimb>& limbs) {
   });
 }
 
-/// What speaks against the best limb, for an operator.
+/// Reason to doubt the best limb, for an operator.
 std::string doubt(const LimbEvidence& evidence, bool rival) {
   if (rival) return "two places look nearly alike; hide what is no ball, or cut the picture";
   if (evidence.radius < kLeastRadius) return "it is small; a ball needs a larger picture";

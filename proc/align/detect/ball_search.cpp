@@ -17,26 +17,26 @@ namespace {
 
 using optics::Outline;
 
-/// Scales that are searched, each for balls that look alike there, from the coarsest on.
+/// Scales that are searched, from the coarsest on; each covers balls of similar size there.
 constexpr std::size_t kScales = 5;
-constexpr double kLargest = 0.62;  // radius, of the picture's short side
-/// How many places are voted for at each scale.
+constexpr double kLargest = 0.62;  // radius, relative to the picture's short side
+/// Places voted for at each scale.
 constexpr std::size_t kVotes = 8;
-/// How many rings around each: what the ball shows has rings too, that may look likelier than its
-/// limb until both are fitted.
+/// Rings around each place: the reflection has rings too, which may be likelier than the limb until
+/// both are fitted.
 constexpr std::size_t kRingsOfAPlace = 3;
-/// px: radii at which limbs are compared, and at which the best one is fitted in the end.
+/// Radii at which limbs are compared, and at which the best one is fitted in the end, px.
 constexpr double kCompared = 90, kFine = 400;
-/// px: what is seen on both sides of a limb.
+/// Width of the strip on both sides of a limb, px.
 constexpr double kAround = 8;
-/// px: a smaller limb has no surroundings.
+/// Smallest limb that has surroundings, px.
 constexpr double kSmallestRadius = 12;
 
-/// Limbs are fitted at finer and finer scales, fewer and fewer of them.
+/// One stage of fitting: limbs are fitted at finer and finer scales, fewer and fewer of them.
 struct Stage {
   double radius;     ///< px, about that of the limb's picture
-  std::size_t most;  ///< that are fitted
-  double apart;      ///< a difference() from which on two are worth a fit each
+  std::size_t most;  ///< limbs that are fitted
+  double apart;      ///< the difference() from which on two are worth a fit each
 };
 constexpr Stage kStages[]{{30, 18, 0.05}, {45, 6, 0.02}, {kCompared, 4, 0.02}};
 
@@ -58,7 +58,7 @@ std::vector<FoundLimb> BallSearch::run() const {
   return found;
 }
 
-/// The most likely ones.
+/// Fits the most likely limbs, stage by stage.
 std::vector<BallSearch::Likely> BallSearch::limbs() const {
   std::vector<Likely> all = rings();
   for (const Stage& stage : kStages) {
@@ -70,7 +70,7 @@ std::vector<BallSearch::Likely> BallSearch::limbs() const {
   return all;
 }
 
-/// The most likely ones that differ by more than `apart`.
+/// The most likely limbs that differ by more than `apart`.
 std::vector<BallSearch::Likely> BallSearch::best_of(std::vector<Likely> all, std::size_t most,
                                                     double apart) {
   std::ranges::sort(all, std::greater<>(), &Likely::likeness);
@@ -94,7 +94,7 @@ FoundLimb BallSearch::with_evidence(const Likely& limb) const {
           {mean_radius(here), near_drop(luminance, here), contour(luminance, here), limb.likeness}};
 }
 
-/// Around the places that slopes point to, of all scales.
+/// Rings around the places that slopes point to, at all scales.
 std::vector<BallSearch::Likely> BallSearch::rings() const {
   std::vector<Likely> all;
   for (std::size_t n = 0; n < std::min(kScales, pyramid_.size()); ++n) {
@@ -114,7 +114,7 @@ std::vector<BallSearch::Likely> BallSearch::rings() const {
   return all;
 }
 
-/// The most likely limb around, by the scale at which it has about that radius.
+/// Fits the most likely limb nearby, at the scale at which it has about that radius.
 BallSearch::Likely BallSearch::fitted(const Outline& outline, double radius) const {
   const std::size_t level = pyramid_.level_for(outline, radius);
   const LimbFit fit = fit_limb(pyramid_.level(level), Pyramid::between(outline, 0, level), kAround);

@@ -9,7 +9,7 @@
 
 namespace orbwatch::align {
 
-/// A limb that was found, the picture's pixels, and what speaks for it.
+/// A limb found, in the picture's pixels, and the evidence for it.
 struct FoundLimb {
   optics::Outline outline;
   LimbEvidence evidence;
@@ -24,11 +24,12 @@ class BallSearch {
   /// `luminance`: one channel, 8 or 16 bit.
   explicit BallSearch(const cv::Mat& luminance) : pyramid_(luminance) {}
 
-  /// Limbs at different places, the most certain first; only that one to the last detail.
+  /// Limbs at different places, the most certain first; only that one is fitted at the finest
+  /// scale.
   std::vector<FoundLimb> run() const;
 
  private:
-  /// A circle or an ellipse and how much it is like a limb, the picture's pixels.
+  /// A circle or an ellipse and its likeness to a limb, in the picture's pixels.
   struct Likely {
     optics::Outline outline;
     double likeness = 0;  ///< LimbColumns::above_random(), the mean of all parts

@@ -12,7 +12,7 @@ struct Reach {
   int farthest;
 };
 
-constexpr int kStep = 2;  // px: votes are blurred by more
+constexpr int kStep = 2;  // px: votes are blurred by more than that
 
 /// One vote per kStep along the line through (u, v) in direction (du, dv).
 void vote(cv::Mat& votes, float u, float v, float du, float dv, const Reach& reach) {
@@ -29,7 +29,7 @@ void vote(cv::Mat& votes, float u, float v, float du, float dv, const Reach& rea
 }
 
 cv::Mat all_votes(const Slopes& slopes, const Reach& reach) {
-  // In a large picture neighbours say the same.
+  // Neighbours in a large picture are redundant.
   const int apart = std::max(slopes.width(), slopes.height()) > 300 ? 2 : 1;
   const float firm = 4 * slopes.floor2;
   cv::Mat votes(slopes.along_u.size(), CV_32F, cv::Scalar(0));
@@ -52,7 +52,7 @@ cv::Mat all_votes(const Slopes& slopes, const Reach& reach) {
 std::vector<optics::Vec2> centre_votes(const Slopes& slopes, double nearest, double farthest,
                                        std::size_t most) {
   cv::Mat votes = all_votes(slopes, {static_cast<int>(nearest), static_cast<int>(farthest)});
-  // A slope's direction is right to some degrees.
+  // A slope's direction is accurate to some degrees.
   cv::GaussianBlur(votes, votes, {}, std::max(1.5, 0.04 * farthest));
   std::vector<optics::Vec2> places;
   while (places.size() < most) {

@@ -7,9 +7,9 @@
 
 namespace orbwatch::align {
 
-/// Where many slopes point to or from, at a distance between `nearest` and `farthest` pixels: near
-/// its limb a ball shows everything compressed along its radius. The best places, `most` at most,
-/// the best first. They lie within the picture. Reentrant.
+/// Places that many slopes point to or from, at a distance between `nearest` and `farthest` pixels:
+/// near its limb a ball compresses the reflection along its radius. At most `most` places within
+/// the picture, the best first. Reentrant.
 std::vector<optics::Vec2> centre_votes(const Slopes& slopes, double nearest, double farthest,
                                        std::size_t most);
 

@@ -6,13 +6,13 @@
 namespace orbwatch::align {
 namespace {
 
-/// px: above, more radius says no more.
+/// Radius above which certainty no longer grows, px.
 constexpr double kLargeEnough = 90;
-/// More likelihood than that does not make it more certain.
+/// Likelihood above which certainty no longer grows.
 constexpr double kEnough = 2.5;
 
-/// A ball's limb is hardly a step, since it reflects what is behind it. A sharp edge all around is
-/// a disc's or a matt sphere's, if it is not also very much like a ball's.
+/// Evidence for a disc. A ball's limb is hardly a step, since it reflects its background. A sharp
+/// edge all around belongs to a disc or a matt sphere, unless it is also very much like a ball's.
 double disc(const LimbEvidence& evidence) {
   constexpr double kSharp = 0.85, kVeryLikely = 3;
   return std::max(evidence.contour - kSharp, 0.0) *

@@ -2,7 +2,7 @@
 
 namespace orbwatch::align {
 
-/// What is known of the best limb of a picture when it is judged.
+/// Evidence for the best limb of a picture.
 struct LimbEvidence {
   double radius = 0;      ///< px, at the scale at which limbs are compared
   double near_drop = 0;   ///< near_drop()
@@ -10,14 +10,14 @@ struct LimbEvidence {
   double likelihood = 0;  ///< LimbLikelihood::above_random(), nats per part
 };
 
-/// Below that likelihood the surroundings do not end as a ball's: a dome's rim, or a mirror that is
-/// let into something.
+/// Likelihood below which the surroundings do not end like a ball's: a dome's rim, or an embedded
+/// mirror.
 constexpr double kLeastLikelihood = 0.8;
 
-/// px: a smaller limb tells too little, whatever else speaks for it.
+/// Radius below which a limb has too little evidence, whatever its other values, px.
 constexpr double kLeastRadius = 45;
 
-/// From the certainty on, an outline is trusted.
+/// Certainty from which on an outline is trusted.
 constexpr double kCertain = 4.3;
 
 /// The logarithm of the odds that the limb is a ball's and right to 2 % or 3 px: a logistic

@@ -6,19 +6,19 @@
 namespace orbwatch::align {
 namespace {
 
-/// So many columns are summed at a time, in registers.
+/// Columns are summed in blocks of this size, in registers.
 using Lanes [[gnu::vector_size(16)]] = float;
 constexpr int kLanes = 4, kVectors = 3, kBlock = kLanes * kVectors;
 constexpr int kBeside = 3;  // columns that a layer reaches to a side, at most
 
-/// One layer's sums.
+/// Computes the sums of one layer.
 struct Sums {
   const Field& in;
   const Layer& layer;
   const float *biases, *taps;
   Field& out;
 
-  /// A block of columns of so many outputs.
+  /// Fills a block of columns of `outputs` channels.
   template <int outputs>
   void fill(int ray, int output, int first) const {
     Lanes sums[outputs][kVectors];

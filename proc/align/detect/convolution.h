@@ -6,7 +6,7 @@
 
 namespace orbwatch::align {
 
-/// Values by ray, channel and column, with zeros on both sides of the columns. Rays are a ring.
+/// Values by ray, channel and column, with zeros on both sides of the columns. Rays form a ring.
 class Field {
  public:
   Field(int rays, int channels, int columns);
@@ -14,10 +14,10 @@ class Field {
   int rays() const { return rays_; }
   int channels() const { return channels_; }
   int columns() const { return columns_; }
-  /// From the first column on.
+  /// The values of a ray and channel, from the first column on.
   float* at(int ray, int channel) { return &values_[first(ray, channel)]; }
   const float* at(int ray, int channel) const { return &values_[first(ray, channel)]; }
-  /// Of any number the ray that it is.
+  /// Wraps a ray index around the ring.
   int ring(int ray) const { return (ray + rays_) % rays_; }
 
  private:
@@ -27,12 +27,12 @@ class Field {
   std::vector<float> values_;
 };
 
-/// A convolution: how far it reaches along the ring (rays) and outwards (columns).
+/// A convolution with its reach along the ring (rays) and outwards (columns).
 struct Layer {
   int inputs, outputs;
   int rays, columns;
   int step;    ///< rays from one output to the next
-  int before;  ///< rays before an output's first that it sees
+  int before;  ///< input rays before an output's first one
 };
 
 constexpr std::size_t weight_count(const Layer& layer) {
@@ -42,7 +42,7 @@ constexpr std::size_t weight_count(const Layer& layer) {
 /// `weights`: a bias for each output, then the weights by input, ray, column and output. Reentrant.
 Field convolution(const Field& in, const Layer& layer, std::span<const float> weights);
 
-/// Sets what is below 0 to 0.
+/// Sets values below 0 to 0.
 void rectify(Field& field);
 
 }  // namespace orbwatch::align

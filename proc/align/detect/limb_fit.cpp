@@ -14,7 +14,7 @@ using optics::Outline;
 constexpr double kLastStep = 0.05;   // px
 constexpr double kSmallestAxis = 4;  // px: an ellipse with smaller axes has no limb
 
-/// The best offset so far.
+/// Hill climber; keeps the best offset so far.
 struct Climber {
   const LimbLikelihood& likelihood;
   Offset best{};
@@ -25,7 +25,7 @@ struct Climber {
     if (l > most) most = l, best = next;
   }
 
-  /// Circles all around.
+  /// Searches circles all around.
   void search(double reach) {
     constexpr int kPlaces = 3;
     const double far = 0.75 * reach, step = std::max(0.5, reach / 16);
@@ -38,7 +38,7 @@ struct Climber {
     }
   }
 
-  /// Each factor by a step, and wider or narrower with one side fixed.
+  /// Varies each factor by a step, and the width with one side fixed.
   bool climb(double step) {
     const Offset from = best;
     for (const double way : {step, -step}) {
@@ -57,7 +57,7 @@ struct Climber {
   }
 };
 
-/// For ellipses that are nearly circles.
+/// The outline moved by an offset; for ellipses that are nearly circles.
 Outline moved(const Outline& outline, const Offset& offset) {
   const double turn = optics::radians(outline.angle), c = std::cos(turn), s = std::sin(turn);
   const double mean = (outline.rx + outline.ry) / 2 + offset[0];

@@ -11,9 +11,9 @@ struct LimbFit {
   double likeness = 0;  ///< LimbLikelihood::above_random()
 };
 
-/// The most likely limb whose distance from `outline` is about `reach` pixels at most. `luminance`:
-/// one channel, 8 or 16 bit; `outline` in its pixels; as it is, unlike any limb, when an axis is
-/// hardly longer than `reach`. Reentrant.
+/// Fits the most likely limb whose distance from `outline` is about `reach` pixels at most.
+/// `luminance`: one channel, 8 or 16 bit; `outline` in its pixels, returned unchanged and unlike
+/// any limb when an axis is hardly longer than `reach`. Reentrant.
 LimbFit fit_limb(const cv::Mat& luminance, const optics::Outline& outline, double reach);
 
 }  // namespace orbwatch::align

@@ -9,12 +9,12 @@
 namespace orbwatch::align {
 namespace {
 
-/// Neighbouring parts see the same: all together count as so many.
+/// Number of independent parts that all together are worth; neighbouring parts see the same.
 constexpr double kIndependent = 64;
-/// What an axis costs that differs from what perspective makes of a sphere, nats per share of the
-/// radius. Not by the square: some lenses and pixels do stretch balls.
+/// Cost, nats per share of the radius, of an axis that differs from perspective's picture of a
+/// sphere. Not by the square: some lenses and pixels do stretch balls.
 constexpr double kShape = 3000;
-/// The shortest focal length to be expected, in long sides of the picture.
+/// The shortest expected focal length, in long sides of the picture.
 constexpr double kShortestFocalLength = 0.55;
 
 }  // namespace

@@ -8,14 +8,15 @@
 
 namespace orbwatch::align {
 
-/// An ellipse's small change as its offset along the normal, pixels, over the ellipse's own angle:
-/// the factors of 1, cos, sin, cos 2, sin 2.
+/// A small change of an ellipse as its offset along the normal, pixels, over the ellipse's own
+/// angle: the factors of 1, cos, sin, cos 2, sin 2.
 using Offset = std::array<double, 5>;
 
-/// How likely the ball's limb lies there, by what limb_columns() sees in a strip, in nats.
+/// Likelihood that the ball's limb is at an offset, from limb_columns() of a strip, in nats.
 class LimbLikelihood {
  public:
-  /// Of offsets from `outline` within `strip`, which was made of it, in a picture of that size.
+  /// For offsets from `outline` within `strip`, which was made from it. `picture`: the picture's
+  /// size, px.
   LimbLikelihood(const LimbStrip& strip, const optics::Outline& outline, const cv::Size& picture);
 
   double operator()(const Offset& offset) const;
@@ -31,8 +32,8 @@ class LimbLikelihood {
   double limb_;                ///< column
   std::vector<float> parts_;   ///< LimbColumns::above_random()
   std::vector<Offset> basis_;  ///< by part
-  // Of the outline: its mean radius, half the difference of its axes, the direction to the middle
-  // of the picture in twice its own angle, and how long it may be for its place.
+  // The outline's mean radius, half the difference of its axes, the direction to the middle of the
+  // picture in twice its own angle, and the greatest elongation for its place.
   double radius_, half_, cos_middle_, sin_middle_, longest_;
 };
 

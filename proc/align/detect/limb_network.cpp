@@ -19,7 +19,7 @@ constexpr float kRingWeights[]{
 
 constexpr int kFeatures = 4;
 
-/// Layers of that many channels; they differ in nothing else.
+/// The networks' layers; they differ only in their number of channels.
 template <int width>
 constexpr Layer kLayers[]{{kFeatures, width, 8, 7, 4, 2},
                           {width, width, 4, 7, 2, 1},
@@ -35,7 +35,8 @@ constexpr std::size_t weight_count(std::span<const Layer> layers) {
 static_assert(std::size(kLimbWeights) == weight_count(kLimbLayers));
 static_assert(std::size(kRingWeights) == weight_count(kRingLayers));
 
-/// The slopes by their likely noise, bounded; their sizes; what lies in the picture.
+/// Inputs of the network: slopes divided by their likely noise, bounded; their magnitudes; a mask
+/// of the picture.
 Field features(const SlopeStrip& strip) {
   Field field(strip.rays(), kFeatures, strip.columns());
   const float scale = 0.5F / std::sqrt(strip.floor2());
@@ -66,7 +67,7 @@ LimbColumns columns_of(const SlopeStrip& strip, std::span<const Layer> layers,
   for (int part = 0; part < limb.parts; ++part) {
     const float* const values = field.at(part, 0);
     const float most = std::max(0.F, *std::max_element(values, values + limb.columns));
-    float total = std::exp(-most);  // none
+    float total = std::exp(-most);  // weight of no limb
     for (int k = 0; k < limb.columns; ++k) total += std::exp(values[k] - most);
     for (int k = 0; k < limb.columns; ++k) {
       limb.probabilities.push_back(std::exp(values[k] - most) / total);
@@ -83,7 +84,7 @@ double LimbColumns::angle(int n) const {
 }
 
 std::vector<float> LimbColumns::above_random() const {
-  constexpr float kStray = 0.05F;  // share of the parts that say nothing
+  constexpr float kStray = 0.05F;  // share of parts without information
   const float scale = (1 - kStray) * static_cast<float>(columns);
   std::vector<float> nats;
   nats.reserve(probabilities.size());

@@ -7,34 +7,34 @@
 
 namespace orbwatch::align {
 
-/// Where the limb crosses a strip, as a small convolutional network sees it.
+/// Probabilities of the limb's column in a strip, from a small convolutional network.
 struct LimbColumns {
-  /// Rays of the strip that one part of the limb stands for.
+  /// Rays of the strip that one part of the limb covers.
   static constexpr int kRays = SlopeStrip::kTogether;
 
   int parts = 0;
   int columns = 0;
-  std::vector<float> probabilities;  ///< by part and column; those of a part add up to 1 at most
+  std::vector<float>
+      probabilities;  ///< for each part and column; those of a part add up to 1 at most
 
   const float* part(int n) const { return &probabilities[static_cast<std::size_t>(n * columns)]; }
 
-  /// The angle of a part's middle in a strip of that many parts, radians.
+  /// The angle of the middle of part `n`, radians.
   double angle(int n) const;
-  /// By how much a limb there is likelier than anywhere, nats by part and column. Some parts may
-  /// be wrong: a mount hides the limb, a reflection looks like it.
+  /// Log-likelihood of a limb there over a limb anywhere, nats for each part and column. Some parts
+  /// may be wrong: a mount hides the limb, a reflection looks like it.
   std::vector<float> above_random() const;
 };
 
-// At the limb a ball reflects what is behind it, so that there is hardly a step of brightness. What
-// tells it is how slopes on both sides look together: compressed along the normal inside, as they
-// come outside, blurred into each other between. The networks have learnt that from strips of
-// simulated rooms: tests/proc/align/detect/learn_limb_network.py. Reentrant.
+// At the limb a ball reflects its background, so that there is hardly a step of brightness. The
+// limb shows in the slopes on both sides together: compressed along the normal inside, unaltered
+// outside, blurred into each other between. The networks have learnt that from strips of simulated
+// rooms: tests/proc/align/detect/learn_limb_network.py. Reentrant.
 
-/// Of a strip along the limb.
+/// For a strip along the limb.
 LimbColumns limb_columns(const LimbStrip& strip);
 
-/// Of a strip around a place within 0.3 radii of a ball's centre: with less certainty, at less
-/// cost.
+/// For a strip around a place within 0.3 radii of a ball's centre: less certain, at less cost.
 LimbColumns limb_columns(const RingStrip& strip);
 
 }  // namespace orbwatch::align

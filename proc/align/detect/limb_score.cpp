@@ -10,11 +10,11 @@ namespace orbwatch::align {
 namespace {
 
 constexpr std::size_t kSectors = 32;
-constexpr double kBeyondEdge = 1.5;      // px: outside, past the limb's own edge
+constexpr double kBeyondEdge = 1.5;      // px: outside, beyond the limb's own edge
 constexpr double kUnknownOutside = 0.2;  // agreement where the picture ends at the limb
 constexpr double kNearby = 8;            // px
 
-/// The mean of slopes' agreement with the normal, cos 2a; what may be noise counts as 0.
+/// The mean agreement of slopes with the normal, cos 2a; slopes within the noise count as 0.
 struct Agreement {
   double sum = 0;
   int count = 0;

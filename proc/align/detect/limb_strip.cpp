@@ -7,7 +7,7 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kSpoiltBorder = 2;  // px of the picture's border that filters spoil
+constexpr double kSpoiltBorder = 2;  // px at the picture's border that filters spoil
 
 double girth(const optics::Outline& outline) {
   return std::numbers::pi * (outline.rx + outline.ry);

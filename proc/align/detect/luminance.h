@@ -6,8 +6,8 @@
 
 namespace orbwatch::align {
 
-/// A picture's brightness: one channel, 8 or 16 bit; shared with the picture where that has it as a
-/// plane. Reentrant.
+/// A picture's brightness: one channel, 8 or 16 bit; shares the picture's memory if brightness is
+/// one of its planes. Reentrant.
 cv::Mat luminance_of(const Picture& picture);
 
 }  // namespace orbwatch::align

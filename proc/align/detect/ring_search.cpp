@@ -10,12 +10,12 @@
 namespace orbwatch::align {
 namespace {
 
-/// Of the centre from the place, shares of the radius; a limb that is off crosses columns by as
-/// much as they have beside them.
+/// Offsets of the centre from the place, shares of the radius; a limb that is off crosses at most
+/// the columns that it has beside it.
 constexpr double kFarthestOff = 0.25, kOffStep = 0.04;
 static_assert(kFarthestOff < (RingStrip::kBeside + 0.5) * RingStrip::kGrowth);
 
-/// What a strip says of circles, by column.
+/// Likeness of circles in a strip, by column.
 class Rings {
  public:
   explicit Rings(const RingStrip& strip) : limb_(limb_columns(strip)), nats_(limb_.above_random()) {
@@ -30,7 +30,7 @@ class Rings {
     int column;
     float likeness;
   };
-  /// Adds those with one centre, of all radii.
+  /// Adds the circles with one centre, of all radii.
   void add(double u, double v, std::vector<Circle>& all) {
     std::ranges::fill(sums_, 0.F);
     const int end = limb_.columns - RingStrip::kBeside;
@@ -72,7 +72,7 @@ std::vector<Ring> all_rings(const cv::Mat& luminance, optics::Vec2 place) {
   return all;
 }
 
-/// Whether two are so close to each other that a fit of one may well find the other.
+/// True for two rings so close that a fit of one may well find the other.
 bool is_beside(const Ring& a, const Ring& b) {
   constexpr double kApart = 0.1;  // radii
   const double apart = std::hypot(a.centre.u - b.centre.u, a.centre.v - b.centre.v);

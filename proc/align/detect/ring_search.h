@@ -14,9 +14,9 @@ struct Ring {
   double likeness = 0;  ///< LimbColumns::above_random(), the mean of all parts
 };
 
-/// The circles most like a limb of those around `place` with a radius between RingStrip::kNearest
-/// and kFarthest; a quarter of it off at most. The best `most` that differ by a tenth of it, the
-/// best first. `luminance`: one channel, 8 or 16 bit. Reentrant.
+/// The circles around `place` most like a limb, with a radius between RingStrip::kNearest and
+/// kFarthest and a centre off by at most a quarter of it. At most `most`, which differ by a tenth
+/// of the radius, the best first. `luminance`: one channel, 8 or 16 bit. Reentrant.
 std::vector<Ring> likeliest_rings(const cv::Mat& luminance, optics::Vec2 place, std::size_t most);
 
 }  // namespace orbwatch::align

@@ -12,7 +12,7 @@ namespace orbwatch::align {
 class RingStrip : public SlopeStrip {
  public:
   static constexpr int kRays = 96;
-  /// px: limbs whose surroundings are within the strip.
+  /// Radii of limbs whose surroundings are within the strip, px.
   static constexpr double kNearest = 15, kFarthest = 38;
   /// Columns on the inner and on the outer side of those limbs.
   static constexpr int kBeside = 12;

@@ -8,7 +8,7 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr int kWrapped = 4;  // rays around the ring that filters reach
+constexpr int kWrapped = 4;  // rays around the ring, reached by filters
 
 }  // namespace
 

@@ -5,11 +5,11 @@
 
 namespace orbwatch::align {
 
-/// Slopes of brightness around something round, unrolled: a row for each ray of a closed ring,
+/// Slopes of brightness around a round thing, unrolled: a row for each ray of a closed ring,
 /// columns outwards.
 class SlopeStrip {
  public:
-  static constexpr int kPerUnit = 2;   ///< columns
+  static constexpr int kPerUnit = 2;   ///< columns per unit
   static constexpr int kTogether = 8;  ///< rays() is a multiple of it
 
   int rays() const { return along_.rows; }
@@ -17,11 +17,11 @@ class SlopeStrip {
 
   /// A slope of brightness, per unit.
   struct Slope {
-    float along;   ///< the ray
+    float along;   ///< along the ray
     float across;  ///< from ray to ray
 
     float energy() const { return along * along + across * across; }
-    /// Of the energy, along the ray, [0, 1].
+    /// Share of the energy along the ray, [0, 1].
     float share() const { return along * along / (energy() + 1e-12F); }
   };
   /// nullopt beyond the picture.
@@ -31,15 +31,15 @@ class SlopeStrip {
     return Slope{along, across_.at<float>(ray, column)};
   }
 
-  float floor2() const { return floor2_; }  ///< the square of a slope that may be noise
+  float floor2() const { return floor2_; }  ///< the squared noise threshold of slopes
 
  protected:
-  /// Where the samples are in the picture, by ray and column: pixels, float.
+  /// Places of the samples in the picture, by ray and column: pixels, float.
   struct Places {
     Places(int rays, int columns) : u(rays, columns, CV_32F), v(rays, columns, CV_32F) {}
     cv::Mat u, v;
   };
-  /// `luminance`: one channel, 8 or 16 bit. Of its border so many pixels are left out.
+  /// `luminance`: one channel, 8 or 16 bit. `margin`: pixels left out at its border.
   SlopeStrip(const cv::Mat& luminance, const Places& places, double rays_per_unit, double margin);
 
  private:

@@ -8,7 +8,7 @@
 namespace orbwatch::align {
 namespace {
 
-/// The magnitude that half of the pixels stay below, from every ninth of them.
+/// The median magnitude, from every ninth pixel.
 float median_magnitude(const Slopes& slopes) {
   std::vector<float> sample;
   for (int v = 1; v < slopes.height(); v += 3) {
@@ -26,14 +26,14 @@ float median_magnitude(const Slopes& slopes) {
 
 Slopes slopes_of(const cv::Mat& luminance) {
   constexpr double kBlur = 0.8;         // px
-  constexpr double kScharr = 1 / 32.0;  // its weights' sum
+  constexpr double kScharr = 1 / 32.0;  // inverse of its weights' sum
   cv::Mat smooth;
   luminance.convertTo(smooth, CV_32F);
   cv::GaussianBlur(smooth, smooth, {}, kBlur);
   Slopes slopes;
   cv::Scharr(smooth, slopes.along_u, CV_32F, 1, 0, kScharr);
   cv::Scharr(smooth, slopes.along_v, CV_32F, 0, 1, kScharr);
-  // Of a picture without noise the median may be 0.
+  // The median may be 0 in a picture without noise.
   const float floor = std::max(0.6F * median_magnitude(slopes), 2e-3F);
   slopes.floor2 = floor * floor;
   return slopes;

@@ -8,13 +8,13 @@ namespace orbwatch::align {
 struct Slopes {
   cv::Mat along_u;
   cv::Mat along_v;
-  float floor2 = 0;  ///< the square of a slope that may be noise
+  float floor2 = 0;  ///< the squared noise threshold of slopes
 
   int width() const { return along_u.cols; }
   int height() const { return along_u.rows; }
 };
 
-/// Of `luminance`: one channel, 8 or 16 bit. Reentrant.
+/// `luminance`: one channel, 8 or 16 bit. Reentrant.
 Slopes slopes_of(const cv::Mat& luminance);
 
 }  // namespace orbwatch::align

@@ -12,19 +12,19 @@ namespace {
 using optics::Outline;
 using optics::Vec2;
 
-/// px: the ball's radius at the finest scale, at most; there a hundredth of a pixel is enough.
+/// The ball's largest radius at the finest scale, px; a hundredth of a pixel is enough there.
 constexpr double kFinest = 450;
-/// px: a scale with a smaller ball has none below it.
+/// A scale with a smaller ball is the coarsest, px.
 constexpr double kCoarsest = 64;
-/// Sectors of the ball with patches of their own; fewer where a patch is many pixels to read.
+/// Sectors of the ball, each with its own patches; fewer where a patch is many pixels to read.
 constexpr int kTrackedSectors = 16, kFewTrackedSectors = 8;
 /// Patches that make a reference.
 constexpr std::size_t kFewestPatches = 16;
-/// What must agree before a motion is believed, and after a search of the whole picture.
+/// Agreement needed for a motion to be accepted, and after a search of the whole picture.
 constexpr double kShare = 0.3, kShareFound = 0.4;
 constexpr double kFewestAgreeing = 8;
 constexpr int kFewestOctants = 4;
-/// The same of the surroundings.
+/// The same for the surroundings.
 constexpr double kFewestAround = 4;
 
 bool is_trusted(const Consensus& ball, double share) {

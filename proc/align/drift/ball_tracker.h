@@ -11,32 +11,32 @@
 
 namespace orbwatch::align {
 
-/// Finds the ball of a reference picture in others. Not reentrant: it keeps buffers and where the
-/// ball was last.
+/// Finds the ball of a reference picture in others. Not reentrant: it keeps buffers and the ball's
+/// last place.
 class BallTracker {
  public:
-  /// Frames between searches of the whole picture for a ball that is not where it was.
+  /// Frames between searches of the whole picture for a ball that has left its place.
   static constexpr int kSearchEvery = 30;
 
-  /// The scale at which a ball is looked at: pixels of the picture per pixel there.
+  /// The scale for a ball: pixels of the picture per pixel of the finest scale.
   static int scale_for(const optics::Outline& outline);
 
-  /// `reference`: smoothed, at that scale; from `saturated` on it says nothing. `outline` in the
-  /// picture's pixels.
+  /// `reference`: smoothed, at that scale; brightness from `saturated` on is not used. `outline` in
+  /// the picture's pixels.
   BallTracker(const cv::Mat& reference, const optics::Outline& outline, float saturated);
 
-  /// False: the reference is of no use.
+  /// False: the reference cannot be used.
   bool has_texture() const;
 
-  /// How the ball moved since the reference, px of the picture; nullopt when it does not show, with
-  /// the reason().
+  /// The ball's motion since the reference, px of the picture; nullopt when the ball is not found,
+  /// with the reason().
   std::optional<PictureMotion> find(const Picture& picture);
 
   /// Static text for an operator.
   std::string_view reason() const { return reason_; }
 
-  /// The share of the ball's motion that its surroundings went with it, from 0 (the ball moved) to
-  /// 1 (the camera turned); nullopt when they show too little.
+  /// The share of the ball's motion that its surroundings have in common with it, from 0 (the ball
+  /// moved) to 1 (the camera turned); nullopt when too few of them are found.
   std::optional<double> share_of_surroundings(const Picture& picture, const PictureMotion& ball);
 
  private:

@@ -11,18 +11,18 @@ namespace {
 
 using optics::Vec2;
 
-/// px: how well a patch is found at best, and the share of its way that it may be off because
-/// reflections do not quite move with the limb when the ball moves.
+/// A patch's least error, px, and the share of its way that it may be off because reflections do
+/// not quite move with the limb when the ball moves.
 constexpr double kNoiseFloor = 0.05, kOwnWay = 0.05;
-/// Squares of the residual in its standard deviations, from the widest to the last.
+/// Squared residuals in standard deviations, from the widest to the last.
 constexpr std::array kWidths{400.0, 100.0, 30.0, 12.0, 12.0, 12.0};
-/// Standard deviation of growth and roll before anything was seen.
+/// Prior standard deviation of growth and roll.
 constexpr double kPrior = 0.05;
 constexpr double kBetter = 1.2;
-/// A patch with that weight agrees.
+/// Weight from which on a patch agrees.
 constexpr double kAgrees = 0.25;
 
-/// Half the median is all that is needed of a list that may be reordered.
+/// The upper median; reorders the list.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -71,7 +71,7 @@ class Fit {
     return {shift.shift.u - way.u, shift.shift.v - way.v};
   }
 
-  /// 1 for a patch that agrees, towards 0 for one that does not.
+  /// Weight of a patch: 1 if it agrees, towards 0 if not.
   double agreement(std::size_t i, const PictureMotion& motion, double width) const {
     const cv::Vec2d r = residual(i, motion);
     const double root = 1 / (1 + r.dot(weights_[i] * r) / width);
@@ -98,7 +98,8 @@ class Fit {
 
   const Sighting& sighting_;
   double radius_;
-  std::vector<cv::Matx22d> weights_;  ///< of the shifts, with what patches may be off
+  std::vector<cv::Matx22d>
+      weights_;  ///< information of the shifts, the patches' expected errors included
 };
 
 }  // namespace

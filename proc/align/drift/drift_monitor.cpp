@@ -17,25 +17,26 @@ namespace {
 using optics::Outline;
 using Time = DriftMonitor::Time;
 
-/// px: a smaller ball has too few pixels around its limb.
+/// Smallest radius of a ball with enough pixels around its limb, px.
 constexpr double kSmallestTracked = 24;
-/// Over which the mean is taken, for a ball of kLarge px radius or more; for smaller ones longer,
-/// as vibration by a pixel is more degrees there.
+/// Averaging window for a ball of kLarge px radius or more; longer for smaller ones, as vibration
+/// by a pixel is more degrees there.
 constexpr Time kWindow = std::chrono::milliseconds(800);
 constexpr double kLarge = 300, kLongest = 3;
-/// In which the ball's place against the reference is averaged at the beginning.
+/// Time over which the ball's place against the reference is averaged at the beginning.
 constexpr Time kSettling = std::chrono::milliseconds(2400);
-/// Before a reference is sought again that had too little texture: to make one costs as much as to
-/// watch for a second.
+/// Pause before the next attempt after a reference had too little texture: making one costs as much
+/// as watching for a second.
 constexpr Time kPauseOfReferences = std::chrono::seconds(5);
-/// A jump is that many warning limits, standard deviations of single frames, and pixels, from the
-/// mean.
+/// Distance of a jump from the mean: warning limits, standard deviations of single frames, and
+/// pixels.
 constexpr double kJump = 4, kJumpSpreads = 6, kJumpPixels = 2;
 /// Standard deviations of the mean by which a limit must be exceeded.
 constexpr double kSure = 2;
 /// Share of the radius up to which the error is in proportion.
 constexpr double kSmallMotion = 0.01;
-/// The share of the ball's motion that the surroundings make, its mean over some frames.
+/// The surroundings' share of the ball's motion: weight of a new frame in its mean, least for a
+/// turned camera, most for a moved ball.
 constexpr double kNewShare = 0.2, kTurned = 0.7, kStayed = 0.3;
 
 Result<> check(const DriftSubject& subject, const DriftLimits& limits) {
@@ -140,7 +141,7 @@ class DriftMonitor::Impl {
                 std::to_string(subject_.width) + "x" + std::to_string(subject_.height));
   }
 
-  /// Collects what the reference is made of; false as long as it is of no use, with the reason.
+  /// Collects pictures for the reference; false while it cannot be used, with the reason.
   bool collect(const Picture& picture, Time time) {
     if (time < collects_from_) return false;
     state_.reason = exposure_fault(picture, subject_.outline);
@@ -168,7 +169,7 @@ class DriftMonitor::Impl {
     return state_;
   }
 
-  /// Until it has settled or jumped, where the ball is on average is where it belongs.
+  /// The ball's mean place counts as its origin until it has settled or jumped.
   void add(const PictureMotion& motion, Time time) {
     const double jump = std::max({kJump * limits_.warning, kJumpSpreads * statistics_.spread(),
                                   view_error_.small({kJumpPixels, 0, 0, 0})});
@@ -185,7 +186,7 @@ class DriftMonitor::Impl {
     origin_sigma_ = statistics_.sigma_of(settled_);
   }
 
-  /// Of the motion; a single picture as reference is as far from the mean as any.
+  /// Standard deviation of the motion; a single reference picture is as far from the mean as any.
   double sigma() const {
     return std::hypot(statistics_.sigma(), origin_sigma_.value_or(statistics_.spread()));
   }
@@ -197,7 +198,7 @@ class DriftMonitor::Impl {
     return is_small ? view_error_.small(motion) : view_error_.exact(motion);
   }
 
-  /// Raised when the error is surely above a limit, lowered when it is below.
+  /// Raised when the error is above a limit with certainty, lowered when it is below.
   DriftLevel level() const {
     const double sure = state_.direction_error - kSure * state_.direction_sigma;
     const auto exceeds = [&](double limit, DriftLevel raised) {
@@ -207,7 +208,7 @@ class DriftMonitor::Impl {
     return exceeds(limits_.warning, DriftLevel::Warning) ? DriftLevel::Warning : DriftLevel::Good;
   }
 
-  /// What moved, as far as the surroundings tell it.
+  /// Determines the cause, as far as the surroundings show it.
   void explain(const Picture& picture, const PictureMotion& now) {
     last_level_ = state_.level;
     state_.cause = DriftCause::Unknown;
@@ -227,8 +228,8 @@ class DriftMonitor::Impl {
     }
   }
 
-  /// The rotation of the camera, and the limb as the turned camera shows it: a similarity is off by
-  /// what its lens makes of a turn.
+  /// Computes the camera's rotation, and the limb in the turned camera's picture: a similarity does
+  /// not include the lens's effect on a turn.
   void turn_back(const optics::Lens& lens) {
     state_.turn = camera_turn(lens, subject_.outline, state_.motion);
     const auto sight = optics::sight_from_outline(subject_.outline, lens);
@@ -251,7 +252,7 @@ class DriftMonitor::Impl {
   int settled_ = 0;                     ///< frames
   PictureMotion origin_;                ///< against the reference picture
   std::optional<double> origin_sigma_;  ///< degrees; none if a single picture is the reference
-  DriftLevel last_level_ = DriftLevel::Good;  ///< of what was measured
+  DriftLevel last_level_ = DriftLevel::Good;  ///< the latest one measured
   std::optional<double> share_;
   DriftState state_;
 };

@@ -12,18 +12,18 @@
 
 namespace orbwatch::align {
 
-/// The stored alignment of one camera that is watched.
+/// The stored alignment of one watched camera.
 struct DriftSubject {
-  int width = 0;  ///< px, of the camera's pictures
+  int width = 0;  ///< px, size of the camera's pictures
   int height = 0;
-  optics::Outline outline;  ///< of the ball, px
+  optics::Outline outline;  ///< the ball's limb, px
   optics::BallProjection projection;
-  /// With a known lens a turn of the camera is known, too.
+  /// Lens, if known; it makes a turn of the camera computable.
   std::optional<optics::Lens> lens;
 };
 
-/// What a rig states of one of its cameras. Error: that of optics::ball_projection; a ball whose
-/// limb the lens does not show as a whole.
+/// The subject from a rig and one of its cameras. Error: that of optics::ball_projection; a ball
+/// whose limb the lens does not show as a whole.
 Result<DriftSubject> drift_subject(const optics::Rig& rig, const optics::RigCamera& camera);
 
 /// Limits of the error of view directions, degrees rms.
@@ -32,38 +32,39 @@ struct DriftLimits {
   double alarm = 0.6;
 };
 
-/// Whether the alignment still holds.
+/// State of the alignment.
 enum class DriftLevel { NotMeasured, Good, Warning, Alarm };
 inline constexpr int kDriftLevels = 4;
 
 std::string_view text(DriftLevel level);
 
-/// What seems to have moved.
+/// The most likely cause of a drift.
 enum class DriftCause { Unknown, CameraTurned, BallMoved };
 
 std::string_view text(DriftCause cause);
 
-/// What has become of the alignment.
+/// Measured drift of the alignment.
 struct DriftState {
   DriftLevel level = DriftLevel::NotMeasured;
-  std::string_view reason;  ///< for an operator, if it is not measured; static text
-  /// Of the ball's picture, mean over the last frames; when not measured, the last that was.
+  std::string_view reason;  ///< reason for an operator while it is not measured; static text
+  /// Motion of the ball's picture, mean over the last frames; the last measured one while not
+  /// measured.
   PictureMotion motion;
   double direction_error = 0;  ///< degrees rms, see ViewError
-  double direction_sigma = 0;  ///< its standard deviation, degrees
+  double direction_sigma = 0;  ///< standard deviation of direction_error, degrees
   DriftCause cause = DriftCause::Unknown;
   optics::Outline outline;           ///< corrected, px
-  std::optional<optics::Mat3> turn;  ///< of a turned camera with a known lens: its axes' rotation
-                                     ///< R_corrected = turn R_stored (R: world to camera)
+  std::optional<optics::Mat3> turn;  ///< rotation of a turned camera with a known lens: R_corrected
+                                     ///< = turn R_stored (R: world to camera)
 };
 
 /// Watches whether a camera or the ball has moved against the stored alignment.
 ///
-/// The reference is what the first five usable pictures show and where the ball was on average in
-/// the first 2.4 s, or the picture on which the alignment was made.
-/// observe() costs some tenths of a millisecond whatever the picture's size; tens of milliseconds
-/// for the first pictures, a few for one in which the ball has jumped, and for one in 30 while the
-/// ball is not where it was. Not reentrant: one thread at a time.
+/// The reference is the content of the first five usable pictures and the ball's mean place in the
+/// first 2.4 s, or the picture on which the alignment was made. observe() costs some tenths of a
+/// millisecond whatever the picture's size; tens of milliseconds for the first pictures, a few for
+/// one in which the ball has jumped, and for one in 30 while the ball is not where it was. Not
+/// reentrant: one thread at a time.
 class DriftMonitor {
  public:
   using Time = std::chrono::nanoseconds;
@@ -76,11 +77,11 @@ class DriftMonitor {
   DriftMonitor& operator=(DriftMonitor&&) noexcept;
   ~DriftMonitor();
 
-  /// The picture on which the alignment was made; before the first observe(). Errors: another size,
-  /// the reason why it is of no use.
+  /// Sets the picture on which the alignment was made as reference; before the first observe().
+  /// Errors: another size, the reason why it cannot be used.
   Result<> refer_to(const Picture& picture);
 
-  /// A frame, taken at `time` of any clock that does not jump. Error: another size.
+  /// Evaluates a frame; `time` of any clock that does not jump. Error: another size.
   Result<DriftState> observe(const Picture& picture, Time time);
 
  private:

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// Why drift is not measured, for an operator.
+/// Reasons why drift is not measured, for an operator.
 namespace orbwatch::align::fault {
 
 inline constexpr std::string_view kNoReference = "the first pictures are still being collected";

@@ -9,7 +9,7 @@ namespace {
 
 /// Frames that count as one independent motion.
 constexpr double kAlike = 2;
-/// Share that is left out at either end.
+/// Divisor of the share that is left out at either end.
 constexpr std::size_t kTrimmed = 5;
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace orbwatch::align {
 
-/// Motions of the last frames: their mean, without what vibration adds, and how sure it is. Not
-/// reentrant.
+/// Statistics of the motions of the last frames: their mean without the effect of vibration, and
+/// its accuracy. Not reentrant.
 class MotionStatistics {
  public:
   using Time = std::chrono::nanoseconds;
@@ -21,21 +21,21 @@ class MotionStatistics {
 
   static constexpr std::size_t kFewest = 8;
 
-  /// `time` of any clock that does not jump; a time before the last one starts afresh.
+  /// `time` of any clock that does not jump; an earlier time than the last one restarts.
   void add(Time time, const PictureMotion& motion);
 
-  /// Forgets the motions, not how much they vary.
+  /// Drops the motions, keeps their spread.
   void restart() { motions_.clear(); }
 
   bool empty() const { return motions_.empty(); }
 
-  /// Of each component, without its lowest and highest fifth.
+  /// Mean of each component, without its lowest and highest fifth.
   PictureMotion mean() const { return mean_; }
-  /// How far single motions are from the mean, rms degrees of view direction.
+  /// Deviation of single motions from the mean, rms degrees of view direction.
   double spread() const { return spread_; }
-  /// Standard deviation of the mean, degrees; vibration makes neighbours alike.
+  /// Standard deviation of the mean, degrees; accounts for vibration, which makes neighbours alike.
   double sigma() const { return sigma_of(static_cast<double>(motions_.size())); }
-  /// The same for the mean of so many frames.
+  /// The same for the mean of `frames` frames.
   double sigma_of(double frames) const;
 
  private:

@@ -9,17 +9,17 @@ namespace {
 using optics::Vec2;
 
 constexpr int kIterations = 8;
-/// px: a step that ends the search.
+/// Step that ends the search, px.
 constexpr double kStill = 0.003;
-/// px: a shift across the strongest edges that noise alone must not make.
+/// Largest shift across the strongest edges by noise alone, px.
 constexpr double kLargestNoise = 0.15;
-/// Of the slopes' energy: what holds a patch that is an edge where it is along that.
+/// Share of the slopes' energy that keeps a patch with a single edge from sliding along it.
 constexpr double kHold = 0.002;
-/// Share of the brightness' variance that the patch explains where it is found again.
+/// Share of the brightness' variance that the patch must explain to be found again.
 constexpr double kExplained = 0.6;
-/// Light may become weaker or stronger by that.
+/// Largest factor by which light may become weaker or stronger.
 constexpr double kGainRange = 8;
-/// Smoothing leaves that many pixels per independent one.
+/// Smoothed pixels per independent one.
 constexpr double kCorrelated = 4;
 
 }  // namespace
@@ -111,7 +111,7 @@ std::optional<PatchShift> Patch::find(const PatchWindow& window, const Vec2& sta
     const Vec2 step{found[0] / gain, found[1] / gain};
     shift = {shift.u - step.u, shift.v - step.v};
     if (std::hypot(step.u, step.v) > kStill && iteration + 1 < kIterations) continue;
-    // The squares that the bases leave; without the offset's share, for precision.
+    // Squares that the bases do not explain; without the offset's share, for precision.
     const double explained = found[0] * right[0] + found[1] * right[1] + found[2] * right[2] +
                              (found[3] - right[3] / pixels_) * right[3];
     const double left = std::max(variation - explained, 1e-6 * variation);

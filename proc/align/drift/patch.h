@@ -8,42 +8,42 @@
 
 namespace orbwatch::align {
 
-/// What a camera shows around a patch: smoothed brightness, row by row.
+/// Smoothed brightness of a camera's picture around a patch, row by row.
 struct PatchWindow {
-  /// px: how far a patch may have moved from the middle.
+  /// Largest distance that a patch may have moved from the middle, px.
   static constexpr int kReach = 4;
   static constexpr int kSide = 16 + 2 * kReach + 1;
 
   std::array<float, kSide * kSide> values{};
-  bool is_saturated = false;  ///< more than a tenth of it
+  bool is_saturated = false;  ///< true if more than a tenth of it is
 
   const float* row(int v) const { return values.data() + v * kSide; }
 };
 
-/// Where a patch went.
+/// The measured shift of a patch.
 struct PatchShift {
   optics::Vec2 shift;  ///< px
-  /// Inverse covariance of the shift by the patch's own residual, 1/px^2; small along an edge.
+  /// Inverse covariance of the shift from the patch's own residual, 1/px^2; small along an edge.
   cv::Matx22d information;
 };
 
-/// A piece of a reference picture that is found again to a fraction of a pixel, also when its light
-/// has another strength and offset: inverse-compositional Lucas-Kanade (Baker and Matthews, 2004)
-/// with gain and offset as unknowns. Reentrant, immutable.
+/// A piece of a reference picture that is found again to a fraction of a pixel, also when the
+/// strength and offset of its light have changed: inverse-compositional Lucas-Kanade (Baker and
+/// Matthews, 2004) with gain and offset as unknowns. Reentrant, immutable.
 class Patch {
  public:
   static constexpr int kSide = 16;
   static constexpr int kPixels = kSide * kSide;
   using Mask = std::array<float, kPixels>;  ///< weights 0 or 1
 
-  /// From a smoothed picture (32F); `corner` with a pixel around it inside. nullopt without
-  /// texture: brightness of the same standard deviation `noise` at every pixel would leave the
-  /// shift unknown.
+  /// Makes a patch from a smoothed picture (32F); `corner` with a pixel around it inside. nullopt
+  /// without texture: noise of the standard deviation `noise` at every pixel would leave the shift
+  /// unknown.
   static std::optional<Patch> make(const cv::Mat& picture, cv::Point corner, const Mask& mask,
                                    double noise);
 
-  /// How it moved in a window whose middle is where it stood, from a first guess. nullopt when the
-  /// window shows something else or the way is too far. Costs about 2 us.
+  /// Its shift in a window whose middle is its reference place, from a first guess. nullopt when
+  /// the window shows something else or the shift is too large. Costs about 2 us.
   std::optional<PatchShift> find(const PatchWindow& window, const optics::Vec2& start) const;
 
   /// Standard deviation of its brightness.
@@ -56,8 +56,8 @@ class Patch {
   Patch() = default;
 
   std::array<std::array<float, kPixels>, kBases> bases_{};  ///< 0 outside of the mask
-  cv::Matx44d inverse_;  ///< of the normal matrix, held along edges
-  cv::Matx22d slopes_;   ///< what the normal matrix says of the shift alone
+  cv::Matx44d inverse_;  ///< inverse of the normal matrix, held along edges
+  cv::Matx22d slopes_;   ///< the normal matrix's part for the shift alone
   std::array<float, kPixels> mask_{};
   double pixels_ = 0;
   double contrast_ = 0;

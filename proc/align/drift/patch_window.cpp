@@ -11,11 +11,11 @@ namespace orbwatch::align {
 namespace {
 
 constexpr int kSide = PatchWindow::kSide;
-/// With the pixel around that smoothing needs.
+/// Side including the pixel around that smoothing needs.
 constexpr int kRawSide = kSide + 2;
-/// Of the range of a format.
+/// Share of a format's range.
 constexpr double kSaturated = 0.98;
-/// Saturated pixels that make a window useless.
+/// Saturated pixels that make a window unusable.
 constexpr int kMostSaturated = kSide * kSide / 10;
 
 cv::Mat smoothed(const cv::Mat& picture) {
@@ -25,10 +25,11 @@ cv::Mat smoothed(const cv::Mat& picture) {
   return out;
 }
 
-/// Samples of a square of `scale` pixels, along a side: more would cost without telling more.
+/// Samples along a side of a square of `scale` pixels: more would cost time without more
+/// information.
 constexpr int kDense = 2;
 
-/// The brightness of a part of a picture, of which only the first plane is read, at the scale.
+/// The brightness of a part of a picture at the scale; reads only the first plane.
 cv::Mat reduced_luminance(const Picture& picture, const cv::Rect& part, int scale) {
   const PixelFormatInfo& facts = info(picture.format);
   const cv::Size size(part.width / scale, part.height / scale);

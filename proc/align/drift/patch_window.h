@@ -14,15 +14,16 @@ cv::Mat smoothed_luminance(const Picture& picture, int scale);
 /// Half the size of a smoothed picture, smoothed again. Reentrant.
 cv::Mat halved(const cv::Mat& smoothed);
 
-/// The brightness from which on a picture of that format says nothing but "bright".
+/// The brightness from which on a pixel of that format is saturated.
 float saturation(PixelFormat format);
 
-/// Reads the same from a few places of a picture only. Not reentrant: it keeps its buffers.
+/// Reads the same brightness at a few places of a picture only. Not reentrant: it keeps its
+/// buffers.
 class WindowReader {
  public:
   explicit WindowReader(int scale) : scale_(scale) {}
 
-  /// The window whose first pixel is `corner` at the scale; false when it is not within the
+  /// Reads the window whose first pixel is `corner` at the scale; false when it is not within the
   /// picture.
   bool read(const Picture& picture, cv::Point corner, PatchWindow& window);
 
@@ -31,7 +32,7 @@ class WindowReader {
   cv::Mat samples_;
 };
 
-/// The window of a picture that is smoothed as a whole; false when it is not within.
+/// Reads a window of a picture that is smoothed as a whole; false when it is not within.
 bool read_window(const cv::Mat& smoothed, cv::Point corner, float saturated, PatchWindow& window);
 
 }  // namespace orbwatch::align

@@ -5,13 +5,13 @@
 
 namespace orbwatch::align {
 
-/// How a part of a picture moved: a similarity about the centre of the ball's stored outline. What
-/// stood at `arm` from it stands at arm + at(arm) now. Pixels, u right, v down.
+/// Motion of a part of a picture: a similarity about the centre of the ball's stored outline. A
+/// point at `arm` from it moves to arm + at(arm). Pixels, u right, v down.
 struct PictureMotion {
-  double u = 0;       ///< px, of the centre
+  double u = 0;       ///< px, shift of the centre
   double v = 0;       ///< px
-  double growth = 0;  ///< share of the size
-  double roll = 0;  ///< radians from u towards v, of a small turn; exact with growth: (1 + growth,
+  double growth = 0;  ///< relative change of size
+  double roll = 0;  ///< radians from u towards v, for a small turn; exact with growth: (1 + growth,
                     ///< roll) is scale times (cosine, sine)
 
   optics::Vec2 at(const optics::Vec2& arm) const {
@@ -35,15 +35,15 @@ inline PictureMotion magnified(const PictureMotion& m, double factor) {
   return {m.u * factor, m.v * factor, m.growth, m.roll};
 }
 
-/// Where `pixel` stood before a motion of a picture with that outline.
+/// Place of `pixel` before a motion of a picture with that outline.
 optics::Vec2 before(const PictureMotion& motion, const optics::Outline& outline,
                     const optics::Vec2& pixel);
 
-/// Where `pixel` stands after it.
+/// Place of `pixel` after the motion.
 optics::Vec2 after(const PictureMotion& motion, const optics::Outline& outline,
                    const optics::Vec2& pixel);
 
-/// The outline after it.
+/// The outline after the motion.
 optics::Outline moved(const optics::Outline& outline, const PictureMotion& motion);
 
 }  // namespace orbwatch::align

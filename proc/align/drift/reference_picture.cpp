@@ -8,7 +8,7 @@
 namespace orbwatch::align {
 namespace {
 
-/// Share of the range: the mean of a picture that is too dark.
+/// Share of the range below which a picture's mean is too dark.
 constexpr double kDarkest = 0.02;
 
 }  // namespace
@@ -39,7 +39,7 @@ std::string_view exposure_fault(const Picture& picture, const optics::Outline& o
   const double range = saturation(picture.format);
   const double bright = cv::countNonZero(luminance >= range);
   if (2 * bright > static_cast<double>(luminance.total())) return fault::kOverexposed;
-  const bool is_light = picture.format != PixelFormat::Y16;  // that may be temperatures
+  const bool is_light = picture.format != PixelFormat::Y16;  // Y16 may be temperatures
   const bool is_dark = is_light && cv::mean(luminance)[0] < kDarkest * range;
   return is_dark ? fault::kDark : std::string_view{};
 }

@@ -9,7 +9,7 @@
 
 namespace orbwatch::align {
 
-/// The median of some pictures: sparks that fly through them leave nothing. Not reentrant.
+/// The median of some pictures, which removes flying sparks. Not reentrant.
 class ReferencePicture {
  public:
   static constexpr std::size_t kPictures = 5;
@@ -20,7 +20,7 @@ class ReferencePicture {
   void add(const Picture& picture);
   bool is_complete() const { return pictures_.size() == kPictures; }
 
-  /// Smoothed, 32F, at the scale; at least one picture was added.
+  /// Smoothed, 32F, at the scale; needs at least one picture added.
   cv::Mat median() const;
 
  private:
@@ -28,8 +28,8 @@ class ReferencePicture {
   std::vector<cv::Mat> pictures_;
 };
 
-/// Why a picture cannot be a reference whatever its texture; empty if nothing speaks against it.
-/// Static text for an operator. Reentrant.
+/// Reason why a picture cannot be a reference whatever its texture; empty if it can. Static text
+/// for an operator. Reentrant.
 std::string_view exposure_fault(const Picture& picture, const optics::Outline& outline);
 
 }  // namespace orbwatch::align

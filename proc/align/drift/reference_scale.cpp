@@ -12,21 +12,22 @@ using optics::Outline;
 using optics::Vec2;
 
 /// Rings of the ball, shares of its radius: one patch for each sector of each. The centre is left
-/// out, where content moves least with the limb when the ball itself moves.
+/// out: its content moves least with the limb when the ball itself moves.
 constexpr std::array kPatchRings{0.4, 0.62, 0.8, 0.92, 1.0};
-/// What counts as the ball's, and as its surroundings', shares of the radius.
+/// Limits of the ball and of its surroundings, shares of the radius.
 constexpr double kInside = 1.01, kOutside = 1.04;
-/// Cells of the picture, along each side, with a patch of the surroundings at most.
+/// Cells along each side of the picture; each has at most one patch of the surroundings.
 constexpr int kCells = 6;
 constexpr std::size_t kMostAround = 24;
-/// Between candidates, share of the patches' side.
+/// Distance between candidates, share of the patches' side.
 constexpr int kPatchStep = Patch::kSide / 3;
-/// A tenth of a patch may be saturated.
+/// Most saturated pixels of a patch, a tenth.
 constexpr int kMostSaturatedPixels = Patch::kPixels / 10;
 
-/// Of its contrast in the reference: less says that it is dark, or fog, or another gain.
+/// Share of a patch's contrast in the reference below which it is flat: dark, foggy, or another
+/// gain.
 constexpr double kFlat = 0.15;
-/// Brightness of quantised samples is not known better than that.
+/// Least noise assumed for the brightness of quantised samples.
 constexpr double kQuantised = 0.3;
 
 /// Standard deviation of a window's brightness.
@@ -47,8 +48,8 @@ double share_of_radius(const Outline& outline, const Vec2& arm) {
   return std::hypot((arm.u * c + arm.v * s) / outline.rx, (arm.v * c - arm.u * s) / outline.ry);
 }
 
-/// Standard deviation of the noise of a smoothed picture, from how neighbours differ (Immerkaer,
-/// 1996, with a median for its mean: most of a picture is no edge).
+/// Standard deviation of the noise of a smoothed picture, from differences of neighbours
+/// (Immerkaer, 1996, with a median instead of the mean, as most of a picture has no edge).
 double smoothed_noise(const cv::Mat& picture) {
   std::vector<float> differences;
   const int step = std::max(1, picture.cols * picture.rows / 20'000);
@@ -66,7 +67,7 @@ double smoothed_noise(const cv::Mat& picture) {
   return std::max(kQuantised, *middle / 0.6745 / 6);
 }
 
-/// A place where a patch may be.
+/// A candidate place for a patch.
 struct PatchCandidate {
   cv::Point corner;
   Vec2 arm;
@@ -86,7 +87,7 @@ class Choice {
     std::vector<std::optional<PatchCandidate>> ball((kPatchRings.size() - 1) *
                                                     static_cast<std::size_t>(sectors_));
     std::array<std::optional<PatchCandidate>, kCells * kCells> around;
-    // Windows around patches are within the picture, so that nothing is lost when nothing moved.
+    // Windows around patches are within the picture, so that none is lost without motion.
     constexpr int kMargin = PatchWindow::kReach + 2;
     for (int v = kMargin; v + Patch::kSide + kMargin < picture_.rows; v += kPatchStep) {
       for (int u = kMargin; u + Patch::kSide + kMargin < picture_.cols; u += kPatchStep) {
@@ -125,7 +126,8 @@ class Choice {
     if (!best || best->texture < candidate.texture) best = candidate;
   }
 
-  /// Texture along the poorer direction counts most, but a limb without any other is a patch, too.
+  /// Texture along the poorer direction counts most, but a limb without other texture is a patch,
+  /// too.
   PatchCandidate at(cv::Point corner) const {
     constexpr double kMiddle = (Patch::kSide - 1) / 2.0;
     PatchCandidate candidate{

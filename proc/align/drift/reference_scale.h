@@ -18,7 +18,7 @@ struct PlacedPatch {
 /// Patches that move together.
 using PatchGroup = std::vector<PlacedPatch>;
 
-/// What a reference picture shows at one scale: the ball with its limb, and what is around it.
+/// Content of a reference picture at one scale: the ball with its limb, and its surroundings.
 struct ReferenceScale {
   optics::Outline outline;  ///< px, at this scale
   PatchGroup ball;          ///< all around, more of them towards the limb
@@ -26,12 +26,12 @@ struct ReferenceScale {
 };
 
 /// Chooses the patches with the most texture, spread over the ball and its surroundings. `picture`:
-/// smoothed, 32F; from `saturated` on it says nothing. `sectors`: the ball has four patches in
-/// each. Reentrant.
+/// smoothed, 32F; brightness from `saturated` on is not used. `sectors`: the ball has four patches
+/// in each. Reentrant.
 ReferenceScale reference_scale(const cv::Mat& picture, const optics::Outline& outline,
                                float saturated, int sectors);
 
-/// What a group of patches shows in a picture.
+/// The patches of a group found in a picture.
 struct Sighting {
   struct Found {
     optics::Vec2 arm;
@@ -39,15 +39,15 @@ struct Sighting {
   };
   std::vector<Found> found;
   int expected = 0;   ///< patches whose surroundings are in the picture
-  int saturated = 0;  ///< of them
-  int flat = 0;       ///< of them, shown with hardly any contrast
+  int saturated = 0;  ///< number of saturated ones
+  int flat = 0;       ///< number of those with hardly any contrast
 };
 
 /// Reads a window; false when it is not within the picture.
 using ReadWindow = std::function<bool(cv::Point corner, PatchWindow& window)>;
 
-/// Finds a group's patches again around where `guess` says that they went. `sighting` is
-/// overwritten and keeps its memory.
+/// Finds a group's patches again near their places by `guess`. `sighting` is overwritten and keeps
+/// its memory.
 void find_patches(const PatchGroup& group, const PictureMotion& guess, const ReadWindow& read,
                   Sighting& sighting);
 

@@ -9,12 +9,12 @@ using optics::Outline;
 using optics::Vec2;
 
 constexpr int kCandidates = 4;
-/// Share of the radius: nearer peaks are one.
+/// Distance, share of the radius, below which two peaks count as one.
 constexpr double kApart = 0.05;
-/// Of the outline: what moves with the limb.
+/// Share of the outline's radius that moves with the limb.
 constexpr double kBall = 1.03;
 
-/// The slopes' directions as unit vectors (32FC2); of weak slopes shorter ones.
+/// The slopes' directions as unit vectors (32FC2); shorter ones for weak slopes.
 cv::Mat directions(const cv::Mat& picture) {
   cv::Mat along_u, along_v, strength;
   cv::Sobel(picture, along_u, CV_32F, 1, 0);

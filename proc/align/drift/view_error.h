@@ -8,14 +8,14 @@
 
 namespace orbwatch::align {
 
-/// What a motion of the ball's picture does to directions, as long as the stored alignment is used:
-/// rms angle, over all directions up to kSeen from the one towards the camera, between the
-/// reflected ray that the stored alignment assigns to a pixel and the one of the place where that
-/// pixel's part of the ball stood. Reentrant, immutable.
+/// Error of view directions that a motion of the ball's picture causes while the stored alignment
+/// is used: rms angle, over all directions up to kSeen from the one towards the camera, between two
+/// reflected rays: the one that the stored alignment assigns to a pixel, and that of the former
+/// place of that pixel's part of the ball. Reentrant, immutable.
 class ViewError {
  public:
-  /// Degrees from the direction towards the camera. Beyond, everything is compressed into the limb,
-  /// and the error has no limit.
+  /// Degrees from the direction towards the camera. Beyond it everything is compressed into the
+  /// limb, and the error has no limit.
   static constexpr double kSeen = 150;
 
   ViewError(const optics::BallProjection& projection, const optics::Outline& outline);
@@ -24,7 +24,7 @@ class ViewError {
   /// motion have no error and do not count. Takes some tenths of a millisecond.
   double exact(const PictureMotion& motion) const;
 
-  /// Degrees, in proportion to the motion: right to some per cent for 1 % of the radius.
+  /// Degrees, linear in the motion: accurate to some per cent for 1 % of the radius.
   double small(const PictureMotion& motion) const;
 
  private:
@@ -36,7 +36,7 @@ class ViewError {
   optics::BallProjection projection_;
   optics::Outline outline_;
   std::vector<Seen> seen_;
-  cv::Matx44d square_;  ///< of (u, v, growth, roll): squared degrees
+  cv::Matx44d square_;  ///< quadratic form of (u, v, growth, roll): squared degrees
 };
 
 }  // namespace orbwatch::align
