@@ -6,8 +6,8 @@
 
 namespace orbwatch::align {
 
-/// Unknowns that are expected at `means`, each with that sigma. As ceres::NormalPrior, whose matrix
-/// takes long to compile.
+/// Unknowns that are expected at `means`, each with that sigma. Equivalent to ceres::NormalPrior,
+/// whose matrix takes long to compile.
 class Prior final : public ceres::CostFunction {
  public:
   Prior(std::vector<double> means, double sigma);

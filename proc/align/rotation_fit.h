@@ -6,7 +6,7 @@
 
 namespace orbwatch::align {
 
-/// Two directions that are the same but for a rotation. Unit vectors.
+/// Two unit vectors that differ only by the rotation sought.
 struct DirectionPair {
   optics::Vec3 reference;
   optics::Vec3 camera;

@@ -30,7 +30,7 @@ class LimbLikelihood {
 
   std::size_t columns_;
   double limb_;                ///< column
-  std::vector<float> parts_;   ///< LimbColumns::above_random()
+  std::vector<float> parts_;   ///< factors of the offset, one per part
   std::vector<Offset> basis_;  ///< by part
   // The outline's mean radius, half the difference of its axes, the direction to the middle of the
   // picture in twice its own angle, and the greatest elongation for its place.

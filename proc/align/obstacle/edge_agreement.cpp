@@ -16,12 +16,12 @@ namespace {
 
 using optics::Vec3;
 
-constexpr int kEdgeDirections = 40000;  // all around
+constexpr int kEdgeDirections = 40000;  // over the whole sphere
 constexpr double kLevelStep = 0.01;     // closeness
 constexpr double kSmoothing = 0.8;      // sigma, degrees
 constexpr double kFinestEdgeView = 2;   // pixels per degree
 
-/// The edges of both cameras as if everything were at one closeness.
+/// The edges of both cameras under the assumption that everything is at one closeness.
 class Edges {
  public:
   Edges(const ReferenceCamera& first, const ReferenceCamera& second)
@@ -32,7 +32,7 @@ class Edges {
         resolution_(std::min(
             {kFinestEdgeView, best_resolution(first.ball), 1.5 * best_resolution(second.ball)})) {}
 
-  /// above_chance() by direction; not a number where one of them shows nothing.
+  /// above_chance() for each direction; NaN where one of them shows nothing.
   Result<std::vector<float>> agreement(const std::vector<Vec3>& directions,
                                        double closeness) const {
     const auto a = sphere_faces(first_picture_, first_.ball, resolution_, closeness);

@@ -16,24 +16,24 @@ namespace {
 using optics::Box;
 using optics::Vec3;
 
-constexpr int kColumns = 7;  // of the floor's grid, either way
+constexpr int kColumns = 7;  // columns of the floor's grid in either direction
 constexpr int kHeights = 8;
-constexpr std::size_t kCoarsePlaces = 4;    // every so many places, on the grid
-constexpr std::size_t kImprovedPlaces = 5;  // of the grid that are improved
-constexpr double kPerPlace = 0.01;          // of gain that a box has to bring for what it covers
-constexpr double kFinestShare = 0.05;       // of the grid's step, where the improvement ends
-// README.md says what rooms without a box reach.
+constexpr std::size_t kCoarsePlaces = 4;    // stride over places on the grid
+constexpr std::size_t kImprovedPlaces = 5;  // best boxes of the grid, which are improved
+constexpr double kPerPlace = 0.01;     // gain that a box must bring for each place that it covers
+constexpr double kFinestShare = 0.05;  // share of the grid's step at which the improvement ends
+// Significance thresholds; README.md gives the values that rooms without a box reach.
 constexpr double kSignificant = 4.75;
 constexpr double kConfirmed = 2.5;
 
-/// Which of the sphere's cells count.
+/// Cells of the sphere that count.
 enum class Cells { All, Even, Odd };
 
-/// What a box changes.
+/// Effect of a box on the agreement.
 struct Evidence {
   double gain = 0;  ///< of agreement above chance, summed over places
   int places = 0;
-  double significance = 0;  ///< of the gain, by how much cells differ
+  double significance = 0;  ///< significance of the gain, from the spread between cells
 
   double worth() const { return gain - kPerPlace * places; }
 };
@@ -59,7 +59,7 @@ class BoxSearch {
     return best;
   }
 
-  /// nullopt: no box, or one that cuts the ball. `stride`: every so many places.
+  /// nullopt: no box, or one that cuts the ball. `stride`: evaluates every `stride`-th place.
   std::optional<Evidence> weigh(const Box& box, Cells cells, std::size_t stride) const {
     optics::Scene scene;
     scene.obstacles = {box};
@@ -88,7 +88,7 @@ class BoxSearch {
  private:
   Vec3 step() const { return (walls_.high - walls_.low) * (1.0 / kColumns); }
 
-  /// Heights are even in closeness, which is what moves a picture.
+  /// Heights are spaced evenly in closeness, which determines the shift in a picture.
   double height(int n) const {
     const double floor = ball_.radius / (ball_.centre.z - walls_.low.z);
     const double closeness =
@@ -96,7 +96,7 @@ class BoxSearch {
     return ball_.centre.z - ball_.radius / closeness;
   }
 
-  /// Every box of the grid.
+  /// All boxes of the grid.
   std::vector<Box> grid() const {
     std::vector<std::pair<int, int>> spans;
     for (int from = 0; from < kColumns; ++from) {
@@ -129,7 +129,7 @@ class BoxSearch {
     return best;
   }
 
-  /// Sides and top, moved in ever smaller steps as long as that helps.
+  /// Moves sides and top in ever smaller steps as long as that improves the box.
   Box improved(Box box, Cells cells) const {
     const auto start = weigh(box, cells, 1);
     double worth = start ? start->worth() : 0;
@@ -150,7 +150,7 @@ class BoxSearch {
     return box;
   }
 
-  /// Boxes of which one side, or the top, is elsewhere.
+  /// Boxes that differ in one side, or in the top.
   std::vector<Box> neighbours(const Box& box, double share) const {
     const Vec3 by = step() * share;
     std::vector<Box> boxes;
@@ -173,7 +173,7 @@ class BoxSearch {
   const EdgeAgreement& agreement_;
   Box walls_;
   optics::Ball ball_;
-  double highest_;  ///< of a box's top
+  double highest_;  ///< highest top of a box
 };
 
 }  // namespace
@@ -193,7 +193,8 @@ Result<StandingBox> find_standing_box(const ReferenceCamera& first, const Refere
   if (!evidence || evidence->significance < kSignificant) {
     return fail("no box on the floor makes the pictures agree better than by accident");
   }
-  // What half of the cells suggest, the others confirm; they do not confirm what fits by accident.
+  // One half of the cells suggests a box, the other half confirms it; it does not confirm an
+  // accidental fit.
   for (const auto& [half, rest] :
        {std::pair{Cells::Even, Cells::Odd}, std::pair{Cells::Odd, Cells::Even}}) {
     const auto suggested = search.best(half);

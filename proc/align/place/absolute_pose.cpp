@@ -13,7 +13,7 @@ using optics::Mat3;
 using optics::Ray;
 using optics::Vec3;
 
-/// A point further off than this says no more than that it is off: 0.05 rad, a slip of the hand.
+/// Angle from which on a point is an outlier, whatever its distance: 0.05 rad, a slip of the hand.
 constexpr double kLimit = 0.05;
 
 /// Directions from the ball's centre to one point, in both frames.
@@ -22,7 +22,8 @@ struct Pair {
   Vec3 camera;
 };
 
-/// Where the ray is at that distance from the ball's centre, on which it begins at distance 1.
+/// The direction to the ray's point at that distance from the ball's centre; the ray begins at
+/// distance 1.
 Vec3 at_distance(const Ray& ray, double distance) {
   const double along = dot(ray.origin, ray.direction);
   const double way = -along + std::sqrt(along * along + distance * distance - 1);
@@ -40,7 +41,7 @@ std::vector<Pair> pairs_around(const std::vector<PointSight>& sights, const Vec3
   return pairs;
 }
 
-/// The rotation that turns the machine's directions into the camera's, with weights.
+/// The weighted rotation that turns the machine's directions into the camera's.
 Mat3 fit_rotation(const std::vector<Pair>& pairs, const std::vector<double>& weights) {
   std::vector<DirectionPair> directions;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
@@ -60,7 +61,7 @@ double badness(const std::vector<Pair>& pairs, const Mat3& rotation) {
   return sum;
 }
 
-/// Near 1 for small angles, near 0 for large ones (Geman and McClure).
+/// Weight near 1 for small angles, near 0 for large ones (Geman and McClure).
 double trust(double squared_angle) {
   const double share = 1 / (1 + squared_angle / (kLimit * kLimit));
   return share * share;
@@ -75,8 +76,9 @@ Mat3 improved(const std::vector<Pair>& pairs, Mat3 rotation) {
   return rotation;
 }
 
-/// The ball's centre in camera axes, R C, such that the points, turned by `rotation`, lie on their
-/// rays; each weighs by the angle that it subtends and, if wanted, by its trust at `last`.
+/// The ball's centre in camera axes, R C, for which the points, turned by `rotation`, lie on their
+/// rays; each is weighted by the angle that it subtends and, with `by_trust`, by its trust at
+/// `last`.
 std::optional<Vec3> turned_centre(const std::vector<PointSight>& sights, const Mat3& rotation,
                                   const Vec3& last, bool by_trust) {
   Mat3 normal{{}, {}, {}};
@@ -102,7 +104,7 @@ std::optional<Vec3> turned_centre(const std::vector<PointSight>& sights, const M
 std::optional<Attitude> attitude_around(const std::vector<PointSight>& sights, const Vec3& centre) {
   const std::vector<Pair> pairs = pairs_around(sights, centre);
   if (pairs.size() < 2) return std::nullopt;
-  // A few hundred pairs are plenty to find one without a mistake.
+  // A few hundred pairs suffice to include one without a mistake.
   const std::size_t stride = 1 + pairs.size() / 24;
   std::optional<Attitude> best;
   for (std::size_t a = 0; a < pairs.size(); a += stride) {
@@ -115,7 +117,7 @@ std::optional<Attitude> attitude_around(const std::vector<PointSight>& sights, c
   const Mat3 rotation = improved(pairs, best->rotation);
   const double bad = badness(pairs, rotation);
   if (bad < best->badness) best = Attitude{rotation, bad};
-  // Points within the ball fit nothing.
+  // Points within the ball count as outliers.
   best->badness += double(sights.size() - pairs.size()) * kLimit * kLimit;
   return best;
 }
@@ -127,7 +129,7 @@ std::optional<FreePose> free_pose(const std::vector<PointSight>& sights, const V
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Pair> pairs = pairs_around(sights, centre);
     if (pairs.size() < 3) return std::nullopt;
-    // All points equally at first: a guess is far off for each of them.
+    // All points have equal weight at first: the guess is far off for each of them.
     const bool by_trust = round >= kRounds / 2;
     rotation = by_trust ? improved(pairs, rotation)
                         : fit_rotation(pairs, std::vector<double>(pairs.size(), 1));

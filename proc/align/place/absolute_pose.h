@@ -17,24 +17,25 @@ struct PointSight {
 /// x_camera = rotation (X - C) for a known centre C of the ball.
 struct Attitude {
   optics::Mat3 rotation;
-  double badness = 0;  ///< sum over the points of the squared angle, no more than a limit each
+  double badness = 0;  ///< sum over the points of the squared angle, each limited
 };
 
-/// The rotation that most points agree about: of all pairs' the best, improved with the points that
-/// fit it (Wahba's problem). nullopt for less than two points outside of the ball. Reentrant.
+/// The rotation that most points agree on: the best of all pairs' rotations, improved with the
+/// points that fit it (Wahba's problem). nullopt for less than two points outside of the ball.
+/// Reentrant.
 std::optional<Attitude> attitude_around(const std::vector<PointSight>& sights,
                                         const optics::Vec3& centre);
 
-/// Rotation and centre both.
+/// A centre with its best rotation.
 struct FreePose {
   optics::Vec3 centre;
   double badness = 0;
 };
 
-/// The centre next to `guess` from which the rays meet the points best: rotation and position by
-/// turns, each by least squares (orthogonal iteration for a camera without a single viewpoint,
-/// Schweighofer and Pinz, BMVC 2008), points that fit badly weighing less. nullopt when it ends
-/// nowhere. Reentrant.
+/// The centre next to `guess` from which the rays meet the points best: rotation and position in
+/// turn, each by least squares (orthogonal iteration for a camera without a single viewpoint,
+/// Schweighofer and Pinz, BMVC 2008), points that fit badly having less weight. nullopt when it
+/// does not converge. Reentrant.
 std::optional<FreePose> free_pose(const std::vector<PointSight>& sights, const optics::Vec3& guess);
 
 }  // namespace orbwatch::align

@@ -25,7 +25,7 @@ Vec3 vec3(const double* x) { return {x[0], x[1], x[2]}; }
 
 Mat3 turned(const Vec3& turn, const Mat3& rotation) { return rotation_about(turn) * rotation; }
 
-/// What the solver moves, as flat numbers; turns count from the start.
+/// The solver's unknowns as flat numbers; turns are relative to the start.
 struct Blocks {
   explicit Blocks(const PlaceState& state) : start(state) {
     centre = {state.centre.x, state.centre.y, state.centre.z};
@@ -53,10 +53,11 @@ struct Blocks {
   std::vector<double> focals;
 };
 
-/// Where the ball shows a point (radii), or beyond the limb, the further the deeper the point is
-/// hidden: a solver on its way must not end there. nullopt if the lens shows nothing there.
+/// The pixel at which the ball shows a point (radii). A hidden point lies beyond the limb, the
+/// further the deeper it is hidden: a solver on its way must not end there. nullopt if the lens
+/// shows nothing there.
 std::optional<Vec2> pixel_or_beyond(const optics::BallProjection& picture, const Vec3& point) {
-  constexpr double kNearest = 1 + 1e-6;  // of points, also of those within the ball
+  constexpr double kNearest = 1 + 1e-6;  // least distance of a point, also of one within the ball
   const Vec3 offset = point - picture.ball().centre;
   const double closeness = 1 / std::max(norm(offset), kNearest);
   const Vec3 direction = normalized(offset), facing = picture.facing();
@@ -73,12 +74,13 @@ std::optional<Vec2> pixel_or_beyond(const optics::BallProjection& picture, const
               middle->v + (edge->v - middle->v) * beyond};
 }
 
-/// What a camera's equations share.
+/// Common parts of a camera's equations.
 struct CameraEquation {
   const PlaceRequest& request;
   const UnplacedCamera& camera;
-  Mat3 rotation;                           ///< from which turns count
-  std::optional<optics::Lens> known_lens;  ///< a distorted one takes long to make
+  Mat3 rotation;  ///< to which turns are relative
+  std::optional<optics::Lens>
+      known_lens;  ///< set if the lens is fixed: a distorted one takes long to make
 
   std::optional<optics::BallProjection> at(const double* turn, const double* ball,
                                            const double* focal, const Vec3& centre) const {
@@ -89,7 +91,7 @@ struct CameraEquation {
   }
 };
 
-/// Steps that lead where there is no picture at all are rejected for this residual.
+/// Residual that rejects steps to a state without a picture.
 constexpr double kNoPicture = 1e6;
 
 struct MarkEquation : CameraEquation {
@@ -105,7 +107,7 @@ struct MarkEquation : CameraEquation {
   }
 };
 
-/// The limb has three figures: where it is and how large. Its shape follows from them.
+/// The limb has three figures: its place and its size. Its shape follows from them.
 struct OutlineEquation : CameraEquation {
   bool operator()(const double* turn, const double* ball, const double* focal,
                   double* residual) const {
@@ -121,12 +123,12 @@ struct OutlineEquation : CameraEquation {
   }
 };
 
-/// A measured position with that sigma, ball radii.
+/// Equations of a measured position with that sigma, ball radii.
 ceres::CostFunction* measured(const Vec3& position, double sigma) {
   return new Prior({position.x, position.y, position.z}, sigma);
 }
 
-/// The request as Ceres knows it.
+/// The request as a Ceres problem.
 class Problem {
  public:
   Problem(const PlaceRequest& request, const std::vector<UsedMark>& used, const PlaceState& start,
@@ -181,7 +183,7 @@ class Problem {
     int size;
   };
 
-  /// A block that the equations use: to be solved for, or known.
+  /// Declares a block that the equations use, as unknown or as constant.
   void settle(double* block, int size, int column, bool known) {
     columns_ = std::max(columns_, column + size);
     if (known) {

@@ -8,11 +8,11 @@
 
 namespace orbwatch::align {
 
-/// A camera as the adjustment moves it. Lengths in ball radii.
+/// A camera's state in the adjustment. Lengths in ball radii.
 struct CameraState {
   optics::Mat3 rotation;  ///< x_camera = rotation (X - C)
-  optics::Vec3 ball;      ///< its centre in the camera frame
-  double log_focal = 0;   ///< focal length = exp(log_focal) of the request's lens
+  optics::Vec3 ball;      ///< the ball's centre in the camera frame
+  double log_focal = 0;   ///< focal length = exp(log_focal) times that of the request's lens
 };
 
 /// All unknowns. Lengths in ball radii.
@@ -22,11 +22,11 @@ struct PlaceState {
   std::vector<CameraState> cameras;
 };
 
-/// The camera's lens when its focal length is exp(log_focal) of the request's.
+/// The camera's lens with the focal length exp(log_focal) times that of the request's.
 Result<optics::Lens> lens_at(const UnplacedCamera& camera, double log_focal);
 
 /// The camera's projection in that state, in ball radii throughout. nullopt if there is none: a
-/// camera within the ball, one that looks away.
+/// camera within the ball, or one that faces away.
 std::optional<optics::BallProjection> projection(const UnplacedCamera& camera,
                                                  const optics::Lens& lens, const CameraState& state,
                                                  const optics::Vec3& centre, double ball_radius);
@@ -37,33 +37,33 @@ inline constexpr int kCameraUnknowns = 7;
 using CameraChange = cv::Vec<double, kCameraUnknowns>;
 CameraState changed(const CameraState& state, const CameraChange& change);
 
-/// One mark that takes part.
+/// A mark that takes part.
 struct UsedMark {
   std::size_t camera;
   std::size_t mark;
 };
 
 /// The equations at a state, each divided by its sigma. Columns: kCameraUnknowns per camera, the
-/// ball's centre (3), the points (3 each); those of what is known are 0.
+/// ball's centre (3), the points (3 each); columns of known values are 0.
 struct Equations {
   cv::Mat1d jacobian;
   std::vector<double> residuals;  ///< first two per used mark, in their order
-  std::vector<int> unknowns;      ///< the columns of what is unknown
+  std::vector<int> unknowns;      ///< columns of the unknowns
 
   double sum_of_squares() const;
-  /// Equations more than unknowns.
+  /// Number of equations less the number of unknowns.
   int redundancy() const { return int(residuals.size()) - int(unknowns.size()); }
 };
 
-/// The least squares of a request whose numbers are checked and in which some marks may be left
-/// out.
+/// Least-squares adjustment of a request whose numbers are checked and of which some marks may be
+/// left out.
 class Adjustment {
  public:
   Adjustment(const PlaceRequest& request, std::vector<UsedMark> used)
       : request_(request), used_(std::move(used)) {}
 
-  /// The state of least squares next to `start`; `robust` lets marks far off pull less. Points that
-  /// the ball cannot show there count as beyond its limb. nullopt if nothing is found.
+  /// The least-squares state next to `start`; with `robust`, marks far off have less weight. Points
+  /// that the ball cannot show there count as beyond its limb. nullopt if nothing is found.
   std::optional<PlaceState> solve(const PlaceState& start, bool robust) const;
 
   /// nullopt if they cannot be formed.

@@ -7,9 +7,9 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kFalseAlarms = 1e-4;  ///< of requests without a mistake
+constexpr double kFalseAlarms = 1e-4;  ///< share of requests without a mistake
 
-/// How much the sum of squares falls without this mark; 0 when it cannot be tested.
+/// Decrease of the sum of squares without this mark; 0 when it cannot be tested.
 double drop(const Equations& equations, const cv::Mat1d& covariance, std::size_t mark) {
   const int row = 2 * int(mark);
   const cv::Mat1d slopes = equations.jacobian.rowRange(row, row + 2);
@@ -17,7 +17,7 @@ double drop(const Equations& equations, const cv::Mat1d& covariance, std::size_t
   const cv::Mat1d free = cv::Mat1d::eye(2, 2) - slopes * covariance * slopes.t();
   // Each eigenvalue is the share of a mistake that the other equations show.
   cv::Vec2d shares;
-  cv::Matx22d directions;  // by rows
+  cv::Matx22d directions;  // one per row
   cv::eigen(free, shares, directions);
   constexpr double kTestable = 1e-4;
   double sum = 0;
@@ -47,7 +47,7 @@ std::optional<Contradiction> contradiction(const Equations& equations, const cv:
 }
 
 double chi_square_limit(int degrees_of_freedom) {
-  constexpr double kNormal = 3.719;  // exceeded once in 10000 times
+  constexpr double kNormal = 3.719;  // quantile exceeded once in 10000 times
   const double share = 2.0 / (9 * degrees_of_freedom);
   return degrees_of_freedom * std::pow(1 - share + kNormal * std::sqrt(share), 3);
 }

@@ -7,17 +7,17 @@
 
 namespace orbwatch::align {
 
-/// The mark that the rest contradicts most, if any.
+/// The mark that contradicts the others most, if any.
 struct Contradiction {
   std::size_t used = 0;  ///< index into Adjustment::used()
-  /// Another that may be wrong as well instead: leaving it out would help almost as much.
+  /// Another mark that may be the wrong one instead: leaving it out would help almost as much.
   std::optional<std::size_t> rival;
 };
 
-/// Tests each mark against the solution of all: by how much the sum of squares would fall without
-/// it, which is chi-square with 2 degrees of freedom for a good mark (Baarda's data snooping, for
-/// pairs of equations). `covariance`: of the equations' columns. nullopt: none is off. Marks that
-/// alone determine an unknown cannot be tested.
+/// Tests each mark against the solution of all: the decrease of the sum of squares without it is
+/// chi-square with 2 degrees of freedom for a good mark (Baarda's data snooping, for pairs of
+/// equations). `covariance`: that of the equations' columns. nullopt: none is off. Marks that alone
+/// determine an unknown cannot be tested.
 std::optional<Contradiction> contradiction(const Equations& equations, const cv::Mat1d& covariance,
                                            std::size_t marks);
 

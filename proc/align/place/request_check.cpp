@@ -46,7 +46,7 @@ Result<> check_points(const PlaceRequest& request) {
   return {};
 }
 
-/// Whether a pixel lies within the ellipse.
+/// True for a pixel within the ellipse.
 bool is_within(const optics::Outline& outline, const Vec2& pixel) {
   const double angle = optics::radians(outline.angle), c = std::cos(angle), s = std::sin(angle);
   const double du = pixel.u - outline.centre.u, dv = pixel.v - outline.centre.v;
@@ -101,7 +101,7 @@ Result<> check_camera(const PlaceRequest& request, std::size_t c) {
   return check_marks(request, c);
 }
 
-/// A point that is marked several times counts once.
+/// Counts a point that is marked several times once.
 std::size_t distinct_points(const UnplacedCamera& camera) {
   std::set<std::size_t> points;
   for (const PointMark& mark : camera.marks) points.insert(mark.point);

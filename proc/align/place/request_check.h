@@ -7,20 +7,20 @@
 
 namespace orbwatch::align {
 
-/// What a request for placement must keep to before anything is solved; place() lists the errors.
+/// Checks a request for placement before anything is solved; place() lists the errors.
 Result<> check_request(const PlaceRequest& request);
 
-/// The request with a lens for cameras whose focal length is unknown: a start, as long as the
-/// picture's longer side, and the principal point in the picture's middle.
+/// The request with a lens for cameras whose focal length is unknown: an initial focal length equal
+/// to the picture's longer side, and the principal point in the picture's middle.
 PlaceRequest with_lenses(const PlaceRequest& request);
 
-/// For messages: "point 3 (X, Y, Z mm)", counted from 1.
+/// Text for messages: "point 3 (X, Y, Z mm)", counted from 1.
 std::string point_text(const PlaceRequest& request, std::size_t point);
 
-/// For messages: "camera A: point 3 (X, Y, Z mm), marked at (U, V)".
+/// Text for messages: "camera A: point 3 (X, Y, Z mm), marked at (U, V)".
 std::string mark_text(const PlaceRequest& request, std::size_t camera, std::size_t mark);
 
-/// A number for messages: three digits that count.
+/// A number for messages with three significant digits.
 std::string short_number(double value);
 
 }  // namespace orbwatch::align

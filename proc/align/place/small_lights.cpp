@@ -10,10 +10,10 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr double kWidest = 1.0 / 12;   // of the ball's radius
-constexpr double kLimb = 0.95;         // of the radius: beyond, everything is narrow
-constexpr double kShareOfPeak = 0.25;  // of the brightest one, per pixel
-constexpr double kMeans = 12;          // a light is that much above what else is small
+constexpr double kWidest = 1.0 / 12;   // share of the ball's radius
+constexpr double kLimb = 0.95;         // share of the radius; everything beyond is narrow
+constexpr double kShareOfPeak = 0.25;  // share of the brightest one, per pixel
+constexpr double kMeans = 12;  // multiple of the small details' mean that a light must exceed
 
 /// The ball's part of a picture of that size.
 cv::Rect part_of(const optics::Outline& outline, const cv::Size& size) {
@@ -35,7 +35,7 @@ Result<cv::Mat> mean_of(std::span<const Picture> pictures, const cv::Rect& part)
   return cv::Mat(sum / static_cast<double>(pictures.size()));
 }
 
-/// What is brighter than all that is wide around it, on the ball.
+/// Brightness above all wide things nearby, on the ball.
 cv::Mat small_light(const cv::Mat& mean, const optics::Outline& outline, const cv::Point& corner) {
   const int side = 2 * static_cast<int>(std::ceil(kWidest * mean_radius(outline))) + 3;
   cv::Mat small;
@@ -52,7 +52,7 @@ cv::Mat small_light(const cv::Mat& mean, const optics::Outline& outline, const c
   return small;
 }
 
-/// Every pixel above the threshold with the number of its light, from 1.
+/// Visits every pixel above the threshold with the number of its light, from 1.
 template <class Visit>
 void visit_lights(const cv::Mat& small, const cv::Mat& labels, const Visit& each) {
   for (int v = 0; v < small.rows; ++v) {
@@ -63,7 +63,7 @@ void visit_lights(const cv::Mat& small, const cv::Mat& labels, const Visit& each
   }
 }
 
-/// A light's centre is that of its brighter half: it may stand before something bright.
+/// A light's centre is that of its brighter half: there may be something bright behind it.
 std::vector<SmallLight> lights_above(const cv::Mat& small, double threshold,
                                      const cv::Point& corner) {
   cv::Mat labels;
@@ -84,7 +84,7 @@ std::vector<SmallLight> lights_above(const cv::Mat& small, double threshold,
   for (std::size_t n = 1; n < lights.size(); ++n) {
     lights[n].centre = {lights[n].centre.u / sums[n], lights[n].centre.v / sums[n]};
   }
-  lights.erase(lights.begin());  // what is no light
+  lights.erase(lights.begin());  // the background
   std::ranges::sort(lights, std::greater{}, &SmallLight::brightness);
   if (lights.size() > kMostSmallLights) lights.resize(kMostSmallLights);
   return lights;

@@ -19,17 +19,17 @@ std::vector<UsedMark> all_marks(const PlaceRequest& request) {
   return all;
 }
 
-/// The root of the variances' sum of `size` unknowns from a column on.
+/// The root of the sum of variances of `size` unknowns from a column on.
 double joint_sigma(const cv::Mat1d& covariance, int column, int size) {
   double variance = 0;
   for (int k = column; k < column + size; ++k) variance += covariance(k, k);
   return std::sqrt(variance);
 }
 
-/// Refuses what would be accepted only because nothing contradicts it.
+/// Refuses a solution that would pass only because nothing contradicts it.
 Result<> check_determined(const PlaceRequest& request, const Solution& solution) {
   constexpr double kMostTurn = 5;      // degrees
-  constexpr double kMostFocal = 0.05;  // of the focal length
+  constexpr double kMostFocal = 0.05;  // share of the focal length
   const auto sigma = [&](int column, int size) {
     return joint_sigma(solution.covariance, column, size);
   };
@@ -68,7 +68,7 @@ Result<Solution> judged(const PlaceRequest& request, const std::vector<UsedMark>
   return Solution{state, std::move(*equations), std::move(*known), used};
 }
 
-/// Whether two solutions are further apart than either is uncertain.
+/// True if two solutions differ by more than their uncertainty.
 bool is_another(const Solution& a, const PlaceState& b) {
   constexpr double kLeast = 1e-3;  // rad, radii
   const auto limit = [&](int column) {
@@ -103,7 +103,7 @@ Result<PlaceState> best_state(const PlaceRequest& request, const std::vector<Use
   std::ranges::sort(candidates, {}, &Candidate::badness);
   const auto best = judged(request, used, candidates.front().state);
   if (!best) return tl::unexpected(best.error());
-  constexpr double kAsGood = 12;  // of chi-square
+  constexpr double kAsGood = 12;  // difference of chi-square
   for (const Candidate& other : candidates) {
     if (other.badness < candidates.front().badness + kAsGood && is_another(*best, other.state)) {
       return fail("the marked points fit two different poses; mark one more");
@@ -136,7 +136,7 @@ Result<> check_shown(const PlaceRequest& request, const Solution& solution) {
   return {};
 }
 
-/// What is wrong with a solution that no mark contradicts.
+/// Checks a solution that no mark contradicts.
 Result<> check_solution(const PlaceRequest& request, const Solution& solution) {
   if (auto shown = check_shown(request, solution); !shown) return shown;
   const Equations& equations = solution.equations;

@@ -8,16 +8,16 @@
 
 namespace orbwatch::align {
 
-/// The solution of a request, how well it is known, and the marks that it follows from.
+/// The solution of a request, its accuracy, and the marks used for it.
 struct Solution {
   PlaceState state;
   Equations equations;   ///< at that state
-  cv::Mat1d covariance;  ///< of the equations' columns
+  cv::Mat1d covariance;  ///< covariance of the equations' columns
   std::vector<UsedMark> used;
 };
 
-/// The solution of least squares without the marks that contradict it. `request`: checked, with a
-/// lens for each camera. Errors: those of place() that need a solution.
+/// The least-squares solution without the marks that contradict it. `request`: checked, with a lens
+/// for each camera. Errors: those of place() that need a solution.
 Result<Solution> solve(const PlaceRequest& request);
 
 /// A camera's picture of the ball in that state, in ball radii; nullopt if there is none.

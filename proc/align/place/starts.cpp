@@ -13,16 +13,17 @@ namespace {
 using optics::Vec3;
 
 constexpr std::size_t kStarts = 4;
-constexpr std::size_t kCentres = 12;  ///< of those found, how many are looked at with all cameras
+constexpr std::size_t kCentres =
+    12;  ///< centres found by single cameras that are tried with all cameras
 
-/// A camera with one focal length: what its marks show, without a pose.
+/// A camera with one focal length, and its sights without a pose.
 struct Sighted {
   double log_focal = 0;
   Vec3 ball;                       ///< camera frame, ball radii
   std::vector<PointSight> sights;  ///< one per mark
 };
 
-/// nullopt if the outline is no ball's with this focal length, or a mark lies outside of it.
+/// nullopt if the outline is not a ball's with this focal length, or a mark lies outside of it.
 std::optional<Sighted> sighted(const PlaceRequest& request, const UnplacedCamera& camera,
                                double log_focal) {
   const auto lens = lens_at(camera, log_focal);
@@ -44,7 +45,7 @@ std::optional<Sighted> sighted(const PlaceRequest& request, const UnplacedCamera
 }
 
 std::vector<Sighted> sighted(const PlaceRequest& request, const UnplacedCamera& camera) {
-  // Of lenses from very wide to very long, relative to the request's.
+  // Lenses from very wide to very long, relative to the request's.
   constexpr int kFocals = 16;
   constexpr double kWidest = 0.35, kLongest = 12;
   std::vector<Sighted> all;
@@ -69,7 +70,7 @@ std::pair<Vec3, Vec3> bounds(const PlaceRequest& request) {
   return {(low + high) * scale, (high - low) * scale};
 }
 
-/// Places all over the points' surroundings, in their longest side's steps: points may lie in a
+/// Places all over the points' surroundings, in steps of their longest side: points may lie in a
 /// plane.
 std::vector<Vec3> centres_around(const PlaceRequest& request) {
   constexpr std::array kSteps{-1.6, -0.8, 0.0, 0.8, 1.6};
@@ -110,7 +111,7 @@ Start around(const PlaceRequest& request, const std::vector<std::vector<Sighted>
   return start;
 }
 
-/// The centres that single cameras favour.
+/// The best centres for each single camera.
 std::vector<Vec3> likely_centres(const PlaceRequest& request,
                                  const std::vector<std::vector<Sighted>>& cameras) {
   std::vector<FreePose> found;

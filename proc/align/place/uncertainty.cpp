@@ -10,7 +10,7 @@ using optics::Vec3;
 
 using optics::Mat3;
 
-/// The matrix that multiplies by v from the left, as a cross product.
+/// The matrix of the cross product v x.
 Mat3 cross_matrix(const Vec3& v) { return {{0, -v.z, v.y}, {v.z, 0, -v.x}, {-v.y, v.x, 0}}; }
 
 void set_block(cv::Mat1d& all, int row, int column, const Mat3& block, double factor) {
@@ -34,7 +34,7 @@ std::vector<Vec3> sphere() {
   return all;
 }
 
-/// The direction, in the machine frame, for which a pixel stands.
+/// The direction, in the machine frame, that a pixel shows.
 std::optional<Vec3> direction(const PlaceRequest& request, std::size_t camera,
                               const CameraState& state, const optics::Vec2& pixel) {
   const UnplacedCamera& unplaced = request.cameras[camera];
@@ -45,7 +45,7 @@ std::optional<Vec3> direction(const PlaceRequest& request, std::size_t camera,
   return ray ? std::optional(ray->direction) : std::nullopt;
 }
 
-/// How that direction changes with the camera; nullopt next to the limb.
+/// Derivative of that direction with respect to the camera's unknowns; nullopt next to the limb.
 std::optional<cv::Matx<double, 3, kCameraUnknowns>> slope(const PlaceRequest& request,
                                                           std::size_t camera,
                                                           const CameraState& state,

@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t kMostForMedian = 15;
 constexpr double kNoises = 10;         // standard deviations of the background
-constexpr double kShareOfPeak = 0.15;  // of the brightest change in the whole sequence
+constexpr double kShareOfPeak = 0.15;  // share of the brightest change in the whole sequence
 
-/// As 16 bit, so that one kind of pixel is enough.
+/// Pictures as 16 bit, so that one pixel type suffices.
 std::vector<cv::Mat> luminances(std::span<const Picture> pictures) {
   std::vector<cv::Mat> all;
   for (const Picture& picture : pictures) {
@@ -26,7 +26,7 @@ std::vector<cv::Mat> luminances(std::span<const Picture> pictures) {
   return all;
 }
 
-/// Per pixel, of some pictures from all over the sequence.
+/// The median per pixel, from some pictures spread over the sequence.
 cv::Mat median_picture(const std::vector<cv::Mat>& pictures) {
   const std::size_t step = (pictures.size() + kMostForMedian - 1) / kMostForMedian;
   cv::Mat middle(pictures.front().size(), CV_16U);

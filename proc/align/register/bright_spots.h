@@ -9,15 +9,15 @@
 
 namespace orbwatch::align {
 
-/// What is brighter in a picture than there at most other times: a spark, a melt pool.
+/// A spot that is brighter than its place at most other times: a spark, a melt pool.
 struct BrightSpot {
   optics::Vec2 centre;  ///< px
-  double light = 0;     ///< its counts above the background, summed
+  double light = 0;     ///< sum of its counts above the background
 };
 
 /// The brightest spots of every picture of a fixed camera, against the median of all, at most
-/// kMostSpots each, the brightest first. Reentrant. Error: fewer than kLeastPictures, or of
-/// different size.
+/// kMostSpots each, the brightest first. Reentrant. Error: fewer than kLeastPictures, or different
+/// sizes.
 Result<std::vector<std::vector<BrightSpot>>> bright_spots(std::span<const Picture> pictures);
 
 inline constexpr std::size_t kMostSpots = 12;

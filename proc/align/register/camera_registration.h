@@ -10,8 +10,8 @@
 
 namespace orbwatch::align {
 
-/// What a rotation is found by. Auto: features where both cameras are of one modality, else light
-/// where there is a sequence, refined by gradients, else gradients from the start in the rig.
+/// Method of registration. Auto: features where both cameras have one modality, else light where
+/// there is a sequence, refined by gradients, else gradients from the rig's registration as start.
 enum class RegistrationMethod { Auto, Features, Gradients, Light };
 
 inline constexpr std::array kRegistrationMethods{
@@ -20,16 +20,16 @@ inline constexpr std::array kRegistrationMethods{
 
 struct CameraRegistration {
   Registration registration;
-  RegistrationMethod method = RegistrationMethod::Auto;  ///< the last one, never Auto
+  RegistrationMethod method = RegistrationMethod::Auto;  ///< the last method applied, never Auto
 };
 
-/// Called with what is going to be done, for people who wait.
+/// Called before each step with its description, to show progress to the user.
 using RegistrationProgress = std::function<void(const std::string&)>;
 
-/// The sought camera's rotation by a method or the best sequence of methods. `pictures`: of fixed
-/// cameras, one each at least; what is no process light is looked at in the first ones. Light alone
-/// is right to some degrees only, so that Light, too, is refined by gradients. Reentrant. Error:
-/// those of the method that was last tried.
+/// Finds the sought camera's rotation by a method or the best sequence of methods. `pictures`: of
+/// fixed cameras, one each at least; methods other than light use the first ones. Light alone is
+/// accurate to some degrees only, so that Light, too, is refined by gradients. Reentrant. Error:
+/// those of the last method tried.
 Result<CameraRegistration> register_camera(const SimultaneousPictures& pictures,
                                            const optics::BallProjection& reference,
                                            const SoughtCamera& sought, RegistrationMethod method,

@@ -10,9 +10,9 @@ namespace {
 constexpr int kMostPerFace = 1500;
 constexpr double kContrast = 0.02;  // SIFT's threshold; its default, 0.04, misses dull walls
 constexpr double kRatio = 0.85;     // nearest to second-nearest descriptor
-constexpr int kEdge = 7;            // px that a feature stays away from what is not shown
+constexpr int kEdge = 7;            // px between a feature and the end of the shown part
 
-/// A feature's nearest among others.
+/// A feature's nearest neighbour among others.
 struct Nearest {
   int index = -1;
   float distance = INFINITY;

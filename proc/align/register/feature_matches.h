@@ -8,21 +8,21 @@
 
 namespace orbwatch::align {
 
-/// The same thing in the pictures of two cameras.
+/// One feature in the pictures of two cameras.
 struct Match {
   optics::Vec2 reference;  ///< px
   optics::Vec2 camera;     ///< px
 };
 
-/// Points of one camera's picture that look like nothing around them.
+/// Distinctive points of one camera's picture.
 struct Features {
   std::vector<optics::Vec2> pixels;      ///< in the camera's picture
   std::vector<optics::Vec3> directions;  ///< in the faces' frame
-  cv::Mat descriptors;                   ///< SIFT's, one row each
+  cv::Mat descriptors;                   ///< SIFT descriptors, one row each
 };
 
-/// SIFT features (Lowe 2004) of all faces, without duplicates. `ball` and `closeness`: what the
-/// faces were made of. Reentrant.
+/// SIFT features (Lowe 2004) of all faces, without duplicates. `ball` and `closeness`: those that
+/// the faces were made with. Reentrant.
 Features find_features(const std::vector<SphereFace>& faces, const optics::BallProjection& ball,
                        const std::optional<double>& closeness = {});
 

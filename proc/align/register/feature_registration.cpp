@@ -17,12 +17,13 @@ using optics::BallProjection;
 using optics::Mat3;
 
 constexpr int kLeastMatches = 15;
-constexpr double kRivalInliers = 0.5;     // a rival has that share of the best one's inliers
+constexpr double kRivalInliers = 0.5;     // share of the best one's inliers that makes a rival
 constexpr double kFinestFeatureView = 4;  // pixels per degree; more costs time and gains little
-const double kNeighbourhood = optics::radians(2.5);  // of features after the first estimate
+const double kNeighbourhood =
+    optics::radians(2.5);          // search angle for features after the first estimate
 constexpr double kParallax = 1.4;  // radians per closeness: cameras see the ball's edges, too
 
-/// Both pictures as the search wants them.
+/// Both pictures, prepared for the search.
 struct Pictures {
   cv::Mat reference;
   cv::Mat camera;
@@ -60,13 +61,14 @@ Result<RotationConsensus> first_estimate(const Pictures& pictures, const Feature
   return found;
 }
 
-/// Within what angle both cameras see the same. In an unstated room by its unevenness, too.
+/// Largest angle between the same thing's directions in both cameras; includes the spread of an
+/// unstated room.
 double neighbourhood(const std::optional<RoomCloseness>& room) {
   return kNeighbourhood + (room ? 2 * kParallax * room->spread : 0);
 }
 
-/// Again with views of the same frame and room, in which features look alike and stand near each
-/// other.
+/// Repeats the search with views of the same frame and room, in which features look alike and lie
+/// near each other.
 Result<RotationRefinement> refined(const Pictures& pictures, const Features& seen,
                                    const BallProjection& reference, const SoughtCamera& sought,
                                    const RefinementState& rough) {

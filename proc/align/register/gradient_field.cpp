@@ -13,9 +13,9 @@ namespace {
 using optics::Vec3;
 using optics::ViewProjection;
 
-constexpr double kLeast = 0.5;  // length of a gradient that counts
+constexpr double kLeast = 0.5;  // least length of a gradient used
 
-/// Smoothed by what is shown only, so that no edge arises at its end.
+/// A picture smoothed over its shown part only, so that its end is not an edge.
 struct Smooth {
   cv::Mat pixels;
   cv::Mat inside;  ///< 8 bit: far enough from that end
@@ -36,7 +36,7 @@ Smooth smooth(const SphereFace& face, double sigma) {
   return {pixels, inside};
 }
 
-/// The change of a value from pixel to pixel as a change along the sphere, per radian.
+/// Converts a value's change from pixel to pixel into a change along the sphere, per radian.
 Vec3 along_sphere(const ViewProjection& view, int u, int v, double du, double dv) {
   const auto left = view.direction(u - 0.5, v), right = view.direction(u + 0.5, v);
   const auto top = view.direction(u, v - 0.5), bottom = view.direction(u, v + 0.5);

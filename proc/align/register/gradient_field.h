@@ -9,9 +9,9 @@
 
 namespace orbwatch::align {
 
-/// The normalised gradient field of what a camera sees all around (Haber and Modersitzki 2006): it
-/// keeps where edges are and which way they run, not how strong or of which sign, which is all that
-/// a colour and a thermal camera have in common. Immutable; reentrant.
+/// The normalised gradient field of a camera's whole surroundings (Haber and Modersitzki 2006): it
+/// keeps the place and direction of edges, not their strength or sign, which is all that a colour
+/// and a thermal camera have in common. Immutable; reentrant.
 class GradientField {
  public:
   /// `smoothing`: sigma in pixels of the faces' middle.
@@ -21,22 +21,23 @@ class GradientField {
   /// slope. nullopt where the camera shows nothing, or nothing but a limb's surroundings.
   std::optional<optics::Vec3> at(const optics::Vec3& direction) const;
 
-  /// A place with a gradient that counts.
+  /// A place with a gradient above the threshold.
   struct Sample {
     optics::Vec3 direction;
     optics::Vec3 gradient;
-    std::size_t part;  ///< of the sphere, below kParts
+    std::size_t part;  ///< part of the sphere, below kParts
   };
-  /// Those of so many directions, even over the sphere, where the gradient counts. They are not the
-  /// faces' pixels: where pixels of two fields coincide their likeness would be greater.
+  /// Samples at those of `directions` directions, even over the sphere, whose gradient is above the
+  /// threshold. They are not the faces' pixels: coinciding pixels of two fields would increase
+  /// their likeness.
   std::vector<Sample> samples(int directions) const;
 
-  static constexpr std::size_t kParts = 24;  ///< three of each octant
+  static constexpr std::size_t kParts = 24;  ///< three for each octant
 
  private:
   struct Face {
     optics::ViewProjection view;
-    cv::Mat gradients;  ///< 3 x float; not a number where nothing is shown
+    cv::Mat gradients;  ///< 3 x float; NaN where nothing is shown
   };
   std::vector<Face> faces_;
 };

@@ -23,20 +23,21 @@ using optics::Mat3;
 using optics::radians;
 using optics::Vec3;
 
-constexpr int kDirections = 40000;  // of which those with edges count
+constexpr int kDirections = 40000;  // sampled; those with edges are used
 constexpr int kCoarseDirections = 8000;
-constexpr double kCoarse = 2.5;                   // sigma of smoothing, degrees
-constexpr std::array kFiner{2.5, 1.5, 1.0, 0.8};  // each seen again from where the last one led
-constexpr double kGridStep = 2;                   // degrees
+constexpr double kCoarse = 2.5;  // sigma of smoothing, degrees
+constexpr std::array kFiner{2.5, 1.5, 1.0,
+                            0.8};  // sigma of each round, which starts from the last one's result
+constexpr double kGridStep = 2;    // degrees
 constexpr std::size_t kCandidates = 4;
 constexpr double kApart = 3;               // degrees between candidates
-constexpr double kSame = 1.5;              // degrees between what is one summit
+constexpr double kSame = 1.5;              // degrees below which two summits are one
 constexpr double kDistinct = 6.5;          // standard deviations; wrong rotations reach 5
-constexpr double kRivalSimilarity = 0.85;  // of the best similarity above chance
+constexpr double kRivalSimilarity = 0.85;  // share of the best similarity above chance
 constexpr double kFinestView = 2;          // pixels per degree
 constexpr int kLeastEdges = 100;
 
-/// The pictures and the reference camera's views, which stay.
+/// The pictures and the reference camera's views, which do not change.
 class Scenery {
  public:
   static Result<Scenery> make(const ReferenceCamera& reference, const SoughtCamera& sought) {
@@ -52,7 +53,7 @@ class Scenery {
 
   /// The reference camera's edges. `smoothing`: sigma, degrees.
   GradientField reference(double smoothing) const { return {reference_, smoothing * resolution_}; }
-  /// The sought camera's edges as if `rotation` were right.
+  /// The sought camera's edges under the assumption of `rotation`.
   Result<GradientField> camera(const Mat3& rotation, double smoothing) const {
     return turned(sought_, rotation, *sought_.camera.outline)
         .and_then(
@@ -73,7 +74,7 @@ class Scenery {
   std::vector<SphereFace> reference_;
 };
 
-/// Where the candidates lead, each place once.
+/// Summits reached from the candidates, each once.
 std::vector<Summit> climbed(const GradientSimilarity& similarity,
                             const std::vector<Summit>& candidates) {
   std::vector<Summit> summits;
@@ -111,8 +112,7 @@ std::vector<Summit> coarse_search(const GradientSimilarity& similarity) {
   return climbed(similarity, candidates);
 }
 
-/// How far the similarity at a summit is above that of turns without meaning, in their standard
-/// deviations.
+/// Distance of a summit's similarity from that of meaningless turns, in their standard deviations.
 double distinction(const GradientSimilarity& similarity, double value) {
   constexpr int kTurns = 60;
   double sum = 0, squares = 0;
@@ -125,7 +125,7 @@ double distinction(const GradientSimilarity& similarity, double value) {
   return (value - mean) / std::sqrt(std::max(squares / kTurns - mean * mean, 1e-12));
 }
 
-/// Where one candidate leads.
+/// Result from one candidate.
 struct Outcome {
   Mat3 rotation;
   double similarity = 0;
@@ -135,7 +135,7 @@ struct Outcome {
   int inliers = 0;
 };
 
-/// From how much the sphere's parts disagree about the turn (a sandwich estimate).
+/// Covariance from the disagreement of the sphere's parts about the turn (a sandwich estimate).
 std::optional<Mat3> covariance(const GradientSimilarity& similarity, const Summit& summit,
                                double step) {
   constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -176,7 +176,7 @@ Result<Outcome> follow(const Scenery& scenery, const Mat3& start) {
   return outcome;
 }
 
-/// The best of all candidates, when no other comes near.
+/// The best of all candidates, if no other is close to it.
 Result<Outcome> best_of(const Scenery& scenery, const Mat3& start) {
   const auto field = scenery.camera(start, kCoarse);
   if (!field) return tl::unexpected(field.error());

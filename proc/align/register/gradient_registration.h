@@ -4,10 +4,10 @@
 
 namespace orbwatch::align {
 
-/// The sought camera's rotation from edges that both pictures show, also for cameras of different
-/// modality, as colour and thermal. Its registration in the rig is the start, and right to
-/// kGradientReach. Takes some seconds. Reentrant. Error: edges that do not agree anywhere near it,
-/// two rotations that fit nearly as well, a rotation that is too uncertain.
+/// Finds the sought camera's rotation from edges that both pictures show, also for cameras of
+/// different modality, such as colour and thermal. Starts from its registration in the rig, which
+/// must be accurate to kGradientReach. Takes some seconds. Reentrant. Error: edges that do not
+/// agree anywhere near it, two rotations that fit nearly as well, a rotation that is too uncertain.
 Result<Registration> register_by_gradients(const ReferenceCamera& reference,
                                            const SoughtCamera& sought);
 

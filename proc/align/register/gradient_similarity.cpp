@@ -45,7 +45,7 @@ Parabola parabola(const GradientSimilarity& similarity, const Vec3& turn, double
   return p;
 }
 
-/// To the parabola's top, or uphill where it has none; `step` at most.
+/// Step to the parabola's top, or uphill where it has none; `step` at most.
 Vec3 uphill(const Parabola& p, double step) {
   const Mat3 downwards = p.curvature * -1;
   const Vec3 move = is_positive_definite(downwards) ? inverse(downwards) * p.slope : p.slope * 1e9;

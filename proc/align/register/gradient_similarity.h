@@ -8,22 +8,22 @@
 
 namespace orbwatch::align {
 
-/// How well two cameras' edges agree when the second one's world is turned. Reentrant.
+/// Agreement of two cameras' edges when the second one's world is turned. Reentrant.
 class GradientSimilarity {
  public:
   /// `samples` of the reference camera's field, `field` of the other one, which outlives this.
   GradientSimilarity(std::vector<GradientField::Sample> samples, const GradientField& field)
       : samples_(std::move(samples)), field_(field) {}
 
-  /// 0 to 1: the mean of cos^2 between gradients, times their lengths, over what both show. `turn`:
-  /// radians about the reference frame's axes.
+  /// Similarity, 0 to 1: the mean of cos^2 between gradients, times their lengths, over the part
+  /// that both show. `turn`: radians about the reference frame's axes.
   double at(const optics::Vec3& turn) const;
 
-  /// The same by parts of the sphere: their sums add up to at().
+  /// The same for each part of the sphere; their sum is at().
   using Parts = std::array<double, GradientField::kParts>;
   Parts parts(const optics::Vec3& turn) const;
 
-  /// How many samples agree within 30 degrees or so.
+  /// Number of samples that agree within about 30 degrees.
   int agreeing(const optics::Vec3& turn) const;
 
  private:

@@ -20,7 +20,7 @@ using optics::radians;
 using optics::Vec2;
 using optics::Vec3;
 
-constexpr std::size_t kDistances = 8;  // at which a spark may be, along its ray
+constexpr std::size_t kDistances = 8;  // possible distances of a spark along its ray
 constexpr double kNearest = 2;         // ball radii from the ball's centre
 constexpr double kFarthest = 1000;
 constexpr int kTrials = 4000;
@@ -30,15 +30,15 @@ constexpr int kLeastInliers = 12;
 constexpr double kRivalry = 0.85;
 const double kDifferent = radians(20);
 
-/// Where the light of a spot may come from, nearest first.
+/// Directions that the light of a spot may come from, nearest first.
 struct Source {
   std::array<Vec3, kDistances> directions;
   std::array<double, kDistances> closeness;
 };
 
-/// The light of one moment.
+/// The light at one moment.
 struct Moment {
-  std::vector<Source> sources;  ///< of the reference camera
+  std::vector<Source> sources;  ///< seen by the reference camera
   std::vector<Vec2> spots;      ///< in the sought camera's picture
 };
 
@@ -52,7 +52,7 @@ std::optional<Source> source(const BallProjection& ball, const Vec2& pixel) {
       1 / std::max(ball.proxy().is_far() ? 0 : ball.proxy().hit(*end).closeness, 1 / kFarthest);
   Source source{};
   for (std::size_t n = 0; n < kDistances; ++n) {
-    // Even in closeness, which is what moves a spot.
+    // Distances are spaced evenly in closeness, which determines the shift of a spot.
     const double share = static_cast<double>(n) / (kDistances - 1);
     const double distance = 1 / std::lerp(1 / kNearest, 1 / std::max(far, kNearest), share);
     const Vec3 point = origin + ray->direction * std::max(0.0, distance - 1);
@@ -66,7 +66,7 @@ std::optional<Source> source(const BallProjection& ball, const Vec2& pixel) {
 struct Agreement {
   double score = 0;
   int inliers = 0;
-  double squares = 0;  ///< of inliers' errors, shares of the radius
+  double squares = 0;  ///< sum of squares of the inliers' errors, shares of the radius
   std::vector<Vec3> directions;
 };
 
@@ -105,7 +105,7 @@ class LightSearch {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
   }
 
-  /// From two spots of each camera, in moments of their own or in one.
+  /// A rotation from two spots of each camera, in one moment or in two.
   std::optional<Mat3> hypothesis() {
     std::array<const Source*, 2> sources{};
     std::array<Vec2, 2> spots;
@@ -191,7 +191,7 @@ class LightSearch {
     }
   }
 
-  /// Small random turns that agree better, smaller and smaller.
+  /// Improves the rotation by random turns, smaller and smaller.
   void polish() {
     std::normal_distribution<double> any;
     for (const double tolerance : kTolerances) {
@@ -218,7 +218,7 @@ class LightSearch {
                   std::to_string(kLeastInliers) +
                   " are needed: record a longer sequence of the running process");
     }
-    // In the middle of its picture a ball turns two degrees per degree on it.
+    // A ball in the middle of its picture turns directions by two degrees per degree on it.
     const double sigma = 2 * std::sqrt(found.squares / found.inliers);
     r.residual = optics::degrees(sigma);
     Mat3 information{{}, {}, {}};

@@ -6,17 +6,17 @@
 
 namespace orbwatch::align {
 
-/// Pictures of both cameras, the n-th of each taken at the same moment. None of them moves.
+/// Pictures of both cameras, the n-th of each taken at the same moment. Neither camera moves.
 struct SimultaneousPictures {
   std::vector<Picture> reference;
   std::vector<Picture> camera;
 };
 
-/// The sought camera's rotation to some degrees from the light of a process, sparks and melt pool,
-/// that both see at the same moments; needs no start, and cameras may be of different modality. Of
-/// `sought` the picture does not matter. A spark may be anywhere between the ball and the scene.
-/// Takes some seconds. Reentrant. Error: too few moments with light, or light on one spot that
-/// several rotations explain.
+/// Finds the sought camera's rotation to some degrees from the light of a process, sparks and melt
+/// pool, that both see at the same moments; needs no start, and cameras may be of different
+/// modality. The picture of `sought` is not used. A spark may be anywhere between the ball and the
+/// scene. Takes some seconds. Reentrant. Error: too few moments with light, or light on one spot
+/// that several rotations explain.
 Result<Registration> register_by_light(const SimultaneousPictures& pictures,
                                        const optics::BallProjection& reference,
                                        const SoughtCamera& sought);

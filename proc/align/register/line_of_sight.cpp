@@ -8,11 +8,11 @@ namespace {
 
 using optics::Vec3;
 
-constexpr int kSteps = 3;                  // of Gauss and Newton: lines bend little over closeness
+constexpr int kSteps = 3;                  // Gauss-Newton steps: lines bend little over closeness
 constexpr double kNearestCloseness = 0.8;  // closeness; the ball's surface is 1
-constexpr double kBeyond = -0.05;  // closeness: noise moves what is far away beyond infinity
+constexpr double kBeyond = -0.05;          // closeness: noise moves far things beyond infinity
 
-/// A line's point seen from the ball's centre, and how that turns with its closeness.
+/// The direction of a line's point from the ball's centre, and its derivative by closeness.
 struct Course {
   Vec3 direction;
   Vec3 slope;

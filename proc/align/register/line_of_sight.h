@@ -7,7 +7,7 @@
 
 namespace orbwatch::align {
 
-/// What a pixel shows lies somewhere on a ray that starts on the ball. Relative to the ball's
+/// Ray that starts on the ball and contains the point that a pixel shows. Relative to the ball's
 /// centre, in ball radii. Closeness: ball radius / distance from the ball's centre.
 struct LineOfSight {
   optics::Vec3 origin;
@@ -18,26 +18,26 @@ struct LineOfSight {
 std::optional<LineOfSight> line_of_sight(const optics::BallProjection& ball,
                                          const optics::Vec2& pixel);
 
-/// The same of a camera that is turned about the ball. Reentrant.
+/// The same line for a camera that is turned about the ball. Reentrant.
 inline LineOfSight turned(const LineOfSight& line, const optics::Mat3& rotation) {
   return {rotation * line.origin, rotation * line.direction};
 }
 
-/// From the ball's centre to the line's point at `closeness`, below 1: a unit vector. Smooth, also
-/// a little beyond closeness 0. Reentrant.
+/// Unit vector from the ball's centre to the line's point at `closeness`, below 1. Smooth, also
+/// slightly beyond closeness 0. Reentrant.
 optics::Vec3 direction_at(const LineOfSight& line, double closeness);
 
-/// How close a room is of which nothing is stated: a normal distribution of what both cameras see.
+/// Closeness in an unstated room: a normal distribution over the things that both cameras see.
 struct RoomCloseness {
   double mean = 0;
   double spread = 0;  ///< standard deviation
 };
 
-/// Where two lines of sight to the same thing come nearest to each other.
+/// The closest approach of two lines of sight to the same thing.
 struct Meeting {
   double closeness = 0;
-  optics::Vec3 apart;  ///< there: the direction of the first less that of the second
-  optics::Vec3 slope;  ///< of `apart`, per closeness
+  optics::Vec3 apart;  ///< direction of the first less that of the second, at that closeness
+  optics::Vec3 slope;  ///< derivative of `apart` by closeness
 };
 
 /// The closeness with the least (apart / sigma)^2 + ((closeness - mean) / spread)^2. `sigma`:

@@ -11,10 +11,11 @@ namespace {
 using optics::BallProjection;
 using optics::Vec3;
 
-constexpr double kPixelSigma = 0.5;     // of a feature's place in either picture
-constexpr double kLeastSpread = 1e-4;   // closeness: of what is as good as far away
-constexpr double kLeastParallax = 0.1;  // radians per closeness, below which a match tells nothing
-constexpr double kDoubtfulFrom = 2;     // sigmas
+constexpr double kPixelSigma = 0.5;    // of a feature's coordinates in either picture
+constexpr double kLeastSpread = 1e-4;  // closeness: spread of a room that is practically far away
+constexpr double kLeastParallax =
+    0.1;  // radians per closeness, below which a match has no information
+constexpr double kDoubtfulFrom = 2;  // sigmas
 
 std::optional<Meeting> meeting(const SightedMatch& match, const TrialPlace& trial) {
   const auto line = line_of_sight(*trial.ball, match.pixel);
@@ -61,7 +62,7 @@ Difference difference(const SightedMatch& match, const TrialPlace& trial) {
   } else if (const auto direction = trial.ball->direction(match.pixel)) {
     return difference(*direction - match.direction, match.sigma, 0);
   }
-  // Outside of the limb of a trial: as bad as can be.
+  // A sight outside of the trial's limb gets the largest error.
   return difference(match.direction, match.sigma, 0);
 }
 

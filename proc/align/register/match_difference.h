@@ -10,29 +10,29 @@
 
 namespace orbwatch::align {
 
-/// What the reference camera sees at a match, and how exactly both know.
+/// The reference camera's sight of a match, and the accuracy of both.
 struct SightedMatch {
   optics::Vec3 direction;  ///< through the stated scene
-  LineOfSight line;        ///< for where none is stated
+  LineOfSight line;        ///< used where no scene is stated
   optics::Vec2 pixel;      ///< in the sought camera's picture
   double sigma;            ///< radians
 };
 
-/// Those of the matches that both balls show. Reentrant.
+/// Matches that both balls show. Reentrant.
 std::vector<SightedMatch> sighted(const std::vector<Match>& matches,
                                   const optics::BallProjection& reference,
                                   const optics::BallProjection& camera);
 
-/// By how many sigmas both cameras differ: their directions by x, y, z and, where no scene is
-/// stated, what they see from the mean of the room.
+/// Difference between both cameras, in sigmas: their directions by x, y, z and, where no scene is
+/// stated, the closeness against the room's mean.
 using Difference = std::array<double, 4>;
 
 double length(const Difference& difference);
 
-/// That of the directions alone, in sigmas.
+/// Length of the directions' difference alone, in sigmas.
 double direction_error(const Difference& difference);
 
-/// At a trial that has a projection. Reentrant.
+/// The difference at a trial that has a projection. Reentrant.
 Difference difference(const SightedMatch& match, const TrialPlace& trial);
 
 /// The lengths of all differences. Reentrant.
@@ -40,18 +40,18 @@ std::vector<double> errors(const std::vector<SightedMatch>& matches, const Trial
 
 double median(std::vector<double> values);
 
-/// The median of the errors, in what a unit normal distribution in two dimensions has.
+/// Sigma from the median of the errors of a normal distribution in two dimensions.
 double robust_sigma(const std::vector<double>& errors);
 
-/// What matches tell about a room, all else at a trial being right.
+/// Estimate of a room from matches, assuming that everything else at a trial is right.
 struct RoomEvidence {
   RoomCloseness room;
-  /// Of the matches' sigmas: what differs across the parallax, which no room explains.
+  /// Factor of the matches' sigmas: the difference across the parallax, which no room explains.
   double noise = 1;
 };
 
 /// One round of expectation and maximisation: the closeness of each match given the trial's room,
-/// then the spread of all. What does not fit counts little. Reentrant.
+/// then the spread of all. Matches that do not fit have little weight. Reentrant.
 RoomEvidence room_evidence(const std::vector<SightedMatch>& matches, const TrialPlace& trial);
 
 }  // namespace orbwatch::align

@@ -25,11 +25,13 @@ using optics::Mat3;
 
 constexpr double kRobustFrom = 1.5;  // sigmas
 constexpr double kFits = 4;          // robust sigmas
-constexpr double kMeanSigma = 0.2;   // of a room's mean closeness before anything is seen
-constexpr int kSpreadRounds = 3;     // of an unstated room's spread and all that follows from it
-constexpr double kPlaces = 10;       // of an unstated room: walls and large things, about
+constexpr double kMeanSigma = 0.2;   // prior sigma of a room's mean closeness
+constexpr int kSpreadRounds =
+    3;  // rounds for an unstated room's spread and everything that depends on it
+constexpr double kPlaces =
+    10;  // distinct places of an unstated room: walls and large things, about
 
-/// The difference between both cameras' sights, in sigmas.
+/// Residual of a match: the difference between both cameras' sights, in sigmas.
 class Disagreement final : public ceres::CostFunction {
  public:
   Disagreement(const RefinementTrial& trial, const SightedMatch& match)
@@ -69,7 +71,7 @@ class Disagreement final : public ceres::CostFunction {
     for (std::size_t row = 0; row < slope.size(); ++row) {
       slope[row] = ((*high)[row] - (*low)[row]) / (2 * kTrialStep);
     }
-    // Across an edge of a stated scene the direction jumps and has no slope.
+    // The direction jumps across an edge of a stated scene and has no slope there.
     constexpr double kSteepest = 1e3;
     const bool jumps = !trial_.centre().room && length(slope) * match_.sigma > kSteepest;
     return jumps ? Difference{} : slope;
@@ -106,7 +108,7 @@ class Problem {
     return summary.IsSolutionUsable();
   }
 
-  /// Of the turn, for matches whose sigma is right.
+  /// Covariance of the turn, for matches whose sigma is right.
   std::optional<Mat3> covariance() {
     ceres::Covariance::Options options;
     options.algorithm_type = ceres::DENSE_SVD;
@@ -125,7 +127,7 @@ class Problem {
   double* outline() { return turn() + kTurn; }
   double* room() { return outline() + kOutline; }
 
-  /// Unknowns that start at 0 and will not be far from it.
+  /// Adds unknowns that start at 0 and have the prior `sigma`.
   void add_block(double* block, int size, bool is_sought, double sigma) {
     problem_.AddParameterBlock(block, size);
     if (is_sought) {
@@ -156,7 +158,7 @@ Result<Solution> solve(const std::vector<SightedMatch>& matches, const SoughtCam
   if (!place.ball) return fail("the rotation to start from has no projection");
   const double scale = std::max(0.2, robust_sigma(errors(matches, place)));
   Problem problem(sought, start);
-  // Bounded influence: what agrees by accident must not pull.
+  // Bounded influence: accidental matches must not pull.
   for (const SightedMatch& one : matches) {
     problem.add(one, new ceres::CauchyLoss(kRobustFrom * scale));
   }
@@ -165,9 +167,9 @@ Result<Solution> solve(const std::vector<SightedMatch>& matches, const SoughtCam
   return Solution{problem.state(), *covariance};
 }
 
-/// The same with the spread of the room and the noise of the matches, which determine each other.
-/// Matches on one wall deviate from the mean together: all of them tell as little of the rotation
-/// by their closeness as one per place would.
+/// Solves including the spread of the room and the noise of the matches, which determine each
+/// other. Matches on one wall deviate from the mean together: the closeness of all matches has only
+/// as much information on the rotation as one match per place.
 Result<Solution> solve_with_room(std::vector<SightedMatch>& matches, const SoughtCamera& sought,
                                  const RefinementState& start) {
   RefinementState state = start;

@@ -13,24 +13,25 @@ namespace orbwatch::align {
 
 inline constexpr int kTurn = 3;     ///< a small turn about the reference frame's axes, radians
 inline constexpr int kOutline = 3;  ///< centre and radius, shares of the radius
-inline constexpr int kRoom = 1;     ///< its mean closeness
+inline constexpr int kRoom = 1;     ///< the room's mean closeness
 inline constexpr int kUnknowns = kTurn + kOutline + kRoom;
-inline constexpr double kTrialStep = 1e-5;  ///< to either side of every unknown
+inline constexpr double kTrialStep = 1e-5;  ///< step to either side of every unknown
 
-/// Where a refinement starts, or has come to.
+/// The start of a refinement, or its current state.
 struct RefinementState {
   optics::Mat3 rotation;
   optics::Outline outline;
-  std::optional<RoomCloseness> room;  ///< where no scene is stated
+  std::optional<RoomCloseness> room;  ///< set where no scene is stated
 };
 
-/// The sought camera as seen with some values of the unknowns.
+/// The sought camera for given values of the unknowns.
 struct TrialPlace {
-  std::optional<optics::BallProjection> ball;  ///< nullopt: they make no projection
+  std::optional<optics::BallProjection> ball;  ///< nullopt: the values make no projection
   std::optional<RoomCloseness> room;
 };
 
-/// The sought camera at a trial, and a step to either side of every unknown: once for all matches.
+/// The sought camera at a trial, and a step to either side of every unknown: computed once for all
+/// matches.
 class RefinementTrial final : public ceres::EvaluationCallback {
  public:
   /// `sought` outlives it.

@@ -101,7 +101,7 @@ Result<Registration> trusted(const Registration& r, int least_inliers) {
                 " % of all directions: check the outlines, and that the pictures show the ball");
   }
   const auto sigma = sigmas(r);
-  // Not by the largest: what is not a number would not count.
+  // Comparing the largest would miss NaN.
   if (!std::ranges::all_of(sigma, [](double one) { return one <= kWidestSigma; })) {
     const double widest = std::ranges::max(sigma);
     return fail("the rotation is uncertain by " + rounded(widest) +

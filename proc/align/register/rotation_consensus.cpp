@@ -13,12 +13,12 @@ namespace {
 using optics::BallProjection;
 using optics::Mat3;
 
-constexpr int kLeastTrials = 200;           // so that a rival is met, too
+constexpr int kLeastTrials = 200;           // also finds a rival
 constexpr double kMissed = 1e-4;            // probability that no trial was right
-constexpr std::size_t kMostCandidates = 8;  // that are fitted before they are compared
-constexpr int kFitsOfEach = 8;              // of each
+constexpr std::size_t kMostCandidates = 8;  // candidates that are fitted before they are compared
+constexpr int kFitsOfEach = 8;              // rounds for each candidate
 
-/// Trial rotations, the best of those that are altogether different.
+/// Trial rotations; keeps the best of those that are altogether different.
 class ConsensusSearch {
  public:
   explicit ConsensusSearch(Sightings& sightings) : sightings_(sightings) {}
@@ -44,7 +44,7 @@ class ConsensusSearch {
     std::size_t inliers = 0;
   };
 
-  /// Enough that one was of two inliers.
+  /// Number of trials for which one uses two inliers with near certainty.
   int trials() const {
     const std::size_t most = found_.empty() ? 0 : found_.front().inliers;
     const double share = static_cast<double>(most) / static_cast<double>(sightings_.size());
@@ -83,7 +83,7 @@ class ConsensusSearch {
     if (found_.size() > kMostCandidates) found_.pop_back();
   }
 
-  /// Fitted to all that agree with it.
+  /// Fits a rotation to all matches that agree with it.
   Result<Mat3> fitted(Mat3 rotation) const {
     for (int round = 0; round < kFitsOfEach; ++round) {
       const auto inliers = agreeing(rotation, kAgreement);
@@ -95,7 +95,7 @@ class ConsensusSearch {
     return rotation;
   }
 
-  /// The best one fitted, and how many agree with the best of the others.
+  /// Fits the best candidate, and counts the matches that agree with the best of the others.
   Result<RotationConsensus> decided() {
     if (found_.empty()) return fail("no rotation agrees with any two features");
     std::vector<Found> fits;

@@ -13,14 +13,14 @@ namespace orbwatch::align {
 struct RotationConsensus {
   optics::Mat3 rotation;
   std::vector<Match> inliers;
-  std::size_t agreeing = 0;  ///< of the inliers: how many agree as exactly as they should
-  std::size_t rival = 0;  ///< how many so agree with the best rotation that is altogether different
-  std::optional<RoomCloseness> room;  ///< where no scene is stated: as the inliers tell it
+  std::size_t agreeing = 0;  ///< number of inliers within the expected accuracy
+  std::size_t rival = 0;     ///< the same for the best rotation that is altogether different
+  std::optional<RoomCloseness> room;  ///< set where no scene is stated: estimated from the inliers
 };
 
 /// RANSAC (Fischler and Bolles 1981) over pairs of matches. Each trial rotation moves the camera
-/// around the ball, so that what it sees is looked up in the scene anew. Reentrant; the same for
-/// the same matches. Error: those of optics::ball_projection, fewer than two matches.
+/// around the ball, so that its sights are looked up in the scene anew. Reentrant; deterministic.
+/// Error: those of optics::ball_projection, fewer than two matches.
 Result<RotationConsensus> agree_on_rotation(const std::vector<Match>& matches,
                                             const optics::BallProjection& reference,
                                             const SoughtCamera& sought);

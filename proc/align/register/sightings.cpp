@@ -16,20 +16,20 @@ using optics::Mat3;
 using optics::Vec3;
 
 constexpr int kTurningRounds =
-    2;  // of looking up what the turned camera sees, and turning it again
+    2;  // rounds of looking up the turned camera's sights, and turning it again
 
-// Of rooms of which nothing is stated.
+// Prior for rooms that are not stated.
 constexpr RoomCloseness kAnyRoom{0.05, 0.15};
-constexpr double kClosest = 0.3;            // of what a trial supposes
+constexpr double kClosest = 0.3;            // greatest closeness assumed in a trial
 constexpr double kLeastDepthSpread = 1e-3;  // closeness
-const double kExactness = kAgreement / 3;   // no walls that are not as stated
+const double kExactness = kAgreement / 3;   // tight, as there is no stated wall that may be wrong
 
-/// Too near to each other, or to opposite, to determine a rotation.
+/// True if two directions are too near to each other, or to opposite, to determine a rotation.
 bool is_narrow(double apart) {
   return apart < kDifferent || apart > optics::radians(180) - kDifferent;
 }
 
-/// Through the stated scene, which is looked up anew at each rotation.
+/// Sightings through the stated scene, which is looked up anew at each rotation.
 class SightingsInScene final : public Sightings {
  public:
   SightingsInScene(const std::vector<Match>& matches, const BallProjection& reference,
@@ -50,7 +50,7 @@ class SightingsInScene final : public Sightings {
   Result<std::optional<Mat3>> hypothesis(const std::array<std::size_t, 2>& chosen) override {
     const double apart = angle_between(seen_[chosen[0]], seen_[chosen[1]]);
     if (is_narrow(apart)) return std::nullopt;
-    // Far away and in its own frame at first.
+    // Starts far away and in the camera's own frame.
     Mat3 rotation;
     for (int round = 0; round <= kTurningRounds; ++round) {
       const auto ball = turned(sought_, rotation, *sought_.camera.outline);
@@ -103,10 +103,10 @@ class SightingsInScene final : public Sightings {
 
   const SoughtCamera& sought_;
   std::vector<Match> matches_;
-  std::vector<Vec3> seen_;  ///< by the reference camera, per match
+  std::vector<Vec3> seen_;  ///< directions of the reference camera, one per match
 };
 
-/// The small turn that lessens differences most.
+/// Solves for the small turn that reduces differences most.
 class TurnFit {
  public:
   /// `differs`: radians along `way`, across the direction `at`.
@@ -118,12 +118,12 @@ class TurnFit {
   Vec3 turn() const { return inverse(normal_) * right_; }
 
  private:
-  Mat3 normal_;  // the identity is nearly nothing: defined without any
+  Mat3 normal_;  // starts as the identity, negligible against any match: invertible without one
   Vec3 right_;
 };
 
-/// Where no scene is stated: anything may be anywhere along both lines of sight, which turn with
-/// the camera.
+/// Sightings where no scene is stated: anything may be anywhere along both lines of sight, which
+/// turn with the camera.
 class SightingsAnywhere final : public Sightings {
  public:
   static Result<std::unique_ptr<Sightings>> make(const std::vector<Match>& matches,
@@ -170,7 +170,8 @@ class SightingsAnywhere final : public Sightings {
     return all;
   }
 
-  /// Gauss and Newton's step, by what differs across the parallax and, much less, along it.
+  /// A Gauss-Newton step from the differences across the parallax and, with much less weight, along
+  /// it.
   Result<Mat3> fitted(const Mat3& rotation,
                       const std::vector<std::size_t>& inliers) const override {
     TurnFit fit;
@@ -206,7 +207,7 @@ class SightingsAnywhere final : public Sightings {
     LineOfSight camera;
   };
 
-  /// Far away more often than near.
+  /// Random closeness; far more often than near.
   double any_closeness() {
     const double share = std::uniform_real_distribution<double>(0, 1)(random_);
     return kClosest * share * share;

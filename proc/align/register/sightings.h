@@ -13,13 +13,13 @@
 
 namespace orbwatch::align {
 
-/// Within what angle a match agrees with a trial rotation, radians.
+/// Largest angle at which a match agrees with a trial rotation, radians.
 inline const double kAgreement = optics::radians(1.5);
-/// Rotations, and directions, that differ by so much are altogether different.
+/// Angle from which on rotations, and directions, are altogether different, radians.
 inline const double kDifferent = optics::radians(8);
 
-/// Matches as directions, which depend on where the turned camera stands, and on the room. Not for
-/// two threads at once.
+/// Matches as directions, which depend on the turned camera's place and on the room. Not for two
+/// threads at once.
 class Sightings {
  public:
   Sightings() = default;
@@ -29,27 +29,27 @@ class Sightings {
 
   virtual std::size_t size() const = 0;
   virtual const Match& match(std::size_t n) const = 0;
-  /// Rotations worth a trial.
+  /// Most rotations worth a trial.
   virtual int most_trials() const = 0;
   /// A rotation from two matches; nullopt when they contradict each other.
   virtual Result<std::optional<optics::Mat3>> hypothesis(
       const std::array<std::size_t, 2>& chosen) = 0;
-  /// What both cameras see at each match, the sought one being turned: in the reference frame, and
-  /// in the sought camera's own.
+  /// Directions of each match in both cameras with the sought one turned: in the reference frame,
+  /// and in the sought camera's own.
   virtual Result<std::vector<std::optional<DirectionPair>>> pairs(
       const optics::Mat3& rotation) const = 0;
   /// A rotation improved by the matches that agree with it.
   virtual Result<optics::Mat3> fitted(const optics::Mat3& rotation,
                                       const std::vector<std::size_t>& inliers) const = 0;
-  /// Within what angle a match agrees with a rotation that is fitted well, radians.
+  /// Largest angle at which a match agrees with a well fitted rotation, radians.
   virtual double exactness() const = 0;
-  /// As the matches that agree tell it; nullopt where a scene is stated.
+  /// The room estimated from the agreeing matches; nullopt where a scene is stated.
   virtual std::optional<RoomCloseness> room(const optics::Mat3& rotation,
                                             const std::vector<std::size_t>& inliers) const = 0;
 };
 
-/// Through the scene of the sought camera's rig; where it states none, anything may be anywhere
-/// along both lines of sight. `sought` outlives them. Reentrant. Error: those of
+/// Sightings through the scene of the sought camera's rig; if it states none, anything may be
+/// anywhere along both lines of sight. `sought` outlives them. Reentrant. Error: those of
 /// optics::ball_projection.
 Result<std::unique_ptr<Sightings>> make_sightings(const std::vector<Match>& matches,
                                                   const optics::BallProjection& reference,

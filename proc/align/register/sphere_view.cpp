@@ -14,13 +14,15 @@ using optics::BallProjection;
 using optics::Vec3;
 using optics::ViewProjection;
 
-constexpr double kFaceWidth = 120;    // degrees: a cube's corner is 54.7 degrees from its face
-constexpr double kWidestAngle = 155;  // degrees from the camera; beyond, pixels are few and unsure
+constexpr double kFaceWidth = 120;  // degrees: a cube's corner is 54.7 degrees from its face
+constexpr double kWidestAngle =
+    155;  // degrees from the camera; pixels beyond are few and inaccurate
 
 constexpr std::array<optics::YawPitchRoll, 6> kFaces{
     {{0, 0, 0}, {90, 0, 0}, {180, 0, 0}, {-90, 0, 0}, {0, 90, 0}, {0, -90, 0}}};
 
-/// Where each of the view's pixels lies in the source, not a number where nothing is to be shown.
+/// The source coordinates of each of the view's pixels; far outside of the source where nothing is
+/// shown.
 cv::Mat source_map(const ViewProjection& view, const BallProjection& ball,
                    const std::optional<double>& closeness) {
   const double cosine = std::cos(optics::radians(kWidestAngle));
@@ -58,7 +60,7 @@ Result<std::vector<SphereFace>> sphere_faces(const cv::Mat& luminance, const Bal
   const double focal_length = optics::degrees(pixels_per_degree);
   const int side =
       static_cast<int>(std::ceil(4 * focal_length * std::tan(optics::radians(kFaceWidth / 4))));
-  // So fine a source would alias.
+  // A source finer than the view would alias.
   const double coarser = best_resolution(ball) / pixels_per_degree;
   cv::Mat source = luminance;
   if (coarser > 1.2) {

@@ -11,21 +11,21 @@
 
 namespace orbwatch::align {
 
-/// A sixth of what a ball shows and its surroundings, seen from the ball's centre: stereographic,
-/// which keeps small shapes, and un-mirrored.
+/// A sixth of the ball's reflection and its surroundings, seen from the ball's centre:
+/// stereographic, which keeps small shapes, and un-mirrored.
 struct SphereFace {
   optics::ViewProjection view;
-  cv::Mat pixels;  ///< as the source's type
+  cv::Mat pixels;  ///< of the source's type
   cv::Mat shown;   ///< 8 bit, 255 where the ball shows it well enough
 };
 
-/// Which of the six faces a direction belongs to: its index among sphere_faces(). Reentrant.
+/// Index among sphere_faces() of the face that a direction belongs to. Reentrant.
 std::size_t face_of(const optics::Vec3& direction);
 
-/// All around a ball, in the ball projection's reference frame, at `pixels_per_degree` in the
-/// middle of each face. `luminance`: the camera's picture, one channel. What is nearer than some
-/// degrees to the limb, outside of the picture or behind the ball is not shown. `closeness`: ball
-/// radius / distance of everything, instead of the projection's scene. Reentrant.
+/// Renders everything around a ball, in the ball projection's reference frame, at
+/// `pixels_per_degree` in the middle of each face. `luminance`: the camera's picture, one channel.
+/// Places within some degrees of the limb, outside of the picture or behind the ball are not shown.
+/// `closeness`: ball radius / distance of everything, instead of the projection's scene. Reentrant.
 /// Error: a resolution that is too large for a picture.
 Result<std::vector<SphereFace>> sphere_faces(const cv::Mat& luminance,
                                              const optics::BallProjection& ball,
@@ -39,10 +39,10 @@ inline std::optional<optics::Vec2> pixel_of(const optics::BallProjection& ball,
   return closeness ? ball.pixel(direction, *closeness) : ball.pixel(direction);
 }
 
-/// A camera's pixels per degree where its ball shows most. Reentrant.
+/// A camera's pixels per degree where its ball has the highest resolution. Reentrant.
 double best_resolution(const optics::BallProjection& ball);
 
-/// A picture's luminance as 8 bit, from its darkest to its brightest percent. Reentrant.
+/// A picture's luminance stretched to 8 bit, from its darkest to its brightest percent. Reentrant.
 cv::Mat stretched(const cv::Mat& luminance);
 
 }  // namespace orbwatch::align

@@ -29,13 +29,14 @@ cv::Ptr<cv::aruco::DetectorParameters> parameters() {
   auto p = cv::makePtr<cv::aruco::DetectorParameters>();
   p->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
   p->cornerRefinementMinAccuracy = 0.01;
-  // The white margin's outer edge is a square, too, and must not be taken for the same one.
+  // The white margin's outer edge is a square, too, and must not be merged with the border's.
   p->minMarkerDistanceRate = 0.01;
-  // Wider than two cells: a narrower window turns the black border into a frame with an inside.
+  // Windows are wider than two cells: a narrower one turns the black border into a frame with an
+  // inside.
   p->adaptiveThreshWinSizeMin = 45;
   p->adaptiveThreshWinSizeMax = 85;
   p->adaptiveThreshWinSizeStep = 40;
-  // Straight edges are a little bent in a view that takes them for far away.
+  // Straight edges are slightly bent in a view that assumes them to be far away.
   p->polygonalApproxAccuracyRate = 0.05;
   return p;
 }
@@ -53,7 +54,7 @@ struct Seen {
   double off_middle;
 };
 
-/// The tag as the ball's picture shows it; nullopt if a corner is beyond the view or the ball.
+/// The tag in the ball's picture; nullopt if a corner is beyond the view or the ball.
 std::optional<Seen> seen(int id, const std::vector<cv::Point2f>& corners,
                          const optics::BallProjection& ball, const optics::ViewProjection& view) {
   Seen out{{id, {}}, 0};
@@ -69,10 +70,10 @@ std::optional<Seen> seen(int id, const std::vector<cv::Point2f>& corners,
   return out;
 }
 
-/// Views of about one and a half times the picture's best resolution: half the limb's radius per
-/// rad.
+/// Side of a view with about one and a half times the picture's best resolution: half the limb's
+/// radius per rad.
 int view_side(const optics::Outline& outline) {
-  constexpr double kSides = 1.8;  // of a view of 100 degrees, per radius
+  constexpr double kSides = 1.8;  // side of a view of 100 degrees, per radius
   constexpr int kLeast = 300, kMost = 1600;
   return std::clamp(int(kSides * (outline.rx + outline.ry) / 2), kLeast, kMost);
 }

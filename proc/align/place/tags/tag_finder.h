@@ -11,17 +11,17 @@
 
 namespace orbwatch::align {
 
-/// A printed AprilTag of the family 36h11 that the ball shows. Corners as the tag is printed, of
-/// its black border: top left, top right, bottom right, bottom left.
+/// A printed AprilTag of the family 36h11 in the ball's picture. Corners of its black border as
+/// printed: top left, top right, bottom right, bottom left.
 struct FoundTag {
   int id = 0;
   std::array<optics::Vec2, 4> corners;  ///< pixels of the ball's picture
 };
 
-/// The tags that a ball shows, by id, each once. They are looked for in un-mirrored views of the
+/// Finds the tags in a ball's picture, sorted by id, each once, in un-mirrored views of the
 /// camera's own surroundings; neither its pose nor distances need be known. `lens`: none if the
-/// camera is not calibrated. Takes seconds. Reentrant. Error: no ball's outline, or a picture of
-/// another size than the lens.
+/// camera is not calibrated. Takes seconds. Reentrant. Error: the outline is not a ball's, or the
+/// picture's size is not the lens's.
 Result<std::vector<FoundTag>> find_tags(const Picture& picture, const optics::Outline& outline,
                                         const std::optional<optics::Lens>& lens);
 
