@@ -10,8 +10,8 @@
 
 namespace orbwatch {
 
-/// Largest side of a picture or view, pixels: a bound of memory against forged sizes, larger than
-/// any camera's. Fixed-point coordinates rely on it.
+/// Largest side of a picture or view, pixels: bounds the memory for forged sizes; larger than any
+/// camera's. Fixed-point coordinates rely on it.
 inline constexpr int kMaxSide = 16384;
 
 /// A non-owning picture in a format of kPixelFormats. Copying copies the reference, never the
@@ -65,7 +65,7 @@ struct BasicPicture {
 using Picture = BasicPicture<const std::byte>;
 using MutablePicture = BasicPicture<std::byte>;
 
-/// Samples as a picture of a format of one plane that they fit.
+/// Wraps samples as a picture of a one-plane format that they fit.
 template <class T>
 MutablePicture picture_of(PixelFormat format, const ImageView<T>& samples) {
   return MutablePicture::contiguous(format, samples.width, samples.height,

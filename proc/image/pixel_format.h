@@ -6,7 +6,7 @@
 
 namespace orbwatch {
 
-/// How the samples of a picture lie in memory, named as V4L2 and GenICam do. Multi-byte samples are
+/// Memory layout of a picture's samples, with the names of V4L2 and GenICam. Multi-byte samples are
 /// in the host's byte order.
 enum class PixelFormat : std::uint8_t {
   Grey,   ///< 8 bit luminance
@@ -20,15 +20,15 @@ enum class PixelFormat : std::uint8_t {
   I420,   ///< 8 bit Y, then planes of U and of V, each shared by 2x2 pixels; both sides are even
   Rgb,    ///< 8 bit R G B
   Bgr,    ///< 8 bit B G R
-  Bgra,   ///< 8 bit B G R and one that is ignored
+  Bgra,   ///< 8 bit B G R and an ignored one
   Rgb16,  ///< 16 bit R G B
 };
 
-/// How a picture's colour is given.
+/// Colour model of a picture.
 enum class ColourModel : std::uint8_t { Luminance, Yuv, Rgb };
 
-/// One plane of a format: samples of a pixel stand side by side; a subsampled plane has one pixel
-/// for 2^shift_x columns and 2^shift_y rows of the picture.
+/// One plane of a format: the samples of a pixel are adjacent; a subsampled plane has one pixel for
+/// 2^shift_x columns and 2^shift_y rows of the picture.
 struct PlaneInfo {
   int samples = 0;
   int shift_x = 0;
@@ -42,7 +42,7 @@ struct PixelFormatInfo {
   PixelFormat format;
   std::string_view name;
   ColourModel colour;
-  int bits;  ///< of a sample that count
+  int bits;  ///< significant bits of a sample
   std::array<PlaneInfo, kMaxPlanes> planes;
 
   constexpr int bytes_per_sample() const { return bits > 8 ? 2 : 1; }
@@ -71,7 +71,7 @@ inline constexpr std::array kPixelFormats{
     PixelFormatInfo{PixelFormat::Rgb16, "rgb16", ColourModel::Rgb, 16, {{{3}}}},
 };
 
-/// The facts about `format`; the table above stands in the order of the enum.
+/// The description of `format`; the table above is in the order of the enum.
 constexpr const PixelFormatInfo& info(PixelFormat format) {
   return kPixelFormats[static_cast<std::size_t>(format)];
 }
@@ -94,8 +94,8 @@ constexpr std::size_t picture_bytes(PixelFormat format, std::size_t stride, int 
   return bytes;
 }
 
-/// From Y'CbCr to R'G'B' as a camera states it (ITU-R BT.601 or BT.709; limited 16..235 or full
-/// 0..255).
+/// Conversion from Y'CbCr to R'G'B' that a camera states (ITU-R BT.601 or BT.709; limited 16..235
+/// or full 0..255).
 enum class ColourMatrix : std::uint8_t { Bt601, Bt709 };
 enum class ColourRange : std::uint8_t { Limited, Full };
 struct ColourSpace {

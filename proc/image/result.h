@@ -6,7 +6,7 @@
 
 namespace orbwatch {
 
-/// What went wrong, in one line for an operator: what, where, and what would be right.
+/// An error in one line for an operator: its kind, its place, and the remedy.
 struct Error {
   std::string message;
 };
@@ -15,7 +15,7 @@ struct Error {
 template <class T = void>
 using Result = tl::expected<T, Error>;
 
-/// `return fail("...")` from a function that returns a Result.
+/// Shorthand for `return fail("...")` in a function that returns a Result.
 inline tl::unexpected<Error> fail(std::string message) {
   return tl::unexpected<Error>(Error{std::move(message)});
 }

@@ -9,7 +9,8 @@
 
 namespace orbwatch {
 
-/// Leaves new elements as the memory is: what is never written to never becomes resident.
+/// Allocator that leaves new elements uninitialised: pages that are never written to never become
+/// resident.
 template <class T>
 struct UntouchedAllocator : std::allocator<T> {
   template <class U>
@@ -22,7 +23,7 @@ struct UntouchedAllocator : std::allocator<T> {
   // NOLINTNEXTLINE(google-explicit-constructor): rebinding
   UntouchedAllocator(const UntouchedAllocator<U>&) noexcept {}
 
-  /// Allocation makes such elements, whatever they are.
+  /// Default-constructs an uninitialised element.
   template <class U>
   void construct(U*) noexcept {
     static_assert(std::is_trivially_copyable_v<U>);
@@ -33,7 +34,8 @@ struct UntouchedAllocator : std::allocator<T> {
   }
 };
 
-/// Elements of resize() are not initialised, not even by their own initialisers.
+/// A vector whose resize() leaves elements uninitialised, even those with initialisers of their
+/// own.
 template <class T>
 using UntouchedVector = std::vector<T, UntouchedAllocator<T>>;
 

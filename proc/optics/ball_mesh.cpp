@@ -16,10 +16,10 @@ namespace {
 constexpr double kTolerance = 1.0 / 32;  // px of the Ball view
 constexpr double kCellDegrees = 8;       // the largest cells
 constexpr unsigned kDivisions = 5;       // the smallest are a 32nd of these
-// Ball radii: what is further is drawn there, as far as directions go the same.
+// Distance, ball radii, at which everything further is drawn; directions stay the same.
 constexpr double kFarthest = 1e4;
 
-/// Places of one face: a lattice of equal angles, as seen from the ball's centre, along both sides.
+/// Lattice of one face with equal angles, as seen from the ball's centre, along both sides.
 class FaceLattice {
  public:
   explicit FaceLattice(const SceneProxy::Face& face)
@@ -31,7 +31,7 @@ class FaceLattice {
   int columns() const { return along_.cells; }
   int rows() const { return across_.cells; }
 
-  /// In units of the smallest cells.
+  /// Lattice point; column and row count the smallest cells.
   Vec3 at(std::uint32_t column, std::uint32_t row) const {
     return face_.corner + along_.unit * offset(along_, column) +
            across_.unit * offset(across_, row);
@@ -40,7 +40,7 @@ class FaceLattice {
  private:
   struct Side {
     Vec3 unit;
-    double low;          ///< of the corner, from the foot of the perpendicular
+    double low;          ///< coordinate of the corner, from the foot of the perpendicular
     double first, last;  ///< angles, radians
     int cells;
   };
@@ -94,7 +94,7 @@ class MeshBuilder {
     std::uint32_t node = kUnused;
   };
 
-  /// Sets the distant ball's picture to the exact one of a far room around the direction that faces
+  /// Fits the distant ball's picture to the exact one of a far room around the direction that faces
   /// the camera: there the half-way vector turns half as far as the direction.
   void predict() {
     constexpr double kStep = 1e-4;  // radians
@@ -113,7 +113,7 @@ class MeshBuilder {
     }
   }
 
-  /// On the surface, in the direction of `point`.
+  /// The corner on the surface in the direction of `point`.
   Corner corner_at(const Vec3& point) const {
     const Vec3 direction = normalized(point);
     const double closeness = std::max(0.0, ball_.proxy().closeness(surface_, direction));
@@ -132,7 +132,7 @@ class MeshBuilder {
     return corners_.emplace(key, corner_at(lattice_->at(column, row))).first->second;
   }
 
-  /// Whether the offset is linear on a straight line on the surface, within the tolerance.
+  /// True if the offset is linear, within the tolerance, along a straight line on the surface.
   bool is_straight(const Corner& from, const Corner& to) const {
     const Corner middle = corner_at((from.position + to.position) * 0.5);
     return middle.offset &&
@@ -173,7 +173,8 @@ class MeshBuilder {
   const BallProjection& ball_;
   const FaceLattice* lattice_ = nullptr;
   int surface_ = 0;
-  std::unordered_map<std::uint64_t, Corner> corners_;  ///< of the face; references stay valid
+  std::unordered_map<std::uint64_t, Corner>
+      corners_;  ///< the current face's; references stay valid
   BallMesh mesh_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace orbwatch::optics {
 
-/// What one camera sees on the ball, as triangles that a graphics processor draws as seen from the
+/// One camera's view of the ball as triangles that a graphics processor draws as seen from the
 /// ball's centre, the nearer before the further. The pixel of the Ball view that shows a point is
 ///   centre + (u . h, v . h) + offset,  h = the unit vector half way from `facing` to the point,
 /// where only the offset is interpolated. The first terms are a distant ball's picture; they leave
@@ -25,17 +25,19 @@ struct BallMesh {
   Vec3 v;
   std::vector<Node> nodes;
   std::vector<std::uint32_t> triangles;  ///< three nodes each
-  std::vector<std::uint32_t> blind;      ///< the same in the blind cone: they hide what is behind
+  std::vector<std::uint32_t>
+      blind;  ///< the same in the blind cone: they hide everything behind them
 
-  /// Without the offset.
+  /// The pixel without the offset.
   Vec2 distant(const Vec3& position) const {
     const Vec3 half_way = normalized(normalized(position) + facing);
     return {centre.u + dot(u, half_way), centre.v + dot(v, half_way)};
   }
 };
 
-/// Exact to 1/32 px but at the blind cone, which begins up to 1/4 degree early. Triangles lie on
-/// the scene's faces, also where another hides them. `view`: of kind Ball.
+/// Builds the mesh, exact to 1/32 px except at the blind cone, which begins up to 1/4 degree early.
+/// Triangles lie on the scene's faces, including parts that another face hides. `view`: of kind
+/// Ball.
 BallMesh ball_mesh(const ViewProjection& view);
 
 }  // namespace orbwatch::optics

@@ -33,7 +33,7 @@ Result<double> checked_distance(double distance) {
               " ball radii; it must be above 1: the camera stands outside the ball");
 }
 
-// sin(alpha/2), exact towards 360 degrees too.
+// sin(alpha/2), exact up to 360 degrees.
 double inverse_distance(double alpha) { return std::sin(radians((360 - alpha) / 2)); }
 
 }  // namespace

@@ -9,11 +9,11 @@
 namespace orbwatch::optics {
 namespace {
 
-/// A ray through a window and its displacement depend on each other. Each iteration improves by
-/// about thickness / distance to the ball, so that a few are enough; a ray almost along the glass
-/// may not converge and is not shown.
+/// Iterations for a ray through a window and its displacement, which depend on each other. Each
+/// iteration improves by about thickness / distance to the ball, so that a few suffice; a ray
+/// almost along the glass may not converge and is not shown.
 constexpr int kWindowRounds = 50;
-constexpr double kWindowTolerance = 1e-12;  // of that distance: radians
+constexpr double kWindowTolerance = 1e-12;  // share of that distance: radians
 
 Result<> check_standing(const CalibratedCamera& camera, const Ball& ball) {
   const Vec3 offset = camera.pose.position - ball.centre;
@@ -51,14 +51,14 @@ std::optional<BallProjection::Viewpoint::Scaled> BallProjection::Viewpoint::plac
   const double cosine = dot(direction, facing);
   const Vec3 across = direction - facing * cosine;
   const auto stretch = model.stretch(cosine, dot(across, across), closeness);
-  // Straight behind the ball an orthographic camera's whole limb shows the same.
+  // An orthographic camera's whole limb shows the point straight behind the ball.
   if (!stretch || !(stretch->along > 0)) return std::nullopt;
   return Scaled{across, *stretch};
 }
 
 void BallProjection::Viewpoint::places(const Vec3Lanes& directions, const Lanes& closeness,
                                        ScaledLanes& out) const {
-  const Vec3 axis = facing;  // so that no store into `out` could change it
+  const Vec3 axis = facing;  // a copy, so that no store into `out` could change it
   Lanes cosine, sin2;
   for (std::size_t k = 0; k < kLanes; ++k) {
     const Vec3 direction = directions.at(k);
@@ -232,7 +232,7 @@ std::optional<Vec3> BallProjection::direction(const Vec2& pixel) const {
 std::optional<Outline> BallProjection::outline() const {
   const auto* camera = std::get_if<CalibratedCamera>(&picture_);
   if (!camera) return std::get<LimbPicture>(picture_).outline;
-  // Camera frame and ball radii.
+  // Convert to camera frame and ball radii.
   const Mat3& rotation = camera->pose.rotation;
   Window window = camera->window.value_or(Window{});
   window.normal = rotation * window.normal;

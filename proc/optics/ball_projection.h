@@ -14,8 +14,8 @@
 
 namespace orbwatch::optics {
 
-/// Where a camera stands: x_camera = rotation (X - position). The rotation's rows are the camera's
-/// axes (right, down, forward) in the machine frame; position in mm.
+/// A camera's pose: x_camera = rotation (X - position). The rotation's rows are the camera's axes
+/// (right, down, forward) in the machine frame; position in mm.
 struct Pose {
   Mat3 rotation;
   Vec3 position;
@@ -28,7 +28,7 @@ struct CalibratedCamera {
   std::optional<Window> window;
 };
 
-/// Where one camera shows the room on the ball. Reentrant, immutable.
+/// One camera's projection of the room by the ball. Reentrant, immutable.
 ///
 /// Directions are unit vectors from the ball's centre in the reference (machine) frame. With a
 /// scene proxy a direction is that of the machine's point there, so that cameras agree; else, and
@@ -36,15 +36,15 @@ struct CalibratedCamera {
 /// another, as seen from the ball's surface but not from its centre, is not modelled.
 class BallProjection {
  public:
-  /// An uncalibrated camera: the limb in its picture and a registration. It is on +Y of
-  /// the ball and looks along -Y, image right = -X, image up = +Z; v_reference = registration
-  /// v_camera. Error: no ellipse, no rotation.
+  /// An uncalibrated camera: the limb in its picture and a registration. It is on +Y of the ball
+  /// and looks along -Y, image right = -X, image up = +Z; v_reference = registration v_camera.
+  /// Error: not an ellipse, not a rotation.
   static Result<BallProjection> make(const BallModel& model, const Outline& outline,
                                      const Mat3& registration, const Ball& ball = {},
                                      const SceneProxy& proxy = {});
 
-  /// A calibrated camera. Error: no rotation, numbers that are not finite, a camera inside of the
-  /// ball or behind whose lens the ball stands, a bad window.
+  /// A calibrated camera. Error: not a rotation, numbers that are not finite, a camera inside of
+  /// the ball, a ball behind the lens, a bad window.
   static Result<BallProjection> make(BallModel::Kind kind, const CalibratedCamera& camera,
                                      const Ball& ball, const SceneProxy& proxy = {});
 
@@ -53,35 +53,35 @@ class BallProjection {
   std::optional<Vec2> pixel(const Vec3& direction) const;
 
   /// The same for a point there at `closeness` = ball radius / distance from the ball's centre,
-  /// instead of the proxy's. Smooth in both, also a little beyond closeness 0.
+  /// instead of the proxy's. Smooth in both, also slightly beyond closeness 0.
   std::optional<Vec2> pixel(const Vec3& direction, double closeness) const;
 
-  /// The same for many; not a number for nullopt.
+  /// The same for kLanes directions; NaN for nullopt.
   void pixels(const Vec3Lanes& directions, const Lanes& closeness, Vec2Lanes& out) const;
 
   /// The reflected ray of `pixel`: it starts on the ball, machine frame, mm. nullopt outside the
   /// limb.
   std::optional<Ray> ray(const Vec2& pixel) const;
 
-  /// The direction to where the ray of `pixel` meets the scene. nullopt outside the limb.
+  /// The direction to the point where the ray of `pixel` meets the scene. nullopt outside the limb.
   std::optional<Vec3> direction(const Vec2& pixel) const;
 
   /// The limb in the picture; nullopt when the lens does not show all of it.
   std::optional<Outline> outline() const;
 
-  /// From the ball's centre towards the camera: the best-resolved direction.
+  /// Direction from the ball's centre towards the camera: the best-resolved one.
   const Vec3& facing() const { return viewpoint_.facing; }
-  /// Camera to the ball's centre in ball radii; infinite for an orthographic one.
+  /// Distance from the camera to the ball's centre in ball radii; infinite for an orthographic one.
   double distance() const { return viewpoint_.distance; }
   const SceneProxy& proxy() const { return proxy_; }
   const Ball& ball() const { return ball_; }
 
  private:
-  /// The camera as the ball sees it; behind a window, where it seems to stand for one of its rays.
+  /// The camera relative to the ball; behind a window, its apparent place for one of its rays.
   ///
-  /// What the ball's picture shows is a place across the axis: rho times the unit vector, in the
-  /// machine frame, from the axis towards what lies there. It is the camera ray's offset from the
-  /// axis as a share of the limb's.
+  /// The ball's picture consists of places across the axis: rho times the unit vector, in the
+  /// machine frame, from the axis towards the thing shown. A place is the camera ray's offset from
+  /// the axis as a share of the limb's.
   struct Viewpoint {
     Vec3 facing;
     double distance;  ///< ball radii
@@ -89,22 +89,22 @@ class BallProjection {
     double tan_limb;  ///< tan psi_max; 0 for an orthographic camera
 
     Viewpoint(const Vec3& unit_facing, double distance_in_radii, const BallModel& ball_model);
-    /// Of a camera at `offset` from the ball's centre, ball radii.
+    /// For a camera at `offset` from the ball's centre, ball radii.
     Viewpoint(const Vec3& offset, BallModel::Kind kind);
 
-    /// A direction's part across the axis times a number is its place.
+    /// A place as a direction's part across the axis and its factor.
     struct Scaled {
       Vec3 across;
       Stretch stretch;
     };
     std::optional<Scaled> place(const Vec3& direction, double closeness) const;
-    /// Shown if `along` is above 0.
+    /// Lanes with `along` above 0 are shown.
     struct ScaledLanes {
       Vec3Lanes across;
       StretchLanes stretch;
     };
     void places(const Vec3Lanes& directions, const Lanes& closeness, ScaledLanes& out) const;
-    /// Camera ray of any length.
+    /// Camera ray, not normalised.
     Vec3 camera_ray(const Scaled& place) const {
       return place.across * (place.stretch.across * tan_limb) - facing * place.stretch.along;
     }

@@ -5,8 +5,8 @@
 
 #include "proc/optics/vec.h"
 
-/// kLanes numbers, points or directions by component, for loops that compilers vectorize. The
-/// nullopt of a scalar function is not-a-number here.
+/// kLanes numbers, points or directions by component, for loops that compilers vectorize. NaN
+/// replaces the nullopt of a scalar function.
 namespace orbwatch::optics {
 
 inline constexpr std::size_t kLanes = 32;

@@ -12,7 +12,7 @@ namespace {
 
 using Coefficients = std::array<double, 8>;
 
-/// A radial function f at one place: f(r) / r and f'(r). Both 0 where it has a pole.
+/// A radial function f at one place: f(r) / r and f'(r). Both are 0 at a pole.
 struct Radial {
   double ratio;
   double slope;
@@ -35,7 +35,7 @@ Radial fisheye_radial(const Coefficients& k, double angle) {
           1 + a2 * (3 * k[0] + a2 * (5 * k[1] + a2 * (7 * k[2] + a2 * 9 * k[3])))};
 }
 
-/// The pinhole's distorted point and the derivative of it, which is symmetric: uu, uv, vv.
+/// The pinhole's distorted point and its derivative, which is symmetric: uu, uv, vv.
 struct Distorted {
   Vec2 point;
   double uu, uv, vv;
@@ -45,7 +45,7 @@ Distorted distort(const Coefficients& k, const Vec2& x) {
   const double p1 = k[2], p2 = k[3];
   const double r2 = x.u * x.u + x.v * x.v;
   const Radial radial = pinhole_radial(k, r2);
-  const double along = p2 * x.u + p1 * x.v;  // of the decentring, times the radius
+  const double along = p2 * x.u + p1 * x.v;  // the decentring, times the radius
   const double scale = radial.ratio + 2 * along;
   // slope - ratio = r d(ratio)/dr: the part of the ratio's own change.
   const double change = r2 > 0 ? (radial.slope - radial.ratio) / r2 : 0;
@@ -55,11 +55,11 @@ Distorted distort(const Coefficients& k, const Vec2& x) {
           scale + change * x.v * x.v + 4 * p1 * x.v};
 }
 
-/// Whether the pinhole's distortion keeps its sense everywhere at this radius: its derivative, in
-/// directions along and across the radius
+/// True if the pinhole's distortion keeps its orientation everywhere at this radius: its
+/// derivative, in directions along and across the radius
 ///   [ slope + 6 r a   2 r b         ]   with a^2 + b^2 = p1^2 + p2^2,
 ///   [ 2 r b           ratio + 2 r a ]
-/// is positive definite. In a disc where it is so, no two points have the same image.
+/// is positive definite. In a disc with this property no two points have the same image.
 bool keeps_sense(const Coefficients& k, double r) {
   const Radial radial = pinhole_radial(k, r * r);
   const double decentring = r * std::hypot(k[2], k[3]);
@@ -93,7 +93,7 @@ double fold(const Intrinsics& intrinsics) {
     case Distortion::None:
       break;
     case Distortion::Pinhole: {
-      // No pinhole lens looks within 0.1 degrees of sideways; the scan ends there.
+      // No pinhole lens reaches 89.9 degrees from its axis; the scan ends there.
       const auto tangent = [](double share) { return std::tan(share * radians(89.9)); };
       return last_good(tangent, [&](double r) { return keeps_sense(k, r); });
     }
@@ -134,7 +134,7 @@ std::optional<Vec2> undistort(const Coefficients& k, const Vec2& target, double 
     }
     if (!nearer) break;
   }
-  // What is left is rounding, or the target lies beyond the fold.
+  // The remaining error is rounding, or the target lies beyond the fold.
   if (!(error <= 1e-12 * (size + 1e-3))) return std::nullopt;
   return x;
 }
@@ -209,7 +209,7 @@ std::optional<Vec2> Lens::distorted_pixel(const Vec3& direction) const {
     const double across = std::hypot(direction.x, direction.y);
     const double angle = std::atan2(across, direction.z);
     if (!(angle <= limit_) || (across == 0 && !(direction.z > 0))) return std::nullopt;
-    // On the axis the angle equals the tangent; avoids a division by 0.
+    // The angle equals the tangent on the axis; avoids a division by 0.
     const double scale =
         fisheye_radial(i.coefficients, angle).ratio * (across > 0 ? angle / across : 0);
     point = {direction.x * scale, direction.y * scale};

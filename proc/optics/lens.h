@@ -9,12 +9,12 @@
 
 namespace orbwatch::optics {
 
-/// OpenCV's distortion models, in ROS' names: plumb_bob and rational_polynomial are one formula
-/// (Pinhole), equidistant is OpenCV's fisheye.
+/// OpenCV's distortion models: ROS' plumb_bob and rational_polynomial are one formula (Pinhole),
+/// equidistant is OpenCV's fisheye.
 enum class Distortion { None, Pinhole, Fisheye };
 
-/// A camera's calibration as OpenCV and ROS write it. Camera frame: x right, y down, z forward;
-/// pixels with centres at integers.
+/// A camera's calibration in the conventions of OpenCV and ROS. Camera frame: x right, y down, z
+/// forward; pixels with centres at integers.
 struct Intrinsics {
   int width = 0;
   int height = 0;
@@ -27,18 +27,18 @@ struct Intrinsics {
   std::array<double, 8> coefficients{};
 };
 
-/// From directions in the camera frame to pixels and back. Source: OpenCV's calib3d documentation.
-/// Only the injective part of the distortion is used: beyond the angle where the picture would fold
-/// back, functions return nullopt. Reentrant, immutable.
+/// Converts directions in the camera frame to pixels and back. Source: OpenCV's calib3d
+/// documentation. Only the injective part of the distortion is used: beyond the angle where the
+/// picture would fold back, functions return nullopt. Reentrant, immutable.
 class Lens {
  public:
   /// Error: sizes outside 1..kMaxSide, focal lengths that are not above 0, numbers that are not
-  /// finite, coefficients that the model does not have, a distortion that folds in the middle: not
-  /// even a tenth of the picture's shorter side away from the principal point.
+  /// finite, coefficients that the model does not have, a distortion that folds less than a tenth
+  /// of the picture's shorter side away from the principal point.
   static Result<Lens> make(const Intrinsics& intrinsics);
 
   /// The pixel that shows a direction (any length); it may lie outside of the picture. nullopt
-  /// beyond the fold or, but for a fisheye, behind the camera.
+  /// beyond the fold or, except for a fisheye, behind the camera.
   std::optional<Vec2> pixel(const Vec3& direction) const {
     return straight_ ? straight_pixel(direction) : distorted_pixel(direction);
   }
@@ -52,7 +52,7 @@ class Lens {
   explicit Lens(const Intrinsics& intrinsics);
 
   std::optional<Vec2> straight_pixel(const Vec3& direction) const {
-    // Below the smallest normal number 1 / z is infinite.
+    // 1 / z is infinite below the smallest normal number.
     if (!(direction.z >= std::numeric_limits<double>::min())) return std::nullopt;
     const double per_depth = 1 / direction.z;
     return Vec2{intrinsics_.fx * (direction.x * per_depth) + intrinsics_.cx,

@@ -7,14 +7,14 @@
 
 namespace orbwatch::optics {
 
-/// A distortion as ROS and OpenCV write it: the model's name and how many of
-/// Intrinsics::coefficients, from the first on, it has.
+/// A distortion in the terms of ROS and OpenCV: the model's name and the number of
+/// Intrinsics::coefficients, from the first on, that it has.
 struct NamedDistortion {
-  std::string_view model;  ///< a literal
+  std::string_view model;  ///< string literal
   std::size_t count = 0;
 };
 
-/// No distortion is plumb_bob with 0. Reentrant.
+/// No distortion is plumb_bob with zeros. Reentrant.
 inline NamedDistortion named_distortion(const Intrinsics& intrinsics) {
   const auto& k = intrinsics.coefficients;
   if (intrinsics.distortion == Distortion::Fisheye) return {"equidistant", 4};

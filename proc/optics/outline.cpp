@@ -11,20 +11,21 @@
 namespace orbwatch::optics {
 namespace {
 
-constexpr int kSamples = 64;  // of the limb; five would determine it
+constexpr int kSamples = 64;  // samples of the limb; five would determine it
 
 /// Angle of a sample on a circle, radians.
 double sample_angle(int sample) { return 2 * std::numbers::pi * sample / kSamples; }
 
 /// Two unit vectors that make a right-handed frame with the unit vector `axis`. The first one lies
-/// in a plane with the camera's z axis: to and from it the limb reaches farthest.
+/// in a plane with the camera's z axis: the limb's farthest points lie in its direction and
+/// opposite.
 std::array<Vec3, 2> across(const Vec3& axis) {
   const Vec3 beside = cross(axis, {0, 0, 1});
   const Vec3 second = norm(beside) > 1e-12 ? normalized(beside) : Vec3{0, 1, 0};
   return {cross(second, axis), second};
 }
 
-/// x with m x = right_side.
+/// Solves m x = right_side.
 Vec3 solve(const Mat3& m, const Vec3& right_side) {
   const Vec3 c0 = cross(m.row1, m.row2), c1 = cross(m.row2, m.row0), c2 = cross(m.row0, m.row1);
   return (c0 * right_side.x + c1 * right_side.y + c2 * right_side.z) * (1 / dot(m.row0, c0));
@@ -32,7 +33,7 @@ Vec3 solve(const Mat3& m, const Vec3& right_side) {
 
 using Rays = std::array<Vec3, kSamples>;
 
-/// The axis of the cone on which the unit vectors `rays` lie best: w . x = 1 by least squares.
+/// The axis of the cone that fits the unit vectors `rays` best: w . x = 1 by least squares.
 /// Coordinates along and across the mean ray, the latter in units of the cone's width: a narrow
 /// cone's equations would lose digits otherwise.
 Vec3 cone_axis(const Rays& rays) {
@@ -55,7 +56,7 @@ Vec3 cone_axis(const Rays& rays) {
   return normalized(first * (x.x / width) + second * (x.y / width) + mean * x.z);
 }
 
-/// The ball's centre such that the limb's rays, displaced by a window, touch the unit sphere around
+/// The ball's centre for which the limb's rays, displaced by a window, touch the unit sphere around
 /// it. Newton's method on the squared distances of the rays from the centre, from a first guess.
 Vec3 behind_window(Vec3 centre, const Rays& rays, const Window& window) {
   for (int step = 0; step < 20; ++step) {
@@ -63,7 +64,7 @@ Vec3 behind_window(Vec3 centre, const Rays& rays, const Window& window) {
     Vec3 right_side;
     for (const Vec3& ray : rays) {
       const Vec3 towards = centre - displacement(window, ray);
-      const Vec3 foot = towards - ray * dot(ray, towards);  // half the derivative, too
+      const Vec3 foot = towards - ray * dot(ray, towards);  // also half the derivative
       normal.row0 = normal.row0 + foot * foot.x;
       normal.row1 = normal.row1 + foot * foot.y;
       normal.row2 = normal.row2 + foot * foot.z;
@@ -76,8 +77,8 @@ Vec3 behind_window(Vec3 centre, const Rays& rays, const Window& window) {
   return centre;
 }
 
-/// The ray that touches the ball at an angle around the axis, where it leaves the camera. A window
-/// displaces the cone's tip for each ray on its own, by little: a few repetitions settle it.
+/// The ray, where it leaves the camera, that touches the ball at an angle around the axis. A window
+/// displaces the cone's tip separately for each ray, by little: a few iterations converge.
 Vec3 limb_ray(const BallSight& sight, const Window& window, double angle) {
   const auto [first, second] = across(sight.axis);
   const Vec3 side = first * std::cos(angle) + second * std::sin(angle);
@@ -111,8 +112,8 @@ std::array<double, N> solve(std::array<std::array<double, N + 1>, N> rows) {
   return x;
 }
 
-/// The ellipse a u^2 + b uv + c v^2 + d u + e v = 1 in the outline's terms; nullopt when it is a
-/// parabola or hyperbola.
+/// The ellipse a u^2 + b uv + c v^2 + d u + e v = 1 as an Outline; nullopt when it is a parabola or
+/// hyperbola.
 std::optional<Outline> ellipse(const std::array<double, 5>& conic) {
   const auto [a, b, c, d, e] = conic;
   const double discriminant = 4 * a * c - b * b;
@@ -127,7 +128,7 @@ std::optional<Outline> ellipse(const std::array<double, 5>& conic) {
   return Outline{centre, 1 / std::sqrt(mean - half), 1 / std::sqrt(mean + half), degrees(angle)};
 }
 
-/// The ellipse that fits the points best; about their centre and in units of their spread, so that
+/// Fits the best ellipse to the points; about their centre and in units of their spread, so that
 /// the equations are well conditioned.
 std::optional<Outline> fit_ellipse(const std::array<Vec2, kSamples>& points) {
   Vec2 mean;

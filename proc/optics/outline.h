@@ -7,8 +7,8 @@
 
 namespace orbwatch::optics {
 
-/// The ball's limb in a picture: an ellipse in pixels (OpenCV convention). `angle`, degrees: of the
-/// rx axis, from u towards v. A circle has rx = ry.
+/// The ball's limb in a picture: an ellipse in pixels (OpenCV convention). `angle`, degrees: that
+/// of the rx axis, from u towards v. A circle has rx = ry.
 struct Outline {
   Vec2 centre;
   double rx = 0;
@@ -35,13 +35,14 @@ struct BallSight {
 /// The ball's position from its limb and a known lens, on or off the optical axis: the limb's rays
 /// lie on a circular cone, a . w = cos(psi_max), which a linear fit over the ellipse's points
 /// solves; 1/distance = sin(psi_max). `window`: a glass before the lens, normal in the camera
-/// frame, thickness in ball radii; none when that is 0. Error: no ellipse, a limb that the lens
-/// cannot show, or one that is no ball's (rays off the cone by more than 5 % of its aperture).
+/// frame, thickness in ball radii; thickness 0 means none. Error: not an ellipse, a limb that the
+/// lens cannot show, or one that is not a ball's (rays off the cone by more than 5 % of its
+/// aperture).
 Result<BallSight> sight_from_outline(const Outline& outline, const Lens& lens,
                                      const Window& window = {});
 
-/// The limb of a ball seen like that: an ellipse, exact without distortion and window, else the
-/// best fit. `window` as above. Error: the lens does not show the whole limb.
+/// The limb of a ball in that position: an ellipse, exact without distortion and window, else the
+/// best fit. `window`: see sight_from_outline(). Error: the lens does not show the whole limb.
 Result<Outline> outline_from_sight(const BallSight& sight, const Lens& lens,
                                    const Window& window = {});
 

@@ -9,11 +9,11 @@
 namespace orbwatch::optics {
 namespace {
 
-// Radians: far below a pixel, far above what rounding leaves of a difference.
+// Step in radians: far below a pixel, far above the rounding of a difference.
 constexpr double kStep = 1e-5;
 
 /// Pixels per radian when the direction moves along `tangent` on the surface that lies there, also
-/// beyond its edges; one-sided where the blind cone begins on the other side. Nothing when it
+/// beyond its edges; one-sided where the blind cone begins on the other side. nullopt when it
 /// begins on both.
 std::optional<Vec2> derivative(const BallProjection& ball, const Vec3& direction,
                                const Vec2& centre, const Vec3& tangent) {
@@ -28,8 +28,8 @@ std::optional<Vec2> derivative(const BallProjection& ball, const Vec3& direction
   return Vec2{(to.u - from.u) / span, (to.v - from.v) / span};
 }
 
-/// Unit vectors perpendicular to `direction` and to each other: around the axis of the ball's
-/// picture, so that the limb is as near on either side, and away from it.
+/// Unit vectors perpendicular to `direction` and to each other: one around the axis of the ball's
+/// picture, for which the limb is equally near on either side, and one away from it.
 std::pair<Vec3, Vec3> tangents(const Vec3& direction, const Vec3& axis) {
   const Vec3 around = cross(direction, axis);
   const Vec3 aside = std::abs(direction.z) < 0.7 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};

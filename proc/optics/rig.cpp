@@ -6,7 +6,7 @@
 namespace orbwatch::optics {
 namespace {
 
-/// What a camera needs and must not have, before anything is computed.
+/// Checks for required and excluded members before anything is computed.
 Result<> check_parts(const RigCamera& camera) {
   if (camera.pose.has_value() == camera.outline.has_value()) {
     return fail("give either a pose or the ball's outline");
@@ -29,7 +29,7 @@ Result<> check_parts(const RigCamera& camera) {
   return {};
 }
 
-/// A window, given in the machine frame in mm, in the camera's frame and ball radii.
+/// Converts a window from the machine frame and mm to the camera's frame and ball radii.
 Window seen_by(const Mat3& camera, const Ball& ball, const Window& window) {
   return {camera * window.normal, window.thickness / ball.radius, window.index};
 }

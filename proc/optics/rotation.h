@@ -16,14 +16,14 @@ struct YawPitchRoll {
 /// The rotation R = yaw pitch roll. Its columns are the rotated axes: right, forward, up.
 Mat3 rotation(const YawPitchRoll& angles);
 
-/// The angles of a rotation, pitch in [-90, 90]; at pitch +-90 roll is taken as 0. The inverse of
+/// The angles of a rotation, pitch in [-90, 90]; roll is 0 at pitch +-90. The inverse of
 /// rotation().
 YawPitchRoll yaw_pitch_roll(const Mat3& rotation);
 
-/// Where a unit vector points: roll is 0.
+/// The yaw and pitch of a unit vector; roll is 0.
 YawPitchRoll yaw_pitch(const Vec3& direction);
 
-/// `matrix` itself if it is a rotation: orthonormal and right-handed to 1e-6. Error otherwise.
+/// Returns `matrix` if it is a rotation: orthonormal and right-handed to 1e-6. Error otherwise.
 Result<Mat3> checked_rotation(const Mat3& matrix);
 
 }  // namespace orbwatch::optics

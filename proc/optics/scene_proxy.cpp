@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// In ball radii. What is further has no parallax in double precision; squares stay finite.
+// Limit in ball radii. Everything further has no parallax in double precision; squares stay finite.
 constexpr double kLargestCoordinate = 1e9;
 
 constexpr int kWalls = 6;
@@ -40,14 +40,14 @@ Result<> check_box(const std::string& part, const Box& box) {
   return fail(part + ": low must be below high on every axis");
 }
 
-// From the ball's centre to the nearest point of a box; 0 within it.
+// Distance from the ball's centre to the nearest point of a box; 0 within it.
 double distance_to(const Box& box) {
   const auto outside = [](double low, double high) { return std::max({low, 0.0, -high}); };
   return norm({outside(box.low.x, box.high.x), outside(box.low.y, box.high.y),
                outside(box.low.z, box.high.z)});
 }
 
-// From the ball's centre within a box to the nearest wall; below 0 outside.
+// Distance from the ball's centre within a box to the nearest wall; below 0 outside.
 double clearance_within(const Box& box) {
   const Vec3 &low = box.low, &high = box.high;
   return std::min({-low.x, high.x, -low.y, high.y, -low.z, high.z});
@@ -67,11 +67,11 @@ Result<> check_obstacle(const std::string& part, const Box& box) {
   return {};
 }
 
-// A box's sides count 0 to 5: low x, high x, low y...
+// Index of a box's side, 0 to 5: low x, high x, low y...
 int face(std::size_t axis, bool high) { return 2 * static_cast<int>(axis) + (high ? 1 : 0); }
 
-/// Calls `edge(corner, axis)` for the twelve edges: bit n of a corner says that it stands at the
-/// high end of axis n; the edge runs from there along `axis`.
+/// Calls `edge(corner, axis)` for the twelve edges: bit n of a corner is set at the high end of
+/// axis n; the edge runs from there along `axis`.
 template <class Edge>
 void for_each_edge(const Edge& edge) {
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -88,7 +88,8 @@ std::pair<Vec3, Vec3> ends(const Axes& low, const Axes& high, unsigned corner, u
   return {at(corner), at(corner | 1U << axis)};
 }
 
-/// One of the faces that meet in the edge is turned towards the ball; else the box hides the edge.
+/// True if one of the faces that meet in the edge is turned towards the ball; else the box hides
+/// the edge.
 bool faces_ball(const Axes& low, const Axes& high, unsigned corner, unsigned axis) {
   for (unsigned other = 0; other < 3; ++other) {
     if (other == axis) continue;
@@ -108,7 +109,7 @@ SceneProxy::Face side(const Box& box, std::size_t axis, bool is_high, int surfac
   return {vector(corner), vector(along), vector(across), surface};
 }
 
-/// A little larger but along `axis`, so that no gap is seen where its faces meet.
+/// The box slightly enlarged except along `axis`, so that no gap shows where its faces meet.
 Box grown(const Axes& low, const Axes& high, std::size_t axis) {
   constexpr double kShare = 1e-3;
   Axes from = low, to = high;
@@ -221,8 +222,8 @@ SceneProxy::Hit SceneProxy::hit_room(const Vec3& direction) const {
   return {};
 }
 
-// The wall that is met first is the one with the greatest closeness, v / wall: a maximum, which
-// every direction has.
+// The first wall met is the one with the greatest closeness, v / wall: a maximum, which every
+// direction has.
 SceneProxy::Hit SceneProxy::hit_walls(const Vec3& direction) const {
   Hit hit;
   const auto v = by_axis(direction);
@@ -234,8 +235,8 @@ SceneProxy::Hit SceneProxy::hit_walls(const Vec3& direction) const {
   return hit;
 }
 
-// In terms of closeness s, the ray is within the box where low s <= v <= high s on every axis: the
-// faces turned towards the ball bound s from above, the others from below.
+// The ray at closeness s is within the box where low s <= v <= high s on every axis: the faces
+// turned towards the ball bound s from above, the others from below.
 SceneProxy::Hit SceneProxy::hit_obstacle(const Block& box, const Vec3& direction) {
   const auto v = by_axis(direction);
   Hit entry{kInfinity, -1};

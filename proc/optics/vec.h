@@ -8,7 +8,7 @@ namespace orbwatch::optics {
 constexpr double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 constexpr double degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
 
-/// A point or direction in space. Frames and units are the user's to state. Reentrant.
+/// A point or direction in space. The declaration that uses it states frame and units. Reentrant.
 struct Vec3 {
   double x = 0;
   double y = 0;
@@ -32,7 +32,7 @@ inline double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-/// A half-line in space; `direction` is a unit vector. Same frame and unit as the user states.
+/// A half-line in space; `direction` is a unit vector. Frame and unit are stated where it is used.
 struct Ray {
   Vec3 origin;
   Vec3 direction;

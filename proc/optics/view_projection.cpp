@@ -10,16 +10,16 @@
 namespace orbwatch::optics {
 namespace {
 
-// Below that a pixel's step would vanish in the directions' rounding.
+// Least field of view; a pixel's step would vanish in the directions' rounding below it.
 constexpr double kLeastFov = 1e-6;
 
-// A Ball view shows this much more than the limb's bounding box: alignment wants to see the limb.
+// Size of a Ball view relative to the limb's bounding box: alignment needs to see the limb.
 constexpr double kCropMargin = 1.02;
-// A Ball view's pixels that are so much larger or smaller than its camera's become these: nothing
-// is interpolated then, and half of the margin is left.
+// Relative difference up to which a Ball view's pixels are replaced by its camera's: nothing is
+// interpolated then, and half of the margin is left.
 constexpr double kOwnPixel = 0.01;
 
-// A pixel exactly on a fisheye's end must not fall beyond it by rounding.
+// Keeps a pixel exactly on a fisheye's end from falling beyond it by rounding.
 constexpr double kHalfTurn = std::numbers::pi * (1 + 1e-12);
 
 struct Limit {
@@ -33,7 +33,7 @@ struct FieldOfView {
   Limit v;
 };
 
-/// In the order of ViewKind.
+/// Sorted in the order of ViewKind.
 constexpr std::array<FieldOfView, 6> kFieldsOfView{{
     {90, {180, false}, {180, false}},   // Perspective
     {360, {360, true}, {180, true}},    // Equirectangular
@@ -57,7 +57,7 @@ Result<> check_angle(const char* name, std::optional<double> value, Limit limit)
               std::to_string(static_cast<int>(limit.degrees)));
 }
 
-/// How far a picture reaches from its middle, in the projection's own measure.
+/// Distance from a picture's middle to its edge, in the projection's own measure.
 double reach(ViewKind kind, bool vertical, double fov) {
   if (kind == ViewKind::Stereographic) return std::tan(radians(fov / 4));
   const bool tangent = kind == ViewKind::Perspective || (kind == ViewKind::Cylindrical && vertical);

@@ -22,7 +22,7 @@ Result<> check_window(const Window& window) {
 }
 
 Vec3 displacement(const Window& window, const Vec3& direction) {
-  // A ray along the glass never enters it; shortly before, its way within grows without bound.
+  // A ray along the glass never enters it; close to that, its path within grows without bound.
   constexpr double kAlong = 1e-6;
   const Vec3 normal = normalized(window.normal);
   const double towards = dot(normal, direction);

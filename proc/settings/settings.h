@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-/// What settings structs declare their keys with; README.md has an example.
+/// Building blocks with which settings structs declare their keys; README.md has an example.
 namespace orbwatch {
 
-/// The numbers that a key allows, never not-a-number.
+/// The numbers that a key allows; NaN is never allowed.
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
@@ -30,7 +30,7 @@ struct Range {
            (high_allowed ? value <= high : value < high);
   }
 
-  /// "above 180, at most 360"
+  /// Text such as "above 180, at most 360".
   std::string text() const {
     const auto number = [](double value) {
       char buffer[32];
@@ -61,13 +61,14 @@ using Seconds = DurationRange<std::ratio<1>>;
 using Milliseconds = DurationRange<std::milli>;
 using Microseconds = DurationRange<std::micro>;
 
-/// Another table's entry by its name in the file. `index` is set once all files are loaded.
+/// Reference to another table's entry by its name in the file. `index` is set once all files are
+/// loaded.
 struct Reference {
   std::string name;
   std::size_t index = 0;
 };
 
-/// A table's settings and the line where the table stands, for messages.
+/// A table's settings and the line of the table in its file, for messages.
 template <class Settings>
 struct Located : Settings {
   int line = 0;
@@ -106,7 +107,7 @@ std::string_view word_for(const std::array<Word<T>, N>& words, const T& value) {
   return {};
 }
 
-/// "exact, paper, classical"
+/// Text such as "exact, paper, classical".
 template <class T, std::size_t N>
 std::string joined(const std::array<Word<T>, N>& words) {
   std::string text;

@@ -30,8 +30,8 @@ class LimbLikelihood {
 
   std::size_t columns_;
   double limb_;                ///< column
-  std::vector<float> parts_;   ///< factors of the offset, one per part
-  std::vector<Offset> basis_;  ///< by part
+  std::vector<float> parts_;   ///< LimbColumns::above_random()
+  std::vector<Offset> basis_;  ///< factors of the offset, one per part
   // The outline's mean radius, half the difference of its axes, the direction to the middle of the
   // picture in twice its own angle, and the greatest elongation for its place.
   double radius_, half_, cos_middle_, sin_middle_, longest_;

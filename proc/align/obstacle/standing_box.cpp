@@ -31,7 +31,7 @@ enum class Cells { All, Even, Odd };
 
 /// Effect of a box on the agreement.
 struct Evidence {
-  double gain = 0;  ///< of agreement above chance, summed over places
+  double gain = 0;  ///< agreement above chance, summed over places
   int places = 0;
   double significance = 0;  ///< significance of the gain, from the spread between cells
 

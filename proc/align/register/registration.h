@@ -30,7 +30,7 @@ struct SoughtCamera {
 /// A camera's rotation relative to the reference frame, and its accuracy.
 struct Registration {
   optics::Mat3 rotation;    ///< v_reference = rotation v_camera
-  optics::Outline outline;  ///< as given, or refined
+  optics::Outline outline;  ///< the given outline, or the refined one
   double residual = 0;      ///< degrees rms between both cameras' sights of the same thing
   double overlap = 0;       ///< share of all directions that both cameras show, [0, 1]
   int inliers = 0;          ///< number of things that both see

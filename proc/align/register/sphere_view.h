@@ -15,7 +15,7 @@ namespace orbwatch::align {
 /// stereographic, which keeps small shapes, and un-mirrored.
 struct SphereFace {
   optics::ViewProjection view;
-  cv::Mat pixels;  ///< of the source's type
+  cv::Mat pixels;  ///< the source's type
   cv::Mat shown;   ///< 8 bit, 255 where the ball shows it well enough
 };
 

@@ -9,7 +9,7 @@
 
 namespace orbwatch::optics {
 
-/// An angle by its cosine and sine: what reflection needs of it.
+/// An angle as its cosine and sine, which is what reflection needs.
 struct CosSin {
   double cos = 1;
   double sin = 0;
@@ -29,7 +29,7 @@ struct StretchLanes {
   Lanes along;
 };
 
-/// The ball as its camera sees it.
+/// The ball's limb relative to its camera.
 struct Limb {
   /// `inverse_distance`: ball radius / distance of the camera, [0, 1).
   explicit Limb(double inverse_distance)
@@ -41,33 +41,34 @@ struct Limb {
   double cosine;  ///< cos psi_max = -cos(alpha/2)
   double widest;  ///< sin(alpha/4)
 
-  // A direction exactly on the limb must not fall outside by rounding.
+  // Keeps a direction exactly on the limb inside in spite of rounding.
   static constexpr double kTolerance = 1e-12;
 };
 
-/// What a ball model consists of; BallModel documents symbols and units. Functions are reentrant.
+/// The functions of a ball model; BallModel documents symbols and units. Functions are reentrant.
 struct BallLaw {
-  std::string_view name;  ///< in files and options
-  std::string_view text;  ///< for manuals
+  std::string_view name;  ///< name in files and options
+  std::string_view text;  ///< description for manuals
   bool is_orthographic;   ///< the camera is infinitely far away
   bool has_parallax;      ///< knows where rays leave the ball; else everything is far away
   std::optional<Stretch> (*stretch)(const Limb&, double cos_phi, double sin2_phi, double closeness);
-  /// The same for many; `along` is not a number for nullopt.
+  /// The same for kLanes directions; `along` is NaN for nullopt.
   void (*stretch_lanes)(const Limb&, const Lanes& cos_phi, const Lanes& sin2_phi,
                         const Lanes& closeness, StretchLanes& out);
-  /// For rho in [0, 1].
+  /// Defined for rho in [0, 1].
   CosSin (*phi)(const Limb&, double rho);
   CosSin (*theta)(const Limb&, double rho);  ///< null without parallax
 };
 
-/// Half of an angle in [0, pi]. Both numbers keep their relative precision, the cosine towards pi
-/// too.
+/// Half of an angle in [0, pi]. Both numbers keep their relative precision, the cosine also near
+/// pi.
 struct HalfAngle {
   double cos;
   double sin2;
 };
 
-/// `sin2`: square of the angle's sine, which its cosine does not determine near 0 and pi.
+/// Halves an angle. `sin2`: square of the angle's sine, which its cosine does not determine near 0
+/// and pi.
 inline HalfAngle half(double cosine, double sin2) {
   const double cos2 = cosine >= 0 ? (1 + cosine) / 2 : sin2 / (2 * (1 - cosine));
   return {std::sqrt(cos2), (1 - cosine) / 2};

@@ -4,11 +4,11 @@
 
 #include "proc/optics/models/ball_law.h"
 
-// Reflection on a sphere as a perspective camera sees it, for directions and for points.
+// Reflection on a sphere in the picture of a perspective camera, for directions and for points.
 namespace orbwatch::optics::laws {
 namespace {
 
-/// An angle delta by its cosine and by sin(delta) / sin(h).
+/// An angle delta as its cosine and sin(delta) / sin(h).
 struct Offset {
   double cos;
   double share;
@@ -19,9 +19,9 @@ struct Offset {
 ///   sin 2 delta = p sin(h + delta) - q sin(h - delta),
 /// p and q being the inverse distances, divided by cos delta sin h is
 ///   2 y = (p - q) + b y / cos delta,  y = sin delta / sin h,  b = (p + q) cos h.
-/// For visible points the solution is the smallest y. The right side is convex up to there,
-/// so that Newton's method climbs to it from any start below; the series in k = (p - q) / (2 - b)
-/// is one, since all of its terms have k's sign, and mostly it is enough.
+/// For visible points the solution is the smallest y. The right side is convex up to there, so that
+/// Newton's method climbs to it from any start below. The series in k = (p - q) / (2 - b) is such a
+/// start, since all of its terms have k's sign, and mostly it is sufficient.
 class Bisector {
  public:
   Bisector(const HalfAngle& h, double p, double q)
@@ -29,7 +29,7 @@ class Bisector {
   Bisector(const HalfAngle& h, double p, double q, const Offset& from)
       : sin2_(h.sin2), a_(p - q), b_((p + q) * h.cos), y_(from.share), cosine_(from.cos) {}
 
-  /// Starts with the series; whether it is enough.
+  /// Starts with the series; true if it is sufficient.
   bool start() {
     const double scale = 1 / (2 - b_);
     const double k = a_ * scale, m = b_ * scale, kk = k * k * sin2_;
@@ -40,7 +40,7 @@ class Bisector {
     return std::abs(third) * kk * (1 + m) <= kNegligible;
   }
 
-  /// One step of Newton's; whether that is enough. Without a branch, for loops over many.
+  /// One step of Newton's method; true if it is sufficient. Branch-free, for loops over many.
   bool improve() {
     const double square = cosine_ * cosine_;
     const double slope = 2 * cosine_ * square - b_;
@@ -60,7 +60,7 @@ class Bisector {
   double cosine_ = 1;
 };
 
-/// Solved: `p` and `q` are ball radius / distance of the point and of the camera.
+/// Solves for one point: `p` and `q` are ball radius / distance of the point and of the camera.
 Offset bisector_offset(const HalfAngle& h, double p, double q) {
   Bisector bisector(h, p, q);
   constexpr int kSteps = 60;  // a point that touches the ball is a double root: one bit per step
@@ -91,7 +91,7 @@ struct OffsetLanes {
   }
 };
 
-/// bisector_offset() for many, with the same bits. One step per loop, without a branch, so that
+/// bisector_offset() for kLanes points, bit-identical. One step per loop, branch-free, so that
 /// compilers vectorize each.
 void bisector_offsets(const HalfAngleLanes& h, const Lanes& p, double q, OffsetLanes& out) {
   OffsetLanes series, better;
@@ -119,10 +119,10 @@ void bisector_offsets(const HalfAngleLanes& h, const Lanes& p, double q, OffsetL
   }
 }
 
-// Without a branch, as stretch_at(): for loops over many.
+// Branch-free like stretch_at(), for loops over many.
 bool is_shown(const Limb& limb, double cos_phi, double closeness) {
   const double p = closeness;
-  // On the limb the ray grazes the ball: phi = acos p + acos q.
+  // A ray at the limb grazes the ball: phi = acos p + acos q.
   const double beyond = p * limb.q - cos_phi;
   const double limb2 = limb.cosine * limb.cosine * (1 - p) * (1 + p);
   return (p <= 1) & ((beyond <= 0) | (beyond * beyond <= limb2 + Limb::kTolerance));
@@ -145,7 +145,7 @@ std::optional<Stretch> stretch(const Limb& limb, double cos_phi, double sin2_phi
 void stretch_lanes(const Limb& given, const Lanes& cos_phi, const Lanes& sin2_phi,
                    const Lanes& closeness, StretchLanes& out) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  const Limb limb = given;  // so that no store into `out` could change it
+  const Limb limb = given;  // a copy, so that no store into `out` could change it
   HalfAngleLanes h;
   for (std::size_t k = 0; k < kLanes; ++k) h.set(k, half(cos_phi[k], sin2_phi[k]));
   OffsetLanes delta;
@@ -168,7 +168,7 @@ CosSin incidence(const Limb& limb, double rho) {
 
 CosSin theta(const Limb& limb, double rho) {
   const CosSin i = incidence(limb, rho);
-  // The triangle camera, ball's centre, hit point: theta = i - psi, sin psi = q sin i.
+  // Triangle of camera, ball's centre and hit point: theta = i - psi, sin psi = q sin i.
   return i + CosSin{std::sqrt((1 - limb.q * i.sin) * (1 + limb.q * i.sin)), -limb.q * i.sin};
 }
 
