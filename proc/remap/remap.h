@@ -21,7 +21,7 @@
 
 namespace orbwatch::remap {
 
-/// Whether a source of format `from` can be remapped to a view of format `to`: the same, or from
+/// True if a source of format `from` can be remapped to a view of format `to`: the same, or from
 /// YUV and RGB of 8 bit to Rgb or Bgr.
 constexpr bool can_remap(PixelFormat from, PixelFormat to) {
   const bool eight_bit_colour =
@@ -29,14 +29,14 @@ constexpr bool can_remap(PixelFormat from, PixelFormat to) {
   return from == to || (eight_bit_colour && (to == PixelFormat::Rgb || to == PixelFormat::Bgr));
 }
 
-/// Fills the tile rows `rows` of `out` from a source. Every format is sampled as it lies in memory;
+/// Fills the tile rows `rows` of `out` from a source. Every format is sampled in its memory layout;
 /// if `out` has another format, it is converted tile by tile. Undefined pixels become black.
 ///
-/// `source`: the picture and as many of its mip levels as there are (see Pyramid). Each tile
-/// samples the level that the grid asks for, or the last; so without levels a view smaller than its
-/// source aliases. Preconditions, asserted: the picture has the size that the grid was built for,
-/// `out` the view's; a subsampled `out` has even sides; can_remap() their formats. Reentrant;
-/// different rows may be filled at the same time, with the same result.
+/// `source`: the picture and any number of its mip levels (see Pyramid). Each tile samples the
+/// level that the grid requires, or the last one; so without levels a view smaller than its source
+/// aliases. Preconditions, asserted: the picture has the size that the grid was built for, `out`
+/// the view's; a subsampled `out` has even sides; can_remap() their formats. Reentrant; different
+/// rows may be filled at the same time, with the same result.
 void remap(const CoordinateGrid& grid, std::span<const Picture> source, Interpolation interpolation,
            const MutablePicture& out, TileRows rows, const Kernel& kernel = default_kernel());
 

@@ -16,7 +16,7 @@ struct RgbRun {
   SampleRun red, green, blue;
 };
 
-/// What a pair of pixels shares, in the colours of a run.
+/// The chroma's contribution to a pair of pixels, in the colours of a run.
 struct SharedColour {
   Lanes red, green, blue;
 };
@@ -51,8 +51,8 @@ class YuvToRgb {
     rgb[2] = clip((luminance + blue_u_ * u + blue_) >> kBits);
   }
 
-  /// The same for runs of pixels, two side by side of which share a pair (U, V) of `chroma`.
-  /// What the chroma adds to each colour comes first: two rows may share it.
+  /// The same for runs of pixels, two adjacent of which share a pair (U, V) of `chroma`. The
+  /// chroma's contribution to each colour is computed first: two rows may share it.
   [[gnu::always_inline]] SharedColour shared(const SampleRun& chroma) const {
     const EvenOdd uv(chroma);
     return {Lanes(red_).plus(uv.odd, red_v_),
@@ -67,7 +67,7 @@ class YuvToRgb {
             clipped_sums(even, odd, shared.blue)};
   }
 
-  /// Luma alone, 0..255: what a pixel without colour gets in all three.
+  /// Luma alone, 0..255: the value of all three channels of a pixel without colour.
   constexpr std::uint8_t luma(int y) const { return clip((y * y_ + black_) >> kBits); }
 
   constexpr YuvCoefficients coefficients() const {

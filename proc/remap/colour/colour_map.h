@@ -11,13 +11,13 @@
 
 namespace orbwatch::remap {
 
-/// Shows one-channel pictures in colour: 256 RGB entries spread over the values [low, high]; values
-/// beyond take the first or last entry. Immutable; reentrant.
+/// Converts one-channel pictures to colour: 256 RGB entries spread over the values [low, high];
+/// values beyond get the first or last entry. Immutable; reentrant.
 class ColourMap {
  public:
   using Table = std::array<std::array<std::uint8_t, 3>, 256>;
 
-  /// low < high, in the picture's counts.
+  /// Precondition: low < high, in the picture's counts.
   ColourMap(const Table& table, double low, double high);
 
   /// Fills `out`, the size of `values`, at most kTile each way: 3 channels in the order of `order`,
@@ -28,7 +28,7 @@ class ColourMap {
              const Kernel& kernel, PixelFormat order = PixelFormat::Rgb) const;
 
  private:
-  /// By place in the table, or by the value of an 8 bit picture.
+  /// Colours by index in the table, or by the value of an 8 bit picture.
   struct Entries {
     ColourTable rgb, bgr, grey{1};
   };
@@ -38,8 +38,8 @@ class ColourMap {
 
   std::int32_t low_;
   std::int32_t high_;
-  int shift_;            ///< brings high_ - low_ to 16 bits; what is below them is cut
-  std::uint16_t scale_;  ///< entries per count that is shifted, with 16 + kEntryBits fraction bits
+  int shift_;            ///< brings high_ - low_ to 16 bits; lower bits are cut
+  std::uint16_t scale_;  ///< entries per shifted count, with 16 + kEntryBits fraction bits
   Entries entries_;
   Entries of_bytes_;
 };

@@ -8,11 +8,11 @@
 
 namespace orbwatch::remap {
 
-/// A table of 256 colours of one or three channels that pixels are looked up in, as each processor
-/// reads it best.
+/// A lookup table of 256 colours of one or three channels, in the layouts that processors read
+/// fastest.
 struct ColourTable {
   int channels = 3;
-  /// By channel: what fits registers.
+  /// One table per channel, for processors that hold them in registers.
   alignas(64) std::array<std::array<std::uint8_t, 256>, 3> planes{};
   /// Three channels as bytes in memory, and 0.
   std::array<std::uint32_t, 256> words{};
@@ -23,14 +23,14 @@ struct ColourTable {
         std::bit_cast<std::uint32_t>(std::array<std::uint8_t, 4>{colour[0], colour[1], colour[2]});
   }
 
-  /// Writes at least one pixel.
+  /// Looks up at least one pixel.
   [[gnu::always_inline]] void look_up(const std::uint8_t* indices, int columns,
                                       std::uint8_t* out) const {
     if (channels == 1) {
       for (int x = 0; x < columns; ++x) out[x] = planes[0][indices[x]];
       return;
     }
-    // Whole words, each over the unused byte of the one before.
+    // Writes whole words, each over the unused byte of the one before.
     for (int x = 0; x < columns - 1; ++x) std::memcpy(out + 3 * x, &words[indices[x]], 4);
     std::memcpy(out + 3 * (columns - 1), &words[indices[columns - 1]], 3);
   }
@@ -40,7 +40,7 @@ struct ColourTable {
 inline constexpr int kEntryBits = 7;
 inline constexpr std::uint16_t kHalfEntry = 1 << (kEntryBits - 1);
 
-/// Where values of 16 bit lie in a table: entry (((value in [low, high]) - low) unit scale >> 16 +
+/// Mapping of 16 bit values to a table: entry (((value in [low, high]) - low) unit scale >> 16 +
 /// kHalfEntry) >> kEntryBits.
 struct ValueScale {
   std::uint16_t low, high;

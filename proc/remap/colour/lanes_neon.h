@@ -8,8 +8,8 @@
 
 namespace orbwatch::remap {
 
-/// Four times the even and the odd samples of a run: what is added up is then Q16, and one
-/// instruction adds two such numbers and keeps their integer part.
+/// Four times the even and the odd samples of a run: sums are then Q16, and one instruction adds
+/// two of them and keeps their integer part.
 struct EvenOdd {
   [[gnu::always_inline]] explicit EvenOdd(const SampleRun& run) {
     const uint16x8_t words = vreinterpretq_u16_u8(vld1q_u8(run.data()));
@@ -42,7 +42,7 @@ struct Lanes {
   uint32x4_t low, high;
 };
 
-/// Clipped to 8 bits, in the upper half of each number.
+/// The sums clipped to 8 bits, in the upper half of each number.
 [[gnu::always_inline]] inline uint16x8_t clipped_sum(const Lanes& a, const Lanes& b) {
   const uint16x8_t sum = vaddhn_high_u32(vaddhn_u32(a.low, b.low), a.high, b.high);
   return vqshluq_n_s16(vreinterpretq_s16_u16(sum), 8);

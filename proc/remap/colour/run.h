@@ -7,7 +7,7 @@
 
 namespace orbwatch::remap {
 
-/// So many pixels side by side are converted together.
+/// Number of adjacent pixels that are converted together.
 inline constexpr int kRun = kTile;
 
 /// One 8 bit sample of each pixel of a run.

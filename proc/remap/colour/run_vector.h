@@ -6,8 +6,8 @@
 
 #include "proc/remap/colour/run.h"
 
-/// A run of pixels as vectors, which compilers spread over the registers that there
-/// are: for loops whose arithmetic they do not make vector code of by themselves.
+/// A run of pixels as vectors, which compilers spread over the available registers: for loops that
+/// compilers do not vectorize by themselves.
 namespace orbwatch::remap {
 
 using Bytes = std::uint8_t __attribute__((vector_size(kRun)));
@@ -32,7 +32,7 @@ template <class Vector, class T>
 [[gnu::always_inline]] inline Longs widened(const Words& words) {
   return __builtin_convertvector(words, Longs);
 }
-/// The low halves.
+/// Keeps the low halves.
 [[gnu::always_inline]] inline Bytes narrowed(const Words& words) {
   return __builtin_convertvector(words, Bytes);
 }
@@ -40,7 +40,7 @@ template <class Vector, class T>
   return __builtin_convertvector(longs, Words);
 }
 
-/// Each within [low, high]. By halves: compilers compare only vectors that fit a register.
+/// Clamps each to [low, high]. By halves: compilers compare only vectors that fit a register.
 [[gnu::always_inline]] inline Words clamped(const Words& words, std::uint16_t low,
                                             std::uint16_t high) {
   using Half = std::uint16_t __attribute__((vector_size(kRun)));
@@ -55,7 +55,7 @@ template <class Vector, class T>
   return clamped;
 }
 
-/// One byte per pixel for each of the pixels' samples: part `part` of a run of them.
+/// One byte per sample from one byte per pixel: part `part` of a run's samples.
 template <int Channels>
 [[gnu::always_inline]] inline Bytes spread(const Bytes& bytes, int part) {
   static_assert(Channels == 1 || Channels == 3);
@@ -76,13 +76,13 @@ template <int Channels>
   }
 }
 
-/// Each, of up to 255 * 255, divided by 255 and rounded to nearest.
+/// Divides each, up to 255 * 255, by 255 and rounds to nearest.
 [[gnu::always_inline]] inline Bytes rounded_255th(const Words& words) {
   const Words rounded = words + 128;
   return narrowed((rounded + (rounded >> 8)) >> 8);
 }
 
-/// Whether all bits are zero.
+/// True if all bits are zero.
 [[gnu::always_inline]] inline bool is_zero(const Words& words) {
   using Half = std::uint64_t __attribute__((vector_size(kRun)));
   std::array<Half, 2> halves;

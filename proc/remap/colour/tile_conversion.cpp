@@ -30,8 +30,9 @@ void copy(const SampledTile& tile, PixelFormat format, const MutablePicture& out
   }
 }
 
-/// Writes an area of a plane of so many bytes per pixel: `convert(y, to)` makes a whole row of the
-/// tile. Of a tile that the view's border cuts, what lies in the view is copied afterwards.
+/// Writes an area of a plane of `bytes` bytes per pixel: `convert(y, to)` makes a whole row of the
+/// tile. A tile that the view's border cuts is converted first and the part in the view copied
+/// afterwards.
 template <int bytes, class Convert>
 [[gnu::always_inline]] inline void write_rows(const MutablePicture& out, const TileArea& area,
                                               const Convert& convert) {
@@ -56,7 +57,7 @@ Run run_at(const SampledTile& tile, std::size_t plane, std::ptrdiff_t offset) {
   return run;
 }
 
-/// Samples of two runs in turn.
+/// Interleaves the samples of two runs.
 void write_pairs(const SampleRun& first, const SampleRun& second, std::uint8_t* to) {
   for (std::size_t x = 0; x < kRun; ++x) {
     to[2 * x] = first[x];
@@ -64,7 +65,7 @@ void write_pairs(const SampleRun& first, const SampleRun& second, std::uint8_t* 
   }
 }
 
-/// Samples of three runs in turn.
+/// Interleaves the samples of three runs.
 void write_threes(const SampleRun& first, const SampleRun& second, const SampleRun& third,
                   std::uint8_t* to) {
   for (std::size_t x = 0; x < kRun; ++x) {
@@ -74,7 +75,7 @@ void write_threes(const SampleRun& first, const SampleRun& second, const SampleR
   }
 }
 
-/// Yuyv and Uyvy: luminance and chroma take turns.
+/// Interleaves luminance and chroma of Yuyv and Uyvy.
 template <bool luminance_first>
 void interleave(const SampledTile& tile, const MutablePicture& out, const TileArea& area) {
   write_rows<2>(out, area, [&](int y, std::uint8_t* to) {
@@ -105,7 +106,7 @@ SampleRun chroma_of_row(const SampledTile& tile, int y) {
   }
 }
 
-/// Computed beforehand: a frame has thousands of tiles.
+/// Tables are computed beforehand: a frame has thousands of tiles.
 const YuvToRgb& conversion_from(ColourSpace colour_space) {
   using enum ColourMatrix;
   using enum ColourRange;
@@ -114,7 +115,7 @@ const YuvToRgb& conversion_from(ColourSpace colour_space) {
   return kConversions[2 * (colour_space.matrix == Bt709) + (colour_space.range == Full)];
 }
 
-/// A whole tile, by a kernel that does it better.
+/// Converts a whole tile with a kernel that is faster.
 template <PixelFormat format>
 [[gnu::noinline]] void convert_whole(const SampledTile& tile, ColourSpace colour_space,
                                      const MutablePicture& out, const TileArea& area,
@@ -158,7 +159,7 @@ void yuv_to_rgb(const SampledTile& tile, ColourSpace colour_space, const Mutable
                                  : yuv_to_rgb<format, false>(tile, colour_space, out, area, kernel);
 }
 
-/// Rgb to Bgr or back.
+/// Converts Rgb to Bgr or back.
 void swap_red_and_blue(const SampledTile& tile, const MutablePicture& out, const TileArea& area) {
   write_rows<3>(out, area, [&](int y, std::uint8_t* to) {
     const std::uint8_t* const from = &tile.planes[0][3 * y * kTile];
@@ -170,7 +171,7 @@ void swap_red_and_blue(const SampledTile& tile, const MutablePicture& out, const
   });
 }
 
-/// Bgra to Rgb or Bgr.
+/// Converts Bgra to Rgb or Bgr.
 template <bool blue_first>
 void leave_alpha_out(const SampledTile& tile, const MutablePicture& out, const TileArea& area) {
   write_rows<3>(out, area, [&](int y, std::uint8_t* to) {
@@ -185,7 +186,7 @@ void leave_alpha_out(const SampledTile& tile, const MutablePicture& out, const T
   });
 }
 
-/// To Rgb or Bgr.
+/// Converts to Rgb or Bgr.
 void convert(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
              const MutablePicture& out, const TileArea& area, const Kernel& kernel) {
   switch (format) {

@@ -9,9 +9,9 @@
 
 namespace orbwatch::remap {
 
-/// A tile as its samplings left it, each in rows of kTile pixels of its plane.
+/// A tile in its source's samplings, each in rows of kTile pixels of its plane.
 struct SampledTile {
-  static constexpr int kMostBytes = 6;  ///< of a pixel: Three16
+  static constexpr int kMostBytes = 6;  ///< bytes of a pixel: Three16
   alignas(64) std::array<std::array<std::uint8_t, kTile * kTile * kMostBytes>, 3> planes;
 
   static constexpr std::ptrdiff_t stride(const PlaneSampling& sampling) {
@@ -19,7 +19,7 @@ struct SampledTile {
   }
 };
 
-/// Where a tile lies in a view, cut at the view's border.
+/// Area of a tile in a view, cut at the view's border.
 struct TileArea {
   int x, y, columns, rows;
 };
@@ -42,10 +42,10 @@ void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_
 void write_luminance(const SampledTile& tile, ColourSpace colour_space, const MutablePicture& out,
                      const TileArea& area);
 
-/// Makes an area black.
+/// Sets an area to black.
 void clear_area(const MutablePicture& out, const TileArea& area);
 
-/// Makes the undefined pixels of an area of an Rgb or Bgr picture black.
+/// Sets the undefined pixels of an area of an Rgb or Bgr picture to black.
 void clear_undefined(const CoordinateTile& coordinates, const MutablePicture& out,
                      const TileArea& area);
 

@@ -36,7 +36,7 @@ struct ColourSums {
   std::array<std::int32_t, kPairs> red, green, blue;
 };
 
-// (B - Y) / 1.772 and (R - Y) / 1.402 of JFIF, in Q16; the weights of each add up to 0.
+// Chroma (B - Y) / 1.772 and (R - Y) / 1.402 of JFIF, in Q16; the weights of each add up to 0.
 constexpr int kBits = 16 + 2;
 constexpr std::int32_t kOffset = (kNeutral << kBits) + (1 << (kBits - 1));
 
@@ -50,7 +50,7 @@ void write_chroma(const ColourSums& sums, Chroma& u, Chroma& v) {
   }
 }
 
-/// A row of chroma from the limited range, whose 224 steps become 255.
+/// Stretches a row of chroma from the limited range, whose 224 steps become 255.
 void stretch(Chroma& chroma) {
   constexpr int kScaleBits = 14;
   constexpr int kScale = (255 << kScaleBits) / 224;

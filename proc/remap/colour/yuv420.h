@@ -8,7 +8,7 @@
 
 namespace orbwatch::remap {
 
-/// What JPEG (JFIF) compresses, and I420 views have.
+/// Colour space of JPEG (JFIF) and of I420 views.
 inline constexpr ColourSpace kJfif{ColourMatrix::Bt601, ColourRange::Full};
 
 /// Writes a tile's Rgb pixels into its area of `out`, I420 in kJfif: Y as luma(), the chroma of
@@ -17,15 +17,15 @@ inline constexpr ColourSpace kJfif{ColourMatrix::Bt601, ColourRange::Full};
 void write_yuv420(const ImageView<const std::uint8_t>& rgb, const MutablePicture& out,
                   const TileArea& area);
 
-/// Whether a source's samples are those of an I420 view in kJfif but for their range.
+/// True if a source's samples equal those of an I420 view in kJfif except for their range.
 constexpr bool is_yuv420(PixelFormat format, ColourSpace colour_space) {
   return (format == PixelFormat::Nv12 || format == PixelFormat::Nv21 ||
           format == PixelFormat::I420) &&
          colour_space.matrix == kJfif.matrix;
 }
 
-/// Writes a tile that was sampled from such a source into its area of `out`, I420 in kJfif: brought
-/// to the full range. The area's place and size are even. Reentrant.
+/// Writes a tile that was sampled from such a source into its area of `out`, I420 in kJfif,
+/// converted to the full range. The area's place and size are even. Reentrant.
 void write_yuv420(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
                   const MutablePicture& out, const TileArea& area);
 

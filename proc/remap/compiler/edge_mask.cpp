@@ -11,15 +11,15 @@ namespace {
 using optics::Vec2;
 using optics::Vec3;
 
-// Radians: segments of an edge that are tested at their ends and middle.
+// Lengths in radians of an edge's segments, which are tested at their ends and middle.
 constexpr double kLongPiece = 0.2;
 constexpr double kShortPiece = 1e-5;
-// Pixels: tolerance of a segment against the straight line that is drawn for it.
+// Tolerance in pixels of a segment against the straight line that is drawn for it.
 constexpr double kStraight = 0.05;
 
 double distance(const Vec2& a, const Vec2& b) { return std::hypot(b.u - a.u, b.v - a.v); }
 
-/// `middle` lies between the ends on their straight line.
+/// True if `middle` lies between the ends on their straight line.
 bool is_straight(const Vec2& from, const Vec2& middle, const Vec2& to) {
   const double length = distance(from, to);
   const double area = (to.u - from.u) * (middle.v - from.v) - (to.v - from.v) * (middle.u - from.u);
@@ -27,8 +27,9 @@ bool is_straight(const Vec2& from, const Vec2& middle, const Vec2& to) {
          distance(middle, to) <= length;
 }
 
-/// Calls `mark(k, low, high)` for the whole numbers k in [0, size) that a line's coordinate `a`
-/// comes to or is kStraight from, with the range of its coordinate `b` there, widened by kStraight.
+/// Calls `mark(k, low, high)` for the integers k in [0, size) that a line's coordinate `a` reaches
+/// or misses by at most kStraight, with the range of its coordinate `b` there, widened by
+/// kStraight.
 template <class Mark>
 void cross_lines(double a0, double b0, double a1, double b1, int size, const Mark& mark) {
   if (a0 > a1) std::swap(a0, a1), std::swap(b0, b1);
@@ -54,8 +55,7 @@ class Tracer {
     const auto middle = view_.direction((width - 1) / 2, (height - 1) / 2);
     if (!middle) return;
     ahead_ = *middle;
-    // The direction that is furthest from the middle is on the border, unless it is straight
-    // behind.
+    // The direction furthest from the middle is on the border, unless it is straight behind.
     constexpr int kSamples = 16;
     double furthest = 0;
     for (int i = 0; i <= kSamples; ++i) {
@@ -88,7 +88,7 @@ class Tracer {
         return;
       }
       if (length < kShortPiece) {
-        // It jumps from border to border, or the projection ends in between.
+        // The edge jumps from border to border, or the projection ends in between.
         if (at_from) mask_.mark(*at_from, *at_from);
         if (at_to) mask_.mark(*at_to, *at_to);
         return;
@@ -120,7 +120,7 @@ void EdgeMask::mark(const Vec2& from, const Vec2& to) {
               [this](int x, double top, double bottom) { mark_column(x, top, bottom); });
 }
 
-/// The edge meets row `y` between `left` and `right`: it may separate pixels x - 1 and x if x - 1
+/// An edge that meets row `y` between `left` and `right` may separate pixels x - 1 and x if x - 1
 /// is left of `right` and x right of `left`.
 void EdgeMask::mark_row(int y, double left, double right) {
   if (!(right > 0 && left < width_ - 1)) return;
@@ -133,7 +133,8 @@ void EdgeMask::mark_row(int y, double left, double right) {
   }
 }
 
-/// The same for column `x`, whose pixels above and below each other belong to a tile.
+/// The same for column `x`: marks tiles that contain both of two pixels, one above the other, that
+/// the edge may separate.
 void EdgeMask::mark_column(int x, double top, double bottom) {
   if (!(bottom > 0 && top < height_ - 1)) return;
   const int first = static_cast<int>(std::max(top, 0.0)) + 1;

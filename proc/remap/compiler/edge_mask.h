@@ -10,17 +10,17 @@
 
 namespace orbwatch::remap {
 
-/// Where a scene's edges run in a view. Conservative: a marked place may be without an edge.
+/// Places of a scene's edges in a view. Conservative: a marked place may be without an edge.
 class EdgeMask {
  public:
-  /// Of a view of that size; nothing is marked.
+  /// For a view of that size; nothing is marked.
   EdgeMask(int width, int height);
 
   /// Marks the pixels separated by an edge along the straight line between two places of the view,
   /// or a twentieth of a pixel beside it.
   void mark(const optics::Vec2& from, const optics::Vec2& to);
 
-  /// An edge runs between two pixels of that tile.
+  /// True if an edge runs between two pixels of that tile.
   bool crosses(int tx, int ty) const { return !crossed_.empty() && crossed_[tile(tx, ty)] != 0; }
 
   /// Row `y` of the view within tile column `tx`: bit x is set if an edge runs between pixels x - 1

@@ -7,10 +7,10 @@ namespace {
 
 using optics::kLanes;
 
-// A ball far larger than the picture could exceed the fixed point's range.
+// Range of coordinates, px; a ball far larger than the picture could exceed the fixed point's.
 constexpr double kRange = 1 << (30 - kFractionBits);
 
-// Half away from zero, as std::lround, which is a call.
+// Rounds half away from zero like std::lround, which is a call.
 std::int32_t fixed(double pixels) {
   const double scaled = pixels * (1 << kFractionBits);
   return static_cast<std::int32_t>(scaled + (scaled < 0 ? -0.5 : 0.5));

@@ -20,28 +20,29 @@ struct CoordinateLanes {
   Coordinate at(std::size_t k) const { return {u[k], v[k]}; }
 };
 
-/// The map that a grid approximates, from optics. Reentrant; refers to the view and the ball.
+/// The optical map that a grid approximates. Reentrant; refers to the view and the ball.
 class ExactMap {
  public:
   ExactMap(const optics::ViewProjection& view, const optics::BallProjection& ball)
       : view_(view), ball_(ball) {}
 
-  /// Beyond the end of the view's projection: no surface of the scene.
+  /// Surface of a pixel beyond the end of the view's projection.
   static constexpr int kNoSurface = -2;
 
   struct MapLanes {
-    std::array<int, optics::kLanes> surfaces;  ///< as SceneProxy counts them
+    std::array<int, optics::kLanes> surfaces;  ///< indices of SceneProxy
     CoordinateLanes coordinates;
   };
-  /// At kLanes pixels, also outside of the view.
+  /// Evaluates kLanes pixels, also outside of the view.
   void evaluate(const optics::Vec2Lanes& pixels, MapLanes& out) const;
 
-  /// Only the surface, at pixel (x, y).
+  /// The surface only, at pixel (x, y).
   int surface(int x, int y) const;
 
-  /// At (x, y) as if that surface were seen there. Smooth on each surface.
+  /// The coordinate at (x, y) under the assumption that this surface is seen there. Smooth on each
+  /// surface.
   Coordinate on_surface(int surface, int x, int y) const;
-  /// The same for many, each on the surface that `lanes` says.
+  /// The same for kLanes pixels, each on its surface in `lanes`.
   void on_surfaces(const optics::Vec2Lanes& pixels, MapLanes& lanes) const;
 
  private:
@@ -53,15 +54,15 @@ class ExactMap {
   const optics::BallProjection& ball_;
 };
 
-/// Pixels of a view that stand in rows and columns.
+/// Pixels of a view in rows and columns at equal distances.
 struct Lattice {
   int x, y;  ///< the first one
   int step;
   int columns, rows;
 };
 
-/// Goes through a lattice row by row: `evaluate(pixels, first)` once for up to kLanes pixels, the
-/// first of which has that number, then `visit(i, j, k)` for each: column, row, lane.
+/// Iterates over a lattice row by row: `evaluate(pixels, first)` once for up to kLanes pixels, the
+/// first of which has the number `first`, then `visit(i, j, k)` for each: column, row, lane.
 template <class Evaluate, class Visit>
 void in_lanes(const Lattice& lattice, const Evaluate& evaluate, const Visit& visit) {
   optics::Vec2Lanes pixels{};

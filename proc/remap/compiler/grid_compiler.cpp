@@ -10,9 +10,10 @@
 namespace orbwatch::remap {
 namespace {
 
-/// The angle that a tile spans at most, radians.
+/// The largest angle that a tile spans, radians.
 double tile_angle(const optics::ViewProjection& view) {
-  // Every projection steps furthest in its middle. Over so little that no panorama turns round.
+  // Every projection has its largest step in the middle. The step is measured over so small a part
+  // that no panorama wraps around.
   constexpr double kPart = 1.0 / 1024;
   const double u = (view.width() - 1) / 2.0, v = (view.height() - 1) / 2.0;
   const auto middle = view.direction(u, v);
@@ -30,13 +31,13 @@ CoordinateGrid::Compiler::Compiler(CoordinateGrid& grid, const optics::ViewProje
       map_(view, ball),
       plain_(grid.tiles_x_, grid.tiles_y_, grid.source_width_, grid.source_height_),
       edges_(edge_mask(view, ball.proxy().edges())),
-      // A ball's picture jumps where the camera's rays pass an edge, not where the ball's centre
-      // sees it.
+      // A ball's picture jumps where the camera's rays pass an edge, not where the edge lies as
+      // seen from the ball's centre.
       is_smooth_(view.kind() != optics::ViewKind::Ball || ball.proxy().is_far()) {
   constexpr double kSomeDegrees = 0.2, kHalfTurn = 3.14;
   const double angle = tile_angle(view);
   nodes_are_close_ = angle < kSomeDegrees;
-  // The nodes of a view that turns round within a tile would all be alike.
+  // The nodes of a view that wraps around within a tile would all be alike.
   is_smooth_ = is_smooth_ && angle < kHalfTurn;
   edges_are_known_ = is_smooth_ && ball.proxy().lists_every_edge();
 }
@@ -55,7 +56,7 @@ void CoordinateGrid::Compiler::run() {
   fit(grid_.own_nodes_, grid_.split_, grid_.fine_, grid_.pixel_tiles_);
 }
 
-/// A run of tiles from (tx, ty) on.
+/// Compiles a run of tiles from (tx, ty) on.
 void CoordinateGrid::Compiler::compile_run(int tx, int ty, const PlainTiles::Levels& levels) {
   const int count = std::min(static_cast<int>(levels.size()), grid_.tiles_x_ - tx);
   for (int k = 0; k < count; ++k) {
@@ -126,7 +127,7 @@ CoordinateGrid::Compiler::Surfaces CoordinateGrid::Compiler::surfaces_of(int tx,
   const bool known = edges_are_known_ && is_in_projection(tx, ty);
   Surfaces surfaces{};
   for (int y = 0; y < rows(ty); ++y) {
-    // Where no edge runs the next pixel is on the same surface.
+    // The next pixel is on the same surface where no edge runs.
     const unsigned asked = 1U | (known ? edges_.row(tx, ty * kTile + y) : ~0U);
     int surface = ExactMap::kNoSurface;
     for (int x = 0; x < columns(tx); ++x) {

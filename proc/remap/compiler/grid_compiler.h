@@ -11,7 +11,7 @@
 
 namespace orbwatch::remap {
 
-/// Fills a grid from the exact map. The map is smooth on each surface of the scene, also a little
+/// Fills a grid from the exact map. The map is smooth on each surface of the scene, also slightly
 /// beyond the surface's edges, so that patches reach the edges from either side. Tiles beyond the
 /// accuracy of patches are evaluated pixel by pixel.
 class CoordinateGrid::Compiler {
@@ -22,7 +22,7 @@ class CoordinateGrid::Compiler {
   void run();
 
  private:
-  /// A tile and the surface that it lies on.
+  /// A tile and its surface.
   struct Place {
     int tx, ty;
     int surface;
@@ -72,12 +72,11 @@ class CoordinateGrid::Compiler {
   ExactMap map_;
   PlainTiles plain_;
   EdgeMask edges_;
-  bool edges_are_known_;       ///< all of them are in `edges_`
-  bool is_smooth_;             ///< on each surface; else the map is evaluated at every pixel
+  bool edges_are_known_;  ///< true if all edges are in `edges_`
+  bool is_smooth_;  ///< true if smooth on each surface; else the map is evaluated at every pixel
   bool nodes_are_close_;       ///< neighbouring nodes are within some degrees of each other
-  std::vector<int> surfaces_;  ///< of the nodes, in their order
-  std::vector<std::vector<Coordinate>>
-      extended_;  ///< by surface: nodes on it, also beyond its edges
+  std::vector<int> surfaces_;  ///< surfaces of the nodes, in their order
+  std::vector<std::vector<Coordinate>> extended_;  ///< nodes of each surface, also beyond its edges
 };
 
 }  // namespace orbwatch::remap

@@ -10,27 +10,27 @@
 #include "proc/remap/grid/tile.h"
 #include "proc/remap/grid/tile_stores.h"
 
-/// The mip level of the source for a tile, by its step from pixel to pixel.
+/// The mip level of the source for a tile, from its step from pixel to pixel.
 namespace orbwatch::remap {
 
 /// The square of the largest step between neighbouring pixels, in source pixels, for one bilinear
-/// sample per pixel: beyond it that loses more than averaging would.
+/// sample per pixel: a larger step loses more than averaging would.
 inline constexpr float kLargestStep2 = 1.4F * 1.4F;
 
-/// The level for steps whose larger square is `step2`: the least at which it is allowed. Without a
-/// branch, for loops over many.
+/// The lowest level at which steps whose larger square is `step2` are allowed. Branch-free, for
+/// loops over many.
 constexpr std::int32_t level_of_step2(float step2) {
   static_assert(kMaxLevel == 3);
   return std::int32_t{step2 > kLargestStep2} + std::int32_t{step2 > 4 * kLargestStep2} +
          std::int32_t{step2 > 16 * kLargestStep2};
 }
-/// 2^level.
+/// The factor 2^level.
 constexpr float scale_of_step2(float step2) {
   return (step2 > kLargestStep2 ? 2.0F : 1.0F) * (step2 > 4 * kLargestStep2 ? 2.0F : 1.0F) *
          (step2 > 16 * kLargestStep2 ? 2.0F : 1.0F);
 }
 
-/// The square of a step to the next pixel, from the coordinates at either end of `pixels` of them.
+/// The square of a step to the next pixel, from the coordinates at both ends of `pixels` steps.
 inline float step2(const Coordinate& from, const Coordinate& to, int pixels) {
   const auto scale = static_cast<float>(1 / (kOnePixel * pixels));
   const float u = static_cast<float>(std::int64_t{to.u} - from.u) * scale;
@@ -61,8 +61,8 @@ std::uint8_t level_of(const FineTile<Cell>& fine) {
                          step2(at(0, -1), at(0, 1), 2 * Cell));
 }
 
-/// The level of a tile that has no smooth map: by the median of its pixels' steps, which a jump or
-/// the limb's bend does not reach.
+/// The level of a tile without a smooth map: from the median of its pixels' steps, which a jump or
+/// the limb's bend does not affect.
 inline std::uint8_t level_of(const CoordinateTile& pixels) {
   std::array<float, kTile * kTile> steps2;
   std::size_t count = 0;

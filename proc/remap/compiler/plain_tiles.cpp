@@ -13,24 +13,25 @@ namespace {
 constexpr std::size_t kRun = PlainTiles::kRun;
 using Floats = std::array<float, kRun>;
 
-// Q13 pixels: a float holds coordinates up to 2^27 with an error of 8 at most.
+// Rounding in Q13 pixels: a float holds coordinates up to 2^27 with an error of 8 at most.
 constexpr float kRounding = 16;
 
-/// What one axis of a run of tiles is judged by, in Q13 pixels.
+/// Measures of one axis of a run of tiles, in Q13 pixels.
 struct Axis {
   Floats third;     ///< error of third order
   Floats fourth_x;  ///< fourth differences along x and y
   Floats fourth_y;
-  Floats low;  ///< no pixel is below or above
+  Floats low;  ///< bounds of all pixels
   Floats high;
   Floats along_x, along_y;  ///< twice the tile's extent in its middle
-  Floats span;              ///< no neighbours among its nodes are further apart
+  Floats span;              ///< bound of the distance between neighbouring nodes
 };
 
-/// `nodes`: of the first tile's corner. Undefined nodes give anything; differences wrap around.
+/// `nodes`: node of the first tile's corner. Undefined nodes have undefined results; differences
+/// wrap around.
 void measure(const std::int32_t* nodes, std::ptrdiff_t stride, Axis& axis) {
   constexpr auto kThird = static_cast<float>(kThirdDifference);
-  // Of the sum of both sides' changes, where third_order_error() has the mean.
+  // Factor for the sum of both sides' changes, where third_order_error() uses the mean.
   constexpr auto kAcross = static_cast<float>(kChangeAcross / 2);
   for (std::size_t k = 0; k < kRun; ++k) {
     const auto n = [&](int i, int j) {
@@ -51,14 +52,14 @@ void measure(const std::int32_t* nodes, std::ptrdiff_t stride, Axis& axis) {
         kThird * (std::max(x0, x1) + std::max(y0, y1)) + kAcross * (across_x + across_y);
     axis.fourth_x[k] = real(n(-2, 0) - 4 * n(-1, 0) + 6 * n(0, 0) - 4 * n(1, 0) + n(2, 0));
     axis.fourth_y[k] = real(n(0, -2) - 4 * n(0, -1) + 6 * n(0, 0) - 4 * n(0, 1) + n(0, 2));
-    // Between the corners a patch bulges by an eighth of the mean second differences.
+    // A patch bulges between the corners by an eighth of the mean second differences.
     const float bulge =
         (std::abs(real(xx00 + xx10 + xx01 + xx11)) + std::abs(real(yy00 + yy10 + yy01 + yy11))) /
         32;
     const float a = real(n(0, 0)), b = real(n(1, 0)), c = real(n(0, 1)), d = real(n(1, 1));
     axis.low[k] = std::min(std::min(a, b), std::min(c, d)) - bulge - kRounding;
     axis.high[k] = std::max(std::max(a, b), std::max(c, d)) + bulge + kRounding;
-    // From a corner outwards it is one second difference more; 32 bulges are four of them.
+    // Each node outwards from a corner adds one second difference; 32 bulges are four of them.
     axis.span[k] = axis.high[k] - axis.low[k] + 32 * bulge;
     axis.along_x[k] = real(n(1, 0) - n(0, 0) + n(1, 1) - n(0, 1));
     axis.along_y[k] = real(n(0, 1) - n(0, 0) + n(1, 1) - n(1, 0));
@@ -84,8 +85,8 @@ void PlainTiles::finish() {
   extrapolate(v_);
 }
 
-/// Goes on by one node before the first row and column, with the fourth difference that the first
-/// five nodes have.
+/// Extends by one node before the first row and column, with the fourth difference of the first
+/// five nodes.
 void PlainTiles::extrapolate(std::vector<std::int32_t>& plane) const {
   const auto before = [&plane](std::size_t at, std::size_t step) {
     const auto n = [&](std::size_t i) { return static_cast<std::uint32_t>(plane[at + i * step]); };

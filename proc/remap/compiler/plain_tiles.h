@@ -10,21 +10,22 @@
 
 namespace orbwatch::remap {
 
-/// Finds plain tiles, most of them, in vector code: all nodes around them are on one surface, the
-/// patch between them is surely within the tolerance, and it is interior.
+/// Finds plain tiles, which most are, in vector code: all nodes around them are on one surface, the
+/// patch between them is within the tolerance with certainty, and it is interior.
 class PlainTiles {
  public:
-  /// Of a source of that size.
+  /// For a source of that size.
   PlainTiles(int tiles_x, int tiles_y, int source_width, int source_height);
 
-  /// Nodes of the grid, (-1, -1) to (tiles_x + 1, tiles_y + 1). Undefined ones have no surface.
+  /// Sets a node of the grid, (-1, -1) to (tiles_x + 1, tiles_y + 1). Undefined ones have no
+  /// surface.
   void set_node(int i, int j, const Coordinate& node, int surface) {
     const std::size_t at = index(i, j);
     u_[at] = node.u;
     v_[at] = node.v;
     surfaces_[at] = is_defined(node) ? surface : kUndefined;
   }
-  /// After the last node.
+  /// Completes the planes after the last node.
   void finish();
 
   static constexpr std::size_t kRun = optics::kLanes;
@@ -45,8 +46,8 @@ class PlainTiles {
   int tiles_y_;
   float width_;
   float height_;
-  /// From row to row of nodes: with one more before the first, and so many behind that a run of
-  /// tiles may end beyond the last.
+  /// Distance between rows of nodes: includes one node before the first, and enough behind the last
+  /// that a run of tiles may end beyond it.
   std::size_t stride_;
   std::vector<std::int32_t> u_;
   std::vector<std::int32_t> v_;

@@ -1,4 +1,4 @@
-// The tiles that lie on one smooth surface.
+// Tiles that lie on one smooth surface.
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,13 @@
 namespace orbwatch::remap {
 namespace {
 
-// A node on a surface that was not evaluated yet.
+// Marks a node that has not been evaluated on a surface yet.
 constexpr std::int32_t kUnknown = kOutside + 1;
 
-/// The error of fourth order at most: the largest along each axis, added up.
+/// Bound of the fourth-order error: the sum of the largest along each axis.
 double fourth_order_error(const FineTile<8>& fine) {
   double along_u = 0, along_v = 0;
-  // The outer rows end at corners that do not count.
+  // The outer rows end at corners that are not used.
   for (int line = 1; line + 1 < fine.kNodes; ++line) {
     std::array<Coordinate, 5> column;
     for (int k = 0; k < fine.kNodes; ++k) column[k] = fine.nodes[k][line];
@@ -28,8 +28,8 @@ double fourth_order_error(const FineTile<8>& fine) {
   return along_u + along_v;
 }
 
-/// What a Coons patch leaves out between its four curves: at most 1/64 of the mixed fourth
-/// difference about a node, `at(i, j)` being those around it.
+/// The part that a Coons patch omits between its four curves: at most 1/64 of the mixed fourth
+/// difference about a node, `at(i, j)` being the nodes around it.
 template <class At>
 double mixed_error(const At& at) {
   double u = 0, v = 0;
@@ -43,7 +43,7 @@ double mixed_error(const At& at) {
   return std::sqrt(u * u + v * v) / 64;
 }
 
-/// In the middle of each side and of the tile, away from corners that do not count.
+/// The error in the middle of each side and of the tile, away from corners that are not used.
 double mixed_error(const FineTile<8>& fine) {
   double error = 0;
   for (const auto& [x, y] : {std::pair{2, 2}, {1, 2}, {3, 2}, {2, 1}, {2, 3}}) {
@@ -90,7 +90,7 @@ std::optional<Tile> CoordinateGrid::Compiler::patch_tile(const Stencil& nodes, i
   tile.level = level_of(nodes);
   tile.interior = is_interior(patch, tile.level);
   if (tile.interior || is_inside(patch)) return tile;
-  // The part that lies in the view may be inside although the patch is not.
+  // The part in the view may be inside although the patch is not.
   for (int y = 0; y < rows(ty); ++y) {
     PatchRow row = patch.row(y);
     for (int x = 0; x < columns(tx); ++x, row.step()) {
@@ -113,14 +113,13 @@ bool CoordinateGrid::Compiler::is_inside(const Patch& patch) const {
          SourceExtent(grid_.source_height_).surely_holds(low.v, high.v);
 }
 
-/// A tile of third order on the grid's nodes; nullopt when it is not close or not inside the
-/// source.
+/// A third-order tile on the grid's nodes; nullopt when it is not close or not inside the source.
 std::optional<Tile> CoordinateGrid::Compiler::curved_tile(const Stencil& nodes,
                                                           double fourth) const {
   return tile_of_cells(TileKind::Curved, remap::curved_tile(nodes), fourth);
 }
 
-/// What finer patches have in common. `fourth`: the error beyond that of third order.
+/// Common part of tiles of finer patches. `fourth`: the error beyond the third order.
 template <int Cell>
 std::optional<Tile> CoordinateGrid::Compiler::tile_of_cells(TileKind kind,
                                                             const FineTile<Cell>& fine,
@@ -173,12 +172,12 @@ std::optional<Tile> CoordinateGrid::Compiler::fine_tile(const Place& place) {
   return tile;
 }
 
-/// Whether a sample of a tile's pixels agrees with the exact map. For maps that need finer nodes
-/// the differences of these nodes are no bound of the error.
+/// True if a sample of a tile's pixels agrees with the exact map. Differences of the nodes do not
+/// bound the error of maps that need finer nodes.
 bool CoordinateGrid::Compiler::follows_the_map(const CoordinateTile& pixels,
                                                const Place& place) const {
-  // One is close to a node along an axis and one in between, where errors of odd and of even order
-  // are largest.
+  // Samples are next to a node along an axis and halfway between nodes, where errors of odd and of
+  // even order are largest.
   constexpr int kFirst = 1, kStep = 4;
   const Lattice some{place.tx * kTile + kFirst, place.ty * kTile + kFirst, kStep, kTile / kStep,
                      kTile / kStep};
@@ -197,7 +196,7 @@ bool CoordinateGrid::Compiler::follows_the_map(const CoordinateTile& pixels,
   return all_close;
 }
 
-/// A tile's nodes as if all of them were on its surface; nullopt when one of them is not shown.
+/// A tile's nodes, all evaluated on its surface; nullopt when one of them is not shown.
 std::optional<Stencil> CoordinateGrid::Compiler::stencil(const Place& place) {
   Stencil nodes = grid_.stencil(place.tx, place.ty);
   const bool defined = all_nodes([&](int i, int j) {
@@ -220,17 +219,17 @@ Coordinate CoordinateGrid::Compiler::extended_node(int surface, int i, int j) {
   return there;
 }
 
-/// Whether a patch on these nodes is within the tolerance everywhere in the tile.
+/// True if a patch on these nodes is within the tolerance everywhere in the tile.
 bool CoordinateGrid::Compiler::is_close(const Stencil& nodes, const Place& place) const {
   if (is_too_steep(nodes, kTile)) return false;
   const double third = third_order_error(nodes);
   return third < kClose && third + fourth_order_part(nodes, place) < kClose;
 }
 
-/// What third_order_error() leaves out.
+/// The part of the error that third_order_error() does not include.
 double CoordinateGrid::Compiler::fourth_order_part(const Stencil& nodes, const Place& place) const {
   const auto [tx, ty, surface, uniform] = place;
-  // Five nodes in a row, where the grid has them on one surface.
+  // Uses five nodes in a row if the grid has them on one surface.
   if (uniform && tx > 0 && ty > 0 && surfaces_[index(tx - 2, ty)] == surface &&
       surfaces_[index(tx, ty - 2)] == surface) {
     std::array<Coordinate, 5> row, column;
@@ -240,21 +239,21 @@ double CoordinateGrid::Compiler::fourth_order_part(const Stencil& nodes, const P
     }
     return fourth_order_error(row) + fourth_order_error(column);
   }
-  // In the tile's middle it is largest, and the error of third order vanishes.
+  // This part is largest in the tile's middle, where the third-order error vanishes.
   constexpr int kMiddle = kTile / 2;
   const Coordinate truth = map_.on_surface(surface, tx * kTile + kMiddle, ty * kTile + kMiddle);
   return is_defined(truth) ? distance(truth, Patch(nodes).at(kMiddle, kMiddle)) : kTolerated;
 }
 
-/// What a curved tile's error may be: of fourth order along rows and columns of nodes, the worst of
-/// those around the tile, and x (1-x) y (1-y) / 4 of the mixed fourth difference between them. Not
-/// finite where nodes are missing.
+/// Bound of a curved tile's error: fourth order along rows and columns of nodes, the worst of those
+/// around the tile, and x (1-x) y (1-y) / 4 of the mixed fourth difference between them. Not finite
+/// where nodes are missing.
 double CoordinateGrid::Compiler::curve_error(const Place& place) const {
   const int tx = place.tx, ty = place.ty, surface = place.surface;
   const auto in_grid = [&](int i, int j) {
     return i >= -1 && j >= -1 && i <= grid_.tiles_x_ + 1 && j <= grid_.tiles_y_ + 1;
   };
-  // From a node five in that direction.
+  // The error along five nodes from (i, j) on in that direction.
   const auto error = [&](int i, int j, int di, int dj) -> std::optional<double> {
     if (!in_grid(i, j) || !in_grid(i + 4 * di, j + 4 * dj)) return std::nullopt;
     std::array<Coordinate, 5> nodes;

@@ -6,18 +6,18 @@
 
 #include "proc/remap/grid/coordinate.h"
 
-/// The allowed and the estimated error of a patch against the exact map, in Q13 pixels, and what
-/// they leave of the source picture.
+/// The allowed and the estimated error of a patch against the exact map, in Q13 pixels, and the
+/// part of the source picture that remains usable.
 namespace orbwatch::remap {
 
 inline constexpr double kOnePixel = 1 << kFractionBits;
 inline constexpr double kTolerated = kTolerance * kOnePixel;
-/// What a patch's error may be by its nodes: the rest of the tolerance is for terms of higher order
-/// than the fourth.
+/// Largest error of a patch estimated from its nodes: the rest of the tolerance is for terms of
+/// higher order than the fourth.
 inline constexpr double kClose = 0.85 * kTolerated;
 
-/// Share of the fourth difference of five nodes in a row that the error of fourth order is at most:
-/// the largest of Lagrange's t (1-t) (1+t) (2-t) / 24.
+/// Largest share of five nodes' fourth difference that the fourth-order error can be: the maximum
+/// of Lagrange's t (1-t) (1+t) (2-t) / 24.
 inline constexpr double kFourthOrder = 0.0235;
 
 inline double distance(const Coordinate& a, const Coordinate& b) {
@@ -35,7 +35,7 @@ inline double fourth_order_error(const std::array<Coordinate, 5>& row) {
   return kFourthOrder * std::sqrt(u * u + v * v);
 }
 
-/// One axis of the source picture. Pixels are squares around their centres, so the picture reaches
+/// One axis of the source picture. Pixels are squares around their centres, so the picture extends
 /// half a pixel further.
 struct SourceExtent {
   static constexpr std::int32_t kHalf = 1 << (kFractionBits - 1);
@@ -57,13 +57,13 @@ struct SourceExtent {
 
 // Kernels read a window of 8x8 source samples for each block of 4x4 pixels, without a check of the
 // picture's border. A window begins less than 6 samples before the least coordinate of its block
-// (see BlockMap: what all blocks of a tile need is at most 6 samples wide) and ends less than 8
-// behind it; in the chroma of 4:2:0 that is 12 and 16 pixels of the picture, and rounding takes the
+// (see BlockMap: all blocks of a tile need at most 6 samples in width) and ends less than 8 behind
+// it; in the chroma of 4:2:0 that is 12 and 16 pixels of the picture, and rounding accounts for the
 // rest. All of it doubles from level to level.
 inline constexpr int kInteriorBefore = 14;  ///< px; no coordinate is below it
 inline constexpr int kInteriorBeyond = 18;  ///< px; no coordinate is above the size less this
 
-/// Whether a kernel may read around every coordinate from `lowest` to `highest` along an axis of
+/// True if a kernel may read around every coordinate from `lowest` to `highest` along an axis of
 /// `size` pixels, Q13, at that level.
 constexpr bool is_interior(std::int32_t lowest, std::int32_t highest, int size, int level) {
   const std::int64_t before = std::int64_t{kInteriorBefore} << level;

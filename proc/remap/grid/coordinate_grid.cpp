@@ -7,9 +7,9 @@
 namespace orbwatch::remap {
 namespace {
 
-/// Around a map that stays between `low` and `high`. Bilinear interpolation reads one pixel
-/// further, of packed YUV the next two pairs; means of several places are up to a quarter of a step
-/// further, which on mip level n is below 2^n pixels.
+/// The area around a map that stays between `low` and `high`. Bilinear interpolation reads one
+/// pixel further, for packed YUV the next two pairs; means of several places are up to a quarter of
+/// a step further, which on mip level n is below 2^n pixels.
 SourceArea area_around(const Coordinate& low, const Coordinate& high, int level) {
   const int margin = 4 + (1 << level);
   const auto pixel = [](std::int32_t q13) { return q13 >> kFractionBits; };

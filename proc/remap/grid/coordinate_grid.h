@@ -18,11 +18,11 @@ namespace orbwatch::remap {
 
 /// The map from a view's pixels to one source's pixels, compiled so that the frame path needs
 /// neither trigonometry nor a map of full size. Every defined pixel is within kTolerance of the
-/// exact map by an estimate from its nodes; in odd views (of few pixels, close to the limb) the
-/// estimate was up to 1.6 times too low. Immutable; reentrant.
+/// exact map by an estimate from its nodes; in unusual views (with few pixels, close to the limb)
+/// the estimate was up to 1.6 times too low. Immutable; reentrant.
 class CoordinateGrid {
  public:
-  /// Evaluates the exact map at the tiles' corners, and more often in tiles that an edge of the
+  /// Evaluates the exact map at the tiles' corners, and more densely in tiles that an edge of the
   /// scene crosses or whose patch would not be close enough. Allocates; not for the frame path.
   CoordinateGrid(const optics::ViewProjection& view, const optics::BallProjection& ball,
                  int source_width, int source_height);
@@ -40,7 +40,7 @@ class CoordinateGrid {
   }
   /// The highest mip level of all tiles.
   int levels() const { return levels_; }
-  /// The mip levels of a Pyramid that remap() can use: the last factor of two it averages itself.
+  /// The mip levels of a Pyramid that remap() can use: it averages the last factor of two itself.
   int pyramid_levels() const { return std::max(levels_ - 1, 0); }
   /// The nodes of the tile `tile` at (tx, ty), whose kind is_patch().
   PatchNodes nodes(const Tile& tile, int tx, int ty) const {
@@ -61,8 +61,8 @@ class CoordinateGrid {
   /// interpolation and shared chroma included. Decodes tiles; not for the frame path.
   SourceArea sampled_area() const;
 
-  /// About where a tile lies in the source: what is between its corners. Empty when the map has no
-  /// place for one of them, or beyond the last tile. For the frame path.
+  /// The approximate area of a tile in the source: the rectangle around its corners. Empty when the
+  /// map has no place for one of them, or beyond the last tile. For the frame path.
   SourceArea extent(int tx, int ty) const {
     if (tx >= tiles_x_ || ty >= tiles_y_) return {};
     const Coordinate &a = node(tx, ty), &b = node(tx + 1, ty), &c = node(tx, ty + 1),
@@ -75,7 +75,7 @@ class CoordinateGrid {
     return common(area, {0, 0, source_width_, source_height_});
   }
 
-  /// One Validity per pixel into `out`, which has the view's size.
+  /// Writes one Validity per pixel into `out`, which has the view's size.
   void write_validity(const ImageView<std::uint8_t>& out) const;
 
   /// Memory of the map in bytes.

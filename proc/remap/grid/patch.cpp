@@ -12,7 +12,7 @@ constexpr int kTileBits = 4;
 static_assert(kTile == 1 << kTileBits);
 constexpr int kSlopeShift = PatchRow::kScaleBits - UvQuadratic::kSlopeBits;
 
-/// Two nodes in a row.
+/// Loads two nodes of a row.
 UvXy32 two(const Coordinate* nodes) {
   static_assert(sizeof(Coordinate) == 8);
   UvXy32 pair;
@@ -66,9 +66,10 @@ double third_order_error(const Stencil& stencil, std::int32_t Coordinate::*membe
 
 }  // namespace
 
-/// f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
-///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048. The second differences xx and yy
-/// are added up over the four corners.
+/// The formula is
+///   f(X, Y) = 8 (256 corner + 16 X along_x + 16 Y along_y + X Y along_xy)
+///           - X (16 - X) xx - Y (16 - Y) yy, in units of 1/2048.
+/// The second differences xx and yy are sums over the four corners.
 Patch::Patch(PatchNodes nodes) {
   const auto [corner, stride] = nodes;
   const Coordinate* const below = corner + stride;

@@ -26,7 +26,7 @@ struct PatchRow {
     v += dv;
     dv += ddv;
   }
-  /// The first `count` coordinates of the row, as current() and step() give them.
+  /// Writes the first `count` coordinates of the row, the same as current() and step().
   void write(int count, Coordinate* out) const;
 };
 
@@ -39,13 +39,13 @@ struct Stencil {
   Coordinate& at(int i, int j) { return nodes[(j + 1) * 4 + i + 1]; }
 };
 
-/// Nodes around `corner`, a patch's upper left, in rows of `stride` nodes.
+/// Nodes around `corner`, a patch's upper left, in rows `stride` nodes apart.
 struct PatchNodes {
   const Coordinate* corner;
   std::ptrdiff_t stride;
 };
 
-/// Whether `good(i, j)` holds for the twelve nodes that a patch depends on.
+/// True if `good(i, j)` holds for the twelve nodes that a patch depends on.
 template <class Good>
 bool all_nodes(const Good& good) {
   for (int j = -1; j <= 2; ++j) {
@@ -57,25 +57,25 @@ bool all_nodes(const Good& good) {
   return true;
 }
 
-/// value + x X + y Y + xy X Y + xx X^2 + yy Y^2: one axis of a patch in Q(13 + 11). X, Y count
+/// One axis of a patch in Q(13 + 11): value + x X + y Y + xy X Y + xx X^2 + yy Y^2. X, Y count
 /// pixels of the tile.
 struct Quadratic {
   std::int64_t value, x, y, xy, xx, yy;
 };
 
-// One register each, since a frame has thousands of patches: a number for u and one for v; a number
-// for each of u and v along x, and then along y.
+// One register each, since a frame has thousands of patches: Uv64 holds a number for u and one for
+// v; UvXy32 one for each of u and v along x, and then along y.
 using Uv64 [[gnu::vector_size(16)]] = std::int64_t;
 using UvXy32 [[gnu::vector_size(16)]] = std::int32_t;
 
-/// Both axes of a patch, as registers hold them.
+/// Both axes of a patch in the layout of registers.
 struct UvQuadratic {
   static constexpr int kSlopeBits = 7;  ///< Q(13 + 7), which is exact for a patch on nodes
 
   Uv64 value;    ///< Q24
   UvXy32 slope;  ///< x and y, Q20
   UvXy32 curve;  ///< xx and yy, Q24
-  UvXy32 cross;  ///< xy, Q24; twice over
+  UvXy32 cross;  ///< xy, Q24; stored twice
 };
 
 /// The smooth map between four nodes: bilinear, plus the mean of the second differences along each
@@ -87,7 +87,7 @@ class Patch {
   explicit Patch(PatchNodes nodes);
   explicit Patch(const Stencil& stencil) : Patch(PatchNodes{&stencil.at(0, 0), 4}) {}
   explicit Patch(const UvQuadratic& axes) : axes_(axes) {}
-  /// At most as steep as one on nodes can be; slopes are rounded down to Q20.
+  /// Precondition: at most as steep as a patch on nodes can be; slopes are rounded down to Q20.
   Patch(const Quadratic& u, const Quadratic& v);
 
   Quadratic u() const { return axis(0); }
@@ -97,10 +97,10 @@ class Patch {
   /// Row `y`, 0..15, at x = 0.
   PatchRow row(int y) const;
 
-  /// x, y in 0..15.
+  /// The coordinate at x, y in 0..15.
   Coordinate at(int x, int y) const;
 
-  /// Coordinates that the patch stays between; nearly tight.
+  /// Bounds of the patch's coordinates; nearly tight.
   struct Range {
     Coordinate low;
     Coordinate high;
@@ -113,20 +113,20 @@ class Patch {
   UvQuadratic axes_;
 };
 
-/// The error of a patch against the map of its nodes, in Q13 pixels, as estimated from the nodes:
-/// the terms of third order in the distance between nodes. Along x they are t (1-t) (2t-1) / 12 of
-/// the third difference, at most kThirdDifference of it, and t (1-t) / 2 of how far the second
-/// difference in this row is from the mean, at most kChangeAcross of its change from row to row.
+/// The error of a patch against the map of its nodes, in Q13 pixels, estimated from the nodes: the
+/// third-order terms in the distance between nodes. Along x they are t (1-t) (2t-1) / 12 of the
+/// third difference, at most kThirdDifference of it, and t (1-t) / 2 of the deviation of this row's
+/// second difference from the mean, at most kChangeAcross of its change from row to row.
 inline constexpr double kThirdDifference = 0.0081;
 inline constexpr double kChangeAcross = 1.0 / 16;
 double third_order_error(const Stencil& stencil);
 
-/// The steepest map that is kept in patches: source pixels per pixel of a view, along one axis.
-/// Within it no sum of a patch's numbers overflows, also where a plane or a mip level is sampled.
+/// The steepest map that is kept in patches: source pixels per pixel of a view, along one axis. Up
+/// to it no sum of a patch's numbers overflows, also where a plane or a mip level is sampled.
 inline constexpr int kSteepest = 16;
 
-/// Whether neighbours among those nodes, `pixels` of a view apart, are further apart than that in
-/// the source.
+/// True if neighbours among those nodes, `pixels` of a view apart, are further apart in the source
+/// than kSteepest allows.
 bool is_too_steep(const Stencil& stencil, int pixels);
 
 }  // namespace orbwatch::remap

@@ -23,14 +23,14 @@ constexpr SourceArea united(const SourceArea& a, const SourceArea& b) {
           std::max(a.bottom, b.bottom)};
 }
 
-/// What both have in common.
+/// The intersection of both.
 constexpr SourceArea common(const SourceArea& a, const SourceArea& b) {
   return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
           std::min(a.bottom, b.bottom)};
 }
 
-/// Calls `visit` with areas, at most four, that together are `whole` without `part`, which it
-/// holds.
+/// Calls `visit` with at most four areas that together are `whole` without `part`, which lies
+/// within it.
 template <class Visit>
 void for_each_rest(const SourceArea& whole, const SourceArea& part, const Visit& visit) {
   const auto visit_any = [&](const SourceArea& area) {

@@ -7,8 +7,8 @@
 
 namespace orbwatch::remap {
 
-/// What a tile's pixels show and how their coordinates are kept. Patches and cells (finer patches)
-/// are sampled in blocks, the others pixel by pixel.
+/// Content of a tile and storage of its coordinates. Patches and cells (finer patches) are sampled
+/// in blocks, the others pixel by pixel.
 enum class TileKind : std::uint8_t {
   Blind,       ///< no pixel is on the ball's picture: filled without reading
   Outside,     ///< every pixel falls outside the source picture: filled without reading
@@ -18,17 +18,17 @@ enum class TileKind : std::uint8_t {
   Fine,        ///< cells on nodes every 8 px
   CurvedFine,  ///< cells on a curve through such nodes
   Split,       ///< a patch on either side of an edge
-  Pixels,      ///< each pixel a coordinate or a marker
+  Pixels,      ///< a coordinate or a marker for each pixel
 };
 constexpr bool is_empty(TileKind kind) { return kind <= TileKind::Outside; }
 constexpr bool is_patch(TileKind kind) {
   return kind == TileKind::Patch || kind == TileKind::OwnPatch;
 }
-/// Whether every pixel has a coordinate: only tiles of single pixels may have markers.
+/// True if every pixel has a coordinate: only tiles of single pixels may have markers.
 constexpr bool is_defined_throughout(TileKind kind) {
   return kind >= TileKind::Patch && kind <= TileKind::Split;
 }
-/// Whether the grid has memory for such a tile beyond its nodes.
+/// True if the grid stores such a tile in memory beyond its nodes.
 constexpr bool has_store(TileKind kind) {
   return kind == TileKind::OwnPatch || kind >= TileKind::Fine;
 }
@@ -38,13 +38,13 @@ inline constexpr int kMaxLevel = 3;
 
 struct Tile {
   TileKind kind = TileKind::Blind;
-  /// Every pixel of the whole tile, also beyond the view's border, is defined and as far within the
-  /// source as is_interior() requires.
+  /// True if every pixel of the whole tile, also beyond the view's border, is defined and as far
+  /// within the source as is_interior() requires.
   bool interior = false;
   /// The source's mip level for which a view smaller than the source does not alias: 0..kMaxLevel.
   /// Coordinates count pixels of level 0.
   std::uint8_t level = 0;
-  std::uint32_t index = 0;  ///< in its store; without one, the tile's number, row by row
+  std::uint32_t index = 0;  ///< index in its store; without one, the tile's number, row by row
 };
 
 /// A grid's tiles in a byte each. The index of a tile with a store follows from the number of such
@@ -60,7 +60,7 @@ class TileTable {
             has_store(record.kind) ? index(number) : static_cast<std::uint32_t>(number)};
   }
 
-  /// Tiles with a store of their own come in rising order.
+  /// Tiles with a store must be set in ascending order.
   void set(std::size_t number, const Tile& tile) {
     records_[number] = Record{tile.kind, tile.interior, tile.level};
     if (has_store(tile.kind)) set_index(number, tile.index);
@@ -79,7 +79,7 @@ class TileTable {
   };
   static_assert(sizeof(Record) == 1 && kMaxLevel < 4);
 
-  /// 64 tiles: which of them have a store of their own, and how many have one before them.
+  /// Bit mask of those among 64 tiles that have a store, and the number of such tiles before them.
   struct Word {
     std::uint64_t own = 0;
     std::uint32_t before = 0;
@@ -92,7 +92,7 @@ class TileTable {
   }
 
   void set_index(std::size_t number, std::uint32_t index) {
-    // Words between the last tile and this one have none of their own.
+    // Words between the last tile and this one have no tiles with a store.
     const auto before = static_cast<std::uint32_t>(indices_.size());
     while (words_.size() <= number / 64) words_.push_back({0, before});
     words_.back().own |= std::uint64_t{1} << (number % 64);
@@ -100,8 +100,8 @@ class TileTable {
   }
 
   std::vector<Record> records_;
-  std::vector<Word> words_;             ///< none when no tile has a store of its own
-  std::vector<std::uint32_t> indices_;  ///< of those tiles, in their stores
+  std::vector<Word> words_;             ///< empty when no tile has a store
+  std::vector<std::uint32_t> indices_;  ///< indices of those tiles in their stores
 };
 
 }  // namespace orbwatch::remap

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint16_t kBlindOffset = UINT16_MAX;
 constexpr std::uint16_t kOutsideOffset = UINT16_MAX - 1;
 constexpr std::int64_t kLargestOffset = UINT16_MAX - 2;
-// Rounding to steps of 1/256 px loses 1/360 px at most, which the grid's tolerance has room for.
+// Rounding to steps of 1/256 px loses 1/360 px at most, for which the grid's tolerance has room.
 constexpr int kCoarsestShift = kFractionBits - 8;
 
 constexpr std::int64_t rounded(std::int64_t value, int shift) {
@@ -67,13 +67,13 @@ template struct FineTile<4>;
 
 namespace {
 
-/// Places along a line of nodes, half a node apart: from half before the second to half behind the
-/// third.
+/// Number of places along a line of nodes, half a node apart: from half before the second to half
+/// behind the third.
 constexpr int kLine = 5;
 
-/// Sixteen times the curve of third order through four nodes in a row, by Lagrange's weights.
+/// Sixteen times the third-order curve through four nodes in a row, by Lagrange's weights.
 std::array<Uv64, kLine> curve(Uv64 a, Uv64 b, Uv64 c, Uv64 d) {
-  // By shifts, for there is no vector multiplication of 64 bit.
+  // Multiplies by shifts, as there is no vector multiplication of 64 bit.
   const auto times5 = [](Uv64 x) { return (x << 2) + x; };
   const auto times15 = [](Uv64 x) { return (x << 4) - x; };
   const Uv64 middle = b + c;
@@ -81,7 +81,7 @@ std::array<Uv64, kLine> curve(Uv64 a, Uv64 b, Uv64 c, Uv64 d) {
           times5(d - b) + times15(c) + a};
 }
 
-/// A Coons patch between four nodes, in halves from one before the first corner: between curves
+/// A Coons patch between four nodes, in half steps from one before the first corner: between curves
 /// through the rows and columns of nodes, less the part of the corners in both.
 struct Coons {
   std::array<std::array<Coordinate, kLine>, kLine> nodes;
@@ -91,8 +91,8 @@ struct Coons {
     const auto row = [&](int j) { return curve(n(-1, j), n(0, j), n(1, j), n(2, j)); };
     const auto column = [&](int i) { return curve(n(i, -1), n(i, 0), n(i, 1), n(i, 2)); };
     std::array<Uv64, kLine> upper = row(0), lower = row(1), left = column(0), right = column(1);
-    // Times 32 it is, with i and j from -1 on, (2 - j) upper + j lower + (2 - i) left + i right,
-    // where upper and lower are less eight times the line between their corners.
+    // The patch times 32 is, with i and j from -1 on, (2 - j) upper + j lower + (2 - i) left + i
+    // right, where upper and lower are less eight times the line between their corners.
     Uv64 upper_line = ((n(0, 0) << 1) + n(0, 0) - n(1, 0)) << 3,
          lower_line = ((n(0, 1) << 1) + n(0, 1) - n(1, 1)) << 3;
     const Uv64 upper_step = (n(1, 0) - n(0, 0)) << 3, lower_step = (n(1, 1) - n(0, 1)) << 3;
@@ -125,10 +125,10 @@ FineTile<4> curved_tile(const FineTile<8>& fine) {
   for (int cell_j = 0; cell_j < fine.kCells; ++cell_j) {
     for (int cell_i = 0; cell_i < fine.kCells; ++cell_i) {
       const Coons cell(fine.stencil(cell_i, cell_j));
-      // The cells share the nodes between them: the last one to come sets those.
+      // The cells share the nodes between them: the last one sets those.
       for (int j = 0; j < kLine; ++j) {
         for (int i = 0; i < kLine; ++i) {
-          // Outside of its cell each gives only what no other cell is closer to.
+          // Outside of its cell each sets only the nodes that no other cell is closer to.
           if ((i == 0 && cell_i == 1) || (i == 4 && cell_i == 0)) continue;
           if ((j == 0 && cell_j == 1) || (j == 4 && cell_j == 0)) continue;
           tile.nodes[2 * cell_j + j][2 * cell_i + i] = cell.nodes[j][i];

@@ -11,8 +11,8 @@
 
 namespace orbwatch::remap {
 
-// How a tile is kept that the grid's nodes do not describe; the least memory is tried first. Each
-// gives row `y`, 0..15, as coordinates or markers.
+// Storage of tiles that the grid's nodes do not describe; the one with the least memory is tried
+// first. Each has row `y`, 0..15, as coordinates or markers.
 
 /// A tile on two surfaces of the scene: a patch on nodes of each, and the side of each pixel.
 struct SplitTile {
@@ -22,8 +22,8 @@ struct SplitTile {
   CoordinateRow row(int y) const;
 };
 
-/// A tile where the map bends so much that it needs nodes every `Cell` pixels: patches between
-/// (16 / Cell + 1)^2 nodes with a ring of one around them.
+/// A tile with so much curvature that it needs nodes every `Cell` pixels: patches between (16 /
+/// Cell + 1)^2 nodes with a ring of one around them.
 template <int Cell>
 struct FineTile {
   static constexpr int kCells = kTile / Cell;
@@ -32,21 +32,21 @@ struct FineTile {
 
   /// The nodes of cell (i, j), 0..kCells - 1.
   Stencil stencil(int i, int j) const;
-  /// The map in that cell, in pixels of the view from its corner on.
+  /// The map in that cell, in pixels of the view relative to its corner.
   Patch patch(int i, int j) const;
   CoordinateRow row(int y) const;
-  /// All rows, in less time than one by one.
+  /// All rows; faster than row by row.
   CoordinateTile pixels() const;
 };
 
-/// The tile between the middle four of the grid's nodes where the map bends too much for a Patch
-/// but a curve of third order follows it: on nodes that such curves through the twelve that count
-/// give, along the rows and columns of nodes, and between them a Coons patch.
+/// The tile between the middle four of the grid's nodes where the map is too curved for a Patch but
+/// a third-order curve follows it: along the rows and columns, nodes come from such curves through
+/// the twelve nodes used, and between them from a Coons patch.
 FineTile<8> curved_tile(const Stencil& nodes);
 /// The same between nodes every 8 px.
 FineTile<4> curved_tile(const FineTile<8>& fine);
 
-/// A tile's coordinates in four bytes per pixel: distances from the tile's least u and v, in the
+/// A tile's coordinates in four bytes per pixel: offsets from the tile's least u and v, in the
 /// finest power of two of Q13 steps that spans the tile.
 class PackedTile {
  public:
@@ -66,7 +66,8 @@ class PackedTile {
   std::array<std::array<Offset, kTile>, kTile> offsets_;
 };
 
-/// Tiles kept pixel by pixel: packed, or whole where a tile spans too much of the source for that.
+/// Tiles stored pixel by pixel: packed, or whole where a tile spans too much of the source for
+/// that.
 class PixelTiles {
  public:
   /// Adds a tile and returns its index.

@@ -18,13 +18,13 @@ constexpr double kFeather = 1.0 / 16;
 
 double fourth_power(double x) { return (x * x) * (x * x); }
 
-/// 0 at t <= 0, 1 at t >= 1, without a kink in between.
+/// Smooth step from 0 at t <= 0 to 1 at t >= 1, without a kink.
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-/// 1 within the source picture, falling to 0 at its border.
+/// 1 within the source picture, decreasing to 0 at its border.
 double feather(const optics::Vec2& pixel, const BlendSource& source) {
   const double width = source.source_width, height = source.source_height;
   const double u = pixel.u + 0.5, v = pixel.v + 0.5;
@@ -32,7 +32,7 @@ double feather(const optics::Vec2& pixel, const BlendSource& source) {
   return smooth_step(inside / (kFeather * std::min(width, height)));
 }
 
-/// What a source offers in a direction, before the sources are weighed against each other.
+/// A source's merit in a direction, before sources are weighted against each other.
 double merit(const BlendSource& source, const optics::Vec3& direction) {
   const auto pixel = source.ball.pixel(direction);
   if (!pixel) return 0;
@@ -41,7 +41,7 @@ double merit(const BlendSource& source, const optics::Vec3& direction) {
   return source.weight * fourth_power(resolution) * feather(*pixel, source);
 }
 
-/// Of 255, in the proportion of the merits; nothing where nobody has any.
+/// Shares of 255 in proportion to the merits; 0 where no source has any.
 std::array<std::uint8_t, kMaxSources> shares_of(const std::array<double, kMaxSources>& merits) {
   std::array<std::uint8_t, kMaxSources> shares{};
   const double total = std::accumulate(merits.begin(), merits.end(), 0.0);
@@ -51,7 +51,7 @@ std::array<std::uint8_t, kMaxSources> shares_of(const std::array<double, kMaxSou
     shares[n] = static_cast<std::uint8_t>(std::lround(merits[n] / total * UINT8_MAX));
     rest -= shares[n];
   }
-  // What rounding left or took is the largest one's, where it shows least.
+  // The largest share absorbs the rounding error, where it shows least.
   *std::ranges::max_element(shares) += static_cast<std::uint8_t>(rest);
   return shares;
 }

@@ -70,7 +70,7 @@ Line first_guess(std::span<Measured> measured) {
   return line;
 }
 
-/// Tukey's biweight of every residual, with their own median deviation as the scale.
+/// Tukey's biweight of every residual, scaled by the residuals' median deviation.
 void update_trust(std::span<const Measured> measured, const Line& line, std::span<double> trust) {
   std::vector<double> sizes;
   double largest_y = 0;
@@ -78,7 +78,7 @@ void update_trust(std::span<const Measured> measured, const Line& line, std::spa
     sizes.push_back(std::abs(m.y - line.slope * m.x - line.offset));
     largest_y = std::max(largest_y, std::abs(m.y));
   }
-  // Without noise at all the scale is what rounding leaves.
+  // The scale is the rounding error if there is no noise at all.
   const double scale = kTukey * std::max(kPerMedianDeviation * median(sizes), 1e-9 * largest_y);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const double residual = measured[i].y - line.slope * measured[i].x - line.offset;

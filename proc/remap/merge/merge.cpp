@@ -19,21 +19,21 @@ template <class T>
 constexpr std::uint32_t kLargestSum =
     kMaxSources* UINT8_MAX* std::uint32_t{std::numeric_limits<T>::max()} + kMaxSources * 128;
 
-/// floor(sum / total), exactly. The computed quotient errs by less than 2^-15. One that is no whole
-/// number lies at least 1 / total > 2^-10 below the next, so that the margin lifts over a whole
-/// number only what an error left below it.
+/// floor(sum / total), exactly. The computed quotient errs by less than 2^-15. A quotient that is
+/// not an integer lies at least 1 / total > 2^-10 below the next one, so that the margin lifts only
+/// quotients that an error left below an integer.
 template <class T>
 T quotient(std::uint32_t sum, std::uint32_t total) {
   using Real = std::conditional_t<sizeof(T) == 1, float, double>;
   static_assert(kLargestSum<T> < (sizeof(T) == 1 ? 1U << 24 : 1U << 31));
   constexpr Real kMargin = Real{1} / 4096;
-  // Signed integers are what vector units convert.
+  // Vector units convert signed integers.
   const Real reciprocal = Real{1} / static_cast<Real>(static_cast<std::int32_t>(total));
   return static_cast<T>(static_cast<std::int32_t>(
       static_cast<Real>(static_cast<std::int32_t>(sum)) * reciprocal + kMargin));
 }
 
-/// The weights of a run's pixels for each of their samples.
+/// Repeats the weights of a run's pixels for each of their samples.
 template <int Channels>
 [[gnu::always_inline]] inline void spread(const std::uint8_t* weights,
                                           Samples<std::uint8_t, Channels>& samples) {
@@ -57,8 +57,8 @@ template <class Runs>
   return totals;
 }
 
-/// One run as the mean by weight, no weight at all gives 0; `seen` becomes the pixels that some
-/// source sees.
+/// One run as the weighted mean, 0 without any weight; `seen` becomes the pixels that some source
+/// sees.
 struct Mean {
   template <int Channels, class Runs, class T>
   [[gnu::always_inline]] static void run(const Runs& in, T* out, Bytes& seen) {
@@ -104,7 +104,7 @@ struct First {
   }
 };
 
-/// A run that the border cuts, with memory of its own.
+/// A run that the border cuts, copied to memory of its own.
 template <class T, int Channels, std::size_t Count>
 struct CutRun {
   CutRun(const SourceRuns<T, Count>& in, int columns) {

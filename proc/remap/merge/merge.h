@@ -9,13 +9,13 @@
 
 namespace orbwatch::remap {
 
-/// Some of a view's sources: bit n is the n-th.
+/// A set of a view's sources: bit n is the n-th.
 using SourceSet = std::uint8_t;
 
-/// How sources are merged where several see a pixel.
+/// Rule for pixels that several sources see.
 enum class MergeRule : std::uint8_t {
-  Mean,   ///< by weight
-  First,  ///< only the first one that sees it
+  Mean,   ///< weighted mean
+  First,  ///< only the first source that sees it
 };
 
 /// One source of a merged picture: its picture of the view, and the weights of its pixels (see
@@ -27,9 +27,9 @@ struct MergeSource {
 };
 
 /// Merges the tile rows `rows` of up to kMaxSources pictures into `out`: by MergeRule::Mean rounded
-/// to nearest, exactly. A source that sees a pixel alone passes unchanged, whatever its weight: a
+/// to nearest, exactly. A source that alone sees a pixel passes unchanged, whatever its weight: a
 /// camera fills the other's blind cone. Pixels that none sees become 0. `validity` becomes Seen
-/// where some source sees; elsewhere it is left as it was.
+/// where some source sees; elsewhere it is not changed.
 ///
 /// Pictures, weights, `out` and `validity` have one size; pictures and `out` 1 or 3 channels. `out`
 /// may be one of the pictures. T is uint8_t or uint16_t. Reentrant.

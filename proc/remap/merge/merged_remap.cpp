@@ -42,7 +42,7 @@ template <class Visit>
   }
 }
 
-/// Of a view with `Channels` samples of type T per pixel.
+/// Merges a view with `Channels` samples of type T per pixel.
 template <class T, int Channels>
 class Merger {
  public:
@@ -61,7 +61,7 @@ class Merger {
   void write(int tx, int ty) const {
     const TileArea area = area_of(*sources_.front().grid, tx, ty);
     if (out_.planes[0].data == nullptr) return measure(tx, ty, area);
-    // The most common view first.
+    // The most common case, checked first.
     if (sources_.size() == 1 && delivering_ != 0 && tiles_[0]->fills(tx, ty)) {
       return write_alone(tx, ty, 0, area);
     }
@@ -88,14 +88,14 @@ class Merger {
     return seeing;
   }
 
-  /// Those of `seeing` that the tile shows unless they leave a part of it to the others.
+  /// Sources of `seeing` that the tile shows unless they leave a part of it to the others.
   SourceSet find_counting(int tx, int ty, SourceSet seeing) const {
     if (is_one(seeing)) return seeing;
     if (plan_.rule == MergeRule::First) return seeing & -seeing;
     return seeing & plan_.blend->sharing(tx, ty);
   }
 
-  /// Whether the sources show all of the tile: one alone, or each its share everywhere.
+  /// True if the sources cover all of the tile: one alone, or each with its share everywhere.
   bool share_all(int tx, int ty, SourceSet sources, const TileArea& area) const {
     bool all = sources != 0;
     for_each(sources, [&](std::size_t n) { all &= tiles_[n]->fills(tx, ty); });
@@ -115,8 +115,8 @@ class Merger {
     fill(part(validity_, area), static_cast<std::uint8_t>(Validity::Seen));
   }
 
-  /// Calls `write(out, place)` with where a tile's pixels go: into the view, or, of an I420 one,
-  /// into a tile of Rgb that is converted while it is in the cache.
+  /// Calls `write(out, place)` with the target of a tile's pixels: the view or, for an I420 one, a
+  /// tile of Rgb that is converted while it is in the cache.
   template <class Write>
   [[gnu::always_inline]] void show(const TileArea& area, const Write& write) const {
     if constexpr (sizeof(T) == 1 && Channels == 3) {
@@ -171,7 +171,7 @@ class Merger {
     });
   }
 
-  /// What is left of a view that nobody looks at: what is measured, and what is seen.
+  /// The part of the work for a view without viewers: measured planes and validity.
   [[gnu::noinline]] void measure(int tx, int ty, const TileArea& area) const {
     const auto validity = part(validity_, area);
     const SourceSet seeing = find_seeing(tx, ty);
@@ -195,7 +195,7 @@ class Merger {
     for (int x = 0; x < area.columns; ++x) validity[x] = weights[x] != 0 ? kSeen : validity[x];
   }
 
-  /// The measured plane of a source that does not count in a tile.
+  /// Writes the measured plane of a source that does not count in a tile.
   void measure_beside(std::size_t n, int tx, int ty, const TileArea& area) const {
     tiles_[n] ? tiles_[n]->measure(tx, ty) : clear_area(sources_[n].measured, area);
   }
@@ -207,7 +207,7 @@ class Merger {
   const ImageView<std::uint8_t>& validity_;
   SourceSet delivering_ = 0;
   SourceSet measured_ = 0;
-  std::array<std::optional<SourceTiles>, kMaxSources> tiles_;  ///< of delivering_
+  std::array<std::optional<SourceTiles>, kMaxSources> tiles_;  ///< set for delivering_
 };
 
 template <class T, int Channels>

@@ -14,7 +14,7 @@ namespace {
 using Outcome = PhotometricMatch::Outcome;
 
 constexpr int kBlock = 8;
-/// Blocks along a side; of more, some are skipped without loss.
+/// Blocks along a side; if there are more, some are skipped without loss.
 constexpr int kMostBlocks = 256;
 /// Samples below or above these shares of full scale may be clipped. Counts have no toe.
 constexpr double kNearlyBlack = 4.0 / 255;
@@ -27,7 +27,7 @@ constexpr int kRounds = 200;
 template <class T>
 constexpr double kFullScale = std::numeric_limits<T>::max();
 
-/// What one source shows in the blocks of the view.
+/// One source's content in the blocks of the view.
 struct Blocks {
   std::vector<double> weight;  ///< 0 where it does not see all of a block
   /// Mean light per channel; NaN where samples may be clipped.
@@ -83,7 +83,7 @@ Blocks blocks_of(const BlockReader<T>& reader, const MergeSource<T>& source) {
   return blocks;
 }
 
-/// How two sources belong together: light of `a` = slope * light of `b` + offset, per channel.
+/// Relation of two sources: light of `a` = slope * light of `b` + offset, per channel.
 struct Pair {
   std::size_t a;
   std::size_t b;
@@ -107,7 +107,7 @@ std::optional<Pair> compare(std::span<const Blocks> sources, std::size_t a, std:
   return pair;
 }
 
-/// For every source the first one that it is compared with, directly or through others.
+/// For every source, the first one that it is compared with, directly or through others.
 std::vector<std::size_t> references(std::size_t count, std::span<const Pair> pairs) {
   std::vector<std::size_t> reference(count);
   for (std::size_t n = 0; n < count; ++n) reference[n] = n;
@@ -119,8 +119,8 @@ std::vector<std::size_t> references(std::size_t count, std::span<const Pair> pai
   return reference;
 }
 
-/// One number per source from the differences that pairs ask for (number of b - number of a), by
-/// weighted least squares; references keep theirs.
+/// Solves for one number per source from the differences between pairs (number of b - number of a),
+/// by weighted least squares; references keep theirs.
 template <class Difference>
 std::array<double, kMaxSources> solve(std::span<const Pair> pairs, int channel,
                                       std::span<const std::size_t> reference,

@@ -6,7 +6,7 @@
 namespace orbwatch::remap {
 namespace {
 
-/// The luma of an Rgb or Bgr source.
+/// Writes the luma of an Rgb or Bgr source.
 void write_luma(const TileRemap& tiles, int tx, int ty, const MutablePicture& out,
                 const TileArea& area) {
   TilePicture<std::uint8_t, 3> tile;

@@ -24,29 +24,28 @@ struct TilePicture {
   ImageView<T> view() { return {samples.data(), kTile, kTile, Channels, kTile * Channels}; }
 };
 
-/// The tiles of one source as a view shows them, and what is measured of it. Refers to its
-/// arguments; reentrant.
+/// The tiles of one source for a view, and its measured plane. Refers to its arguments; reentrant.
 class SourceTiles {
  public:
   /// `view`: the format of the merged view.
   SourceTiles(const MergedSource& source, PixelFormat view, Interpolation interpolation,
               const Kernel& kernel);
 
-  /// Whether the source may show something there, and whether it shows all of the tile.
+  /// sees(): the source may show something in the tile. fills(): it shows all of the tile.
   bool sees(int tx, int ty) const { return !is_empty(source_.grid->tile(tx, ty).kind); }
   bool fills(int tx, int ty) const {
     return is_defined_throughout(source_.grid->tile(tx, ty).kind);
   }
 
-  /// Whether write_yuv420() is possible, which writes a tile into an I420 view as it is sampled.
+  /// True if write_yuv420() is possible, which writes a tile into an I420 view without conversion.
   bool writes_yuv420() const { return yuv420_tiles_.has_value(); }
   void write_yuv420(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
 
-  /// Writes a tile into `area` of `out`, of the view's format, or Rgb for an I420 view; and its
-  /// measured plane.
+  /// Writes a tile into `area` of `out`, which has the view's format, or Rgb for an I420 view; also
+  /// writes its measured plane.
   void write(int tx, int ty, const MutablePicture& out, const TileArea& area) const;
 
-  /// Writes the measured plane of a tile alone.
+  /// Writes only the measured plane of a tile.
   void measure(int tx, int ty) const;
 
   static bool is_measured(const MergedSource& source) {
@@ -63,11 +62,11 @@ class SourceTiles {
   PixelFormat format_;
   ColourModel colour_;
   bool is_wide_;    ///< 16 bit
-  bool is_mapped_;  ///< one channel becomes colours
-  bool is_dimmed_;  ///< colours become luma
+  bool is_mapped_;  ///< one channel is mapped to colours
+  bool is_dimmed_;  ///< colours are reduced to luma
   TileRemap tiles_;
-  std::optional<TileRemap> yuv420_tiles_;    ///< if the view is I420 and the source fits
-  std::optional<TileRemap> measured_tiles_;  ///< if it is measured
+  std::optional<TileRemap> yuv420_tiles_;    ///< set if the view is I420 and the source fits
+  std::optional<TileRemap> measured_tiles_;  ///< set if the source is measured
 };
 
 }  // namespace orbwatch::remap

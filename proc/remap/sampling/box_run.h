@@ -6,7 +6,8 @@
 
 namespace orbwatch::remap {
 
-/// How many pixels of a layout box_run() makes; 0: none, compilers do as well.
+/// Number of pixels of a layout that box_run() makes; 0: none, compilers generate equally good
+/// code.
 constexpr int box_run_pixels([[maybe_unused]] Layout layout) {
 #ifdef __aarch64__
   if (layout == Layout::One8) return 8;

@@ -8,7 +8,7 @@
 
 namespace orbwatch::remap {
 
-// With the processor's instructions: compilers do not find those that add neighbours.
+// NEON intrinsics: compilers do not generate the instructions that add neighbours.
 
 template <>
 [[gnu::always_inline]] inline void box_run<Layout::One8>(const std::uint8_t* upper,
@@ -17,7 +17,7 @@ template <>
   vst1_u8(out, vrshrn_n_u16(vpadalq_u8(vpaddlq_u8(vld1q_u8(upper)), vld1q_u8(lower)), 2));
 }
 
-/// Pixels are taken for words, so that the even and the odd ones come apart.
+/// Pixels are read as words, so that the even and the odd ones are separated.
 template <>
 [[gnu::always_inline]] inline void box_run<Layout::Two8>(const std::uint8_t* upper,
                                                          const std::uint8_t* lower,

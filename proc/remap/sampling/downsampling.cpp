@@ -34,7 +34,7 @@ template <Layout layout>
   }
 }
 
-/// A BoxFilter.
+/// Implements BoxFilter.
 template <Layout layout>
 inline void filter_row(const std::uint8_t* upper, const std::uint8_t* lower, std::uint8_t* out,
                        int width) {
@@ -60,7 +60,7 @@ void average_tile(const OversampledTile& tile, const TargetPlane& out) {
       filter_row<kPacked>(upper, upper + kStride, to, columns);
     }
   };
-  // Of known length rows are no loops.
+  // Rows of known length need no loops.
   if (out.columns == kTile) {
     average_rows(std::integral_constant<int, kTile>());
   } else if (out.columns == kTile / 2) {
@@ -78,7 +78,7 @@ template <std::size_t... n>
 constexpr auto filters_of(std::index_sequence<n...>) {
   return std::array{Filters{filter_row<Layout{n}>, average_tile<Layout{n}>}...};
 }
-/// By layout.
+/// Filters, indexed by layout.
 constexpr auto kFilters = filters_of(std::make_index_sequence<kLayouts>());
 
 template <class Pixel>
@@ -100,7 +100,7 @@ void keep_even(const TargetPlane& fine, const TargetPlane& out) {
 BoxFilter box_filter(Layout layout) { return kFilters[static_cast<std::size_t>(layout)].row; }
 
 void keep_even_rows(const TargetPlane& fine, int row_bytes, const TargetPlane& out) {
-  constexpr int kUnit = 8;  // a constant, for std::memcpy to be no call
+  constexpr int kUnit = 8;  // a constant, so that std::memcpy is not a call
   assert(row_bytes % kUnit == 0 && fine.rows >= 2 * out.rows);
   const std::uint8_t* from = fine.data;
   std::uint8_t* to = out.data;

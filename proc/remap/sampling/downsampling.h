@@ -23,7 +23,7 @@ void keep_even_rows(const TargetPlane& fine, int row_bytes, const TargetPlane& o
 /// 4) each, into the first kTile / 2 columns of `out`; as many rows as `out` has. Reentrant.
 void keep_even_columns(const TargetPlane& fine, int pixel_bytes, const TargetPlane& out);
 
-/// A tile of twice the pixels along either axis, in rows of 2 kTile pixels.
+/// A tile with twice the pixels along either axis, in rows of 2 kTile pixels.
 struct OversampledTile {
   static constexpr int kSide = 2 * kTile;
   alignas(64) std::array<std::uint8_t, kSide * kSide * 6> samples;

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cassert>
 
-// In loops without branches, over rows of known length, which compilers vectorize.
+// Loops have no branches and rows of known length, so that compilers vectorize them.
 
 namespace orbwatch::remap {
 namespace {
 
-/// Steps further than that lead to another surface.
+/// Longest step within one surface; a longer one leads to another surface.
 constexpr std::int32_t kFar = 64 << kFractionBits;
 
-/// Beyond a tile's pixels are markers: at least one before, and one behind a whole vector.
+/// Markers surround a tile's pixels: at least one before, and a whole vector behind.
 constexpr int kBefore = 4, kWide = kBefore + kTile + 8;
 
-/// Coordinates side by side, or quarters of steps.
+/// Adjacent coordinates, or quarters of steps.
 struct Line {
   const std::int32_t *u, *v;
 };
@@ -32,14 +32,14 @@ constexpr Row marker_row() {
   return row;
 }
 
-/// Rounded towards zero.
+/// quarter() and half() round towards zero.
 [[gnu::always_inline]] inline std::int32_t quarter(std::int32_t step) {
   return (step + (step >> 31 & 3)) >> 2;
 }
 [[gnu::always_inline]] inline std::int32_t half(std::int32_t step) {
   return (step + (step >> 31 & 1)) >> 1;
 }
-/// Modulo 2^32: markers are subtracted too.
+/// Difference modulo 2^32: markers are subtracted too.
 [[gnu::always_inline]] inline std::int32_t difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
@@ -59,7 +59,7 @@ template <int count>
   }
 }
 
-/// Of the steps before and behind each pixel.
+/// Means of the steps before and behind each pixel.
 template <int columns>
 [[gnu::always_inline]] inline void find_means(Line before, Line behind, std::int32_t* mean_u,
                                               std::int32_t* mean_v) {
@@ -71,7 +71,7 @@ template <int columns>
   }
 }
 
-/// Takes a tile's rows apart into u and v, and finds the steps within them.
+/// Splits a tile's rows into u and v, and finds the steps within them.
 template <int columns, class Pixels>
 void find_along_x(const CoordinateTile& tile, int rows, Pixels& here, Pixels& along_x) {
   Row row = marker_row(), steps;
@@ -98,7 +98,7 @@ void find_along_y(int rows, const Pixels& here, Pixels& along_y) {
   }
 }
 
-/// One axis of a quarter.
+/// Locates one axis of a quarter.
 [[gnu::always_inline]] inline void locate_axis(const std::int32_t* here,
                                                const std::int32_t* along_x,
                                                const std::int32_t* along_y, std::int32_t* out) {

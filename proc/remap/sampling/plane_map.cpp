@@ -11,13 +11,14 @@ constexpr std::int64_t kHalfPixel = std::int64_t{kHalf} << PatchRow::kScaleBits;
 
 constexpr int kSlopeShift = PatchRow::kScaleBits - UvQuadratic::kSlopeBits;
 
-/// x + y of both axes.
+/// Sum x + y of both axes.
 Uv64 sum(UvXy32 value) {
   const UvXy32 folded = value + __builtin_shufflevector(value, value, 2, 3, 0, 1);
   return Uv64{folded[0], folded[1]};
 }
 
-/// The chroma of 4:2:0 in both pictures: (X, Y) -> (2 X + 1/2, 2 Y + 1/2), and c -> (c - 1/2) / 2.
+/// Maps to the chroma of 4:2:0 in both pictures: (X, Y) -> (2 X + 1/2, 2 Y + 1/2), and c -> (c -
+/// 1/2) / 2.
 UvQuadratic in_quarters(const UvQuadratic& q) {
   const Uv64 bulge = sum(q.curve + (q.cross >> 1)) >> 2;
   const Uv64 middle = q.value + (sum(q.slope) << (kSlopeShift - 1)) + bulge;
@@ -26,7 +27,7 @@ UvQuadratic in_quarters(const UvQuadratic& q) {
           q.cross << 1};
 }
 
-/// The chroma of 4:2:2 in both pictures: X -> 2 X, u -> u / 2.
+/// Maps to the chroma of 4:2:2 in both pictures: X -> 2 X, u -> u / 2.
 UvQuadratic in_halves(const UvQuadratic& q) {
   return {q.value >> Uv64{1, 0}, (q.slope * UvXy32{2, 4, 1, 2}) >> 1,
           (q.curve * UvXy32{4, 8, 1, 2}) >> 1, (q.cross * UvXy32{2, 4, 2, 4}) >> 1};
@@ -38,10 +39,10 @@ std::int32_t in_source(std::int32_t c, Siting siting) {
   return (siting == Siting::Centred ? c - kHalf : c) >> 1;
 }
 
-/// Further apart than that, pixels that share one of the plane lie on two sides of an edge.
+/// Distance above which pixels that share one of the plane lie on two sides of an edge.
 constexpr std::int32_t kApart = 4 << kFractionBits;
 
-/// The coordinate for `columns` x `rows` pixels from (x, y) on.
+/// The coordinate shared by `columns` x `rows` pixels from (x, y) on.
 Coordinate shared(const CoordinateTile& tile, int x, int y, int columns, int rows, bool centred) {
   Coordinate sum{}, first{kBlind, 0};
   int defined = 0;

@@ -6,10 +6,10 @@
 
 namespace orbwatch::remap {
 
-/// A patch of a picture as one of its mip level `level`. Reentrant.
+/// Converts a patch of a picture to its mip level `level`. Reentrant.
 Patch on_level(Patch patch, int level);
 
-/// The same for a tile's coordinates; markers stay.
+/// The same for a tile's coordinates; markers are kept.
 void on_level(CoordinateTile& tile, int level);
 
 /// A patch in steps of 2^bits pixels along either axis.
@@ -24,15 +24,15 @@ Patch at_half_rows(Patch patch);
 /// A patch in half steps along X: column 2 X is column X.
 Patch at_half_columns(Patch patch);
 
-/// A patch as it goes on from its pixel (x, y).
+/// The patch relative to its pixel (x, y).
 Patch moved(Patch patch, int x, int y);
 
-/// A patch of a picture as one of a sampling's plane: from the plane's pixels of the view to those
-/// of the source. A sampling is in full, 4:2:2 cosited or 4:2:0 centred. Reentrant.
+/// Converts a patch of a picture to a sampling's plane: from the plane's pixels of the view to
+/// those of the source. A sampling is in full, 4:2:2 cosited or 4:2:0 centred. Reentrant.
 Patch on_plane(Patch patch, const PlaneSampling& sampling);
 
-/// The same for a tile whose coordinates are known one by one. A plane's pixel that several of the
-/// view share lies in their middle; where they are not all on one surface, at the first's place.
+/// The same for a tile of single coordinates. A plane's pixel that several of the view share lies
+/// in their middle; where they are not all on one surface, at the first's place.
 void on_plane(const CoordinateTile& picture, const PlaneSampling& sampling, CoordinateTile& plane);
 
 }  // namespace orbwatch::remap

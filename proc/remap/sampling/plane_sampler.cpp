@@ -11,7 +11,7 @@
 namespace orbwatch::remap {
 namespace {
 
-/// Only the scalar kernel samples planes that are one pixel wide or high.
+/// Planes that are one pixel wide or high are sampled by the scalar kernel only.
 void sample_job(const Kernel& kernel, Layout layout, const PointJob& job) {
   const bool has_neighbours = job.source.width > 1 && job.source.height > 1;
   (has_neighbours ? kernel : scalar_kernel()).sample_points(layout, job);
@@ -39,7 +39,7 @@ SourcePlane plane_of_source(const Picture& picture, const PlaneSampling& samplin
           picture.width >> shift(sampling.x), picture.height >> shift(sampling.y)};
 }
 
-/// Room for samples at half steps along one axis, most of which are only passed through.
+/// Buffer for samples at half steps along one axis, most of which are discarded.
 struct FineSamples {
   alignas(64) std::array<std::uint8_t, 2 * kTile * kTile * 4> bytes;
 
@@ -48,9 +48,8 @@ struct FineSamples {
   }
 };
 
-/// Brings what a target of that width has to its right into the cache. What is sampled at half
-/// steps is read back as soon as it is written, behind all stores before it: they must not wait for
-/// memory.
+/// Prefetches the place to the right of a target of that width. Samples at half steps are read back
+/// as soon as they are written, behind all earlier stores: these must not wait for memory.
 void prefetch_beside(const TargetPlane& target, int row_bytes) {
   const std::uint8_t* row = target.data + row_bytes;
   for (int y = 0; y < target.rows; ++y, row += target.stride) {
@@ -59,8 +58,9 @@ void prefetch_beside(const TargetPlane& target, int row_bytes) {
   }
 }
 
-/// Fills a target with means of four: `sample(left, top, plane)` samples each part of the
-/// oversampled tile that is as large as a tile, that from its pixel (left, top) on, into its plane.
+/// Fills a target with means of four: `sample(left, top, plane)` is called for each part of the
+/// oversampled tile that has a tile's size and begins at its pixel (left, top), with that part's
+/// plane.
 template <class Sample>
 [[gnu::always_inline]] inline void oversample(Layout layout, const TargetPlane& target,
                                               const Sample& sample) {
@@ -171,7 +171,8 @@ void PlaneSampler::sample(const Patch& patch, Reading reading, const TargetPlane
   });
 }
 
-/// Blocks that do not fit their windows may do so at half the step, along one axis or both.
+/// Samples blocks that do not fit their windows but may do so at half the step, along one axis or
+/// both.
 void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
                                 const TargetPlane& target) const {
   prefetch_beside(target, tile_bytes_);
@@ -180,7 +181,8 @@ void PlaneSampler::sample_steep(const Patch& patch, const SourcePlane& source,
   }
 }
 
-/// By a kernel that keeps half of the pixels of a `fine` target. False: they do not fit windows.
+/// Samples with a kernel that keeps half of the pixels of a `fine` target. False: they do not fit
+/// windows.
 bool PlaneSampler::keep_half(Kernel::Tile kernel, const Patch& patch, const SourcePlane& source,
                              const TargetPlane& fine, const TargetPlane& kept) const {
   BlockMap map;
@@ -200,7 +202,7 @@ bool PlaneSampler::sample_half_rows(const Patch& patch, const SourcePlane& sourc
   return true;
 }
 
-/// A subsampled plane may be steep along x only. What is steep along both axes takes both.
+/// A subsampled plane may be steep along x only. A patch that is steep along both axes needs both.
 bool PlaneSampler::sample_half_columns(const Patch& patch, const SourcePlane& source,
                                        const TargetPlane& target) const {
   const Patch half = at_half_columns(patch);

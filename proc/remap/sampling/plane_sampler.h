@@ -17,8 +17,8 @@
 
 namespace orbwatch::remap {
 
-/// Samples a target pixel by pixel at whole X, Y of a patch, at the source's borders too, where its
-/// outermost pixels are repeated. Reentrant.
+/// Samples a target pixel by pixel at integer X, Y of a patch, also at the source's borders, where
+/// its outermost pixels are repeated. Reentrant.
 void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
                    const SourcePlane& source, const TargetPlane& target);
 
@@ -26,33 +26,33 @@ void sample_points(const Kernel& kernel, Layout layout, const Patch& patch,
 void sample_points(const Kernel& kernel, Layout layout, const CoordinateTile& coordinates,
                    std::uint8_t black, const SourcePlane& source, const TargetPlane& target);
 
-/// What one request brings into the cache, bytes.
+/// Bytes that one request loads into the cache.
 inline constexpr int kCacheLine = 64;
 
-/// How a tile's source is read.
+/// Parameters for reading a tile's source.
 struct Reading {
   bool averaged = false;  ///< pixels are means of four samples: the view is smaller than the source
-  int mip_level = 0;      ///< of the source that is sampled
+  int mip_level = 0;      ///< level of the source that is sampled
   bool in_windows = false;  ///< kernels may read windows around every pixel, see Tile::interior
 };
 
-/// Samples tiles of one PlaneSampling. Refers to the pictures; holds what all tiles have in common.
-/// Reentrant.
+/// Samples tiles of one PlaneSampling. Refers to the pictures; holds the data that all tiles have
+/// in common. Reentrant.
 class PlaneSampler {
  public:
   PlaneSampler() = default;
-  /// `pictures`: the source by mip level.
+  /// `pictures`: the source's mip levels.
   PlaneSampler(const PlaneSampling& sampling, std::span<const Picture> pictures,
                const Kernel& kernel);
 
   const PlaneSampling& sampling() const { return sampling_; }
-  int columns() const { return columns_; }          ///< of a tile, in pixels of the plane
-  int rows() const { return rows_; }                ///< of a tile
-  int pixel_bytes() const { return pixel_bytes_; }  ///< of the output
-  int tile_bytes() const { return tile_bytes_; }    ///< of a row of a tile
+  int columns() const { return columns_; }          ///< width of a tile, in pixels of the plane
+  int rows() const { return rows_; }                ///< height of a tile
+  int pixel_bytes() const { return pixel_bytes_; }  ///< bytes of an output pixel
+  int tile_bytes() const { return tile_bytes_; }    ///< bytes of a tile's row
   bool has_blocks() const { return block_kernel_ != nullptr; }
 
-  /// Asks for the samples of an area of the picture to be brought into the cache.
+  /// Prefetches the samples of an area of the picture.
   void fetch(const SourceArea& area) const;
 
   /// Fills a target, of 2, 4, 8 or 16 pixels each way, from a patch of the mip level that is read.
@@ -90,11 +90,11 @@ class PlaneSampler {
 
   PlaneSampling sampling_{};
   const Kernel* kernel_ = nullptr;
-  /// The kernel's functions for the layout; null: it has none.
+  /// The kernel's functions for the layout; null if it has none.
   Kernel::Tile block_kernel_ = nullptr, even_columns_ = nullptr, even_rows_ = nullptr;
   Uv64 rounding_{};  ///< see BlockMap
   int columns_ = 0, rows_ = 0, pixel_bytes_ = 0, tile_bytes_ = 0;
-  std::array<SourcePlane, kMaxLevel> sources_;  ///< by mip level
+  std::array<SourcePlane, kMaxLevel> sources_;  ///< one per mip level
 };
 
 }  // namespace orbwatch::remap

@@ -11,21 +11,21 @@ namespace orbwatch::remap {
 
 /// The siting of a subsampled plane along one axis.
 enum class Siting : std::uint8_t {
-  Full,     ///< one for each pixel of the picture
-  Cosited,  ///< one for two, in the place of the first: horizontally in 4:2:2, as UVC and MPEG-2
-  Centred,  ///< one for two, between them: 4:2:0 as JPEG and cameras' image processors make it
+  Full,     ///< one sample for each pixel of the picture
+  Cosited,  ///< one for two, at the place of the first: horizontally in 4:2:2, as in UVC and MPEG-2
+  Centred,  ///< one for two, between them: 4:2:0 of JPEG and cameras' image processors
 };
 constexpr int shift(Siting siting) { return siting == Siting::Full ? 0 : 1; }
 
-/// Samples of one plane of a format that are sampled together. The view's plane is sited as the
-/// source's, so chroma of a 4:2:0 view has a quarter of the luminance's pixels.
+/// Samples of one plane of a format that are sampled together. The view's plane has the source's
+/// siting, so chroma of a 4:2:0 view has a quarter of the luminance's pixels.
 struct PlaneSampling {
   Layout layout;
   std::size_t plane = 0;
   int offset = 0;  ///< bytes from the plane's start
   Siting x = Siting::Full;
   Siting y = Siting::Full;
-  std::uint8_t black = 0;  ///< what undefined pixels get where the range is full
+  std::uint8_t black = 0;  ///< value of undefined pixels in full range
 };
 
 /// The samplings of a format, luminance first.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 
-/// A sample as sharpening.h specifies it, and `RunSharpener`, which does the same for 16 samples:
-/// `sharpen_run_neon.h` where compilers do not find the processor's instructions by themselves,
-/// else `sharpen_run_any.h`.
+/// A sample by the specification in sharpening.h, and `RunSharpener`, which does the same for 16
+/// samples: `sharpen_run_neon.h` where compilers do not generate the processor's instructions by
+/// themselves, else `sharpen_run_any.h`.
 namespace orbwatch::remap {
 
 inline constexpr int kSharpenedRun = 16;

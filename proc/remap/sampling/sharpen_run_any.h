@@ -10,7 +10,7 @@
 
 namespace orbwatch::remap {
 
-/// Sharpens 16 samples side by side that have neighbours, by loops that become vector code. See
+/// Sharpens 16 adjacent samples that have neighbours, in loops that become vector code. See
 /// sharpening.h.
 class RunSharpener {
  public:
@@ -19,7 +19,7 @@ class RunSharpener {
     for (std::size_t k = 0; k < gains_.size(); ++k) gains_[k] = gains[k % 2];
   }
 
-  /// From `even` on, the number of a sample in its row.
+  /// `even`: index of the first sample in its row, an even number.
   [[gnu::always_inline]] void operator()(std::ptrdiff_t even, std::uint8_t* out) const {
     const std::ptrdiff_t step = rows_.pixel_samples;
     const std::uint8_t *const above = rows_.above + even, *const row = rows_.row + even,

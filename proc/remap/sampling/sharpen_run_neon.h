@@ -10,15 +10,15 @@
 
 namespace orbwatch::remap {
 
-/// Sharpens 16 samples side by side that have neighbours, with the processor's instructions:
-/// compilers do not find the one that keeps the upper half of a product, nor those that round and
-/// clip. See sharpening.h.
+/// Sharpens 16 adjacent samples that have neighbours, with NEON intrinsics: compilers do not
+/// generate the instruction that keeps the upper half of a product, nor those that round and clip.
+/// See sharpening.h.
 class RunSharpener {
  public:
   [[gnu::always_inline]] RunSharpener(const RowsAround& rows, const SharpeningGains& gains)
       : rows_(rows), gains_(vtrn1q_s16(vdupq_n_s16(gains[0]), vdupq_n_s16(gains[1]))) {}
 
-  /// From `even` on, the number of a sample in its row.
+  /// `even`: index of the first sample in its row, an even number.
   [[gnu::always_inline]] void operator()(std::ptrdiff_t even, std::uint8_t* out) const {
     const std::ptrdiff_t step = rows_.pixel_samples;
     const std::uint8_t *const above = rows_.above + even, *const row = rows_.row + even,

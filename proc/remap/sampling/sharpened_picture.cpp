@@ -13,7 +13,7 @@ const std::uint8_t* bytes(const std::byte* data) {
   return reinterpret_cast<const std::uint8_t*>(data);
 }
 
-/// Of packed YUV the luminance alone.
+/// Gains that sharpen only the luminance of packed YUV.
 SharpeningGains gains_of(PixelFormat format, double sharpness) {
   const std::int16_t gain = sharpening_gain(sharpness);
   const PlaneSampling luminance = samplings(format).items[0];
@@ -41,7 +41,7 @@ void SharpenedPicture::set_source(const Picture& source) {
 void SharpenedPicture::fill(const SourceArea& area) {
   const auto& from = source_.planes[0];
   const int channels = info(source_.format).channels();
-  // The pixels of packed YUV that share chroma have their luminance two samples apart.
+  // Pixels of packed YUV that share chroma have their luminance two samples apart.
   const int pair = gains_[0] == gains_[1] ? 1 : 2;
   const int first = area.left / pair * pair, last = (area.right + pair - 1) / pair * pair;
   const auto row = [&](int y) {

@@ -9,33 +9,34 @@
 
 namespace orbwatch::remap {
 
-/// Whether pictures of a format are sharpened: 8 bit colour. One channel and 16 bit are what is
+/// True if pictures of a format are sharpened: 8 bit colour. One-channel and 16 bit pictures are
 /// measured.
 constexpr bool can_sharpen(PixelFormat format) {
   return info(format).colour != ColourModel::Luminance && info(format).bytes_per_sample() == 1;
 }
 
-/// A picture as it is shown: of YUV the luminance sharpened, of RGB every channel. Planes of chroma
-/// are the source's own. Thread-compatible: areas that share no row may be filled at the same time.
+/// A picture prepared for display: for YUV the luminance sharpened, for RGB every channel. Planes
+/// of chroma are the source's own. Thread-compatible: areas that share no row may be filled at the
+/// same time.
 class SharpenedPicture {
  public:
-  /// Memory for pictures of that format and size. Preconditions: can_sharpen(format); `sharpness`
-  /// in 0..kMaxSharpness.
+  /// Allocates memory for pictures of that format and size. Preconditions: can_sharpen(format);
+  /// `sharpness` in 0..kMaxSharpness.
   SharpenedPicture(PixelFormat format, int width, int height, double sharpness);
 
-  /// The picture that is sharpened; it must outlive its use.
+  /// Sets the picture to sharpen; it must outlive its use.
   void set_source(const Picture& source);
 
   /// Fills the pixels of an area within the picture; where two pixels of a row share chroma, both
   /// or none of them.
   void fill(const SourceArea& area);
 
-  /// Undefined where it was not filled since set_source().
+  /// The sharpened picture; undefined where it was not filled since set_source().
   const Picture& picture() const { return picture_; }
 
  private:
   SharpeningGains gains_;
-  std::vector<std::byte> memory_;  ///< of the first plane
+  std::vector<std::byte> memory_;  ///< memory of the first plane
   Picture source_;
   Picture picture_;
 };

@@ -8,7 +8,7 @@
 namespace orbwatch::remap {
 namespace {
 
-/// A sample at the picture's border, too.
+/// Sharpens a sample anywhere, including the picture's border.
 std::uint8_t sharpened_at(const RowsAround& rows, int i, std::int16_t gain) {
   const auto& [above, row, below, samples, step] = rows;
   const int left = i < step ? i : i - step, right = i + step < samples ? i + step : i;
@@ -24,7 +24,7 @@ void sharpen_row(const RowsAround& rows, const SharpeningGains& gains, int first
   const auto sharpen_each = [&](int begin, int end) {
     for (int i = begin; i < end; ++i) out[i] = sharpened_at(rows, i, gains[i % 2]);
   };
-  // Even, so that a run begins with the first gain.
+  // Bounds are even, so that a run begins with the first gain.
   const int begin = (std::max(first, rows.pixel_samples) + 1) / 2 * 2;
   const int end = std::min(last, rows.samples - rows.pixel_samples) / 2 * 2;
   if (end - begin < kSharpenedRun) return sharpen_each(first, last);

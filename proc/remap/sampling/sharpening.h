@@ -19,22 +19,21 @@ constexpr std::int16_t sharpening_gain(double sharpness) {
   return static_cast<std::int16_t>((twice + 1) / 2);
 }
 
-/// 0: none.
+/// Largest sharpness; 0 is none.
 inline constexpr double kMaxSharpness = 2;
 static_assert(sharpening_gain(kMaxSharpness) == 5809);
 
-/// Of the even and of the odd samples of a row: 0 leaves a sample as it is.
+/// Gains of the even and of the odd samples of a row: 0 keeps a sample unchanged.
 using SharpeningGains = std::array<std::int16_t, 2>;
 
 /// A row of a plane of 8 bit samples, and those above and below it. At the picture's border the row
-/// itself stands in for the one that is missing, and so do the outermost pixels for those beside
-/// them.
+/// itself replaces the missing one, and the outermost pixels replace missing neighbours.
 struct RowsAround {
   const std::uint8_t* above;
   const std::uint8_t* row;
   const std::uint8_t* below;
-  int samples;        ///< of each row; even if the gains differ
-  int pixel_samples;  ///< from a sample to its like in the next pixel
+  int samples;        ///< samples of each row; even if the gains differ
+  int pixel_samples;  ///< distance from a sample to the same one in the next pixel
 };
 
 /// Writes the samples [first, last) of the sharpened row to their places in `out`, which shares no

@@ -9,7 +9,7 @@
 namespace orbwatch::remap {
 namespace {
 
-/// A view of that format has its planes as they are sampled.
+/// True if a view of that format has its planes in the sampled layout.
 bool lies_as_sampled(PixelFormat sampled, PixelFormat view) {
   return sampled == view && view != PixelFormat::Yuyv && view != PixelFormat::Uyvy;
 }
@@ -19,7 +19,7 @@ int simple_levels(Interpolation interpolation) {
   return interpolation == Interpolation::Bilinear ? kMaxLevel + 1 : 1;
 }
 
-/// How far ahead sources and targets are fetched.
+/// Distance, in tiles, at which sources and targets are prefetched.
 constexpr int kTilesAhead = 4;
 
 bool is_whole(const TileArea& area) { return area.columns == kTile && area.rows == kTile; }
@@ -83,8 +83,8 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   }
 }
 
-/// Asks for what a tile will read, where its part of the source is so large that the processor
-/// would ask too late by itself, and still fits the cache.
+/// Prefetches a tile's source where that part is so large that the processor's own prefetch would
+/// be too late, and still fits the cache.
 [[gnu::noinline]] void TileRemap::fetch(int tx, int ty) const {
   constexpr int kLeast = 2 * kTile, kMost = 8 * kTile;
   const SourceArea area = grid_.extent(tx, ty);
@@ -93,8 +93,8 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   for (std::size_t n = 0; n < plane_count_; ++n) planes_[n].fetch(area);
 }
 
-/// Asks for the places of kTilesAhead tiles, the first of which is so many behind tile tx; together
-/// these tiles fill whole lines of the cache. `targets`: those of tile tx.
+/// Prefetches the targets of kTilesAhead tiles, starting kTilesAhead behind tile tx; together these
+/// tiles fill whole cache lines. `targets`: those of tile tx.
 [[gnu::noinline]] void TileRemap::fetch_targets(const Targets& targets, int tx) const {
   if (tx + 2 * kTilesAhead > grid_.tiles_x()) return;
   for (std::size_t n = 0; n < plane_count_; ++n) {
@@ -106,7 +106,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   }
 }
 
-/// Writes the most common kind of tile in place; false for another tile.
+/// Writes the most common kind of tile in place; false for another kind.
 [[gnu::always_inline]] inline bool TileRemap::write_simple(int tx, int ty,
                                                            const Targets& targets) const {
   const Tile tile = grid_.tile(tx, ty);
@@ -116,7 +116,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
   return true;
 }
 
-/// `in_place`: where the tile's samples go, if they lie in the view as they are sampled.
+/// `in_place`: the targets of the tile's samples, if the view has the sampled layout.
 [[gnu::noinline]] void TileRemap::write_other(int tx, int ty, const MutablePicture& out,
                                               const TileArea& area, const Targets* in_place) const {
   const Tile tile = grid_.tile(tx, ty);
@@ -141,7 +141,7 @@ void TileRemap::write_row(int ty, const MutablePicture& out) const {
     sample(Patch(grid_.nodes(tile, tx, ty)), reading, targets);
     return convert();
   }
-  // A map that bends is steep: unless averaged, hardly a cell fits windows.
+  // A curved map is steep: unless averaged, hardly a cell fits windows.
   const Reading in_cells{reading.averaged, reading.mip_level,
                          reading.in_windows && reading.averaged};
   const auto sample_cells = [&](const auto& cells) { sample(cells, in_cells, targets); };
@@ -162,7 +162,7 @@ Reading TileRemap::reading(const Tile& tile) const {
   return {true, std::min(tile.level - 1, last_level_), tile.interior};
 }
 
-/// From the pixel (x, y) of the view on.
+/// Targets from the pixel (x, y) of the view on.
 TileRemap::Targets TileRemap::targets_in(const MutablePicture& out, int x, int y) const {
   Targets targets;
   for (std::size_t n = 0; n < plane_count_; ++n) {

@@ -12,34 +12,34 @@
 
 namespace orbwatch::remap {
 
-/// How a pixel of a view is made from those of the source.
+/// Method that makes a view's pixel from the source's pixels.
 enum class Interpolation {
   Area,      ///< bilinear; the mean of several places where the view is smaller than the source
-  Bilinear,  ///< from the four around one place
-  Nearest,   ///< the closest one
+  Bilinear,  ///< from the four pixels around one place
+  Nearest,   ///< the closest pixel
 };
 
-/// The interpolations by their names in files and options.
+/// The interpolations with their names in files and options.
 inline constexpr std::array kInterpolations{Word{"area", Interpolation::Area},
                                             Word{"bilinear", Interpolation::Bilinear},
                                             Word{"nearest", Interpolation::Nearest}};
 
-/// Whether remap() reads the mip levels of a source.
+/// True if remap() reads the mip levels of a source.
 constexpr bool uses_mip_levels(Interpolation interpolation) {
   return interpolation == Interpolation::Area;
 }
 
-/// What is sampled of a source, and for what.
+/// Samples that are taken from a source, and their use.
 enum class SampledPlanes {
   All,
-  Yuv420,     ///< of a source that is_yuv420() all, for an I420 view in kJfif
-  Luminance,  ///< of a Yuv source its Y, see write_luminance()
+  Yuv420,     ///< all samples of a source that is_yuv420(), for an I420 view in kJfif
+  Luminance,  ///< the Y of a Yuv source, see write_luminance()
 };
 
 /// Fills tiles of a view from one source. Refers to its arguments; reentrant.
 class TileRemap {
  public:
-  /// Preconditions as of remap(); luminance is written to Grey.
+  /// Preconditions: those of remap(); luminance is written to Grey.
   TileRemap(const CoordinateGrid& grid, std::span<const Picture> source,
             Interpolation interpolation, const Kernel& kernel,
             SampledPlanes sampled = SampledPlanes::All);
@@ -50,7 +50,7 @@ class TileRemap {
   void write_row(int ty, const MutablePicture& out) const;
 
  private:
-  /// Where a tile's samples go, by sampling.
+  /// Targets of a tile's samples, one per sampling.
   using Targets = std::array<TargetPlane, 3>;
 
   Targets targets_in(const MutablePicture& out, int x, int y) const;
@@ -73,12 +73,12 @@ class TileRemap {
   ColourSpace colour_space_;
   Interpolation interpolation_;
   SampledPlanes sampled_;
-  int simple_levels_;  ///< tiles below this level may be sampled in blocks, without means
+  int simple_levels_;  ///< tiles below this level may be sampled in blocks, without averaging
   std::array<PlaneSampler, 3> planes_;
   std::size_t plane_count_;
 };
 
-/// Where a tile lies in its view.
+/// The area of a tile in its view.
 inline TileArea area_of(const CoordinateGrid& grid, int tx, int ty) {
   return {tx * kTile, ty * kTile, std::min(kTile, grid.width() - tx * kTile),
           std::min(kTile, grid.height() - ty * kTile)};
