@@ -1,10 +1,10 @@
 // The kernel for AVX2. One register holds 16 bit for each of a block's 16 pixels, row by row. A
 // channel's window of 8 rows of 8 bytes is four tables for vpshufb, two rows each, in both halves
-// of a register. No gather: mitigations make it slow.
+// of a register. Gather is not used: mitigations make it slow.
 //
 // The arithmetic is the scalar kernel's, with negative weights, because a unit weight of 128 fits a
-// signed byte only so: a (w - 128) + b (-w) = -top, at most 255 * 128 in size. A 16 bit sample is
-// interpolated as two bytes, whose exact sums are added before they are rounded.
+// signed byte only that way: a (w - 128) + b (-w) = -top, at most 255 * 128 in size. A 16 bit
+// sample is interpolated as two bytes, whose exact sums are added before they are rounded.
 
 #include <immintrin.h>
 
@@ -24,10 +24,10 @@ constexpr int kMostBlocks = kTile / kBlock, kMostRows = 2 * kMostBlocks;
 __m128i load128(const void* from) { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
 __m256i each(int value) { return _mm256_set1_epi16(static_cast<short>(value)); }
 
-/// Where the blocks of one row lie. Written as vectors, read block by block.
+/// Positions of the blocks of one row. Written as vectors, read block by block.
 struct alignas(32) BlockRow {
   AxisPair<std::int64_t> windows[kMostBlocks];  ///< Q32, see WindowWalk
-  /// Their fractions, twice in 32 bits; the other 32 are of no use.
+  /// Fractions of the positions, twice in 32 bits; the other 32 are not used.
   AxisPair<std::int64_t> places[kMostBlocks];
 };
 
@@ -35,13 +35,13 @@ struct alignas(32) BlockRow {
 void walk(const BlockMap& map, BlockRow* rows) {
   const auto both = [](const Uv64& pair) { return _mm256_broadcastsi128_si256(load128(&pair)); };
   const auto twice = [](__m256i value) { return _mm256_add_epi64(value, value); };
-  // Block x in the lower half and block x + 1 in the upper.
+  // Block x is in the lower half and block x + 1 in the upper.
   const auto upper = [](__m256i value) {
     return _mm256_blend_epi32(_mm256_setzero_si256(), value, 0xf0);
   };
   const WindowWalk& w = map.windows;
   const __m256i step_x = both(w.step_x), xx = both(w.xx), xy = both(w.xy), yy = both(w.yy);
-  // Of blocks 0 and 1, and of 2 and 3: x step_x + x (x - 1) / 2 xx.
+  // Positions of blocks 0 and 1, and of 2 and 3: x step_x + x (x - 1) / 2 xx.
   __m256i left = _mm256_add_epi64(both(w.value), upper(step_x));
   __m256i right = _mm256_add_epi64(_mm256_add_epi64(left, twice(step_x)),
                                    _mm256_add_epi64(xx, upper(twice(xx))));
@@ -88,7 +88,7 @@ struct Shape {
                              _mm256_add_epi16(eighth(sum(along_x, along_y)), each(offset)));
   }
 
-  /// As lanes of v are, but counted from the window on, without kRowCentre.
+  /// Rounds lanes to those of v, but counted from the window on, without kRowCentre.
   void round_to_rows() {
     constexpr int kShift = kFractionBits - kRowFractionBits;
     const __m256i half = each(1 << (kShift - 1));
@@ -99,10 +99,10 @@ struct Shape {
   }
 };
 
-/// How a block's pixels are interpolated.
+/// Positions and weights for the interpolation of a block's pixels.
 struct Places {
-  /// Of the two upper neighbours in each of the four tables of a channel, and of the two lower
-  /// ones. Bit 7 is set, so that vpshufb gives 0, if they lie before that table.
+  /// Indices of the two upper neighbours in each of the four tables of a channel, and of the two
+  /// lower ones. Bit 7 is set, so that vpshufb yields 0, if they lie before that table.
   __m256i upper[4], lower[4];
   __m256i across;  ///< weights w - 128, -w along u
   __m256i v;
@@ -132,7 +132,7 @@ struct Rows {
   __m256i top, bottom;
 };
 
-/// One channel of a window, 8 rows of 8 bytes that are `stride` apart.
+/// Interpolates one channel of a window, 8 rows of 8 bytes that are `stride` apart.
 [[gnu::always_inline]] inline Rows interpolate_rows(const std::uint8_t* from, std::ptrdiff_t stride,
                                                     const Places& places) {
   const auto table = [=](int k) {
@@ -141,8 +141,8 @@ struct Rows {
     };
     return _mm256_blend_epi32(row(2 * k), row(2 * k + 1), 0xcc);
   };
-  // A lookup hits its table and all before it. Each table but the first is therefore the exclusive
-  // or of two, and the results are combined by exclusive or.
+  // A lookup hits its table and all before it. Each table except the first is therefore the
+  // exclusive or of two, and the results are combined by exclusive or.
   __m256i before = table(0);
   __m256i upper = _mm256_shuffle_epi8(before, places.upper[0]);
   __m256i lower = _mm256_shuffle_epi8(before, places.lower[0]);
@@ -158,7 +158,7 @@ struct Rows {
 
 /// 8 bit samples from one channel.
 __m256i sample8(const Rows& rows, __m256i v) {
-  // Without the higher bits and less 1/2, as the scalar kernel has it.
+  // The higher bits are removed and 1/2 subtracted, like in the scalar kernel.
   const __m256i weight =
       _mm256_xor_si256(_mm256_slli_epi16(v, 16 - kRowFractionBits), each(-0x8000));
   const __m256i change = _mm256_mulhrs_epi16(_mm256_sub_epi16(rows.top, rows.bottom), weight);
@@ -188,7 +188,7 @@ __m256i sample16(const Rows& low, const Rows& high, __m256i v) {
   return _mm256_packus_epi32(rounded(sum02(low), sum02(high)), rounded(sum13(low), sum13(high)));
 }
 
-/// A window by channels: in each row first 8 bytes of one, then 8 of the next.
+/// A window split into channels: each row has first 8 bytes of one channel, then 8 of the next.
 template <int pixel_bytes>
 struct Planar {
   static constexpr int kPitch = pixel_bytes == 2 ? 16 : 32;
@@ -206,7 +206,8 @@ struct Planar {
           _mm_setr_epi8(0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15);
       _mm_store_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(load128(from), by_channel));
     } else {
-      // Four pixels in each half. Of three byte pixels nothing beyond the row's 24 bytes is read.
+      // Four pixels are in each half. Of three byte pixels nothing beyond the row's 24 bytes is
+      // read.
       constexpr int kSecond = pixel_bytes == 3 ? 8 : 16;
       const __m256i pixels = _mm256_inserti128_si256(_mm256_castsi128_si256(load128(from)),
                                                      load128(from + kSecond), 1);
@@ -229,7 +230,7 @@ struct Pixels {
   __m256i first, more;
 };
 
-/// From channels in rows of `stride`, each kWindow bytes after the one before.
+/// Samples channels in rows of `stride`, each kWindow bytes after the one before.
 template <Layout layout>
 [[gnu::always_inline]] inline Pixels sample(const std::uint8_t* from, std::ptrdiff_t stride,
                                             const Places& places) {
@@ -252,7 +253,7 @@ template <Layout layout>
   }
 }
 
-/// So many blocks side by side make rows of 16 bytes, or of 12 if a pixel has three.
+/// Number of adjacent blocks that make rows of 16 bytes, or of 12 if a pixel has three.
 constexpr int group_of(int out_bytes) { return out_bytes == 3 ? 1 : 4 / out_bytes; }
 
 /// The rows of a group of blocks: 0 and 2, 1 and 3.
@@ -298,14 +299,14 @@ const std::uint8_t* begin(const TileJob& job, const AxisPair<std::int64_t>& wind
          (window.u >> 32) * info(layout).pixel_bytes;
 }
 
-/// One row of blocks, of which block (0, y) has the lanes that u and v start from.
+/// Fills one row of blocks; block (0, y) has the lanes that u and v start from.
 template <Layout layout, int blocks_x>
 void fill_row(const TileJob& job, const BlockRow& row, const Shape& u, const Shape& v,
               std::uint8_t* out) {
   constexpr int kPixelBytes = info(layout).pixel_bytes, kOutBytes = info(layout).out_bytes();
   constexpr int kGroup = group_of(kOutBytes), kCount = kGroup < blocks_x ? kGroup : blocks_x;
-  // All windows first, and not unrolled: else the compiler cuts the channels out of vectors instead
-  // of reading them back, which takes longer.
+  // All windows are loaded first, and the loop is not unrolled: else the compiler extracts the
+  // channels from vectors instead of reading them back, which takes longer.
   [[maybe_unused]] Planar<kPixelBytes> planar[blocks_x];
   if constexpr (kPixelBytes > 1) {
 #pragma GCC unroll 1

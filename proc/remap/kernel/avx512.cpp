@@ -1,15 +1,15 @@
-// The kernel for AVX-512 with VBMI. One register holds a block's 16 pixels, 32 bit each, pixel
-// (i, j) in lane 4 j + i: first its coordinate (u in the lower half, v in the upper), then the
-// window's four bytes that it lies between, then the sample. A window of one channel fits one
-// register, so one vpermb fetches all that is interpolated. No gather: mitigations make it slow.
+// The kernel for AVX-512 with VBMI. One register holds a block's 16 pixels, 32 bit each, pixel (i,
+// j) in lane 4 j + i: first its coordinate (u in the lower half, v in the upper), then the window's
+// four bytes that it lies between, then the sample. A window of one channel fits one register, so
+// one vpermb fetches everything that is interpolated. Gather is not used: mitigations make it slow.
 //
 // The arithmetic is the scalar kernel's, with negative weights, because a unit weight of 128 fits a
-// signed byte only so: -top = a (w - 128) + b (-w) is at most 255 * 128 in size, and
+// signed byte only that way: -top = a (w - 128) + b (-w) is at most 255 * 128 in size, and
 //   X = -top (f - 2048) + -bottom (-f) = 2048 top + (bottom - top) f,  f: v's fraction, Q11.
-// With the scalar kernel's v = 32 f - 2^15 its sum top + bottom + (((bottom - top) v + 2^14) >> 15)
-// is (X + 2^9) >> 10, and shifting down in two steps is the same as in one: its result is
-// (X + 2^9 + 2^17) >> 18. A 16 bit sample is interpolated as two bytes, whose exact sums are added
-// before they are rounded.
+// The scalar kernel has v = 32 f - 2^15; its sum top + bottom + (((bottom - top) v + 2^14) >> 15)
+// is (X + 2^9) >> 10, and shifting down in two steps is the same as in one: its result is (X + 2^9
+// + 2^17) >> 18. A 16 bit sample is interpolated as two bytes, whose exact sums are added before
+// they are rounded.
 
 #include <immintrin.h>
 
@@ -30,7 +30,7 @@ namespace {
 
 constexpr int kMostBlocks = kTile / kBlock, kMostRows = 2 * kMostBlocks;
 
-/// What the lanes of a register start from, computed by the compiler.
+/// Initial values of a register's lanes, computed at compile time.
 template <class T>
 struct alignas(64) Lanes {
   T at[64 / sizeof(T)];
@@ -49,7 +49,7 @@ using Bytes = Lanes<std::uint8_t>;
 using Words = Lanes<std::uint16_t>;
 using Doublewords = Lanes<std::uint32_t>;
 
-/// `value` in every lane.
+/// Sets every lane to `value`.
 template <std::uint32_t value>
 __m512i each() {
   return _mm512_set1_epi32(static_cast<std::int32_t>(value));
@@ -58,17 +58,17 @@ __m512i each() {
 constexpr int column(int word) { return word / 2 % kBlock; }
 constexpr int line(int word) { return word / 2 / kBlock; }
 
-/// Where the blocks of one row lie. Written as vectors, read block by block.
+/// Positions of the blocks of one row. Written as vectors, read block by block.
 struct alignas(64) BlockRow {
   AxisPair<std::int64_t> windows[kMostBlocks];  ///< Q32, see WindowWalk
-  AxisPair<std::uint16_t> places[kMostBlocks];  ///< their fractions
+  AxisPair<std::uint16_t> places[kMostBlocks];  ///< fractions of the positions
 };
 
-/// Goes through a tile's windows by rows of blocks, all of a row at once: u and v of each in turn.
+/// Iterates over a tile's windows by rows of blocks, all of a row at once: u and v of each in turn.
 class RowWalk {
  public:
   explicit RowWalk(const WindowWalk& walk) {
-    // Blocks 1 and 3; 2 and 3; 3.
+    // Masks of blocks 1 and 3; 2 and 3; 3.
     constexpr __mmask8 kOdd = 0xcc, kUpper = 0xf0, kLast = 0xc0;
     const auto times_x = [](__m512i start, __m512i step) {
       const __m512i one = _mm512_mask_add_epi64(start, kOdd, start, step);
@@ -131,7 +131,7 @@ struct Shape {
     const __m512i pixels =
         _mm512_add_epi16(_mm512_add_epi16(slope, eighth(weighed(x, y))), each(shape.offset));
 
-    // Those of v become rounded to rows.
+    // Lanes of v are rounded to rows.
     constexpr __mmask32 kV = 0xaaaaaaaa;
     constexpr int kShift = kFractionBits - kRowFractionBits;
     const __m512i half = _mm512_set1_epi16(1 << (kShift - 1));
@@ -145,9 +145,10 @@ struct Shape {
   }
 };
 
-/// How a block's pixels are interpolated: 4 bytes, or two times 16 bit, of each are for one pixel.
+/// Positions and weights for the interpolation of a block's pixels: each pixel has 4 bytes, or two
+/// times 16 bit, of each.
 struct Places {
-  __m512i index;   ///< of the four neighbours in a channel of the window
+  __m512i index;   ///< indices of the four neighbours in a channel of the window
   __m512i across;  ///< weights w - 128, -w along u, for the upper and for the lower neighbours
   __m512i down;    ///< weights of the upper and of the lower neighbours along v, negative too
 
@@ -155,15 +156,15 @@ struct Places {
   static Places of(__m512i lanes);
 };
 
-/// Bit of a pair of lanes: `first` of the lane that has byte `byte`.
+/// Bit of a pair of lanes: bit `first` of the lane that contains byte `byte`.
 constexpr int bit(int byte, int first) { return byte / 4 % 2 * 32 + first; }
 
-/// Bits [first, end) set.
+/// A mask with bits [first, end) set.
 constexpr std::uint32_t bits_from(int first, int end) { return (1U << end) - (1U << first); }
 
 template <int down_bits>
 Places Places::of(__m512i lanes) {
-  // vpmultishiftqb takes any 8 bits of 64 into each byte; v is 16 bits above u.
+  // vpmultishiftqb selects any 8 bits of 64 for each byte; v is 16 bits above u.
   constexpr int kU = kFractionBits, kV = 16 + kRowFractionBits;
   static constexpr auto kWholeU = Bytes::of([](int k) { return bit(k, kU); });
   static constexpr auto kWholeV = Bytes::of([](int k) { return bit(k, kV - 3); });
@@ -173,15 +174,15 @@ Places Places::of(__m512i lanes) {
     return _mm512_multishift_epi64_epi8(first.load(), lanes);
   };
 
-  // 8 v + u, of which vpermb looks at the lower 6 bits.
+  // Index 8 v + u, of which vpermb uses the lower 6 bits.
   constexpr int kSelect = 0xca;
   const __m512i corner =
       _mm512_ternarylogic_epi32(each<0x07070707>(), bits(kWholeU), bits(kWholeV), kSelect);
   Places places;
   places.index = _mm512_add_epi8(corner, each<0x09080100>());
 
-  // With all bits set above a fraction's it is the fraction less one; with the fraction's bits
-  // flipped beforehand, and 1 added, it is the negative fraction.
+  // A fraction with all higher bits set is the fraction less one; with the fraction's bits flipped
+  // beforehand, and 1 added, it is the negative fraction.
   constexpr int kFlipOr = 0xbe;
   const __m512i across = _mm512_ternarylogic_epi32(
       bits(kAcross), each<0xff00ff00>(), each<0x01010101 * bits_from(kWeightBits, 8)>(), kFlipOr);
@@ -223,7 +224,7 @@ struct Window {
       }
       return all;
     } else {
-      // 24 bytes of a row of three byte pixels: what lies beyond may not be readable.
+      // Reads 24 bytes of a row of three byte pixels: memory beyond may not be readable.
       constexpr __mmask8 kRow = pixel_bytes == 3 ? 7 : 15;
       const __m256i upper = _mm256_maskz_loadu_epi64(kRow, from);
       const __m256i lower = _mm256_maskz_loadu_epi64(kRow, from + stride);
@@ -234,7 +235,7 @@ struct Window {
   __m512i registers[kRegisters];
 };
 
-/// The samples of one channel of a window, 8 rows of 8 bytes. They begin in byte `first` of a
+/// The samples of one channel of a window, 8 rows of 8 bytes. They begin at byte `first` of a
 /// pixel.
 template <int pixel_bytes, int first>
 __m512i channel(const Window<pixel_bytes>& window) {
@@ -258,8 +259,8 @@ __m512i weighed(__m512i neighbours, const Places& places) {
   return _mm512_madd_epi16(_mm512_maddubs_epi16(neighbours, places.across), places.down);
 }
 
-/// Which pixels of two blocks at half steps along an axis make one: the even columns, or the even
-/// rows. The second half of them comes from the second block, whose bytes of it are `second`.
+/// Pixels of two blocks at half steps along an axis that make one block: the even columns, or the
+/// even rows. The second half comes from the second block; kSecond is the mask of its bytes.
 enum class Kept { All, EvenColumns, EvenRows };
 
 template <Kept kept>
@@ -276,8 +277,8 @@ __m512i merged_lanes(__m512i first, __m512i second) {
 template <Kept kept>
 constexpr __mmask64 kSecond = kept == Kept::EvenColumns ? 0xff00ff00ff00ff00 : 0xffffffff00000000;
 
-/// The block's pixels, each from the lowest byte of its lane on; of a window each for those of two
-/// blocks that are kept. Inlined, so that what all blocks need stays in registers.
+/// The block's pixels, each from the lowest byte of its lane on; for two blocks, each with a window
+/// of its own, those that are kept. Inlined, so that values shared by all blocks stay in registers.
 template <Layout layout, Kept kept>
 [[gnu::always_inline]] inline __m512i sample(const std::uint8_t* from, const std::uint8_t* beside,
                                              std::ptrdiff_t stride, __m512i lanes) {
@@ -305,7 +306,7 @@ template <Layout layout, Kept kept>
     const auto rounded = [&]<int k>() {
       return _mm512_add_epi32(sum.template operator()<kInfo.first + k * kInfo.every>(), round);
     };
-    constexpr int kOrAnd = 0xf8;  // a | (b & c)
+    constexpr int kOrAnd = 0xf8;  // computes a | (b & c)
     __m512i pixels = _mm512_srli_epi32(rounded.template operator()<0>(), kShift);
     if constexpr (kInfo.samples > 1) {
       const __m512i second = _mm512_srli_epi32(rounded.template operator()<1>(), kShift - 8);
@@ -323,10 +324,10 @@ template <Layout layout, Kept kept>
   }
 }
 
-/// So many blocks side by side make rows of 16 bytes, or of 48 if a pixel has three.
+/// Number of adjacent blocks that make rows of 16 bytes, or of 48 if a pixel has three.
 constexpr int group_of(int out_bytes) { return out_bytes == 3 ? 4 : 4 / out_bytes; }
 
-/// A group's rows in parts of 16 bytes: of each part row j in 128 bit lane j.
+/// A group's rows in parts of 16 bytes: row j of each part is in 128 bit lane j.
 template <int out_bytes>
 struct Rows {
   __m512i parts[out_bytes == 3 ? 3 : 1];
@@ -352,7 +353,7 @@ Rows<out_bytes> rows_of(const __m512i (&blocks)[group_of(out_bytes)]) {
   }
 }
 
-/// The first `bytes` of row j of `parts`, a multiple of 4.
+/// Stores the first `bytes` of row j of `parts`, a multiple of 4.
 template <int j, int bytes>
 void store_row(const __m512i* parts, std::uint8_t* out) {
   const __m128i row = _mm512_extracti32x4_epi32(parts[0], j);
@@ -360,7 +361,7 @@ void store_row(const __m512i* parts, std::uint8_t* out) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out), row);
     if constexpr (bytes > 16) store_row<j, bytes - 16>(parts + 1, out + 16);
   } else {
-    // No store by mask: some processors take many cycles for one.
+    // Masked stores are avoided: some processors need many cycles for one.
     if constexpr (bytes >= 8) _mm_storeu_si64(out, row);
     constexpr int kLast = bytes / 4 - 1;
     const int last = _mm_extract_epi32(row, kLast);
@@ -368,7 +369,7 @@ void store_row(const __m512i* parts, std::uint8_t* out) {
   }
 }
 
-/// Where a block's window lies in the source.
+/// Address of a block's window in the source.
 template <Layout layout>
 [[gnu::always_inline]] inline const std::uint8_t* window_of(const TileJob& job, const BlockRow& row,
                                                             int x) {
@@ -382,8 +383,8 @@ template <Layout layout>
   return _mm512_set1_epi32(place);
 }
 
-/// One row of blocks, of which block (0, y) has `shape.start`, or what is kept of a row of pairs of
-/// them: of two side by side, or of this row and the next one.
+/// Fills one row of blocks; block (0, y) has `shape.start`. With `kept`, fills the kept pixels of a
+/// row of pairs of blocks: of two side by side, or of this row and the next one.
 template <Layout layout, int blocks_x, Kept kept>
 void fill_row(const TileJob& job, const BlockRow* row, const Shape& shape, std::uint8_t* out) {
   constexpr int kOutBytes = info(layout).out_bytes(), kStep = kept == Kept::EvenColumns ? 2 : 1;
@@ -423,8 +424,8 @@ void fill_row(const TileJob& job, const BlockRow* row, const Shape& shape, std::
 
 template <Layout layout, int blocks_x, Kept kept>
 void fill_rows(const TileJob& job) {
-  // All rows first: else the compiler takes places out of the vectors on the port that vpermb
-  // needs.
+  // All rows are walked first: else the compiler extracts places from the vectors on the port that
+  // vpermb needs.
   BlockRow rows[kMostRows];
   RowWalk walk(job.map.windows);
   const int blocks_y = job.map.blocks_y;

@@ -6,9 +6,9 @@
 #include "proc/remap/grid/coordinate.h"
 #include "proc/remap/kernel/kernel.h"
 
-// How four samples become one, in whole numbers that every kernel reproduces. 8 bit samples are
-// weighed along u in Q7 and then along v in Q16; 16 bit samples by products of Q7 weights. What Q7
-// cuts off is rounded by adding kHalfWeight to the coordinate beforehand (`added_u`, `added_v`).
+// Interpolation of four samples in integers that every kernel reproduces. 8 bit samples are
+// weighted along u in Q7 and then along v in Q16; 16 bit samples by products of Q7 weights.
+// Rounding to Q7 is done by adding kHalfWeight to the coordinate beforehand (`added_u`, `added_v`).
 
 namespace orbwatch::remap {
 
@@ -21,8 +21,8 @@ constexpr std::int32_t added_v(Layout layout) {
   return info(layout).sample_bytes == 2 ? kHalfWeight : 0;
 }
 
-/// The clamp of v below the last row for samples point by point, Q13: v's fraction then fits the
-/// 16 bit lanes of 8 bit samples. It moves samples by at most 1/8192 px.
+/// The clamp of v below the last row for point-by-point samples, Q13: v's fraction then fits the 16
+/// bit lanes of 8 bit samples. It moves samples by at most 1/8192 px.
 template <Layout layout>
 inline constexpr std::int32_t kShortOfLastRow = info(layout).sample_bytes == 1 ? 1 : 0;
 
@@ -30,9 +30,9 @@ constexpr std::int32_t weight(std::int32_t c) {
   return c >> (kFractionBits - kWeightBits) & (kUnitWeight - 1);
 }
 
-/// Four 8 bit samples: upper left, upper right, lower left, lower right. The rows' mean plus their
-/// difference times v - 1/2 needs no mask that takes v's fraction out of a 16 bit lane: a shift to
-/// the left leaves v - 1/2 as a signed number.
+/// Interpolates four 8 bit samples: upper left, upper right, lower left, lower right. The rows'
+/// mean plus their difference times v - 1/2 needs no mask that extracts v's fraction from a 16 bit
+/// lane: a left shift leaves v - 1/2 as a signed number.
 constexpr std::uint8_t interpolate8(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d,
                                     Coordinate at) {
   const std::int32_t u = weight(at.u);
@@ -42,7 +42,7 @@ constexpr std::uint8_t interpolate8(std::int32_t a, std::int32_t b, std::int32_t
   return static_cast<std::uint8_t>((twice + kUnitWeight) >> (kWeightBits + 1));
 }
 
-/// Four 16 bit samples.
+/// Interpolates four 16 bit samples.
 constexpr std::uint16_t interpolate16(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                       std::uint32_t d, Coordinate at) {
   const auto u = static_cast<std::uint32_t>(weight(at.u));
@@ -60,7 +60,7 @@ struct Neighbours {
   const std::uint8_t* lower_right;
 };
 
-/// All samples of one pixel of `layout`; `at` has added_u and added_v in it.
+/// Interpolates all samples of one pixel of `layout`; `at` includes added_u and added_v.
 template <Layout layout>
 void interpolate_pixel(const Neighbours& n, Coordinate at, std::uint8_t* out) {
   constexpr LayoutInfo kInfo = info(layout);

@@ -5,12 +5,12 @@
 
 #include "proc/remap/colour/run_vector.h"
 
-// In an unnamed namespace for the same reason as point_walk.h.
+// The namespace is unnamed for the same reason as in point_walk.h.
 
 namespace orbwatch::remap {
 namespace {
 
-/// Weights of a tile's pixels that run straight between four at its corners (above left, above
+/// Weights of a tile's pixels, interpolated linearly between four at its corners (above left, above
 /// right, below left, below right; 0 to 255), rounded, row by row. 16 bits hold 256 times them, as
 /// unsigned numbers wrap.
 struct CornerWeights {

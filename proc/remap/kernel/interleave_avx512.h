@@ -11,9 +11,8 @@
 namespace orbwatch::remap::avx512 {
 namespace {
 
-/// Which of 64 pixels' samples go where in part `n` of three: byte k of the part is of channel
-/// (64 n + k) % 3 and of pixel (64 n + k) / 3. The samples of the second channel are numbered from
-/// 64 on.
+/// Order of 64 pixels' samples in part `n` of three: byte k of the part is of channel (64 n + k) %
+/// 3 and of pixel (64 n + k) / 3. The samples of the second channel are numbered from 64 on.
 struct alignas(64) ThreesOrder {
   std::uint8_t first_and_second[64];
   std::uint8_t third[64];
@@ -30,7 +29,7 @@ struct alignas(64) ThreesOrder {
 };
 constexpr ThreesOrder kThreesOrder[3]{ThreesOrder(0), ThreesOrder(1), ThreesOrder(2)};
 
-/// Writes the samples of 64 pixels in turn: four runs, `stride` bytes apart.
+/// Writes the samples of 64 pixels interleaved: four runs, `stride` bytes apart.
 inline void store_threes(__m512i first, __m512i second, __m512i third, std::uint8_t* to,
                          std::ptrdiff_t stride) {
   alignas(64) std::uint8_t apart[4 * 3 * kRun];

@@ -35,7 +35,7 @@ const auto& candidates() {
   return kCandidates;
 }
 
-/// As in "scalar, avx2".
+/// A list such as "scalar, avx2".
 template <class Predicate>
 std::string names_where(const Predicate& predicate) {
   std::string list;

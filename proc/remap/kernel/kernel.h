@@ -24,23 +24,23 @@ struct TileJob {
   const TargetPlane& target;
 };
 
-/// Pixels to be sampled from one plane, each at a place of its own. Beyond the plane's border its
+/// Pixels to be sampled from one plane, each at its own place. Beyond the plane's border its
 /// outermost pixels are repeated.
 struct PointJob {
-  const Places& places;  ///< of the target's pixels
+  const Places& places;  ///< places of the target's pixels
   const SourcePlane& source;
   const TargetPlane& target;
 };
 
-/// Whether a kernel of this processor may have `find_entries` and `write_rgb`: where none has,
-/// tiles save the question.
+/// True if a kernel of this processor may have `find_entries` and `write_rgb`; if none has, tiles
+/// skip the check.
 #ifdef __x86_64__
 inline constexpr bool kKernelsConvert = true;
 #else
 inline constexpr bool kKernelsConvert = false;
 #endif
 
-/// One implementation of the remap for one instruction set. Every kernel gives the same bytes as
+/// One implementation of the remap for one instruction set. Every kernel produces the same bytes as
 /// the scalar one, their specification.
 struct Kernel {
   using Tile = void (*)(const TileJob&);
@@ -55,34 +55,34 @@ struct Kernel {
   using Mix = void (*)(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out);
 
   std::string_view name;
-  /// By Layout. Fills all blocks of the job. Reads 8x8 source pixels from each block's origin, so
-  /// these must lie in the picture. Reentrant.
+  /// Functions indexed by Layout that fill all blocks of the job. Each reads 8x8 source pixels from
+  /// each block's origin, so these must lie in the picture. Reentrant.
   std::array<Tile, kKernelLayouts> tiles;
-  /// Where the pixels of a rectangle lie; `columns` is a power of two. Reentrant.
+  /// Computes the places of a rectangle's pixels; `columns` is a power of two. Reentrant.
   Locate locate;
-  /// By Layout. Fills the job's target: for any map, at borders too. The source is at least 2x2
-  /// pixels large, but for the scalar kernel. Reentrant.
+  /// Functions indexed by Layout that fill the job's target: for any map, at borders too. The
+  /// source is at least 2x2 pixels large, except for the scalar kernel. Reentrant.
   std::array<Points, kLayouts> points;
   /// Mixes whole tiles that 1 to kMaxSources sources see everywhere, and whose shares add up to 255
-  /// in each corner. Between the corners the sum of the shares of the first n sources runs straight
-  /// and is rounded, for each n, so that they add up to 255 in every pixel too; the mean by these
-  /// is rounded to nearest. `out` is one tile of 1 or 3 channels. Reentrant.
+  /// in each corner. Between the corners the sum of the shares of the first n sources is
+  /// interpolated linearly and rounded, for each n, so that they add up to 255 in every pixel too;
+  /// the mean by these is rounded to nearest. `out` is one tile of 1 or 3 channels. Reentrant.
   Mix mix;
-  /// Writes the colours of runs of kRun indices into rows of `out`, of the table's channels.
+  /// Writes the colours of runs of kRun indices into rows of `out`, which has the table's channels.
   /// Reentrant.
   LookUp look_up;
-  /// Writes where runs of values lie in a table, at most kTile of them, run after run. Null where
-  /// compilers make as good code of ColourMap's own loop. Reentrant.
+  /// Writes the table indices of runs of values, at most kTile of them, run after run. Null where
+  /// compilers generate equally good code for ColourMap's own loop. Reentrant.
   FindEntries find_entries = nullptr;
-  /// Converts a whole tile as YuvToRgb does. Null where compilers make as good code of that.
+  /// Converts a whole tile like YuvToRgb. Null where compilers generate equally good code for that.
   /// Reentrant.
   WriteRgb write_rgb = nullptr;
-  /// As `tiles`, of a map at half steps along an axis: columns, or rows, 0, 2, 4 .. of what that
-  /// gives become the target's. `blocks_x`, or `blocks_y`, is even. Null: to be made by `tiles`.
+  /// Variants of `tiles` for a map at half steps along an axis: columns, or rows, 0, 2, 4 .. of the
+  /// result become the target's. `blocks_x`, or `blocks_y`, is even. Null: to be made by `tiles`.
   /// Reentrant.
   std::array<Tile, kKernelLayouts> even_columns{};
   std::array<Tile, kKernelLayouts> even_rows{};
-  /// Whether to ask for what tiles will read before they do, where they read much.
+  /// True if tiles should prefetch their source, where they read much.
   bool fetches_ahead = false;
 
   void sample_tile(Layout layout, const TileJob& job) const {
@@ -93,7 +93,8 @@ struct Kernel {
   }
 };
 
-/// What `of` gives for each of the first `count` layouts, which is its template argument.
+/// An array of the results of `of` for each of the first `count` layouts, which is its template
+/// argument.
 template <std::size_t count, class Of>
 constexpr auto by_layout(const Of& of) {
   return [&]<std::size_t... n>(std::index_sequence<n...>) {
@@ -108,14 +109,14 @@ std::span<const Kernel* const> kernels();
 /// The first of kernels().
 const Kernel& scalar_kernel();
 
-/// The kernel of that name. Error: unknown, or not for this machine.
+/// The kernel called `name`. Error: unknown, or not for this machine.
 Result<const Kernel*> find_kernel(std::string_view name);
 
 /// The kernel named by the environment variable ORBWATCH_ISA; the fastest one if it is not set.
-/// Error: as find_kernel(). For the start of a program.
+/// Error: that of find_kernel(). For the start of a program.
 Result<const Kernel*> requested_kernel();
 
-/// The same, chosen at the first call; the fastest one where the request cannot be met.
+/// The same, chosen at the first call; the fastest one if the request cannot be met.
 const Kernel& default_kernel();
 
 }  // namespace orbwatch::remap

@@ -12,23 +12,23 @@ constexpr int kSlopeShift = kScaleBits - kSlopeBits;
 constexpr std::int32_t kPixel = 1 << (kFractionBits + kSlopeBits);
 constexpr int kLast = kBlock - 1;
 
-// Q18 from Q24. More curvature would overflow 16 bit lanes (3 * 3 * 3584 < 2^15), and is far beyond
-// what fits a window.
+// Shift from Q24 to Q18. More curvature would overflow 16 bit lanes (3 * 3 * 3584 < 2^15), and is
+// far beyond the limit for a window.
 constexpr int kCurvatureShift = 6;
 constexpr std::int32_t kMostCurvature = 3584 << kCurvatureShift;
 
-// What rounding of the lanes may add on either side of a block, Q20.
+// Largest effect of rounding the lanes on either side of a block, Q20.
 constexpr std::int32_t kSlack = 32 << kSlopeBits;
 
 UvXy32 below_zero(UvXy32 value) { return value < 0 ? value : 0; }
 UvXy32 above_zero(UvXy32 value) { return value > 0 ? value : 0; }
 
-/// How far the pixels of any block lie from its corner, Q20: u and v at least, u and v at most.
+/// Bounds of the pixels of any block relative to its corner, Q20: least u and v, greatest u and v.
 /// Room for rounding is included.
 UvXy32 reach(const UvQuadratic& map, int columns, int rows) {
-  // From a corner it is i (slope_x + i xx + j xy / 2) + j (slope_y + j yy + i xy / 2) to pixel
-  // (i, j): the slopes up to 3/2, that is less than 2, pixels beyond the last corner, and that is 2
-  // before the blocks' end; for both axes the longer one's.
+  // From a corner to pixel (i, j) it is i (slope_x + i xx + j xy / 2) + j (slope_y + j yy + i xy /
+  // 2): the slopes up to 3/2, that is less than 2, pixels beyond the last corner, which is 2 before
+  // the blocks' end; for both axes the longer one's.
   const int last = std::max(columns, rows) - 2;
   const UvXy32 along = (map.curve * (2 * last)) >> kSlopeShift;
   const UvXy32 across = (map.cross * last) >> kSlopeShift;
@@ -66,9 +66,9 @@ Widened widened(UvXy32 value) {
           reinterpret_cast<Uv64>(__builtin_shufflevector(low, high, 2, 6, 3, 7))};
 }
 
-/// `start`: Q24, where the windows begin from the patch's corner.
+/// `start`: Q24, origin of the windows relative to the patch's corner.
 WindowWalk window_walk(const UvQuadratic& map, Uv64 start) {
-  // To Q32, and from pixels to blocks.
+  // Converts to Q32, and from pixels to blocks.
   static_assert(kBlock == 4);
   constexpr int kUpscale = 32 - (kFractionBits + kScaleBits);
   const Widened step = widened<kUpscale + 4>((map.slope << (kSlopeShift - 2)) + map.curve);
@@ -104,7 +104,7 @@ PointAxis point_axis(const Quadratic& axis) {
   const auto rounded = [](std::int64_t term) {
     return static_cast<std::uint32_t>((term + (1 << (kDropped - 1))) >> kDropped);
   };
-  // What the base leaves of the value, and a half for the last shift.
+  // The part of the value below the base's last bit, plus a half for the last shift.
   const std::int64_t rest = axis.value & ((std::int64_t{1} << kBits) - 1);
   constexpr std::uint32_t kHalf = 1U << (PointAxis::kExtraBits - 1);
   return {static_cast<std::int32_t>(axis.value >> kBits),

@@ -6,38 +6,38 @@
 
 namespace orbwatch::remap {
 
-/// Kernels go through a tile in blocks of 4x4 pixels.
+/// Side of a block; kernels process a tile in blocks of 4x4 pixels.
 inline constexpr int kBlock = 4;
-/// A block's pixels are interpolated from a window of so many source pixels each way.
+/// Side, in source pixels, of the window that a block's pixels are interpolated from.
 inline constexpr int kWindow = 8;
 
-/// A value for both axes.
+/// A value for each axis.
 template <class T>
 struct AxisPair {
   T u, v;
 };
 
-/// Where the blocks' windows lie, source pixels in Q32: exactly, by differences from block to
-/// block. Whole pixels are the window's origin. The fraction is the block's place in its window.
+/// Positions of the blocks' windows, source pixels in Q32: exact, by differences from block to
+/// block. The integer part is the window's origin, the fraction the block's place in its window.
 struct WindowWalk {
-  Uv64 value;           ///< of block (0, 0)
-  Uv64 step_x, step_y;  ///< from there to block (1, 0), (0, 1)
+  Uv64 value;           ///< position of block (0, 0)
+  Uv64 step_x, step_y;  ///< steps from there to block (1, 0), (0, 1)
   Uv64 xx, yy, xy;      ///< growth of step_x along x, of step_y along y, of each of them along the
                         ///< other axis
 };
 
-/// All pixels of a block, from the block's place on, in 16 bit lanes modulo 2^16. Along either axis
-/// pixel (i, j), 0..3 each, of block (bx, by) lies at
+/// All pixels of a block, relative to the block's place, in 16 bit lanes modulo 2^16. Along either
+/// axis pixel (i, j), 0..3 each, of block (bx, by) lies at
 ///   place + start + bx along_x + by along_y
 /// with, in Q13,
 ///   along_x = (i twice_xx + j xy + 4) >> 3,   along_y = (i xy + j twice_yy + 4) >> 3,
 ///   start = i slope_x + j slope_y + ((i along_x + j along_y + 4) >> 3) + offset.
 /// Lanes of v have two fraction bits less: their along_x, along_y and start are these, rounded; so
-/// a row's number is in the bits where a table of rows of kWindow is indexed by it. And they count
-/// from kRowCentre above the window, for v - 1/2 is what a lower row is weighed with (see
-/// interpolation.h). Rounding moves a pixel by less than 1/240 px from the quadratic.
+/// a row's number is in the bits that index a table of rows of kWindow. They count from kRowCentre
+/// above the window, since a lower row is weighted with v - 1/2 (see bilinear.h). Rounding moves a
+/// pixel by less than 1/240 px from the quadratic.
 struct alignas(8) LaneShape {
-  AxisPair<std::int16_t> slope_x, slope_y;    ///< of block (0, 0)'s corner; Q13
+  AxisPair<std::int16_t> slope_x, slope_y;    ///< at the corner of block (0, 0); Q13
   AxisPair<std::int16_t> twice_xx, twice_yy;  ///< curvature, Q18
   AxisPair<std::int16_t> xy;                  ///< Q18
   AxisPair<std::uint16_t> offset;             ///< Q13; makes all lanes positive
@@ -46,7 +46,7 @@ struct alignas(8) LaneShape {
 inline constexpr int kRowFractionBits = kFractionBits - 2;
 inline constexpr int kRowCentre = 1 << (kRowFractionBits - 1);
 
-/// A map for kernels, over as many blocks as a tile has, or its half in a subsampled plane, or it
+/// A map for kernels, over the blocks of a tile, of its half in a subsampled plane, or of the tile
 /// at half steps along y.
 struct BlockMap {
   WindowWalk windows;
@@ -54,13 +54,13 @@ struct BlockMap {
   int blocks_x;  ///< 2 or 4
   int blocks_y;  ///< 1 to 8
 
-  /// Becomes the map of a patch's first pixels, 8 or 16 columns and a multiple of 4 rows, at
-  /// most 32. False, and then undefined, when the patch is too steep or bent: a block would not fit
-  /// into its window. `rounding`: see there.
+  /// Sets the map to a patch's first pixels, 8 or 16 columns and a multiple of 4 rows, at most 32.
+  /// False, and then undefined, when the patch is too steep or curved: a block would not fit into
+  /// its window. `rounding`: see rounding().
   [[nodiscard]] bool fit(const Patch& patch, int columns, int rows, const Uv64& rounding);
 
-  /// Added to every coordinate, Q24, for rounding of truncated places: half of their last bit, and
-  /// `u` and `v`, Q13, half of the last bit of a kernel's weights.
+  /// Offset of every coordinate, Q24, that rounds truncated places: half of their last bit, and `u`
+  /// and `v`, Q13, half of the last bit of a kernel's weights.
   static constexpr Uv64 rounding(int u, int v) {
     const auto half_of_last = [](int bits) {
       return 1 << (kFractionBits + PatchRow::kScaleBits - bits - 1);
@@ -80,18 +80,18 @@ struct PointAxis {
   std::uint32_t x, y, xy, xx, yy;
 };
 
-/// A patch as kernels take it that go pixel by pixel.
+/// A patch in the form used by kernels that sample pixel by pixel.
 struct PointMap {
   PointAxis u, v;
 
   explicit PointMap(const Patch& patch);
 };
 
-/// Pixels are sampled in runs of so many.
+/// Number of pixels that are sampled together.
 inline constexpr int kPointRun = 16;
 
-/// Where each pixel of a rectangle lies in a source, Q13, row by row without gaps; up to the end of
-/// the last run.
+/// Places of a rectangle's pixels in a source, Q13, row by row without gaps; up to the end of the
+/// last run.
 struct Places {
   alignas(64) std::int32_t u[kTile * kTile];
   alignas(64) std::int32_t v[kTile * kTile];

@@ -6,7 +6,7 @@
 
 namespace orbwatch::remap {
 
-/// Which samples of a plane a kernel reads; it writes those samples side by side.
+/// Samples of a plane that a kernel reads; it writes those samples without gaps.
 enum class Layout : std::uint8_t {
   One8,         ///< grey, Y, U or V
   Two8,         ///< U V pairs
@@ -22,10 +22,10 @@ inline constexpr std::size_t kKernelLayouts = 7;
 
 /// The description of a Layout.
 struct LayoutInfo {
-  int pixel_bytes;   ///< from pixel to pixel in the source
+  int pixel_bytes;   ///< distance between pixels in the source
   int first;         ///< the first sample that is read
-  int every;         ///< from there, each sample so many further
-  int samples;       ///< read per pixel
+  int every;         ///< distance from there to each further sample
+  int samples;       ///< number read per pixel
   int sample_bytes;  ///< 1 or 2
   constexpr int out_bytes() const { return samples * sample_bytes; }
 };
@@ -49,19 +49,19 @@ constexpr Layout packed(Layout layout) {
   return layout == Layout::OddOfFour8 ? Layout::Two8 : layout;
 }
 
-/// A plane of a source, as a sampling reads it.
+/// A plane of a source, for one sampling.
 struct SourcePlane {
-  const std::uint8_t* data = nullptr;  ///< with the sampling's offset
+  const std::uint8_t* data = nullptr;  ///< includes the sampling's offset
   std::ptrdiff_t stride = 0;           ///< bytes
-  int width = 0;                       ///< in pixels of the plane
+  int width = 0;                       ///< pixels of the plane
   int height = 0;
 };
 
-/// Part of a view's plane that is being filled.
+/// The part of a view's plane that is being filled.
 struct TargetPlane {
   std::uint8_t* data = nullptr;
   std::ptrdiff_t stride = 0;  ///< bytes
-  int columns = 0;            ///< in pixels of the plane, at most kTile
+  int columns = 0;            ///< pixels of the plane, at most kTile
   int rows = 0;
 };
 

@@ -8,13 +8,13 @@
 #include "proc/remap/colour/colour_table.h"
 #include "proc/remap/colour/run.h"
 
-// How kernels look up colours whose instruction set does not hold a table in registers. Included by
+// Colour lookup of kernels whose instruction set does not hold a table in registers. Included by
 // each of them, in an unnamed namespace for the same reason as point_walk.h.
 
 namespace orbwatch::remap {
 namespace {
 
-/// As Kernel::look_up.
+/// Implements Kernel::look_up.
 inline void look_up_words(const ColourTable& table, const IndexRuns& runs,
                           const ImageView<std::uint8_t>& out) {
   const std::uint8_t* indices = runs.first;

@@ -11,7 +11,7 @@
 #include "proc/remap/colour/run.h"
 #include "proc/remap/kernel/interleave_avx512.h"
 
-// How the kernel for AVX-512 with VBMI looks up colours: the tables of three channels fill twelve
+// Colour lookup of the kernel for AVX-512 with VBMI: the tables of three channels fill twelve
 // registers, and four runs are one.
 
 namespace orbwatch::remap::avx512 {
@@ -33,7 +33,7 @@ class PlaneTable {
   __m512i parts_[4];
 };
 
-/// Four runs.
+/// Loads four runs.
 inline __m512i indices_at(const std::uint8_t* first, std::ptrdiff_t stride) {
   if (stride == kRun) return _mm512_loadu_si512(first);
   const auto run = [&](int n) {
@@ -44,14 +44,15 @@ inline __m512i indices_at(const std::uint8_t* first, std::ptrdiff_t stride) {
   return _mm512_inserti64x4(_mm512_castsi256_si512(lower), upper, 1);
 }
 
-/// As Kernel::find_entries, two runs at a time; the last one may be alone.
+/// Implements Kernel::find_entries, two runs at a time; the last one may be alone.
 inline void find_entries(const ValueScale& scale, const ImageView<const std::uint16_t>& values,
                          std::uint8_t* entries) {
   const auto each = [](std::uint16_t value) {
     return _mm512_set1_epi16(static_cast<std::int16_t>(value));
   };
   const __m512i low = each(scale.low), high = each(scale.high);
-  // In parts as they were written just before: larger ones would wait until that is in the cache.
+  // Loads in the parts that were written just before: larger ones would wait until those are in the
+  // cache.
   const auto run = [&](int y) {
     const auto* const row = reinterpret_cast<const __m128i*>(values.row(y));
     return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(row)),
@@ -74,7 +75,7 @@ inline void find_entries(const ValueScale& scale, const ImageView<const std::uin
   }
 }
 
-/// As Kernel::look_up.
+/// Implements Kernel::look_up.
 inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
                             const ImageView<std::uint8_t>& out) {
   constexpr int kRuns = 64 / kRun;

@@ -10,12 +10,12 @@
 #include "proc/remap/colour/colour_table.h"
 #include "proc/remap/colour/run.h"
 
-// How the kernel for NEON looks up colours: the table of a channel fills half of the registers.
+// Colour lookup of the kernel for NEON: the table of a channel fills half of the registers.
 
 namespace orbwatch::remap::neon {
 namespace {
 
-/// One channel of all runs.
+/// Looks up one channel of all runs.
 [[gnu::always_inline]] inline void look_up_plane(const std::array<std::uint8_t, 256>& plane,
                                                  const IndexRuns& runs, std::uint8_t* out,
                                                  std::ptrdiff_t out_stride) {
@@ -25,7 +25,7 @@ namespace {
 #pragma GCC unroll 4
   for (int rows = runs.rows; rows > 0; --rows, indices += runs.stride, out += out_stride) {
     const uint8x16_t index = vld1q_u8(indices);
-    // An index beyond its part of the table leaves what was found.
+    // An index beyond its part of the table keeps the earlier result.
     uint8x16_t found = vqtbl4q_u8(first, index);
     found = vqtbx4q_u8(found, second, vsubq_u8(index, vdupq_n_u8(64)));
     found = vqtbx4q_u8(found, third, vsubq_u8(index, vdupq_n_u8(128)));
@@ -34,7 +34,8 @@ namespace {
   }
 }
 
-/// As Kernel::look_up: one channel after the other, since the registers do not hold three tables.
+/// Implements Kernel::look_up: one channel after the other, since the registers do not hold three
+/// tables.
 inline void look_up_colours(const ColourTable& table, const IndexRuns& runs,
                             const ImageView<std::uint8_t>& out) {
   if (table.channels == 1) return look_up_plane(table.planes[0], runs, out.data, out.stride);

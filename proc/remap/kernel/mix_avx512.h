@@ -12,7 +12,7 @@
 #include "proc/remap/kernel/interleave_avx512.h"
 #include "proc/remap/kernel/mixed_tile.h"
 
-// How the kernel for AVX-512 mixes tiles: as tile_mix.h, four rows at a time.
+// Tile mixing of the kernel for AVX-512: like tile_mix.h, four rows at a time.
 
 namespace orbwatch::remap::avx512 {
 namespace {
@@ -49,7 +49,7 @@ class FourRows {
   __m512i upper_, lower_, down_;
 };
 
-/// Sums of 64 products of bytes, those of each half of a 128 bit lane by themselves.
+/// Sums of 64 products of bytes; each half of a 128 bit lane separately.
 struct Products64 {
   __m512i low = _mm512_setzero_si512(), high = _mm512_setzero_si512();
 
@@ -60,7 +60,7 @@ struct Products64 {
     high = _mm512_add_epi16(
         high, _mm512_mullo_epi16(_mm512_unpackhi_epi8(a, zero), _mm512_unpackhi_epi8(b, zero)));
   }
-  /// See rounded_255th().
+  /// Implements rounded_255th().
   __m512i rounded_255th() const {
     const auto rounded = [](__m512i sum) {
       const __m512i more = _mm512_add_epi16(sum, _mm512_set1_epi16(128));
@@ -70,14 +70,14 @@ struct Products64 {
   }
 };
 
-/// Which of 64 pixels sample k of part `part` belongs to.
+/// Weights repeated for each sample of part `part` of 64 pixels.
 template <int Channels>
 __m512i spread64(__m512i weights, int part) {
   if constexpr (Channels == 1) return weights;
   return _mm512_permutexvar_epi8(_mm512_load_si512(kThreesOrder[part].third), weights);
 }
 
-/// Sixteen bytes to where they belong in rows of kRun * Channels.
+/// Stores sixteen bytes at their place in rows of kRun * Channels.
 template <int Channels, int lane>
 void store_lane(__m512i samples, int part, std::uint8_t* out, std::ptrdiff_t stride) {
   const int place = 4 * part + lane;
@@ -88,7 +88,7 @@ void store_lane(__m512i samples, int part, std::uint8_t* out, std::ptrdiff_t str
 
 template <int Channels, std::size_t Count>
 void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
-  std::array<FourRows, Count - 1> shared;  // of the first sources together
+  std::array<FourRows, Count - 1> shared;  // sums over the first sources
   const auto corners = shared_corners<Count>(tiles);
   for (std::size_t n = 0; n + 1 < Count; ++n) shared[n] = FourRows(CornerWeights(corners[n]));
   std::uint8_t* to = out.data;
@@ -114,7 +114,7 @@ void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>
   }
 }
 
-/// As Kernel::mix.
+/// Implements Kernel::mix.
 inline void mix_tiles(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
   with_constants(out.channels, tiles.size(), [&]<int Channels, std::size_t Count>() {
     mix_so_many<Channels, Count>(tiles, out);

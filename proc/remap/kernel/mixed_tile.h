@@ -7,7 +7,7 @@
 
 namespace orbwatch::remap {
 
-/// Sources that one view can merge.
+/// Most sources that one view can merge.
 inline constexpr std::size_t kMaxSources = 4;
 
 /// Shares of 255 in a tile's corners: above left, above right, below left, below right.
@@ -19,7 +19,7 @@ struct MixedTile {
   CornerShares shares{};
 };
 
-/// The shares of the first 1, 2 .. Count - 1 sources together.
+/// Sums of the shares of the first 1, 2 .. Count - 1 sources.
 template <std::size_t Count>
 [[gnu::always_inline]] inline std::array<std::array<int, 4>, Count - 1> shared_corners(
     std::span<const MixedTile> tiles) {

@@ -1,9 +1,10 @@
 // The kernel for NEON of aarch64. A window of 8x8 samples is four registers, so that one table
-// lookup fetches a sample for each of a block's 16 pixels. Samples that lie interleaved in the
-// source are taken apart into one such table each as they are loaded.
+// lookup fetches a sample for each of a block's 16 pixels. Samples that are interleaved in the
+// source are split into one such table each when they are loaded.
 //
-// Instructions are what limits it, so it is written for their number: everything between a block's
-// place and its stores is 16 pixels wide, and what a row of blocks needs only once is done by rows.
+// The number of instructions is the limit, so the code minimises it: everything between a block's
+// place and its stores is 16 pixels wide, and everything that a row of blocks needs only once is
+// done per row.
 
 #include <arm_neon.h>
 
@@ -54,7 +55,7 @@ constexpr std::array<std::int16_t, 8> kUpperRows{0, 0, 0, 0, 1, 1, 1, 1};
 template <int blocks>
 class AxisLanes {
  public:
-  /// Axis 0 or 1, u or v. `shift` is how many fraction bits the lanes have less than Q13.
+  /// Axis 0 or 1, u or v. `shift`: number of fraction bits that the lanes have less than Q13.
   template <int axis, int shift>
   [[gnu::always_inline]] static AxisLanes make(const LaneShape& shape) {
     static_assert(offsetof(LaneShape, slope_y) == 4 && offsetof(LaneShape, twice_xx) == 8 &&
@@ -108,7 +109,7 @@ class AxisLanes {
   Lanes current_, next_block_, next_row_;
 };
 
-/// Where the blocks' windows lie, see WindowWalk: u in the lower half of a register, v in the
+/// Positions of the blocks' windows, see WindowWalk: u in the lower half of a register, v in the
 /// upper.
 template <int blocks>
 class Windows {
@@ -117,7 +118,8 @@ class Windows {
       : value_(load(walk.value)),
         step_(load(walk.step_x)),
         growth_(load(walk.xx)),
-        // (blocks - 1) steps back from the row's last block; each has grown by one growth more.
+        // Steps back (blocks - 1) times from the row's last block; each has grown by one growth
+        // more.
         next_row_(vsubq_s64(load(walk.step_y), back(vaddq_s64(step_, half_back(growth_))))),
         next_row_step_(vsubq_s64(load(walk.xy), back(growth_))),
         next_row_growth_(vsubq_s64(load(walk.yy), back(load(walk.xy)))) {}
@@ -141,7 +143,7 @@ class Windows {
     settle(line);
     return line + std::ptrdiff_t{vgetq_lane_s32(words, 1)} * pixel_bytes;
   }
-  /// The block's place in it: u in lane 0, v in lane 4.
+  /// The block's place in its window: u in lane 0, v in lane 4.
   [[gnu::always_inline]] uint16x8_t place() const {
     constexpr std::array<std::int32_t, 4> kShift{kFractionBits - 32, 0, kRowFractionBits - 32, 0};
     return vreinterpretq_u16_u32(
@@ -152,7 +154,7 @@ class Windows {
   [[gnu::always_inline]] static int64x2_t load(const Uv64& pair) {
     return reinterpret_cast<int64x2_t>(pair);
   }
-  /// (blocks - 1) and (blocks - 2) / 2 times.
+  /// Multiplies by (blocks - 1); half_back() by (blocks - 2) / 2.
   [[gnu::always_inline]] static int64x2_t back(int64x2_t step) {
     static_assert(blocks == 2 || blocks == 4);
     return blocks == 2 ? step : vaddq_s64(vaddq_s64(step, step), step);
@@ -165,9 +167,9 @@ class Windows {
   int64x2_t next_row_, next_row_step_, next_row_growth_;
 };
 
-// ---- Interpolation, see interpolation.h ----
+// ---- Interpolation, see bilinear.h ----
 
-/// The number of each pixel's upper left sample in the table.
+/// The index of each pixel's upper left sample in the table.
 [[gnu::always_inline]] inline uint8x16_t table_index(Lanes u, Lanes v) {
   static_assert(kRowCentre % 256 == 0);
   static_assert(kFractionBits == 13 && kRowFractionBits == 11, "rows' bits before columns'");
@@ -193,7 +195,7 @@ struct Neighbourhood {
 
 /// Weights of two neighbours, Q7.
 struct Weights {
-  /// `bits` of the lanes are their fraction.
+  /// `bits`: number of the lanes' fraction bits.
   template <int bits>
   [[gnu::always_inline]] static Weights of(Lanes lanes) {
     constexpr int kShift = bits - kWeightBits - 1;
@@ -232,12 +234,12 @@ struct Weights {
   return sample;
 }
 
-/// The four neighbours' weights, Q14, of eight pixels.
+/// The four neighbours' weights, Q14, for eight pixels.
 struct Products {
   uint16x8_t upper_left, upper_right, lower_left, lower_right;
 };
 
-/// 16 bit samples of eight pixels, from their lower and upper bytes brought together.
+/// Interpolates 16 bit samples of eight pixels, whose lower and upper bytes have been combined.
 [[gnu::always_inline]] inline uint8x16_t interpolate(uint16x8_t a, uint16x8_t b, uint16x8_t c,
                                                      uint16x8_t d, const Products& w) {
   uint32x4_t low = vmull_u16(vget_low_u16(a), vget_low_u16(w.upper_left));
@@ -306,7 +308,7 @@ template <int... n, class Body>
   (body(std::integral_constant<int, n>()), ...);
 }
 
-/// Goes through a tile by rows of so many blocks. What walks are local variables: g++ would keep
+/// Fills a tile in rows of `blocks` blocks. The walking state is in local variables: g++ would keep
 /// members in memory.
 template <Layout layout, int blocks>
 void fill_rows(const TileJob& job) {

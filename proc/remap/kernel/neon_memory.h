@@ -9,8 +9,8 @@
 #include "proc/remap/kernel/kernel_map.h"
 #include "proc/remap/kernel/layout.h"
 
-// How the NEON kernel loads windows and stores blocks: in assembly for g++, which spills registers
-// that lookups and interleaving stores need side by side; in intrinsics for clang.
+// Loading of windows and storing of blocks in the NEON kernel: in assembly for g++, which spills
+// registers that lookups and interleaving stores need side by side; in intrinsics for clang.
 
 namespace orbwatch::remap::neon {
 namespace {
@@ -21,23 +21,23 @@ namespace {
 template <Layout layout>
 constexpr int kRegisters = info(layout).out_bytes();
 
-/// A window's samples as tables for NEON's lookup, each for one sample of a pixel; of 16 bit
+/// A window's samples as tables for NEON's lookup, each for one sample of a pixel; for 16 bit
 /// samples one for the lower bytes and one for the upper. A register has two rows of a table.
 ///
-/// g++ needs two instructions to load a row and step to the next, and brings the four registers of
-/// a table together by way of the stack before every lookup.
+/// g++ needs two instructions to load a row and step to the next, and combines the four registers
+/// of a table by way of the stack before every lookup.
 template <Layout layout>
 struct Tables {
-  uint8x16x4_t a, b, c, d;  ///< as many as there are samples
+  uint8x16x4_t a, b, c, d;  ///< one per sample
 
-  /// From the window's first sample on; `stride` in bytes.
+  /// Loads from the window's first sample on; `stride` in bytes.
   [[gnu::always_inline]] Tables(const std::uint8_t* at, std::ptrdiff_t stride);
 };
 
 #if !defined(__clang__)
 
-// %S, %T, %U and %V print the registers of a table, so `rows` is what fills one of them; x and y
-// are one row each, taken apart by the load as far as it can.
+// Operands %S, %T, %U and %V print the registers of a table, so `rows` fills one of them; x and y
+// are one row each, de-interleaved by the load as far as possible.
 #define ORBWATCH_LOAD_WINDOW(rows, ...) \
   asm(rows("S") rows("T") rows("U") rows("V") : __VA_ARGS__, [at] "+&r"(at) : [stride] "r"(stride))
 #define ORBWATCH_LOAD(instruction, registers) instruction " {" registers "}, [%[at]], %[stride]\n\t"
@@ -145,12 +145,12 @@ inline Tables<layout>::Tables(const std::uint8_t* at, std::ptrdiff_t stride) {
 
 // ---- Storing blocks ----
 
-/// What a block's pixels become, row by row: a register for each 8 bit sample of a pixel; of 16 bit
-/// one for rows 0 and 1, and one for 2 and 3.
+/// The pixels of a block, row by row: a register for each 8 bit sample of a pixel; for 16 bit one
+/// for rows 0 and 1, and one for 2 and 3.
 template <Layout layout>
 using Samples = std::array<uint8x16_t, kRegisters<layout>>;
 
-/// Four rows of 8 bytes.
+/// Stores four rows of 8 bytes.
 [[gnu::always_inline]] inline void store_rows_of_8(uint8x16_t upper, uint8x16_t lower,
                                                    std::uint8_t* out, std::ptrdiff_t stride) {
   const auto store_second = [](std::uint8_t* to, uint8x16_t rows) {
@@ -162,7 +162,7 @@ using Samples = std::array<uint8x16_t, kRegisters<layout>>;
   store_second(out + 3 * stride, lower);
 }
 
-/// Two blocks side by side of one byte per pixel.
+/// Stores two adjacent blocks with one byte per pixel.
 [[gnu::always_inline]] inline void store_blocks(
     const std::array<std::array<uint8x16_t, 1>, 2>& blocks, std::uint8_t* out,
     std::ptrdiff_t stride) {
@@ -171,12 +171,12 @@ using Samples = std::array<uint8x16_t, kRegisters<layout>>;
                   out, stride);
 }
 
-/// Four blocks side by side of one byte per pixel: lane k of all is row k.
+/// Stores four adjacent blocks with one byte per pixel: lane k of all is row k.
 [[gnu::always_inline]] inline void store_blocks(
     const std::array<std::array<uint8x16_t, 1>, 4>& blocks, std::uint8_t* out,
     std::ptrdiff_t stride) {
 #if !defined(__clang__)
-  // g++ would bring the registers together anew for each row.
+  // g++ would combine the registers anew for each row.
   const uint8x16x4_t all{blocks[0][0], blocks[1][0], blocks[2][0], blocks[3][0]};
   asm volatile(
       "st4 {%S1.s, %T1.s, %U1.s, %V1.s}[0], [%0], %2\n\t"
@@ -197,8 +197,8 @@ using Samples = std::array<uint8x16_t, kRegisters<layout>>;
 #endif
 }
 
-/// Three bytes per pixel. Rows are stored with four bytes too many, where the next block goes; but
-/// not of the last block.
+/// Stores three bytes per pixel. Rows are stored with four bytes too many, into the place of the
+/// next block; not for the last block.
 template <bool is_last>
 [[gnu::always_inline]] inline void store_threes(const uint8x16x3_t& samples, std::uint8_t* out,
                                                 std::ptrdiff_t stride) {
@@ -217,7 +217,7 @@ template <bool is_last>
   }
 }
 
-/// Four bytes per pixel: a register becomes a row.
+/// Stores four bytes per pixel: a register becomes a row.
 [[gnu::always_inline]] inline void store_fours(const std::array<uint8x16_t, 4>& samples,
                                                std::uint8_t* out, std::ptrdiff_t stride) {
   const auto store_two = [&](uint8x16_t first, uint8x16_t second) {
@@ -230,7 +230,7 @@ template <bool is_last>
   store_two(vzip2q_u8(samples[0], samples[1]), vzip2q_u8(samples[2], samples[3]));
 }
 
-/// A block of several bytes per pixel. `is_last`: in its row of blocks.
+/// Stores a block with several bytes per pixel. `is_last`: it is the last in its row of blocks.
 template <Layout layout, bool is_last>
 [[gnu::always_inline]] inline void store_block(const Samples<layout>& samples, std::uint8_t* out,
                                                std::ptrdiff_t stride) {

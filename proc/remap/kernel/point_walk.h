@@ -10,11 +10,11 @@
 #include "proc/remap/kernel/bilinear.h"
 #include "proc/remap/kernel/kernel.h"
 
-// How vector kernels sample pixel by pixel, where a map is too steep or bent for windows: in loops
-// over runs of pixels that compilers vectorize; only the source is read pixel by pixel.
+// Pixel-by-pixel sampling of vector kernels, where a map is too steep or curved for windows: in
+// loops over runs of pixels that compilers vectorize; only the source is read pixel by pixel.
 //
 // Included by each kernel and compiled for its instruction set. The unnamed namespace gives each
-// its own copy, which the linker cannot exchange; for the same reason nothing of the library is
+// its own copy, which the linker cannot exchange; for the same reason no library function is
 // called.
 
 namespace orbwatch::remap {
@@ -24,7 +24,7 @@ namespace {
 template <Layout layout>
 struct PointLimits {
   std::int32_t last_u, last_v;  ///< Q13
-  std::int32_t most_u, most_v;  ///< of the upper left neighbour
+  std::int32_t most_u, most_v;  ///< limit of the upper left neighbour
 
   [[gnu::always_inline]] explicit PointLimits(const SourcePlane& source)
       : last_u((source.width - 1) << kFractionBits),
@@ -33,8 +33,8 @@ struct PointLimits {
         most_v(source.height - 2) {}
 };
 
-/// A run of pixels: bytes from the plane's first pixel to their upper left neighbours, and how far
-/// they are from those, Q13: up to one, inclusive.
+/// A run of pixels: byte offsets of their upper left neighbours from the plane's first pixel, and
+/// the distances from those, Q13: up to one, inclusive.
 struct PointRun {
   std::int32_t offset[kPointRun];
   std::uint16_t across[kPointRun], down[kPointRun];
@@ -55,14 +55,14 @@ struct PointRun {
       across[x] = static_cast<std::uint16_t>(held_u - (u << kFractionBits));
       down[x] = static_cast<std::uint16_t>(held_v - (v << kFractionBits));
     }
-    // Written as vectors and read back one by one: else the compiler cuts the offsets out of the
+    // Written as vectors and read back one by one: else the compiler extracts the offsets from the
     // vectors, which takes longer.
     asm volatile("" : : : "memory");
   }
 };
 
-/// Samples of two neighbours in a row, from the first one on as they lie in memory: all that the
-/// layout takes of a pixel, or one of them, if a word does not hold all.
+/// Samples of two neighbours in a row, from the first one on in memory order: all that the layout
+/// uses of a pixel, or one of them, if a word does not hold all.
 template <Layout layout>
 struct NeighbourPair {
   static constexpr LayoutInfo kInfo = info(layout);
@@ -88,8 +88,8 @@ struct PointNeighbours {
   using Pair = NeighbourPair<layout>;
   typename Pair::Word upper[kPointRun], lower[kPointRun];
 
-  /// Four words at a time: x86 waits when it reads as a vector what was written word by word just
-  /// before. Both rows by turns, so that no offset waits in a register for the second.
+  /// Reads four words at a time: x86 stalls on a vector read of words that were written separately
+  /// just before. The rows alternate, so that no offset waits in a register for the second.
   [[gnu::always_inline]] void read_quads(const PointRun& run, const std::uint8_t* upper_row,
                                          const std::uint8_t* lower_row) {
     using Quads = std::uint64_t __attribute__((vector_size(2 * kPointRun)));
@@ -113,7 +113,7 @@ struct PointNeighbours {
     std::memcpy(lower, &below, sizeof below);
   }
 
-  /// From sample `first` of each pixel on.
+  /// Reads from sample `first` of each pixel on.
   [[gnu::always_inline]] void read(const PointRun& run, const SourcePlane& source, int first) {
     constexpr LayoutInfo kInfo = Pair::kInfo;
     const std::uint8_t* const upper_row =
@@ -132,7 +132,8 @@ struct PointNeighbours {
   }
 };
 
-/// Sample `k` of those that were read, of a run: see interpolate8() and interpolate16().
+/// Interpolates sample `k` of those that were read, for a run: see interpolate8() and
+/// interpolate16().
 template <int k, Layout layout>
 [[gnu::always_inline]] inline void interpolate_run(const PointRun& run,
                                                    const PointNeighbours<layout>& from,
@@ -154,7 +155,7 @@ template <int k, Layout layout>
       const auto top = static_cast<std::uint16_t>(a * rest + b * u);
       const auto bottom = static_cast<std::uint16_t>(c * rest + d * u);
       const auto difference = static_cast<std::int16_t>(bottom - top);
-      // What pmulhrsw does.
+      // The result of pmulhrsw.
       const auto shifted = static_cast<std::int16_t>((((difference * v) >> 14) + 1) >> 1);
       const auto twice = static_cast<std::uint16_t>(top + bottom + shifted + kUnitWeight);
       out[x] = static_cast<Sample>(twice >> (kWeightBits + 1));
@@ -167,7 +168,7 @@ template <int k, Layout layout>
   }
 }
 
-/// All samples of a run, side by side.
+/// Samples a run: all samples of its pixels, without gaps.
 template <Layout layout>
 [[gnu::always_inline]] inline void sample_run(const PointRun& run, const SourcePlane& source,
                                               typename NeighbourPair<layout>::Sample* out) {
@@ -196,7 +197,7 @@ template <Layout layout>
       std::memcpy(out, from, bytes);
     }
   };
-  // Of known length it is no call.
+  // A copy of known length is not a call.
   if (row_bytes == 16) {
     copy(16);
   } else if (row_bytes == 8) {
@@ -208,7 +209,8 @@ template <Layout layout>
   }
 }
 
-/// A kernel's PointJob: samples runs of pixels into memory of its own, then copies the rows.
+/// Implements a kernel's PointJob: samples runs of pixels into memory of its own, then copies the
+/// rows.
 template <Layout layout>
 void walk_points(const PointJob& job) {
   constexpr LayoutInfo kInfo = info(layout);
@@ -226,7 +228,7 @@ void walk_points(const PointJob& job) {
             job.target);
 }
 
-/// One axis of the places, by differences from run to run.
+/// Locates one axis of the places, by differences from run to run.
 template <class Lanes>
 [[gnu::always_inline]] inline void locate_axis(const PointAxis& axis, int columns, int count,
                                                std::int32_t* out) {
@@ -253,7 +255,7 @@ template <class Lanes>
   }
 }
 
-/// A kernel's locate(). `Lanes`: a vector of 32 bit.
+/// Implements a kernel's locate(). `Lanes`: a vector of 32 bit.
 template <class Lanes>
 void walk_places(const PointMap& map, int columns, int rows, Places& places) {
   const int runs = (columns * rows + kPointRun - 1) / kPointRun;
@@ -261,7 +263,7 @@ void walk_places(const PointMap& map, int columns, int rows, Places& places) {
   locate_axis<Lanes>(map.v, columns, runs * kPointRun, places.v);
 }
 
-/// By layout.
+/// Functions indexed by layout.
 constexpr auto kPointWalks =
     by_layout<kLayouts>([]<Layout layout>() -> Kernel::Points { return walk_points<layout>; });
 

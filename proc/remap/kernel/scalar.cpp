@@ -21,9 +21,9 @@ class AxisWalk {
         step_(walk.step_x[axis] + row * walk.xy[axis]),
         growth_(walk.xx[axis]) {}
 
-  /// Where the window of the current block begins, source pixels.
+  /// Start of the current block's window, source pixels.
   std::ptrdiff_t window() const { return value_ >> 32; }
-  /// The block's place in its window, with so many bits.
+  /// The block's place in its window, with `bits` bits.
   template <int bits>
   std::uint16_t place() const {
     return static_cast<std::uint16_t>(static_cast<std::uint32_t>(value_) >> (32 - bits));
@@ -59,7 +59,7 @@ struct Block {
   int x, y;
   std::uint16_t place_u, place_v;
 
-  /// Of pixel (i, j), Q13, from its window on.
+  /// Coordinate of pixel (i, j), Q13, relative to its window.
   Coordinate at(int i, int j) const {
     const Lane u = Lane::of<&AxisPair<std::int16_t>::u>(shape, shape.offset.u, i, j);
     const Lane v = Lane::of<&AxisPair<std::int16_t>::v>(shape, shape.offset.v, i, j);
@@ -118,7 +118,7 @@ std::int32_t place(const PointAxis& axis, std::uint32_t i, std::uint32_t j) {
 }
 
 void locate(const PointMap& map, int columns, int rows, Places& places) {
-  // A whole run, if there are fewer pixels.
+  // Covers at least a whole run, even if there are fewer pixels.
   const int count = std::max(columns * rows, kPointRun);
   for (int k = 0; k < count; ++k) {
     const auto i = static_cast<std::uint32_t>(k % columns),

@@ -10,8 +10,8 @@
 #include "proc/remap/kernel/corner_weights.h"
 #include "proc/remap/kernel/mixed_tile.h"
 
-// How kernels mix tiles: in vectors of a row of a tile, which compilers spread over the registers
-// that there are.
+// Tile mixing of kernels in vectors of a row of a tile, which compilers spread over the available
+// registers.
 //
 // Included by each kernel and compiled for its instruction set, in an unnamed namespace for the
 // same reason as point_walk.h.
@@ -21,7 +21,7 @@ namespace {
 
 template <int Channels, std::size_t Count>
 void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
-  std::array<CornerWeights, Count - 1> shared;  // of the first sources together
+  std::array<CornerWeights, Count - 1> shared;  // sums over the first sources
   const auto corners = shared_corners<Count>(tiles);
   for (std::size_t n = 0; n + 1 < Count; ++n) shared[n] = CornerWeights(corners[n]);
   std::array<const std::uint8_t*, Count> from;
@@ -46,7 +46,7 @@ void mix_so_many(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>
   }
 }
 
-/// As Kernel::mix.
+/// Implements Kernel::mix.
 inline void mix_tiles(std::span<const MixedTile> tiles, const ImageView<std::uint8_t>& out) {
   with_constants(out.channels, tiles.size(), [&]<int Channels, std::size_t Count>() {
     mix_so_many<Channels, Count>(tiles, out);

@@ -8,13 +8,13 @@
 #include "proc/remap/colour/yuv_rows.h"
 #include "proc/remap/kernel/interleave_avx512.h"
 
-// How the kernel for AVX-512 converts colours: four rows at a time, 32 bit for each pixel, one
+// Colour conversion of the kernel for AVX-512: four rows at a time, 32 bit for each pixel, one
 // register for a row.
 
 namespace orbwatch::remap::avx512 {
 namespace {
 
-/// Q14, for the pairs (U, V) of two rows of chroma: what they add to each colour.
+/// Contributions to each colour, Q14, of the pairs (U, V) of two rows of chroma.
 struct ChromaTerms {
   __m512i red, green, blue;
 
@@ -25,31 +25,32 @@ struct ChromaTerms {
     red = _mm512_add_epi32(_mm512_set1_epi32(c.red), _mm512_madd_epi16(pairs, of_pair(0, c.red_v)));
     green = _mm512_sub_epi32(_mm512_set1_epi32(c.green),
                              _mm512_madd_epi16(pairs, of_pair(c.green_u, c.green_v)));
-    // Beyond 15 bits.
+    // The factor exceeds 15 bits.
     const __m512i u = _mm512_and_si512(pairs, _mm512_set1_epi32(0xffff));
     blue = _mm512_add_epi32(_mm512_set1_epi32(c.blue),
                             _mm512_mullo_epi32(u, _mm512_set1_epi32(c.blue_u)));
   }
 };
 
-/// Two pixels of a row share a pair: of the first eight of 16 pairs, or of the last eight.
+/// Repeats each pair for the two pixels that share it: of the first eight of 16 pairs, or of the
+/// last eight.
 inline __m512i doubled(__m512i pairs, bool last) {
   const __m512i first = _mm512_set_epi32(7, 7, 6, 6, 5, 5, 4, 4, 3, 3, 2, 2, 1, 1, 0, 0);
   return _mm512_permutexvar_epi32(last ? _mm512_add_epi32(first, _mm512_set1_epi32(8)) : first,
                                   pairs);
 }
 
-/// Four rows of Q14 numbers, rounded down and clipped to bytes, row after row.
+/// Rounds four rows of Q14 numbers down and clips them to bytes, row after row.
 inline __m512i clipped(const __m512i (&rows)[4]) {
   const auto whole = [&](int n) { return _mm512_srai_epi32(rows[n], 14); };
   const __m512i upper = _mm512_packs_epi32(whole(0), whole(1));
   const __m512i lower = _mm512_packs_epi32(whole(2), whole(3));
-  // Four pixels of each row in turn.
+  // Lanes hold four pixels of each row in turn.
   const __m512i order = _mm512_set_epi32(15, 11, 7, 3, 14, 10, 6, 2, 13, 9, 5, 1, 12, 8, 4, 0);
   return _mm512_permutexvar_epi32(order, _mm512_packus_epi16(upper, lower));
 }
 
-/// As Kernel::write_rgb.
+/// Implements Kernel::write_rgb.
 inline void write_rgb(const YuvRows& yuv, const YuvCoefficients& coefficients, std::uint8_t* out,
                       std::ptrdiff_t stride) {
   const __m512i gain = _mm512_set1_epi32(coefficients.y);
@@ -61,7 +62,7 @@ inline void write_rgb(const YuvRows& yuv, const YuvCoefficients& coefficients, s
     return ChromaTerms(_mm512_inserti64x4(_mm512_castsi256_si512(chroma(first)), chroma(second), 1),
                        coefficients);
   };
-  const int distance = yuv.rows_of_chroma;  // from a row to one of other chroma
+  const int distance = yuv.rows_of_chroma;  // rows between different rows of chroma
   for (int y = 0; y < kTile; y += 4, out += 4 * stride) {
     const ChromaTerms upper = terms_of(y, y + distance);
     const ChromaTerms lower = distance == 1 ? terms_of(y + 2, y + 3) : upper;

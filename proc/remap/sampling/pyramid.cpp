@@ -9,7 +9,7 @@
 namespace orbwatch::remap {
 namespace {
 
-/// Sides along which chroma is subsampled stay even.
+/// Half a side; sides along which chroma is subsampled stay even.
 int half(int side, bool shared) { return shared ? side / 4 * 2 : side / 2; }
 
 }  // namespace

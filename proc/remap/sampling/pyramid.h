@@ -15,17 +15,18 @@ namespace orbwatch::remap {
 /// rows of one level may be filled at the same time, one level after the other.
 class Pyramid {
  public:
-  /// Memory for `levels` mip levels above the source, 0..kMaxLevel, of pictures of that format and
-  /// size. Levels that would be smaller than 2x2 pixels are left out.
+  /// Allocates memory for `levels` mip levels above the source, 0..kMaxLevel, of pictures of that
+  /// format and size. Levels that would be smaller than 2x2 pixels are left out.
   Pyramid(PixelFormat format, int width, int height, int levels);
 
   /// The highest level; the source is level 0.
   int levels() const { return levels_; }
 
-  /// The picture that the levels are made from; it must outlive their use.
+  /// Sets the picture that the levels are made from; it must outlive their use.
   void set_source(const Picture& source);
 
-  /// Rows of `level`, 1..levels(), in pairs, so that subsampled planes have whole rows.
+  /// Number of pairs of rows of `level`, 1..levels(); pairs, so that subsampled planes have whole
+  /// rows.
   int row_pairs(int level) const { return (pictures_[level].height + 1) / 2; }
   /// Fills pairs [first, last) of the rows of `level` with means over 2x2 pixels of the level
   /// below.
@@ -33,7 +34,7 @@ class Pyramid {
   /// Fills all levels.
   void fill();
 
-  /// By level.
+  /// The pictures, indexed by level.
   std::span<const Picture> pictures() const {
     return {pictures_.data(), static_cast<std::size_t>(levels_) + 1};
   }
