@@ -8,7 +8,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// What one moment says about a condition.
+/// Evidence of one moment for or against a condition.
 enum class Evidence : std::uint8_t { Holds, Between, Ended };
 
 /// `outward`: 1 for a high limit, -1 for a low one.
@@ -25,7 +25,7 @@ struct Delays {
   nanoseconds off;
 };
 
-/// The condition `elapsed` after it was last looked at.
+/// The condition `elapsed` after its last update.
 AlarmCondition advanced(const AlarmCondition& before, Evidence seen, nanoseconds elapsed,
                         const Delays& delays) {
   const bool changes = seen == (before.on ? Evidence::Ended : Evidence::Holds);
@@ -40,7 +40,7 @@ nanoseconds counted_time(const AlarmMemory& memory, nanoseconds now) {
   return std::min(now - *memory.stepped_at, kLongestStep);
 }
 
-/// `elapsed`: since the last step, 0 when that had no measurement.
+/// `elapsed`: time since the last step, 0 when that had no measurement.
 void watch_limits(const AlarmLimits& limits, double value, nanoseconds elapsed,
                   AlarmMemory& memory) {
   const Delays delays{limits.on_delay, limits.off_delay};
@@ -83,7 +83,7 @@ int side(AlarmLevel level) {
   return level == AlarmLevel::HighWarning || level == AlarmLevel::HighAlarm ? 1 : 0;
 }
 
-/// The state when the condition of an alarm that was in `state` has gone.
+/// The state after the condition of an alarm in `state` has ended.
 AlarmState returned(AlarmState state, bool latching) {
   if (state == AlarmState::Unacknowledged) {
     return latching ? AlarmState::LatchedUnacknowledged : AlarmState::ReturnedUnacknowledged;
@@ -99,7 +99,7 @@ Alarm judged(const Alarm& before, AlarmLevel level, bool measurement_lost, bool 
   after.level = level;
   after.measurement_lost = measurement_lost;
   if (is_raised(before, after)) {
-    // The loss of a measurement calms nothing.
+    // The loss of a measurement never lowers the announced level.
     const bool seen =
         before.state == AlarmState::Acknowledged && !latching && level != AlarmLevel::NoMeasurement;
     if (seen || severity(level) >= severity(before.announced)) after.announced = level;

@@ -9,9 +9,9 @@
 
 namespace orbwatch::signals {
 
-/// The state of an alarm, after ISA-18.2 / IEC 62682 (A to F and H of their state
-/// diagram). The standard's reset of a latched alarm is its acknowledgement once the condition has
-/// gone. The numbers go to PLC and controller: append, never renumber.
+/// The state of an alarm, after ISA-18.2 / IEC 62682 (A to F and H of their state diagram). The
+/// standard's reset of a latched alarm is its acknowledgement once the condition has ended. The
+/// numbers go to PLC and controller: append, never renumber.
 enum class AlarmState : std::uint8_t {
   Normal = 0,
   Unacknowledged = 1,
@@ -22,7 +22,7 @@ enum class AlarmState : std::uint8_t {
   SuppressedByDesign = 6,
 };
 
-/// How far, and to which side, a signal is out of its limits. The numbers go to PLC and controller:
+/// Side and severity by which a signal exceeds its limits. The numbers go to PLC and controller:
 /// append, never renumber.
 enum class AlarmLevel : std::uint8_t {
   None = 0,
@@ -111,7 +111,7 @@ constexpr bool awaits_acknowledgement(AlarmState state) {
          state == AlarmState::LatchedUnacknowledged || state == AlarmState::LatchedAcknowledged;
 }
 
-/// 0: none, 1: a warning or no measurement, 2: an alarm.
+/// Severity of a level, 0: none, 1: a warning or no measurement, 2: an alarm.
 constexpr int severity(AlarmLevel level) {
   if (level == AlarmLevel::None) return 0;
   return level == AlarmLevel::LowAlarm || level == AlarmLevel::HighAlarm ? 2 : 1;
@@ -120,17 +120,17 @@ constexpr int severity(AlarmLevel level) {
 /// The published part of one alarm.
 struct Alarm {
   AlarmState state = AlarmState::Normal;
-  AlarmLevel level = AlarmLevel::None;  ///< of the signal now, after hysteresis and delays
-  /// The worst level that was not acknowledged yet, is latched, or stood when its measurement was
-  /// lost and was not acknowledged since; else as `level`.
+  AlarmLevel level = AlarmLevel::None;  ///< the signal's present level, after hysteresis and delays
+  /// The worst level that has not been acknowledged yet, is latched, or was present when the
+  /// measurement was lost and has not been acknowledged since; else `level`.
   AlarmLevel announced = AlarmLevel::None;
-  /// `level` is NoMeasurement.
+  /// True if `level` is NoMeasurement.
   bool measurement_lost = false;
 
   bool operator==(const Alarm&) const = default;
 };
 
-/// Whether a condition holds, and how long the evidence against that has lasted.
+/// State of a condition, and duration of the evidence against that state.
 struct AlarmCondition {
   bool on = false;
   bool pending = false;  ///< every measurement since contradicts `on`
@@ -144,7 +144,7 @@ struct AlarmMemory {
   Alarm alarm;
   AlarmCondition low_alarm, low_warning, high_warning, high_alarm;
   AlarmCondition loss;
-  std::optional<std::chrono::nanoseconds> stepped_at;  ///< none: never
+  std::optional<std::chrono::nanoseconds> stepped_at;  ///< none before the first step
   bool measured = false;                               ///< at that step
 
   bool operator==(const AlarmMemory&) const = default;
@@ -156,10 +156,10 @@ inline constexpr std::chrono::nanoseconds kLongestStep = std::chrono::seconds(1)
 
 /// The inputs of one step.
 struct AlarmInputs {
-  std::chrono::nanoseconds now{0};  ///< of a clock that is not set; its origin does not matter
-  double value = 0;                 ///< of the signal, in its unit; not finite: not measured
+  std::chrono::nanoseconds now{0};  ///< time of a clock that is never set; its origin is arbitrary
+  double value = 0;                 ///< the signal's value in its unit; not finite: not measured
   bool process_active = true;
-  bool is_new = true;  ///< `value` was measured since the last step
+  bool is_new = true;  ///< true if `value` was measured since the last step
 };
 
 /// True when the process is inactive and these limits are for the active one.
@@ -173,13 +173,12 @@ inline bool is_suppressed(const AlarmLimits& limits, const AlarmInputs& inputs) 
 ///   most kLongestStep. Time that goes back counts nothing.
 /// - A condition that begins on one side ends one that the off delay still holds on the other.
 /// - A rise raises the alarm, which needs a new acknowledgement: from no level, from a warning to
-/// an
-///   alarm, to the other side, and the loss of the measurement. From alarm to warning it only
+///   an alarm, to the other side, and the loss of the measurement. From alarm to warning it only
 ///   eases.
 /// - Delays are paused while the value is not new.
 /// - Without a measurement nothing begins or ends, and delays are paused. After the loss delay the
-///   loss is raised in place of what stood, which stays announced until it is acknowledged, and
-///   delays restart. It ends after measurements for the off delay, or when a limit's condition
+///   loss is raised in place of the previous level, which stays announced until it is acknowledged,
+///   and delays restart. It ends after measurements for the off delay, or when a limit's condition
 ///   begins.
 /// - While suppressed nothing is pending: an alarm is cleared, except that a latching one stays
 ///   latched. Delays start when the process does.

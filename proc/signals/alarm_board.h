@@ -14,29 +14,31 @@ namespace orbwatch::signals {
 
 inline constexpr std::size_t kMaxAlarms = 32;
 
-/// A choice among the alarms of a board, by their index.
+/// A set of a board's alarms, by index.
 using AlarmSet = std::bitset<kMaxAlarms>;
 
-/// A choice among regions, by their index.
+/// A set of regions, by index.
 using RegionSet = std::bitset<kMaxRegions>;
 
 /// An event of one alarm at one step.
 struct AlarmEvent {
   std::size_t alarm = 0;  ///< index on the board
   AlarmEventKind kind = AlarmEventKind::Raised;
-  AlarmState state = AlarmState::Normal;  ///< after it
-  /// The level it was raised or eased to; else the worst one acknowledged, cleared or suppressed.
+  AlarmState state = AlarmState::Normal;  ///< state after the event
+  /// The level that it was raised or eased to; else the worst one acknowledged, cleared or
+  /// suppressed.
   AlarmLevel level = AlarmLevel::None;
-  double value = kNotValid;  ///< of the signal at this step; not finite: not measured
+  double value = kNotValid;  ///< the signal's value at this step; not finite: not measured
   std::chrono::nanoseconds time{0};
 };
 
 /// The inputs of one step.
 struct AlarmBoardInputs {
-  std::chrono::nanoseconds now{0};   ///< as in AlarmInputs
-  std::span<const Signals> regions;  ///< by region; beyond its end: not measured
+  std::chrono::nanoseconds now{0};   ///< see AlarmInputs
+  std::span<const Signals> regions;  ///< signals of each region; beyond the end: not measured
   bool process_active = true;
-  AlarmSet acknowledged;  ///< since the last step; indices beyond the board are ignored
+  AlarmSet acknowledged;  ///< alarms acknowledged since the last step; indices beyond the board are
+                          ///< ignored
   RegionSet stale{};      ///< regions that were not measured anew since the last step
 };
 
@@ -50,12 +52,12 @@ class AlarmBoard {
   /// check(). They name the alarm by its place in the list, from 0, and its signal.
   static Result<AlarmBoard> make(std::span<const AlarmLimits> limits, std::size_t region_count);
 
-  /// Acknowledges, then steps every alarm. Returns the events by alarm, an acknowledgement first;
-  /// valid until the next step or the end of the board.
+  /// Acknowledges, then steps every alarm. Returns the events in the order of alarms, an
+  /// acknowledgement first; valid until the next step or the end of the board.
   std::span<const AlarmEvent> step(const AlarmBoardInputs& inputs);
 
   std::size_t size() const { return size_; }
-  /// `index` below size().
+  /// Precondition: `index` is below size().
   const AlarmLimits& limits(std::size_t index) const { return limits_[index]; }
   const Alarm& alarm(std::size_t index) const { return memories_[index].alarm; }
 
@@ -68,7 +70,7 @@ class AlarmBoard {
   std::array<AlarmLimits, kMaxAlarms> limits_;
   std::array<AlarmMemory, kMaxAlarms> memories_;
   std::size_t event_count_ = 0;
-  std::array<AlarmEvent, 2 * kMaxAlarms> events_;  ///< one alarm is acknowledged and then changes
+  std::array<AlarmEvent, 2 * kMaxAlarms> events_;  ///< two per alarm: acknowledged, then changed
 };
 
 }  // namespace orbwatch::signals

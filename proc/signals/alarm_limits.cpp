@@ -49,7 +49,7 @@ Result<> check_each(const AlarmLimits& limits) {
   return {};
 }
 
-/// Two limits without another between them.
+/// Checks two limits without another between them.
 Result<> check_pair(const NamedLimit& lower, const NamedLimit& upper, double hysteresis) {
   const double gap = *upper.value - *lower.value;
   if (!(gap > 0)) return fail(text(lower) + " is not below " + text(upper));

@@ -12,7 +12,8 @@
 
 namespace orbwatch::signals {
 
-/// The limits of one signal in one region, and how they are watched. Values in the signal's unit.
+/// The limits of one signal in one region, and the delays and hysteresis for them. Values in the
+/// signal's unit.
 struct AlarmLimits {
   std::size_t signal = 0;  ///< index in kSignals
   std::size_t region = 0;
@@ -20,10 +21,10 @@ struct AlarmLimits {
   std::optional<double> low_warning;
   std::optional<double> high_warning;
   std::optional<double> high_alarm;
-  double hysteresis = 0;                 ///< distance back from a limit that ends its condition
-  std::chrono::nanoseconds on_delay{0};  ///< a condition begins after the limit was reached so long
-  std::chrono::nanoseconds off_delay{0};  ///< and ends after the value was back so long
-  /// No measurement for so long is a condition of its own. nullopt: never; the state is held.
+  double hysteresis = 0;                  ///< distance back from a limit that ends its condition
+  std::chrono::nanoseconds on_delay{0};   ///< time at the limit before a condition begins
+  std::chrono::nanoseconds off_delay{0};  ///< time back from the limit before it ends
+  /// Time without a measurement that is a condition of its own. nullopt: never; the state is held.
   std::optional<std::chrono::nanoseconds> loss_delay = std::chrono::seconds(1);
   bool latching =
       false;  ///< stays, at its worst level, until acknowledged after its condition ended
@@ -32,32 +33,32 @@ struct AlarmLimits {
 
 /// One of the limits that a signal can reach.
 struct LimitInfo {
-  const char* name;   ///< of its key
-  const char* words;  ///< for messages
+  const char* name;   ///< name of its key
+  const char* words;  ///< text for messages
   bool is_high;       ///< reached from below
   std::optional<double> AlarmLimits::*value;
 };
 
-/// From low to high.
+/// Sorted from low to high.
 inline constexpr std::array kLimits{
     LimitInfo{"low_alarm", "low alarm", false, &AlarmLimits::low_alarm},
     LimitInfo{"low_warning", "low warning", false, &AlarmLimits::low_warning},
     LimitInfo{"high_warning", "high warning", true, &AlarmLimits::high_warning},
     LimitInfo{"high_alarm", "high alarm", true, &AlarmLimits::high_alarm}};
 
-/// Name of the key of how far back from a limit its condition ends.
+/// Name of the key for the distance back from a limit that ends its condition.
 inline constexpr const char* kHysteresis = "hysteresis";
 
 inline constexpr std::chrono::nanoseconds kLongestDelay = std::chrono::hours(1);
 
-/// Every signal's index by its name.
+/// Every signal's name and index.
 inline constexpr auto kSignalWords = [] {
   std::array<Word<std::size_t>, kSignals.size()> words{};
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = {kSignals[i].name, i};
   return words;
 }();
 
-/// All but the region, in whose table the limits stand.
+/// Visits all keys except the region, whose table contains the limits.
 template <class Visitor>
 void visit(Visitor& v, AlarmLimits& limits) {
   const Seconds delay{Range::between(0, std::chrono::duration<double>(kLongestDelay).count())};

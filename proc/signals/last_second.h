@@ -18,7 +18,7 @@ class LastSecond {
     }
   }
 
-  /// The bin of `now`; after advance(now).
+  /// The bin of `now`; call after advance(now).
   Bin& at(double now) {
     if (size_ == 0 || now - newest().begin >= kBinWidth) {
       ++size_;
@@ -28,7 +28,7 @@ class LastSecond {
     return newest().bin;
   }
 
-  /// Oldest first.
+  /// Visits bins, the oldest first.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (std::size_t i = 0; i < size_; ++i) visit(slots_[(first_ + i) % kCapacity].bin);

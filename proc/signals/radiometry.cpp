@@ -17,7 +17,7 @@ double radiance(double wavelength, double kelvin) {
   return 1 / std::expm1(kSecondRadiation / (wavelength * kelvin));
 }
 
-/// Its inverse, for a radiance above 0.
+/// The inverse of radiance(), for a radiance above 0.
 double temperature(double wavelength, double radiance) {
   return kSecondRadiation / (wavelength * std::log1p(1 / radiance));
 }

@@ -8,17 +8,17 @@
 
 namespace orbwatch::signals {
 
-/// How a camera's counts represent temperature, that of a black body:
-/// T[K] = kelvin_per_count * count + kelvin_offset.
+/// Relation of a camera's counts to black-body temperature: T[K] = kelvin_per_count * count +
+/// kelvin_offset.
 struct RadiometrySettings {
   double kelvin_per_count = 0;           ///< 0: not stated
-  bool says_scale = false;               ///< the camera itself says kelvin_per_count
+  bool says_scale = false;               ///< the camera itself reports kelvin_per_count
   double wavelength = 10;                ///< um, the camera's effective one
-  std::optional<double> emissivity{};    ///< of the target, (0, 1]; nullopt: 1
-  double surroundings = 20;              ///< degC, of what the target reflects
-  std::optional<double> reflectivity{};  ///< of the ball, (0, 1]; nullopt: 1
-  double ball_temperature = 20;          ///< degC, for what the ball emits itself
-  double kelvin_offset = 0;              ///< K, of a count of 0
+  std::optional<double> emissivity{};    ///< the target's emissivity, (0, 1]; nullopt: 1
+  double surroundings = 20;              ///< degC, temperature reflected by the target
+  std::optional<double> reflectivity{};  ///< the ball's reflectivity, (0, 1]; nullopt: 1
+  double ball_temperature = 20;          ///< degC, for the ball's own emission
+  double kelvin_offset = 0;              ///< K, at a count of 0
 
   bool is_radiometric() const { return kelvin_per_count > 0 || says_scale; }
 };
@@ -38,14 +38,14 @@ void visit(Visitor& v, RadiometrySettings& radiometry) {
              "Of the mirror ball, degC, for what it emits itself");
 }
 
-/// From counts to the target's temperature and back, by
+/// Converts counts to the target's temperature and back, by
 ///   L(T camera) = rho L_scene + (1 - rho) L(T ball),
 ///   L_scene = eps L(T target) + (1 - eps) L(T surroundings),
 /// where L is Planck's law at the camera's wavelength. With rho = eps = 1 both are the camera's own
 /// linear scale exactly. Immutable; reentrant.
 class Radiometry {
  public:
-  /// Not radiometric.
+  /// An instance that is not radiometric.
   Radiometry() = default;
 
   /// Error: a number out of range; the message names it.
@@ -53,20 +53,20 @@ class Radiometry {
 
   bool is_radiometric() const { return !celsius_.empty(); }
 
-  /// Without the target's emissivity or the ball's reflectivity: temperatures are those of a black
-  /// body, or of one seen without the ball.
+  /// True without the target's emissivity or the ball's reflectivity: temperatures are those of a
+  /// black body, or of one seen without the ball.
   bool is_apparent() const { return !settings_.emissivity || !settings_.reflectivity; }
 
-  /// degC of `counts` in [0, 65535], interpolated in a table; not a number for less light than ball
-  /// and surroundings emit. For radiometric ones.
+  /// degC of `counts` in [0, 65535], interpolated in a table; NaN for less light than ball and
+  /// surroundings emit. Only for radiometric instances.
   double celsius(double counts) const {
     const auto whole = static_cast<std::size_t>(counts);
     const double below = celsius_[whole];
     return below + (counts - static_cast<double>(whole)) * (celsius_[whole + 1] - below);
   }
 
-  /// The counts of a target at `celsius`, for thresholds; may lie below 0 or beyond 65535. For
-  /// radiometric ones; not for the frame path.
+  /// The counts of a target at `celsius`, for thresholds; may lie below 0 or beyond 65535. Only for
+  /// radiometric instances; not for the frame path.
   double counts(double celsius) const;
 
  private:
@@ -77,7 +77,7 @@ class Radiometry {
   double exact_celsius(double counts) const;
 
   RadiometrySettings settings_;
-  std::vector<float> celsius_;  ///< over whole counts, and one more
+  std::vector<float> celsius_;  ///< indexed by whole counts, plus one more
 };
 
 }  // namespace orbwatch::signals

@@ -19,7 +19,7 @@ std::array<float, 3> single(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Where the view's pixel (u, v) shows the smooth surface `surface`, mm from the ball's centre.
+/// Point of the smooth surface `surface` at the view's pixel (u, v), mm from the ball's centre.
 std::optional<Vec3> on_surface(const optics::ViewProjection& view, const RegionScene& scene,
                                int surface, double u, double v) {
   const auto direction = view.direction(u, v);
@@ -29,8 +29,8 @@ std::optional<Vec3> on_surface(const optics::ViewProjection& view, const RegionS
   return *direction * (scene.ball.radius / closeness);
 }
 
-/// mm2 that the pixel covers: the parallelogram between the middles of its sides. On its own
-/// surface, also where the next pixel shows another.
+/// Area of the pixel, mm2: the parallelogram between the middles of its sides. On its own surface,
+/// also where the next pixel shows another.
 float surface_area(const optics::ViewProjection& view, const RegionScene& scene, int surface,
                    double u, double v) {
   const auto place = [&](double du, double dv) {
@@ -109,7 +109,8 @@ RegionGeometry::RegionGeometry(const optics::ViewProjection& view, const RegionS
     for (int x = mask.left(); x < mask.right(); ++x) {
       const PixelGeometry& pixel = pixels_.emplace_back(geometry_of(view, scene, x, y));
       largest_solid_angle_ = std::max<double>(largest_solid_angle_, pixel.solid_angle);
-      largest_area_ = std::max<double>(largest_area_, pixel.area);  // keeps what it has if unknown
+      largest_area_ =
+          std::max<double>(largest_area_, pixel.area);  // std::max keeps the old value if unknown
     }
   }
 }

@@ -17,8 +17,8 @@
 
 namespace orbwatch::signals {
 
-/// What is measured in one region of interest, and by which thresholds. Counts are those of the
-/// measured plane; Radiometry::counts() makes them from temperatures.
+/// Settings of one region of interest: outline, thresholds and set points. Counts are those of the
+/// measured plane; Radiometry::counts() converts temperatures to them.
 struct RegionSettings {
   /// Corners of a spherical polygon in either sense of rotation: vectors of any length from the
   /// ball's centre, machine frame. It must fit into half of the sphere. Empty: the whole view.
@@ -26,19 +26,19 @@ struct RegionSettings {
   double hot_spot_threshold = 0;  ///< counts at which a pixel belongs to the hot spot
   HotSpotLimits hot_spot_limits{};
   std::optional<double> plume_threshold{};    ///< counts, below the hot spot's
-  std::optional<double> spatter_threshold{};  ///< counts at which a pixel is a spark's
+  std::optional<double> spatter_threshold{};  ///< counts at which a pixel belongs to a spark
   std::optional<double> width_set_point{};    ///< mm
-  double full_scale = 65535;                  ///< largest count that the camera gives
+  double full_scale = 65535;                  ///< largest count of the camera
   RadiometrySettings radiometry;
 };
 
-/// What is known of the machine's geometry.
+/// The known geometry of the machine.
 struct RegionScene {
   optics::Ball ball;
   optics::SceneProxy proxy;
 };
 
-/// What these settings provide of what signals require. `has_scene`: the proxy is not far away.
+/// Requirements of signals that these settings meet. `has_scene`: the proxy is not far away.
 inline Requires provided_by(const RegionSettings& settings, bool has_scene) {
   using enum Requires;
   return (settings.spatter_threshold ? SpatterThreshold : Nothing) |
@@ -55,23 +55,24 @@ struct Span {
   int end = 0;
 };
 
-/// The pixels of a view that lie in a region, compiled once: whole rows are walked in the frame
-/// path, never the polygon. Immutable; reentrant.
+/// The pixels of a view that lie in a region, compiled once: the frame path iterates over whole
+/// rows and never uses the polygon. Immutable; reentrant.
 class RegionMask {
  public:
-  /// Whether the measured camera sees a direction.
+  /// Predicate that is true for directions seen by the measured camera.
   using Sees = std::function<bool(const optics::Vec3&)>;
 
-  /// `outline`: as in RegionSettings. A pixel belongs to the region when its centre does and the
-  /// camera sees it; without `sees` it sees everything. Error: an outline that is no polygon, or
+  /// `outline`: see RegionSettings. A pixel belongs to the region when its centre does and the
+  /// camera sees it; without `sees` it sees everything. Error: an outline that is not a polygon, or
   /// without such a pixel.
   static Result<RegionMask> make(const optics::ViewProjection& view,
                                  std::span<const optics::Vec3> outline, const Sees& sees = nullptr);
 
-  /// By row, then from left to right; pixels of the view.
+  /// Sorted by row, then from left to right; pixels of the view.
   std::span<const Span> spans() const { return spans_; }
 
-  /// Pixels of the region, and the most separate runs of them that there can be: every second one.
+  /// Pixels of the region, and the largest possible number of separate runs of them: every second
+  /// one.
   std::size_t pixels() const { return pixels_; }
   std::size_t most_runs() const { return most_runs_; }
 
@@ -96,8 +97,8 @@ class RegionMask {
 struct PixelGeometry {
   std::array<float, 3> direction{};  ///< unit vector from the ball's centre, machine frame
   float solid_angle = 0;             ///< steradian
-  std::array<float, 3> position{};   ///< mm from the ball's centre; not a number if far
-  float area = 0;                    ///< mm2 of the surface there; not a number if far
+  std::array<float, 3> position{};   ///< mm from the ball's centre; NaN if far
+  float area = 0;                    ///< mm2 of the surface there; NaN if far
 };
 
 /// The geometry of the pixels in a region's bounding box, compiled once. Immutable; reentrant.
@@ -106,14 +107,14 @@ class RegionGeometry {
   RegionGeometry(const optics::ViewProjection& view, const RegionScene& scene,
                  const RegionMask& mask);
 
-  /// Of a pixel of the view, in the bounding box.
+  /// Geometry of a pixel of the view, in the bounding box.
   const PixelGeometry& at(int x, int y) const { return row(y)[x - left_]; }
 
-  /// No pixel has more: steradian, and mm2 where that is known.
+  /// Largest values of all pixels: steradian, and mm2 where that is known.
   double largest_solid_angle() const { return largest_solid_angle_; }
   double largest_area() const { return largest_area_; }
 
-  /// From the bounding box' first pixel of row y.
+  /// Geometry of row y from the bounding box's first pixel on.
   const PixelGeometry* row(int y) const {
     return pixels_.data() + static_cast<std::size_t>(y - top_) * static_cast<std::size_t>(width_);
   }

@@ -57,7 +57,8 @@ double angle_of(double variance) {
   return optics::degrees(2 * std::asin(std::min(1.0, 2 * std::sqrt(variance))));
 }
 
-/// Of an axis, degrees in (-90, 90]; not valid when the ellipse is too round to have one.
+/// Orientation of an axis, degrees in (-90, 90]; not valid when the ellipse is too round to have
+/// one.
 double orientation(const PrincipalAxes& axes, double right, double up) {
   constexpr double kRound = 1.05;  // long axis / short axis
   if (axes.largest <= kRound * kRound * axes.second) return kNotValid;
@@ -148,7 +149,7 @@ void RegionMeter::reset() {
 template <class T>
 Signals RegionMeter::measure_any(const ImageView<const T>& values,
                                  const ImageView<const std::uint8_t>& validity, double seconds) {
-  constexpr double kLongest = 3600;  // s; there is none before the first one
+  constexpr double kLongest = 3600;  // s; the first frame set has no interval
   const double passed = seconds > last_ ? std::min(seconds - last_, kLongest) : 0;
   if (passed == 0) reset();
   last_ = seconds;
@@ -176,7 +177,7 @@ Signals RegionMeter::measure_any(const ImageView<const T>& values,
   return signals;
 }
 
-/// The hot spot, and the plume around and with it.
+/// Measures the hot spot, and the plume around and with it.
 template <class T>
 void RegionMeter::measure(const BlobSearch::Planes<T>& planes, const Blob& blob, Signals& signals) {
   peak_x_ = blob.peak_x;

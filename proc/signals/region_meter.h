@@ -24,11 +24,11 @@
 namespace orbwatch::signals {
 
 /// Measures one region of interest, frame set by frame set. Everything that depends on view, region
-/// or calibration is compiled when it is made; measuring allocates nothing, and computes
+/// or calibration is compiled at construction; measuring allocates nothing, and computes
 /// trigonometry only for the hot spot's angles, once per frame set. Movable. Thread-bound.
 class RegionMeter {
  public:
-  /// `sees`: as in RegionMask. Error: an outline that is no polygon or outside of the view,
+  /// `sees`: see RegionMask. Error: an outline that is not a polygon or outside of the view,
   /// thresholds out of range or in the wrong order, limits of the hot spot out of range or without
   /// the surface that they are on, radiometry out of range.
   static Result<RegionMeter> make(const optics::ViewProjection& view, const RegionScene& scene,
@@ -50,17 +50,18 @@ class RegionMeter {
   Signals measure(const ImageView<const std::uint16_t>& values,
                   const ImageView<const std::uint8_t>& validity, double seconds);
 
-  /// Forgets earlier frame sets: statistics, sparks, hot spot.
+  /// Drops the state of earlier frame sets: statistics, sparks, hot spot.
   void reset();
 
-  /// For thresholds, and whether temperatures are apparent ones.
+  /// Conversion for thresholds; is_apparent() of it applies to the temperatures.
   const Radiometry& radiometry() const { return radiometry_; }
 
-  /// Sparks since it was made that were too many to be tracked; they are missing in spatter_rate.
+  /// Number of sparks since construction that were too many to be tracked; they are missing in
+  /// spatter_rate.
   std::uint64_t untracked_sparks() const { return spatter_.untracked(); }
 
  private:
-  /// What can be refused.
+  /// Parts whose construction may fail.
   struct Parts {
     RegionMask mask;
     Radiometry radiometry;
@@ -94,7 +95,8 @@ class RegionMeter {
   SpatterTracker spatter_;
   std::array<Statistics, kMainSignals.size()> statistics_;
   double last_ = -std::numeric_limits<double>::infinity();
-  /// The hot spot's brightest pixel, or its last one.
+  /// The brightest pixel of the hot spot; the last hot spot's while there is none, -1 before the
+  /// first.
   int peak_x_ = -1;
   int peak_y_ = -1;
 };

@@ -12,7 +12,7 @@
 
 namespace orbwatch::signals {
 
-/// Regions of interest that can be measured at once.
+/// Most regions of interest that are measured at once.
 inline constexpr std::size_t kMaxRegions = 4;
 
 /// The value of a signal that is unknown: no hot spot, or a requirement is missing.
@@ -26,7 +26,7 @@ struct Signals {
 #undef ORBWATCH_MEMBER
 };
 
-/// What the region or the machine must offer for a signal to ever have a value. Flags.
+/// Requirements that the region or the machine must meet for a signal to ever have a value. Flags.
 enum class Requires : std::uint8_t {
   Nothing = 0,
   SpatterThreshold = 1,
@@ -75,7 +75,7 @@ inline constexpr auto kSignals = [] {
 #undef ORBWATCH_INFO
 }();
 
-/// The first requirement of a signal that is not provided; nullopt: it can have a value.
+/// The first unmet requirement of a signal; nullopt: it can have a value.
 constexpr std::optional<Requirement> first_missing(const SignalInfo& signal, Requires provided) {
   for (const Requirement& requirement : kRequirements) {
     const bool is_required = includes(signal.requirements, requirement.flag);
@@ -84,7 +84,7 @@ constexpr std::optional<Requirement> first_missing(const SignalInfo& signal, Req
   return std::nullopt;
 }
 
-/// A signal and its statistics of the last second.
+/// A signal and its statistics over the last second.
 struct MainSignal {
   double Signals::*value;
   double Signals::*mean;

@@ -9,18 +9,18 @@ namespace {
 using optics::Vec3;
 
 constexpr double kFastest = optics::radians(600);   // per s
-constexpr double kSlack = optics::radians(1.5);     // of a spark's position
-constexpr double kOneSpark = optics::radians(2.5);  // distance of parts of one spark, at most
+constexpr double kSlack = optics::radians(1.5);     // error of a spark's position
+constexpr double kOneSpark = optics::radians(2.5);  // largest distance between parts of one spark
 /// Radians per s^2: gravity at a distance of a third of a metre, and its error for sparks nearer or
 /// farther.
 constexpr double kGravity = 9.81 / 0.33;
 constexpr double kGravityError = 0.5 * kGravity;
 constexpr double kBend = 0.3;          // share of a step by which the next one may differ
 constexpr double kNearest = 0.2;       // weight of nearness while the speed is unknown
-constexpr double kLongestMiss = 0.07;  // s, or one frame set
+constexpr double kLongestMiss = 0.07;  // s, unless one frame set is longer
 constexpr double kSegment = 0.05;      // s, shortest time over which a speed is measured
-constexpr double kLongestGap = 0.25;   // s between frame sets; then all are new
-constexpr double kBinWidth = 50;       // deg/s
+constexpr double kLongestGap = 0.25;  // s between frame sets; all sparks are new after a longer one
+constexpr double kBinWidth = 50;      // deg/s
 
 /// The part of -Z across a direction.
 Vec3 down(const Vec3& direction) { return direction * direction.z - Vec3{0, 0, 1}; }
@@ -71,13 +71,13 @@ void SpatterTracker::add(const Vec3& moment) {
   }
 }
 
-/// Above 1: not a continuation of that track.
+/// Cost of a continuation; above 1 a spark does not continue that track.
 double SpatterTracker::cost(const Track& track, const Vec3& spark, double now) {
   const double passed = now - track.seen;
   const Vec3 step = spark - track.direction;
   const double length = optics::norm(step);
   if (length > kFastest * passed + kSlack) return 2;
-  // The velocity is that of half an interval ago.
+  // The velocity is half an interval old.
   const double fall = passed * (passed + track.interval) / 2;
   const double bend = kSlack + kGravityError * fall;
   if (track.detections > 1) {
@@ -85,7 +85,7 @@ double SpatterTracker::cost(const Track& track, const Vec3& spark, double now) {
     return optics::norm(step - expected) / (bend + kBend * optics::norm(expected));
   }
   if (!track.has_origin) return length / (kFastest * passed + kSlack);
-  // On the line from the hot spot.
+  // Without a velocity the spark is expected on the line from the hot spot.
   const Vec3 came = track.direction - track.origin;
   const Vec3 way = unit_or(came, unit_or(step, came));
   const double along = optics::dot(step, way);

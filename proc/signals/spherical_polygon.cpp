@@ -10,7 +10,7 @@ namespace {
 using optics::Vec2;
 using optics::Vec3;
 
-/// Pieces of an edge, so that lines of pixels bend as the view bends them.
+/// Pieces of an edge, so that lines of pixels follow the curvature of the view.
 constexpr int kPieces = 48;
 
 bool shows(const optics::ViewProjection& view, const Vec2& pixel) {
@@ -18,7 +18,7 @@ bool shows(const optics::ViewProjection& view, const Vec2& pixel) {
          pixel.v <= view.height() - 0.5;
 }
 
-/// Lines of those pieces that a view shows.
+/// Collects the lines of those pieces that a view shows.
 class Lines {
  public:
   explicit Lines(const optics::ViewProjection& view) : view_(view) {}
@@ -37,7 +37,7 @@ class Lines {
   }
 
  private:
-  /// Through the seam of a panorama: no piece is half as wide.
+  /// True for a piece through the seam of a panorama: no other piece is half as wide.
   bool runs_around(const Vec2& from, const Vec2& to) const {
     return std::abs(to.u - from.u) > view_.width() / 2.0;
   }
@@ -74,7 +74,7 @@ Result<SphericalPolygon> SphericalPolygon::make(std::span<const Vec3> outline) {
   return polygon;
 }
 
-/// By the parity of edges that a ray to the right crosses.
+/// Uses the parity of edges that a ray to the right crosses.
 bool SphericalPolygon::contains(const Vec3& direction) const {
   const auto place = project(direction);
   if (!place) return false;
@@ -88,7 +88,7 @@ bool SphericalPolygon::contains(const Vec3& direction) const {
   return inside;
 }
 
-/// In equal angles, so that no piece is long.
+/// Pieces span equal angles, so that none is long.
 std::vector<std::vector<Vec2>> SphericalPolygon::lines_in(
     const optics::ViewProjection& view) const {
   Lines lines(view);
@@ -111,7 +111,7 @@ std::vector<std::vector<Vec2>> SphericalPolygon::lines_in(
 
 SphericalPolygon::SphericalPolygon(const Vec3& sum) {
   const double length = optics::norm(sum);
-  if (!(length > 0)) return;  // then no corner has a place
+  if (!(length > 0)) return;  // no corner has a place then
   middle_ = sum * (1 / length);
   const Vec3 aside = std::abs(middle_.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   right_ = optics::normalized(optics::cross(middle_, aside));
@@ -119,7 +119,7 @@ SphericalPolygon::SphericalPolygon(const Vec3& sum) {
 }
 
 std::optional<Vec2> SphericalPolygon::project(const Vec3& direction) const {
-  constexpr double kHorizon = 1e-3;  // cosine; beyond it places run to infinity
+  constexpr double kHorizon = 1e-3;  // cosine; places beyond it tend to infinity
   const double depth = optics::dot(direction, middle_);
   if (!(depth > kHorizon)) return std::nullopt;
   return Vec2{optics::dot(direction, right_) / depth, optics::dot(direction, up_) / depth};

@@ -10,8 +10,8 @@
 
 namespace orbwatch::signals {
 
-/// A spherical polygon. Seen in the gnomonic projection around its middle, where great circles are
-/// straight lines, it is a plane one. Immutable; reentrant.
+/// A spherical polygon, represented as a plane one in the gnomonic projection around its middle,
+/// where great circles are straight lines. Immutable; reentrant.
 class SphericalPolygon {
  public:
   /// `outline`: vectors of any length to its corners, in either sense of rotation. Error: fewer
@@ -22,7 +22,7 @@ class SphericalPolygon {
   bool contains(const optics::Vec3& direction) const;
 
   /// The polygon's edges in a view, as lines of pixels of which the view shows at least one end of
-  /// each piece: an edge that leaves the view ends a little outside of it.
+  /// each piece: an edge that leaves the view ends slightly outside of it.
   std::vector<std::vector<optics::Vec2>> lines_in(const optics::ViewProjection& view) const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace orbwatch::signals {
 
-/// Mean, standard deviation and trend of one signal over the last second, of its valid values.
-/// No allocation. Thread-bound.
+/// Mean, standard deviation and trend of one signal's valid values over the last second. No
+/// allocation. Thread-bound.
 class Statistics {
  public:
   /// Adds the signal's value at `now`, s; ignores kNotValid. `now` is monotonic.
@@ -15,9 +15,9 @@ class Statistics {
   void reset() { bins_.clear(); }
 
   struct Figures {
-    double mean = kNotValid;       ///< of at least one value
-    double deviation = kNotValid;  ///< of the sample (n - 1), of at least two
-    double trend = kNotValid;      ///< slope of the least-squares line per second, of two moments
+    double mean = kNotValid;       ///< needs at least one value
+    double deviation = kNotValid;  ///< sample deviation (n - 1), needs at least two values
+    double trend = kNotValid;  ///< slope of the least-squares line per second, needs two moments
   };
   Figures figures() const;
 

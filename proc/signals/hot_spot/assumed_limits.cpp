@@ -7,7 +7,7 @@
 namespace orbwatch::signals {
 namespace {
 
-/// Area of a pixel on the surface as if that were turned towards the ball, mm2; infinite if far.
+/// Area of a pixel on the surface, assuming that it faces the ball, mm2; infinite if far.
 double footprint(const optics::ViewProjection& view, const RegionScene& scene, int x, int y) {
   const auto direction = view.direction(x, y);
   const double closeness = direction ? scene.proxy.hit(*direction).closeness : 0;

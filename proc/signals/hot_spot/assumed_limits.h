@@ -9,13 +9,13 @@
 
 namespace orbwatch::signals {
 
-/// Highest speed of a hot spot that is assumed, mm/s: above the feed of cladding and welding heads
-/// (up to 10 m/min), below that of sparks (metres per second).
+/// Assumed highest speed of a hot spot, mm/s: above the feed of cladding and welding heads (up to
+/// 10 m/min), below that of sparks (metres per second).
 inline constexpr double kAssumedSpeed = 200;
 
-/// Limits for a region of interest that states none, so that no spark is taken for a hot spot that
-/// something hides: the footprint of the view's finest pixel on the surface as the least area, and
-/// kAssumedSpeed, or a pixel per frame if that is more. `outline`: as in RegionSettings.
+/// Limits for a region of interest without stated ones, so that no spark is mistaken for a hidden
+/// hot spot: the footprint of the view's finest pixel on the surface as the least area, and
+/// kAssumedSpeed, or a pixel per frame if that is more. `outline`: see RegionSettings.
 /// `frame_rate`: Hz; 0: not known. Without a surface, or an outline that fits the view: no limits.
 /// Reentrant.
 HotSpotLimits assumed_limits(const optics::ViewProjection& view, const RegionScene& scene,

@@ -7,7 +7,7 @@ struct Point {
   double u, v;
 };
 
-/// At most 8 corners: two of a square's four sides contribute two each, and its own four.
+/// Corners, at most 8: two of a square's four sides contribute two each, plus its own four.
 struct Polygon {
   std::array<Point, 8> corners;
   std::size_t size = 0;
@@ -32,8 +32,8 @@ Polygon border_of(const std::array<double, 4>& above) {
 
 }  // namespace
 
-// Moments of a polygon by Green's theorem, as in Bourke: Calculating the area and centroid of a
-// polygon, 1988, with the second moments alike.
+// Moments of a polygon by Green's theorem (Bourke: Calculating the area and centroid of a polygon,
+// 1988), with the second moments by the same method.
 Piece piece_above(const std::array<double, 4>& above) {
   const Polygon polygon = border_of(above);
   double area = 0, u = 0, v = 0, uu = 0, vv = 0, uv = 0;

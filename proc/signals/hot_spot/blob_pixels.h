@@ -16,39 +16,39 @@ namespace orbwatch::signals {
 /// The part of a unit square that is above a threshold.
 struct Piece {
   double area = 1;
-  // Its centroid, from the square's upper left corner: u right, v down.
+  // Centroid, from the square's upper left corner: u right, v down.
   double u = 0.5;
   double v = 0.5;
-  // Its variances and covariance.
+  // Variances and covariance.
   double uu = 1.0 / 12;
   double vv = 1.0 / 12;
   double uv = 0;
 };
 
-/// Between four neighbouring pixels whose counts stand `above` the threshold by so much (below when
-/// negative): upper left, upper right, lower right, lower left. The border is straight between
-/// where it crosses the sides, which are interpolated linearly: one square of the marching squares
-/// (Lorensen, Cline: Marching cubes, 1987, in the plane). Two opposite corners are joined. At least
-/// one corner is not negative.
+/// The piece between four neighbouring pixels whose counts exceed the threshold by `above`
+/// (negative below it): upper left, upper right, lower right, lower left. The border is straight
+/// between its intersections with the sides, which are interpolated linearly: one square of the
+/// marching squares (Lorensen, Cline: Marching cubes, 1987, in the plane). Two opposite corners are
+/// joined. At least one corner is not negative.
 Piece piece_above(const std::array<double, 4>& above);
 
 /// Four neighbouring pixels, or four times the same one: upper left, upper right, lower right,
 /// lower left.
 struct Corners {
-  int x = 0;  ///< of the upper left
+  int x = 0;  ///< column of the upper left
   int y = 0;
-  bool square = true;  ///< four pixels
+  bool square = true;  ///< true for four pixels
   std::array<const PixelGeometry*, 4> geometry{};
   std::array<double, 4> counts{};
 };
 
-/// The value at a place of which these are the weights.
+/// The value at a place with these bilinear weights.
 inline double mean_of(const std::array<double, 4>& weights, const std::array<double, 4>& values) {
   return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2] +
          weights[3] * values[3];
 }
 
-/// From the upper left corner to each of the four, in their order.
+/// Offsets from the upper left corner to each of the four, in their order.
 inline constexpr std::array<std::array<int, 2>, 4> kCornerOffsets{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
 /// The bilinear weights of a square's corners at a place in it.
@@ -60,34 +60,34 @@ inline bool is_seen(const ImageView<const std::uint8_t>& validity, int x, int y)
   return *validity.at(x, y) == static_cast<std::uint8_t>(Validity::Seen);
 }
 
-/// The pixels of one blob, and the area that they cover. Allocates when it is made only.
+/// The pixels of one blob, and the area that they cover. Allocates only at construction.
 /// Thread-bound.
 class BlobPixels {
  public:
   explicit BlobPixels(const RegionMask& mask);
 
-  /// Holds the pixels of that component instead of those before; none for Components::kNone.
+  /// Replaces the pixels by those of that component; none for Components::kNone.
   void assign(const Components& components, std::size_t component);
-  /// The same as `other`, of the same region.
+  /// Copies `other`, of the same region.
   void assign(const BlobPixels& other);
   void clear();
 
   bool contains(int x, int y) const { return (state_[index(x, y)] & kMember) != 0; }
 
-  /// Of the blob, by row.
+  /// Runs of the blob, sorted by row.
   std::span<const Span> spans() const { return spans_; }
   bool empty() const { return spans_.empty(); }
 
   // The bounding box of its pixels and of their neighbours in the region's bounding box: columns
-  // [left, right), rows [top, bottom). Not of an empty one.
+  // [left, right), rows [top, bottom). Not defined for an empty one.
   int left() const { return std::max(first_x_ - 1, left_); }
   int right() const { return std::min(last_x_ + 2, right_); }
   int top() const { return std::max(spans_.front().y - 1, top_); }
   int bottom() const { return std::min(spans_.back().y + 2, bottom_); }
 
   /// Cuts the blob into pieces, each within a square between four pixel centres: whole squares, and
-  /// along its border what is above `threshold`, the blob's. At the border of the region or
-  /// of the seen pixels, pixels count by quarters. visit(piece, corners).
+  /// along its border the part above `threshold`, the blob's. At the border of the region or of the
+  /// seen pixels, pixels count by quarters. Calls visit(piece, corners).
   template <class T, class Visit>
   void for_each_piece(const ImageView<const T>& values,
                       const ImageView<const std::uint8_t>& validity, double threshold,
@@ -97,7 +97,7 @@ class BlobPixels {
   static constexpr std::uint8_t kInRegion = 1;
   static constexpr std::uint8_t kMember = 2;
 
-  /// With a border of one pixel around the region's bounding box.
+  /// Index with a border of one pixel around the region's bounding box.
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - top_ + 1) * stride_ +
            static_cast<std::size_t>(x - left_ + 1);

@@ -5,9 +5,9 @@
 namespace orbwatch::signals {
 namespace {
 
-constexpr int kLarge = 4;  // pixels of a component whose place in the order is worth its cost
+constexpr int kLarge = 4;  // pixels of a component that is worth sorting by size
 
-/// Whether a pixel of the component reaches it.
+/// True if a pixel of the component reaches the threshold.
 template <class T>
 bool reaches(const Components& components, std::size_t component, const ImageView<const T>& values,
              double threshold) {
@@ -38,8 +38,8 @@ void BlobSearch::begin(const Planes<T>& planes, const RegionMask& mask) {
   lowest_.find(planes.values, planes.validity, lowest_threshold_, mask);
 }
 
-/// Largest components first: they have at least the pixels of the blobs in them, so those of the
-/// many small ones mostly cannot matter any more.
+/// Searches the largest components first: they have at least the pixels of the blobs in them, so
+/// those of the many small ones mostly cannot matter any more.
 template <class T>
 std::optional<Blob> BlobSearch::follow(const Planes<T>& planes, const RegionGeometry& geometry,
                                        double passed, HotSpotTrack& track) {
@@ -84,7 +84,7 @@ void BlobSearch::assign(const Planes<T>& planes, double threshold, int x, int y,
   pixels.assign(around_, around_.at(x, y));
 }
 
-/// Those that the tracker compares are measured, of the others the number is enough.
+/// Measures the sparks that the tracker compares; the others are only counted.
 template <class T>
 void BlobSearch::add_sparks(const Planes<T>& planes, const RegionGeometry& geometry,
                             const BlobPixels& hot_spot, int x, int y, SpatterTracker& tracker) {

@@ -14,9 +14,9 @@
 
 namespace orbwatch::signals {
 
-/// Finds the blobs of a region at its thresholds: once through its pixels for the lowest threshold,
-/// then only where a blob at a higher one can matter. Work: linear in pixels, little for each blob
-/// that does not matter. Allocates when it is made only. Thread-bound.
+/// Finds the blobs of a region at its thresholds: one pass over its pixels for the lowest
+/// threshold, then only where a blob at a higher one can matter. Work: linear in pixels, little for
+/// each blob that does not matter. Allocates only at construction. Thread-bound.
 class BlobSearch {
  public:
   BlobSearch(const RegionMask& mask, const RegionSettings& settings);
@@ -28,21 +28,21 @@ class BlobSearch {
     const ImageView<const std::uint8_t>& validity;
   };
 
-  /// Begins a frame set; the other calls get the same planes.
+  /// Begins a frame set; the other calls must get the same planes.
   template <class T>
   void begin(const Planes<T>& planes, const RegionMask& mask);
 
-  /// The hot spot by `track`, `passed` s after the frame set before.
+  /// The hot spot chosen by `track`, `passed` s after the previous frame set.
   template <class T>
   std::optional<Blob> follow(const Planes<T>& planes, const RegionGeometry& geometry, double passed,
                              HotSpotTrack& track);
 
-  /// Gives `pixels` the blob at `threshold` around pixel (x, y); none if it belongs to none.
+  /// Sets `pixels` to the blob at `threshold` around pixel (x, y); empty if there is none.
   template <class T>
   void assign(const Planes<T>& planes, double threshold, int x, int y, BlobPixels& pixels);
 
   /// Adds the sparks to `tracker`: blobs other than the one around pixel (x, y) and those in
-  /// `hot_spot`, what assign() gave at its threshold. There is a spatter threshold.
+  /// `hot_spot`, the result of assign() at its threshold. Precondition: a spatter threshold is set.
   template <class T>
   void add_sparks(const Planes<T>& planes, const RegionGeometry& geometry,
                   const BlobPixels& hot_spot, int x, int y, SpatterTracker& tracker);
@@ -52,8 +52,8 @@ class BlobSearch {
   double spatter_threshold_;
   double lowest_threshold_;
   Components lowest_;
-  Components around_;                 ///< a pixel
-  std::optional<Components> sparks_;  ///< where their threshold is not the lowest one
+  Components around_;                 ///< components around a pixel
+  std::optional<Components> sparks_;  ///< set if their threshold is not the lowest one
   LevelSet blobs_;
   std::vector<std::size_t> large_;  ///< components
 };

@@ -48,7 +48,7 @@ void Components::find(const ImageView<const T>& values,
   finish(joiner.size());
 }
 
-/// A run's component is its own index or one before it, whose own is final.
+/// A run's component is its own index or an earlier one, whose own is final.
 void Components::finish(std::size_t size) {
   size_ = size;
   std::size_t count = 0;

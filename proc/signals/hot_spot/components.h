@@ -18,13 +18,13 @@ struct Run {
   std::uint32_t component = 0;  ///< index of the component's first run
 };
 
-/// Where the pixels of a region at or above a threshold are connected (8 neighbours), and how many
-/// there are; LevelSet measures them. Allocates when it is made only. Thread-bound.
+/// Connected components (8 neighbours) of a region's pixels at or above a threshold, with their
+/// number of pixels; LevelSet measures them. Allocates only at construction. Thread-bound.
 class Components {
  public:
   explicit Components(const RegionMask& mask);
 
-  /// Finds those of values that are Validity::Seen.
+  /// Finds components among the values that are Validity::Seen.
   template <class T>
   void find(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity,
             double threshold, const RegionMask& mask);
@@ -45,10 +45,10 @@ class Components {
     find(values, validity, threshold, lower, component, NoSums());
   }
 
-  /// Those of all components, by row, then from left to right.
+  /// Runs of all components, by row, then from left to right.
   std::span<const Run> runs() const { return {runs_.data(), size_}; }
 
-  /// visit(span) of a component's runs, in the same order.
+  /// Calls visit(span) for a component's runs, in the same order.
   template <class Visit>
   void for_each_span(std::size_t component, const Visit& visit) const {
     for (std::size_t run = component;; run = next_[run]) {
@@ -60,19 +60,19 @@ class Components {
   /// Number of components. They are identified by their first run.
   std::size_t count() const { return count_; }
 
-  /// Of the component that begins with that run; 0 when none does.
+  /// Pixels of the component that begins with that run; 0 when none does.
   int pixels(std::size_t run) const { return totals_[run].pixels; }
 
-  /// The component that pixel belongs to; kNone when it belongs to none.
+  /// The component of a pixel; kNone when it belongs to none.
   std::size_t at(int x, int y) const;
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
  private:
-  /// Of a component; no pixels for a run that is not the first of one.
+  /// Totals of a component; no pixels for a run that is not the first of one.
   struct Total {
     int pixels;
-    std::uint32_t last;  ///< run
+    std::uint32_t last;  ///< last run
   };
   struct NoSums {
     void add(std::size_t, const Span&) const {}
@@ -82,10 +82,11 @@ class Components {
 
   void finish(std::size_t size);
 
-  // There is room for the worst noise, nearly all of which stays untouched.
-  UntouchedVector<Run> runs_;            ///< the first `size_` of them
-  UntouchedVector<std::uint32_t> next_;  ///< by run: the component's next one; of the last itself
-  UntouchedVector<Total> totals_;        ///< by run
+  // Capacity is for the worst noise; nearly all of it is never touched.
+  UntouchedVector<Run> runs_;  ///< the first `size_` are used
+  UntouchedVector<std::uint32_t>
+      next_;  ///< for each run, the component's next one; the last one's is itself
+  UntouchedVector<Total> totals_;  ///< for each run
   EdgeFinder edges_;
   std::size_t size_ = 0;
   std::size_t count_ = 0;
@@ -120,7 +121,7 @@ class Components::Joiner {
       if (other == component) continue;
       const auto [kept, joined] = std::minmax(component, other);
       sums.join(kept, joined);
-      runs_[joined].component = kept;  // this run's own comes last
+      runs_[joined].component = kept;  // this run's own is written last
       component = kept;
     }
     *end_++ = {span, component};
@@ -138,9 +139,9 @@ class Components::Joiner {
   Run* runs_;
   Run* end_;
   std::uint32_t size_ = 0;
-  int row_ = -2;    ///< that is filled; at first neither one nor that above one
-  Run* row_begin_;  ///< its first run, the end of those above
-  Run* above_;      ///< the first run above it that can touch its next one
+  int row_ = -2;    ///< the row being filled; at first no row, nor the one above
+  Run* row_begin_;  ///< its first run, which is the end of the row above
+  Run* above_;      ///< the first run above that can touch the next one
 };
 
 template <class T, class Sums>

@@ -18,7 +18,7 @@ template <class T>
 double CoolingMeter::update(double now, const ImageView<const T>& values,
                             const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
                             const RegionGeometry& geometry, const Radiometry& radiometry) {
-  constexpr double kLongest = 0.25;  // s; the rate of a longer gap is no rate of the present
+  constexpr double kLongest = 0.25;  // s; the rate over a longer gap is not the present one
   const double passed = now - time_;
   const double rate = passed > 0 && passed <= kLongest
                           ? fall(values, validity, geometry, radiometry) / passed
@@ -28,7 +28,7 @@ double CoolingMeter::update(double now, const ImageView<const T>& values,
   return rate;
 }
 
-/// K; not a number when no pixel has left.
+/// Fall of temperature, K; NaN when no pixel has left.
 template <class T>
 double CoolingMeter::fall(const ImageView<const T>& values,
                           const ImageView<const std::uint8_t>& validity,

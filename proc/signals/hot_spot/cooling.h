@@ -9,19 +9,19 @@
 
 namespace orbwatch::signals {
 
-/// How fast cools what has just left the hot spot: the mean, by solid angle, of the fall of
-/// temperature between two frame sets over what was above the threshold in the first one and no
-/// longer is in the second, to a fraction of a pixel. Where the threshold is the melting point,
-/// that is gradient times speed of solidification along the pool's tail (Kurz, Fisher: Fundamentals
-/// of solidification). No model of the profile. A pixel stands for one place of the machine, so the
-/// rate is that of the material there. All memory is taken when it is made. Thread-bound.
+/// Cooling rate of the area that has just left the hot spot: the mean, by solid angle, of the fall
+/// of temperature between two frame sets over the part that was above the threshold in the first
+/// one and no longer is in the second, to a fraction of a pixel. If the threshold is the melting
+/// point, that is gradient times speed of solidification along the pool's tail (Kurz, Fisher:
+/// Fundamentals of solidification). No model of the profile is assumed. A pixel shows one place of
+/// the machine, so the rate is that of the material there. Allocates only at construction.
+/// Thread-bound.
 class CoolingMeter {
  public:
   CoolingMeter(const RegionMask& mask, double threshold);
 
-  /// K/s, and remembers the hot spot in `pixels`, which may be empty, for the next time. `now` in
-  /// s. Not a number when nothing has left it, or the time before is longer ago than a quarter
-  /// second.
+  /// The rate, K/s; stores the hot spot in `pixels`, which may be empty, for the next call. `now`
+  /// in s. NaN when nothing has left it, or the previous call is longer ago than a quarter second.
   template <class T>
   double update(double now, const ImageView<const T>& values,
                 const ImageView<const std::uint8_t>& validity, const BlobPixels& pixels,
@@ -38,7 +38,7 @@ class CoolingMeter {
                 const BlobPixels& pixels);
 
   double threshold_;
-  // The frame set before: its hot spot, and the planes there.
+  // Previous frame set: its hot spot, and the planes there.
   double time_ = 0;
   BlobPixels before_;
   int stride_;

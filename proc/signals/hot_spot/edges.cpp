@@ -9,7 +9,7 @@ namespace orbwatch::signals {
 namespace {
 
 constexpr int kVector = 16;
-constexpr std::size_t kVectors = 4;  // of a block
+constexpr std::size_t kVectors = 4;  // vectors per block
 
 using Bytes = std::uint8_t __attribute__((vector_size(kVector)));
 using Words = std::uint16_t __attribute__((vector_size(kVector)));
@@ -22,7 +22,7 @@ template <class Vector, class T>
   return vector;
 }
 
-/// The bytes of both at even places, and at odd ones.
+/// The bytes of both at even places; odds(): at odd ones.
 [[gnu::always_inline]] inline Bytes evens(const Bytes& a, const Bytes& b) {
   return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
 }
@@ -30,7 +30,7 @@ template <class Vector, class T>
   return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
 }
 
-/// All bits of a pixel's byte where it is at or above `least`.
+/// Sets all bits of a pixel's byte if it is at or above `least`.
 [[gnu::always_inline]] inline Bytes at_least(const std::uint8_t* values, std::uint8_t least) {
   return Bytes(load<Bytes>(values) >= Bytes{} + least);
 }
@@ -51,7 +51,7 @@ template <class T>
   return (halves[0] | halves[1]) == 0;
 }
 
-/// A bit for each pixel that is hot and seen, the first one's at the bottom.
+/// A bit for each pixel that is hot and seen, the first pixel's is the lowest.
 [[gnu::always_inline]] inline std::uint64_t bits_of(const Block& hot,
                                                     const std::uint8_t* validity) {
   constexpr auto kSeen = static_cast<std::uint8_t>(Validity::Seen);
@@ -65,12 +65,12 @@ template <class T>
   return load<std::uint64_t>(&sums);
 }
 
-/// The edges of runs, block by block.
+/// Writes the edges of runs, block by block.
 struct EdgeWriter {
   int* edges;
-  std::uint64_t is_inside = 0;  ///< 1: the pixel before belongs to a run
+  std::uint64_t is_inside = 0;  ///< 1: the previous pixel belongs to a run
 
-  /// `bits` as of bits_of(), of the block at `x`.
+  /// `bits`: those of bits_of(), for the block at `x`.
   [[gnu::always_inline]] void add(std::uint64_t bits, int x) {
     std::uint64_t changes = bits ^ (bits << 1 | is_inside);
     is_inside = bits >> 63;
@@ -98,7 +98,7 @@ int* EdgeFinder::find_by_blocks(const T* values, const std::uint8_t* validity, c
       writer.add(bits_of(hot, validity + x), x);
     }
   }
-  if (x < span.end) {  // the last block again, without the pixels that are done
+  if (x < span.end) {  // the last block again, without the pixels already processed
     const int last = span.end - kBlock;
     const std::uint64_t bits = bits_of(hot_block(values + last, least), validity + last);
     writer.add(bits >> (x - last), x);

@@ -22,14 +22,14 @@ std::optional<T> count_at_least(double threshold) {
 }
 
 /// Finds in a row the runs of pixels that are at or above a count and Validity::Seen. Allocates
-/// when it is made only. Thread-bound.
+/// only at construction. Thread-bound.
 class EdgeFinder {
  public:
-  /// `widest`: pixels that a span has at most.
+  /// `widest`: most pixels of a span.
   explicit EdgeFinder(int widest) : edges_(static_cast<std::size_t>(widest) + 1) {}
 
-  /// visit(begin, end) of each run within `span`, from left to right. `values` and `validity`: the
-  /// span's rows; what lies beyond the span is not read.
+  /// Calls visit(begin, end) for each run within `span`, from left to right. `values` and
+  /// `validity`: the span's rows; values beyond the span are not read.
   template <class T, class Visit>
   void for_each_run(const T* values, const std::uint8_t* validity, const Span& span, T least,
                     const Visit& visit) {
@@ -42,7 +42,8 @@ class EdgeFinder {
  private:
   static constexpr int kBlock = 64;
 
-  /// Both write first pixel and end of each run in turn, and return the end of what they wrote.
+  /// Both write first pixel and end of each run alternately, and return the end of the written
+  /// edges.
   template <class T>
   static int* find_one_by_one(const T* values, const std::uint8_t* validity, const Span& span,
                               T least, int* edges) {

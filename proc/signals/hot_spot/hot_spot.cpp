@@ -7,7 +7,7 @@ namespace {
 
 using optics::Vec3;
 
-/// A quantity of the geometry at a place of which these are the weights.
+/// A quantity of the geometry at a place with these bilinear weights.
 template <class Quantity>
 auto mean_of(const Corners& corners, const std::array<double, 4>& weights, Quantity quantity) {
   return quantity(*corners.geometry[0]) * weights[0] + quantity(*corners.geometry[1]) * weights[1] +
@@ -16,7 +16,7 @@ auto mean_of(const Corners& corners, const std::array<double, 4>& weights, Quant
 
 Vec3 vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// Weighted sums up to the second order of a quantity that runs linearly over each piece.
+/// Weighted sums up to the second order of a quantity that is linear over each piece.
 struct Moments {
   double weight = 0;
   Vec3 first;

@@ -10,18 +10,18 @@
 
 namespace orbwatch::signals {
 
-/// The hot spot of one frame set, measured to a fraction of a pixel. Lengths are those of the
-/// machine's surface and not a number where that is not known.
+/// The hot spot of one frame set, measured to a fraction of a pixel. Lengths are those on the
+/// machine's surface, and NaN where that is not known.
 struct HotSpot {
   double pixels = 0;
   double solid_angle = 0;   ///< steradian
-  optics::Vec3 direction;   ///< unit vector to its centroid
-  PrincipalAxes angular;    ///< of directions, square radians
+  optics::Vec3 direction;   ///< unit vector to the centroid
+  PrincipalAxes angular;    ///< variances of directions, square radians
   double area = 0;          ///< mm2
   optics::Vec3 position;    ///< its centroid, mm from the ball's centre
-  PrincipalAxes extent;     ///< of positions, mm2
-  double mean = 0;          ///< counts, by solid angle
-  double mean_celsius = 0;  ///< by solid angle; not a number unless radiometric
+  PrincipalAxes extent;     ///< variances of positions, mm2
+  double mean = 0;          ///< counts, weighted by solid angle
+  double mean_celsius = 0;  ///< weighted by solid angle; NaN unless radiometric
   double saturated = 0;     ///< share of its pixels
 };
 

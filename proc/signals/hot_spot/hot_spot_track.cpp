@@ -10,17 +10,18 @@ namespace {
 
 using optics::Vec3;
 
-constexpr double kFollow = 0.1;    // s in which usual place and presence follow
-constexpr double kFollowSize = 1;  // s; slower, so that what is half hidden does not look usual
-constexpr double kBlink = 0.1;     // s without it until it is lost: a pulsed process flickers
-constexpr double kSettled = 0.5;   // s; no spark flies for so long
+constexpr double kFollow = 0.1;  // s; time constant of usual place and presence
+constexpr double kFollowSize =
+    1;  // s; slower, so that a half hidden spot does not become the usual one
+constexpr double kBlink = 0.1;    // s without it until it is lost: a pulsed process flickers
+constexpr double kSettled = 0.5;  // s; no spark flies for so long
 
-/// How far an average over the last `span` s goes towards the newest value.
+/// Weight of the newest value in an average over the last `span` s.
 double step_of(double passed, double span) { return passed / (passed + span); }
 
 Vec3 position_of(const Blob& blob) { return blob.position * (1 / blob.solid_angle); }
 
-/// Of a disc.
+/// Radius of a disc.
 double radius_of(double area) { return std::sqrt(area / std::numbers::pi); }
 
 }  // namespace
@@ -30,7 +31,8 @@ bool HotSpotTrack::Candidate::is_blob_of(const Candidate& other) const {
   return weight > 0 ? other.weight > 0 && a.y == b.y && a.begin == b.begin : !(other.weight > 0);
 }
 
-/// The upper one of two alike, the left one of these, in whatever order they came.
+/// The upper one of two equal blobs is heavier, then the left one, in whatever order they were
+/// added.
 bool HotSpotTrack::Candidate::is_heavier_than(const Candidate& other) const {
   if (weight != other.weight) return weight > other.weight;
   const Span &a = blob.first, &b = other.blob.first;
@@ -44,8 +46,8 @@ void HotSpotTrack::begin(double passed) {
   candidates_ = {};
 }
 
-/// By size, weighted by the distance from the usual place, down to a ninth: a spark near the ball
-/// may look larger than the pool.
+/// Compares by size, weighted by the distance from the usual place, down to a ninth: a spark near
+/// the ball may look larger than the pool.
 void HotSpotTrack::consider(const Blob& blob) {
   constexpr double kNear = optics::radians(3);
   constexpr double kLeast = 1.0 / 9;
@@ -65,7 +67,7 @@ void HotSpotTrack::consider(const Blob& blob) {
   }
 }
 
-/// No blob's weight is above its solid angle.
+/// A blob's weight is never above its solid angle.
 bool HotSpotTrack::is_settled(double solid_angle, double area) const {
   if (area < limits_.min_area) return true;
   return std::min(candidates_.second.weight, candidates_.within_reach.weight) >= solid_angle;
@@ -98,8 +100,8 @@ bool HotSpotTrack::reaches(const std::optional<Place>& from, const Blob& blob) c
   return way <= limits_.max_speed * from->ago + from->radius;
 }
 
-/// Of a blob that is not the hot spot of the frame set before: whether it is the same that the last
-/// frame sets showed. A spark that flies through the reach of a lost hot spot is there only once.
+/// True if a blob other than the previous hot spot is the same as in the last frame sets. A spark
+/// that flies through the reach of a lost hot spot is there only once.
 bool HotSpotTrack::is_believed(const Blob& blob, bool is_within_reach, double passed) {
   if (newcomer_) newcomer_->ago = passed;
   const bool stays = newcomer_ && reaches(newcomer_, blob);
@@ -108,7 +110,7 @@ bool HotSpotTrack::is_believed(const Blob& blob, bool is_within_reach, double pa
   return is_within_reach ? stays : newcomer_for_ >= kSettled;
 }
 
-/// `share`: beside the largest other blob.
+/// `share`: its share beside the largest other blob.
 void HotSpotTrack::keep(const Blob& blob, double share, double passed) {
   const Vec3 direction = optics::normalized(blob.moment);
   const double size = blob.solid_angle;

@@ -8,8 +8,7 @@ namespace {
 
 using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
-/// A blob's sums, two by two in the order of PixelGeometry: compilers make no vector code of them
-/// one by one.
+/// A blob's sums, in pairs in the order of PixelGeometry: compilers do not vectorize separate sums.
 struct Pairs {
   Pair moment_xy{}, moment_z_solid_angle{}, position_xy{}, position_z_area{};
 
@@ -53,7 +52,8 @@ void LevelSet::Sums<T>::add(std::size_t run, const Span& span) {
   T peak = row[span.begin];
   int peak_x = span.begin;
   for (int x = span.begin; x < span.end; ++x, ++pixel) {
-    // Counting from just below the threshold keeps a blob of equal values a plain centroid.
+    // Counts are relative to just below the threshold, so that a blob of equal values has a plain
+    // centroid.
     sums.add(*pixel, row[x] - threshold + 1);
     if (row[x] > peak) {
       peak = row[x];

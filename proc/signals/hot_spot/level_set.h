@@ -11,32 +11,34 @@
 
 namespace orbwatch::signals {
 
-/// What a component of pixels at or above a threshold sums up to.
+/// Sums of a component of pixels at or above a threshold.
 struct Blob {
   double solid_angle = 0;  ///< steradian, of whole pixels
-  optics::Vec3 moment;     ///< directions weighted by solid angle and counts above the threshold
-  double area = 0;         ///< mm2 of the machine's surface; not a number if far
-  optics::Vec3 position;   ///< mm from the ball's centre, weighted by solid angle; likewise
-  int peak = 0;            ///< counts of its brightest pixel, and where that is
+  optics::Vec3
+      moment;       ///< sum of directions weighted by solid angle and counts above the threshold
+  double area = 0;  ///< mm2 of the machine's surface; NaN if far
+  optics::Vec3 position;  ///< mm from the ball's centre, weighted by solid angle; NaN if far
+  int peak = 0;           ///< counts of its brightest pixel, and that pixel's place
   int peak_x = 0;
   int peak_y = 0;
-  Span first;  ///< its uppermost run, the left one of these: tells one blob from another
+  Span first;  ///< its uppermost run, the left one if several: identifies the blob
 };
 
 /// Measures the blobs within a component of a lower threshold: sums cost more than finding, and
-/// where noise makes thousands of blobs only few of them matter. Allocates when it is made only.
+/// where noise makes thousands of blobs only few of them matter. Allocates only at construction.
 /// Thread-bound.
 class LevelSet {
  public:
   explicit LevelSet(const RegionMask& mask) : components_(mask), blobs_(mask.most_runs()) {}
 
-  /// Those at or above `threshold`, counts; the rest as in Components::find().
+  /// Finds blobs at or above `threshold`, counts; the other arguments are those of
+  /// Components::find().
   template <class T>
   void find(const ImageView<const T>& values, const ImageView<const std::uint8_t>& validity,
             double threshold, const Components& lower, std::size_t component,
             const RegionGeometry& geometry);
 
-  /// visit(blob) in the order of their first runs.
+  /// Calls visit(blob) in the order of their first runs.
   template <class Visit>
   void for_each_blob(const Visit& visit) const {
     for (std::size_t i = 0; i < components_.runs().size(); ++i) {
@@ -49,7 +51,7 @@ class LevelSet {
   struct Sums;
 
   Components components_;
-  UntouchedVector<Blob> blobs_;  ///< by run; of components
+  UntouchedVector<Blob> blobs_;  ///< indexed by run; set for components
 };
 
 }  // namespace orbwatch::signals

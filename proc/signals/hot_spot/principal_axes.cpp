@@ -10,8 +10,8 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Turns `a` by the rotation in the plane of axes p and q that makes a[p][q] zero, and `axes`,
-/// whose columns become the eigenvectors, with it.
+/// Applies the rotation in the plane of axes p and q that makes a[p][q] zero to `a` and to `axes`,
+/// whose columns become the eigenvectors.
 void rotate(Matrix& a, Matrix& axes, std::size_t p, std::size_t q) {
   if (a[p][q] == 0) return;
   const double tau = (a[q][q] - a[p][p]) / (2 * a[p][q]);

@@ -29,7 +29,7 @@ struct PrincipalAxes {
   double second = 0;   ///< at least 0
 };
 
-/// By Jacobi's rotations (Golub, Van Loan: Matrix computations, 8.5). Needs no trigonometry.
+/// Uses Jacobi rotations (Golub, Van Loan: Matrix computations, 8.5). Needs no trigonometry.
 /// Reentrant.
 PrincipalAxes principal_axes(const Symmetric3& covariance);
 
