@@ -9,16 +9,16 @@
 #include "proc/optics/ball_projection.h"
 #include "proc/optics/vec.h"
 
-/// The projection once more and by other means: the exact model by tracing rays to the ball and
+/// An independent implementation of the projection: the exact model by tracing rays to the ball and
 /// reflecting vectors, or by the shortest path, with bisections in place of series and Newton; the
-/// others by the paper's equations in its own axes. What product code is measured against at its
-/// limit of precision is in long double.
+/// others by the paper's equations in its own axes. References for product code at its limit of
+/// precision are in long double.
 namespace orbwatch::tests {
 
 using optics::Vec2;
 using optics::Vec3;
 
-/// The distance of what is infinitely far away.
+/// The distance of things that are infinitely far away.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Unit reflection vector of the camera ray at angle `psi` from the axis, as angle from the facing
@@ -124,7 +124,7 @@ struct RealRay {
   RealVec3 direction;
 };
 
-/// The ray that leaves the unit ball in the origin where `ray`, of unit direction, first meets it.
+/// The ray that leaves the unit ball at the origin where `ray`, of unit direction, first meets it.
 inline std::optional<RealRay> reflected(const RealRay& ray) {
   const Real along = dot(ray.origin, ray.direction);
   const Real root = along * along - (dot(ray.origin, ray.origin) - 1);
@@ -139,10 +139,10 @@ struct ScenePoint {
   Real distance = std::numeric_limits<Real>::infinity();
 };
 
-/// Direction in which a camera at `camera` sees a point mirrored in the unit ball in the origin, by
-/// Fermat's principle: over the arc that both see, the way camera - ball - point is convex, and its
-/// slope is bisected. Nothing when there is no such arc, or when the camera sees the point straight
-/// along the axis.
+/// Direction in which a camera at `camera` sees a point mirrored in the unit ball at the origin, by
+/// Fermat's principle: over the arc that both see, the path camera - ball - point is convex, and
+/// its slope is bisected. nullopt when there is no such arc, or when the camera sees the point
+/// straight along the axis.
 inline std::optional<RealVec3> fermat_ray(const RealVec3& camera, const ScenePoint& point) {
   const RealVec3 facing = normalized(camera);
   const RealVec3 across = point.direction - facing * dot(point.direction, facing);
@@ -166,8 +166,8 @@ inline std::optional<RealVec3> fermat_ray(const RealVec3& camera, const ScenePoi
   return normalized(hit - camera);
 }
 
-/// Where a ray of unit direction comes out of a plane of glass, traced surface by surface. `normal`
-/// points the way the light goes; the glass begins at `depth` along it.
+/// The exit ray of a ray of unit direction from a plane of glass, traced surface by surface.
+/// `normal` points in the direction of the light; the glass begins at `depth` along it.
 inline RealRay through_glass(const RealRay& ray, const RealVec3& normal, Real depth, Real thickness,
                              Real index) {
   const auto to_plane = [&](const RealRay& r, Real offset) {

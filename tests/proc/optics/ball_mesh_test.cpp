@@ -23,7 +23,8 @@ struct Drawn {
   std::optional<Vec2> pixel;  ///< nullopt: blind
 };
 
-/// Where a ray from the ball's centre meets a triangle (Moeller and Trumbore), and the pixel there.
+/// Intersection of a ray from the ball's centre with a triangle (Moeller and Trumbore), and the
+/// pixel there.
 std::optional<Drawn> meet(const BallMesh& mesh, const Vec3& ray, const std::uint32_t* corners) {
   const BallMesh::Node &a = mesh.nodes[corners[0]], &b = mesh.nodes[corners[1]],
                        &c = mesh.nodes[corners[2]];
@@ -39,7 +40,7 @@ std::optional<Drawn> meet(const BallMesh& mesh, const Vec3& ray, const std::uint
                               distant.v + w * a.offset.v + u * b.offset.v + v * c.offset.v}};
 }
 
-/// What a graphics processor draws in a direction: the nearest triangle.
+/// The result of a graphics processor in a direction: the nearest triangle.
 std::optional<Drawn> draw(const BallMesh& mesh, const Vec3& ray) {
   std::optional<Drawn> nearest;
   for (const auto* triangles : {&mesh.triangles, &mesh.blind}) {
@@ -57,7 +58,7 @@ ViewProjection ball_view(const BallProjection& ball) {
   return ViewProjection::make({ViewKind::Ball, {}, {}, {}, 1000, 900}, ball).value();
 }
 
-/// Whether the blind cone begins within a degree.
+/// True if the blind cone begins within a degree.
 bool is_near_blind_cone(const BallProjection& ball, const Vec3& direction) {
   const Vec3 axis = -ball.facing();
   const Vec3 towards_it = normalized(axis - direction * dot(axis, direction));
@@ -80,7 +81,7 @@ TEST_P(BallMeshOf, ShowsWhatTheExactModelShows) {
     int compared = 0, blind = 0;
     for (int n = 0; n < 400; ++n) {
       Vec3 direction = random_direction(random);
-      // Some in and about the blind cone, which is narrow.
+      // Some directions are in and about the blind cone, which is narrow.
       if (n % 10 == 0) direction = normalized(direction * 0.1 - ball.facing());
       const auto exact = view.pixel(direction);
       const auto drawn = draw(mesh, direction);
@@ -89,7 +90,7 @@ TEST_P(BallMeshOf, ShowsWhatTheExactModelShows) {
         EXPECT_FALSE(drawn->pixel) << "the blind cone is drawn";
         ++blind;
       } else if (drawn->pixel) {
-        // A triangle may bend twice between the places where it was checked.
+        // A triangle may be curved twice between the places where it was checked.
         EXPECT_LT(std::hypot(drawn->pixel->u - exact->u, drawn->pixel->v - exact->v), 1.5 / 32);
         ++compared;
       } else {

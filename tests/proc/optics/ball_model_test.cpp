@@ -31,8 +31,8 @@ std::optional<double> rho(const BallModel& model, const CosSin& phi, double clos
   return stretch->along == 0 ? 1 : phi.sin * stretch->across / stretch->along;
 }
 
-// The law of reflection by incidence i, in which nothing has to be solved:
-// phi = 2i - asin(q sin i) - asin(p sin i), psi = asin(q sin i).
+// The law of reflection in terms of the incidence i, which needs no solver: phi = 2i - asin(q sin
+// i) - asin(p sin i), psi = asin(q sin i).
 TEST(BallModel, ExactSolvesReflectionAtEveryDistance) {
   constexpr int kIncidences = 200;
   double worst = 0, worst_close = 0;
@@ -62,7 +62,7 @@ TEST(BallModel, ExactEqualsTracedReflection) {
     const BallModel model = BallModel::make(BallModel::Kind::Exact, alpha).value();
     for (int i = 0; i < 500; ++i) {
       const double phi = model.limit() * i / 500;
-      // One ten-thousandth of a pixel on a ball of 1500 px radius.
+      // The tolerance is one ten-thousandth of a pixel on a ball of 1500 px radius.
       EXPECT_NEAR(rho(model, angle(phi)).value(), tests::reference_exact_rho(phi, alpha), 7e-8)
           << "distance " << distance << " phi " << degrees(phi);
     }
@@ -111,7 +111,7 @@ TEST(BallModel, ExactTendsToClassicalFarAway) {
   }
 }
 
-// Where the cosine alone no longer tells the angle.
+// Angles at which the cosine alone does not determine the angle.
 TEST(BallModel, IsPreciseTowardsTheAxis) {
   for (const double away : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const CosSin ahead{std::cos(away), std::sin(away)}, behind{-std::cos(away), std::sin(away)};
@@ -150,7 +150,7 @@ TEST(BallModel, PaperAndClassicalMissByThePublishedErrors) {
       classical = std::max(classical, error(BallModel::make(BallModel::Kind::Classical).value()));
       paper = std::max(paper, error(BallModel::make(BallModel::Kind::Paper, alpha).value()));
     }
-    // The classical model is at its worst on the limb, just outside of what the table counts.
+    // The classical model's largest error is on the limb, just outside of the table's range.
     EXPECT_NEAR(degrees(paper), row.paper, 0.06) << "distance " << row.distance;
     EXPECT_GE(degrees(classical), row.classical - 0.06) << "distance " << row.distance;
   }
@@ -164,7 +164,7 @@ TEST(BallModel, BlindConeIsUndefined) {
   EXPECT_TRUE(rho(BallModel::make(BallModel::Kind::Classical).value(), angle(radians(180))));
 }
 
-// What is near is hidden earlier: a point on the ball's surface as soon as its surface turns away.
+// Near things are hidden earlier: a point on the ball's surface as soon as its surface turns away.
 TEST(BallModel, BlindConeGrowsWithCloseness) {
   const double d = 12;
   const BallModel model = BallModel::at_distance(Kind::Exact, d);

@@ -123,7 +123,7 @@ TEST(BallProjection, RayIsTheVectorReflection) {
         ASSERT_TRUE(truth && ray);
         const Vec3 origin = (ray->origin - kBall.centre) * (1 / kBall.radius);
         EXPECT_NEAR(norm(ray->direction), 1, 1e-12);
-        // On the limb the hit point's error is the root of the camera ray's.
+        // The hit point's error near the limb is the root of the camera ray's.
         const double incidence =
             -static_cast<double>(dot(tests::normalized(camera_ray(camera, *pixel)), truth->origin));
         const double stretch = std::min(1.0, incidence);
@@ -139,8 +139,8 @@ TEST(BallProjection, RayIsTheVectorReflection) {
   EXPECT_LT(worst_origin, 1e-11);
 }
 
-// What a pixel shows is shown by that pixel, unless another part of the scene hides it from the
-// ball's centre.
+// A thing shown by a pixel is projected to that pixel, unless another part of the scene hides it
+// from the ball's centre.
 void expect_round_trips(const BallProjection& ball, std::mt19937& random) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   int trips = 0, hidden = 0;
@@ -224,7 +224,7 @@ TEST(BallProjection, OtherModelsAreTheirLawAboutTheAxis) {
   }
 }
 
-// The same ball seen with and without calibration: a camera on its axis has a circle for a limb.
+// The same ball with and without calibration: a camera on its axis has a circle for a limb.
 TEST(BallProjection, WithAndWithoutCalibrationAgree) {
   std::mt19937 random(17);
   const double d = 6, focal = 2000;
@@ -250,8 +250,7 @@ TEST(BallProjection, WithAndWithoutCalibrationAgree) {
   }
 }
 
-// Turned about its axis or mirrored in a plane through it, the room turns or mirrors in the
-// picture.
+// A turn about the axis or a reflection in a plane through it turns or mirrors the room's picture.
 TEST(BallProjection, IsSymmetricAboutTheAxis) {
   std::mt19937 random(18);
   const auto ball = BallProjection::make(model_at(5), {{0, 0}, 100, 100, 0}, {}).value();
@@ -265,7 +264,7 @@ TEST(BallProjection, IsSymmetricAboutTheAxis) {
     ASSERT_EQ(pixel.has_value(), turned.has_value());
     ASSERT_EQ(pixel.has_value(), mirrored.has_value());
     if (!pixel) continue;
-    // u runs along -X, v along -Z.
+    // u increases along -X, v along -Z.
     EXPECT_NEAR(turned->u, c * pixel->u - s * pixel->v, 1e-11);
     EXPECT_NEAR(turned->v, s * pixel->u + c * pixel->v, 1e-11);
     EXPECT_NEAR(mirrored->u, -pixel->u, 1e-12);
@@ -286,7 +285,7 @@ TEST(BallProjection, DirectionIsTheInverseOfPixel) {
     if (!pixel) continue;
     const auto again = ball->direction(*pixel);
     ASSERT_TRUE(again);
-    // Near the limb a pixel's share of the sphere grows without bound, and rounding with it.
+    // A pixel's share of the sphere near the limb grows without bound, and rounding with it.
     EXPECT_LT(angle_between(*again, v), 1e-6);
   }
 }
@@ -324,7 +323,7 @@ TEST(BallProjection, AWindowIsSnellsLawTwice) {
     EXPECT_LT(deviation(RealVec3(ray.direction), truth.direction), 1e-6);
     const Vec3 origin = (ray.origin - kBall.centre) * (1 / kBall.radius);
     EXPECT_LT(norm(origin - rounded(truth.origin)), 1e-8);
-    // And the way back: a point on that ray is seen by that pixel.
+    // The inverse: a point on that ray is projected to that pixel.
     const auto again = tests::pixel_of_point(ball, ray.origin + ray.direction * 70);
     ASSERT_TRUE(again);
     EXPECT_LT(std::hypot(again->u - pixel->u, again->v - pixel->v), 1e-7);
@@ -350,7 +349,7 @@ TEST(BallProjection, OutlineIsWhereTheBallEnds) {
         const double middle = (shown + hidden) / 2;
         (ball.ray(point_on(limb, middle, t)) ? shown : hidden) = middle;
       }
-      // Directions end there too.
+      // Directions end at the limb too.
       const Vec3 last = ball.ray(point_on(limb, shown - 1e-9, t)).value().direction;
       EXPECT_TRUE(ball.pixel(last));
       EXPECT_FALSE(ball.pixel(normalized(last - ball.facing() * 0.1)));

@@ -9,7 +9,7 @@
 #include "proc/optics/view_projection.h"
 #include "tests/proc/optics/random_camera.h"
 
-// Many at once are the same bits as one by one.
+// Evaluation of many lanes is bit-identical to single evaluation.
 namespace orbwatch::optics {
 namespace {
 
@@ -51,7 +51,8 @@ TEST(Lanes, ShowTheSamePixels) {
       Vec3Lanes directions;
       Lanes closeness;
       for (std::size_t k = 0; k < kLanes; ++k) {
-        // From anywhere to nearly straight behind the ball, where the picture is hardest to tell.
+        // Directions range from anywhere to nearly straight behind the ball, where the picture is
+        // hardest to determine.
         const double aside = std::pow(10, -(round % 10));
         const Vec3 near = round % 2 ? ball.facing() : -ball.facing();
         directions.set(k, normalized(near + aside * tests::random_direction(random)));

@@ -20,7 +20,7 @@ Lens lens(Distortion distortion, std::array<double, 8> coefficients) {
   return Lens::make(intrinsics(distortion, coefficients)).value();
 }
 
-/// Distortions as calibrations of real lenses have them, from mild to strong.
+/// Distortions like those of real lenses' calibrations, from mild to strong.
 Intrinsics random_calibration(std::mt19937& random, Distortion distortion) {
   const auto about = [&](double size) {
     return std::uniform_real_distribution<double>(-size, size)(random);
@@ -87,7 +87,7 @@ TEST(Lens, DirectionIsTheInverseOfPixel) {
     for (int i = 0; i < 20; ++i) {
       const double angle = off(random), turn = around(random);
       const auto pixel = l->pixel(at(angle, turn));
-      // At the fold the inverse has no derivative: a small step inwards makes it a fair question.
+      // The inverse has no derivative at the fold: a small step inwards avoids that.
       if (!pixel || !l->pixel(at(angle * 1.01, turn))) continue;
       ++shown;
       const auto again = l->direction(*pixel);
@@ -125,7 +125,7 @@ TEST(Lens, PixelOfAPixelsDirectionIsThatPixel) {
 }
 
 TEST(Lens, EndsWhereABarrelWouldFold) {
-  // r - 0.3 r^3 grows up to r = 1 / sqrt(0.9), where it is 2/3 r.
+  // r - 0.3 r^3 increases up to r = 1 / sqrt(0.9), where it is 2/3 r.
   const Lens barrel = lens(Distortion::Pinhole, {-0.3});
   const double fold = 1 / std::sqrt(0.9), shown = fold * 2 / 3;
   EXPECT_TRUE(barrel.pixel({fold * (1 - 1e-9), 0, 1}));
@@ -136,7 +136,7 @@ TEST(Lens, EndsWhereABarrelWouldFold) {
 }
 
 TEST(Lens, EndsWhereAFisheyeWouldFold) {
-  // a - 0.05 a^3 grows up to a = 1 / sqrt(0.15).
+  // a - 0.05 a^3 increases up to a = 1 / sqrt(0.15).
   const Lens fisheye = lens(Distortion::Fisheye, {-0.05});
   const double fold = 1 / std::sqrt(0.15), shown = fold * 2 / 3;
   EXPECT_TRUE(fisheye.pixel(at(degrees(fold) - 1e-6, 1)));
@@ -154,8 +154,8 @@ TEST(Lens, EndsAtAPoleOfTheRationalModel) {
 }
 
 TEST(Lens, NoTwoDirectionsShareAPixel) {
-  // Also with a decentring far beyond real ones, which bends the fold out of round: what is shown
-  // keeps its sense, (image(a) - image(b)) . (a - b) > 0.
+  // The test includes decentring far beyond real lenses, which makes the fold out of round: the
+  // part shown keeps its orientation, (image(a) - image(b)) . (a - b) > 0.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> decentring(-0.1, 0.1), place(-1.5, 1.5), radial(-0.3, 0.3);
   int pairs = 0;

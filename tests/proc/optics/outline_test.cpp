@@ -23,8 +23,8 @@ BallSight sight(double off, double around, double distance) {
   return {{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)}, distance};
 }
 
-/// Cameras of a rendered scene whose outlines are known: pose and outline as the scene states them,
-/// pixel centres moved to integers.
+/// Cameras of a rendered scene with known outlines: pose and outline as stated by the scene, pixel
+/// centres moved to integers.
 struct KnownOutline {
   double focal;
   Vec2 principal;
@@ -134,12 +134,12 @@ TEST(Outline, FisheyeSeesABallThatFillsItsView) {
   const Outline outline = outline_from_sight(near, fisheye).value();
   EXPECT_NEAR(outline.rx, 300 * std::asin(1 / 1.05), 1e-9);
   EXPECT_NEAR(sight_from_outline(outline, fisheye)->distance, 1.05, 1e-12);
-  // Sideways of the camera, where a pinhole sees nothing.
+  // A direction sideways of the camera, where a pinhole sees nothing.
   EXPECT_TRUE(outline_from_sight(sight(90, 0, 5), fisheye));
 }
 
 TEST(Outline, WindowBringsTheBallNearer) {
-  // A glass across the axis acts as if the camera stood t (1 - 1/n) nearer: by 3.42 % of the ball's
+  // A glass across the axis acts as if the camera were t (1 - 1/n) nearer: by 3.42 % of the ball's
   // radius here, to first order in the limb's angle.
   const Lens l = lens(3000);
   const Window glass{{0, 0, 1}, 0.1, 1.52};

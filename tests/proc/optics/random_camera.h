@@ -35,7 +35,7 @@ inline optics::CalibratedCamera random_camera(std::mt19937& random, double dista
   return {plain_lens(), pose, {}};
 }
 
-/// In ball radii, from the ball's centre.
+/// The camera's position from the ball's centre, in ball radii.
 inline RealVec3 position_in_radii(const optics::CalibratedCamera& camera) {
   return (RealVec3(camera.pose.position) - RealVec3(kBall.centre)) * (1 / Real(kBall.radius));
 }

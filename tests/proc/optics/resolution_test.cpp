@@ -19,8 +19,8 @@ Vec3 from_facing(double phi, double turn) {
   return {std::sin(phi) * std::cos(turn), std::cos(phi), std::sin(phi) * std::sin(turn)};
 }
 
-// rho = sin(phi/2): along the radius R/2 cos(phi/2) px per radian, across it
-// R sin(phi/2) / sin(phi) = R / (2 cos(phi/2)), which is more.
+// The formula rho = sin(phi/2) gives R/2 cos(phi/2) px per radian along the radius; across it R
+// sin(phi/2) / sin(phi) = R / (2 cos(phi/2)), which is more.
 TEST(Resolution, IsTheDerivativeOfTheClassicalModel) {
   const auto ball = centred_ball(BallModel::make(BallModel::Kind::Classical).value(), 900);
   for (const double phi : {1e-9, 0.3, 1.0, 2.0, 3.0}) {
@@ -31,7 +31,7 @@ TEST(Resolution, IsTheDerivativeOfTheClassicalModel) {
   }
 }
 
-// On the axis phi = 2i - psi with i = d psi, so that psi = phi / (2d - 1).
+// The axis has phi = 2i - psi with i = d psi, so that psi = phi / (2d - 1).
 TEST(Resolution, OnTheAxisTheExactModelGivesPixelsPerPsi) {
   for (const double distance : {1.5, 4.0, 12.0}) {
     const auto model = BallModel::at_distance(BallModel::Kind::Exact, distance);

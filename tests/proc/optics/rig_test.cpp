@@ -15,7 +15,7 @@ using tests::random_direction;
 
 const Intrinsics kIntrinsics{1500, 1500, 2700, 2700, 749.5, 749.5, Distortion::None, {}};
 
-/// A camera at `position` that looks past the ball by some degrees.
+/// A camera at `position` that faces `target`, some degrees beside the ball.
 Pose looking_past(const Vec3& position, const Vec3& target) {
   const Vec3 forward = normalized(target - position);
   const Vec3 right = normalized(cross(forward, {0, 0, 1}));
@@ -57,7 +57,7 @@ void expect_same(const BallProjection& a, const BallProjection& b, double tolera
   int seen = 0;
   for (int i = 0; i < 500; ++i) {
     const Vec3 direction = random_direction(random);
-    // At the limb one of them may just see what the other just does not.
+    // Directions at the limb may be visible to only one of them.
     if (dot(direction, a.facing()) < -0.95) continue;
     const auto pixel_a = a.pixel(direction), pixel_b = b.pixel(direction);
     ASSERT_EQ(pixel_a.has_value(), pixel_b.has_value());
@@ -93,7 +93,7 @@ TEST(Rig, SoTheyDoThroughAWindow) {
 }
 
 TEST(Rig, CalibratedCameraThatLooksAtTheBallIsTheUncalibratedOne) {
-  // Both ways to state it agree where both apply: the ball on the optical axis.
+  // Both ways to state the camera agree where both apply: the ball on the optical axis.
   RigCamera plain = uncalibrated();
   const double limb = std::tan(std::asin(1.0 / 9)) * kIntrinsics.fx;
   plain.outline = Outline{{749.5, 749.5}, limb, limb, 0};

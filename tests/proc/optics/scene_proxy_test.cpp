@@ -38,8 +38,8 @@ Vec3 relative(const Vec3& point) { return (point - kBall.centre) * (1 / kBall.ra
 
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// Way along a ray to the nearest of a box's faces that turns its back or its front on the ray,
-/// each face a plane of its own. Ball radii.
+/// Distance along a ray to the nearest of a box's faces that are turned away from the ray or
+/// towards it, each face a plane of its own. Ball radii.
 double way_to_faces(const Box& box, const Ray& ray, bool from_inside) {
   const Vec3 low = relative(box.low), high = relative(box.high);
   double nearest = kInfinity;
@@ -170,7 +170,7 @@ TEST(SceneProxy, AnObstacleReachesToItsSides) {
   EXPECT_EQ(proxy.hit(normalized({-1e-9, 0, -1})).surface, 4);
 }
 
-/// The directions that slabs go wrong at: along axes, to corners and to points of edges.
+/// Directions that are difficult for slab tests: along axes, to corners and to points of edges.
 std::vector<Vec3> awkward_directions(const SceneProxy& proxy) {
   std::vector<Vec3> directions;
   for (const double x : {-1.0, 0.0, -0.0, 1.0}) {
@@ -203,7 +203,7 @@ TEST(SceneProxy, IsWatertight) {
     };
     for (int i = 0; i < 100000; ++i) look(random_direction(random));
     EXPECT_EQ(differences, 0);
-    // Exactly on an edge that hides what is behind, rounding may choose either.
+    // Rounding may choose either surface exactly on an edge that hides another surface.
     for (const Vec3& v : awkward_directions(proxy)) look(v);
     EXPECT_EQ(leaks, 0);
     if (scene.obstacles.empty()) {
@@ -228,7 +228,7 @@ TEST(SceneProxy, ClosenessIsContinuousAcrossTheRoomsEdges) {
 TEST(SceneProxy, EdgesAreThoseOfBoxesWithinTheWalls) {
   EXPECT_EQ(made(box_scene()).edges().size(), 12U);
   const auto edges = made(box_scene({kTable, kSpindle})).edges();
-  // Of the table the top is turned towards the ball, of the spindle two sides that share an edge.
+  // The table has its top turned towards the ball, the spindle two sides that share an edge.
   EXPECT_EQ(edges.size(), 12U + 4U + 7U);
   double highest = 0;
   for (const auto& [from, to] : edges) {

@@ -59,7 +59,7 @@ TEST(ViewProjection, CylindricalIsLinearInLongitudeAndTangentOfLatitude) {
     const double v = 50 - 50.5 * std::tan(radians(lat));
     EXPECT_LT(deviation(*view.direction(lon + 89.5, v), on_globe(lon, lat)), 1e-9);
   }
-  // Square pixels: on the horizon a step up is a step to the right.
+  // Square pixels: a step up on the horizon equals a step to the right.
   const auto square = ViewProjection::make({ViewKind::Cylindrical, {}, {}, {}, 361, 181}).value();
   EXPECT_NEAR(deviation(*square.direction(180, 89), *square.direction(180, 91)),
               deviation(*square.direction(179, 90), *square.direction(181, 90)), 1e-3);
@@ -100,7 +100,7 @@ TEST(ViewProjection, ABallViewIsTheCamerasPictureCutToTheLimb) {
   const BallProjection ball = tilted_ball();
   const auto view = ViewProjection::make({ViewKind::Ball, {}, {}, {}, 300, 240}, ball).value();
   EXPECT_LT(deviation(*view.direction(149.5, 119.5), *ball.direction({310, 250})), 1e-9);
-  // The limb fits with a little room: nothing is shown on the border, something just within.
+  // The limb fits with a small margin: nothing is shown on the border, something just within.
   double left = 300, right = 0, top = 240, bottom = 0;
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 300; ++x) {
@@ -111,7 +111,7 @@ TEST(ViewProjection, ABallViewIsTheCamerasPictureCutToTheLimb) {
   }
   EXPECT_GT(std::min({left, 299 - right, top, 239 - bottom}), 0);
   EXPECT_LT(std::min({left, 299 - right, top, 239 - bottom}), 6);
-  // Pixels are square and stand as in the camera's picture.
+  // Pixels are square and oriented like the camera's picture.
   const Vec2 a = ball.pixel(*view.direction(100, 100)).value();
   const Vec2 b = ball.pixel(*view.direction(110, 100)).value();
   const Vec2 c = ball.pixel(*view.direction(100, 110)).value();
@@ -235,7 +235,7 @@ TEST(ViewProjection, SolidAnglesAddUp) {
   EXPECT_NEAR(total_solid_angle({ViewKind::Cylindrical, {}, {}, 90, 512, 256}),
               4 * kPi * std::sqrt(0.5), 1e-3);
   EXPECT_NEAR(total_solid_angle({ViewKind::Fisheye, {}, 360, {}, 512, 512}), 4 * kPi, 1e-3);
-  // Round pictures: what their square's corners add is left out here by covering almost all.
+  // Round pictures: the square's corners add nothing here, as almost all directions are covered.
   EXPECT_NEAR(total_solid_angle({ViewKind::Stereographic, {}, 355, {}, 4000, 4000}), 4 * kPi, 0.01);
   // A Ball view shows all but the blind cone, whose half angle is 180 - alpha/2.
   EXPECT_NEAR(total_solid_angle({ViewKind::Ball, {}, {}, {}, 1000, 1000}),

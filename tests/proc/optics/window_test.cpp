@@ -10,7 +10,7 @@
 namespace orbwatch::optics {
 namespace {
 
-/// Where a ray through the origin comes out of a glass whose surfaces are z = 5 and z = 5 +
+/// The exit point of a ray through the origin from a glass whose surfaces are z = 5 and z = 5 +
 /// thickness, traced in the plane of incidence by the angles of Snell's law.
 Vec3 traced_exit(const Vec3& direction, double thickness, double index) {
   const double across = std::hypot(direction.x, direction.y);
@@ -36,7 +36,7 @@ TEST(Window, DisplacesAsARayTracedThroughBothSurfaces) {
 }
 
 TEST(Window, ActsAsIfTheCameraStoodNearer) {
-  // Near the normal a glass of 10 mm and index 1.52 brings things 3.4 mm nearer.
+  // A glass of 10 mm and index 1.52 brings things 3.4 mm nearer, near its normal.
   const double slope = 0.001;
   const Vec3 shift = displacement({{0, 1, 0}, 10, 1.52}, normalized({slope, 1, 0}));
   EXPECT_NEAR(-shift.x / slope, 3.421, 0.001);

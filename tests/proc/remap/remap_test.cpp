@@ -24,7 +24,7 @@ using optics::ViewProjection;
 using optics::ViewSpec;
 using tests::StoredPicture;
 
-/// A room with soft and hard edges: slopes as photographs have them.
+/// A room with soft and hard edges: the slopes of photographs.
 template <class T>
 void paint_room(const ImageView<T>& out) {
   const double full = std::numeric_limits<T>::max();
@@ -56,8 +56,8 @@ struct Agreement {
   int off_by_more_than_one = 0;
 };
 
-/// Every pixel of the view of a room, save 2 px at the limb and the classical model's 3 degrees,
-/// against the double-precision reference.
+/// Compares every pixel of the view of a room, except 2 px at the limb and the classical model's 3
+/// degrees, with the double-precision reference.
 template <class T>
 Agreement compare(const ViewSpec& spec, const tests::ReferenceBall& reference,
                   const BallModel& model, const StoredPicture& room, double tolerance) {
@@ -132,7 +132,7 @@ TEST(Remap, KeepsSixteenBits) {
   for (const PixelFormat format : {PixelFormat::Y16, PixelFormat::Rgb16}) {
     StoredPicture room(format, 1000, 1000);
     paint_room(room.picture.samples<std::uint16_t>());
-    // One grey level of 8 bit.
+    // The tolerance is one grey level of 8 bit.
     const Agreement a = compare<std::uint16_t>(spec, reference, model, room, 257);
     EXPECT_GT(a.compared, 70000);
     EXPECT_LE(a.off_by_more_than_one, a.compared / 1000);
@@ -163,7 +163,7 @@ TEST(Remap, NearestTakesTheClosestPixel) {
         EXPECT_EQ(*result.picture.samples<std::uint16_t>().at(x, y), 0);
         continue;
       }
-      // Within the grid's tolerance of a pixel's edge either neighbour is right.
+      // Either neighbour is right within the grid's tolerance of a pixel's edge.
       const auto edge = [](double c) { return std::abs(c - std::floor(c) - 0.5) < 0.016; };
       if (edge(p->u) || edge(p->v)) continue;
       ++compared;
@@ -191,7 +191,7 @@ TEST(Remap, YuyvEqualsRemappedPlanesConvertedAfterwards) {
       const auto even = scene.ball.pixel(*scene.view.direction(x - x % 2, y));
       if (!p || p->u < 0 || p->v < 0 || p->u > 61 || p->v > 46) continue;
       if (!even || even->u < 0 || even->v < 0 || even->u > 61 || even->v > 46) continue;
-      // Chroma as a plane of half width whose samples sit on even pixels, in picture and view.
+      // Chroma as a plane of half width whose samples are at even pixels, in picture and view.
       const auto plane = [&](double u, double v, int step, int offset) {
         const double a = std::floor(u), b = std::floor(v), wu = u - a, wv = v - b;
         const auto at = [&](double i, double j) {

@@ -28,7 +28,7 @@ class StoredPicture {
     for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
   }
 
-  /// As remap() takes it.
+  /// The picture as an argument of remap().
   std::span<const Picture> as_source() const { return {&source, 1}; }
 
   std::uint8_t sample(std::size_t plane, int row, int byte) const {

@@ -4,7 +4,8 @@
 
 namespace orbwatch::tests {
 
-/// Each byte of memory that a test hands out to be written: what holds it later was not written.
+/// Initial value of each byte of memory that a test passes to be written: bytes that still have it
+/// were not written.
 inline constexpr std::uint8_t kUntouched = 0xa5;
 
 }  // namespace orbwatch::tests

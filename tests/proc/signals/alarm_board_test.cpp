@@ -48,7 +48,7 @@ void PrintTo(const Told& told, std::ostream* out) {
        << operator_text(told.level);
 }
 
-/// Yaw of region 0 (alarm 0) and area of region 1 (alarm 1), warning at 10, alarm at 20.
+/// Alarm 0 is the yaw of region 0, alarm 1 the area of region 1; warning at 10, alarm at 20.
 struct TwoAlarms {
   std::vector<Told> step(double yaw, double area, AlarmSet acknowledged = {}, bool active = true) {
     regions[0].hot_spot_yaw = yaw;

@@ -9,12 +9,12 @@ namespace orbwatch::signals::tests {
 
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// One alarm on a clock that the test moves.
+/// One alarm with a clock that the test sets.
 class AlarmClock {
  public:
   explicit AlarmClock(const AlarmLimits& limits) : limits_(limits) {}
 
-  /// Moves the clock and steps.
+  /// Advances the clock and steps.
   const Alarm& after(std::chrono::nanoseconds time, double value, bool is_new = true) {
     now_ += time;
     memory_ = step(limits_, memory_, {now_, value, active_, is_new});

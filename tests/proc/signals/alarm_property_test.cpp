@@ -23,7 +23,8 @@ class RandomAlarm {
   int number(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
   bool one_in(int count) { return number(1, count) == 1; }
 
-  /// -20, -10, 10 and 20 or some of them; sums of quarters, so that comparisons are exact.
+  /// Random limits out of -20, -10, 10 and 20; values are sums of quarters, so that comparisons are
+  /// exact.
   AlarmLimits limits() {
     AlarmLimits limits;
     if (!one_in(4)) limits.low_alarm = -20;
@@ -40,14 +41,15 @@ class RandomAlarm {
     return limits;
   }
 
-  /// Mostly the frame period, now and then something else.
+  /// Mostly the frame period, sometimes another time.
   nanoseconds time_passed() {
     if (one_in(50)) return milliseconds(-5000);
     if (one_in(50)) return milliseconds(30000);
     return milliseconds(125 * number(0, 3));
   }
 
-  /// A walk through all limits that lingers at them, with measurements that fail for a while.
+  /// A random walk through all limits that stays near them for a while, with measurements that fail
+  /// for a while.
   double value() {
     if (one_in(8)) walk_ = 0.25 * number(-100, 100);
     walk_ += 0.25 * number(-6, 6);

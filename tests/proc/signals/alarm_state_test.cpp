@@ -16,7 +16,7 @@ using tests::AlarmClock;
 using tests::kNoValue;
 using State = AlarmState;
 
-/// Warning at 10, alarm at 20, everything at once.
+/// Limits with a warning at 10 and an alarm at 20, without delays.
 AlarmLimits at_once(bool latching) {
   AlarmLimits limits;
   limits.high_warning = 10;
@@ -26,7 +26,7 @@ AlarmLimits at_once(bool latching) {
   return limits;
 }
 
-/// Brought into a state at warning level, from the start, through inputs alone.
+/// An alarm brought into a state at warning level, from the start, through inputs alone.
 AlarmClock brought_to(State state, bool latching) {
   AlarmClock clock(at_once(latching));
   clock.after(milliseconds(1), 0);
@@ -45,7 +45,7 @@ AlarmClock brought_to(State state, bool latching) {
   return clock;
 }
 
-/// What every state becomes: one row of the state diagram.
+/// Next state for every input: one row of the state diagram.
 struct Row {
   State from;
   bool latching;
@@ -105,7 +105,7 @@ TEST_P(StateDiagram, StandsWhileItsConditionHoldsOrItIsLatched) {
 
 INSTANTIATE_TEST_SUITE_P(Alarm, StateDiagram, testing::ValuesIn(kDiagram));
 
-/// Texts by number until there is none; all of them differ.
+/// Texts by number up to the first number without one; all of them differ.
 template <class Enum>
 std::map<int, std::string> texts() {
   std::map<int, std::string> all;

@@ -20,7 +20,7 @@ using tests::kNoValue;
 using Level = AlarmLevel;
 using State = AlarmState;
 
-/// -20, -10, 10 and 20, hysteresis 2; on after 2 s, off after 3 s, lost after 5 s.
+/// Limits -20, -10, 10 and 20, hysteresis 2; on after 2 s, off after 3 s, lost after 5 s.
 AlarmLimits both_sides() {
   AlarmLimits limits;
   limits.low_alarm = -20;
@@ -40,7 +40,7 @@ AlarmLimits without_delays() {
   return limits;
 }
 
-/// `value` for `time`, stepped ten times a second.
+/// Applies `value` for `time`, stepped ten times a second.
 const Alarm& keep(AlarmClock& clock, nanoseconds time, double value) {
   for (nanoseconds passed{0}; passed < time; passed += milliseconds(100)) {
     clock.after(milliseconds(100), value);

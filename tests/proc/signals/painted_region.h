@@ -11,7 +11,7 @@
 
 namespace orbwatch::signals {
 
-/// Where the hot spot of a painted view begins, counts.
+/// Threshold of the hot spot in a painted view, counts.
 inline constexpr double kHotSpotThreshold = 20000;
 
 /// A ball of 50 mm above a floor 400 mm below its centre.
@@ -36,7 +36,7 @@ struct PaintedView {
     return validity[static_cast<std::size_t>(y) * view.width() + x];
   }
 
-  /// Every pixel becomes the value of `paint` at its direction, if that is more than it has.
+  /// Sets every pixel to the value of `paint` at its direction, if that is higher.
   template <class Paint>
   void paint(const Paint& value_at) {
     for (int y = 0; y < view.height(); ++y) {
@@ -46,8 +46,8 @@ struct PaintedView {
       }
     }
   }
-  /// A smooth hill around `centre` that passes `level` at `radius`, radians, and falls by half of
-  /// it within another 0.7 radii.
+  /// Paints a smooth hill around `centre` that crosses `level` at `radius`, radians, and falls by
+  /// half of it within another 0.7 radii.
   void paint_hill(const optics::Vec3& centre, double radius, double level) {
     paint([&](const optics::Vec3& d) {
       const double share = optics::angle_between(d, centre) / radius;

@@ -14,8 +14,8 @@ double planck(double um, double celsius) {
   return 1 / (std::exp(14387.77 / (um * (celsius + kZero))) - 1);
 }
 
-/// The counts that a camera would give, by searching the temperature of the black body that is as
-/// bright.
+/// The counts of a camera, by searching for the temperature of the black body with the same
+/// radiance.
 double counts_by_bisection(const RadiometrySettings& s, double celsius) {
   const double rho = *s.reflectivity, eps = *s.emissivity, um = s.wavelength;
   const double scene = eps * planck(um, celsius) + (1 - eps) * planck(um, s.surroundings);

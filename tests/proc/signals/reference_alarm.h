@@ -10,7 +10,7 @@
 
 namespace orbwatch::signals::tests {
 
-/// An alarm by its definition: keeps every moment since the process became active and looks back
+/// An alarm by its definition: keeps every moment since the process became active, searches back
 /// through them at each step, and derives the state from three facts about the operator.
 class ReferenceAlarm {
  public:
@@ -157,7 +157,7 @@ class ReferenceAlarm {
     }
   }
 
-  /// Of equals the newest.
+  /// The worst level; the newest of equal ones.
   std::vector<AlarmLevel>::const_iterator worst() const {
     return std::max_element(worst_.begin(), worst_.end(),
                             [](AlarmLevel a, AlarmLevel b) { return severity(a) <= severity(b); });
@@ -178,7 +178,7 @@ class ReferenceAlarm {
   std::vector<Moment> story_;
   std::array<Condition, 5> conditions_;
   AlarmLevel level_ = AlarmLevel::None;
-  std::vector<AlarmLevel> worst_;  ///< that count towards what is announced
+  std::vector<AlarmLevel> worst_;  ///< levels that count towards the announced one
   bool unseen_ = false;
   bool latched_ = false;
   bool suppressed_ = false;

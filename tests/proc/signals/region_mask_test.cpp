@@ -16,7 +16,7 @@ using optics::Vec3;
 using optics::ViewKind;
 using optics::ViewProjection;
 
-/// How often the outline runs around a direction, by the angles under which its sides are seen.
+/// Number of times that the outline winds around a direction, from the angles of its sides.
 int turns(const std::vector<Vec3>& outline, const Vec3& d) {
   double sum = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -48,7 +48,7 @@ TEST(RegionMeter, AHillIsItsCapOnTheSphere) {
     EXPECT_NEAR(s.hot_spot_length_angle, optics::degrees(2 * radius), 0.05);
     EXPECT_NEAR(s.hot_spot_width_angle, optics::degrees(2 * radius), 0.05);
     EXPECT_FALSE(is_valid(s.hot_spot_orientation)) << "a disc has none";
-    // It falls below the plume's threshold where 1.5 (2/3)^(s^2) is a half.
+    // The value is below the plume's threshold where 1.5 (2/3)^(s^2) is a half.
     const double plume = radius * std::sqrt(std::log(3) / std::log(1.5));
     EXPECT_NEAR(s.plume_area, cap(plume) - cap(radius), 0.01 * cap(plume));
     EXPECT_NEAR(s.hot_spot_peak_intensity, 100 * 30000 / 65535.0, 0.1);
@@ -67,7 +67,7 @@ TEST(RegionMeter, AnEllipseOnTheFloorHasItsAxesInMillimetres) {
   region.radiometry.kelvin_per_count = 0.04;
   RegionMeter meter = meter_of(painted, region, scene);
   for (const double turned : {-60.0, 10.0, 75.0}) {
-    // Half axes 20 and 12 mm about (170, 260, -300), the long one turned from +X towards +Y.
+    // Half axes of 20 and 12 mm about (170, 260, -300), the long one turned from +X towards +Y.
     const Vec3 centre{170, 260, -300};
     const double c = std::cos(optics::radians(turned)), s = std::sin(optics::radians(turned));
     painted.clear();
@@ -172,7 +172,7 @@ TEST(RegionMeter, ARegionsBorderCutsToWithinAQuarterPixel) {
   EXPECT_EQ(s.plume_area, 0);
 }
 
-/// Blobs of random pictures beside a flood fill.
+/// Compares blobs of random pictures with a flood fill.
 TEST(RegionMeter, FindsTheBlobsThatAFloodFillFinds) {
   PaintedView painted({ViewKind::Perspective, {}, 60, {}, 47, 33});
   const auto mask = RegionMask::make(painted.view, {}).value();
@@ -269,7 +269,7 @@ TEST(RegionMeter, StatisticsFollowTheMainSignals) {
   EXPECT_NEAR(s.hot_spot_mean_intensity_mean, s.hot_spot_mean_intensity - 14.5 * step, 1e-6);
   EXPECT_NEAR(s.hot_spot_mean_intensity_deviation, step * std::sqrt(30 * 31 / 12.0), 1e-6);
   EXPECT_FALSE(is_valid(s.hot_spot_area_mean));
-  // A clock that jumps back starts everything anew.
+  // A clock that jumps back resets everything.
   s = meter.measure(painted.plane(), painted.seen(), 0);
   EXPECT_EQ(s.hot_spot_mean_intensity_mean, s.hot_spot_mean_intensity);
   EXPECT_FALSE(is_valid(s.hot_spot_mean_intensity_trend));

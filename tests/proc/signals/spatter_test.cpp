@@ -15,7 +15,7 @@ using optics::Vec3;
 
 constexpr double kFrameTime = 1.0 / 30;
 const Vec3 kHotSpot{0, std::sqrt(0.5), -std::sqrt(0.5)};
-// Across the hot spot's direction.
+// Directions across the hot spot's.
 const Vec3 kRight{1, 0, 0};
 const Vec3 kUp{0, std::sqrt(0.5), std::sqrt(0.5)};
 
@@ -123,7 +123,7 @@ TEST(Spatter, MoreThanCanBeFollowedAreCounted) {
   EXPECT_EQ(tracker.untracked(), 20U);
 }
 
-/// As many blobs as a picture of 640x480 can have, from all over the sphere.
+/// As many blobs as a picture of 640x480 can have, all over the sphere.
 TEST(Spatter, NoiseAtTheThresholdCostsABoundedWorkAndWhatItDropsIsCounted) {
   constexpr int kParts = 640 / 2 * 480 / 2;
   SpatterTracker tracker;

@@ -105,7 +105,7 @@ TEST_P(Lines, StayNearTheView) {
   }
 }
 
-// One that a polygon fits into, one across whose seam it runs, one that cuts it off.
+// A view that a polygon fits into, one across whose seam it runs, one that cuts it off.
 INSTANTIATE_TEST_SUITE_P(
     OfViews, Lines,
     testing::Values(optics::ViewSpec{ViewKind::Perspective, {30, -20, 10}, 90, {}, 120, 90},

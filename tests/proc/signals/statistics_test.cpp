@@ -34,14 +34,14 @@ TEST(Statistics, AreThoseOfTheLastSecondAtAnyFrameRate) {
     Statistics statistics;
     std::deque<std::pair<double, double>> values;
     for (int i = 0; i < 5 * rate; ++i) {
-      const double time = 1e6 + i / rate;  // a clock that has gone on for days
+      const double time = 1e6 + i / rate;  // a clock that has been running for days
       const double value = 2000 + 40 * std::sin(time) + noise(random);
       statistics.add(time, value);
       values.emplace_back(time, value);
       while (values.front().first <= time - 1) values.pop_front();
       if (values.size() < 3 || i < rate) continue;
       const auto expected = by_definition(values), figures = statistics.figures();
-      // Beyond 64 per second the oldest of up to 1/64 s leave together.
+      // Above 64 per second the oldest values of up to 1/64 s are removed together.
       const double share = rate > 64 ? 0.05 : 1e-6;
       ASSERT_NEAR(figures.mean, expected.mean, share * expected.deviation + 1e-9) << rate;
       ASSERT_NEAR(figures.deviation, expected.deviation, share * expected.deviation + 1e-9);

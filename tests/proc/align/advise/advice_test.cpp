@@ -35,7 +35,7 @@ double traced_psi(double phi, double d, double target) {
     const double b = dot(camera, ray);
     const optics::Vec3 hit = camera + ray * (-b - std::sqrt(std::max(0.0, b * b - d * d + 1)));
     const optics::Vec3 mirrored = ray - hit * (2 * dot(ray, hit));
-    // Where it meets the sphere of the target's distance around the ball.
+    // Intersection with the sphere of the target's distance around the ball.
     const double along = dot(hit, mirrored);
     const optics::Vec3 there =
         hit + mirrored * (-along + std::sqrt(along * along - 1 + target * target));
@@ -65,7 +65,7 @@ TEST(Advice, AgreesWithTracedRays) {
     for (const TargetSight& sight : a.sights) {
       const double phi = optics::radians(sight.phi), step = 1e-4;
       const double target = s.target_distance / radius;
-      // Along the radius; across it the picture turns with the target.
+      // Resolution along the radius; across it the picture turns with the target.
       const double along = f *
                            (std::tan(traced_psi(phi + step, d, target)) -
                             std::tan(traced_psi(std::max(phi - step, 0.0), d, target))) /
@@ -85,7 +85,7 @@ TEST(Advice, AgreesWithTracedRays) {
 
 TEST(Advice, TheFNumberBlursBothEndsByAPixel) {
   const Advice a = good(kArrangement);
-  // A thin lens: the image distance of each end, and the cone from the aperture to the sensor.
+  // Thin lens: the image distance of each end, and the cone from the aperture to the sensor.
   const double radius = 50, before = 400 - radius;
   const double near = 600 - radius + 1 / (1 / before + 2 / radius),
                far = 600 - radius * radius / 600;

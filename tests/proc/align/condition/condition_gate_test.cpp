@@ -17,14 +17,14 @@
 #include "tests/support/rendered_scene.h"
 #include "tests/support/share.h"
 
-/// How right the figures of focus and dirt are: simulated rooms with a process, rendered machines.
+/// Accuracy of focus and dirt: simulated rooms with a process, rendered machines.
 namespace orbwatch::tests {
 namespace {
 
 using align::DirtWatch;
 using optics::Outline;
 
-/// The most of `cases` that are an accident if each is one with that probability.
+/// Largest number of `cases` that is plausible for events of that probability.
 int at_most(double probability, int cases) {
   const double sigma = std::sqrt(probability * (1 - probability) * cases);
   return static_cast<int>(std::ceil(probability * cases + 3 * sigma));
@@ -75,9 +75,9 @@ TEST(FocusGate, SimulatedRooms) {
   EXPECT_LT(limb.p50(), 0.2);
 }
 
-constexpr double kLimit = 0.02;  // of contamination, which a clean ball must not reach
+constexpr double kLimit = 0.02;  // limit of contamination that a clean ball must not reach
 
-/// A watch with what it looks at: nine pictures to a window of a quarter of an hour.
+/// A watch and its ball: nine pictures in a window of a quarter of an hour.
 struct Process {
   SoiledBall ball;
   DirtWatch watch;
@@ -88,7 +88,7 @@ struct Process {
         watch(DirtWatch::make(ball.size().width, ball.size().height, ball.limb(), {900, 0.15})
                   .value()) {}
 
-  /// The highest contamination in that many pictures.
+  /// The highest contamination in the next `pictures` pictures.
   double worst_of(int pictures) {
     double worst = 0;
     for (; pictures > 0; --pictures, now += 100) {
@@ -108,7 +108,7 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return rank;
 }
 
-/// Spearman's, without ties.
+/// Spearman's rank correlation, without ties.
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const std::vector<double> x = ranks(a), y = ranks(b);
   const auto n = static_cast<double>(x.size());
@@ -168,7 +168,7 @@ TEST(DirtGate, SimulatedProcess) {
   EXPECT_LT(off.p95(), 0.06);
 }
 
-/// A rendered sequence, learnt from its first frames.
+/// Expects a rendered sequence to be clean against a reference from its first frames.
 void expect_clean(const std::string& sequence, const std::string& camera) {
   const cv::FileStorage scene = open_rendered_scene();
   const cv::FileNode limb = scene["scenes"]["near"]["cameras"][camera]["outline"];

@@ -21,7 +21,7 @@ using tests::picture_of_mat;
 const Outline kWatchedLimb{{151.2, 148.9}, 120, 120, 0};
 const cv::Size kWatchedSize(300, 300);
 
-/// A ball that shows a smooth room with large patches.
+/// A ball that reflects a smooth room with large patches.
 cv::Mat painted_room() {
   cv::Mat picture;
   cv::GaussianBlur(painted_ball(kWatchedSize, kWatchedLimb), picture, {}, 5);
@@ -38,7 +38,7 @@ cv::Mat room() {
 
 using Change = std::function<void(cv::Mat&, int)>;
 
-/// A watch that looks at each picture, second by second.
+/// A watch that evaluates each picture, second by second.
 class Watched {
  public:
   Watched()
@@ -78,7 +78,7 @@ void dot(cv::Mat& picture, const cv::Point& place, int radius, double light = 15
   cv::circle(picture, place, radius, cv::Scalar(light), cv::FILLED, cv::LINE_AA);
 }
 
-/// Spatter of five radii on 2 % of the ball.
+/// Five spots of spatter on 2 % of the ball.
 void spatter(cv::Mat& picture, int) {
   for (const cv::Point place :
        {cv::Point(150, 150), {150, 200}, {100, 150}, {140, 90}, {200, 190}}) {
@@ -154,7 +154,7 @@ TEST(DirtWatch, LeavesOutWhatIsSqueezedAsReflectionsAre) {
   };
   Watched watched;
   EXPECT_EQ(watched.learn().observe(9, arc(0.88, 7)).dirt().contamination, 0);
-  // A round thing in the middle has the shape of such an arc nowhere.
+  // Round things in the middle do not have the shape of such an arc.
   EXPECT_GT(watched.observe(9, arc(0.3, 20)).dirt().contamination, 0.002);
 }
 

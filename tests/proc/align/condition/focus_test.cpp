@@ -31,7 +31,8 @@ cv::Mat patched_ball() {
     const double x = (u - kBlurredLimb.centre.u) / kBlurredLimb.rx;
     const double y = (v - kBlurredLimb.centre.v) / kBlurredLimb.ry;
     if (x * x + y * y >= 1) return 230.0;
-    const double z = std::sqrt(1 - x * x - y * y);  // towards the camera, as the ray (0, 0, -1)
+    const double z =
+        std::sqrt(1 - x * x - y * y);  // towards the camera; the camera's ray is (0, 0, -1)
     const optics::Vec3 r{2 * z * x, 2 * z * y, 2 * z * z - 1};
     return 0.8 * patch(6 * std::atan2(r.x, r.z), 6 * std::asin(std::clamp(r.y, -1.0, 1.0)));
   };
@@ -51,7 +52,7 @@ const cv::Mat& sharp_picture() {
   return picture;
 }
 
-/// Blurred as a whole, then darkened.
+/// The sharp picture times `exposure`, then blurred as a whole.
 cv::Mat blurred(double sigma, double exposure = 1) {
   cv::Mat picture;
   picture = sharp_picture() * exposure;
@@ -70,7 +71,7 @@ TEST(Focus, IsTheReflectionsBlurAtAnyExposure) {
       const auto focus = measure_focus(picture_of_mat(blurred(sigma, exposure)), kBlurredLimb);
       ASSERT_TRUE(focus);
       ASSERT_TRUE(focus->reflection) << focus->reflection.error().message;
-      // The pixel's aperture blurs, too.
+      // The pixel's aperture adds blur.
       EXPECT_NEAR(focus->reflection->sigma, std::hypot(sigma, 0.29), std::max(0.15, 0.15 * sigma));
       EXPECT_GE(focus->reflection->edges, 10);
       EXPECT_LT(focus->reflection->error, 0.15);

@@ -12,7 +12,7 @@ namespace orbwatch::tests {
 namespace {
 
 constexpr int kSide = 440;
-constexpr double kJudged = 0.93;  // of the radius
+constexpr double kJudged = 0.93;  // share of the radius
 
 MirrorRoomSettings settings_of(std::uint64_t seed, double radius, double blur) {
   MirrorRoomSettings s;
@@ -67,7 +67,7 @@ void SoiledBall::show(const Thing& thing, cv::Mat& light) const {
     for (int u = 0; u < kSide; ++u) {
       const double x = longitude_.at<float>(v, u) - thing.longitude;
       const double y = latitude_.at<float>(v, u) - thing.latitude;
-      // A border of a hundredth of a radian; NaN beside the ball shows nothing.
+      // Borders are a hundredth of a radian wide; NaN beside the ball shows nothing.
       const double inside =
           std::min(thing.width / 2 - std::abs(x), thing.height / 2 - std::abs(y)) / 0.01 + 0.5;
       if (!(inside > 0)) continue;
@@ -139,7 +139,7 @@ void SoiledBall::add_sparks(cv::Mat& light) {
   }
 }
 
-/// One side is lit more; lamps may be off; the exposure follows as it likes.
+/// Lights one side more; lamps may be off; the exposure varies at random.
 void SoiledBall::light_up(cv::Mat& light) {
   const bool lamps_off = in(0, 1) < 0.3;
   if (lamps_off) light.setTo(0.05, lamps_);

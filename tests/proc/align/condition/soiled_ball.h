@@ -18,24 +18,24 @@ class SoiledBall {
   const optics::Outline& limb() const { return limb_; }
   const cv::Size& size() const { return size_; }
 
-  /// Adds spatter and scratches until that share of the ball's picture is covered.
+  /// Adds spatter and scratches until the share `share` of the ball's picture is covered.
   void soil(double share);
-  /// What is covered at half of its opacity or more, of the ball's picture within 0.93 radii.
+  /// Share of the ball's picture within 0.93 radii that is covered at half of its opacity or more.
   double soiled() const;
   /// Diameter of a circle as large as the largest spot, ball radii.
   double largest_spot() const { return largest_; }
-  /// Takes away that share of the contrast of all that is reflected.
+  /// Removes that share of the contrast of all reflections.
   void fog(double share) { fog_ = share; }
 
-  /// Moves for good what stands in the room: a part exchanged, a door opened, a tool parked.
+  /// Moves things in the room for good: a part exchanged, a door opened, a tool parked.
   void rearrange();
 
-  /// With sparks, a tool that is somewhere else, another exposure, lamps on or off.
+  /// A picture with sparks, a tool at another place, another exposure, lamps on or off.
   cv::Mat picture();
 
  private:
   struct Thing {
-    double longitude, latitude;  ///< radians, of its middle
+    double longitude, latitude;  ///< radians, position of its middle
     double width, height;
     double light, stripes;
   };
@@ -53,10 +53,11 @@ class SoiledBall {
   std::mt19937_64 random_;
   optics::Outline limb_;
   cv::Size size_;
-  cv::Mat room_;                  ///< float, linear light, 1 is full scale
-  cv::Mat lamps_;                 ///< 8 bit: where the room shows lamps
-  cv::Mat longitude_, latitude_;  ///< float: of what each pixel reflects; NaN beside the ball
-  cv::Mat opacity_, own_;         ///< float: of the dirt
+  cv::Mat room_;   ///< float, linear light, 1 is full scale
+  cv::Mat lamps_;  ///< 8 bit mask of the room's lamps
+  cv::Mat longitude_,
+      latitude_;           ///< float: directions reflected by each pixel; NaN beside the ball
+  cv::Mat opacity_, own_;  ///< float: opacity and brightness of the dirt
   double largest_ = 0;
   double fog_ = 0;
   std::vector<Thing> things_;

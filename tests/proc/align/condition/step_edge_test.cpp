@@ -39,7 +39,7 @@ TEST(StepEdge, HasItsSigmaAtEveryAngleAndContrast) {
         ASSERT_TRUE(edge) << sigma << ' ' << angle;
         EXPECT_NEAR(edge->sigma, sigma, 0.03 + 4 * edge->sigma_error);
         EXPECT_LT(edge->sigma_error, 0.2);
-        // Of a wide step a part may be taken for a ramp.
+        // A part of a wide step may be fitted as a ramp.
         EXPECT_NEAR(edge->contrast, contrast, (sigma > 2 ? 0.3 : 0.05) * contrast);
       }
     }

@@ -9,7 +9,7 @@
 
 namespace orbwatch::tests {
 
-/// Anything that is in the rooms of real machines, and more.
+/// Settings of a random room with the contents of real machines, and more.
 inline MirrorRoomSettings any_room(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto in = [&](double low, double high) {

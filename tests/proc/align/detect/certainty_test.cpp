@@ -5,7 +5,7 @@
 namespace orbwatch::align {
 namespace {
 
-/// A ball as good pictures show it.
+/// Evidence of a ball in a good picture.
 const LimbEvidence kBallEvidence{100, 0.5, 0.75, 2.2};
 
 TEST(Certainty, IsHighWhenEverythingSpeaksForABall) {

@@ -16,7 +16,7 @@
 #include "tests/support/rendered_scene.h"
 #include "tests/support/share.h"
 
-/// How well balls are found: simulated rooms, rendered machines, photographs.
+/// Accuracy of detection: simulated rooms, rendered machines, photographs.
 namespace orbwatch::tests {
 namespace {
 
@@ -32,7 +32,7 @@ double error(const Outline& found, const Outline& truth) {
   return std::max(apart, std::abs(found.rx + found.ry - truth.rx - truth.ry) / 2);
 }
 
-/// The share that is allowed. A part of the rooms may by accident have three sigma more.
+/// The number allowed. Part of the rooms may exceed it by three sigma by chance.
 int at_most_of_rooms(double probability, int cases) {
   const double sigma = std::sqrt(probability * (1 - probability) * cases);
   const double accident = cases < kRooms ? 3 * sigma : 0;
@@ -111,14 +111,14 @@ TEST(DetectionGate, RenderedMachines) {
       const double off = error(found->outline, truth) / truth.rx;
       std::printf("%s %s: %.2f %%, confidence %.2f\n", cameras.name().c_str(),
                   camera.name().c_str(), 100 * off, found->confidence);
-      // The narrow camera, the one off its axis with clutter around, the thermal one.
+      // Camera A is narrow, B is off its axis with clutter around, C is thermal.
       const double limit = camera.name() == "A" ? 0.0015 : camera.name() == "B" ? 0.005 : 0.01;
       EXPECT_LT(off, limit) << file;
     }
   }
 }
 
-/// A circle of truth.json, which has pixels' centres at 0.5.
+/// A circle of truth.json, in which pixels have their centres at 0.5.
 Outline circle_of(const nlohmann::json& circle) {
   return {{circle["cx"].get<double>() - 0.5, circle["cy"].get<double>() - 0.5},
           circle["rx"],
@@ -126,7 +126,7 @@ Outline circle_of(const nlohmann::json& circle) {
           0};
 }
 
-/// By the circle that its author cropped it to, or by one that was fitted later.
+/// Error against the circle that its author cropped it to, or against one that was fitted later.
 double photograph_error(const nlohmann::json& photograph, const Outline& found) {
   double least = 1;
   for (const char* key : {"circle", "circle_refined"}) {

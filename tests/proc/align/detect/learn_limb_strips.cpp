@@ -18,11 +18,11 @@
 #include "tests/proc/align/detect/any_room.h"
 #include "tests/support/picture_of_mat.h"
 
-/// learn_limb_strips FILE RINGS: what learn_limb_network.py learns from. FILE: strips around the
-/// true limbs of simulated rooms, none of them a gate's, each off by some pixels, and around what
-/// BallSearch takes for limbs and is none, most of it in rooms without a ball. RINGS: strips around
-/// the places that slopes point to, and more of them around the balls. Takes some minutes and two
-/// gigabytes.
+/// learn_limb_strips FILE RINGS: writes the strips that learn_limb_network.py learns from. FILE:
+/// strips around the true limbs of simulated rooms, none of which is used by a gate, each off by
+/// some pixels, and around false limbs found by BallSearch, most of them in rooms without a ball.
+/// RINGS: strips around the places that slopes point to, and more of them around the balls. Takes
+/// some minutes and two gigabytes.
 ///
 /// A strip is, in 32 bit floats: the numbers of its rays and columns and its floor2; for each ray
 /// the true limb's distance from the strip's middle, pixels, NaN where it is not in the strip; the
@@ -37,11 +37,12 @@ constexpr std::uint64_t kFirstEmptyRoom = 300'000, kEmptyRooms = 160;
 constexpr double kAround = 8;                          // px
 constexpr std::array kRadii{60.0, 90.0, 90.0, 400.0};  // px: scales around a true limb
 constexpr double kOff = 2.5, kOffShape = 0.5;          // px
-constexpr std::size_t kMostWrong = 4;                  // of a room with a ball
-// Of a room's rings: those that a ball's limb crosses, others, and others of a room without a ball.
+constexpr std::size_t kMostWrong = 4;                  // for a room with a ball
+// Most rings of a room: those that a ball's limb crosses, others, and those of a room without a
+// ball.
 constexpr std::size_t kMostRings = 7, kMostOtherRings = 6, kMostEmptyRings = 16;
-constexpr double kOffRing = 0.13, kFarOffRing = 0.4;  // of the centre, radii
-constexpr std::size_t kScales = 5, kVotes = 12;       // for rings
+constexpr double kOffRing = 0.13, kFarOffRing = 0.4;  // offset of the centre, radii
+constexpr std::size_t kScales = 5, kVotes = 12;       // scales and votes for rings
 
 struct File {
   std::FILE* file;
@@ -86,8 +87,8 @@ float distance_at(const Outline& outline, double angle, const Outline& limb) {
   return static_cast<float>(from);
 }
 
-/// The distance of a circular limb from the middle of a ring strip's columns along a ray, its
-/// units; NaN beyond the strip and where `centre` is not within the ball.
+/// The distance of a circular limb from the middle of a ring strip's columns along a ray, in the
+/// strip's units; NaN beyond the strip and where `centre` is not within the ball.
 float ring_distance(optics::Vec2 centre, double angle, const Outline& limb, int columns) {
   const double u = limb.centre.u - centre.u, v = limb.centre.v - centre.v;
   const double radius = (limb.rx + limb.ry) / 2, far2 = u * u + v * v;
@@ -100,7 +101,7 @@ float ring_distance(optics::Vec2 centre, double angle, const Outline& limb, int 
   return static_cast<float>((column - (columns - 1) / 2.0) / align::SlopeStrip::kPerUnit);
 }
 
-/// A room's picture at all scales; the limb is absent in one without a ball.
+/// Strips of a room's picture at all scales; the limb is absent in one without a ball.
 class Strips {
  public:
   Strips(const cv::Mat& luminance, std::optional<Outline> limb, File& file)

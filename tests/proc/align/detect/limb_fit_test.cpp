@@ -46,7 +46,7 @@ TEST(LimbFit, LeavesWhatIsTooSmallAsItIs) {
 }
 
 TEST(LimbStrip, UnrollsAnEllipseWithSlopesPerPixel) {
-  // Brightness grows by 200 per pixel to the right. OpenCV samples between 32nds of a pixel.
+  // Brightness increases by 200 per pixel to the right. OpenCV samples between 32nds of a pixel.
   cv::Mat ramp(200, 300, CV_16U);
   for (int v = 0; v < ramp.rows; ++v) {
     for (int u = 0; u < ramp.cols; ++u)

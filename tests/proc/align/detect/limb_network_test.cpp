@@ -14,7 +14,7 @@ double likeness(const cv::Mat& picture, const optics::Outline& outline) {
   return LimbLikelihood(LimbStrip(picture, outline, 8), outline, picture.size()).above_random();
 }
 
-/// The column that is most probable, all parts together.
+/// The most probable column, all parts together.
 int likeliest_column(const LimbColumns& limb) {
   std::vector<float> sums(static_cast<std::size_t>(limb.columns));
   for (int n = 0; n < limb.parts; ++n) {

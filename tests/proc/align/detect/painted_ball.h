@@ -8,20 +8,20 @@
 
 namespace orbwatch::align {
 
-/// The ball that tests paint, in a picture of that size, and a smaller one.
+/// The limbs of the balls that tests paint, with the picture's size: one ball and a smaller one.
 inline const optics::Outline kPaintedLimb{{202.3, 161.7}, 115, 115, 0};
 inline const cv::Size kPaintedSize(400, 320);
 inline const optics::Outline kSmallLimb{{132.3, 101.7}, 80, 80, 0};
 inline const cv::Size kSmallSize(264, 204);
 
-/// What a far-away camera sees of a ball in a room of random spots, by the law of reflection, with
+/// A far-away camera's picture of a ball in a room of random spots, by the law of reflection, with
 /// the same spots behind the ball: 8 bit grey, 4x4 samples to a pixel.
 inline cv::Mat painted_ball(const cv::Size& size, const optics::Outline& limb) {
   std::mt19937 random(7);
   cv::Mat spots(256, 512, CV_8U, cv::Scalar(90));
   const auto below = [&](unsigned end) { return static_cast<int>(random() % end); };
   for (int i = 0; i < 600; ++i) {
-    // One after the other: the order of arguments is the compiler's.
+    // Separate statements: the compiler chooses the order of arguments.
     const int y = below(256), x = below(512), grey = below(256), radius = 2 + below(7);
     cv::circle(spots, {x, y}, radius, cv::Scalar(grey), cv::FILLED);
   }

@@ -83,7 +83,7 @@ TEST(RingSearch, IsLessLikelyInNoise) {
   cv::randn(noise, 120, 30);
   const double ball = likeliest(painted_ball(kTinySize, kTinyLimb), kTinyLimb.centre).likeness;
   EXPECT_LT(likeliest(noise, {70, 52}).likeness, ball);
-  // Beyond the picture, too.
+  // The place may also be beyond the picture.
   EXPECT_LT(likeliest(noise, {-400, 52}).likeness, ball);
 }
 

@@ -29,7 +29,7 @@ ProcessSettings colour(std::uint64_t seed, double radius) {
 
 ProcessSettings thermal(std::uint64_t seed) { return {seed, 320, 256, 110, 12, true}; }
 
-/// What an alignment would have stored of the sequence's camera.
+/// The alignment that would have been stored for the sequence's camera.
 align::DriftSubject stored(const ProcessSequence& sequence, const ProcessSettings& s) {
   const double f = sequence.focal_length();
   const auto lens =
@@ -42,7 +42,7 @@ align::DriftSubject stored(const ProcessSequence& sequence, const ProcessSetting
           *projection, *lens};
 }
 
-/// A monitor that knows the sequence as it is at the beginning.
+/// A monitor with the beginning of the sequence as reference.
 class Watch {
  public:
   Watch(ProcessSequence& sequence, const ProcessSettings& settings)
@@ -62,7 +62,7 @@ class Watch {
   DriftMonitor monitor_;
 };
 
-/// At 6 frames per second: what goes on for seconds, or in single frames, is the same.
+/// Frames come at 6 per second: events that last for seconds, or for single frames, are the same.
 void expect_no_alarm(const ProcessSettings& settings, double seconds) {
   constexpr double kRate = 6;
   ProcessSequence sequence(settings);
@@ -102,7 +102,7 @@ class Drifts {
   Drifts(double degrees, double patience, double precision)
       : degrees_(degrees), patience_(patience), precision_(precision) {}
 
-  /// The camera turns about its centre.
+  /// Turns the camera about its centre.
   void turn(ProcessSequence& sequence, const ProcessSettings& settings, std::uint64_t seed) {
     random_.seed(seed);
     Watch watch(sequence, settings);
@@ -114,7 +114,7 @@ class Drifts {
     watch_on(watch, begin, turn, true_view_error(f, ball, ball, turn));
   }
 
-  /// The camera is pushed aside.
+  /// Pushes the camera aside.
   void push(ProcessSequence& sequence, const ProcessSettings& settings, std::uint64_t seed) {
     random_.seed(seed);
     sequence.shift_ball({0.05, 0.02});
@@ -122,7 +122,7 @@ class Drifts {
     Watch watch(sequence, settings);
     const double begin = work(watch, sequence);
     const double way = in(0, 2 * std::numbers::pi);
-    // 1.6 degrees for 1 % of the radius.
+    // 1.6 degrees correspond to 1 % of the radius.
     const double share = degrees_ / 160 * settings.radius / (settings.width / 2.0);
     sequence.shift_ball({0.05 + share * std::cos(way),
                          0.02 + share * std::sin(way) * settings.width / settings.height});
@@ -145,7 +145,7 @@ class Drifts {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// The beginning, and then somewhere in the hour; returns when something is to happen.
+  /// Runs the beginning, then a random part of the hour; returns the time of the next event.
   double work(Watch& watch, const ProcessSequence& sequence) {
     for (double t = 0; t < kBefore; t += 1 / kRate) watch.at(t);
     double begin = 0;
@@ -179,7 +179,7 @@ class Drifts {
   int missed_ = 0;
 };
 
-/// A room for every five cases.
+/// One room serves five cases.
 template <class Settings>
 void expect_turns_found(Drifts drifts, std::uint64_t seed, const Settings& settings_of) {
   const int cases = share_of(50);

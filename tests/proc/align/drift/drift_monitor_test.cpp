@@ -7,7 +7,7 @@
 
 #include "tests/support/picture_of_mat.h"
 
-/// The behaviour on pictures whose motion is known because they are drawn with it.
+/// Behaviour on pictures that are drawn with a known motion.
 namespace orbwatch::align {
 namespace {
 
@@ -25,7 +25,7 @@ class DrawnBall {
     cv::circle(mask_, {2 * 160, 2 * 120}, 180, cv::Scalar(1), cv::FILLED, cv::LINE_AA);
   }
 
-  /// 8 bit, brightness times `gain`; noise that differs from picture to picture.
+  /// A picture, 8 bit, with brightness times `gain`; its noise differs from picture to picture.
   cv::Mat at(cv::Point2d ball, cv::Point2d ground, double gain = 1) {
     const cv::Mat disc = shifted(mask_, ball);
     const cv::Mat seen =
@@ -182,7 +182,7 @@ TEST_F(DriftMonitorTest, MeasuresTheSameInEveryFormat) {
   cv::cvtColor(moved, bgr, cv::COLOR_GRAY2BGR);
   EXPECT_NEAR(see(bgr).motion.u, 1, 0.05);
   moved.convertTo(sixteen, CV_16U, 200, 3000);
-  // Thermal counts: another gain and offset.
+  // Thermal counts have another gain and offset.
   auto thermal = DriftMonitor::make(subject(), {0.3, 0.6}).value();
   cv::Mat first;
   drawn_.at({}, {}).convertTo(first, CV_16U, 200, 2000);

@@ -10,7 +10,7 @@
 #include "tests/support/rendered_scene.h"
 #include "tests/support/rendered_sequence.h"
 
-/// Drift in the rendered process: one camera is bumped, the others stand still.
+/// Drift in the rendered process: one camera is bumped, the others do not move.
 namespace orbwatch::tests {
 namespace {
 
@@ -19,7 +19,7 @@ using align::DriftMonitor;
 using align::DriftState;
 using optics::Vec3;
 
-/// What the monitor says of each frame, with the first one as reference.
+/// The monitor's state for each frame, with the first one as reference.
 std::vector<DriftState> watched(const std::string& name, bool with_lens) {
   const RenderedSequence sequence(name);
   const auto read = [](const RenderedSequence::Frame& frame) {

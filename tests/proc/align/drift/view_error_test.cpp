@@ -16,9 +16,9 @@ using optics::Vec3;
 
 const Outline kDriftedLimb{{400, 300}, 250, 250, 0};
 
-/// Far away a direction at phi stands at rho = sin(phi/2): slopes along and across the shift are
-/// 2 / cos(phi/2) and 2 cos(phi/2), and their mean over the sphere up to 150 degrees is an integral
-/// that can be done by hand.
+/// A direction at phi far away has rho = sin(phi/2): slopes along and across the shift are 2 /
+/// cos(phi/2) and 2 cos(phi/2), and their mean over the sphere up to 150 degrees is an integral
+/// with a closed form.
 TEST(ViewError, IsWhatTheOrthographicBallGives) {
   const auto model = BallModel::make(BallModel::Kind::Exact, 360, std::nullopt);
   ASSERT_TRUE(model) << model.error().message;

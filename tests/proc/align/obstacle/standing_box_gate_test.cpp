@@ -12,14 +12,14 @@
 #include "tests/proc/align/register/camera_pair.h"
 #include "tests/support/share.h"
 
-/// Whether a box that nobody has stated is found in simulated rooms, and none where none is.
+/// An unstated box is found in simulated rooms, and none in rooms without one.
 namespace orbwatch::tests {
 namespace {
 
 using optics::Vec3;
 
-/// Degrees between where a camera's projection has what its pixels show, and where that is: squares
-/// and their number, over even directions.
+/// Angles in degrees between the directions that a camera's projection assigns to its pixels and
+/// the true ones: sum of squares and number, over even directions.
 struct ViewError {
   double squares = 0;
   int count = 0;
@@ -39,14 +39,14 @@ struct ViewError {
   double rms() const { return std::sqrt(squares / count); }
 };
 
-/// What became of one room.
+/// Result for one room.
 struct Outcome {
   bool found = false;
   double before = 0;  ///< degrees rms of both cameras' views
   double after = 0;
 };
 
-/// Both cameras' views as `rig` has the room.
+/// Error of both cameras' views with the room stated by `rig`.
 double view_error(const CameraPair& pair, const optics::Rig& rig, const optics::RigCamera& second) {
   ViewError error;
   error.add(optics::ball_projection(rig, pair.known).value(), pair.room.first);
@@ -84,7 +84,8 @@ std::optional<Outcome> run(std::uint64_t seed, bool table, bool boxes_stated) {
   return outcome;
 }
 
-/// So many rooms of seeds from `first` on; none of them is made worse. Most boxes are not proven.
+/// Runs `count` rooms of seeds from `first` on; none of them is made worse. Most boxes are not
+/// proven.
 void rooms(int count, std::uint64_t first, bool table, bool boxes_stated) {
   int found = 0, registered = 0;
   for (int n = 0; n < count; ++n) {

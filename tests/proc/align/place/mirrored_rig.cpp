@@ -43,7 +43,7 @@ RigCamera random_camera(std::mt19937_64& random, const MirroredRig& rig, const R
   const double radius = in(random, wishes.least_radius, wishes.most_radius);
   camera.focal = radius * std::sqrt(distance * distance - 1);
   const Vec3 towards = any_direction(random);
-  // The ball's centre stays where its picture fits.
+  // The offset keeps the ball's picture within the camera's.
   const double most = std::max(0.0, 0.5 * camera.height - radius) / camera.focal;
   const Vec3 aside = normalized(cross(towards, any_direction(random)));
   const Vec3 forward = normalized(towards + aside * in(random, 0, std::min(0.4, most)));
@@ -53,13 +53,13 @@ RigCamera random_camera(std::mt19937_64& random, const MirroredRig& rig, const R
   return camera;
 }
 
-/// Whether the camera's ball shows a direction clearly: not next to the limb.
+/// True if the camera's ball shows a direction clearly: not next to the limb.
 bool shows(const RigCamera& camera, const MirroredRig& rig, const Vec3& direction) {
   const Vec3 facing = normalized(camera.pose.position - rig.centre);
   return dot(direction, facing) > std::cos(optics::radians(140));
 }
 
-/// All numbers that determine what is measured, as one vector: per camera rotation (3), position
+/// All parameters that determine the measurements, as one vector: per camera rotation (3), position
 /// (3), logarithm of the focal length (1); ball's centre (3); points (3 each).
 struct Changed {
   MirroredRig rig;
@@ -93,7 +93,7 @@ double step_of(const MirroredRig& rig, Eigen::Index parameter) {
   return is_length ? 1e-5 * rig.radius : 1e-6;
 }
 
-/// What is measured: marks and limbs.
+/// The measurements: marks and limbs.
 Eigen::VectorXd measured(const MirroredRig& rig) {
   std::vector<double> all;
   for (const RigCamera& camera : rig.cameras) {
@@ -132,7 +132,7 @@ std::vector<Vec3> lattice() {
   return all;
 }
 
-/// The pixels of the view over which errors count: directions far away.
+/// The pixels of the view over which errors are averaged: directions far away.
 std::vector<Vec2> view_pixels(const MirroredRig& rig, const RigCamera& camera) {
   const Vec3 facing = normalized(camera.pose.position - rig.centre);
   std::vector<Vec2> all;
@@ -313,7 +313,8 @@ double least_direction_error(const MirroredRig& rig, const Noise& noise,
     }
   }
   information += slopes.transpose() * slopes;
-  // In units of each parameter's own sigma, or turns and millimetres would not go together.
+  // Each parameter is in units of its own sigma, since turns and millimetres would be badly
+  // conditioned together.
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::MatrixXd bound = scale.asDiagonal() * scaled.inverse() * scale.asDiagonal();

@@ -10,7 +10,7 @@
 namespace orbwatch::tests {
 namespace {
 
-constexpr int kCells = 8;  ///< a side of the tag, its border included
+constexpr int kCells = 8;  ///< cells of a side of the tag, its border included
 
 /// The cells, true where white.
 using Cells = std::array<std::array<bool, kCells>, kCells>;
@@ -48,7 +48,7 @@ struct Sheet {
         down(tag.corners[3] - tag.corners[0]),
         normal(cross(right, down)) {}
 
-  /// The brightness and the way there of a ray that meets the sheet.
+  /// Brightness and distance of a ray's intersection with the sheet.
   struct Meeting {
     double way;
     double brightness;
@@ -95,7 +95,7 @@ double brightness(const MirroredRig& rig, const std::vector<Sheet>& sheets, cons
 
 PrintedTag tag_around(const MirroredRig& rig, const Vec3& direction, double distance, double side,
                       double tilt, double turn, int id) {
-  // Seen from the ball the printed side has its right on the right and its bottom below.
+  // The printed side, seen from the ball, has its right on the right and its bottom below.
   const Vec3 any = std::abs(direction.z) < 0.8 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 level = normalized(cross(direction, any)), below = cross(direction, level);
   const Vec3 right = level * std::cos(turn) + below * std::sin(turn);
@@ -119,11 +119,11 @@ TagScene random_tag_scene(std::mt19937_64& random, double least, double most, in
   const double distance = in(6, 16);
   camera.pose.position = scene.rig.centre - towards * (distance * scene.rig.radius);
   camera.focal = in(least, most) * std::sqrt(distance * distance - 1);
-  // Straight at the ball, but for a little.
+  // The camera faces the ball, except for a small offset.
   const Vec3 forward = normalized(towards + camera.pose.rotation.row0 * in(0, 60 / camera.focal));
   const Vec3 right = normalized(cross(camera.pose.rotation.row1, forward));
   camera.pose.rotation = {right, cross(forward, right), forward};
-  // In four directions well apart, which the ball shows.
+  // Tags are in four directions well apart, which the ball shows.
   std::vector<Vec3> ways;
   while (ways.size() < 4) {
     std::normal_distribution<double> normal;

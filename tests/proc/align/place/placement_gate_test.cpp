@@ -11,8 +11,8 @@
 #include "tests/support/error_distribution.h"
 #include "tests/support/share.h"
 
-/// How well cameras are placed, against the best that is possible (Cramer and Rao), over random
-/// rigs that are simulated by plain vectors.
+/// Accuracy of placement against the best possible one (Cramer and Rao), over random rigs that are
+/// simulated by plain vectors.
 namespace orbwatch::tests {
 namespace {
 
@@ -25,11 +25,11 @@ struct Case {
   bool focal_unknown = false;
   Noise noise;
   std::uint64_t seed = 0;
-  std::optional<double> most;  ///< degrees, of half of the rigs
-  double most_refused = 0.04;  ///< of the rigs
+  std::optional<double> most;  ///< degrees, limit of the rigs' median
+  double most_refused = 0.04;  ///< share of the rigs
 };
 
-/// Whether that many of `cases` are an accident if each is one with that probability.
+/// Expects `seen` of `cases` to be plausible for events of that probability.
 void expect_share(int seen, int cases, double probability, const std::string& what) {
   const double sigma = std::sqrt(probability * (1 - probability) * cases);
   EXPECT_NEAR(seen, probability * cases, 3.5 * sigma + 0.5) << what;
@@ -40,14 +40,14 @@ double normalised_square(const Eigen::Matrix<double, 6, 1>& error, const cv::Mat
   for (int r = 0; r < 6; ++r) {
     for (int c = 0; c < 6; ++c) matrix(r, c) = covariance(r, c);
   }
-  // Radians and millimetres: in units of their sigmas.
+  // Radians and millimetres are scaled to units of their sigmas.
   const Eigen::Matrix<double, 6, 1> scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   const Eigen::Matrix<double, 6, 1> e = scale.asDiagonal() * error;
   return e.dot(scaled.ldlt().solve(e));
 }
 
-/// Counts how often a truth lies within the region that should hold it with a probability.
+/// Counts the truths within the region that should hold them with a given probability.
 struct Coverage {
   int half = 0, most = 0, count = 0;
 
@@ -56,8 +56,8 @@ struct Coverage {
     most += square < most_limit ? 1 : 0;
     ++count;
   }
-  /// The placed pose, by chi-square with 6 degrees of freedom; the focal length, with 1, when it
-  /// was unknown: the pose then varies by more than its first order.
+  /// Tests the placed pose, by chi-square with 6 degrees of freedom; the focal length, with 1, when
+  /// it was unknown: the pose then varies by more than its first order.
   void add(const RigCamera& truth, const align::PlacedCamera& placed) {
     if (placed.focal_sigma) {
       const double off = (placed.lens.fx - truth.focal) / *placed.focal_sigma;
@@ -75,7 +75,7 @@ struct Coverage {
   }
 };
 
-/// For GoogleTest's messages.
+/// Printer for GoogleTest's messages.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class PlacementGate : public testing::TestWithParam<Case> {};
@@ -116,7 +116,7 @@ TEST_P(PlacementGate, ReachesTheBoundAndKnowsItsErrors) {
   EXPECT_LE(refused, std::max(1.0, c.most_refused * rigs));
   EXPECT_LE(ratio.p50(), 1.2);
   EXPECT_LE(rms, 1.2);
-  // The median of few scatters.
+  // The median of few cases scatters.
   const double slack = rigs < 100 ? 1.3 : 1;
   EXPECT_LE(error.p50(), slack * c.most.value_or(HUGE_VAL));
 }

@@ -10,7 +10,7 @@
 
 #include "tests/proc/align/place/mirrored_rig.h"
 
-/// Placing cameras that are simulated by plain vectors.
+/// Placement of cameras that are simulated by plain vectors.
 namespace orbwatch::tests {
 namespace {
 
@@ -90,7 +90,7 @@ TEST(Placement, CamerasThatShareTheBallHelpOneAnother) {
   ASSERT_TRUE(single) << single.error().message;
   EXPECT_LT(together->cameras[0].direction_sigma, single->cameras[0].direction_sigma);
   EXPECT_LT(cv::trace(together->ball_centre_covariance), cv::trace(single->ball_centre_covariance));
-  // The same two for a point that only one of them shows.
+  // The same two solutions for a point that only one of them shows.
   both.cameras[1].marks.pop_back();
   EXPECT_TRUE(place(both));
 }
@@ -104,7 +104,7 @@ TEST(Placement, NamesAPointThatWasMisclicked) {
       PlaceRequest request = request_of(rig, {}, knowledge, false, random);
       const std::size_t wrong = seed % 9;
       optics::Vec2& pixel = request.cameras[0].marks[wrong].pixel;
-      // Towards the middle, or it might leave the ball.
+      // The slip is towards the middle, or the mark might leave the ball.
       const optics::Vec2& middle = request.cameras[0].outline.centre;
       const double away = std::hypot(pixel.u - middle.u, pixel.v - middle.v);
       const double slip = seed % 2 == 0 ? 15 : 80;
@@ -137,7 +137,7 @@ RealRay through_window(const MirroredRig& rig, const optics::Window& window, con
   return {(RealVec3(eye) + left.origin) * (1 / Real(rig.radius)), left.direction};
 }
 
-/// The limb behind a window: where rays begin to miss the ball, along many radii.
+/// The limb behind a window: the places where rays begin to miss the ball, along many radii.
 optics::Outline limb_behind(const MirroredRig& rig, const optics::Window& window) {
   const SeenLimb about = limb_of(rig.cameras[0], rig.centre, rig.radius);
   std::vector<cv::Point2f> limb;
@@ -151,7 +151,7 @@ optics::Outline limb_behind(const MirroredRig& rig, const optics::Window& window
       const double middle = (low + high) / 2;
       (reflected(through_window(rig, window, at(middle))) ? low : high) = middle;
     }
-    // Relative to the middle: OpenCV's ellipses are of single precision.
+    // Points are relative to the middle: OpenCV's ellipses are of single precision.
     const Vec2 edge = at(low);
     limb.emplace_back(float(edge.u - about.centre.u), float(edge.v - about.centre.v));
   }
@@ -195,7 +195,7 @@ TEST(Placement, RefusesMarksThatContradictOneAnother) {
   std::mt19937_64 random(20);
   PlaceRequest request =
       request_of(random_rig(random, {1, 6, 400, 800}), {}, kUnknown, false, random);
-  // Two points interchanged, as a list with a wrong line would.
+  // Two points are interchanged, like in a list with a wrong line.
   request.cameras[0].marks.resize(4);
   std::swap(request.cameras[0].marks[0].point, request.cameras[0].marks[1].point);
   const auto refused = place(request);

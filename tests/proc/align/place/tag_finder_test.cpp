@@ -35,7 +35,7 @@ Pictured pictured(std::uint64_t seed) {
           optics::Lens::make(camera.lens()).value()};
 }
 
-/// Also that no tag is found that is not there.
+/// Expects each tag, and no tag that is not there.
 void expect_found(const Pictured& p, const std::optional<optics::Lens>& lens) {
   const auto found = find_tags(picture_of_mat(p.pixels), p.outline, lens);
   ASSERT_TRUE(found) << found.error().message;

@@ -16,7 +16,7 @@ namespace {
 
 using align::BallCentre;
 
-/// The corners as marks; nullopt for a tag that is not there.
+/// The request with the corners as marks; nullopt for a tag that is not there.
 std::optional<align::PlaceRequest> request_by_tags(const TagScene& scene,
                                                    const std::vector<align::FoundTag>& found,
                                                    std::mt19937_64& random) {

@@ -11,8 +11,8 @@
 
 namespace orbwatch::tests {
 
-/// Two cameras of one simulated room: the first one known, of the second one everything but its
-/// registration.
+/// Two cameras of one simulated room: all of the first one is known, and of the second one
+/// everything except its registration.
 struct CameraPair {
   MirrorRoomPair room;
   optics::Rig rig;
@@ -43,7 +43,7 @@ inline optics::Intrinsics intrinsics_of(const MirrorRoomPicture& seen) {
   return lens;
 }
 
-/// The limb's longer axis points to the principal point.
+/// The outline; the limb's longer axis points to the principal point.
 inline optics::Outline outline_of(const MirrorRoomPicture& seen) {
   const optics::Intrinsics lens = intrinsics_of(seen);
   const optics::Vec2 c = seen.limb.centre;
@@ -51,7 +51,7 @@ inline optics::Outline outline_of(const MirrorRoomPicture& seen) {
   return {c, seen.limb.ry, seen.limb.rx, optics::degrees(radial)};
 }
 
-/// What one camera may be like.
+/// Settings of a random camera.
 inline MirrorRoomSettings any_camera(std::uint64_t seed, bool thermal, std::mt19937_64& random) {
   const auto in = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -73,7 +73,7 @@ inline MirrorRoomSettings any_camera(std::uint64_t seed, bool thermal, std::mt19
 }
 
 /// A colour camera, and a second one of either kind. Outlines, lenses, radius and the room's walls
-/// and boxes are stated. `seed` draws everything. `table`: a big box stands on the floor, too.
+/// and boxes are stated. `seed` determines everything. `table`: adds a big box on the floor.
 inline CameraPair camera_pair(std::uint64_t seed, bool thermal, bool table = false) {
   std::mt19937_64 random(seed);
   MirrorRoomSettings first = any_camera(seed, false, random);

@@ -15,7 +15,7 @@
 #include "tests/support/rendered_scene.h"
 #include "tests/support/share.h"
 
-/// How well cameras are registered: simulated pairs and rendered machines.
+/// Accuracy of registration: simulated pairs and rendered machines.
 namespace orbwatch::tests {
 namespace {
 
@@ -26,14 +26,14 @@ using optics::radians;
 
 constexpr double kWrong = 2;  // degrees
 
-/// `truth` turned by so many degrees about a random axis.
+/// `truth` turned by `angle` degrees about a random axis.
 Mat3 turned_away(const Mat3& truth, double angle, std::mt19937_64& random) {
   std::normal_distribution<double> any;
   const optics::Vec3 axis = optics::normalized({any(random), any(random), any(random)});
   return align::rotation_about(axis * radians(angle)) * truth;
 }
 
-/// What became of many registrations.
+/// Results of many registrations.
 struct Tally {
   explicit Tally(const std::string& name) : errors(name) {}
 
@@ -53,7 +53,8 @@ struct Tally {
     testing::Test::RecordProperty("refused", refused);
     testing::Test::RecordProperty("wrong", wrong);
   }
-  /// Of so many cases, the median and 95 % within degrees, hardly one refused, none wrong.
+  /// Expects the median and the 95th percentile of `cases` within limits in degrees, hardly one
+  /// refused, none wrong.
   void expect(int cases, double median, double most) const {
     report();
     EXPECT_LE(errors.p50(), median);
@@ -216,7 +217,7 @@ TEST(RegistrationGate, RenderedMachinesOfAColourAndAThermalCamera) {
   }
 }
 
-/// The pictures of a sequence, kept.
+/// The pictures of a sequence, kept in memory.
 struct Sequence {
   explicit Sequence(const std::string& name) {
     const cv::FileStorage scene = open_rendered_scene();

@@ -12,7 +12,8 @@ using optics::Mat3;
 using optics::radians;
 using optics::Vec3;
 
-/// A camera 10 radii away on +Y of a ball of 50 mm, somewhere in a machine, which looks past it.
+/// A camera 10 radii away on +Y of a ball of 50 mm, somewhere in a machine, not facing the ball's
+/// centre.
 optics::RigCamera placed_camera(const optics::Ball& ball) {
   optics::RigCamera camera;
   camera.name = "B";
@@ -59,7 +60,7 @@ TEST(Registration, ATurnMovesTheCameraAroundTheBall) {
   found.outline = *camera.outline;
   const auto pose = pose_of({{}, rig, camera, 0}, found);
   ASSERT_TRUE(pose) << pose.error().message;
-  // From +Y to -X.
+  // The camera moves from +Y to -X.
   EXPECT_LT(norm(pose->position - (rig.ball.centre + Vec3{-500, 0, 0})), 1e-6);
 }
 
@@ -84,7 +85,7 @@ TEST(Registration, CamerasOppositeEachOtherShareAllButTheirBlindCones) {
   const auto a = optics::BallProjection::make(*model, limb, {});
   const auto b = optics::BallProjection::make(*model, limb, optics::rotation({180, 0, 0}));
   ASSERT_TRUE(a && b);
-  // Each is blind within asin(1/10) of straight away.
+  // Each camera is blind within asin(1/10) of straight away.
   const double blind = (1 - std::cos(std::asin(0.1))) / 2;
   EXPECT_NEAR(overlap(*a, 800, 600, *b, 800, 600), 1 - 2 * blind, 0.002);
   EXPECT_NEAR(overlap(*a, 800, 600, *a, 800, 600), 1 - blind, 0.002);

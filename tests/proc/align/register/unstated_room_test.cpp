@@ -9,7 +9,7 @@
 #include "proc/align/register/spiral.h"
 #include "proc/align/rotation_fit.h"
 
-/// Two cameras in a room of which nothing is stated.
+/// Registration of two cameras in an unstated room.
 namespace orbwatch::align {
 namespace {
 
@@ -29,7 +29,7 @@ optics::RigCamera camera_beside_ball(const std::string& name, double distance) {
   return camera;
 }
 
-/// What both see in a room in which everything is `closeness(random)` close.
+/// The sights of both cameras in a room in which everything has the closeness `closeness(random)`.
 struct UnstatedRoom {
   template <class Closeness>
   explicit UnstatedRoom(const Closeness& closeness) {
@@ -112,7 +112,7 @@ TEST(UnstatedRoom, ItsClosenessIsFoundAlongWithTheRotation) {
   }
 }
 
-/// Cameras on one spot see everything alike, however far away it is.
+/// Cameras at one place have the same sights at any distance.
 TEST(UnstatedRoom, NeedNotTellHowCloseItIs) {
   UnstatedRoom seen([](auto& random) { return even(0.05, 0.12, random); });
   seen.sought.camera.distance = 9;

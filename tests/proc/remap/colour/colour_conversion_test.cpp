@@ -50,7 +50,7 @@ TEST(YuvToRgb, InvertsTheForwardTransform) {
   }
 }
 
-/// What BT.601 or BT.709 says, not rounded.
+/// The values of BT.601 or BT.709, not rounded.
 std::array<double, 3> exact(ColourSpace space, int y, int u, int v) {
   const double kr = space.matrix == ColourMatrix::Bt601 ? 0.299 : 0.2126;
   const double kb = space.matrix == ColourMatrix::Bt601 ? 0.114 : 0.0722;
@@ -93,7 +93,7 @@ TEST(YuvToRgb, ConvertsARunAsItsPixels) {
       SampleRun luminance{}, chroma{};
       for (std::size_t x = 0; x < kRun; ++x) {
         luminance[x] = static_cast<std::uint8_t>(first + static_cast<int>(x));
-        // Another pair for each two pixels.
+        // Each two pixels have another pair.
         const int shifted = (x % 2 == 0 ? u : v) + static_cast<int>(x / 2) * 37;
         chroma[x] = static_cast<std::uint8_t>(shifted);
       }

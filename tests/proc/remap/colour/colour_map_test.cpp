@@ -67,7 +67,7 @@ TEST(ColourMap, EveryValueTakesTheEntryOfItsPlaceInTheRange) {
       const ColourMap map(ramp(), static_cast<double>(low), static_cast<double>(high));
       std::vector<std::uint8_t> rgb(values.size() * 3);
       for (int y = 0; y < kRows; y += kTile) {
-        // What is as wide as a tile takes another way than what is narrower.
+        // Runs as wide as a tile use another code path than narrower ones.
         const int width = y % (2 * kTile) == 0 ? kTile : 5;
         for (int x = 0; x < kTile; x += width) {
           const int columns = std::min(width, kTile - x), at = y * kTile + x;

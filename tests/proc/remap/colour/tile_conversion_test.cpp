@@ -25,7 +25,7 @@ SampledTile noise() {
   return tile;
 }
 
-/// A view of which nothing was written yet.
+/// A view to which nothing has been written yet.
 class BlankView : public StoredPicture {
  public:
   BlankView(PixelFormat format, int width, int height) : StoredPicture(format, width, height, 6) {
@@ -39,7 +39,7 @@ class BlankView : public StoredPicture {
 
 /// Whole and cut tiles of views that are even or not.
 struct TilePlace {
-  int width, height;  ///< of the view
+  int width, height;  ///< size of the view
   TileArea area;
 };
 constexpr std::array<TilePlace, 4> kEvenPlaces{{{38, 42, {0, 0, 16, 16}},
@@ -139,7 +139,7 @@ TEST(WriteTile, LetsLuminanceAndChromaTakeTurns) {
   }
 }
 
-/// ITU-R BT.601 and BT.709 as they are written: from samples to shares of full scale, the inverse
+/// ITU-R BT.601 and BT.709 by their definition: from samples to shares of full scale, the inverse
 /// of E'Y = Kr E'R + Kg E'G + Kb E'B with the differences scaled to +-1/2, and to 8 bit.
 std::array<double, 3> to_rgb(const Yuv& pixel, ColourSpace space) {
   const bool hd = space.matrix == ColourMatrix::Bt709, full = space.range == ColourRange::Full;
@@ -153,7 +153,7 @@ std::array<double, 3> to_rgb(const Yuv& pixel, ColourSpace space) {
   return rgb;
 }
 
-/// Writes a tile of `from` as `to` and looks at each sample: `expected(x, y)` in R G B, within
+/// Writes a tile of `from` as `to` and checks each sample: `expected(x, y)` in R G B, within
 /// `tolerance`. Nothing beside the area may change.
 template <class Expected>
 void expect_colours(const SampledTile& tile, PixelFormat from, ColourSpace space, PixelFormat to,
@@ -180,7 +180,7 @@ void expect_colours(const SampledTile& tile, PixelFormat from, ColourSpace space
             static_cast<std::ptrdiff_t>(view.bytes.size()));
 }
 
-// Half of a count is the rounding to 8 bit; the rest is what coefficients in Q14 lose.
+// Half of a count is the rounding to 8 bit; the rest is the loss of coefficients in Q14.
 TEST(WriteTile, ConvertsYuvLikeDoublePrecision) {
   constexpr double kTolerance = 0.53;
   const SampledTile tile = noise();
@@ -218,7 +218,7 @@ TEST(WriteTile, ReordersColours) {
   }
 }
 
-/// Black of a sample: by hand, since the product asks the same tables.
+/// Black of a sample, written down by hand, since the product uses the same tables.
 std::byte black_of(PixelFormat format, ColourRange range, std::size_t plane, int byte) {
   if (!is_yuv(format)) return std::byte{0};
   const bool chroma =

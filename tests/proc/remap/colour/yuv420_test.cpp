@@ -17,7 +17,7 @@ namespace {
 
 using tests::StoredPicture;
 
-/// Of which one tile is written, and nothing beside it.
+/// A view of which one tile is written, and nothing beside it.
 struct OneTileView {
   static constexpr int kSide = 48;
 

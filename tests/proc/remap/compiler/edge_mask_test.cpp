@@ -20,7 +20,7 @@ int surface_at(const ViewProjection& view, const optics::SceneProxy& proxy, int 
   return direction ? proxy.hit(*direction).surface : -2;
 }
 
-// Wherever neighbours show different surfaces, an edge must have been marked between them.
+// An edge must have been marked between neighbours that show different surfaces.
 TEST(EdgeMask, MissesNoChangeOfSurfaceInAnyView) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> angle(-180, 180), share(0, 1);

@@ -33,7 +33,7 @@ struct Found {
   int wrongly_defined = 0;  ///< pixels whose definedness differs
 };
 
-/// The exact map, where it falls into the source picture.
+/// The exact map, where it lies within the source picture.
 std::optional<optics::Vec2> exact(const CoordinateGrid& grid, const ViewProjection& view,
                                   const BallProjection& ball, int x, int y) {
   const auto direction = view.direction(x, y);
@@ -46,10 +46,10 @@ std::optional<optics::Vec2> exact(const CoordinateGrid& grid, const ViewProjecti
   return pixel;
 }
 
-/// Every pixel of a grid beside the exact map.
+/// Compares every pixel of a grid with the exact map.
 Found compare(const CoordinateGrid& grid, const ViewProjection& view, const BallProjection& ball) {
   Found found;
-  // What is not defined has no error that could jump.
+  // Undefined pixels have no error that could jump.
   const double nan = std::nan("");
   std::vector<optics::Vec2> above(grid.width(), {nan, nan}), current(grid.width());
   const auto look_at_jump = [&](const optics::Vec2& a, const optics::Vec2& b) {
@@ -88,7 +88,7 @@ void expect_exact(const ViewSpec& spec, const BallProjection& ball, int source_w
   const Found found = compare(spec, ball, source_width, source_height);
   EXPECT_LE(found.worst, kTolerance);
   EXPECT_LE(found.jump, 1.5 * kTolerance);
-  // In fixed point and in double a pixel may fall on either side of the picture's very border.
+  // Fixed point and double may put a pixel on different sides of the picture's very border.
   EXPECT_LE(found.wrongly_defined, 2);
 }
 
@@ -97,7 +97,7 @@ BallProjection centred_ball(const BallModel& model, double size, double radius) 
       .value();
 }
 
-/// The camera of the reference pictures that stands closest, in its machine.
+/// The nearest camera of the reference pictures, in its machine.
 BallProjection machine(Scene::Room room, bool table) {
   const optics::Ball ball{{120, 60, 430}, 50};
   const optics::Vec3 forward = optics::normalized({-0.15189524, 0.98322088, -0.10101755});
@@ -170,7 +170,7 @@ TEST(CoordinateGrid, IsExactInEveryRoomAndKindOfView) {
   }
 }
 
-// Nodes lie full turns apart there, and would all say the same.
+// Nodes are full turns apart there, and would all be alike.
 TEST(CoordinateGrid, IsExactInPanoramasOfAFewPixels) {
   const auto ball = centred_ball(BallModel::make(BallModel::Kind::Exact, 300).value(), 400, 190);
   for (const ViewKind kind : {ViewKind::Equirectangular, ViewKind::Cylindrical}) {
@@ -266,8 +266,8 @@ void for_each_tile(const CoordinateGrid& grid, const Look& look) {
   }
 }
 
-/// The least distance in px that any pixel of a tile keeps beyond what `interior` asks; below 0 if
-/// it keeps less.
+/// The least distance in px by which any pixel of a tile exceeds the requirement of `interior`;
+/// below 0 if it does not meet it.
 double clearance(const CoordinateGrid& grid, const Tile& tile, int tx, int ty) {
   const double scale = 1 << tile.level;
   double least = std::numeric_limits<double>::infinity();
@@ -349,8 +349,8 @@ TEST(CoordinateGrid, InteriorTilesKeepTheirDistanceToTheBorder) {
   EXPECT_GT(count[false], 10);
 }
 
-/// Source pixels between neighbouring pixels in a tile's middle, the larger way; nothing where the
-/// exact map ends.
+/// Source pixels between neighbouring pixels in a tile's middle, in the direction with more;
+/// nullopt where the exact map ends.
 std::optional<double> step_in_the_middle(const CoordinateGrid& grid, const ViewProjection& view,
                                          const BallProjection& ball, int tx, int ty) {
   const double x = (tx + 0.5) * kTile, y = (ty + 0.5) * kTile;
@@ -366,8 +366,8 @@ std::optional<double> step_in_the_middle(const CoordinateGrid& grid, const ViewP
   return std::max(*along, *down);
 }
 
-/// Tiles by level. Each must be at the level that the exact map's step in its middle asks for; that
-/// may be the neighbouring one where the step is within 3 % of the limit.
+/// Counts tiles by level. Each must have the level required by the exact map's step in its middle;
+/// that may be the neighbouring one where the step is within 3 % of the limit.
 std::map<int, int> expect_levels(const ViewSpec& spec, const BallProjection& ball) {
   const auto view = ViewProjection::make(spec).value();
   const CoordinateGrid grid(view, ball, 3000, 3000);
@@ -405,7 +405,7 @@ TEST(CoordinateGrid, AsksForALevelWhereTheViewIsSmallerThanTheSource) {
 TEST(CoordinateGrid, TheLevelFollowsTheLargerStep) {
   const auto ball =
       centred_ball(BallModel::make(BallModel::Kind::Exact, 348.5).value(), 3000, 1490);
-  // As wide as above, a fifth and a tenth as high.
+  // The same width as above, a fifth and a tenth of the height.
   const double h_fov = 2 * optics::degrees(std::atan(0.5)), v_fov = h_fov;
   for (const auto& [height, level] : std::array<std::pair<int, int>, 2>{{{151, 2}, {76, 3}}}) {
     for (const double roll : {0.0, 90.0, 30.0}) {
@@ -415,7 +415,7 @@ TEST(CoordinateGrid, TheLevelFollowsTheLargerStep) {
       EXPECT_EQ(count.size(), 1U) << height << ' ' << roll;
     }
   }
-  // From 1 in the middle of the picture to its bent border.
+  // Levels range from 1 in the middle of the picture to those at its curved border.
   for (const double yaw : {60.0, 120.0, 150.0}) {
     expect_levels({ViewKind::Perspective, {yaw, 10, 20}, 100, {}, 320, 200}, ball);
   }

@@ -68,7 +68,7 @@ TEST(Patch, StaysWithinItsRange) {
   }
 }
 
-// For polynomials of third degree the estimate must not be below the truth, and not far above.
+// The estimate for polynomials of third degree must not be below the truth, and not far above.
 TEST(Patch, ErrorOfThirdOrderIsABound) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> coefficient(-1, 1);

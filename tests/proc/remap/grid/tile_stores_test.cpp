@@ -90,7 +90,8 @@ TEST(PixelTiles, KeepNarrowAndWideTiles) {
   EXPECT_LT(tiles.bytes(), 3.2 * sizeof(CoordinateTile)) << "two of them in half of the memory";
 }
 
-/// A smooth map with terms up to the second degree, which patches hold exactly but for rounding.
+/// A smooth map with terms up to the second degree, which patches represent exactly except for
+/// rounding.
 Coordinate bent(double x, double y) {
   return {
       static_cast<std::int32_t>(std::lround((100 + 0.7 * x - 0.2 * y + 0.003 * x * x) * kOnePixel)),
@@ -142,7 +143,7 @@ TEST(FineTile, FollowsAMapThroughItsNodes) {
   expect_fine_tile_follows<4>();
 }
 
-/// A map with terms of third order too, and as many of the fourth as a Coons patch has.
+/// A map that also has terms of third order, and those of the fourth that a Coons patch has.
 Coordinate curved(double x, double y) {
   const double u = x * x * x - 2 * x * x * y + 3 * x * y * y - y * y * y;
   const double v = 0.05 * (x * x * x * y - 2 * x * y * y * y);
@@ -156,7 +157,7 @@ TEST(CurvedTile, HasTheNodesOfAMapOfThirdOrder) {
   for (int j = -1; j <= 2; ++j) {
     for (int i = -1; i <= 2; ++i) nodes.at(i, j) = curved(i * kTile, j * kTile);
   }
-  // What does not count may be anything.
+  // Nodes that are not used may be anything.
   for (const int i : {-1, 2}) nodes.at(i, -1) = nodes.at(i, 2) = {kBlind, 0};
   const FineTile<8> tile = curved_tile(nodes);
   for (int j = 0; j < tile.kNodes; ++j) {

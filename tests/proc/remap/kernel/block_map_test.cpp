@@ -22,10 +22,10 @@ std::optional<BlockMap> map_of(const Patch& patch, int add_u, int add_v, int row
   return fits ? std::optional(map) : std::nullopt;
 }
 
-/// A pixel of a block, as the comments on WindowWalk and LaneShape say, without 16 bit lanes.
+/// A pixel of a block by the comments on WindowWalk and LaneShape, without 16 bit lanes.
 struct LanePlace {
   std::int64_t window;  ///< source pixels
-  std::int64_t lane;    ///< from there, Q13
+  std::int64_t lane;    ///< distance from there, Q13
 
   std::int64_t coordinate() const { return window * kPixelQ13 + lane; }
 };
@@ -100,7 +100,7 @@ TEST(BlockMap, FollowsThePatch) {
 }
 
 /// The axis moved so that block (x, y) begins exactly where a window does, or one step before,
-/// where its window ends. That axis of a map counts its windows from `begin`, Q32.
+/// where its window ends. `begin`: origin of that axis's windows, Q32.
 Quadratic moved(Quadratic axis, std::int64_t begin, int x, int y, bool before) {
   constexpr std::int64_t kPixel = std::int64_t{1} << 24;
   x *= kBlock;
@@ -130,7 +130,7 @@ TEST(BlockMap, StaysInItsWindowsUpToTheLimit) {
   }
 }
 
-// All that adds up: slopes of one sign in the corner that curvature makes steepest.
+// All terms add up: slopes of one sign in the corner that curvature makes steepest.
 TEST(BlockMap, StaysInItsWindowsAtTheCorners) {
   constexpr std::int64_t kPixel = std::int64_t{1} << 24;
   for (int signs = 0; signs < 32; ++signs) {
@@ -171,7 +171,7 @@ TEST(BlockMap, TakesWhatFitsAndRefusesWhatDoesNot) {
   EXPECT_TRUE(make(1.4, 0, 0.013));
   EXPECT_FALSE(make(1.6, 0, 0.0141));
   EXPECT_FALSE(make(0, 0, 0.015));
-  // Up to the steepest patch that there is.
+  // Slopes range up to the steepest patch that exists.
   for (const double steep : {3, 8, 16}) {
     EXPECT_FALSE(make(steep, 0, 0));
     EXPECT_FALSE(make(-steep, steep, 0));

@@ -34,7 +34,7 @@ constexpr std::array<NamedLayout, kKernelLayouts> kNamedLayouts{{
     {Layout::One16, "One16"},
 }};
 
-/// Where the windows of a map lie, source pixels.
+/// The area of a map's windows, source pixels.
 struct Extent {
   std::int64_t left = std::numeric_limits<std::int64_t>::max(), top = left;
   std::int64_t right = std::numeric_limits<std::int64_t>::min(), bottom = right;
@@ -58,7 +58,7 @@ struct Extent {
   }
 };
 
-/// The same patch so far to the left and up.
+/// The same patch shifted to the left and up.
 Patch shifted(const Patch& patch, std::int64_t left, std::int64_t up) {
   constexpr int kPixelBits = kFractionBits + PatchRow::kScaleBits;
   Quadratic u = patch.u(), v = patch.v();
@@ -203,8 +203,8 @@ INSTANTIATE_TEST_SUITE_P(All, KernelOfLayout, testing::ValuesIn(kNamedLayouts),
 
 double mixed(double a, double b, double share) { return a + (b - a) * share; }
 
-/// Against bilinear interpolation in double precision between the samples that the patch lies
-/// between, in units of 8 bit.
+/// Compares with bilinear interpolation in double precision between the samples around the patch's
+/// places, in units of 8 bit.
 template <class Sample>
 void expect_bilinear(Layout layout) {
   constexpr int kSize = 64;
@@ -284,7 +284,7 @@ TEST(Kernels, SayWhyThereIsNone) {
                                   std::string(elsewhere) + "', only scalar"));
 }
 
-// Also run with ORBWATCH_ISA set, see CMakeLists.txt.
+// CMakeLists.txt also runs this test with ORBWATCH_ISA set.
 TEST(Kernels, DefaultIsWhatTheEnvironmentAsksForOrTheFastest) {
   const char* const asked = std::getenv("ORBWATCH_ISA");
   const Kernel* expected = kernels().back();

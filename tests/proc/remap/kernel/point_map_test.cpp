@@ -42,7 +42,7 @@ TEST(PointMap, FollowsThePatch) {
   }
 }
 
-// Also where a patch leaves 32 bits.
+// The result is also the same where a patch exceeds 32 bits.
 TEST(PointMap, IsTheSameForEveryKernel) {
   std::mt19937 random(8);
   for (int round = 0; round < 300; ++round) {

@@ -10,7 +10,7 @@
 /// Patches of any rotation, shear and curvature.
 namespace orbwatch::tests {
 
-/// Of a map and its curvature, source pixels per pixel and per square pixel.
+/// Slope and curvature of a map, source pixels per pixel and per square pixel.
 struct Steepness {
   double slope, curvature;
 };
@@ -20,7 +20,7 @@ class RandomPatch {
   RandomPatch(std::mt19937& random, const Steepness& most)
       : u_(random_axis(random, most)), v_(random_axis(random, most)) {}
 
-  /// The same patch that many 2^20ths as steep and curved.
+  /// The same patch with `factor` 2^20ths of the slope and curvature.
   remap::Patch scaled(std::int64_t factor) const {
     return {scaled(u_, factor), scaled(v_, factor)};
   }
@@ -40,10 +40,11 @@ class RandomPatch {
   }
 
  private:
-  /// So far its numbers stay those of a patch on nodes, which are not is_too_steep().
+  /// Largest factor at which its numbers stay those of a patch on nodes, which are not
+  /// is_too_steep().
   std::int64_t largest_factor() const {
     constexpr std::int64_t kMostSlope = std::int64_t{remap::kSteepest} << 24;
-    constexpr std::int64_t kMostCurvature = 4 * kMostSlope >> 7;  // of twelve nodes
+    constexpr std::int64_t kMostCurvature = 4 * kMostSlope >> 7;  // for twelve nodes
     std::int64_t factor = std::int64_t{1} << 26;
     const auto keep = [&factor](std::int64_t value, std::int64_t most) {
       if (value != 0) factor = std::min(factor, (most << 20) / std::abs(value));

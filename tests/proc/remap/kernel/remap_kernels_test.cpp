@@ -18,8 +18,8 @@ using optics::ViewKind;
 using optics::ViewProjection;
 using tests::StoredPicture;
 
-/// A view of a ball that fills a picture of `width` x `height`: the limb and the picture's border
-/// are in it.
+/// A view of a ball that fills a picture of `width` x `height`, including the limb and the
+/// picture's border.
 struct BallScene {
   BallScene(int width, int height, const optics::ViewSpec& spec)
       : view(ViewProjection::make(spec).value()),
@@ -33,7 +33,7 @@ struct BallScene {
   CoordinateGrid grid;
 };
 
-/// Every kernel's view beside the scalar one's, byte for byte, padding included.
+/// Compares every kernel's view with the scalar one's, byte for byte, padding included.
 void expect_same(const BallScene& scene, PixelFormat format, PixelFormat to, int padding) {
   StoredPicture source(format, scene.grid.source_width(), scene.grid.source_height(), padding);
   source.fill_with_noise(3);
@@ -93,8 +93,8 @@ TEST(RemapKernels, AgreeForSourcesOfEverySize) {
   expect_same(large, PixelFormat::Grey, PixelFormat::Grey, 0);
 }
 
-/// All around a ball, where the map gets steeper and more bent the closer it is to the limb. Its
-/// tiles are kept in every way that one surface alone can be.
+/// All directions around a ball, where the map gets steeper and more curved towards the limb. Its
+/// tiles use every kind of storage for one surface.
 BallScene all_around() {
   return {800, 800, {ViewKind::Equirectangular, {10, 20, 5}, {}, {}, 1400, 700}};
 }
@@ -125,7 +125,7 @@ TEST(RemapKernels, AgreeForEveryKindOfTile) {
   }
 }
 
-/// Where the samples of a view come from, if the source is a ramp of 64 per pixel along an axis.
+/// Compares the places of a view's samples, if the source is a ramp of 64 per pixel along an axis.
 void expect_exact(const BallScene& scene, double optics::Vec2::*axis, const Kernel& kernel) {
   constexpr int kPerPixel = 64;
   StoredPicture source(PixelFormat::Y16, scene.grid.source_width(), scene.grid.source_height());
@@ -139,7 +139,7 @@ void expect_exact(const BallScene& scene, double optics::Vec2::*axis, const Kern
   StoredPicture out(PixelFormat::Y16, scene.grid.width(), scene.grid.height());
   remap(scene.grid, source.as_source(), Interpolation::Bilinear, out.picture,
         {0, scene.grid.tiles_y()}, kernel);
-  // Of the grid, of places in lanes, of weights, and of samples.
+  // The sum of the tolerances of the grid, of places in lanes, of weights, and of samples.
   constexpr double kTolerated = kTolerance + 1.0 / 240 + 1.0 / 256 + 0.5 / kPerPixel;
   int compared = 0;
   for (int y = 0; y < out.picture.height; ++y) {

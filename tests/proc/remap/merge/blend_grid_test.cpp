@@ -23,7 +23,7 @@ using optics::ViewProjection;
 /// A view and cameras around one ball.
 class BlendGridTest : public testing::Test {
  protected:
-  /// A camera that was turned `yaw` degrees around the ball, which has this limb in its picture.
+  /// Adds a camera that was turned `yaw` degrees around the ball and has this limb in its picture.
   void add(double yaw, const optics::Outline& limb, int side, double weight = 1) {
     cameras.push_back(std::make_unique<Camera>(
         BallProjection::make(BallModel::make(BallModel::Kind::Exact, 345).value(), limb,
@@ -50,7 +50,7 @@ class BlendGridTest : public testing::Test {
   int at(std::size_t n, int x, int y) const {
     return planes[n][static_cast<std::size_t>(y) * view.width() + x];
   }
-  /// At the place that shows a direction, degrees.
+  /// The share of source `n` at the place that shows a direction, degrees.
   int towards(std::size_t n, double lon, double lat) const {
     return at(n, static_cast<int>((lon / 360 + 0.5) * view.width()),
               static_cast<int>((0.5 - lat / 180) * view.height()));
@@ -139,7 +139,7 @@ TEST_F(BlendGridTest, KeepTheUsersProportionWhereResolutionIsEqual) {
   add(-60, 3);
   add(60, 1);
   compile();
-  // yaw 0.36 degrees is where the pixel beside the middle looks
+  // The direction of the pixel beside the middle has yaw 0.36 degrees.
   EXPECT_NEAR(towards(0, 0, 0) / double(towards(1, 0, 0)), 3, 0.1);
   EXPECT_NEAR(towards(0, 0, 60) / double(towards(1, 0, 60)), 3, 0.1);
 }
@@ -158,7 +158,7 @@ TEST_F(BlendGridTest, AreTheUsersWhereEverySourceSeesWellEnough) {
     EXPECT_NEAR(at(0, x, y), 191, 1) << lon;
     EXPECT_NEAR(at(1, x, y), 64, 1) << lon;
   }
-  // Nevertheless a source fades out towards its blind cone.
+  // A source still fades out towards its blind cone.
   EXPECT_EQ(towards(0, 176, 0), 255 - towards(1, 176, 0));
   EXPECT_LT(towards(0, 171, 0), 40);
 }

@@ -79,7 +79,7 @@ class MergedRemap : public testing::Test {
                  view_of(validity, 1), rows.value_or(TileRows{0, cameras.front()->grid.tiles_y()}));
   }
 
-  /// Source `n` alone, by remap().
+  /// The view of source `n` alone, by remap().
   std::vector<std::uint8_t> alone(std::size_t n) {
     std::vector<std::uint8_t> out(rgb.size());
     const CoordinateGrid& grid = cameras[n]->grid;
@@ -110,8 +110,8 @@ class MergedRemap : public testing::Test {
     return {samples.data(), kWidth, kHeight, channels, kWidth * channels};
   }
 
-  /// Every pixel beside the mean by weight of the sources alone; a share below half a percent may
-  /// be missing.
+  /// Compares every pixel with the weighted mean of the sources alone; a share below half a percent
+  /// may be missing.
   void expect_mean() {
     std::vector<std::vector<std::uint8_t>> pictures, shares;
     for (std::size_t n = 0; n < cameras.size(); ++n) {
@@ -137,16 +137,17 @@ class MergedRemap : public testing::Test {
   ColourMap colours{grey_table(), 0, 65535};
   std::vector<std::unique_ptr<Camera>> cameras;
   std::optional<BlendGrid> blend;
-  std::optional<MutablePicture> target;        ///< in place of `rgb`
-  MutablePicture measured;                     ///< of the first camera
-  std::unique_ptr<StoredPicture> unsharpened;  ///< its picture, if another one is shown
+  std::optional<MutablePicture> target;  ///< used in place of `rgb`
+  MutablePicture measured;               ///< the first camera's
+  std::unique_ptr<StoredPicture>
+      unsharpened;  ///< the first camera's picture, if a sharpened one is shown
   std::vector<std::uint8_t> rgb = std::vector<std::uint8_t>(3 * kWidth * kHeight, 77);
   std::vector<std::uint8_t> validity = std::vector<std::uint8_t>(kWidth * kHeight, 3);
   std::vector<std::uint8_t> unseen =
       std::vector<std::uint8_t>(kWidth * kHeight, static_cast<std::uint8_t>(Validity::Blind));
 };
 
-/// The Y of a YUV picture as it lies there.
+/// The Y of a YUV picture in its stored form.
 std::unique_ptr<StoredPicture> luminance_plane(const StoredPicture& yuv) {
   const PixelFormat format = yuv.picture.format;
   const int width = yuv.picture.width, height = yuv.picture.height;
@@ -193,7 +194,7 @@ TEST_F(MergedRemap, BgrIsRgbInTheOtherOrder) {
   }
 }
 
-/// What a source alone shows, all of it 8 bit, as Grey.
+/// A source's view alone, all of it 8 bit, as Grey.
 std::vector<std::uint8_t> luma_of(const std::vector<std::uint8_t>& rgb) {
   std::vector<std::uint8_t> grey(rgb.size() / 3);
   luma(rgb.data(), grey.data(), static_cast<int>(grey.size()));
@@ -209,7 +210,7 @@ TEST_F(MergedRemap, GreyIsTheMeanOfTheLuminances) {
   StoredPicture grey(PixelFormat::Grey, kWidth, kHeight), own(PixelFormat::Grey, kWidth, kHeight);
   target = grey.picture;
   render();
-  // Not by way of colours, which clip what lies outside RGB.
+  // The conversion does not use colours, which clip values outside RGB.
   remap(cameras[1]->grid, luminance_plane(cameras[1]->source)->as_source(), Interpolation::Bilinear,
         own.picture, {0, cameras[1]->grid.tiles_y()});
   std::vector<std::vector<std::uint8_t>> pictures{luma_of(alone(0)), {}, luma_of(alone(2))};
@@ -245,7 +246,7 @@ TEST_F(MergedRemap, Yuv420IsTheMergedColoursAsJpegHasThem) {
       write_yuv420({tile.data(), kTile, kTile, 3, 3 * kTile}, truth.picture, area);
     }
   }
-  // Where the NV12 camera is alone, its noise is not clipped to colours on the way.
+  // The NV12 camera's noise is not clipped to colours where it is alone.
   const CoordinateGrid& grid = cameras[1]->grid;
   int same = 0;
   for (int y = 0; y < kHeight; ++y) {
@@ -439,7 +440,7 @@ void expect_mean_of(const StoredPicture& out, const StoredPicture& first,
                     const std::vector<std::uint8_t>& second_weights) {
   const auto merged = out.picture.samples<T>(), a = first.picture.samples<T>(),
              b = second.picture.samples<T>();
-  // As of 8 bit: a share below half a percent may be missing.
+  // The tolerance of 8 bit: a share below half a percent may be missing.
   const double tolerance = 2.6 / 255 * std::numeric_limits<T>::max();
   for (std::size_t i = 0; i < first_weights.size(); ++i) {
     const int x = static_cast<int>(i) % merged.width, y = static_cast<int>(i) / merged.width;

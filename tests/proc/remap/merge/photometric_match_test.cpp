@@ -17,20 +17,20 @@ using Channels = std::array<Channel, 3>;
 
 constexpr int kShotWidth = 320, kShotHeight = 200;
 
-/// Light of the scene: smooth structures of some blocks' size, each channel its own.
+/// Light of the scene: smooth structures of some blocks' size, different in each channel.
 double scene(int x, int y, int k) {
   return 0.25 + 0.1 * std::sin(0.05 * x + 0.9 * k) + 0.08 * std::cos(0.07 * y - 0.4 * k) +
          0.04 * std::sin(0.021 * (x + 2 * y));
 }
 
-/// IEC 61966-2-1, written down once more.
+/// IEC 61966-2-1, an independent implementation.
 double srgb(double light) {
   light = std::clamp(light, 0.0, 1.0);
   return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 
-/// A camera that sees columns [first, last) of the scene through channels of its own:
-/// what it shows, matched, is the scene's light.
+/// A camera that sees columns [first, last) of the scene through channels of its own: its matched
+/// picture is the scene's light.
 template <class T>
 struct Shot {
   static constexpr double kFull = std::numeric_limits<T>::max();
@@ -175,7 +175,7 @@ TEST_F(PhotometricMatchTest, SaturatedAndBlackSamplesDoNotCount) {
 }
 
 TEST_F(PhotometricMatchTest, ASharperCameraDoesNotLookMoreContrasty) {
-  // Fine detail that the second camera cannot see.
+  // The detail is finer than the second camera resolves.
   Shot8 a(1, Transfer::Srgb, {}), b(1, Transfer::Srgb, kBrightAndCold);
   for (int y = 0; y < kShotHeight; ++y) {
     for (int x = 0; x < kShotWidth; ++x) {

@@ -15,7 +15,7 @@ namespace {
 
 using tests::kUntouched;
 
-/// Where a layout's samples stand in a pixel, bytes: written down once more, by hand.
+/// Offsets of a layout's samples in a pixel, bytes: written down by hand.
 std::vector<int> sample_places(Layout layout) {
   switch (layout) {
     case Layout::One8:

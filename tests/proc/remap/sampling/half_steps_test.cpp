@@ -43,10 +43,10 @@ void for_each_sample(const CoordinateTile& tile, int columns, int rows, const Lo
   }
 }
 
-/// Where sample `n` along an axis lies, in the tile's pixels.
+/// Place of sample `n` along an axis, in the tile's pixels.
 double place_of(int n) { return n / 2.0 - 0.25; }
 
-// Steps are shared out with a rounding of one 8192nd each.
+// Steps are divided with a rounding of one 8192nd each.
 TEST(HalfSteps, LiesAQuarterOfAPixelBeforeAndBehind) {
   const auto plane = [](double x, double y) {
     return Vec2{300 + 2.7 * x - 1.3 * y, -20.5 + 0.4 * x + 3.1 * y};
@@ -64,8 +64,8 @@ TEST(HalfSteps, LiesAQuarterOfAPixelBeforeAndBehind) {
   }
 }
 
-// Within a bent tile a step is the mean of those before and behind: that is off by a quarter of
-// the bend between pixels at most.
+// A step within a curved tile is the mean of those before and behind: that is off by at most a
+// quarter of the second difference between pixels.
 TEST(HalfSteps, FollowsACurve) {
   constexpr double kBend = 0.02;
   const auto curve = [](double x, double y) {
@@ -97,7 +97,7 @@ TEST(HalfSteps, KeepsMarkersAndDoesNotLeanOnThem) {
   });
 }
 
-// Two surfaces: each side goes on with its own steps up to the edge.
+// Two surfaces: each side continues with its own steps up to the edge.
 TEST(HalfSteps, DoesNotStepOverAnEdge) {
   constexpr int kEdge = 9;
   const auto side = [](bool second, double x, double y) {

@@ -51,10 +51,10 @@ double bilinear(const StoredPicture& picture, const Vec2& p) {
 }
 
 struct Quality {
-  double ours, single;  ///< PSNR in dB, of one bilinear sample per pixel too
+  double ours, single;  ///< PSNR in dB; `single` is for one bilinear sample per pixel
 };
 
-/// Against the mean of 8x8 samples of the exact projection, at every second pixel.
+/// Compares with the mean of 8x8 samples of the exact projection, at every second pixel.
 Quality quality(int width, double roll) {
   const auto ball = centred_ball();
   const auto view =

@@ -26,7 +26,7 @@ Vec2 at(const Patch& patch, double x, double y) {
   return {at(patch.u(), x, y), at(patch.v(), x, y)};
 }
 
-/// Coordinates are rounded to a 8192nd of a pixel, and each operation may lose less than another.
+/// Coordinates are rounded to an 8192nd of a pixel, and each operation may lose less than another.
 constexpr double kRounding = 1.5 / kOnePixel;
 
 void expect_near(const Coordinate& found, const Vec2& expected, int x, int y) {
@@ -34,7 +34,7 @@ void expect_near(const Coordinate& found, const Vec2& expected, int x, int y) {
   EXPECT_NEAR(found.v / kOnePixel, expected.v, kRounding) << x << ' ' << y;
 }
 
-/// Calls `look` with many patches: level ones, and those as steep and bent as blocks are.
+/// Calls `look` with many patches: level ones, and those as steep and curved as blocks are.
 template <class Look>
 void for_each_patch(const Look& look) {
   std::mt19937 random(7);
@@ -125,7 +125,7 @@ TEST(Moved, GoesOnFromItsPixel) {
   });
 }
 
-// All four quarters of an oversampled tile, as they are made.
+// All four quarters of an oversampled tile, in the order of sampling.
 TEST(Moved, GoesOnFromAPatchInHalfSteps) {
   for_each_patch([](const Patch& patch) {
     const Patch fine = at_half_steps(patch);
@@ -139,7 +139,7 @@ TEST(Moved, GoesOnFromAPatchInHalfSteps) {
   });
 }
 
-/// A plane's pixel along an axis, in those of the picture, and back.
+/// Converts a plane's pixel along an axis to the picture's pixels, and back.
 double in_picture(double pixel, Siting siting) {
   if (siting == Siting::Full) return pixel;
   return siting == Siting::Centred ? 2 * pixel + 0.5 : 2 * pixel;
@@ -149,7 +149,7 @@ double in_plane(double pixel, Siting siting) {
   return siting == Siting::Centred ? (pixel - 0.5) / 2 : pixel / 2;
 }
 
-/// Those that there are.
+/// Calls `look` for every siting that exists.
 template <class Look>
 void for_each_siting(const Look& look) {
   for (const auto& [x, y] : {std::pair{Siting::Full, Siting::Full},
@@ -164,7 +164,7 @@ void for_each_siting(const Look& look) {
   }
 }
 
-/// Where the view's pixel of a plane lies in the source's plane, if `full` is the picture's map.
+/// Place of the view's pixel of a plane in the source's plane, if `full` is the picture's map.
 template <class Full>
 Vec2 plane_place(const Full& full, const PlaneSampling& sampling, int x, int y) {
   const Vec2 place = full(in_picture(x, sampling.x), in_picture(y, sampling.y));
@@ -198,7 +198,7 @@ CoordinateTile level_tile() {
   return tile;
 }
 
-// Pixel by pixel a plane is sited one way along both axes, or not shared along one of them.
+// A plane of single pixels has one siting along both axes, or is not shared along one of them.
 TEST(OnPlane, OfATileLiesInTheMiddleOfTheSharedPixels) {
   for (const auto& [x_siting, y_siting] : {std::pair{Siting::Full, Siting::Full},
                                            {Siting::Cosited, Siting::Full},
@@ -218,7 +218,7 @@ TEST(OnPlane, OfATileLiesInTheMiddleOfTheSharedPixels) {
 
 constexpr PlaneSampling kChroma420{Layout::Two8, 1, 0, Siting::Centred, Siting::Centred, 128};
 
-/// A pixel of the picture, in the plane of kChroma420.
+/// Expects the place of a pixel of the picture, in the plane of kChroma420.
 void expect_place_of(const CoordinateTile& tile, const CoordinateTile& plane, int x, int y) {
   expect_near(plane[y / 2][x / 2],
               {in_plane(tile[y][x].u / kOnePixel, Siting::Centred),
@@ -245,7 +245,7 @@ TEST(OnPlane, OfATileDoesNotMixTwoSurfaces) {
   expect_place_of(tile, plane, 2, 6);
 }
 
-// What lies outside of the picture is a reason that weighs more than what the ball does not show.
+// Outside of the picture has priority over not shown by the ball.
 TEST(OnPlane, OfATileSaysWhyNothingIsDefined) {
   CoordinateTile tile = level_tile(), plane;
   for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {

@@ -18,7 +18,7 @@ constexpr std::array kAllLayouts{Layout::One8,  Layout::Two8,        Layout::Thr
                                  Layout::Four8, Layout::FirstOfTwo8, Layout::OddOfFour8,
                                  Layout::One16, Layout::Three16};
 
-/// White noise that ends where the heap ends it: sanitizers see what is read beyond.
+/// White noise that ends at the end of its heap block: sanitizers detect reads beyond it.
 struct Source {
   std::vector<std::uint8_t> bytes;
   SourcePlane plane;
@@ -43,7 +43,7 @@ struct Source {
   }
 };
 
-/// A target and pixels around it, which stay as they are.
+/// A target and the pixels around it, which must not change.
 struct Target {
   static constexpr std::uint8_t kCanary = 0xa5;
   static constexpr int kMargin = 64;
@@ -80,7 +80,7 @@ struct Target {
   }
 };
 
-/// Bilinear interpolation in double precision, the outermost pixels going on.
+/// Bilinear interpolation in double precision, with the outermost pixels repeated.
 double bilinear(const Source& source, Layout layout, const Coordinate& c, int k) {
   const double u = c.u / kOnePixel, v = c.v / kOnePixel;
   const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));

@@ -21,7 +21,8 @@ using tests::StoredPicture;
 
 constexpr int kSourceWidth = 400, kSourceHeight = 320;
 
-/// Patches, finer tiles, the limb, the picture's border and cut tiles: all of them.
+/// A scene with all kinds of tiles: patches, finer tiles, the limb, the picture's border and cut
+/// tiles.
 struct EveryTileScene {
   ViewProjection view =
       ViewProjection::make({ViewKind::Perspective, {140, 15, 20}, 110, {}, 250, 170}).value();
@@ -36,7 +37,7 @@ struct EveryTileScene {
   }
 };
 
-/// One channel of a source, remapped alone.
+/// Compares one channel with the same channel remapped alone.
 template <class Read>
 void expect_channel(const EveryTileScene& scene, const StoredPicture& out, int pixel_bytes,
                     int first, const Read& read) {
@@ -51,7 +52,7 @@ void expect_channel(const EveryTileScene& scene, const StoredPicture& out, int p
   for (int y = 0; y < 170; ++y) {
     for (int x = 0; x < 250; ++x) {
       const int expected = alone.sample(0, y, x);
-      // What is undefined is black: 16 in the luminance of limited range.
+      // Undefined pixels are black: 16 in the luminance of limited range.
       if (expected == 0) continue;
       differing += out.sample(0, y, x * pixel_bytes + first) != expected;
     }
@@ -64,7 +65,7 @@ TEST(RemapFormats, EveryChannelIsRemappedAsIfItWereAlone) {
   struct Case {
     PixelFormat format;
     int pixel_bytes;
-    std::array<int, 4> channels;  ///< -1: no more
+    std::array<int, 4> channels;  ///< -1: no more channels
   };
   for (const Case& c :
        {Case{PixelFormat::Rgb, 3, {0, 1, 2, -1}}, Case{PixelFormat::Bgr, 3, {0, 1, 2, -1}},
@@ -100,10 +101,10 @@ TEST(RemapFormats, SixteenBitsOfAnyDepthAreTheSame) {
   }
 }
 
-/// The samples of a plane of chroma: where they are in the picture, and how to read them.
+/// The samples of a plane of chroma: their places in the picture, and the offsets to read them.
 struct ChromaPlane {
   int shift_y;
-  double offset;  ///< of the first sample from the first pixel, px, along a shared axis
+  double offset;  ///< distance of the first sample from the first pixel, px, along a shared axis
   std::array<std::size_t, 2> plane;
   std::array<int, 2> first;
   int step;  ///< bytes from sample to sample
@@ -126,12 +127,12 @@ ChromaPlane chroma_of(PixelFormat format) {
 
 class SharedChroma : public testing::TestWithParam<PixelFormat> {};
 
-// Against the exact projection of the place that a chroma sample of the view stands for.
+// Compares with the exact projection of the place of the view's chroma sample.
 TEST_P(SharedChroma, IsSampledInItsOwnPlane) {
   const EveryTileScene scene;
   const ChromaPlane chroma = chroma_of(GetParam());
   StoredPicture source(GetParam(), kSourceWidth, kSourceHeight), out(GetParam(), 250, 170);
-  // Smooth, so that what is compared is the place.
+  // The picture is smooth, so that the comparison depends on the place.
   for (std::size_t n = 0; n < 2; ++n) {
     auto& plane = source.picture.planes[chroma.plane[n]];
     for (int y = 0; y < kSourceHeight >> chroma.shift_y; ++y) {

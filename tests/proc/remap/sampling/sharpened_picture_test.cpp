@@ -24,7 +24,7 @@ TEST(CanSharpen, ColourOf8BitAlone) {
                                     PixelFormat::Bgr, PixelFormat::Bgra}));
 }
 
-/// Whether a byte of a pixel in the first plane is sharpened: by hand.
+/// True if a byte of a pixel in the first plane is sharpened: written down by hand.
 bool is_sharpened(PixelFormat format, int byte) {
   if (format == PixelFormat::Yuyv) return byte % 2 == 0;
   if (format == PixelFormat::Uyvy) return byte % 2 == 1;
@@ -73,8 +73,8 @@ TEST_P(SharpenedPictureOf, HasItsAreaSharpenedAndTheSourcesChroma) {
   }
 }
 
-// Where several threads fill areas, none writes into another one's rows, and the part that was
-// filled before stays.
+// No thread writes into another one's rows when several fill areas, and the part that was filled
+// before is kept.
 TEST_P(SharpenedPictureOf, IsNotWrittenBesideItsArea) {
   constexpr int kWidth = 64, kHeight = 12;
   const int channels = info(GetParam()).channels();

@@ -18,12 +18,13 @@ namespace {
 using tests::GuardedMemory;
 using tests::kUntouched;
 
-/// Rows of samples, each alone in memory of its own.
+/// Rows of samples, each in memory of its own.
 class Rows {
  public:
   explicit Rows(std::size_t most) : above_(most), row_(most), below_(most), out_(most) {}
 
-  /// Random ones, of extremes alone if so; at the end of their memory or at its beginning.
+  /// Fills the rows with random samples, with `extreme` only 0 and 255; at the end of their memory
+  /// or at its beginning.
   RowsAround fill(std::mt19937& random, int samples, int pixel_samples, bool extreme, bool at_end) {
     const auto bytes = static_cast<std::size_t>(samples);
     const auto filled = [&](GuardedMemory& memory) {
@@ -64,7 +65,7 @@ std::uint8_t specified(const RowsAround& rows, int i, int gain) {
       std::clamp(at(rows.row, 0) + floor_divided(eighths + 4, 8), 0, 255));
 }
 
-/// How the samples of a row lie, and which of them are sharpened.
+/// Layout of a row's samples, and gains of those that are sharpened.
 struct Form {
   const char* name;
   int pixel_samples;

@@ -42,7 +42,7 @@ bool fits(const Patch& patch, int columns) {
   return map.fit(patch, columns, kTile, BlockMap::rounding(added_u(kChroma), added_v(kChroma)));
 }
 
-/// How many tiles' chroma fits the kernels' windows in each way.
+/// Number of tiles whose chroma fits the kernels' windows in each of these ways.
 struct Ways {
   int whole = 0, half_rows = 0, half_columns = 0, both = 0;
 
@@ -72,7 +72,7 @@ struct Ways {
   }
 };
 
-/// Up and down between 0 and 255, by one from pixel to pixel; linear between them.
+/// A triangle wave between 0 and 255, changing by one from pixel to pixel; linear between them.
 int wave(int place) {
   const int phase = place % 512;
   return phase < 256 ? phase : 511 - phase;
@@ -82,7 +82,7 @@ double wave(double place) {
   return std::lerp(wave(before), wave(before + 1), place - before);
 }
 
-// Against the exact projection of each chroma sample's place.
+// Compares with the exact projection of each chroma sample's place.
 TEST(SteepChroma, IsSampledAtItsPlaceByEveryKernel) {
   const TurnedScene scene;
   const Ways ways(scene.grid);

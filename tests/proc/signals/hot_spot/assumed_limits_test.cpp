@@ -20,7 +20,7 @@ RegionScene room() {
   return {ball, optics::SceneProxy::make(scene, ball).value()};
 }
 
-/// To the middle of a wall, 90 degrees wide.
+/// A view of the middle of a wall, 90 degrees wide.
 optics::ViewProjection view(int width) {
   return optics::ViewProjection::make(
              {optics::ViewKind::Perspective, {0, 0, 0}, 90, {}, width, width})

@@ -21,7 +21,7 @@ namespace {
 
 using optics::Vec3;
 
-/// Every bit of it, so that two that are not numbers are alike.
+/// Every bit of the blob as text, so that two NaNs are equal.
 std::string text_of(const std::optional<Blob>& blob) {
   if (!blob) return "none";
   std::array<char, 400> text{};
@@ -61,7 +61,7 @@ class Search {
         scalar_track_(settings_.hot_spot_limits),
         pixels_(mask_) {}
 
-  /// Paints the next frame set and compares what is found in it.
+  /// Paints the next frame set and compares the results for it.
   void compare() {
     paint();
     const double passed = chance(0.1) ? 0.5 : 0.02;
@@ -127,7 +127,8 @@ class Search {
     return settings;
   }
 
-  /// Cold, with a hot spot or without, and noise of any density; sometimes all as hot.
+  /// Paints a cold region, with a hot spot or without, and noise of any density; sometimes all
+  /// equally hot.
   void paint() {
     constexpr double kScale = std::numeric_limits<T>::max();
     const int width = painted_.view.width(), height = painted_.view.height();

@@ -15,7 +15,7 @@ using Runs = std::vector<std::pair<int, int>>;
 
 constexpr int kWidest = 300;
 
-/// A row of counts and what is seen of it, pressed against unreadable memory at its begin or end.
+/// A row of counts and their validity, next to unreadable memory at its begin or end.
 template <class T>
 struct GuardedRow {
   orbwatch::tests::GuardedMemory count_memory{kWidest * sizeof(T)}, validity_memory{kWidest};
@@ -64,7 +64,7 @@ TYPED_TEST(Edges, AreThoseThatAPixelByPixelSearchFindsAndNothingElseIsRead) {
                                         : chance(0.1) ? std::numeric_limits<T>::max()
                                                       : 1 + random() % 250);
       const double hot = std::uniform_real_distribution<double>(0, 1)(random);
-      const double lasting = chance(0.5) ? 0.95 : 0;  // blobs, or noise
+      const double lasting = chance(0.5) ? 0.95 : 0;  // 0.95: blobs, 0: noise
       const double unseen = chance(0.5) ? 0 : 0.05;
       bool is_hot = false;
       for (int x = 0; x < width; ++x) {

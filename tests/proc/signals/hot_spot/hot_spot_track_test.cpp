@@ -16,7 +16,7 @@ using optics::Vec3;
 
 constexpr double kFrame = 0.02;  // s
 
-/// A disc on the floor, as hot as everything hot; mm, machine frame.
+/// A disc on the floor with the uniform hot value; mm, machine frame.
 struct Disc {
   double x = 0;
   double y = 0;
@@ -52,7 +52,7 @@ class Floor {
     if (!blob) return std::nullopt;
     return scene_.ball.centre + blob->position * (1 / blob->solid_angle);
   }
-  /// The same several times: of the last one.
+  /// The same several times; returns the last result.
   std::optional<Vec3> follow(int times, const std::vector<Disc>& discs) {
     std::optional<Vec3> last;
     for (int i = 0; i < times; ++i) last = follow(discs);
@@ -85,7 +85,7 @@ TEST(HotSpotTrack, WithoutLimitsTheLargestThatIsThereIsTaken) {
 }
 
 TEST(HotSpotTrack, WhatIsSmallerThanTheLeastAreaIsNoHotSpot) {
-  Floor floor({.min_area = 300});  // of the pool 452, of the spark 201
+  Floor floor({.min_area = 300});  // mm2; the pool has 452, the spark 201
   expect_at(floor.follow({kPool, kSpark}), kPool);
   EXPECT_FALSE(floor.follow({kSpark}));
   EXPECT_FALSE(floor.follow({}));

@@ -34,7 +34,7 @@ class ScalarLevelSet {
   bool is_whole(std::size_t blob) const { return roots_[blob] == blob; }
   const Blob& blob(std::size_t index) const { return blobs_[index]; }
 
-  /// By row, then from left to right.
+  /// Spans of a blob, by row, then from left to right.
   std::vector<Span> spans_of(std::size_t blob) const {
     std::vector<Span> spans;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -106,8 +106,8 @@ class ScalarLevelSet {
   }
 
   std::vector<Span> runs_;
-  std::vector<std::size_t> roots_;  ///< by run
-  std::vector<Blob> blobs_;         ///< by run
+  std::vector<std::size_t> roots_;  ///< indexed by run
+  std::vector<Blob> blobs_;         ///< indexed by run
 };
 
 }  // namespace orbwatch::signals
