@@ -10,15 +10,15 @@
 #include "proc/align/condition/focus.h"
 #include "tests/support/picture_of_mat.h"
 
-/// What it costs to watch a ball's focus and dirt.
+/// Cost of watching a ball's focus and dirt.
 namespace orbwatch::bench {
 namespace {
 
 constexpr int kRepetitions = 15;
 constexpr double kFocusPause = 10;  // s between measurements of the focus
-constexpr double kAim = 0.01;       // of a core
+constexpr double kAim = 0.01;       // share of a core
 
-/// A ball full of edges, more than a room has.
+/// A ball full of edges, with more of them than a room has.
 cv::Mat picture_of_patches(const cv::Size& size, const optics::Outline& limb) {
   cv::Mat picture(size, CV_8UC3, cv::Scalar(60, 70, 80));
   cv::RNG random(4);
@@ -35,7 +35,7 @@ cv::Mat picture_of_patches(const cv::Size& size, const optics::Outline& limb) {
   return picture + noise;
 }
 
-/// CPU time of this process, ms, of one call in the mean.
+/// Mean CPU time of this process per call, ms.
 double milliseconds_of(const std::function<void()>& call) {
   const std::clock_t begin = std::clock();
   for (int n = 0; n < kRepetitions; ++n) call();
@@ -81,7 +81,7 @@ int run() {
   }
   if (worst <= kAim) return 0;
   std::fprintf(stderr, "condition_bench: %.4f of a core, the aim is %.2f\n", worst, kAim);
-  return std::getenv("CI") != nullptr ? 0 : 1;  // times do not count there
+  return std::getenv("CI") != nullptr ? 0 : 1;  // times are not evaluated there
 }
 
 }  // namespace

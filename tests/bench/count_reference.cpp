@@ -9,7 +9,7 @@
 /// "PROGRAM FRAME_SETS" runs the reference machine, for count_stages.c: marks the beginning of each
 /// frame set and prints the names of the stretches that the plugin counts.
 int main(int argc, char** argv) {
-  constexpr long kFrameSetBegins = 0x5E7;  // as in count_stages.c
+  constexpr long kFrameSetBegins = 0x5E7;  // defined likewise in count_stages.c
   const int sets = argc == 2 ? std::atoi(argv[1]) : 0;
   if (sets < 2) {
     std::cerr << "usage: " << argv[0] << " FRAME_SETS, at least 2\n";

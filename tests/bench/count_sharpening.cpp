@@ -7,9 +7,9 @@
 #include "proc/remap/remap.h"
 #include "tests/bench/counted_run.h"
 
-/// "PROGRAM FORMAT REPETITIONS" sharpens 1000x1000 pixels of a picture of 1920x1080 that often, as
-/// bands of rows that threads share, for count_instructions.c: two runs that differ in REPETITIONS
-/// only tell what one costs.
+/// "PROGRAM FORMAT REPETITIONS" sharpens 1000x1000 pixels of a picture of 1920x1080 REPETITIONS
+/// times, in the bands of rows that threads share, for count_instructions.c: the cost of one
+/// repetition is the difference between two runs that differ in REPETITIONS only.
 int main(int argc, char** argv) {
   using namespace orbwatch;
   constexpr remap::SourceArea kBall{459, 40, 1459, 1040};

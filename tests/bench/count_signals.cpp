@@ -4,8 +4,9 @@
 
 #include "tests/bench/measured_region.h"
 
-/// "PROGRAM CASE REPETITIONS" measures a region that often, for count_instructions.c: two runs that
-/// differ in REPETITIONS only tell what one costs. Prints the region's pixels.
+/// "PROGRAM CASE REPETITIONS" measures a region REPETITIONS times, for count_instructions.c: the
+/// cost of one repetition is the difference between two runs that differ in REPETITIONS only.
+/// Prints the region's pixels.
 int main(int argc, char** argv) {
   using namespace orbwatch::bench;
   const auto wanted =

@@ -8,8 +8,9 @@
 
 namespace orbwatch::bench {
 
-/// The main program that a counter watches: "PROGRAM CASE REPETITIONS" merges a view that often.
-/// Two runs that differ in REPETITIONS only tell what one costs.
+/// The main program run under a counter: "PROGRAM CASE REPETITIONS" merges a view REPETITIONS
+/// times. The cost of one repetition is the difference between two runs that differ in REPETITIONS
+/// only.
 template <class Contestant>
 int counted_merge(int argc, char** argv) {
   const auto wanted =

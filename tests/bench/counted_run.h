@@ -13,7 +13,7 @@
 
 namespace orbwatch::bench {
 
-/// The format of that name in kPixelFormats; nothing when there is none.
+/// The format called `name` in kPixelFormats; nullopt when there is none.
 inline std::optional<PixelFormat> find_format(std::string_view name) {
   for (const PixelFormatInfo& facts : kPixelFormats) {
     if (facts.name == name) return facts.format;
@@ -21,7 +21,7 @@ inline std::optional<PixelFormat> find_format(std::string_view name) {
   return {};
 }
 
-/// Marks for count_bytes.c.
+/// Marks a frame's memory for count_bytes.c.
 inline void leave_out(const Frame& frame) {
   for (const Plane& plane : frame.planes) {
     syscall(SYS_sched_yield, plane.bytes.data(), plane.bytes.size());
@@ -29,9 +29,9 @@ inline void leave_out(const Frame& frame) {
 }
 inline void begin_or_end_stretch() { syscall(SYS_sched_yield, nullptr, std::size_t{0}); }
 
-/// The main program that a counter watches: "PROGRAM VIEW FORMAT SIDE REPETITIONS" remaps white
-/// noise of SIDE x SIDE pixels that often. Two runs that differ in REPETITIONS only tell what one
-/// costs; what they touch is marked.
+/// The main program run under a counter: "PROGRAM VIEW FORMAT SIDE REPETITIONS" remaps white noise
+/// of SIDE x SIDE pixels REPETITIONS times. The cost of one repetition is the difference between
+/// two runs that differ in REPETITIONS only; the memory that it touches is marked.
 template <class Contestant>
 int counted_run(int argc, char** argv) {
   const auto number = [&](int i) {

@@ -10,7 +10,7 @@
 #include "tests/bench/dds_outage.h"
 #include "tests/bench/dds_reading.h"
 
-/// What DDS costs the writer of pictures, what its readers lose, and how long they wait.
+/// Cost of DDS for the writer of pictures, and losses and delays of its readers.
 namespace orbwatch::bench {
 namespace {
 
@@ -18,7 +18,7 @@ constexpr const char* kUsage =
     "dds_bench SECONDS: measures each case for so long\n"
     "dds_bench --read DOMAIN TOPIC: a reader of pictures, which the cases start\n";
 
-/// Whether every aim was reached.
+/// True if every aim was reached.
 bool run(std::chrono::seconds duration) {
   bool reached = true;
   std::puts(kCaseHeader);
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
     }
     if (bench::run(std::chrono::seconds(seconds))) return 0;
     std::fputs("dds_bench: an aim was missed\n", stderr);
-    return std::getenv("CI") != nullptr ? 0 : 1;  // times do not count there
+    return std::getenv("CI") != nullptr ? 0 : 1;  // times are not evaluated there
   } catch (const std::exception& error) {
     std::fprintf(stderr, "dds_bench: %s\n", error.what());
     return 1;

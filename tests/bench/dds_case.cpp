@@ -17,7 +17,7 @@ using app::tests::ShippedNetwork;
 
 constexpr double kAnyCost = std::numeric_limits<double>::infinity();
 
-/// All threads of this process, user and system.
+/// CPU seconds of all threads of this process, user and system.
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -34,7 +34,7 @@ app::TopicStatistics statistics_of(const app::DdsSink& sink, const std::string& 
   return *found;
 }
 
-/// Until each reader has its first picture.
+/// Waits until each reader has its first picture.
 void wait_for_all(const Readers& readers, app::tests::Pace& pace) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!std::ranges::all_of(readers, [](const auto& r) { return received(*r) > 0; })) {

@@ -17,33 +17,33 @@ struct DdsCase {
   Pictures pictures;
   Vendor vendor;
   int readers;
-  double allowed_loss;    ///< share of the pictures that were handed over
-  double allowed_cpu_ms;  ///< of the writing process, per picture
+  double allowed_loss;    ///< share of the pictures handed over
+  double allowed_cpu_ms;  ///< the writing process's, per picture
 };
 
-/// In the order of the table.
+/// The cases in the order of the table.
 std::vector<DdsCase> dds_cases();
 
 struct CaseFigures {
   std::uint64_t accepted = 0;
   std::uint64_t written = 0;
-  std::uint64_t dropped = 0;  ///< replaced by a newer one before they were written
-  double kilobytes = 0;       ///< of the newest picture, as it came
-  double lost = 0;            ///< of those handed over, by the reader that lost most
-  double cpu_ms = 0;          ///< of the writing process, per picture
+  std::uint64_t dropped = 0;  ///< number replaced by a newer one before they were written
+  double kilobytes = 0;       ///< size of the newest picture as received
+  double lost = 0;            ///< share of those handed over, for the reader that lost most
+  double cpu_ms = 0;          ///< the writing process's, per picture
   std::uint64_t waits = 0;    ///< hand-overs in which the pipeline had to wait
   double longest_wait_ms = 0;
-  double memory_growth_mb = 0;  ///< of the writing process
+  double memory_growth_mb = 0;  ///< the writing process's
 };
 
-/// With networks, readers and a sink of its own. Throws std::runtime_error when a reader gets
-/// nothing.
+/// Measures a case with networks, readers and a sink of its own. Throws std::runtime_error when a
+/// reader receives nothing.
 CaseFigures measure(const DdsCase& one, std::chrono::seconds duration);
 
 extern const char* const kCaseHeader;
 void print(const DdsCase& one, const CaseFigures& figures);
 
-/// Megabytes of this process in memory.
+/// Resident memory of this process, megabytes.
 double resident_mb();
 
 }  // namespace orbwatch::bench

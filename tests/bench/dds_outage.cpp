@@ -41,7 +41,7 @@ double slowest_state(const ShippedNetwork& network) {
   return slowest;
 }
 
-/// Seconds until each reader gets something that it has not had `before`.
+/// Seconds until each reader receives another picture.
 std::vector<double> time_to_next(const Readers& readers, Pace& pace) {
   const auto begin = Clock::now();
   std::vector<std::uint64_t> before;

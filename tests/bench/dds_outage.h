@@ -4,13 +4,13 @@
 
 namespace orbwatch::bench {
 
-/// How long readers of another vendor and of ours wait, over a cable.
+/// Delays of another vendor's readers and of ours, over a cable.
 struct OutageFigures {
-  double state_ms = 0;        ///< the last state, from matching on: the slowest of ten late readers
-  double ours_back_s = 0;     ///< pictures, from the moment the cable is back after 15 s
+  double state_ms = 0;  ///< delay of the last state after matching: the slowest of ten late readers
+  double ours_back_s = 0;     ///< delay of pictures after the cable is back from an outage of 15 s
   double foreign_back_s = 0;  ///< the same for the other vendor's reader
-  double memory_growth_mb = 0;   ///< of the writing process while the cable was out
-  unsigned long long waits = 0;  ///< of the pipeline, in all that time
+  double memory_growth_mb = 0;   ///< the writing process's while the cable was out
+  unsigned long long waits = 0;  ///< the pipeline's during the whole measurement
   double longest_wait_ms = 0;
 
   bool reached() const {
@@ -22,7 +22,7 @@ struct OutageFigures {
   }
 };
 
-/// Throws std::runtime_error when something never comes.
+/// Throws std::runtime_error when an expected sample is not received.
 OutageFigures measure_outage();
 
 void print(const OutageFigures& figures);

@@ -29,7 +29,7 @@ std::vector<std::shared_ptr<app::View>> make_views(int width, int height) {
   return views;
 }
 
-/// Views whose JPEG at the best quality is larger than the target: noise, as a grainy camera has.
+/// Views whose JPEG at the best quality is larger than the target: noise like a grainy camera's.
 std::vector<std::shared_ptr<app::View>> make_grainy_views() {
   auto views = make_views(kWidth, kHeight);
   cv::RNG grain(1);
@@ -43,7 +43,7 @@ std::vector<std::shared_ptr<app::View>> make_grainy_views() {
   return views;
 }
 
-/// Frame sets with a new frame of the first camera.
+/// Frame sets, each with a new frame of the first camera.
 class PacedFrames final : public Pace {
  public:
   explicit PacedFrames(app::Sink& sink) : sink_(sink) {

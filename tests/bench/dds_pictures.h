@@ -8,9 +8,9 @@
 
 namespace orbwatch::bench {
 
-/// What goes into the sink and comes out of it as a topic.
+/// Pictures passed to the sink and their form as a topic.
 enum class Pictures {
-  View,       ///< 1080p, rgb8 as it is
+  View,       ///< 1080p, rgb8, not converted
   SmallView,  ///< 400x250, the size of a JPEG picture
   Camera,     ///< 1080p NV12, converted to mono8
   Jpeg,       ///< a 1080p view, compressed to about 300 kB
@@ -21,7 +21,7 @@ app::DdsSettings settings_for(Pictures pictures);
 /// The topic of sensor_msgs/Image, or of CompressedImage.
 std::string topic_of(Pictures pictures);
 
-/// Hands such pictures over to the sink.
+/// Source that passes such pictures to the sink.
 std::unique_ptr<app::tests::Pace> paced(Pictures pictures, app::Sink& sink);
 
 }  // namespace orbwatch::bench

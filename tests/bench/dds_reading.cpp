@@ -23,7 +23,7 @@ Value checked(Result<Value> result) {
   return std::move(*result);
 }
 
-/// The path of this program, which reads when told so.
+/// The path of this program, which reads pictures when started with the corresponding arguments.
 std::string own_path() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 }  // namespace

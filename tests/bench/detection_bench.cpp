@@ -9,8 +9,8 @@
 #include "tests/support/mirror_room.h"
 #include "tests/support/picture_of_mat.h"
 
-/// How long it takes to find the ball in pictures of 12 megapixels, on one thread, beside OpenCV's
-/// Hough transform for circles, which tells no ball from a disc.
+/// Time to find the ball in pictures of 12 megapixels, on one thread, compared with OpenCV's Hough
+/// transform for circles, which does not distinguish a ball from a disc.
 namespace {
 
 using namespace orbwatch;
@@ -19,7 +19,7 @@ constexpr int kRepetitions = 7;
 const cv::Size kSize(4000, 3000);
 constexpr double kLimit = 100;  // ms
 
-/// A simulated room, enlarged: its tracing would take longer than everything else.
+/// A simulated room, enlarged: tracing it at full size would take longer than everything else.
 cv::Mat picture(std::uint64_t seed, double radius) {
   tests::MirrorRoomSettings settings;
   settings.seed = seed;
@@ -32,7 +32,7 @@ cv::Mat picture(std::uint64_t seed, double radius) {
 }
 
 void hough(const cv::Mat& pixels) {
-  // A quarter of the resolution: at the full one it takes minutes.
+  // Uses a quarter of the resolution: the full one takes minutes.
   cv::Mat grey, small;
   cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);
   cv::resize(grey, small, {}, 0.25, 0.25, cv::INTER_AREA);

@@ -10,7 +10,7 @@
 #include "tests/support/picture_of_mat.h"
 #include "tests/support/process_sequence.h"
 
-/// What DriftMonitor::observe() costs on a simulated process.
+/// Cost of DriftMonitor::observe() on a simulated process.
 namespace {
 
 using orbwatch::align::DriftLevel;
@@ -30,10 +30,10 @@ double thread_ms() {
 struct Case {
   const char* name;
   ProcessSettings settings;
-  int magnified;  ///< how much larger the camera's pictures are than the simulated ones
+  int magnified;  ///< size of the camera's pictures relative to the simulated ones
   bool colour;
-  double shift;          ///< px of the simulated pictures, at half time
-  bool is_flat = false;  ///< shows no texture that could be watched
+  double shift;          ///< px in the simulated pictures, at half time
+  bool is_flat = false;  ///< true without any texture that could be tracked
 };
 
 DriftMonitor monitor_of(const Case& c, const ProcessSequence& sequence) {
@@ -50,7 +50,7 @@ DriftMonitor monitor_of(const Case& c, const ProcessSequence& sequence) {
       .value();
 }
 
-/// A row of the table; false when the limit is exceeded.
+/// Prints a row of the table; false when the limit is exceeded.
 bool measure(const Case& c) {
   ProcessSequence sequence(c.settings);
   DriftMonitor monitor = monitor_of(c, sequence);

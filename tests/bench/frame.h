@@ -7,17 +7,17 @@
 
 namespace orbwatch::bench {
 
-/// Samples in memory. Rows are an odd number of cache lines apart, so that they do not meet in the
+/// Samples in memory. Rows are an odd number of cache lines apart, so that they do not map to the
 /// same cache sets.
 struct Plane {
-  /// `samples` of `sample_bytes` per pixel, all zero.
+  /// A plane with `samples` of `sample_bytes` per pixel, all zero.
   static Plane blank(int width, int height, int samples, int sample_bytes);
 
-  /// White noise, the same for the same seed.
+  /// Fills it with white noise, the same for the same seed.
   void fill_with_noise(unsigned seed);
 
-  /// Waves of 60 pixels, others for another seed: smooth, so that the order in which they are
-  /// sampled and converted hardly matters.
+  /// Fills it with waves of 60 pixels, different for each seed: smooth, so that the order of
+  /// sampling and conversion hardly matters.
   void fill_with_waves(unsigned seed);
 
   /// Sample `k` of pixel (x, y).
@@ -33,7 +33,7 @@ struct Plane {
 
 /// A picture that owns its planes.
 struct Frame {
-  /// All zero.
+  /// A frame of zeros.
   static Frame blank(PixelFormat format, int width, int height);
 
   void fill_with_noise(unsigned seed);

@@ -75,7 +75,7 @@ void MeasuredRegion::paint(std::vector<std::uint16_t>& counts, unsigned seed) co
   std::uniform_int_distribution<int> cold(0, static_cast<int>(0.25 * scale));
   std::uniform_int_distribution<int> hot(static_cast<int>(0.55 * scale), static_cast<int>(scale));
   std::bernoulli_distribution is_noise(wanted_.noise);
-  // A hill that passes the hot spot's threshold at the radius.
+  // Counts form a hill that crosses the hot spot's threshold at the radius.
   const double square = wanted_.hot_spot * static_cast<double>(pixels_) / std::numbers::pi;
   counts.reserve(std::size_t{kWidth} * kHeight);
   for (int y = 0; y < kHeight; ++y) {

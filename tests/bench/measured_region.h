@@ -10,7 +10,7 @@
 
 namespace orbwatch::bench {
 
-/// A region of interest as noise and process fill it.
+/// Noise and process in a region of interest.
 struct RegionCase {
   std::string_view name;
   int bits;         ///< per count
@@ -18,8 +18,8 @@ struct RegionCase {
   double hot_spot;  ///< share of the region that a hot spot covers
 };
 
-/// The cases of the instruction counts. A cold region is what a machine shows most of the time;
-/// noise is the worst that a wrong exposure or a wrong threshold makes of it.
+/// The cases of the instruction counts. A cold region is the most frequent content; noise is the
+/// worst effect of a wrong exposure or a wrong threshold.
 inline constexpr std::array kRegionCases{
     RegionCase{"cold_8", 8, 0, 0},        RegionCase{"cold_16", 16, 0, 0},
     RegionCase{"noisy_8", 8, 0.1, 0},     RegionCase{"noisy_16", 16, 0.1, 0},
@@ -32,7 +32,7 @@ class MeasuredRegion {
  public:
   explicit MeasuredRegion(const RegionCase& wanted);
 
-  /// The next frame set. All are different.
+  /// Measures the next frame set. All are different.
   void run();
 
   /// Pixels of the region.
@@ -46,7 +46,7 @@ class MeasuredRegion {
   signals::RegionMeter meter_;
   std::size_t pixels_;
   std::vector<std::uint8_t> validity_;
-  /// Of frame sets that take turns.
+  /// Frame sets, used alternately.
   std::array<std::vector<std::uint8_t>, 2> bytes_;
   std::array<std::vector<std::uint16_t>, 2> words_;
   int frame_set_ = 0;

@@ -12,12 +12,12 @@
 #include "tests/bench/opencv_merge.h"
 #include "tests/bench/paired_run.h"
 
-/// Merged views of two cameras, ours by every kernel and OpenCV's by turns, one thread each:
-/// benchmarks labelled merged/case. Times and ratios are counters, by contestant.
+/// Merged views of two cameras, ours by every kernel and OpenCV's alternately, one thread each:
+/// benchmarks labelled merged/case. Times and ratios are counters, one per contestant.
 namespace orbwatch::bench {
 namespace {
 
-/// Between ours and OpenCV's picture: more than that is another view.
+/// Largest difference between our picture and OpenCV's; the views differ above it.
 constexpr double kLargestDifference = 3;  // rms, of 255
 
 double difference(const Frame& ours, const cv::Mat& peer) {

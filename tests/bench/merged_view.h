@@ -11,17 +11,18 @@
 
 namespace orbwatch::bench {
 
-/// A view that is merged from cameras, as the product makes it.
+/// A view that the product merges from cameras.
 struct MergedCase {
   std::string_view name;
-  bool panorama;                       ///< else 1920x1080, 90 degrees wide
-  std::array<PixelFormat, 3> sources;  ///< of these, the first `count`
+  bool panorama;                       ///< false: 1920x1080, 90 degrees wide
+  std::array<PixelFormat, 3> sources;  ///< the first `count` are used
   std::size_t count;
-  bool measured;  ///< the last source is
+  bool measured;  ///< true if the last source is measured
 };
 
-/// The cases of the instruction counts. Of two sources both see all of the view and count alike;
-/// the three of a panorama stand 120 degrees apart, so that limbs and blind cones are in it.
+/// The cases of the instruction counts. With two sources, both see all of the view and have equal
+/// shares; the three of a panorama are 120 degrees apart, so that it includes limbs and blind
+/// cones.
 inline constexpr std::array kMergedCases{
     MergedCase{"nv12", false, {PixelFormat::Nv12}, 1, false},
     MergedCase{"yuyv", false, {PixelFormat::Yuyv}, 1, false},
@@ -38,7 +39,7 @@ inline constexpr std::array kMergedCases{
 
 /// One camera of a merged view.
 struct MergedCamera {
-  /// Shows waves.
+  /// Makes a camera that shows waves.
   MergedCamera(PixelFormat format, const optics::ViewProjection& view, double yaw, unsigned seed);
 
   Frame frame;
@@ -47,14 +48,14 @@ struct MergedCamera {
   remap::CoordinateGrid grid;
 };
 
-/// Colours and the counts of the first and the last of them.
+/// Colours, and the counts of the first and the last of them.
 struct ColourScale {
   remap::ColourMap::Table table;
   double low;
   double high;
 };
 
-/// Of a one-channel camera.
+/// The scale of a one-channel camera.
 ColourScale scale_of(PixelFormat format);
 
 /// One case with waves in all cameras: colour ones of 1920x1080, thermal ones of 640x512.
@@ -69,7 +70,7 @@ class MergedView {
   const std::deque<MergedCamera>& cameras() const { return cameras_; }
   const remap::BlendGrid& blend() const { return *blend_; }
 
-  // What run() made.
+  // Results of run().
   const Frame& output() const { return out_; }
   const std::optional<Frame>& measured() const { return measured_; }
 
@@ -77,7 +78,7 @@ class MergedView {
   const remap::Kernel& kernel_;
   optics::ViewProjection view_;
   std::deque<MergedCamera> cameras_;
-  std::deque<remap::ColourMap> colours_;  ///< by camera
+  std::deque<remap::ColourMap> colours_;  ///< one per camera
   std::optional<remap::BlendGrid> blend_;
   std::optional<Frame> measured_;
   Frame out_;

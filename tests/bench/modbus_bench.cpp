@@ -13,7 +13,7 @@
 #include "tests/app/ports/modbus/abuses.h"
 #include "tests/app/ports/modbus/clients.h"
 
-/// How long a PLC waits for its answers while others abuse the server.
+/// Delay of a PLC's answers while other clients abuse the server.
 namespace orbwatch::app {
 namespace {
 
@@ -22,7 +22,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 constexpr double kAim = 50;  // ms, p99
 constexpr int kRegisters = 96;
 
-/// Of requests one after the other, sorted. Throws when one is not answered.
+/// Times of consecutive requests, sorted. Throws when one is not answered.
 std::vector<double> request_times(int port, std::chrono::seconds duration) {
   tests::Plc plc(port);
   std::vector<double> times;
@@ -42,8 +42,8 @@ double quantile(const std::vector<double>& sorted, double part) {
   return sorted[static_cast<std::size_t>(part * last)];
 }
 
-/// A new server for each, so that none inherits what another left. With the settings of the
-/// product, apart from the PLC's being the writer.
+/// Measures with a new server for each abuse, so that none is affected by an earlier one. Uses the
+/// product's settings, except that the PLC is the writer.
 std::vector<double> measured(const orbwatch::tests::Abuse* abuse, std::chrono::seconds duration) {
   ModbusSettings settings;
   settings.address = "127.0.0.1";
@@ -78,7 +78,7 @@ int run(std::chrono::seconds duration) {
   }
   if (worst <= kAim) return 0;
   std::fprintf(stderr, "modbus_bench: worst p99 is %.1f ms, the aim is %.0f ms\n", worst, kAim);
-  return std::getenv("CI") != nullptr ? 0 : 1;  // times do not count there
+  return std::getenv("CI") != nullptr ? 0 : 1;  // times are not evaluated there
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace orbwatch::bench {
 
-/// A plane's samples as OpenCV takes them. It has no matrix of constant samples; sources are only
-/// read.
+/// A plane's samples as a cv::Mat header. OpenCV has no matrix of constant samples; sources are
+/// only read.
 inline cv::Mat header_of(const Plane& plane) {
   const int depth = plane.sample_bytes == 1 ? CV_8U : CV_16U;
   auto* data = const_cast<std::byte*>(plane.bytes.data());

@@ -7,7 +7,7 @@
 namespace orbwatch::bench {
 namespace {
 
-/// Weights as blendLinear reads them.
+/// Weights in the form of blendLinear.
 cv::Mat share_of(const MergedView& ours, std::size_t camera) {
   const int width = ours.view().width(), height = ours.view().height();
   cv::Mat weights(height, width, CV_8U), share;

@@ -7,13 +7,13 @@
 
 namespace orbwatch::bench {
 
-/// A view of two cameras as a user who knows OpenCV makes it, on one thread: NV12 to RGB, cv::remap
-/// with maps in its fast form, one-channel pictures through a colour map, 16 bit ones scaled to
-/// bytes before, and a blend by weights of full size. The thermal counts that are measured are
-/// what is then coloured. Reads the cameras, maps and weights of `ours`, which outlives it.
+/// A view of two cameras by the usual OpenCV calls, on one thread: NV12 to RGB, cv::remap with maps
+/// in its fast form, one-channel pictures through a colour map, 16 bit ones scaled to bytes before,
+/// and a blend by weights of full size. The measured thermal counts are coloured afterwards. Reads
+/// the cameras, maps and weights of `ours`, which outlives it.
 class OpencvMerge {
  public:
-  /// Whether it makes that view: cv::blendLinear takes two pictures.
+  /// True if it can make that view: cv::blendLinear blends two pictures.
   static bool takes(const MergedCase& wanted) { return !wanted.panorama && wanted.count == 2; }
 
   explicit OpencvMerge(const MergedView& ours);
@@ -26,14 +26,14 @@ class OpencvMerge {
  private:
   struct Source {
     std::vector<cv::Mat> planes;
-    cv::Mat picture;  ///< in one plane
+    cv::Mat picture;  ///< single-plane picture
     cv::Mat places, map_weights;
     cv::Mat sampled;
     double scale = 1, offset = 0;  ///< from 16 bit counts to bytes
     cv::Mat bytes;
-    cv::Mat colours;  ///< 256 of a one-channel camera
+    cv::Mat colours;  ///< 256 colours of a one-channel camera
     cv::Mat shown;
-    cv::Mat share;  ///< by pixel, 0..1
+    cv::Mat share;  ///< for each pixel, 0..1
   };
 
   static Source source_of(const MergedView& ours, std::size_t camera);

@@ -7,7 +7,7 @@
 namespace orbwatch::bench {
 namespace {
 
-/// cv::remap's fast form of the map; a place outside of the picture where there is none.
+/// The map in cv::remap's fast form; pixels without a place get one outside of the picture.
 OpencvRemap::Maps maps_of(const Rig& rig, int divisor) {
   cv::Mat map(rig.named.height / divisor, rig.named.width / divisor, CV_32FC2, cv::Scalar(-1, -1));
   auto* next = map.ptr<cv::Vec2f>();

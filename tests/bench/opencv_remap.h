@@ -8,11 +8,11 @@
 
 namespace orbwatch::bench {
 
-/// cv::remap on one thread with maps in its fast form (CV_16SC2 and CV_16UC1), plane by plane: as a
-/// user who knows OpenCV has it. `source` outlives it.
+/// cv::remap on one thread with maps in its fast form (CV_16SC2 and CV_16UC1), plane by plane,
+/// which is the usual way with OpenCV. `source` outlives it.
 class OpencvRemap {
  public:
-  /// Whether planes of that format can be remapped as they are: not YUYV and UYVY.
+  /// True if planes of that format can be remapped without conversion: not YUYV and UYVY.
   static bool takes(PixelFormat format);
 
   OpencvRemap(const Rig& rig, const Frame& source);

@@ -7,14 +7,14 @@
 
 namespace orbwatch::bench {
 
-/// The remap core on one thread, from a format to the same one; all that the bench knows of its
-/// interface. `source` outlives it.
+/// The remap core on one thread, from a format to the same one; the bench uses no other interface
+/// of it. `source` outlives it.
 class OurRemap {
  public:
   OurRemap(const Rig& rig, const Frame& source,
            const remap::Kernel& kernel = remap::default_kernel());
 
-  /// One sample per pixel, as the peers do it.
+  /// Remaps with one sample per pixel, like the peers.
   void run();
   const Frame& output() const { return output_; }
 

@@ -14,7 +14,7 @@ double milliseconds_of(clockid_t clock) {
   return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
 }
 
-/// What one run took, and what the whole process took meanwhile.
+/// CPU time of one run's thread, and of the whole process meanwhile.
 struct Cost {
   double thread;
   double process;

@@ -14,13 +14,12 @@
 
 namespace orbwatch::bench {
 
-/// A camera that delivers pictures which were made before: what remains is the work of those who
-/// read them.
+/// A camera that delivers prepared pictures: only the work of their readers remains.
 class PreparedCamera : public hal::Camera {
  public:
   using Paint = std::function<void(const MutablePicture&, unsigned seed)>;
 
-  /// All buffers are painted here, each with another seed.
+  /// Paints all buffers here, each with another seed.
   PreparedCamera(std::string name, const hal::StreamFormat& format, const Paint& paint)
       : Camera({std::move(name), "prepared", "bench"}),
         format_(format),
@@ -36,8 +35,8 @@ class PreparedCamera : public hal::Camera {
   }
   ~PreparedCamera() override { stop(); }
 
-  /// Has the camera's thread deliver the next picture, exposed at `moment`. The one before was
-  /// delivered already.
+  /// Makes the camera's thread deliver the next picture, exposed at `moment`. Precondition: the
+  /// previous one has been delivered.
   void expose(hal::TimePoint moment) {
     moment_ = moment;
     wake();
@@ -58,7 +57,7 @@ class PreparedCamera : public hal::Camera {
 
   hal::StreamFormat format_;
   hal::FramePool pool_;
-  hal::TimePoint moment_;  ///< of the next exposure; set while the camera's thread waits
+  hal::TimePoint moment_;  ///< time of the next exposure; set while the camera's thread waits
 };
 
 }  // namespace orbwatch::bench

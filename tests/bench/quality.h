@@ -5,7 +5,7 @@
 
 namespace orbwatch::bench {
 
-/// How far samples are from what they should be, in units of 1/255 of full scale.
+/// Error of samples in units of 1/255 of full scale.
 struct Quality {
   double rms = 0;
   double max = 0;

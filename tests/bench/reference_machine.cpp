@@ -20,7 +20,7 @@ constexpr double kThermalYaw = 180;
 constexpr double kKelvinPerCount = 0.04;
 constexpr double kRate = 30;
 
-/// Emulated, a set takes longer than the product allows.
+/// A frame set under emulation takes longer than the product allows.
 constexpr std::chrono::seconds kPatience{300};
 
 hal::StreamFormat colour_format() { return {PixelFormat::Nv12, {}, 1920, 1080, kRate}; }
@@ -28,7 +28,7 @@ hal::StreamFormat thermal_format() { return {PixelFormat::Y16, {}, 640, 512, kRa
 optics::BallProjection colour_ball() { return ball_in_picture(1920, 1080, 0); }
 optics::BallProjection thermal_ball() { return ball_in_picture(640, 512, kThermalYaw); }
 
-/// Counts of a black body.
+/// Counts of a black body at `celsius`.
 double counts(double celsius) { return (celsius + 273.15) / kKelvinPerCount; }
 
 app::ViewSource colour_source() {
@@ -102,7 +102,7 @@ std::unique_ptr<app::CompiledRecipe> recipe() {
   return app::CompiledRecipe::make(std::move(plan), table()).value();
 }
 
-/// White noise.
+/// Paints white noise.
 void paint_colour(const MutablePicture& picture, unsigned seed) {
   std::uint32_t random = seed + 1;
   const std::size_t size = picture_bytes(
@@ -113,7 +113,7 @@ void paint_colour(const MutablePicture& picture, unsigned seed) {
   }
 }
 
-/// A molten pool on a cold table.
+/// Paints a molten pool on a cold table.
 void paint_thermal(const MutablePicture& picture, unsigned seed) {
   constexpr double kRadius = 4;  // px
   const optics::ViewProjection view = process_view().projection;
@@ -140,7 +140,7 @@ std::unique_ptr<PreparedCamera> camera(const char* name, const hal::StreamFormat
 
 }  // namespace
 
-/// Needs what the readers of the machine's views need.
+/// Requires the data that the readers of the machine's views require.
 class ReferenceMachine::Reader : public app::Sink {
  public:
   explicit Reader(std::function<void()> on_set) : on_set_(std::move(on_set)) {}
@@ -168,7 +168,7 @@ class ReferenceMachine::Reader : public app::Sink {
     changed_.notify_all();
   }
 
-  /// Whether set `number` ended, with every view and a hot spot.
+  /// True if set `number` ended, with every view and a hot spot.
   bool wait_for(std::uint64_t number) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, kPatience, [&] { return frame_set_ >= number; }) && is_whole_;
@@ -176,7 +176,7 @@ class ReferenceMachine::Reader : public app::Sink {
 
  private:
   std::function<void()> on_set_;
-  std::size_t views_ = 0;  ///< of the set; the pipeline's thread's
+  std::size_t views_ = 0;  ///< number in the set; used by the pipeline's thread
   std::mutex mutex_;
   std::condition_variable changed_;
   std::uint64_t frame_set_ = 0;
@@ -208,7 +208,7 @@ ReferenceMachine::ReferenceMachine(std::function<void()> on_set)
 ReferenceMachine::~ReferenceMachine() { pipeline_->stop(); }
 
 bool ReferenceMachine::run() {
-  // As regular as those of a camera: else the next frame would be expected at another time.
+  // Exposures are as regular as a camera's: else the next frame would be expected at another time.
   const auto moment = begin_ + sets_ * hal::period_of(kRate);
   colour_->expose(moment);
   thermal_->expose(moment);

@@ -12,16 +12,16 @@
 
 namespace orbwatch::bench {
 
-/// The machine that the frame budget is stated for, as the product runs it, on one thread: a colour
-/// camera of 1920x1080 in NV12 and a thermal one of 640x512 in Y16 see a ball from opposite sides.
-/// Both are mixed in a measured view of 1920x1080, with a region of interest and an alarm on the
-/// thermal counts, and in a panorama of 1024x512, both read as RGB; a display view of 640x480 of
-/// the colour camera is read as JPEG, which nobody compresses here. Everything else is as
-/// configuration and recipe have it unless stated.
+/// The machine for which the frame budget is stated, run by the product's classes on one thread: a
+/// colour camera of 1920x1080 in NV12 and a thermal one of 640x512 in Y16 see a ball from opposite
+/// sides. Both are mixed in a measured view of 1920x1080, with a region of interest and an alarm on
+/// the thermal counts, and in a panorama of 1024x512, both read as RGB; a display view of 640x480
+/// of the colour camera is read as JPEG, without the compression. Everything else has the defaults
+/// of configuration and recipe unless stated.
 class ReferenceMachine {
  public:
-  /// `on_set` is called on the pipeline's thread, which does all the work of frame sets, at the
-  /// beginning of each set.
+  /// `on_set` is called at the beginning of each frame set, on the pipeline's thread, which does
+  /// all the work.
   explicit ReferenceMachine(std::function<void()> on_set);
   ~ReferenceMachine();
 
@@ -29,8 +29,8 @@ class ReferenceMachine {
   /// missing in it.
   bool run();
 
-  /// What the pipeline does between two readings of its thread's clock in Pipeline::process(), in
-  /// their order from on_set on; "rest": what is neither views nor their input.
+  /// Stretches between two readings of the pipeline thread's clock in Pipeline::process(), in their
+  /// order from on_set on; "rest": neither views nor their input.
   static constexpr std::string_view kStretches =
       "rest halving measured_view measurement rest halving panorama rest jpeg_view rest";
 
@@ -38,8 +38,8 @@ class ReferenceMachine {
   class Reader;
 
   std::unique_ptr<Reader> reader_;
-  PreparedCamera* colour_ = nullptr;   ///< the pipeline's
-  PreparedCamera* thermal_ = nullptr;  ///< the pipeline's
+  PreparedCamera* colour_ = nullptr;   ///< owned by the pipeline
+  PreparedCamera* thermal_ = nullptr;  ///< owned by the pipeline
   std::optional<app::Pipeline> pipeline_;
   const hal::TimePoint begin_ = hal::Clock::now();
   std::uint64_t sets_ = 0;

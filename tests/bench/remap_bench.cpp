@@ -17,10 +17,10 @@
 #include "tests/bench/rig.h"
 #include "tests/bench/v360_remap.h"
 
-/// Our kernels, cv::remap and v360 by turns on the same view, one thread each: benchmarks labelled
-/// view/format/side of the source. Times, ratios and quality are counters, by contestant. Where the
-/// view is smaller than its source the peers alias and ours do not: that costs time, and quality is
-/// compared elsewhere only.
+/// Our kernels, cv::remap and v360 alternately on the same view, one thread each: benchmarks
+/// labelled view/format/side of the source. Times, ratios and quality are counters, one per
+/// contestant. The peers alias where the view is smaller than its source, ours does not: that costs
+/// time, and quality is compared in the other cases only.
 namespace orbwatch::bench {
 namespace {
 
@@ -34,7 +34,7 @@ struct Field {
 
   OpencvRemap opencv;
   V360Remap v360;
-  std::vector<std::unique_ptr<OurRemap>> ours;  ///< by kernel
+  std::vector<std::unique_ptr<OurRemap>> ours;  ///< one per kernel
 };
 
 void report_quality(benchmark::State& state, const std::string& name, const Quality& quality) {
@@ -92,7 +92,7 @@ void add_cases(benchmark::internal::Benchmark* paired_benchmark) {
 }
 BENCHMARK(paired)->Apply(add_cases)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-/// Takes "--pairs=N" out of the arguments; false when N is no number from 1 on.
+/// Removes "--pairs=N" from the arguments; false when N is not a number from 1 on.
 bool take_pairs(int& argc, char** argv) {
   constexpr std::string_view kOption = "--pairs=";
   int kept = 0;

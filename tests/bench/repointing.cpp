@@ -6,8 +6,8 @@
 #include "proc/remap/remap.h"
 #include "tests/bench/rig.h"
 
-/// Re-pointing a 1080p view, in the bench's rig and with a machine's walls and table, beside what a
-/// map of full size takes.
+/// Re-pointing a 1080p view, in the bench's rig and with a machine's walls and table, compared with
+/// the time for a map of full size.
 namespace orbwatch::bench {
 namespace {
 
@@ -41,7 +41,7 @@ optics::BallProjection ball_in_machine() {
       .value();
 }
 
-/// At the table, across the machine, at the ceiling, back at the camera.
+/// Orientations towards the table, across the machine, to the ceiling, back to the camera.
 Scene box_and_table(const benchmark::State& state) {
   constexpr optics::YawPitchRoll kOrientations[]{
       {-115, -40, 0}, {110, -30, 45}, {90, 50, 0}, {170, 0, 0}};
@@ -60,7 +60,7 @@ void build_grid(benchmark::State& state, Scene (*scene_for)(const benchmark::Sta
   state.counters["bytes"] = static_cast<double>(bytes);
 }
 
-/// The peer: every pixel once, in double, as cv::remap takes it.
+/// The peer: a map in cv::remap's form, with every pixel computed once, in double.
 void build_full_map(benchmark::State& state, Scene (*scene_for)(const benchmark::State&)) {
   const Scene scene = scene_for(state);
   cv::Mat map(scene.view.height(), scene.view.width(), CV_32FC2);

@@ -12,7 +12,7 @@ optics::ViewProjection projection_of(const NamedView& named) {
   return optics::ViewProjection::make(spec).value();
 }
 
-/// 1490 px of radius in 3000, and as much of other sizes.
+/// Radius of 1490 px in a picture of 3000, and in proportion for other sizes.
 optics::BallProjection ball_in(int source) {
   const double middle = (source - 1) / 2.0, radius = source * (1490.0 / 3000);
   return optics::BallProjection::make(

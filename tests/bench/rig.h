@@ -10,7 +10,7 @@
 
 namespace orbwatch::bench {
 
-/// A view of the bench's fixed rig, by the name that options and reports give it.
+/// A view of the bench's fixed rig, with its name in options and reports.
 struct NamedView {
   std::string_view name;
   optics::ViewKind kind;
@@ -25,16 +25,16 @@ inline constexpr std::array kViews{
     NamedView{"equirect", optics::ViewKind::Equirectangular, {0, 0, 0}, 3840, 1920},
 };
 
-/// The view of that name; nothing when there is none.
+/// The view called `name`; nullopt when there is none.
 std::optional<NamedView> find_view(std::string_view name);
 
-/// What every contestant gets: one view of a ball that fills a square picture of `source` pixels a
-/// side, far away, as the exact model has it. Flat views are 90 degrees wide.
+/// Common input of all contestants: one view of a ball that fills a square picture of `source`
+/// pixels a side, far away, by the exact model. Flat views are 90 degrees wide.
 struct Rig {
   Rig(const NamedView& chosen, int source_side);
 
-  /// Where each pixel of the view, shrunk by `divisor` along both axes, lies in the source picture
-  /// shrunk as much: row by row, OpenCV pixels; nothing in the blind cone.
+  /// Place of each pixel of the view, shrunk by `divisor` along both axes, in the source picture
+  /// shrunk as much: row by row, OpenCV pixels; nullopt in the blind cone.
   std::vector<std::optional<optics::Vec2>> exact_map(int divisor = 1) const;
 
   NamedView named;

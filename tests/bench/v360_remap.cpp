@@ -17,7 +17,7 @@ extern "C" {
 namespace orbwatch::bench {
 namespace {
 
-/// Throws what FFmpeg has against `what`.
+/// Throws FFmpeg's message for `code`, with `what`.
 void check(int code, const std::string& what) {
   if (code >= 0) return;
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
@@ -25,7 +25,7 @@ void check(int code, const std::string& what) {
   throw std::runtime_error("v360: " + what + ": " + text.data());
 }
 
-/// v360's format, and how many planes of what size it has; subsampled are all but the first.
+/// v360's format, with the number and size of its planes; all but the first are subsampled.
 struct PlanarFormat {
   AVPixelFormat format = AV_PIX_FMT_NONE;
   int planes = 0;
@@ -51,7 +51,7 @@ std::string filter_options(const Rig& rig) {
   const NamedView& named = rig.named;
   const bool flat = named.kind == optics::ViewKind::Perspective;
   std::ostringstream text;
-  // v360 shows a ball as seen from behind its picture: ih_flip puts right and left in their place.
+  // v360 shows a ball as seen from behind its picture: ih_flip corrects right and left.
   text << "input=ball:ih_flip=1:output=" << (flat ? "flat" : "equirect")
        << ":interp=linear:w=" << named.width << ":h=" << named.height
        << ":yaw=" << named.orientation.yaw << ":pitch=" << named.orientation.pitch
@@ -90,7 +90,7 @@ void V360Remap::wrap_source(const Rig& rig, PixelFormat format) {
     plane.fill_with_noise(n);
     input_->data[n] = reinterpret_cast<std::uint8_t*>(plane.bytes.data());
     input_->linesize[n] = static_cast<int>(plane.stride);
-    // The samples stay ours.
+    // The samples are still owned by us.
     input_->buf[n] = av_buffer_create(
         input_->data[n], plane.bytes.size(), [](void*, std::uint8_t*) {}, nullptr,
         AV_BUFFER_FLAG_READONLY);
@@ -101,7 +101,7 @@ void V360Remap::wrap_source(const Rig& rig, PixelFormat format) {
 void V360Remap::connect(const Rig& rig) {
   graph_->nb_threads = 1;
   graph_->thread_type = 0;
-  // What v360 does not take must fail, not be converted on the way.
+  // Formats that v360 does not support must fail, not be converted implicitly.
   avfilter_graph_set_auto_convert(graph_.get(), AVFILTER_AUTO_CONVERT_NONE);
   std::ostringstream input;
   input << "video_size=" << rig.source << 'x' << rig.source << ":pix_fmt=" << input_->format

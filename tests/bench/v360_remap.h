@@ -15,17 +15,17 @@ namespace orbwatch::bench {
 
 /// FFmpeg's v360 filter in this process, bilinear, on one thread. Its ball fills the picture, ours
 /// leaves a margin of 10 px: else the views are the same. Throws std::runtime_error with FFmpeg's
-/// words when it refuses something.
+/// message when it refuses something.
 class V360Remap {
  public:
-  /// Whether v360 has that format, or the planar one that holds as much: yuv420p for NV12, gbrp for
-  /// BGR.
+  /// True if v360 supports that format, or the planar one with the same samples: yuv420p for NV12,
+  /// gbrp for BGR.
   static bool takes(PixelFormat format);
 
-  /// Its source is white noise of its own.
+  /// The source is white noise of its own.
   V360Remap(const Rig& rig, PixelFormat format);
 
-  /// Sends the same frame in, by reference, and takes the view out.
+  /// Sends the same frame by reference, and receives the view.
   void run();
 
  private:
@@ -41,8 +41,8 @@ class V360Remap {
   std::unique_ptr<AVFilterGraph, Free> graph_;
   std::unique_ptr<AVFrame, Free> input_;
   std::unique_ptr<AVFrame, Free> view_;
-  AVFilterContext* in_ = nullptr;   ///< the graph's
-  AVFilterContext* out_ = nullptr;  ///< the graph's
+  AVFilterContext* in_ = nullptr;   ///< owned by the graph
+  AVFilterContext* out_ = nullptr;  ///< owned by the graph
 };
 
 }  // namespace orbwatch::bench

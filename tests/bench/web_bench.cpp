@@ -18,8 +18,7 @@
 #include "tests/app/ports/web/served.h"
 #include "tests/support/temporary_folder.h"
 
-/// How evenly pictures reach a viewer while others abuse the server, and whether the pipeline
-/// waits.
+/// Regularity of pictures at a viewer while others abuse the server, and waits of the pipeline.
 namespace orbwatch::bench {
 namespace {
 
@@ -29,7 +28,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr double kAim = 1.2;  // p99 of the interval, as a multiple of that without abuse
 
-/// Hands over pictures of 1280x720 that were made before.
+/// Passes on prepared pictures of 1280x720.
 class Pictures final : public app::tests::Pace {
  public:
   explicit Pictures(WebSink& sink) : sink_(sink) {
@@ -52,7 +51,8 @@ class Pictures final : public app::tests::Pace {
   std::vector<std::shared_ptr<View>> views_;
 };
 
-/// Between the ends of pictures at a client that reads without pause, ms, until the server ends.
+/// Intervals between the ends of pictures at a client that reads without pause, ms, until the
+/// server ends.
 std::vector<double> intervals(Client& viewer) {
   std::vector<double> times;
   std::optional<hal::TimePoint> before;
@@ -68,11 +68,12 @@ std::vector<double> intervals(Client& viewer) {
 
 struct Seen {
   std::vector<double> intervals;  ///< sorted
-  std::uint64_t pictures = 0;     ///< handed over
-  std::uint64_t waits = 0;        ///< hand-overs in which the pipeline's thread waited
+  std::uint64_t pictures = 0;     ///< number passed on
+  std::uint64_t waits = 0;        ///< number of hand-overs in which the pipeline's thread waited
 };
 
-/// A new server for each, so that none inherits what another left, with limits that let all in.
+/// Measures with a new server for each abuse, so that none is affected by an earlier one, with
+/// limits that admit all clients.
 Seen watched(const orbwatch::tests::Abuse* abuse, int seconds) {
   WebSettings settings;
   settings.enabled = true;
@@ -129,7 +130,7 @@ int run(int seconds) {
   if (worst <= kAim * without) return 0;
   std::fprintf(stderr, "web_bench: worst p99 is %.2f of that without abuse, the aim is %.1f\n",
                worst / without, kAim);
-  return std::getenv("CI") != nullptr ? 0 : 1;  // times do not count there
+  return std::getenv("CI") != nullptr ? 0 : 1;  // times are not evaluated there
 }
 
 }  // namespace
