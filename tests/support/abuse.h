@@ -16,12 +16,12 @@
 
 namespace orbwatch::tests {
 
-/// Clients that a server must bear.
+/// Clients that a server must withstand.
 class Abusers {
  public:
   virtual ~Abusers() = default;
 
-  /// Each of them does one thing. Does not wait for the server.
+  /// Performs one act per client. Does not wait for the server.
   virtual void act() = 0;
 };
 
@@ -59,19 +59,19 @@ class Returning {
     if (count < 0) return leave();
     received_ += count;
   }
-  /// Bytes since it connected.
+  /// Bytes received since it connected.
   long received() const { return received_; }
   void leave() { *this = Returning(port_, receive_buffer_); }
 
  private:
   int port_;
   int receive_buffer_;
-  std::size_t sent_ = 0;  ///< of a message that did not go whole
+  std::size_t sent_ = 0;  ///< bytes of a message that was not sent completely
   long received_ = 0;
   std::unique_ptr<RawClient> client_;
 };
 
-/// So many of them that do the same.
+/// A number of clients with the same behaviour.
 template <class Behaviour>
 class Crowd final : public Abusers {
  public:
@@ -93,13 +93,14 @@ class Crowd final : public Abusers {
   Behaviour behaviour_;
 };
 
-/// For `Abuse::begin`: so many clients, with receive buffers of so many bytes if that is not 0.
+/// For `Abuse::begin`: kCount clients, with receive buffers of kReceiveBuffer bytes if that is not
+/// 0.
 template <class Behaviour, std::size_t kCount, int kReceiveBuffer = 0>
 std::unique_ptr<Abusers> begin_crowd(int port) {
   return std::make_unique<Crowd<Behaviour>>(port, kCount, kReceiveBuffer);
 }
 
-/// An abuse that goes on while this lives.
+/// An abuse that lasts for the lifetime of this object.
 class Abused {
  public:
   Abused(const Abuse& abuse, int port);

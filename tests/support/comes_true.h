@@ -5,7 +5,7 @@
 
 namespace orbwatch::tests {
 
-/// Polls a thing that has no event of its own; emulated machines take their time.
+/// Polls a condition that has no event of its own; the deadline allows for slow emulated machines.
 template <class Condition>
 bool comes_true(const Condition& condition) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);

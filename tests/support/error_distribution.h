@@ -19,7 +19,7 @@ class ErrorDistribution {
 
   std::size_t size() const { return errors_.size(); }
 
-  /// The error that this share of the scenes stays below. Not a number counts as infinite.
+  /// The error below which this share of the scenes lies. NaN counts as infinite.
   double quantile(double share) const {
     std::vector<double> sorted = errors_;
     std::ranges::for_each(sorted, [](double& e) { e = std::isnan(e) ? HUGE_VAL : e; });
@@ -32,8 +32,8 @@ class ErrorDistribution {
   double p95() const { return quantile(0.95); }
   double max() const { return quantile(1); }
 
-  /// Prints them, and notes them in the test's report; there also each fiftieth of them, which
-  /// tests/acceptance/plot draws.
+  /// Prints the figures and records them in the test's report, which also gets each fiftieth of
+  /// them; tests/acceptance/plot draws these.
   void report() const {
     char line[160];
     std::snprintf(line, sizeof line, "%-34s n %4zu  p50 %9.4g  p95 %9.4g  max %9.4g", name_.c_str(),

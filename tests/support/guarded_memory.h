@@ -9,7 +9,7 @@
 
 namespace orbwatch::tests {
 
-/// Memory before and after which nothing can be read.
+/// Memory with unreadable pages before and after it.
 class GuardedMemory {
  public:
   explicit GuardedMemory(std::size_t most)

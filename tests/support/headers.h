@@ -1,5 +1,6 @@
 #pragma once
-// What most tests include, compiled once for all test programs. A test still includes what it uses.
+// Headers that most tests include, compiled once for all test programs. A test still includes those
+// that it uses.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

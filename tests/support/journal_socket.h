@@ -24,8 +24,8 @@
 
 namespace orbwatch::tests {
 
-/// Does `work` on a thread with a /run of its own, so that no journal is there, and waits for it.
-/// Programs that it starts have the same. False: the system does not allow that.
+/// Runs `work` on a thread with a private /run, so that there is no journal, and waits for it.
+/// Programs that it starts have the same /run. False: the system does not allow that.
 inline bool without_a_journal(const std::function<void()>& work) {
   bool allowed = false;
   on_a_thread([&] {
@@ -37,12 +37,12 @@ inline bool without_a_journal(const std::function<void()>& work) {
   return allowed;
 }
 
-/// What systemd sets in the environment of a service whose stderr is this file.
+/// The variable that systemd sets in the environment of a service whose stderr is this file.
 inline std::string journal_stream_of(const struct stat& file) {
   return std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
 }
 
-/// In place of journald, within without_a_journal(): receives entries of its native protocol,
+/// Replacement for journald within without_a_journal(): receives entries of its native protocol,
 /// https://systemd.io/JOURNAL_NATIVE_PROTOCOL/.
 class JournalSocket {
  public:
@@ -59,7 +59,7 @@ class JournalSocket {
   JournalSocket& operator=(const JournalSocket&) = delete;
   ~JournalSocket() { ::close(socket_); }
 
-  /// The next entry as it was sent; nullopt after a minute without any.
+  /// The next entry in the form sent; nullopt after a minute without any.
   std::optional<std::string> next_sent() const {
     pollfd waiting{socket_, POLLIN, 0};
     if (::poll(&waiting, 1, 60'000) <= 0) return std::nullopt;
@@ -69,7 +69,8 @@ class JournalSocket {
     return sent;
   }
 
-  /// Its fields. A field that is there twice, or not of the protocol, fails the test.
+  /// The fields of an entry. A duplicate field, or one that is not valid in the protocol, fails the
+  /// test.
   static Entry fields(std::string_view sent) {
     Entry entry;
     while (!sent.empty()) {
@@ -107,7 +108,8 @@ class JournalSocket {
     return entry;
   }
 
-  /// Reads on until `is_wanted`; fails after a minute without any entry, or a thousand others.
+  /// Receives entries until `is_wanted`; fails after a minute without any entry, or a thousand
+  /// others.
   Entry await(const std::function<bool(const Entry&)>& is_wanted) const {
     for (int i = 0; i < 1000; ++i) {
       const auto sent = next_sent();

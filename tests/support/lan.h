@@ -12,13 +12,13 @@ namespace orbwatch::tests {
 /// Computers at one Ethernet switch: a namespace each, with an interface `wire`.
 class Lan {
  public:
-  /// Throws as NetworkNamespace.
+  /// Throws like NetworkNamespace.
   explicit Lan(std::size_t computers);
 
   const NetworkNamespace& computer(std::size_t index) const { return *computers_[index]; }
   static std::string address(std::size_t index) { return "10.78.0." + std::to_string(index + 1); }
 
-  /// Pulls a computer's plug at the switch.
+  /// Disconnects a computer's cable at the switch.
   void pull(std::size_t index) const { set(index, "down"); }
   void plug(std::size_t index) const { set(index, "up"); }
 

@@ -7,7 +7,7 @@
 namespace orbwatch::tests {
 
 /// Settings of Cyclone DDS for a network on the loopback interface only; a tag of this process
-/// keeps out every other test. `more` stands in <Domain>, `discovery` in <Discovery>.
+/// excludes every other test. `more` is inserted in <Domain>, `discovery` in <Discovery>.
 inline std::string loopback_dds(const std::string& more = "", const std::string& discovery = "") {
   return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
          "<AllowMulticast>false</AllowMulticast></General><Discovery>" +

@@ -25,22 +25,22 @@ using optics::normalized;
 using optics::Vec2;
 using optics::Vec3;
 
-/// Linear light; a thermal camera sees the first component.
+/// Linear light; a thermal camera uses the first component.
 using Light = Vec3;
 
 Light product(const Light& a, const Light& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-/// What a surface looks like: patches of random colours, stripes and stains.
+/// Appearance of a surface: patches of random colours, stripes and stains.
 struct Paint {
   std::uint64_t seed = 0;
   Light base;
-  double patch = 1;     ///< side of the squares that patches are made of
-  double strength = 0;  ///< of patches
+  double patch = 1;     ///< side of the patches' squares
+  double strength = 0;  ///< contrast of patches
   double stripes = 0;   ///< period; 0: none
   double stains = 0;    ///< amplitude of smooth noise
-  bool warm = false;    ///< seen by its temperature: the same shapes, other values
+  bool warm = false;    ///< appearance by temperature: the same shapes, other values
 
-  /// What a thermal camera sees of the same surface.
+  /// The same surface's appearance to a thermal camera.
   Paint warmed() const {
     Paint paint = *this;
     paint.warm = true;
@@ -93,7 +93,7 @@ struct Tube {
 
 struct Block {
   Box box;
-  std::array<Paint, 3> paints;  ///< by axis
+  std::array<Paint, 3> paints;  ///< one per axis
 };
 
 struct Marble {
@@ -101,7 +101,7 @@ struct Marble {
   Paint paint;
 };
 
-/// Where a ray ends.
+/// The end of a ray.
 struct End {
   double distance = kNever;
   Light light;
@@ -120,7 +120,7 @@ double entry(const Ray& ray, const Tube& tube) {
   return along >= 0 && along <= tube.length ? distance : kNever;
 }
 
-/// The point's two coordinates on a face.
+/// The point's two coordinates on a face perpendicular to `axis`.
 Vec2 on_face(const Vec3& p, int axis) {
   return axis == 0 ? Vec2{p.y, p.z} : axis == 1 ? Vec2{p.x, p.z} : Vec2{p.x, p.y};
 }
@@ -169,7 +169,7 @@ class Room {
     rod_ = Tube{axis * 0.2, axis, radius, 60, a_paint(radius * 2)};
   }
 
-  /// Takes away what hides the ball from a point, but the rod.
+  /// Removes everything that hides the ball from a point, except the rod.
   void clear_sight(const Vec3& from) {
     const Vec3 towards = normalized(-from);
     const Vec3 side = normalized(cross(towards, {0.1, 0.3, 1})), other = cross(towards, side);
@@ -184,7 +184,7 @@ class Room {
     }
   }
 
-  /// Shows temperatures from now on.
+  /// Switches to temperatures.
   void warm() {
     for (auto& side : walls_) {
       for (Paint& paint : side) paint = paint.warmed();
@@ -197,7 +197,7 @@ class Room {
     if (rod_) rod_->paint = rod_->paint.warmed();
   }
 
-  /// A table of its own seed, so that all else is as without it.
+  /// Adds a table with a seed of its own, so that everything else is the same as without it.
   void stand_table(std::uint64_t seed) {
     std::mt19937_64 random(mix(seed ^ 0x7ab1e));
     const auto any = [&](double low, double high) {
@@ -214,7 +214,7 @@ class Room {
     blocks_.push_back({*table_, {a_paint(patch), a_paint(patch), a_paint(patch)}});
   }
 
-  /// nullopt: none, or it was in the way.
+  /// nullopt: there is no table, or it was removed because it hid the ball.
   std::optional<optics::Box> table() const {
     const bool stands = table_ && std::ranges::any_of(blocks_, [this](const Block& b) {
                           return norm(b.box.lo - table_->lo) + norm(b.box.hi - table_->hi) == 0;
@@ -232,7 +232,7 @@ class Room {
     return scene;
   }
 
-  /// What a ray meets by the ball.
+  /// The point where a ray reflected by the ball ends.
   std::optional<Vec3> mirrored(const Ray& ray) const {
     const double hit = entry(ray, *ball_);
     if (hit == kNever || hit > end(ray).distance) return std::nullopt;
@@ -241,7 +241,7 @@ class Room {
     return onward.at(end(onward).distance);
   }
 
-  /// What arrives along a ray from outside of everything.
+  /// The light that arrives along a ray from outside of everything.
   Light light(const Ray& ray) const {
     const End direct = end(ray);
     if (!ball_) return direct.light;
@@ -288,7 +288,7 @@ class Room {
     return paint;
   }
 
-  /// The first surface but the ball's.
+  /// The first surface other than the ball's.
   End end(const Ray& ray) const {
     End nearest;
     const auto passage = app::simulation::passage(ray, room_);
@@ -340,7 +340,7 @@ class Room {
 
   std::mt19937_64 random_;
   Box room_;
-  std::array<std::array<Paint, 3>, 2> walls_;  ///< low and high sides, by axis
+  std::array<std::array<Paint, 3>, 2> walls_;  ///< low and high sides, for each axis
   std::vector<Block> blocks_;
   std::vector<Tube> tubes_;
   std::vector<Marble> marbles_;
@@ -352,7 +352,7 @@ class Room {
   double grain_ = 0;  ///< share of light that the ball scatters
 };
 
-/// A camera's axes in the room, rows right, down, forward, and the ball's place in its picture.
+/// A camera's axes in the room, rows right, down, forward, its position and its focal length.
 struct Camera {
   optics::Mat3 axes;
   Vec3 position;
@@ -429,8 +429,8 @@ cv::Mat encode(const cv::Mat& light, const MirrorRoomSettings& s, std::mt19937_6
   return samples;
 }
 
-/// The rod that the ball hangs on, across the line of sight, so that it hides a share of the limb's
-/// angles.
+/// Adds the rod that the ball hangs on, across the line of sight, so that it hides a share of the
+/// limb's angles.
 void hang(Room& room, const Camera& camera, const MirrorRoomSettings& settings,
           std::mt19937_64& random) {
   if (!(settings.limb_hidden > 0)) return;
@@ -441,7 +441,7 @@ void hang(Room& room, const Camera& camera, const MirrorRoomSettings& settings,
             std::sin(std::numbers::pi * std::min(settings.limb_hidden, 0.45)));
 }
 
-/// Traces what the camera sees; pixels near the limb by 4x4 rays.
+/// Traces the camera's picture; pixels near the limb by 4x4 rays.
 MirrorRoomPicture picture(const Room& room, const Camera& camera,
                           const MirrorRoomSettings& settings, std::mt19937_64& random) {
   const cv::Size size(settings.width, settings.height);
@@ -450,7 +450,7 @@ MirrorRoomPicture picture(const Room& room, const Camera& camera,
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
       const Ray ray = camera.ray(u, v, size);
-      // Where the ball shows much in few pixels, and around its limb.
+      // Parts of the ball where few pixels show much, and the surroundings of its limb.
       const double cosine = -dot(ray.direction, normalized(camera.position));
       const double rho =
           std::tan(std::acos(std::min(1.0, cosine))) / std::sqrt(1 / (limb * limb) - 1);

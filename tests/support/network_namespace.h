@@ -10,22 +10,22 @@
 
 namespace orbwatch::tests {
 
-/// A network of its own with nothing but a loopback interface that is up, like that of a
-/// computer alone. It has no name, so that nothing stays when the test dies, and lasts as long as
-/// this or a thread, a socket or a program inside.
+/// A network namespace with nothing but an active loopback interface, like that of an isolated
+/// computer. It has no name, so that nothing remains when the test crashes, and lasts as long as
+/// this object or a thread, a socket or a program inside.
 class NetworkNamespace {
  public:
-  /// Whether this process may make any, which takes root.
+  /// True if this process may create namespaces, which requires root.
   static bool allowed();
 
-  /// Throws std::runtime_error when it may not.
+  /// Throws std::runtime_error without that permission.
   NetworkNamespace();
 
-  /// Does `work` on a thread inside and waits for it. Threads, sockets and programs that it starts
-  /// stay inside. What it throws comes out.
+  /// Runs `work` on a thread inside and waits for it. Threads, sockets and programs that it starts
+  /// stay inside. Rethrows its exceptions.
   void run(const std::function<void()>& work) const;
 
-  /// For `ip ... netns PATH`, as long as this lives.
+  /// Path for `ip ... netns PATH`, valid for the lifetime of this object.
   std::string path() const;
 
  private:
@@ -41,11 +41,11 @@ class Cable {
 
   Cable(const NetworkNamespace& left, const NetworkNamespace& right);
 
-  /// Pulls the plug on the right: left sees that nobody is there any more.
+  /// Disconnects the right end: the left one loses its carrier.
   void pull() const;
   void plug() const;
 
-  /// Gives the left end this address instead of the one it had.
+  /// Replaces the left end's address.
   void readdress(const std::string& address) const;
 
  private:
@@ -53,9 +53,9 @@ class Cable {
   const NetworkNamespace& right_;
 };
 
-/// Until the interface `wire` of the calling thread's namespace carries packets: the system says so
-/// up to a second after both ends are up, and who looks for interfaces before does not see it.
-/// Throws std::runtime_error when it never does.
+/// Waits until the interface `wire` of the calling thread's namespace has a carrier: the system
+/// reports it up to a second after both ends are up, and a search for interfaces before that does
+/// not find it. Throws std::runtime_error when it never does.
 void wait_for_carrier();
 
 /// Runs a command line of `ip` in the namespace of the calling thread. Throws std::runtime_error
@@ -64,7 +64,7 @@ void ip(const std::string& arguments);
 
 }  // namespace orbwatch::tests
 
-/// Ends the test when it may not make networks: skipped with the reason, or failed in acceptance
+/// Ends the test when it may not create networks: skipped with the reason, or failed in acceptance
 /// mode.
 #define ORBWATCH_REQUIRE_NETWORK_NAMESPACES()                                               \
   do {                                                                                      \

@@ -16,11 +16,11 @@
 
 namespace orbwatch::tests {
 
-/// In place of systemd: receives what sd_notify() sends. Programs started while it exists send
-/// here.
+/// Replacement for systemd: receives the messages of sd_notify(). Programs started while it exists
+/// send here.
 class NotifySocket {
  public:
-  /// `watchdog`: what the service manager waits for; 0: none.
+  /// `watchdog`: the service manager's timeout; 0: none.
   NotifySocket(const std::filesystem::path& path, std::chrono::milliseconds watchdog)
       : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     sockaddr_un address{};
@@ -39,7 +39,7 @@ class NotifySocket {
     ::close(socket_);
   }
 
-  /// The next message; nullopt: none came for so long.
+  /// The next message; nullopt: none within `patience`.
   std::optional<std::string> next(std::chrono::milliseconds patience) const {
     pollfd waiting{socket_, POLLIN, 0};
     if (::poll(&waiting, 1, static_cast<int>(patience.count())) <= 0) return std::nullopt;
@@ -48,7 +48,7 @@ class NotifySocket {
     return std::string(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
   }
 
-  /// Reads on until a message has this text; fails after a minute without any, or a thousand
+  /// Receives messages until one has this text; fails after a minute without any, or a thousand
   /// others.
   std::string await(const std::string& text) const {
     for (int i = 0; i < 1000; ++i) {
@@ -60,7 +60,7 @@ class NotifySocket {
     return {};
   }
 
-  /// Whether messages end: `many` are more than can be under way.
+  /// True if messages cease: `many` is more than can be in transit.
   bool falls_silent(std::chrono::milliseconds patience, int many) const {
     for (int i = 0; i < many; ++i) {
       if (!next(patience)) return true;

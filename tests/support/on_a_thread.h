@@ -6,8 +6,8 @@
 
 namespace orbwatch::tests {
 
-/// Does `work` on a thread of its own, which takes what it did to itself along when it ends. Throws
-/// what `work` threw.
+/// Runs `work` on a thread of its own, whose per-thread changes end with it. Rethrows the exception
+/// of `work`.
 inline void on_a_thread(const std::function<void()>& work) {
   std::exception_ptr thrown;
   std::thread([&] {

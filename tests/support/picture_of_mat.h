@@ -7,7 +7,7 @@
 
 namespace orbwatch::tests {
 
-/// A Bgr, Y16 or Grey picture of OpenCV's pixels, which it shares.
+/// A Bgr, Y16 or Grey picture that shares OpenCV's pixels.
 inline Picture picture_of_mat(const cv::Mat& pixels) {
   const PixelFormat format = pixels.channels() == 3     ? PixelFormat::Bgr
                              : pixels.depth() == CV_16U ? PixelFormat::Y16

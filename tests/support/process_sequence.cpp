@@ -13,9 +13,9 @@ namespace {
 using optics::Vec2;
 using optics::Vec3;
 
-/// The room is traced that much finer than the camera sees it.
+/// Factor by which the room is traced finer than the camera's pixels.
 constexpr int kFine = 2;
-/// px of the camera around its picture, for turns.
+/// Margin around the camera's picture for turns, px.
 constexpr int kMargin = 12;
 
 class Random {
@@ -45,7 +45,7 @@ Vec3 product(const cv::Matx33d& m, const Vec3& v) {
   return {p[0], p[1], p[2]};
 }
 
-/// Where a camera ray goes on from a unit sphere at `ball`; false when it misses that.
+/// The direction of a camera ray reflected by a unit sphere at `ball`; false when it misses that.
 bool reflect(const Vec3& ray, const Vec3& ball, Vec3& out) {
   const double b = dot(ball, ray), root = b * b - (dot(ball, ball) - 1);
   if (root <= 0) return false;
@@ -56,13 +56,13 @@ bool reflect(const Vec3& ray, const Vec3& ball, Vec3& out) {
 
 }  // namespace
 
-/// What goes on for ten seconds.
+/// State that lasts for ten seconds.
 struct ProcessSequence::Slot {
   double exposure = 1;
   double offset = 0;  ///< thermal counts
   bool dark = false;
-  std::uint64_t lamps = 0;  ///< the same number, the same light
-  double vibration = 0;     ///< px rms, about; its mean is 0
+  std::uint64_t lamps = 0;  ///< equal numbers have equal light
+  double vibration = 0;     ///< approximate px rms; its mean is 0
   double frequency = 0;
   int sparks = 0;
   bool tool = false;
@@ -133,7 +133,7 @@ bool ProcessSequence::is_dark(double seconds) const {
   return slot(static_cast<std::int64_t>(seconds / kSlot)).dark;
 }
 
-/// Lamps: smooth gain, shadows with hard edges, highlights.
+/// Applies the light of lamps: smooth gain, shadows with hard edges, highlights.
 void ProcessSequence::light(std::int64_t n, const Slot& s) {
   if (lit_slot_ == n) return;
   lit_slot_ = n;
@@ -162,10 +162,11 @@ void ProcessSequence::light(std::int64_t n, const Slot& s) {
   cv::GaussianBlur(lit_, lit_, {}, 1.0);
 }
 
-/// From the camera's pixels to those of the traced room.
+/// Maps the camera's pixels to those of the traced room.
 cv::Matx33d ProcessSequence::warp(double seconds, const Slot& s, const Vec3& turn) const {
   Random random(settings_.seed + static_cast<std::uint64_t>(seconds * 1000));
-  // Some of it slow enough to be seen as a wave, the rest as frames at a distance see it.
+  // Part of the vibration is slow enough to appear as a wave, the rest as independent offsets of
+  // frames.
   const double wave = 2 * std::numbers::pi * s.frequency * seconds, way = s.vibration;
   const double du = way * (std::sin(wave) + 0.7 * random.in(-1.7, 1.7));
   const double dv = way * (0.7 * std::cos(0.9 * wave) + 0.7 * random.in(-1.7, 1.7));

@@ -23,18 +23,18 @@ struct ProcessSettings {
 
 class ProcessSequence {
  public:
-  /// Seconds for which lamps, exposure, tool and vibration stay as they are.
+  /// Seconds for which lamps, exposure, tool and vibration are constant.
   static constexpr double kSlot = 10;
 
   explicit ProcessSequence(const ProcessSettings& settings);
 
-  /// Grey, 8 bit, or 16 bit for a thermal camera; the same for the same time; valid until the next.
-  /// `turn`: of the camera about its centre since the beginning, a rotation vector in its frame,
-  /// radians. A ray of the turned camera had the coordinates R^-1 ray before.
+  /// Frame at a time: grey, 8 bit, or 16 bit for a thermal camera; the same for the same time;
+  /// valid until the next. `turn`: the camera's about its centre since the beginning, a rotation
+  /// vector in its frame, radians. A ray of the turned camera had the coordinates R^-1 ray before.
   const cv::Mat& frame(double seconds, const optics::Vec3& turn = {});
 
-  /// From now on the camera stands a little aside, so that the ball is there in its picture, shares
-  /// of the half field: traces the room again.
+  /// Moves the camera slightly aside, so that the ball is at this place in its picture, shares of
+  /// the half field: traces the room again.
   void shift_ball(const optics::Vec2& off_axis);
 
   bool is_dark(double seconds) const;
@@ -58,16 +58,16 @@ class ProcessSequence {
   TrueLimb limb_;
   double focal_length_ = 0;
   optics::Vec3 ball_;
-  cv::Mat room_;  ///< 32F, twice as fine, with a margin
-  cv::Mat lit_;   ///< the same as lamps light it in slot lit_slot_
+  cv::Mat room_;  ///< 32F, at twice the resolution, with a margin
+  cv::Mat lit_;   ///< the same with the light of slot lit_slot_
   std::int64_t lit_slot_ = -1;
   cv::Mat seen_, noise_, frame_;
 };
 
-/// rms angle, degrees, over the directions up to 150 degrees from the camera, between what a camera
-/// that takes its ball for being at `stored` makes of a pixel, and the truth: the ball is at
-/// `true_ball`, seen by a camera turned by `turn`. By plain reflection of vectors. Camera frame,
-/// ball radii.
+/// Error of view directions: rms angle, degrees, over the directions up to 150 degrees from the
+/// camera, between the direction of a pixel for a camera that assumes its ball at `stored`, and the
+/// truth: the ball is at `true_ball`, seen by a camera turned by `turn`. By plain reflection of
+/// vectors. Camera frame, ball radii.
 double true_view_error(double focal_length, const optics::Vec3& stored,
                        const optics::Vec3& true_ball, const optics::Vec3& turn);
 

@@ -14,7 +14,7 @@
 
 namespace orbwatch::tests {
 
-/// A terminal of so many columns whose user is the test.
+/// A terminal of `columns` columns; the test acts as its user.
 class PseudoTerminal {
  public:
   explicit PseudoTerminal(unsigned short columns = 80) {
@@ -25,10 +25,10 @@ class PseudoTerminal {
     program_ = hal::FileDescriptor(program);
   }
 
-  /// The side of a program.
+  /// File descriptor of the program's side.
   int program_side() const { return program_.get(); }
 
-  /// Closes the program's side, and reads until nobody else has it open.
+  /// Closes the program's side, and reads until no other process has it open.
   std::string read_to_end() {
     program_ = hal::FileDescriptor();
     std::string text;
@@ -43,8 +43,8 @@ class PseudoTerminal {
   hal::FileDescriptor user_, program_;
 };
 
-/// What the last line of such a terminal held, one after the other, where a program rewrites it
-/// with carriage returns, or erases it from there on (CSI K); without trailing spaces.
+/// Successive contents of a terminal's last line, where a program rewrites it with carriage
+/// returns, or erases it from there on (CSI K); without trailing spaces.
 inline std::vector<std::string> rewritten_lines(const std::string& text) {
   std::vector<std::string> lines(1);
   std::string shown;

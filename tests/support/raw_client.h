@@ -13,10 +13,10 @@ using Bytes = std::vector<std::uint8_t>;
 
 struct Unconnected {};
 
-/// A client that sends bytes over TCP, right or wrong, to 127.0.0.1.
+/// A client that sends bytes over TCP, valid or not, to 127.0.0.1.
 class RawClient {
  public:
-  /// `from`: the client's own loopback address. `receive_buffer`: in bytes; 0 leaves it.
+  /// `from`: the client's own loopback address. `receive_buffer`: in bytes; 0 keeps the default.
   explicit RawClient(int port, const std::string& from = "127.0.0.1", int receive_buffer = 0);
   explicit RawClient(Unconnected);
 
@@ -29,7 +29,7 @@ class RawClient {
   long discard();
   /// Waits until all of this can be sent, or the connection is broken.
   void wait_writable();
-  /// Exactly so many bytes, or fewer when the connection ended.
+  /// Receives exactly `count` bytes, or fewer when the connection ended.
   Bytes receive(std::size_t count);
   /// Waits for the server to end the connection; false when it sends something instead.
   bool is_closed_by_server();

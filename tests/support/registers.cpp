@@ -22,7 +22,7 @@ struct Row {
   int count = 0;
 };
 
-/// The first row of that name: table,address,count,type,access,name,...
+/// The first row called `name`: table,address,count,type,access,name,...
 Row find_row(const std::string& name) {
   std::ifstream map(std::filesystem::path(ORBWATCH_SOURCE_DIR) / "app/ports/modbus/registers.csv");
   for (std::string line; std::getline(map, line);) {

@@ -6,9 +6,9 @@
 
 namespace orbwatch::tests {
 
-/// One register of a Modbus server, found by its name in the committed manual
-/// app/ports/modbus/registers.csv and read with libmodbus as a PLC would; INT64_MIN while nobody
-/// answers. Unscaled.
+/// Reads one register of a Modbus server, found by its name in the committed manual
+/// app/ports/modbus/registers.csv, with libmodbus like a PLC; INT64_MIN while the server does not
+/// answer. Unscaled.
 std::int64_t read_register(int port, const std::string& name,
                            const std::string& host = "127.0.0.1");
 

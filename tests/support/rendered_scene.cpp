@@ -77,7 +77,7 @@ std::string uncalibrated(const std::string& name, const cv::FileNode& camera, co
 cv::FileStorage open_rendered_scene() {
   std::ifstream in(rendered_pictures() / "scene.json");
   const std::string text((std::istreambuf_iterator<char>(in)), {});
-  // OpenCV's reader knows no null.
+  // OpenCV's reader does not support null.
   return {std::regex_replace(text, std::regex("\\bnull\\b"), "\"\""),
           cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_JSON};
 }

@@ -9,7 +9,8 @@
 
 namespace orbwatch::tests {
 
-/// The rendered reference pictures beside the project, and the file that says how they were made.
+/// The rendered reference pictures beside the project, and the file that describes how they were
+/// made.
 std::filesystem::path rendered_pictures();
 
 /// Their scene.json, with empty strings for null.
@@ -33,11 +34,11 @@ struct RenderedCamera {
   std::filesystem::path picture;
 };
 
-/// What scene.json says, turned into what the product reads. Its pixels have their centres at +0.5,
-/// the product's at integers.
+/// The content of scene.json in the product's formats. Its pixels have their centres at +0.5, the
+/// product's at integers.
 class RenderedScene {
  public:
-  /// How much of the machine's geometry a rig tells.
+  /// Part of the machine's geometry that a rig states.
   enum class Known { Nothing, BoxAndTable };
 
   /// `name`: far, near, near50. Throws when the file is missing or broken.
@@ -49,7 +50,7 @@ class RenderedScene {
   /// A rig file of calibrated cameras.
   std::string rig(Known known) const;
 
-  /// A rig file of cameras as the paper calibrates them: outline, alpha and a rotation.
+  /// A rig file of cameras with the paper's calibration: outline, alpha and a rotation.
   std::string uncalibrated_rig() const;
 
  private:

@@ -12,7 +12,7 @@ optics::Box box(const cv::FileNode& n) { return {scene_vector(n["lo"]), scene_ve
 
 optics::CalibratedCamera calibrated(const cv::FileNode& n) {
   const cv::FileNode rotation = n["R_wc"];
-  // Its pixels have their centres at +0.5, the product's at integers.
+  // The file's pixels have their centres at +0.5, the product's at integers.
   const optics::Intrinsics intrinsics{static_cast<int>(n["width"]), static_cast<int>(n["height"]),
                                       scene_number(n["fx"]),        scene_number(n["fy"]),
                                       scene_number(n["cx"]) - 0.5,  scene_number(n["cy"]) - 0.5,
@@ -33,7 +33,7 @@ RenderedSequence::RenderedSequence(const std::string& name) {
   optics::Scene scene;
   scene.room = optics::Scene::Room::Box;
   scene.walls = box(file["box"]);
-  // The workpiece, on which the pool is, is in the pictures but not in the file.
+  // The workpiece with the pool is in the pictures but not in the file.
   scene.obstacles = {box(file["table"]), {{-190, -130, 140}, {-30, 30, 178}}};
   scene_.proxy = optics::SceneProxy::make(scene, scene_.ball).value();
   camera_.push_back(optics::BallProjection::make(optics::BallModel::Kind::Exact,

@@ -9,8 +9,8 @@
 
 namespace orbwatch::tests {
 
-/// One of the reference sequences of the process, with what scene.json knows of each frame. Throws
-/// when that is missing or broken.
+/// One of the reference sequences of the process, with scene.json's data on each frame. Throws when
+/// that is missing or broken.
 class RenderedSequence {
  public:
   explicit RenderedSequence(const std::string& name);
@@ -36,7 +36,7 @@ class RenderedSequence {
  private:
   double frame_rate_ = 0;
   signals::RegionScene scene_;
-  std::vector<optics::BallProjection> camera_;  ///< one
+  std::vector<optics::BallProjection> camera_;  ///< exactly one
   std::vector<Frame> frames_;
 };
 

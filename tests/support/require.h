@@ -5,7 +5,7 @@
 
 namespace orbwatch::tests {
 
-/// Throws what errno says when it is not done.
+/// Throws errno's error unless `done`.
 inline void require(bool done) {
   if (!done) throw std::system_error(errno, std::generic_category());
 }

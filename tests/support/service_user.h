@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <functional>
 
-/// Users beside root, as a service is one. Skips a test that is not root, by name.
+/// Users other than root, like a service's. Skips a test that is not root, by name.
 #define ORBWATCH_WITHOUT_ROOT_SKIPPED()                                 \
   if (::geteuid() != 0) {                                               \
     GTEST_SKIP() << "skipped, missing: root, to be two users by turns"; \
@@ -17,7 +17,7 @@
 
 namespace orbwatch::tests {
 
-/// No process and no file of this system is theirs.
+/// User ids that no process and no file of this system has.
 inline constexpr uid_t kService = 64123;
 inline constexpr uid_t kMember = 64124;  ///< a person in the service's group
 inline constexpr uid_t kStranger = 64125;
@@ -26,8 +26,8 @@ inline void give_to_service(const std::filesystem::path& file) {
   ASSERT_EQ(::chown(file.c_str(), kService, kService), 0) << file;
 }
 
-/// Calls `act` in a process of that user with that umask; false also where that ends otherwise. The
-/// user is in the service's group unless it is the stranger.
+/// Calls `act` in a process of that user with that umask; false also if that process fails
+/// otherwise. The user is in the service's group unless it is the stranger.
 inline bool as_user(uid_t user, mode_t mask, const std::function<bool()>& act) {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-/// Long statistical gates run in part: a tenth of their seeded cases, or what the environment
-/// variable ORBWATCH_SHARE says; tests/acceptance/run runs them whole and reports those that use
-/// this header.
+/// Partial runs of long statistical gates: a tenth of their seeded cases, or the share in the
+/// environment variable ORBWATCH_SHARE; tests/acceptance/run runs them completely and reports those
+/// that use this header.
 namespace orbwatch::tests {
 
-/// Above 0, at most 1.
+/// The share, above 0, at most 1.
 inline double share() {
   const char* const text = std::getenv("ORBWATCH_SHARE");
   const double value = text != nullptr ? std::stod(text) : 0.1;
@@ -24,7 +24,7 @@ inline double share() {
   return value;
 }
 
-/// How many of a gate's `cases` run, at least one: the first ones of a seeded loop.
+/// Number of a gate's `cases` that run, at least one: the first ones of a seeded loop.
 inline int share_of(int cases) {
   const int run = std::max(1, static_cast<int>(std::lround(share() * cases)));
   testing::Test::RecordProperty("cases_run", run);
@@ -32,8 +32,8 @@ inline int share_of(int cases) {
   return run;
 }
 
-/// Which of a gate's cases run that are listed and not drawn: the same ones every time, from all
-/// over the list.
+/// Selection of the cases that run for a gate whose cases are listed, not drawn: the same ones
+/// every time, from all over the list.
 class DrawnShare {
  public:
   explicit DrawnShare(int cases) : runs_(static_cast<std::size_t>(cases), false) {
@@ -44,7 +44,7 @@ class DrawnShare {
       runs_[static_cast<std::size_t>(order[static_cast<std::size_t>(n)])] = true;
     }
   }
-  /// Whether the next case runs; throws when there are more than were announced.
+  /// True if the next case runs; throws when there are more than were announced.
   bool next() { return runs_.at(next_++); }
 
  private:

@@ -53,7 +53,7 @@ class Subprocess {
     return pid_ > 0;
   }
 
-  /// Waits for its end; the exit code, or minus the signal that ended it.
+  /// Waits for its end; returns the exit code, or minus the signal that ended it.
   int wait() {
     if (pid_ > 0) waitpid(pid_, &status_, 0);
     pid_ = 0;

@@ -8,7 +8,7 @@
 
 namespace orbwatch::tests {
 
-/// A folder of the test's own, gone with it.
+/// A temporary folder of the test, removed at the end of its lifetime.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
