@@ -6,7 +6,7 @@
 
 namespace orbwatch::fuzz {
 
-/// What libFuzzer gives, read from the front; zeros when it is used up.
+/// libFuzzer's input, read from the front; zeros after its end.
 class ByteStream {
  public:
   explicit ByteStream(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -18,7 +18,7 @@ class ByteStream {
     return first.empty() ? std::uint8_t{0} : first[0];
   }
 
-  /// As many, or what is left.
+  /// `count` bytes, or the rest.
   std::span<const std::uint8_t> take(std::size_t count) {
     const auto taken = bytes_.first(count < bytes_.size() ? count : bytes_.size());
     bytes_ = bytes_.subspan(taken.size());

@@ -20,10 +20,10 @@
 #include "tests/fuzz/stop.h"
 #include "tests/support/loopback_dds.h"
 
-/// A program of the domain that sends anything as commands: what Cyclone DDS takes for one is the
-/// request that was sent, and the handler gets allowed commands only, each at most once.
+/// A program of the domain that sends anything as commands: a sample that Cyclone DDS accepts is
+/// the request that was sent, and the handler gets allowed commands only, each at most once.
 ///
-/// An input is samples: a length, and so many bytes as they come in a DATA submessage.
+/// An input is samples: a length, and that number of bytes in the form of a DATA submessage.
 namespace orbwatch::fuzz {
 namespace {
 
@@ -31,11 +31,12 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kHeader = 4;  ///< representation and options
 
-/// Encoded by version 2 of CDR. Not ours, so left out: Cyclone DDS 0.10.2 takes numbers of 8 bytes
-/// in it for ones of 4 when it compares with the sample's length, and reads behind the sample.
+/// True for version 2 of CDR. Left out because of a fault outside of the product: Cyclone DDS
+/// 0.10.2 reads its 8 byte numbers as 4 byte ones when it compares with the sample's length, and
+/// reads beyond the sample.
 bool is_version_2(Bytes sample) { return sample[0] == 0 && sample[1] >= 6; }
 
-/// A sample as DDSI-RTPS 2.5, 10, lays it out, read without Cyclone DDS.
+/// A sample in the layout of DDSI-RTPS 2.5, 10, read without Cyclone DDS.
 class WireCommand {
  public:
   explicit WireCommand(Bytes sample) : body_(sample.subspan(kHeader)) {
@@ -55,7 +56,8 @@ class WireCommand {
   std::uint64_t client = 0, number = 0;
   std::string name;  ///< up to its first zero
   std::size_t argument_count = 0;
-  std::vector<std::uint64_t> arguments;  ///< as many as a command may have, their bits
+  std::vector<std::uint64_t>
+      arguments;  ///< bits of the arguments, at most as many as a command may have
 
  private:
   Bytes bytes(std::size_t count) {
@@ -88,7 +90,7 @@ void compare(const app::CommandRequest& request, const WireCommand& sent) {
   }
 }
 
-/// A writer and the command topic's reader in one domain, which no packet leaves. Made once.
+/// A writer and the command topic's reader in one domain, which no packet leaves. Constructed once.
 class Network {
  public:
   Network()
@@ -98,14 +100,14 @@ class Network {
                    .value()),
         writer_(app::make_writer(participant_.entity(), topic_, app::command_qos()).value()) {
     require(reader_.open(participant_.entity(), app::command_qos()).has_value(), "no reader");
-    // The type as Cyclone DDS has it inside comes with a sample only.
+    // Cyclone DDS's internal type is available only with a sample.
     const app::CommandMessage first{1, 1, const_cast<char*>(""), {}};
     require(dds_write(writer_.get(), &first) == DDS_RETCODE_OK, "nothing can be written");
     dds_sample_info_t info{};
     require(dds_takecdr(reader_.get(), &first_, 1, &info, DDS_ANY_STATE) == 1, "nothing came");
   }
 
-  /// The request that is made of a sample; nullopt: it is not one.
+  /// The request made from a sample; nullopt if the sample is not valid.
   std::optional<app::CommandRequest> receive(Bytes sample) {
     // Cyclone DDS changes the bytes of its own copy only.
     ddsrt_iovec_t piece{const_cast<std::uint8_t*>(sample.data()), sample.size()};
@@ -133,7 +135,7 @@ class Network {
   ddsi_serdata* first_ = nullptr;
 };
 
-/// Carries requests out as CommandService does, without its limit of commands in a second.
+/// Executes requests like CommandService, without its limit of commands per second.
 class Machine {
  public:
   void serve(const app::CommandRequest& request) {
@@ -158,7 +160,7 @@ void run(ByteStream bytes) {
   Machine machine;
   while (!bytes.is_empty()) {
     const Bytes sample = bytes.take(bytes.byte());
-    if (sample.size() < kHeader) continue;  // dropped before anybody reads it
+    if (sample.size() < kHeader) continue;  // dropped before it is read
     if (is_version_2(sample)) continue;
     const auto request = network.receive(sample);
     if (!request) continue;

@@ -12,12 +12,12 @@
 
 namespace orbwatch::fuzz {
 
-/// A picture each plane of which is memory of its own that ends with its last pixel, so that
-/// AddressSanitizer sees whoever goes beyond.
+/// A picture whose planes are separate memory blocks that end with their last pixel, so that
+/// AddressSanitizer detects accesses beyond it.
 class FencedPicture {
  public:
-  /// Rows are `padding` bytes longer than their pixels; if that is even, a little more, so that
-  /// they begin at a multiple of 8: what AddressSanitizer marks before them is exact only then.
+  /// Rows are `padding` bytes longer than their pixels; if that is even, slightly more, so that
+  /// they begin at a multiple of 8: AddressSanitizer's marks before them are exact only then.
   FencedPicture(PixelFormat format, int width, int height, int padding) {
     const PixelFormatInfo& facts = info(format);
     picture = {format, {}, width, height, {}};
@@ -34,7 +34,7 @@ class FencedPicture {
     }
   }
 
-  /// Every byte of it, pixels and padding.
+  /// Fills every byte, pixels and padding.
   void fill(std::byte value) {
     for_each_row([&](std::span<std::byte> pixels, std::span<std::byte> padding) {
       std::fill(pixels.begin(), pixels.end(), value);
@@ -42,7 +42,7 @@ class FencedPicture {
     });
   }
 
-  /// The pixels of all rows one after another from `samples`, which has enough of them.
+  /// Fills the pixels of all rows, one after another, from `samples`, which has enough of them.
   void fill(std::span<const std::byte> samples) {
     for_each_row([&](std::span<std::byte> pixels, std::span<std::byte>) {
       std::copy_n(samples.begin(), pixels.size(), pixels.begin());
@@ -50,7 +50,7 @@ class FencedPicture {
     });
   }
 
-  /// From now on nobody may touch what lies between the rows.
+  /// Forbids access to the memory between the rows from now on.
   void forbid_padding() {
     for_each_row([](std::span<std::byte>, std::span<std::byte> padding) {
       ASAN_POISON_MEMORY_REGION(padding.data(), padding.size());

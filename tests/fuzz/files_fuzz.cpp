@@ -10,7 +10,7 @@
 #include "tests/fuzz/byte_stream.h"
 #include "tests/fuzz/stop.h"
 
-/// Any text as each of the files that people write: it is read, or refused in one line that names
+/// Any text as each of the files that users write: it is read, or refused in one line that names
 /// the file. A calibration that is read can be written and read again.
 ///
 /// An input is a byte that chooses the kind of file, and its text.

@@ -12,8 +12,8 @@
 #include "tests/fuzz/stop.h"
 
 /// Random cameras in one view, merged into every format: all kernels write the same bytes, all
-/// formats show the same, what is measured and seen does not depend on what is shown, and nobody
-/// reads or writes outside of the pictures.
+/// formats show the same, measured planes and validity do not depend on the format shown, and
+/// nothing is read or written outside of the pictures.
 namespace orbwatch::fuzz {
 namespace {
 
@@ -101,7 +101,7 @@ class Merge {
   int width() const { return cameras_.front()->scene.grid.width(); }
   int height() const { return cameras_.front()->scene.grid.height(); }
 
-  /// Of the first camera's view.
+  /// Adds a camera to the first camera's view.
   void add(FuzzedDataProvider& bytes) {
     const PixelFormat format =
         kSources[bytes.ConsumeIntegralInRange<std::size_t>(0, kSources.size() - 1)];
@@ -171,7 +171,7 @@ class Merge {
     return shown;
   }
 
-  /// Two beginnings, so that a byte that no kernel writes shows as well.
+  /// Two initial values, so that a byte that no kernel writes is also detected.
   Shown check_kernels(std::optional<PixelFormat> format) const {
     Shown expected = merge(format, *remap::kernels().front(), std::byte{0x5a});
     for (const Kernel* kernel : remap::kernels()) {

@@ -15,11 +15,11 @@
 #include "tests/fuzz/byte_stream.h"
 #include "tests/fuzz/stop.h"
 
-/// A client that sends anything in any pieces: what it gets are whole answers to its requests, one
-/// for each, and nothing is written without leave.
+/// A client that sends anything in any pieces: it receives complete answers to its requests, one
+/// for each, and nothing is written without permission.
 ///
-/// An input is one byte that says whether the client may write, then pieces: a byte of bits (see
-/// Piece), a length, and so many bytes.
+/// An input is one byte that determines whether the client may write, then pieces: a byte of bits
+/// (see Piece), a length, and that number of bytes.
 namespace orbwatch::fuzz {
 namespace {
 
@@ -29,14 +29,13 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kHeader = 7;
 
-/// A piece is sent as it is, or made a frame of with a right header, which chance would hardly
-/// find.
+/// A piece is sent unchanged, or as a frame with a right header, which chance would hardly find.
 enum Piece : std::uint8_t { kIsProtocolDataUnit = 1, kForAnotherUnit = 2 };
 
 Bytes frame(std::span<const std::uint8_t> pdu, std::uint8_t unit) {
   const std::size_t length = pdu.size() + 1;
   Bytes bytes(kHeader + pdu.size());
-  bytes[0] = static_cast<std::uint8_t>(pdu.size());  // some transaction
+  bytes[0] = static_cast<std::uint8_t>(pdu.size());  // any transaction identifier
   bytes[4] = static_cast<std::uint8_t>(length >> 8);
   bytes[5] = static_cast<std::uint8_t>(length);
   bytes[6] = unit;
@@ -48,8 +47,8 @@ std::size_t word(std::span<const std::uint8_t> bytes, std::size_t place) {
   return static_cast<std::size_t>(bytes[place] << 8 | bytes[place + 1]);
 }
 
-/// The protocol data unit's length that the answer to a request which was carried out must have;
-/// 0: it says so itself.
+/// Required length of the protocol data unit that answers an executed request; 0: the answer states
+/// it itself.
 std::size_t answer_length(std::span<const std::uint8_t> request) {
   switch (request[0]) {
     case 1:
@@ -71,7 +70,7 @@ std::size_t answer_length(std::span<const std::uint8_t> request) {
   }
 }
 
-/// Made once: it never changes.
+/// The map never changes, so that it is constructed once.
 const app::modbus::RegisterMap& shared_map() {
   static const app::modbus::RegisterMap map;
   return map;
@@ -100,7 +99,7 @@ class Connection {
     transport_->use(server_.get());
   }
 
-  /// False when the server ends the connection.
+  /// Sends bytes; false when the server ends the connection.
   bool send(std::span<const std::uint8_t> bytes) {
     sent_.insert(sent_.end(), bytes.begin(), bytes.end());
     while (!bytes.empty()) {
@@ -125,7 +124,7 @@ class Connection {
     plc_.write(write, map_, {});
   }
 
-  /// Frames are what was sent, without gaps.
+  /// Frames are the bytes sent, without gaps.
   void check_frame(std::span<const std::uint8_t> frame) {
     require(frame.size() > kHeader && frame.size() <= MbapFramer::kLongestFrame, "frame's size");
     require(word(frame, 2) == 0 && word(frame, 4) == frame.size() - 6, "frame's header");
@@ -135,7 +134,8 @@ class Connection {
   }
 
   bool answer(std::span<const std::uint8_t> request) {
-    const Bytes copy(request.begin(), request.end());  // sized so that reading on is noticed
+    const Bytes copy(request.begin(),
+                     request.end());  // sized exactly, so that reads beyond it are detected
     const Outcome answered = responder_->answer(*transport_, copy, may_write_);
     require(answered != Outcome::NotSent, "an answer was not sent");
     std::array<std::uint8_t, 1024> buffer;
@@ -181,7 +181,7 @@ class Connection {
   std::unique_ptr<app::modbus::TcpTransport> transport_;
   MbapFramer framer_;
   Bytes sent_;
-  std::size_t cut_ = 0;  ///< so many of them came out as frames
+  std::size_t cut_ = 0;  ///< number of bytes that were returned as frames
 };
 
 void run(ByteStream input) {

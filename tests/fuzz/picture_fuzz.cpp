@@ -11,8 +11,8 @@
 #include "tests/fuzz/fenced_picture.h"
 #include "tests/fuzz/stop.h"
 
-/// Any bytes as a camera's JPEG frame and as a picture to replay: the ways in which a frame can be
-/// decoded agree about what is damaged, and nobody touches a byte beside the frame.
+/// Any bytes as a camera's JPEG frame and as a picture to replay: the decoders of a frame agree on
+/// damaged ones, and no byte beside the frame is accessed.
 namespace orbwatch::fuzz {
 namespace {
 
@@ -49,7 +49,7 @@ void decode_as_frame(const Bytes& jpeg) {
   require(!checked || !is_damaged(in_colour), "a good picture is damaged as a frame");
 }
 
-/// With the right check sum of each chunk, which chance would hardly find.
+/// Sets the right checksum of each chunk, which chance would hardly find.
 Bytes with_right_checksums(Bytes png) {
   constexpr std::size_t kSignature = 8;
   constexpr std::size_t kWord = 4;

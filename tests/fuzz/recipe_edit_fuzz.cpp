@@ -8,8 +8,8 @@
 #include "app/ports/web/configuration/recipe_body.h"
 
 /// Any bytes as a request that changes a recipe, up to the first 0, and as the recipe's file behind
-/// it. The file is changed, or refused in one line that names it; the same change once more changes
-/// nothing, unless it removed a region. The request is also read as one with whole files.
+/// it. The file is changed, or refused in one line that names it; repeating the change has no
+/// effect, unless it removed a region. The request is also read as one with whole files.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orbwatch::app;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!why.starts_with("recipe.toml") || why.find('\n') != std::string::npos) std::abort();
     return 0;
   }
-  // What is gone cannot go again, and the numbers of alarms behind it are others.
+  // Removed regions cannot be removed again, and the numbers of later alarms differ.
   for (auto& region : request->change.regions) {
     if (region.is_removed) return 0;
     region.added.reset();

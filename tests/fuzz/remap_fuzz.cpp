@@ -13,7 +13,7 @@
 #include "tests/fuzz/stop.h"
 
 /// Random grids, sizes and formats: the map keeps to its tolerance, all kernels write the same
-/// bytes, and nobody reads or writes outside of the pictures.
+/// bytes, and nothing is read or written outside of the pictures.
 namespace orbwatch::fuzz {
 namespace {
 
@@ -43,7 +43,8 @@ Vec2 place(const Coordinate& c) { return {c.u / remap::kOnePixel, c.v / remap::k
 
 double distance(const Vec2& a, const Vec2& b) { return std::hypot(a.u - b.u, a.v - b.v); }
 
-/// The map ends or jumps here: double precision does not tell on which side a pixel is.
+/// True if the map ends or jumps here: double precision does not determine the side that a pixel is
+/// on.
 bool is_on_an_edge(const RemapScene& scene, int x, int y) {
   constexpr double kBeside = 1e-5;
   const auto here = exact(scene, x, y);
@@ -55,15 +56,15 @@ bool is_on_an_edge(const RemapScene& scene, int x, int y) {
   return false;
 }
 
-/// How far a place lies within the source picture, px; below 0 outside.
+/// Distance of a place from the source picture's border, px; below 0 outside.
 double depth(const RemapScene& scene, const Vec2& p) {
   const double right = scene.grid.source_width() - 0.5, bottom = scene.grid.source_height() - 0.5;
   return std::min({p.u + 0.5, p.v + 0.5, right - p.u, bottom - p.v});
 }
 
-/// How far a pixel may be from the exact map, px. How much a map bends between the grid's nodes is
-/// an estimate: of a thousand views, extremes all of them, one has pixels at 1.6 times the
-/// tolerance.
+/// Largest allowed distance of a pixel from the exact map, px. The curvature of a map between the
+/// grid's nodes is an estimate: of a thousand views, all of them extreme, one has pixels at 1.6
+/// times the tolerance.
 constexpr double kFarthest = 3 * remap::kTolerance;
 
 bool agree(const RemapScene& scene, const Coordinate& mine, const std::optional<Vec2>& truth) {
@@ -109,7 +110,7 @@ std::span<const std::byte> samples(bool extreme) {
   return extreme ? extremes : noise;
 }
 
-/// What a view is made of, and into what.
+/// Input and format of a view.
 struct Work {
   const RemapScene& scene;
   std::span<const Picture> source;
@@ -118,7 +119,7 @@ struct Work {
   int padding;
 };
 
-/// Every byte is `before` in the beginning.
+/// A view whose bytes are initially `before`.
 FencedPicture view_of(const Work& work, const Kernel& kernel, std::byte before) {
   const remap::CoordinateGrid& grid = work.scene.grid;
   FencedPicture out(work.to, grid.width(), grid.height(), work.padding);
@@ -141,7 +142,7 @@ std::vector<std::byte> pixels_of(const FencedPicture& view) {
 }
 
 void check_kernels(const Work& work) {
-  // Two beginnings, so that a byte that no kernel writes shows as well.
+  // Two initial values, so that a byte that no kernel writes is also detected.
   const std::vector<std::byte> expected =
       pixels_of(view_of(work, *remap::kernels().front(), std::byte{0x5a}));
   for (const Kernel* kernel : remap::kernels()) {

@@ -14,14 +14,15 @@ using optics::BallModel;
 using optics::BallProjection;
 using optics::ViewKind;
 
-// Whole steps, so that right angles, symmetric rigs and limits come up, as no double would.
+// Values are in whole steps, so that right angles, symmetric rigs and limits occur, unlike with
+// arbitrary doubles.
 
 /// Degrees, in tenths.
 double angle(FuzzedDataProvider& bytes, double low, double high) {
   return bytes.ConsumeIntegralInRange(std::lround(low * 10), std::lround(high * 10)) / 10.0;
 }
 
-/// In hundredths.
+/// A share, in hundredths.
 double share(FuzzedDataProvider& bytes, double low, double high) {
   return bytes.ConsumeIntegralInRange(std::lround(low * 100), std::lround(high * 100)) / 100.0;
 }
@@ -84,7 +85,7 @@ Result<BallProjection> calibrated_ball(FuzzedDataProvider& bytes, const SourceSi
   return optics::Lens::make(intrinsics(bytes, source, focal))
       .and_then([&](const optics::Lens& lens) {
         camera.lens = lens;
-        if (bytes.ConsumeIntegralInRange(0, 7) == 7) {  // it takes its time
+        if (bytes.ConsumeIntegralInRange(0, 7) == 7) {  // rare, since it is slow
           camera.window = optics::Window{tests::random_direction(anywhere), share(bytes, 0, 40),
                                          share(bytes, 1, 2)};
         }
@@ -92,7 +93,7 @@ Result<BallProjection> calibrated_ball(FuzzedDataProvider& bytes, const SourceSi
       });
 }
 
-/// Most are as fine as views are, so that kernels have their part in them; some are anything.
+/// Most are as fine as real views, so that kernels are used; some are anything.
 std::optional<double> field_of_view(FuzzedDataProvider& bytes, int pixels, double widest) {
   switch (bytes.ConsumeIntegralInRange(0, 3)) {
     case 0:

@@ -13,7 +13,7 @@ namespace orbwatch::fuzz {
 /// The largest side of a source, px.
 inline constexpr int kMaxSourceSide = 600;
 
-/// What a source's pictures are like.
+/// Size of a source's pictures.
 struct SourceSize {
   int width, height;
 };
@@ -29,8 +29,8 @@ struct RemapScene {
   remap::CoordinateGrid grid;
 };
 
-/// A source, a ball, a camera, a room and a view as the bytes ask for; nothing where the product
-/// refuses them. `even`: all sides are, for formats that share samples between pixels.
+/// A source, a ball, a camera, a room and a view from the bytes; nullopt if the product refuses
+/// them. `even`: all sides are even, for formats that share samples between pixels.
 std::optional<RemapScene> make_scene(FuzzedDataProvider& bytes, bool even);
 
 }  // namespace orbwatch::fuzz

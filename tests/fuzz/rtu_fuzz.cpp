@@ -7,10 +7,10 @@
 #include "tests/fuzz/byte_stream.h"
 #include "tests/fuzz/stop.h"
 
-/// Anything on a serial line, with any pauses: what comes out are frames that went in, for this
+/// Anything on a serial line, with any pauses: all frames found are frames that were sent, for this
 /// unit and with a right checksum, and after silence the next request is found.
 ///
-/// An input is pieces: a byte of bits (see Piece), a length, and so many bytes.
+/// An input is pieces: a byte of bits (see Piece), a length, and that number of bytes.
 namespace orbwatch::fuzz {
 namespace {
 
@@ -20,7 +20,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kUnit = 1;
 
-/// Two bits for the silence before it, and whether a right checksum is added, which chance would
+/// Two bits for the silence before it, and one that adds a right checksum, which chance would
 /// hardly find.
 enum Piece : std::uint8_t { kSilence = 3, kIsChecked = 4 };
 constexpr std::array kSilences{milliseconds(0), milliseconds(2), milliseconds(16),
@@ -44,7 +44,7 @@ Bytes checked(std::span<const std::uint8_t> bytes) {
   return frame;
 }
 
-/// A line, and what is left of what was sent for the next frame to be found in.
+/// A line, and the bytes sent in which the next frame is still to be found.
 class Line {
  public:
   void send(std::span<const std::uint8_t> bytes, milliseconds silence) {

@@ -6,7 +6,7 @@
 
 namespace orbwatch::fuzz {
 
-/// Stops in a way that libFuzzer keeps the input.
+/// Stops the process so that libFuzzer keeps the input.
 [[noreturn]] inline void stop(const std::string& why) {
   std::fprintf(stderr, "fuzz: %s\n", why.c_str());
   std::abort();

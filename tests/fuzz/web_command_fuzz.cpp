@@ -12,8 +12,8 @@
 #include "app/ports/web/http/address.h"
 
 /// Any bytes as the body of a command over HTTP, as that of a login, as a users file and as a Host
-/// header: the first byte says which command. What is taken for a command must be an allowed one of
-/// that name, what is refused must say why, and only numbers and localhost are names of this host.
+/// header: the first byte selects the command. An accepted command must be an allowed one of that
+/// name, a refusal must have a reason, and only numbers and localhost are names of this host.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orbwatch::app;
   if (size == 0) return 0;
