@@ -123,7 +123,7 @@ TEST(Spatter, MoreThanCanBeFollowedAreCounted) {
   EXPECT_EQ(tracker.untracked(), 20U);
 }
 
-/// As many blobs as a picture of 640x480 can have, all over the sphere.
+/// The largest number of blobs that a picture of 640x480 can have, all over the sphere.
 TEST(Spatter, NoiseAtTheThresholdCostsABoundedWorkAndWhatItDropsIsCounted) {
   constexpr int kParts = 640 / 2 * 480 / 2;
   SpatterTracker tracker;
