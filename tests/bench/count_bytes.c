@@ -1,10 +1,10 @@
-/* A TCG plugin that tells how much memory a program touches in one stretch of its work:
+/* A TCG plugin that counts the memory that a program touches in one stretch of its work:
  *
  *   qemu-aarch64 -plugin ./libcount_bytes.so,out=FILE program ...
  *
- * writes 64 times the number of different cache lines read or written there to FILE. The program,
- * of one thread, calls sched_yield with arguments that the kernel does not look at: an address and
- * a size leave that memory out, two zeros begin and end the stretch (see counted_run.h). */
+ * writes 64 times the number of different cache lines read or written there to FILE. The
+ * single-threaded program calls sched_yield with arguments that the kernel ignores: an address and a
+ * size exclude that memory, two zeros begin and end the stretch (see counted_run.h). */
 #include <stdbool.h>
 
 #include "tests/bench/plugin_output.h"

@@ -1,20 +1,20 @@
 # shellcheck shell=bash disable=SC2034,SC2154
-# Sourced by the scripts that count instructions of aarch64 programs under qemu-user. $out: their
-# folder.
+# Sourced by the scripts that count instructions of aarch64 programs under qemu-user. $out: folder
+# for their output.
 
 host=build/release/tests/bench
 target=build/aarch64/tests/bench
 library_folder=/usr/lib/aarch64-linux-gnu
 sysroot=/usr/aarch64-linux-gnu
 
-# quietly NAME COMMAND...: its output only when it fails.
+# quietly NAME COMMAND...: runs a command; prints its output only when it fails.
 quietly() {
   local log=$out/$1.log
   shift
   "$@" >"$log" 2>&1 || { tail -n 40 "$log"; echo "$0: failed: $*"; exit 1; } >&2
 }
 
-# Debian 13's qemu-user is linked statically and takes no plugins: then Debian 12's does it.
+# Debian 13's qemu-user is linked statically and does not support plugins: Debian 12's is used then.
 find_qemu() {
   qemu=(qemu-aarch64)
   [[ $(qemu-aarch64 -help) == *$'\n-plugin '* ]] && return
@@ -26,8 +26,8 @@ find_qemu() {
         --library-path "$libraries" "$root/usr/bin/qemu-aarch64")
 }
 
-# number_from PLUGIN PROGRAM ARGUMENT...: the numbers that the plugin says of the program, and in the
-# same line what the program says.
+# number_from PLUGIN PROGRAM ARGUMENT...: prints the plugin's numbers for the program, and in the same
+# line the program's output.
 number_from() {
   local file said
   file=$(mktemp "$out/number.XXXXXX")
@@ -42,8 +42,8 @@ number_from() {
   rm "$file"
 }
 
-# instructions_of PROGRAM ARGUMENT...: of one repetition, by the difference of two runs, and in the
-# same line what the program says.
+# instructions_of PROGRAM ARGUMENT...: prints the instructions of one repetition, the difference of two
+# runs, and in the same line the program's output.
 instructions_of() {
   local once twice said
   read -r once said < <(number_from count_instructions "$@" 1)
@@ -51,8 +51,8 @@ instructions_of() {
   echo "$((twice - once)) $said"
 }
 
-# side_by_side: runs the commands of stdin, one in a line, some at a time. Each prints its line at
-# once.
+# side_by_side: runs the commands of stdin, one per line, several at a time. Each prints its whole line
+# at once.
 side_by_side() {
   local command running=0
   while read -r command; do

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""instruction_gates.py FOLDER: judges the instructions that tests/bench/instructions counted.
+"""instruction_gates.py FOLDER: checks the instruction counts of tests/bench/instructions.
 
 Reads instructions.txt in FOLDER (lines: group, case, instructions, and pixels that share them; the
-same on every machine). Prints a table and fails when a figure that must be reached is not.
+same on every machine). Prints a table and fails when a required figure is missed.
 """
 
 import pathlib
@@ -11,21 +11,21 @@ import sys
 
 FLAT = ("flat_o0", "flat_o1", "flat_o2")
 
-# Of the three flat views together, by format: at most, aim.
+# Limit and aim for the three flat views together, by format.
 REMAP = {"grey": (5.8, 5.0), "nv12": (8.5, 7.5), "bgr": (14.5, 13), "y16": (10.7, 10)}
 MERGED = {"nv12": (13, 11.5), "yuyv": (15, 14), "rgb": (12.5, 11.3), "nv12_y16": (35, 28),
           "rgb_y16": (36, 29), "grey_y16": (32, 25), "panorama": (75, 55),
           "panorama_grey": (75, 52), "nv12_measured": (22, 19), "rgb_measured": (29, 26)}
 # Millions in a frame set of the reference machine, without JPEG and network.
 FRAME_SET = (140, 110)
-# Per sample of the plane that is sharpened.
+# Limit and aim per sample of the plane that is sharpened.
 SHARPENING = {"nv12": (3, 2.6), "yuyv": (3, 2.6), "rgb": (3, 2.6)}
-# Of the region.
+# Limit and aim per pixel of the region.
 SIGNALS = {"cold_8": (4, 0.6), "cold_16": (4, 0.8), "noisy_8": (12, 10.5), "noisy_16": (12, 11)}
 
 
 def read(folder):
-    """Instructions per pixel, of the reference machine millions of them, by group and case."""
+    """Instructions per pixel, for the reference machine in millions, by group and case."""
     counts = {}
     for line in (folder / "instructions.txt").read_text().splitlines():
         group, case, instructions, pixels = line.split()
@@ -34,13 +34,13 @@ def read(folder):
 
 
 def mean_remap(counts, layout):
-    """Of the flat views; None when one is missing."""
+    """Mean of the flat views; None when one is missing."""
     values = [counts.get(("remap", f"{view}/{layout}")) for view in FLAT]
     return None if None in values else statistics.mean(values)
 
 
 def rows(counts):
-    """(figure, instructions, at most, aim)."""
+    """Rows of the table: (figure, instructions, at most, aim)."""
     found = [(f"aarch64 instructions per pixel, {layout}", mean_remap(counts, layout), *limits)
              for layout, limits in REMAP.items()]
     found += [(f"aarch64 instructions per pixel, merged view {view}", counts.get(("merged", view)),
@@ -56,7 +56,7 @@ def rows(counts):
 
 
 def stages(counts):
-    """(stage, million instructions) of the reference machine's frame set, the largest first."""
+    """Pairs (stage, million instructions) of the reference machine's frame set, the largest first."""
     found = [(case, count) for (group, case), count in counts.items()
              if group == "reference" and case != "frame_set"]
     return sorted(found, key=lambda stage: -stage[1])

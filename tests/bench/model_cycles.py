@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""model_cycles.py BUILD_FOLDER: what llvm-mca says of the NEON kernels' inner loops.
+"""model_cycles.py BUILD_FOLDER: models the cycles of the NEON kernels' inner loops with llvm-mca.
 
-Compiles kernel/neon.cpp to assembler as BUILD_FOLDER does for aarch64, finds the innermost loops
-with table look-ups and prints a JSON list of cycles per turn on Cortex-A72 and A76. A model: every
-load hits the first cache. LLVM describes the A76 only as Neoverse N1, the same core for servers.
+Compiles kernel/neon.cpp to assembler like BUILD_FOLDER for aarch64, finds the innermost loops
+with table look-ups and prints a JSON list of cycles per iteration on Cortex-A72 and A76. The model
+assumes that every load hits the first cache. LLVM describes the A76 only as Neoverse N1, the same core for servers.
 """
 
 import json
@@ -51,7 +51,7 @@ def functions(lines):
 
 
 def inner_loops(body):
-    """The shortest stretches from a label to a branch back to it that look up in tables."""
+    """The shortest loops, from a label to a branch back to it, that look up in tables."""
     labels, loops = {}, []
     for index, line in enumerate(body):
         if label := re.match(r"(\.L\w+):", line):
@@ -68,8 +68,8 @@ def inner_loops(body):
 
 
 def modelled(loop, processor, turns=200):
-    """Cycles and instructions per turn."""
-    # GCC writes bytes of movi with their sign, which LLVM does not read.
+    """Cycles and instructions per iteration."""
+    # GCC writes bytes of movi with their sign, which LLVM does not parse.
     instructions = [re.sub(r"0xf{14}(\w\w)$", r"0x\1", line) for line in loop
                     if re.match(r"\s+[a-z]", line)]
     report = json.loads(output_of(
@@ -94,8 +94,8 @@ def readable(name):
 
 
 def blocks_per_turn(name):
-    """The kernels go through a row of blocks in a turn; their last template argument counts it.
-    None of another function that looks up in tables."""
+    """The kernels process a row of blocks per iteration; their last template argument is its length.
+    None for another function that looks up in tables."""
     count = re.search(r", (\d+)>$", name)
     return int(count[1]) if count else None
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""report.py FOLDER: makes remap.md and remap.json from what tests/bench/run measured.
+"""report.py FOLDER: makes remap.md and remap.json from the measurements of tests/bench/run.
 
 Reads instructions.txt (instruction_gates.py), peer.txt (lines: view/format instructions), bytes.txt
 (lines: program view/format bytes), times.json (Google Benchmark's) and cycles.json
-(model_cycles.py's) in FOLDER. Fails when a figure that must be reached is not.
+(model_cycles.py's) in FOLDER. Fails when a required figure is missed.
 """
 
 import datetime
@@ -20,19 +20,19 @@ import instruction_gates
 from instruction_gates import FLAT
 
 FLAT_PIXELS = 1920 * 1080
-# Clocks of the processors for which a frame set is modelled, GHz, and the kernel's layouts of whose
-# loops the modelled instructions per cycle are: what NV12 and 16 bit pictures are sampled by.
+# Clocks of the processors for which a frame set is modelled, GHz, and the kernel's layouts whose loops
+# have the modelled instructions per cycle: those that sample NV12 and 16 bit pictures.
 CLOCKS = {"Cortex-A72": 1.8, "Cortex-A76": 2.4}
 LAYOUTS = ("One8", "Two8", "One16")
-# Merged views that OpenCV makes, too, and how much it takes for one of ours: at least, which the
-# fastest kernel of a machine must reach, and aim.
+# Merged views that OpenCV makes, too, and the least ratio of its time to ours, which the fastest kernel
+# of a machine must reach, and the aim.
 MERGED_WITH_PEER = ("nv12_y16", "rgb_y16", "grey_y16")
 MERGED_LIMITS = (4, 5.5)
 KERNELS = ("scalar", "neon", "avx2", "avx512")
 
 
 class Measured:
-    """What the programs said, by name; a figure that is missing is None."""
+    """Output of the programs, by name; a missing figure is None."""
 
     def __init__(self, folder):
         self.ours = instruction_gates.read(folder)
@@ -66,7 +66,7 @@ class Measured:
         return None if None in counts else statistics.mean(counts)
 
     def most_bytes(self, program, layout=None):
-        """Per pixel, beyond source and view, of any flat view; of any format without one."""
+        """Most bytes per pixel, beyond source and view, of any flat view; by default of any format."""
         return max((touched for (who, _, what), touched in self.bytes.items()
                     if who == program and layout in (None, what)), default=None)
 
@@ -76,12 +76,12 @@ class Measured:
         return peer / ours if ours and peer else None
 
     def fewer_merging(self, view):
-        """The same of a merged view."""
+        """The same for a merged view."""
         ours, peer = self.ours.get(("merged", view)), self.peer_merged.get(view)
         return peer / ours if ours and peer else None
 
     def two_byte_instructions(self, program):
-        """Per pixel of the U V plane, of which NV12 has one for four of luminance."""
+        """Instructions per pixel of the U V plane, which has one for four luminance pixels of NV12."""
         both, one = (self.mean_instructions(program, layout) for layout in ("nv12", "grey"))
         return 4 * (both - one) if both and one else None
 
@@ -89,7 +89,7 @@ class Measured:
         return self.runs.get(run, {}).get(name)
 
     def worst(self, run, what):
-        """Of all kernels' errors in that run."""
+        """The largest of all kernels' errors in that run."""
         errors = [self.counter(run, f"{kernel}_{what}") for kernel in self.kernels]
         return None if None in errors or not errors else max(errors)
 
@@ -101,7 +101,7 @@ class Measured:
         return min((run[name] for run in self.runs.values() if name in run), default=None)
 
     def instructions_per_cycle(self, processor):
-        """Of the modelled loops of LAYOUTS together."""
+        """Mean over the modelled loops of LAYOUTS together."""
         loops = [entry for entry in self.cycles if entry["cpu"] == processor
                  and any(f"<{layout}," in entry["loop"] for layout in LAYOUTS)]
         return (sum(entry["instructions"] for entry in loops)
@@ -112,7 +112,7 @@ class Measured:
         return max(run[name] for run in runs) if runs else None
 
     def largest_change_with_source(self):
-        """Of a ratio, in per cent, from the 3000x3000 source to the larger one."""
+        """Largest change of a ratio, in per cent, from the 3000x3000 source to the larger one."""
         changes = []
         for key, large in self.runs.items():
             if not key.endswith("/4096"):
@@ -255,7 +255,7 @@ def repointing_table(measured):
 
 
 def stage_table(measured):
-    """The reference machine's stages, and what they take if every cycle has the modelled number of
+    """The reference machine's stages, and their times if every cycle has the modelled number of
     instructions."""
     rates = [1e9 * CLOCKS[processor] * measured.instructions_per_cycle(processor)
              for processor in CLOCKS]
@@ -269,7 +269,7 @@ def stage_table(measured):
 
 
 def clocks(measured):
-    """As in "Cortex-A72 at 1.8 GHz with 2.0 instructions per cycle"."""
+    """Text such as "Cortex-A72 at 1.8 GHz with 2.0 instructions per cycle"."""
     return ", ".join(f"{processor} at {clock} GHz with "
                      f"{measured.instructions_per_cycle(processor):.2f} instructions per cycle"
                      for processor, clock in CLOCKS.items())

@@ -1,12 +1,11 @@
-# The words that checks in shell are written in: for scenarios of tests/hil and for
-# tests/platform/packages. Whoever sources this defines report VERDICT NAME, which is where a verdict
-# goes.
+# Functions for checks in shell: for scenarios of tests/hil and for tests/platform/packages. The script
+# that sources this file defines report VERDICT NAME, which receives the verdicts.
 # shellcheck shell=bash
 
 failed_checks=0
 
-# check NAME COMMAND...: a test that passes when the command ends with 0; fails when the test does. What
-# the command prints is in the log, between two lines with the name.
+# check NAME COMMAND...: runs a test that passes when the command ends with 0; fails when the test does.
+# The command's output is in the log, between two lines with the name.
 check() {
   local name=$1 verdict=passed
   shift
@@ -17,7 +16,7 @@ check() {
   [[ $verdict == passed ]]
 }
 
-# wait_for SECONDS COMMAND...: until the command succeeds; busy and emulated machines take their time.
+# wait_for SECONDS COMMAND...: waits until the command succeeds; busy and emulated machines are slow.
 wait_for() {
   local deadline=$((SECONDS + $1))
   shift

@@ -16,8 +16,8 @@ import pathlib
 import re
 import sys
 
-VERSIONS = ("5", "6", "7")  # of .ninja_log; they differ in the hash of the command
-SMALL = 0.01  # share of the sum below which rows are joined
+VERSIONS = ("5", "6", "7")  # versions of .ninja_log; they differ in the hash of the command
+SMALL = 0.01  # share of the sum below which rows are merged
 EMULATORS = re.compile(r"(.*/)?qemu-[a-z0-9_]+$")
 
 
@@ -77,7 +77,7 @@ def product_name(output):
 
 
 def row_of(outputs, targets):
-    """The target that a job's outputs belong to; of other commands the first output."""
+    """The target that a job's outputs belong to; for other commands the first output."""
     for output in outputs:
         if target := target_of_object(output):
             return target
@@ -99,7 +99,7 @@ def build_costs(log, build):
 
 
 def program_of(test, command, build):
-    """The name of the program in the build folder that a test runs; of other tests the test's own."""
+    """The name of the program in the build folder that a test runs; for other tests the test's own."""
     words = re.findall(r'"([^"]*)"', command)
     if len(words) > 1 and EMULATORS.match(words[0]):
         words = [word for word in words[1:] if word.startswith(f"{build}/")]
@@ -125,7 +125,7 @@ def test_costs(text, build):
 
 
 def grouped(costs):
-    """Rows: name, seconds, how many, the longest; the dearest first, the small ones as one."""
+    """Rows: name, seconds, number, the longest; the most expensive first, the small ones as one."""
     groups = collections.defaultdict(list)
     for cost in costs:
         groups[cost.row].append(cost.seconds)
@@ -140,7 +140,7 @@ def grouped(costs):
 
 
 def table(title, costs, cpu, kind, plural):
-    """Markdown: a heading, how the figures were made, a table."""
+    """Markdown: a heading, the method, a table."""
     elapsed = sum(cost.seconds for cost in costs)
     lines = [f"### {title}", ""]
     if not costs:

@@ -1,4 +1,4 @@
-"""costs.py: what it counts, and what it makes of logs that are not whole."""
+"""costs.py: its counts, and its results for incomplete logs."""
 import sys
 import tempfile
 import unittest
@@ -16,7 +16,7 @@ def line(begin, end, output, written=MARK, command="c"):
 
 
 def seconds(text, build="/b", mark=MARK):
-    """By row."""
+    """Seconds by row."""
     found = {}
     for cost in costs.build_costs(costs.since(costs.entries(text), mark), build):
         found[cost.row] = found.get(cost.row, 0) + cost.seconds

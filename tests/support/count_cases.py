@@ -2,8 +2,8 @@
 """count_cases.py JUNIT: the cases that CTest's programs ran, from the file of its option --output-junit.
 
 Prints `N passed, N failed, N skipped`, then a line per failed case (`FAILED PROGRAM NAME`) and per reason
-of a skipped one. A program counts by what GoogleTest printed, any other as one case; a program that ended
-early has failed once more.
+of a skipped one. GoogleTest programs count by their printed cases, any other as one case; a program that
+ended early has one more failure.
 """
 
 import re
@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 COUNT = re.compile(r"^\[  (PASSED|SKIPPED|FAILED) +\] (\d+) tests?[,.]", re.MULTILINE)
 FAILED = re.compile(r"^\[  FAILED  \] (\S+)(?:, where .*)?$", re.MULTILINE)
-# Reason of a case that cannot run here. Cases that do not apply, as some of compliance/, give others.
+# Reason of a case that cannot run here. Cases that do not apply, like some of compliance/, have others.
 REASON = re.compile(r"^skipped, missing.*$", re.MULTILINE)
 
 

@@ -1,4 +1,4 @@
-"""count_cases.py: how many cases a run of CTest had."""
+"""count_cases.py: the number of cases in a run of CTest."""
 import sys
 import unittest
 from xml.etree import ElementTree

@@ -1,8 +1,8 @@
 # shellcheck shell=bash
-# Sourced by the scripts that run tests: the choice of the stages that most changes leave alone.
+# Sourced by the scripts that run tests: selects the stages that most changes do not affect.
 # ORBWATCH_SINCE: the commit to compare with instead of the last whole run's; nothing is drawn then.
 
-# Folders whose change concerns the long gates of alignment.
+# Folders whose changes require the long gates of alignment.
 # shellcheck disable=SC2034
 alignment=(app/simulation proc/align proc/optics tests/proc/align tests/support)
 

@@ -1,11 +1,11 @@
-# Reads orbwatchd's registers at $modbus_address:$modbus_port by a client of other people, which the
-# words $modbus_from start elsewhere: in the network of a container.
+# Reads orbwatchd's registers at $modbus_address:$modbus_port with a third-party client; the command
+# prefix $modbus_from starts it elsewhere: in the network of a container.
 # shellcheck shell=bash
 
 registers=$(dirname "${BASH_SOURCE[0]}")/../../app/ports/modbus/registers.csv
 modbus_from=()
 
-# register NAME: the value of an input register; nothing if it cannot be read.
+# register NAME: prints the value of an input register; nothing if it cannot be read.
 register() {
   local address kind type=(-t 3) value
   read -r address kind < <(awk -F, -v name="$1" '$1 == "input" && $6 == name {print $2, $4}' \
@@ -13,7 +13,7 @@ register() {
   [[ $kind != UDINT ]] || type=(-t 3:int -B)
   value=$("${modbus_from[@]}" mbpoll -m tcp -p "${modbus_port:?}" -0 -r "$address" "${type[@]}" -c 1 -1 \
     -o 5 "${modbus_address:?}" | sed -n "s/^\[$address\]:[[:space:]]*\(-\{0,1\}[0-9]*\).*/\1/p")
-  # mbpoll has 32 bits with a sign only.
+  # mbpoll supports only signed 32 bit values.
   [[ $kind != UDINT || $value != -* ]] || value=$((value + (1 << 32)))
   echo "$value"
 }

@@ -1,11 +1,11 @@
-"""Which tests passed and which failed, read from what the programs that run tests print."""
+"""Reads passed and failed tests from the output of the programs that run tests."""
 
 import re
 import xml.etree.ElementTree as xml
 
 # CTest: " 3/12 Test  #4: optics_tests.1 ......***Failed    0.02 sec"
 CTEST = re.compile(r" *\d+/\d+ Test +#\d+: (.+?) \.{2,} *(Passed|\*\*\*.*?) +[\d.]+ sec$")
-# GoogleTest names failed tests again at its end, there without a time.
+# GoogleTest repeats the names of failed tests at its end, there without a time.
 GTEST = re.compile(r"\[ +(OK|FAILED) +\] ([^\s,]+)(?:, where .*)? \(\d+ ms\)$")
 # unittest: "test_x (page_test.PageTest.test_x) ... ok"; a description or output may come between.
 UNITTEST = re.compile(r"(?:test_\w+|setUpClass|setUpModule|tearDownClass|tearDownModule) \(([\w.]+)\)")
@@ -19,8 +19,8 @@ class _Reader:
     def __init__(self):
         self.found = []
         self.by_ctest = False
-        self.test = None  # of CTest, whose output follows
-        self.case = None  # of unittest, whose verdict follows
+        self.test = None  # CTest's test whose output follows
+        self.case = None  # unittest's case whose verdict follows
 
     def line(self, line):
         if ctest := CTEST.match(line):
@@ -31,7 +31,7 @@ class _Reader:
             self.other(line)
 
     def ctest(self, name, verdict):
-        name = name.partition("  # ")[0]  # then a parameter, which may hold addresses
+        name = name.partition("  # ")[0]  # a parameter follows, which may contain addresses
         self.by_ctest, self.test = True, name
         if not verdict.startswith(NOT_RUN):
             self.found.append((name, verdict == "Passed"))
@@ -65,7 +65,7 @@ def _junit(text):
 
 
 def _absent(case):
-    """Whether a test did not run because its program is missing, which CTest counts as failed."""
+    """True if a test did not run because its program is missing, which CTest counts as failed."""
     skipped = case.find("skipped")
     return skipped is not None and skipped.get("message", "").startswith("Unable to find")
 

@@ -1,4 +1,4 @@
-"""results.py: every kind of output that it reads, whole and broken."""
+"""results.py: every kind of output that it reads, complete and broken."""
 import sys
 import unittest
 

@@ -1,4 +1,4 @@
-"""The state of the checkout that a run is about."""
+"""The state of the checkout that a run tests."""
 
 import hashlib
 import pathlib

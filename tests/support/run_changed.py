@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""run_changed.py [BASE]: runs the tests of what has changed since BASE (HEAD: what is not committed), for
+"""run_changed.py [BASE]: runs the tests for all changes since BASE (HEAD: uncommitted changes), for
 `tests/run --changed`.
 
 Builds the release preset and runs the test programs that differ from those whose tests passed here
 before, or that start a program that differs. Then the programs of the changed folders under the
-sanitizer that fits: proc starts no thread (ASan and UBSan), hal and app do (TSan). Then clang-format
+suitable sanitizer: proc starts no thread (ASan and UBSan), hal and app do (TSan). Then clang-format
 and clang-tidy, and those of the long stages (page, packages, emulated machines, arm64's kernels) whose
 folders changed.
 """
@@ -22,11 +22,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LOGS = ROOT / "build/logs"
 # Programs that tests start by their path.
 STARTED = ("app/orbwatchd", "app/orbwatch")
-# The long gates of alignment, for changes of what they are about (tests/support/drawn.sh).
+# The long gates of alignment, for changes that affect them (tests/support/drawn.sh).
 GATES = "align_gate_tests"
 # Tests of the tree itself: its includes and documents.
 ALWAYS = "architecture_tests"
-# Folders, and what proves a change of theirs beside the release tests.
+# Folders, and the tests for their changes in addition to the release tests.
 PACKAGED = r"platform/(?!demo)|tests/platform/"
 STAGES = [
     ("page", r"app/ports/web/page/|tests/web/", ["tests/web/run", "--drawn"]),
@@ -48,7 +48,7 @@ def changed_since(base):
 
 
 class Stages:
-    """Runs commands, keeps what they print, and remembers whether all passed."""
+    """Runs commands, keeps their output, and records whether all passed."""
 
     def __init__(self):
         LOGS.mkdir(parents=True, exist_ok=True)
@@ -85,7 +85,7 @@ class Preset:
                                ["cmake", "--build", "--preset", self.name, *chosen])
 
     def tests(self):
-        """By name of a test program its path and CTest's names for its parts."""
+        """Each test program's path and CTest's names for its parts, by program name."""
         listing = subprocess.run(["ctest", "--preset", self.name, "--show-only=json-v1"], cwd=ROOT,
                                  check=True, capture_output=True, text=True).stdout
         found = {}
@@ -100,7 +100,7 @@ class Preset:
         return found
 
     def digests(self):
-        """By name of a test program the digests that its result follows from: its own and those of the programs
+        """The digests on which each test program's result depends: its own and those of the programs
         that it starts."""
         started = {str(self.folder / name).encode() + b"\0": digest(self.folder / name)
                    for name in STARTED if (self.folder / name).exists()}
@@ -115,7 +115,7 @@ class Preset:
         return result
 
     def run(self, names):
-        """The named programs' tests; remembers those that passed."""
+        """Runs the named programs' tests; records those that passed."""
         if not names:
             return
         found = self.tests()
@@ -139,7 +139,7 @@ def digest(path):
 
 
 def folders_of_programs():
-    """By name of a test program the folders of its sources, below the project."""
+    """The folders of each test program's sources, below the project, by program name."""
     found = {}
     for listing in ROOT.glob("tests/**/CMakeLists.txt"):
         for name, body in re.findall(r"orbwatch_tests\((\w+)([^)]*)\)", listing.read_text()):
@@ -172,7 +172,7 @@ def sources(changed, tops):
 
 
 def sanitized(changed, stages):
-    """Runs the mirrored programs: of hal and app under TSan where it has any, others under ASan."""
+    """Runs the mirrored programs: those of hal and app under TSan if it has any, others under ASan."""
     remaining = sources(changed, "proc")
     threads = sources(changed, "hal|app")
     for name, files in (("tsan", threads), ("asan-ubsan", remaining)):
@@ -189,7 +189,7 @@ def sanitized(changed, stages):
 
 
 def of_alignment(base):
-    """Whether a change since `base` concerns the long gates."""
+    """True if a change since `base` affects the long gates."""
     return not subprocess.run(["bash", "-c", '. tests/support/drawn.sh; tests/support/changed "$1" "${alignment[@]}"',
                                "changed", base], cwd=ROOT).returncode
 

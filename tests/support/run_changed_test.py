@@ -1,4 +1,4 @@
-"""run_changed.py: which test programs belong to a changed file."""
+"""run_changed.py: the test programs that belong to a changed file."""
 import sys
 import unittest
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""runs.py [--folder FOLDER] keep [FILE]: files a finished table of stages away as COMMIT-UTC.md.
-runs.py [--folder FOLDER] compare A B: prints what costs more in run B than in run A.
+"""runs.py [--folder FOLDER] keep [FILE]: stores a finished table of stages as COMMIT-UTC.md.
+runs.py [--folder FOLDER] compare A B: prints the rows that cost more in run B than in run A.
 runs.py [--folder FOLDER] list: prints the names of the runs, the oldest first.
 
 FILE is build/logs/stages.md and FOLDER build/logs/runs if not given. The newest 20 runs are kept. A
-and B are files or how names in FOLDER begin; the newest such run is chosen. Compared are the columns
-"CPU s" of tables with the same heading: rows that are new, or dearer by more than 10 % and by 1 s.
+and B are files or prefixes of names in FOLDER; the newest such run is chosen. The columns "CPU s" of
+tables with the same heading are compared: rows that are new, or higher by more than 10 % and by 1 s.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""runs.py: which runs it keeps and what it finds dearer; revision.py: the state that names them."""
+"""runs.py: the runs it keeps and the rows it reports; revision.py: the state that names them."""
 import datetime
 import subprocess
 import sys
@@ -27,7 +27,7 @@ class Keep(unittest.TestCase):
             (Path(place) / "runs").mkdir()
             (folder / "note.md").write_text("not a run")
             for hour in range(23):
-                # Commits are not in the order of time.
+                # Commits are not in chronological order.
                 runs.keep(source, folder, f"{99 - hour:012}", DAY + datetime.timedelta(hours=hour))
             kept = runs.runs(folder)
             self.assertEqual(len(kept), 20)

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2154
-# Sourced by the scripts that run tests: stages that are timed, a table of them, and what passed.
-# $stages is the table's file, Markdown, which stages_begin makes; $logs the folder of their output.
+# Sourced by the scripts that run tests: timed stages, a table of them, and counts of results.
+# $stages is the table's Markdown file, created by stages_begin; $logs the folder of their output.
 
 stages_begin() {
   passed=0 failed=0 skipped=0
@@ -21,10 +21,10 @@ timed() {
   return "$code"
 }
 
-# stage_row NAME RESULT: a line of the table for what timed has run.
+# stage_row NAME RESULT: adds a row to the table for the command that timed has run.
 stage_row() { echo "| $1 | $wall | $cpu | $2 |" >>"$stages"; }
 
-# stage NAME COMMAND...: one step that passes or fails as a whole; its output is kept.
+# stage NAME COMMAND...: runs one step that passes or fails as a whole; its output is kept.
 stage() {
   timed "$logs/$1.log" "${@:2}"
   stage_ended "$1" $?
@@ -46,7 +46,7 @@ stage_ended() {
 }
 
 # beside NAME COMMAND...: starts a stage that leaves a core to those after it; await NAME ends it.
-# end_begun ends what has begun and nobody awaits any more.
+# end_begun ends the started stages that are no longer awaited.
 declare -A begun
 beside() {
   local name=$1
@@ -70,7 +70,7 @@ await() {
   stage_ended "$1" "$code" beside
 }
 
-# stages_end: completes the table with the sums and prints it. A stage beside others adds no time.
+# stages_end: completes the table with the sums and prints it. Parallel stages add no time.
 stages_end() {
   awk -F'|' 'NR > 2 {cpu += $4} NR > 2 && !/, beside \|$/ {wall += $3} END {print "| **together** | " wall " | " cpu " | |"}' \
     "$stages" >"$stages.sum"
@@ -79,7 +79,7 @@ stages_end() {
   cat "$stages"
 }
 
-# stages_verdict: prints the counts; fails when a test failed, or in acceptance mode was skipped.
+# stages_verdict: prints the counts; fails when a test failed or, in acceptance mode, was skipped.
 stages_verdict() {
   echo
   echo "$passed passed, $failed failed, $skipped skipped"

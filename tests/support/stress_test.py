@@ -1,4 +1,4 @@
-"""tests/stress: what it runs, what it calls a failure, and that nothing is left running."""
+"""tests/stress: the commands it runs, its failures, and the end of all its processes."""
 import importlib.machinery
 import importlib.util
 import os

@@ -1,10 +1,10 @@
 # shellcheck shell=bash disable=SC2154
-# Sourced by the scripts that run tests, after stages.sh: a preset's build and its tests, case by case.
+# Sourced by the scripts that run tests, after stages.sh: builds a preset and runs its tests, case by case.
 
-# CTest's places, three for a core; tests/CMakeLists.txt says how many a test claims.
+# CTest's slots, three per core; tests/CMakeLists.txt sets the number that a test uses.
 places=$((3 * $(nproc)))
 
-# Prefix of the commands that compile, such as nice.
+# Prefix of the compile commands, such as nice.
 gently=()
 
 # build PRESET [TARGET...]: configures and compiles it.
@@ -17,10 +17,10 @@ build() {
   tests/support/costs.py "build/$preset" --since-file "$begin" --build-cpu "$cpu" >>"$logs/costs.md"
 }
 
-# Options that keep the output of programs whole, for count_cases.py.
+# Options that keep the complete output of programs, for count_cases.py.
 junit=(--test-output-size-passed 10000000 --test-output-size-failed 10000000 --output-junit)
 
-# run_cases NAME FOLDER COMMAND...: runs CTest for the build in FOLDER by a command that leaves cases.xml
+# run_cases NAME FOLDER COMMAND...: runs CTest for the build in FOLDER with a command that writes cases.xml
 # there, and counts every case.
 run_cases() {
   local name=$1 folder=$2 xml=$2/cases.xml log=$logs/$1.log begin=$logs/$1.begin told numbers code
@@ -38,7 +38,7 @@ run_cases() {
     tail -n 20 "$log"
     return 1
   fi
-  # CTest itself may find fault with what no case tells.
+  # CTest itself may report a failure that no case reports.
   ((code == 0 || numbers[2] > 0)) || numbers[2]=1
   passed=$((passed + numbers[0])) failed=$((failed + numbers[2])) skipped=$((skipped + numbers[4]))
   stage_row "$name" "${numbers[0]} passed, ${numbers[2]} failed, ${numbers[4]} skipped"
@@ -51,11 +51,11 @@ run_cases() {
   return 1
 }
 
-# cases PRESET [OPTION...]: the tests of a preset that is built; options are CTest's.
+# cases PRESET [OPTION...]: runs the tests of a preset that is built; options are CTest's.
 cases() {
   local preset=$1 folder=$PWD/build/$1
   shift
-  # Sanitizers need addresses where they expect them.
+  # Sanitizers need a fixed address layout.
   run_cases "$preset-tests" "$folder" setarch -R ctest --preset "$preset" -j "$places" "$@" \
     "${junit[@]}" "$folder/cases.xml"
 }

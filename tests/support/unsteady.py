@@ -37,7 +37,7 @@ class Count:
 
 @contextlib.contextmanager
 def locked(folder):
-    """One process at a time; suites may run beside each other."""
+    """Admits one process at a time; suites may run in parallel."""
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "results.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -66,7 +66,7 @@ def record(folder, suite, found, commit, now):
 
 
 def counts(text):
-    """How often each test passed and failed, by commit, suite and test."""
+    """Numbers of passes and failures by commit, suite and test."""
     found = collections.defaultdict(Count)
     for line in text.splitlines():
         fields = line.split("\t")
@@ -83,8 +83,8 @@ def counts(text):
 
 
 def unsteady(found):
-    """Those of the counts that both passed and failed. Where CTest runs a program as a whole, only a
-    failed one's cases are known: a case passes with its program, and stands for it."""
+    """The counts of tests that both passed and failed. If CTest runs a program as a whole, only a
+    failed one's cases are known: a case passes with its program, and represents it."""
     chosen, represented = {}, set()
     for (commit, suite, name), count in found.items():
         program = commit, suite, name.partition("/")[0]
@@ -99,7 +99,7 @@ def unsteady(found):
 
 
 def page(chosen):
-    """unsteady.md, the newest first."""
+    """The content of unsteady.md, the newest first."""
     if not chosen:
         return NONE + "\n"
     lines = ["Tests that both failed and passed on the same commit:", "",

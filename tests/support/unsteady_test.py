@@ -1,4 +1,4 @@
-"""unsteady.py: what it keeps and which tests it calls unsteady."""
+"""unsteady.py: the results it keeps and the tests it reports as unsteady."""
 import datetime
 import sys
 import tempfile

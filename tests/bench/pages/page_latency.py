@@ -1,4 +1,4 @@
-"""From exposure to canvas, in headless Chromium: see README.md of tests/bench."""
+"""Measures the latency from exposure to canvas, in headless Chromium: see README.md of tests/bench."""
 
 import argparse
 import os
@@ -14,8 +14,8 @@ from slow_link import SlowLink  # noqa: E402
 LATENCY_AIM_MS, SLOW_AGE_AIM_MS = 150, 300
 SQUARES = 16  # hal/test_pattern/painted_number.h
 
-# Looks at the canvas whenever the browser is about to show it. `seen` and `ages` are milliseconds of
-# the system's clock, which daemon and browser share.
+# Reads the canvas each time before the browser shows it. `seen` and `ages` are milliseconds of the
+# system's clock, which daemon and browser share.
 WATCH = """
 const [seconds, squares, done] = arguments;
 const canvas = document.querySelector('#tiles canvas');
@@ -53,7 +53,7 @@ def quantile(values, part):
 
 
 def watched(port, seconds):
-    """What the canvas showed, by the page under that port."""
+    """Frames shown on the canvas of the page at that port."""
     browser = Browser()
     try:
         browser.set_script_timeout(seconds + 60)
@@ -68,7 +68,7 @@ def watched(port, seconds):
 
 
 def check(frames, frame_rate):
-    """The numbers that the pixels show say which exposures these are; so must the stamps."""
+    """The numbers in the pixels identify the exposures; the stamps must match them."""
     torn = [frame for frame in frames if frame["number"] is None]
     if torn or len(frames) < 2:
         raise SystemExit(f"page_latency: {len(torn)} of {len(frames)} pictures show no number")
@@ -87,7 +87,7 @@ def bandwidth(machine):
 
 
 def row(name, machine, port, seconds):
-    """Prints a row; gives the latency's and the age's p95."""
+    """Prints a row; returns the p95 of the latency and of the age."""
     seen = watched(port, seconds)
     frames = seen["frames"]
     check(frames, machine.frame_rate)
@@ -121,7 +121,7 @@ def main():
             machine.close()
     for line in missed:
         print(f"page_latency: {line}", file=sys.stderr)
-    return 1 if missed and "CI" not in os.environ else 0  # times do not count there
+    return 1 if missed and "CI" not in os.environ else 0  # times are not evaluated there
 
 
 if __name__ == "__main__":

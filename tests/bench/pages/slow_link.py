@@ -38,7 +38,7 @@ class SlowLink:
 
     def wait_for_turn(self, size):
         with self.turn:
-            # What the clock oversleeps is made up for.
+            # Compensates for oversleeping.
             self.free_at = (max(self.free_at, time.monotonic() - OVERSLEPT_S)
                             + size / self.bytes_per_second)
             until = self.free_at

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """learn_limb_network.py limb|ring STRIPS: learns the weights of a network of
-proc/align/detect/limb_network.cpp from what learn_limb_strips wrote, and prints limb_network.inc or
+proc/align/detect/limb_network.cpp from the strips of learn_limb_strips, and prints limb_network.inc or
 ring_network.inc. Needs python3-torch; takes some minutes.
 
-The network says, for each eight rays of a strip, in which column the limb crosses them, or that it
-does not. It is the same along the limb and along the normal, so strips of any size will do."""
+The network's output is, for each eight rays of a strip, the column in which the limb crosses them, or
+none. It is the same along the limb and along the normal, so strips may have any size."""
 
 import dataclasses
 import math
@@ -16,25 +16,25 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-RAYS = 8  # a part of the limb
-PER_PIXEL = 2  # columns
+RAYS = 8  # rays of a part of the limb
+PER_PIXEL = 2  # columns per pixel
 
 
 @dataclasses.dataclass
 class Course:
-    """How a network is learnt."""
+    """Parameters for learning a network."""
     width: int  # channels
     epochs: int
     batch: int  # strips
     step: float
-    crop: int  # rays that are learnt from at a time
+    crop: int  # rays used at a time
 
 
 COURSES = {"limb": Course(16, 30, 16, 6e-3, 128), "ring": Course(8, 7, 32, 8e-3, 96)}
 
 
 class Network(nn.Module):
-    """As in limb_network.cpp: the ring is closed, and nothing is beyond the columns."""
+    """The network of limb_network.cpp: the ring is closed, and nothing is beyond the columns."""
 
     def __init__(self, width):
         super().__init__()
@@ -45,7 +45,7 @@ class Network(nn.Module):
                                     for i, o, rays, columns, step, _ in self.shapes)
 
     def forward(self, strips):
-        """Logarithms of the odds of each column against no limb, by part."""
+        """Logarithms of the odds of each column against no limb, for each part."""
         for layer, (_, _, rays, columns, step, before) in zip(self.layers, self.shapes):
             if layer is not self.layers[0]:
                 strips = functional.relu(strips)
@@ -56,7 +56,7 @@ class Network(nn.Module):
 
 
 def features(along, across, floor2):
-    """As in limb_network.cpp."""
+    """The features of limb_network.cpp."""
     seen = ~numpy.isnan(along)
     scale = 0.5 / math.sqrt(floor2)
     along, across = (numpy.where(seen, slopes, 0) * scale for slopes in (along, across))
@@ -65,7 +65,7 @@ def features(along, across, floor2):
 
 
 def strips_of(file):
-    """The features of each strip, and the true limb's distance from its middle by part."""
+    """The features of each strip, and the true limb's distance from its middle for each part."""
     values = numpy.fromfile(file, numpy.float32)
     at, strips = 0, []
     while at < len(values):
@@ -134,7 +134,7 @@ def learnt(strips, course):
 
 
 def print_weights(network):
-    """By layer: a bias for each output, then the weights by input, ray, column and output."""
+    """Prints for each layer a bias for each output, then the weights by input, ray, column and output."""
     for layer in network.layers:
         values = torch.cat([layer.bias, layer.weight.permute(1, 2, 3, 0).flatten()]).tolist()
         line = ""
