@@ -3,7 +3,8 @@
 
 Compiles kernel/neon.cpp to assembler like BUILD_FOLDER for aarch64, finds the innermost loops
 with table look-ups and prints a JSON list of cycles per iteration on Cortex-A72 and A76. The model
-assumes that every load hits the first cache. LLVM describes the A76 only as Neoverse N1, the same core for servers.
+assumes that every load hits the first cache. LLVM describes the A76 only as Neoverse N1, the same
+core for servers.
 """
 
 import json
