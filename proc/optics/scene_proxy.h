@@ -83,8 +83,8 @@ class SceneProxy {
   /// the walls of a box; their intersections with other rooms or one another are left out.
   std::vector<std::pair<Vec3, Vec3>> edges() const;
 
-  /// A rectangle that contains the visible part of `surface`: its corner and two sides, relative to
-  /// the ball's centre, in ball radii.
+  /// A rectangle that contains the surface `surface`: its corner and two sides, relative to the
+  /// ball's centre, in ball radii.
   struct Face {
     Vec3 corner;
     Vec3 along;

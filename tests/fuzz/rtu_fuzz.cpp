@@ -54,7 +54,7 @@ class Line {
       require(!framer_.is_waiting(), "bytes that wait after the end");
     }
     sent_.insert(sent_.end(), bytes.begin(), bytes.end());
-    // The first of several reads comes after the silence.
+    // The silence precedes the first of several reads.
     while (!bytes.empty()) {
       const auto first = bytes.first(std::min(bytes.size(), RtuFramer::kLongestFrame));
       framer_.push(first, silence);

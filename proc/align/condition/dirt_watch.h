@@ -28,19 +28,19 @@ struct DirtSettings {
       0.15;  ///< largest width of a spot, ball radii: anything wider belongs to the room
 };
 
-/// Tells dirt on the ball from reflections, for a fixed camera. A mark is dirt if it is small, was
-/// not there on the clean ball, does not move within half the window, is there in most of the light
-/// that fell in that time, is not squeezed along the radius as reflections are, and lies where the
-/// room around it is unchanged.
+/// Distinguishes dirt on the ball from reflections, for a fixed camera. A mark is dirt if it is
+/// small, was not there on the clean ball, does not move within half the window, is there in most
+/// of the light that fell in that time, is not squeezed along the radius as reflections are, and
+/// lies where the room around it is unchanged.
 ///
 /// One picture is not enough to decide. These count as dirt although they are not: a new small
 /// thing in the room that does not move, unless it is near the limb; small reflections in a light
 /// that the reference does not cover; a camera that has moved: learn anew after that. These are
 /// dirt and do not count: spots wider than `widest`, scratches along the limb in the outer part,
 /// spots where the reflection is black or where the clean ball showed such marks, marks that are
-/// overexposed, and all of it where something large has been moved for good: `judged` gives the
-/// share that is left; learn anew after cleaning. Counts must be proportional to light or grow with
-/// it from 0: a picture of temperatures shows only differences of an eighth of the absolute
+/// overexposed, and all dirt where something large has been moved for good: `judged` is the share
+/// that is left; learn anew after cleaning. Counts must be proportional to light or grow with it
+/// from 0: a picture of temperatures shows only differences of an eighth of the absolute
 /// temperature.
 ///
 /// Holds 4 MB at most. Thread-bound.

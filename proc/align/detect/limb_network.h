@@ -21,8 +21,8 @@ struct LimbColumns {
 
   /// The angle of the middle of part `n`, radians.
   double angle(int n) const;
-  /// Log-likelihood of a limb there over a limb anywhere, nats for each part and column. Some parts
-  /// may be wrong: a mount hides the limb, a reflection looks like it.
+  /// Log-likelihood ratio of a limb there against anywhere, nats for each part and column. Some
+  /// parts may be wrong: a mount hides the limb, a reflection looks like it.
   std::vector<float> above_random() const;
 };
 

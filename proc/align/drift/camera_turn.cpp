@@ -14,7 +14,7 @@ using optics::Vec3;
 
 constexpr int kPoints = 36;
 /// Shares of the radius, spread like the patches that a motion is fitted to: a turn changes the
-/// picture not exactly by a similarity, and fits best there.
+/// picture only approximately by a similarity, which fits best there.
 constexpr std::array kRings{0.5, 0.7, 0.85, 0.95};
 
 cv::Vec3d vector(const Vec3& v) { return {v.x, v.y, v.z}; }

@@ -57,7 +57,7 @@ class Patch {
 
   std::array<std::array<float, kPixels>, kBases> bases_{};  ///< 0 outside of the mask
   cv::Matx44d inverse_;  ///< inverse of the normal matrix, held along edges
-  cv::Matx22d slopes_;   ///< the normal matrix's part for the shift alone
+  cv::Matx22d slopes_;   ///< information on the shift alone in the normal matrix
   std::array<float, kPixels> mask_{};
   double pixels_ = 0;
   double contrast_ = 0;

@@ -33,7 +33,7 @@ constexpr std::uint8_t black(const PlaneSampling& sampling, PixelFormat format,
 }
 
 /// Writes a tile that was sampled from `format` into its area of `out`, in the format of `out` (see
-/// can_remap). Every kernel gives the same bytes. Reentrant.
+/// can_remap). Every kernel produces the same bytes. Reentrant.
 void write_tile(const SampledTile& tile, PixelFormat format, ColourSpace colour_space,
                 const MutablePicture& out, const TileArea& area, const Kernel& kernel);
 

@@ -5,7 +5,7 @@
 namespace orbwatch::signals {
 namespace {
 
-constexpr int kLarge = 4;  // pixels of a component that is worth sorting by size
+constexpr int kLarge = 4;  // pixels from which on components are sorted by size
 
 /// True if a pixel of the component reaches the threshold.
 template <class T>

@@ -62,7 +62,7 @@ class Watch {
   DriftMonitor monitor_;
 };
 
-/// Frames come at 6 per second: events that last for seconds, or for single frames, are the same.
+/// Frames are 1/6 s apart: events that last for seconds, or for single frames, are the same.
 void expect_no_alarm(const ProcessSettings& settings, double seconds) {
   constexpr double kRate = 6;
   ProcessSequence sequence(settings);
