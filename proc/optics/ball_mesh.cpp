@@ -173,8 +173,8 @@ class MeshBuilder {
   const BallProjection& ball_;
   const FaceLattice* lattice_ = nullptr;
   int surface_ = 0;
-  std::unordered_map<std::uint64_t, Corner>
-      corners_;  ///< the current face's; references stay valid
+  /// Corners of the current face; references stay valid.
+  std::unordered_map<std::uint64_t, Corner> corners_;
   BallMesh mesh_;
 };
 

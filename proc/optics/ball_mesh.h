@@ -25,8 +25,8 @@ struct BallMesh {
   Vec3 v;
   std::vector<Node> nodes;
   std::vector<std::uint32_t> triangles;  ///< three nodes each
-  std::vector<std::uint32_t>
-      blind;  ///< the same in the blind cone: they hide everything behind them
+  /// The same in the blind cone: they hide everything behind them.
+  std::vector<std::uint32_t> blind;
 
   /// The pixel without the offset.
   Vec2 distant(const Vec3& position) const {

@@ -26,8 +26,8 @@ struct AlarmLimits {
   std::chrono::nanoseconds off_delay{0};  ///< time back from the limit before it ends
   /// Time without a measurement that is a condition of its own. nullopt: never; the state is held.
   std::optional<std::chrono::nanoseconds> loss_delay = std::chrono::seconds(1);
-  bool latching =
-      false;  ///< stays, at its worst level, until acknowledged after its condition ended
+  /// Stays, at its worst level, until acknowledged after its condition ended.
+  bool latching = false;
   bool only_while_active = true;  ///< suppressed while the process is not active
 };
 

@@ -109,8 +109,8 @@ RegionGeometry::RegionGeometry(const optics::ViewProjection& view, const RegionS
     for (int x = mask.left(); x < mask.right(); ++x) {
       const PixelGeometry& pixel = pixels_.emplace_back(geometry_of(view, scene, x, y));
       largest_solid_angle_ = std::max<double>(largest_solid_angle_, pixel.solid_angle);
-      largest_area_ =
-          std::max<double>(largest_area_, pixel.area);  // std::max keeps the old value if unknown
+      // std::max keeps the old value if unknown.
+      largest_area_ = std::max<double>(largest_area_, pixel.area);
     }
   }
 }

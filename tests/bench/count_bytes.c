@@ -3,8 +3,8 @@
  *   qemu-aarch64 -plugin ./libcount_bytes.so,out=FILE program ...
  *
  * writes 64 times the number of different cache lines read or written there to FILE. The
- * single-threaded program calls sched_yield with arguments that the kernel ignores: an address and a
- * size exclude that memory, two zeros begin and end the stretch (see counted_run.h). */
+ * single-threaded program calls sched_yield with arguments that the kernel ignores: an address and
+ * a size exclude that memory, two zeros begin and end the stretch (see counted_run.h). */
 #include <stdbool.h>
 
 #include "tests/bench/plugin_output.h"

@@ -2,9 +2,9 @@
  *
  *   qemu-aarch64 -plugin ./libcount_instructions.so,out=FILE program ...
  *
- * writes their number, one decimal line, to FILE when the program exits: the sum of all threads, the
- * loader included. The cost of one call is the difference between two runs that differ in that call
- * only. */
+ * writes their number, one decimal line, to FILE when the program exits: the sum of all threads,
+ * the loader included. The cost of one call is the difference between two runs that differ in that
+ * call only. */
 #include "tests/bench/plugin_output.h"
 #include "tests/bench/qemu_plugin.h"
 

@@ -4,8 +4,8 @@
  *
  * writes one line to FILE: the instructions of all threads in the last whole frame set, then those
  * of the pipeline's thread before each reading of its own clock in that set, by which the product
- * measures its stages. That thread marks the beginning of each set by sched_yield with arguments that
- * the kernel ignores (see count_reference.cpp). */
+ * measures its stages. That thread marks the beginning of each set by sched_yield with arguments
+ * that the kernel ignores (see count_reference.cpp). */
 #include <stdbool.h>
 
 #include "tests/bench/plugin_output.h"

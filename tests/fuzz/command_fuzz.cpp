@@ -56,8 +56,8 @@ class WireCommand {
   std::uint64_t client = 0, number = 0;
   std::string name;  ///< up to its first zero
   std::size_t argument_count = 0;
-  std::vector<std::uint64_t>
-      arguments;  ///< bits of the arguments, at most as many as a command may have
+  /// Bits of the arguments, at most as many as a command may have.
+  std::vector<std::uint64_t> arguments;
 
  private:
   Bytes bytes(std::size_t count) {

@@ -44,10 +44,10 @@ struct Advice {
   double f_number = 0;  ///< smallest f-number that keeps both sharp to a pixel
   /// Largest f-number before diffraction blurs by more than two pixels (Airy disc, 550 nm).
   double diffraction_f_number = 0;
-  std::vector<TargetSight>
-      sights;  ///< ascending phi: 0, 60, 90, 120, 150 degrees, as far as visible
-  std::vector<std::string>
-      changes;  ///< advised changes, the most useful first; empty if none is needed
+  /// Ascending phi: 0, 60, 90, 120, 150 degrees, as far as visible.
+  std::vector<TargetSight> sights;
+  /// Advised changes, the most useful first; empty if none is needed.
+  std::vector<std::string> changes;
 };
 
 /// Predicts the picture of an arrangement by the exact model for a camera that looks at the ball.

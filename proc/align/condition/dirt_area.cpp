@@ -7,11 +7,11 @@
 namespace orbwatch::align {
 namespace {
 
-constexpr int kShallowest =
-    30;  // depth (255 = full) by which a mark must exceed the clean ball's marks
+// Depth (255 = full) by which a mark must exceed the clean ball's marks.
+constexpr int kShallowest = 30;
 constexpr int kSmallest = 4;  // least area of a mark, px
-constexpr int kOtherAround =
-    6;  // difference (127 = full) from which on the surroundings count as changed
+// Difference (127 = full) from which on the surroundings count as changed.
+constexpr int kOtherAround = 6;
 constexpr int kChangeReach = 9;    // px around a change that are left out with it
 constexpr double kSqueezed = 0.7;  // rho from which on reflections are recognised by their shape
 constexpr double kSqueezeSlack = 1.4;

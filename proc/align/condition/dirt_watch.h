@@ -13,8 +13,8 @@ namespace orbwatch::align {
 
 /// Dirtiness of the ball. Shares are of the judged part of the ball's picture, [0, 1].
 struct Dirt {
-  double contamination =
-      0;  ///< share covered by spots and scratches that the clean ball did not have
+  /// Share covered by spots and scratches that the clean ball did not have.
+  double contamination = 0;
   double largest_spot = 0;  ///< diameter of a circle with the area of the largest spot, ball radii
   /// Share whose detail has kept its pattern but is weaker: a film, or the focus (see
   /// measure_focus).
@@ -24,8 +24,8 @@ struct Dirt {
 
 struct DirtSettings {
   double window = 1800;  ///< s; a mark that is there for less than half of it is not dirt
-  double widest =
-      0.15;  ///< largest width of a spot, ball radii: anything wider belongs to the room
+  /// Largest width of a spot, ball radii: anything wider belongs to the room.
+  double widest = 0.15;
 };
 
 /// Distinguishes dirt on the ball from reflections, for a fixed camera. A mark is dirt if it is

@@ -24,8 +24,8 @@ constexpr std::size_t kFewestEdges = 10;  // edges that a figure needs
 constexpr double kSmallestBall = 40;      // px; radius of the ball in the smallest picture used
 constexpr double kWide = 2;               // px of blur from which on a smaller picture fits better
 constexpr double kClipped = 0.97;         // share of full scale
-constexpr double kLeastEdgeSpread =
-    0.1;  // share of sigma by which edges of one picture differ anyway
+// Share of sigma by which edges of one picture differ anyway.
+constexpr double kLeastEdgeSpread = 0.1;
 // Quantile of the edges' sigma that counts as the blur. Things may be blurred in themselves, but
 // none is sharper than the picture.
 constexpr double kSharper = 0.35;

@@ -13,8 +13,8 @@ constexpr double kDetailBlur = 4;     // px: the scale of detail
 constexpr double kWideBlur = 16;      // px: the scale of the surroundings
 constexpr float kNoiseReach = 3;      // multiple of the noise that a top hat reaches without a mark
 constexpr double kBrightShare = 0.9;  // share of pixels that are darker than the bright level
-constexpr float kRelativeFloor =
-    0.05F;  // share of the bright level; added to the divisor of relative differences
+// Share of the bright level; added to the divisor of relative differences.
+constexpr float kRelativeFloor = 0.05F;
 constexpr float kDark = 0.06F;       // share of the bright level below which nothing is judged
 constexpr float kTooBright = 0.95F;  // share of full scale
 

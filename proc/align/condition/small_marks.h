@@ -13,11 +13,11 @@ namespace orbwatch::align {
 struct SmallMarks {
   cv::Mat dark;    ///< depth below the surroundings
   cv::Mat bright;  ///< height above the surroundings, as a share of the mark's own brightness
-  cv::Mat
-      detail;  ///< all fine detail: 128 + 127 times the relative difference from the mean around
+  /// All fine detail: 128 + 127 times the relative difference from the mean around.
+  cv::Mat detail;
   cv::Mat around;  ///< the same at a larger scale, of the brightness without marks
-  cv::Mat
-      judged;  ///< 255 where the other maps are valid: on the ball, neither dark nor overexposed
+  /// 255 where the other maps are valid: on the ball, neither dark nor overexposed.
+  cv::Mat judged;
 
   static constexpr std::array<cv::Mat SmallMarks::*, 5> maps() {
     return {&SmallMarks::dark, &SmallMarks::bright, &SmallMarks::detail, &SmallMarks::around,

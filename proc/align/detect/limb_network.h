@@ -14,8 +14,8 @@ struct LimbColumns {
 
   int parts = 0;
   int columns = 0;
-  std::vector<float>
-      probabilities;  ///< for each part and column; those of a part add up to 1 at most
+  /// Probability for each part and column; those of a part add up to 1 at most.
+  std::vector<float> probabilities;
 
   const float* part(int n) const { return &probabilities[static_cast<std::size_t>(n * columns)]; }
 

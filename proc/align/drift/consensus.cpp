@@ -98,8 +98,8 @@ class Fit {
 
   const Sighting& sighting_;
   double radius_;
-  std::vector<cv::Matx22d>
-      weights_;  ///< information of the shifts, the patches' expected errors included
+  /// Information of the shifts, the patches' expected errors included.
+  std::vector<cv::Matx22d> weights_;
 };
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace orbwatch::align {
 /// A box on the floor that the room's description lacks: a table, for instance.
 struct StandingBox {
   optics::Box box;  ///< like Scene::obstacles
-  double significance =
-      0;  ///< significance of the cameras' better agreement, in standard deviations
+  /// Significance of the cameras' better agreement, in standard deviations.
+  double significance = 0;
 };
 
 /// Finds the box below the ball with which the edges of two registered cameras agree best. `scene`:

@@ -79,8 +79,8 @@ struct CameraEquation {
   const PlaceRequest& request;
   const UnplacedCamera& camera;
   Mat3 rotation;  ///< to which turns are relative
-  std::optional<optics::Lens>
-      known_lens;  ///< set if the lens is fixed: a distorted one takes long to make
+  /// Set if the lens is fixed: a distorted one takes long to make.
+  std::optional<optics::Lens> known_lens;
 
   std::optional<optics::BallProjection> at(const double* turn, const double* ball,
                                            const double* focal, const Vec3& centre) const {

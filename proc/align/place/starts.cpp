@@ -13,8 +13,8 @@ namespace {
 using optics::Vec3;
 
 constexpr std::size_t kStarts = 4;
-constexpr std::size_t kCentres =
-    12;  ///< centres found by single cameras that are tried with all cameras
+/// Centres found by single cameras that are tried with all cameras.
+constexpr std::size_t kCentres = 12;
 
 /// A camera with one focal length, and its sights without a pose.
 struct Sighted {

@@ -19,8 +19,8 @@ using optics::Mat3;
 constexpr int kLeastMatches = 15;
 constexpr double kRivalInliers = 0.5;     // share of the best one's inliers that makes a rival
 constexpr double kFinestFeatureView = 4;  // pixels per degree; more costs time and gains little
-const double kNeighbourhood =
-    optics::radians(2.5);          // search angle for features after the first estimate
+// Search angle for features after the first estimate.
+const double kNeighbourhood = optics::radians(2.5);
 constexpr double kParallax = 1.4;  // radians per closeness: cameras see the ball's edges, too
 
 /// Both pictures, prepared for the search.

@@ -11,11 +11,11 @@ namespace {
 using optics::BallProjection;
 using optics::Vec3;
 
-constexpr double kPixelSigma =
-    0.5;  // standard deviation of a feature's coordinates in either picture
+// Standard deviation of a feature's coordinates in either picture.
+constexpr double kPixelSigma = 0.5;
 constexpr double kLeastSpread = 1e-4;  // closeness: spread of a room that is practically far away
-constexpr double kLeastParallax =
-    0.1;  // radians per closeness, below which a match has no information
+// Radians per closeness, below which a match has no information.
+constexpr double kLeastParallax = 0.1;
 constexpr double kDoubtfulFrom = 2;  // sigmas
 
 std::optional<Meeting> meeting(const SightedMatch& match, const TrialPlace& trial) {

@@ -26,10 +26,10 @@ using optics::Mat3;
 constexpr double kRobustFrom = 1.5;  // sigmas
 constexpr double kFits = 4;          // robust sigmas
 constexpr double kMeanSigma = 0.2;   // prior sigma of a room's mean closeness
-constexpr int kSpreadRounds =
-    3;  // rounds for an unstated room's spread and everything that depends on it
-constexpr double kPlaces =
-    10;  // distinct places of an unstated room: walls and large things, about
+// Rounds for an unstated room's spread and everything that depends on it.
+constexpr int kSpreadRounds = 3;
+// Distinct places of an unstated room: walls and large things, about.
+constexpr double kPlaces = 10;
 
 /// Residual of a match: the difference between both cameras' sights, in sigmas.
 class Disagreement final : public ceres::CostFunction {

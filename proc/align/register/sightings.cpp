@@ -15,8 +15,8 @@ using optics::BallProjection;
 using optics::Mat3;
 using optics::Vec3;
 
-constexpr int kTurningRounds =
-    2;  // rounds of looking up the turned camera's sights, and turning it again
+// Rounds of looking up the turned camera's sights, and turning it again.
+constexpr int kTurningRounds = 2;
 
 // Prior for rooms that are not stated.
 constexpr RoomCloseness kAnyRoom{0.05, 0.15};

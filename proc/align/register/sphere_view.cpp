@@ -15,8 +15,8 @@ using optics::Vec3;
 using optics::ViewProjection;
 
 constexpr double kFaceWidth = 120;  // degrees: a cube's corner is 54.7 degrees from its face
-constexpr double kWidestAngle =
-    155;  // degrees from the camera; pixels beyond are few and inaccurate
+// Degrees from the camera; pixels beyond are few and inaccurate.
+constexpr double kWidestAngle = 155;
 
 constexpr std::array<optics::YawPitchRoll, 6> kFaces{
     {{0, 0, 0}, {90, 0, 0}, {180, 0, 0}, {-90, 0, 0}, {0, 90, 0}, {0, -90, 0}}};

@@ -84,8 +84,8 @@ class Components {
 
   // Capacity is for the worst noise; nearly all of it is never touched.
   UntouchedVector<Run> runs_;  ///< the first `size_` are used
-  UntouchedVector<std::uint32_t>
-      next_;  ///< for each run, the component's next one; the last one's is itself
+  /// For each run, the component's next one; the last one's is itself.
+  UntouchedVector<std::uint32_t> next_;
   UntouchedVector<Total> totals_;  ///< for each run
   EdgeFinder edges_;
   std::size_t size_ = 0;

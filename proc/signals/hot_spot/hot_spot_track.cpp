@@ -11,8 +11,8 @@ namespace {
 using optics::Vec3;
 
 constexpr double kFollow = 0.1;  // s; time constant of usual place and presence
-constexpr double kFollowSize =
-    1;  // s; slower, so that a half hidden spot does not become the usual one
+// Seconds; slower, so that a half hidden spot does not become the usual one.
+constexpr double kFollowSize = 1;
 constexpr double kBlink = 0.1;    // s without it until it is lost: a pulsed process flickers
 constexpr double kSettled = 0.5;  // s; no spark flies for so long
 

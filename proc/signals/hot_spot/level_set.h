@@ -14,9 +14,9 @@ namespace orbwatch::signals {
 /// Sums of a component of pixels at or above a threshold.
 struct Blob {
   double solid_angle = 0;  ///< steradian, of whole pixels
-  optics::Vec3
-      moment;       ///< sum of directions weighted by solid angle and counts above the threshold
-  double area = 0;  ///< mm2 of the machine's surface; NaN if far
+  /// Sum of directions weighted by solid angle and counts above the threshold.
+  optics::Vec3 moment;
+  double area = 0;        ///< mm2 of the machine's surface; NaN if far
   optics::Vec3 position;  ///< mm from the ball's centre, weighted by solid angle; NaN if far
   int peak = 0;           ///< counts of its brightest pixel, and that pixel's place
   int peak_x = 0;

@@ -31,8 +31,8 @@ cv::Mat patched_ball() {
     const double x = (u - kBlurredLimb.centre.u) / kBlurredLimb.rx;
     const double y = (v - kBlurredLimb.centre.v) / kBlurredLimb.ry;
     if (x * x + y * y >= 1) return 230.0;
-    const double z =
-        std::sqrt(1 - x * x - y * y);  // towards the camera; the camera's ray is (0, 0, -1)
+    // Towards the camera; the camera's ray is (0, 0, -1).
+    const double z = std::sqrt(1 - x * x - y * y);
     const optics::Vec3 r{2 * z * x, 2 * z * y, 2 * z * z - 1};
     return 0.8 * patch(6 * std::atan2(r.x, r.z), 6 * std::asin(std::clamp(r.y, -1.0, 1.0)));
   };

@@ -55,8 +55,8 @@ class SoiledBall {
   cv::Size size_;
   cv::Mat room_;   ///< float, linear light, 1 is full scale
   cv::Mat lamps_;  ///< 8 bit mask of the room's lamps
-  cv::Mat longitude_,
-      latitude_;           ///< float: directions reflected by each pixel; NaN beside the ball
+  /// Float: directions reflected by each pixel; NaN beside the ball.
+  cv::Mat longitude_, latitude_;
   cv::Mat opacity_, own_;  ///< float: opacity and brightness of the dirt
   double largest_ = 0;
   double fog_ = 0;

@@ -139,8 +139,8 @@ class MergedRemap : public testing::Test {
   std::optional<BlendGrid> blend;
   std::optional<MutablePicture> target;  ///< used in place of `rgb`
   MutablePicture measured;               ///< the first camera's
-  std::unique_ptr<StoredPicture>
-      unsharpened;  ///< the first camera's picture, if a sharpened one is shown
+  /// The first camera's picture, if a sharpened one is shown.
+  std::unique_ptr<StoredPicture> unsharpened;
   std::vector<std::uint8_t> rgb = std::vector<std::uint8_t>(3 * kWidth * kHeight, 77);
   std::vector<std::uint8_t> validity = std::vector<std::uint8_t>(kWidth * kHeight, 3);
   std::vector<std::uint8_t> unseen =
