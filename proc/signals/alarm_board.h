@@ -42,7 +42,7 @@ struct AlarmBoardInputs {
   RegionSet stale{};      ///< regions that were not measured anew since the last step
 };
 
-/// The alarms of one recipe. Of fixed size, so stepping allocates nothing. Thread-bound.
+/// The alarms of one recipe. The size is fixed, so stepping allocates nothing. Thread-bound.
 class AlarmBoard {
  public:
   /// A board without alarms.

@@ -66,8 +66,8 @@ class ProcessSequence {
 
 /// Error of view directions: rms angle, degrees, over the directions up to 150 degrees from the
 /// camera, between the direction of a pixel for a camera that assumes its ball at `stored`, and the
-/// truth: the ball is at `true_ball`, seen by a camera turned by `turn`. By plain reflection of
-/// vectors. Camera frame, ball radii.
+/// truth: the ball is at `true_ball`, seen by a camera turned by `turn`. Computed by plain
+/// reflection of vectors. Camera frame, ball radii.
 double true_view_error(double focal_length, const optics::Vec3& stored,
                        const optics::Vec3& true_ball, const optics::Vec3& turn);
 

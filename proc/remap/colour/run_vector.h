@@ -40,7 +40,7 @@ template <class Vector, class T>
   return __builtin_convertvector(longs, Words);
 }
 
-/// Clamps each to [low, high]. By halves: compilers compare only vectors that fit a register.
+/// Clamps each to [low, high], in two halves: compilers compare only vectors that fit a register.
 [[gnu::always_inline]] inline Words clamped(const Words& words, std::uint16_t low,
                                             std::uint16_t high) {
   using Half = std::uint16_t __attribute__((vector_size(kRun)));

@@ -206,8 +206,8 @@ struct Planar {
           _mm_setr_epi8(0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15);
       _mm_store_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(load128(from), by_channel));
     } else {
-      // Four pixels are in each half. Of three byte pixels nothing beyond the row's 24 bytes is
-      // read.
+      // Four pixels are in each half. Reads of three byte pixels do not go beyond the row's 24
+      // bytes.
       constexpr int kSecond = pixel_bytes == 3 ? 8 : 16;
       const __m256i pixels = _mm256_inserti128_si256(_mm256_castsi128_si256(load128(from)),
                                                      load128(from + kSecond), 1);

@@ -383,8 +383,8 @@ template <Layout layout>
   return _mm512_set1_epi32(place);
 }
 
-/// Fills one row of blocks; block (0, y) has `shape.start`. With `kept`, fills the kept pixels of a
-/// row of pairs of blocks: of two side by side, or of this row and the next one.
+/// Fills one row of blocks; block (0, y) has `shape.start`. If `kept` is not All, fills the kept
+/// pixels of a row of pairs of blocks: two side by side, or this row's and the next one's.
 template <Layout layout, int blocks_x, Kept kept>
 void fill_row(const TileJob& job, const BlockRow* row, const Shape& shape, std::uint8_t* out) {
   constexpr int kOutBytes = info(layout).out_bytes(), kStep = kept == Kept::EvenColumns ? 2 : 1;
