@@ -17,7 +17,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Of a file that write_file() has not renamed yet: NAME.PROCESS-SERIAL.part
+/// Name of a file that write_file() has not renamed yet: NAME.PROCESS-SERIAL.part
 bool is_temporary(const std::filesystem::path& path) {
   constexpr std::string_view kEnd = ".part";
   const std::string name = path.filename().string();
@@ -32,7 +32,7 @@ bool is_temporary(const std::filesystem::path& path) {
   return !rest.empty();
 }
 
-/// Some file systems have nothing to write there, and say EINVAL.
+/// Some file systems have nothing to write there and return EINVAL.
 bool is_synced(const std::filesystem::path& folder) {
   const FileDescriptor opened(
       ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -47,7 +47,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Gives a file that root has made to whom it is for. False: errno says why not.
+/// Gives a file that root has made to its intended owner. False: errno has the reason.
 bool give_away(const FileDescriptor& file, const struct stat& owner) {
   struct stat made {};
   if (::fstat(file.get(), &made) != 0) return false;
@@ -55,17 +55,17 @@ bool give_away(const FileDescriptor& file, const struct stat& owner) {
   return is_right || ::fchown(file.get(), owner.st_uid, owner.st_gid) == 0;
 }
 
-/// Sets owner and mode of the file that is going to be `path`. False: errno says why not.
+/// Sets owner and mode of the file that is going to be `path`. False: errno has the reason.
 bool set_access(const std::filesystem::path& path, FileAccess access, const FileDescriptor& file) {
   struct stat folder {};
   struct stat before {};
   if (::stat(folder_of(path).c_str(), &folder) != 0) return false;
-  // A link is replaced, not what it leads to, which may be anybody's.
+  // A link itself is replaced, not its target, which may belong to any user.
   const bool replaces = ::lstat(path.c_str(), &before) == 0 && S_ISREG(before.st_mode);
   const bool has_owner = replaces && before.st_uid != 0;
   if (::geteuid() == 0 && !give_away(file, has_owner ? before : folder)) return false;
   if (access == FileAccess::Owner) return true;
-  // A file system without modes refuses, and shows those that it was mounted with.
+  // A file system without modes refuses, and reports the modes that it was mounted with.
   if (replaces) {
     static_cast<void>(::fchmod(file.get(), before.st_mode & kPermissions));
   } else if (access == FileAccess::Folder) {
@@ -83,8 +83,8 @@ Result<> write_file(const std::filesystem::path& path, std::string_view text, Fi
   const mode_t mode = access == FileAccess::Umask ? 0666 : kOwnersAlone;
   const FileDescriptor file(
       ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode));
-  // The lock, which ends with the process, says that the file is no leftover. Where a file system
-  // has no locks, leftovers are not removed either.
+  // The lock ends with the process; while it is held, the file is not a leftover. On a file system
+  // without locks, leftovers are not removed either.
   if (file.is_open()) static_cast<void>(::flock(file.get(), LOCK_EX));
   const bool is_replaced = file.is_open() && set_access(path, access, file) &&
                            write_all(file, text) && ::fsync(file.get()) == 0 &&

@@ -9,26 +9,26 @@
 
 namespace orbwatch::hal {
 
-/// Access to a file that write_file() makes. A file that it replaces keeps its mode, but for
-/// Owner.
+/// Access to a file that write_file() makes. A replaced file keeps its mode, except under Owner.
 enum class FileAccess {
-  Umask,   ///< as the umask of the process has it
-  Folder,  ///< its owner, and to read whoever may read its folder, whatever the umask
-  Owner    ///< its owner alone, mode 0600
+  Umask,   ///< mode by the umask of the process
+  Folder,  ///< writable by its owner, readable by users that may read its folder; ignores the
+           ///< umask
+  Owner    ///< accessible to its owner alone, mode 0600
 };
 
 /// Writes a file atomically: readers find the old one or the new one, also after a power cut, and a
-/// failure leaves neither a part nor a temporary file. Written by root it belongs to the owner of
-/// the file that it replaces, or, where that is root or there is none, to the owner and the group
-/// of its folder: a service reads what root writes for it. Errors: folder missing or not writable,
-/// disk full, a file system that refuses the owner. Reentrant.
+/// failure leaves neither a part nor a temporary file. Written by root, the file belongs to the
+/// owner of the file that it replaces, or, if that is root or does not exist, to the owner and the
+/// group of its folder, so that a service can read it. Errors: folder missing or not writable, disk
+/// full, a file system that refuses the owner. Reentrant.
 Result<> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                     FileAccess access = FileAccess::Umask);
 Result<> write_file(const std::filesystem::path& path, std::string_view text,
                     FileAccess access = FileAccess::Umask);
 
-/// A name in the folder that was changed or removed stays so after a power cut. Error: the folder
-/// cannot be read or written.
+/// Makes a changed or removed name in the folder survive a power cut. Error: the folder cannot be
+/// read or written.
 Result<> sync_folder(const std::filesystem::path& folder);
 
 /// Removes the temporary files of write_file() that a power cut or a killed process left in a

@@ -15,7 +15,7 @@ class BackOff {
     next_ = std::min(2 * next_, kLongest);
     return pause;
   }
-  /// After a connection.
+  /// Call after a successful connection.
   void reset() { next_ = kFirst; }
 
  private:

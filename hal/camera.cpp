@@ -6,7 +6,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Whether a request is valid for any camera.
+/// Checks that a request is valid for any camera.
 Result<> check(const StreamRequest& request) {
   if (std::min(request.width, request.height) < 0 ||
       std::max(request.width, request.height) > kMaxSide) {
@@ -25,7 +25,7 @@ Result<> check(const StreamRequest& request) {
   return {};
 }
 
-/// "cam video0" for "/dev/video0": the end of a path is what differs between cameras.
+/// "cam video0" for "/dev/video0": the end of the path distinguishes cameras.
 std::string thread_name(const std::string& id) { return "cam " + id.substr(id.rfind('/') + 1); }
 
 }  // namespace

@@ -24,23 +24,23 @@
 
 namespace orbwatch::hal {
 
-/// Which camera this is.
+/// Identity of a camera.
 struct CameraInfo {
   std::string id;        ///< stable across restarts: a path, a folder, a simulated camera's name
-  std::string model;     ///< what the device calls itself
+  std::string model;     ///< name that the device reports
   std::string back_end;  ///< "simulated", "replay", "v4l2", ...
 };
 
-/// Of any camera, frames per second.
+/// Limit for any camera, frames per second.
 inline constexpr int kMaxFrameRate = 1000;
 
-/// What a site states about a camera for every back-end's make_camera().
+/// Facts about a camera from the site, passed to every back-end's make_camera().
 struct CameraContext {
-  std::string name;             ///< in the site's files
+  std::string name;             ///< camera's name in the site's files
   double frame_rate = 0;        ///< per second; 0: the camera's own
   double kelvin_per_count = 0;  ///< 0: not radiometric
   std::vector<ScriptedFault> faults;
-  double kelvin_offset = 0;  ///< K, of a count of 0
+  double kelvin_offset = 0;  ///< temperature of a count of 0, K
 };
 
 /// The requested stream. Zero leaves the choice to the camera.
@@ -53,10 +53,10 @@ struct StreamRequest {
   std::size_t buffers = kFreeRunningBuffers;
 };
 
-/// Scale that a camera states for its counts, which begin at 0 K.
+/// Scale that a camera states for its counts; a count of 0 is 0 K.
 struct CountScale {
   double kelvin_per_count = 0;  ///< 0: they are not proportional to temperature
-  std::string said_by;          ///< the feature and its value: "IRFormat is Radiometric"
+  std::string said_by;  ///< source: the feature and its value, such as "IRFormat is Radiometric"
 };
 
 /// The negotiated stream. A requested size or format is honoured or refused.
@@ -66,20 +66,20 @@ struct StreamFormat {
   int width = 0;
   int height = 0;
   double frame_rate = 0;
-  double kelvin_per_count = 0;  ///< of a radiometric camera, once its controls are set
-  double kelvin_offset = 0;     ///< K, of its count 0
+  double kelvin_per_count = 0;  ///< scale of a radiometric camera, once its controls are set
+  double kelvin_offset = 0;     ///< temperature of its count 0, K
 };
 
-/// What a camera had to say of its frames since start().
+/// Counts of imperfect frames that a camera reported since start().
 struct FrameQuality {
-  std::uint64_t damaged = 0;  ///< withheld: see Camera::discard()
-  std::uint64_t flawed = 0;   ///< delivered: see FrameStatus
+  std::uint64_t damaged = 0;  ///< withheld frames: see Camera::discard()
+  std::uint64_t flawed = 0;   ///< delivered frames: see FrameStatus
 };
 
-/// What the link to a camera lost since the camera was made; zeros where nothing counts it.
+/// Losses on the link to a camera since the camera was made; zeros if nothing counts them.
 struct LinkCounts {
-  std::uint64_t missing_packets = 0;  ///< that never came: their frames are damaged
-  std::uint64_t resent_packets = 0;   ///< that came when they were asked for again
+  std::uint64_t missing_packets = 0;  ///< packets that never came: their frames are damaged
+  std::uint64_t resent_packets = 0;   ///< packets that came when they were requested again
   std::uint64_t underruns = 0;        ///< packets for which there was no buffer
 };
 
@@ -114,15 +114,15 @@ class Camera {
   /// frame that is withheld already, as FrameStatus says. Set while stopped.
   void set_gate(Gate gate) { gate_ = std::move(gate); }
 
-  /// What the site knows of the stamps. Set while stopped.
+  /// Facts about the time stamps from the site. Set while stopped.
   void set_stamps(const StampSettings& settings) { stamps_ = settings; }
   /// From now on a frame without a stamp of its own (StampSource::Arrival) counts as damaged, and
-  /// many of them are the fault NoTimeStamps: its moment is not known well enough to tell to which
-  /// trigger, or to which frame of another camera, it belongs. Set while stopped.
+  /// many of them are the fault NoTimeStamps: its moment is not known well enough to assign it to a
+  /// trigger or to a frame of another camera. Set while stopped.
   void require_stamps() { requires_stamps_ = true; }
 
-  /// Called on the camera's thread with what is worth a line in the log but no fault, when it
-  /// changes. Set while stopped; must not throw.
+  /// Called on the camera's thread, on each change, with a text that is worth a line in the log but
+  /// is not a fault. Set while stopped; must not throw.
   void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
 
   /// Starts the camera's thread. `on_frame` and `on_fault` must return quickly and not throw.
@@ -139,22 +139,22 @@ class Camera {
   FrameQuality quality() const { return {damaged_, flawed_}; }
   virtual LinkCounts link_counts() const { return {}; }
 
-  /// Processor time of capture since the start; 0 of a camera that computes its own pictures, whose
-  /// work no real one has.
+  /// Processor time of capture since the start; 0 for a camera that computes its own pictures,
+  /// since a real camera does not have that work.
   std::chrono::nanoseconds capture_time() const {
     return role() == ThreadRole::Capture ? thread_.cpu_time() : std::chrono::nanoseconds(0);
   }
 
-  /// Sets a control by name in its own unit. Frames say when it is in effect: see
-  /// FrameMetadata::controls_as_of. Error: no such control, or out of range.
+  /// Sets a control by name in its own unit. FrameMetadata::controls_as_of tells when it is in
+  /// effect. Error: no such control, or out of range.
   Result<> set(std::string_view control, double value);
 
-  /// Of the configured camera as its controls are set; nullopt: it says nothing. Once started, it
-  /// keeps this scale until it is configured again.
+  /// Scale of the configured camera with its present controls; nullopt: the camera does not state
+  /// one. Once started, it keeps this scale until it is configured again.
   virtual std::optional<CountScale> count_scale() const { return std::nullopt; }
 
-  /// Addition of the configured camera to a message that its format is not the expected one,
-  /// such as "; its EXIF orientation turns its 640x480"; empty: nothing explains it.
+  /// Addition to a message that the configured camera's format is not the expected one, such as ";
+  /// its EXIF orientation turns its 640x480"; empty: nothing explains it.
   virtual std::string format_note() const { return {}; }
 
  protected:
@@ -163,34 +163,34 @@ class Camera {
   virtual Result<StreamFormat> do_configure(const StreamRequest& request) = 0;
 
   virtual Result<> do_set(std::string_view control, double value);
-  /// How many exposures that begin after do_set() may be without its control.
+  /// Number of exposures that may begin after do_set() without its control.
   virtual std::size_t control_delay() const { return 0; }
 
-  /// Of the camera's thread; of one that computes its pictures Service.
+  /// Role of the camera's thread; Service for a camera that computes its pictures.
   virtual ThreadRole role() const { return ThreadRole::Capture; }
 
   /// The camera's thread: delivers until `stop` is requested. Faults are reported, not thrown; the
   /// back-end reconnects by itself.
   virtual void run(const std::stop_token& stop) = 0;
 
-  /// For run(): forwards an intact frame, which ends a fault; between many damaged ones it is
+  /// For run(): forwards an intact frame and ends a fault. Between many damaged frames the frame is
   /// withheld, and the fault lasts.
   void deliver(std::shared_ptr<FrameBuffer> frame);
-  /// For run(): counts a damaged frame, of which at least number and stamp are known. `detail` is
-  /// for `fault`, which many of them are.
+  /// For run(): counts a damaged frame whose number and stamp at least are known. `detail` is the
+  /// text of `fault`, which many damaged frames raise.
   void discard(FrameMetadata metadata, std::string detail, Fault fault = Fault::CorruptFrame);
   /// For run(): reports a fault when it differs from the last one reported.
   void report(Fault fault, std::string detail = {});
-  /// For run(): a notice, unless it is the last one again.
+  /// For run(): reports a notice unless it equals the last one.
   void notify(const std::string& text);
-  /// For run(): shows the fault of a script, if it has one for the exposure with this metadata.
+  /// For run(): reports the fault, if any, that a script has for the exposure with this metadata.
   /// False: it has none.
   bool fails(const FaultScript& script, const FrameMetadata& metadata);
   /// For run(): waits until `moment`. False: the stop was requested.
   bool wait_until(TimePoint moment);
   /// For run(): waits for a wake(). False: the stop was requested.
   bool wait() { return thread_.wait(); }
-  /// On any thread.
+  /// Callable on any thread.
   void wake() { thread_.wake(); }
 
  private:
@@ -202,7 +202,7 @@ class Camera {
   Gate gate_;
   StampSettings stamps_;
   bool requires_stamps_ = false;
-  std::uint64_t withheld_ = 0;  ///< by the gate since start
+  std::uint64_t withheld_ = 0;  ///< frames withheld by the gate since start
   DamageWatch damage_;
   ControlDelay control_delay_;
   std::atomic<std::uint64_t> damaged_ = 0;

@@ -4,11 +4,11 @@
 
 namespace orbwatch::hal {
 
-/// The one clock of the product, CLOCK_MONOTONIC: every internal time stamp is of it.
+/// The one clock of the product, CLOCK_MONOTONIC: all internal time stamps use it.
 using Clock = std::chrono::steady_clock;
 using TimePoint = Clock::time_point;
 
-/// The time between two of `rate` events per second; 0 without a rate above 0.
+/// Time between two of `rate` events per second; 0 unless the rate is above 0.
 inline Clock::duration period_of(double rate) {
   if (rate <= 0) return Clock::duration(0);
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate));

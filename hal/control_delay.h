@@ -11,19 +11,20 @@
 
 namespace orbwatch::hal {
 
-/// Tells which exposures have the controls that were set. Cameras do not: a control waits behind
-/// the frames that are queued, and a sensor takes it on some exposures later. So exposures are
-/// counted; and where a frame states its controls, they must be as set, too.
+/// Determines which exposures have the controls that were set. Cameras do not report it: a control
+/// waits behind the queued frames, and a sensor applies it some exposures later. Therefore
+/// exposures are counted; if a frame states its controls, they must also match.
 /// Thread rule: clear and set on any thread, as_of on the camera's.
 class ControlDelay {
  public:
-  /// The camera starts: from its first exposure on it has what was set while it stood.
+  /// The camera starts: its first exposure already has all controls that were set while it was
+  /// stopped.
   void clear() {
     const std::lock_guard lock(mutex_);
     oldest_.reset();
   }
 
-  /// A control was set; the call that did it is over at `moment`.
+  /// A control was set; the call that set it returned at `moment`.
   void set(TimePoint moment) {
     const std::lock_guard lock(mutex_);
     if (!oldest_) oldest_ = moment;
@@ -31,8 +32,8 @@ class ControlDelay {
     first_.reset();
   }
 
-  /// The moment before which every control that was set is in effect in an exposure. `delay`: how
-  /// many exposures that begin after a set() may be without it.
+  /// Every control that was set before the returned moment is in effect in this exposure. `delay`:
+  /// number of exposures that may begin after a set() without it.
   TimePoint as_of(const FrameMetadata& metadata, std::size_t delay) {
     const TimePoint start = metadata.exposure_start;
     const std::lock_guard lock(mutex_);
@@ -46,9 +47,9 @@ class ControlDelay {
 
  private:
   std::mutex mutex_;
-  std::optional<TimePoint> oldest_;  ///< of the settings that may not be in effect; none: all are
+  std::optional<TimePoint> oldest_;  ///< oldest setting that may not be in effect; none: all are
   TimePoint newest_;
-  std::optional<std::uint64_t> first_;  ///< exposure that began after newest_, by its sequence
+  std::optional<std::uint64_t> first_;  ///< sequence of the first exposure that began after newest_
 };
 
 }  // namespace orbwatch::hal

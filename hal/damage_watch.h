@@ -10,7 +10,7 @@ namespace orbwatch::hal {
 
 /// Decides when damaged frames are a fault of their camera: when 5 of its last 20 frames are
 /// damaged. The fault ends with the first intact frame that is exposed a second or more after the
-/// last damaged one, so that a camera that is bad all the time has one fault and not one per frame.
+/// last damaged one, so that a permanently bad camera has one fault and not one per frame.
 /// Thread-bound.
 class DamageWatch {
  public:
@@ -18,7 +18,7 @@ class DamageWatch {
   static constexpr std::size_t kTooMany = 5;
   static constexpr std::chrono::seconds kQuiet{1};
 
-  /// A damaged frame that was exposed at `moment`. Returns whether there is a fault.
+  /// Adds a damaged frame that was exposed at `moment`. Returns whether there is a fault.
   bool add_damaged(TimePoint moment) {
     add(true);
     last_damaged_ = moment;
@@ -26,7 +26,7 @@ class DamageWatch {
     return is_fault_;
   }
 
-  /// An intact frame that was exposed at `moment`. Returns whether there is a fault still.
+  /// Adds an intact frame that was exposed at `moment`. Returns whether the fault persists.
   bool add_intact(TimePoint moment) {
     if (is_fault_ && moment - last_damaged_ >= kQuiet) clear();
     add(false);
@@ -42,7 +42,7 @@ class DamageWatch {
     damaged_[0] = damaged;
   }
 
-  std::bitset<kFrames> damaged_;  ///< of the last frames, the newest first
+  std::bitset<kFrames> damaged_;  ///< damage of the last frames, the newest first
   TimePoint last_damaged_{};
   bool is_fault_ = false;
 };

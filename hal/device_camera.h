@@ -10,11 +10,11 @@ namespace orbwatch::hal {
 /// with some drivers, to one sequence.
 class FrameCounter {
  public:
-  /// The next frame is the first of a new stream and follows the last one.
+  /// Marks the next frame as the first of a new stream; it follows the last one.
   void restart() { fresh_ = true; }
 
-  /// The number of a frame. It starts at 0 and grows by as much as the driver's counter; by 1 for
-  /// the first frame of a stream and when the driver's counter did not go forward.
+  /// Returns the number of a frame. It starts at 0 and grows with the driver's counter; by 1 for
+  /// the first frame of a stream and when the driver's counter did not advance.
   std::uint64_t number(std::uint32_t driver_sequence) {
     const std::uint32_t step = driver_sequence - last_;
     const bool forward = step != 0 && step <= UINT32_MAX / 2;
@@ -30,7 +30,7 @@ class FrameCounter {
   bool fresh_ = true;
 };
 
-/// How long a camera may be silent: 5 periods of `frame_rate`, and 1 s at least; 5 s at an unknown
+/// Longest normal silence of a camera: 5 periods of `frame_rate`, at least 1 s; 5 s at an unknown
 /// rate (0).
 Clock::duration stall_timeout(double frame_rate);
 
@@ -51,16 +51,16 @@ class DeviceCamera : public Camera {
   /// interrupt(). An error ends the stream.
   virtual DeviceResult<std::size_t> capture(TimePoint deadline) = 0;
 
-  /// The device waits for a trigger, or has no buffer to fill: silence is no fault.
+  /// True while the device waits for a trigger or has no buffer to fill: silence is not a fault.
   virtual bool may_be_silent() const = 0;
 
-  /// Ends a wait in capture(). On any thread.
+  /// Ends a wait in capture(). Thread-safe.
   virtual void interrupt() = 0;
 
-  /// Error: the device is lost for good; reported instead of what ended the stream.
+  /// Error: the device is lost for good; reported instead of the fault that ended the stream.
   virtual DeviceResult<> close_stream() = 0;
 
-  /// For capture(): the number of a frame, also of one that is not forwarded.
+  /// For capture(): returns the number of a frame, also of one that is not forwarded.
   std::uint64_t sequence_of(std::uint32_t driver_sequence) {
     return counter_.number(driver_sequence);
   }
@@ -74,7 +74,7 @@ class DeviceCamera : public Camera {
   FaultReport capture_until_fault(const std::stop_token& stop, double frame_rate);
 
   FrameCounter counter_;    ///< numbers frames across reconnections
-  bool forwarded_ = false;  ///< since the device was opened
+  bool forwarded_ = false;  ///< a frame was forwarded since the device was opened
 };
 
 }  // namespace orbwatch::hal

@@ -27,7 +27,7 @@ enum class Fault : std::uint8_t {
   NoTimeStamps = 7,
 };
 
-/// The one place of the operator's text for each fault. Empty for a number that is none.
+/// The operator's text for each fault, declared only here. Empty for an unknown number.
 constexpr std::string_view operator_text(Fault fault) {
   switch (fault) {
     case Fault::None:
@@ -50,7 +50,7 @@ constexpr std::string_view operator_text(Fault fault) {
   return {};
 }
 
-/// The one place of the word for each fault, for files and for the log; empty for none.
+/// The word for each fault in files and in the log, declared only here; empty for an unknown one.
 constexpr std::string_view word(Fault fault) {
   switch (fault) {
     case Fault::None:
@@ -73,13 +73,13 @@ constexpr std::string_view word(Fault fault) {
   return {};
 }
 
-/// A change of a camera's state. Fault::None: it delivers again.
+/// Change of a camera's state. Fault::None: it delivers again.
 struct FaultReport {
   Fault fault = Fault::None;
   std::string detail;  ///< device and system message; may be empty
 };
 
-/// A device's value, or the fault to report.
+/// Value from a device, or the fault to report.
 template <class T = void>
 using DeviceResult = tl::expected<T, FaultReport>;
 
@@ -90,16 +90,15 @@ inline tl::unexpected<FaultReport> fail(Fault fault, std::string detail) {
   return tl::unexpected(FaultReport{fault, std::move(detail)});
 }
 
-/// A fault that simulated and replay cameras show: from exposure `from` up to, not including,
-/// exposure `until`. "Unplug at 100, replug at 160" is
-/// {Unplugged, 100, 160}.
+/// Fault that simulated and replay cameras show from exposure `from` up to, not including, exposure
+/// `until`. "Unplug at 100, replug at 160" is {Unplugged, 100, 160}.
 struct ScriptedFault {
   Fault fault = Fault::None;
   std::uint64_t from = 0;
   std::uint64_t until = 0;
 };
 
-/// The faults that a script may have.
+/// Faults that a script may have.
 inline constexpr auto kFaultWords = [] {
   constexpr std::array kScripted{Fault::Unplugged, Fault::Stalled, Fault::ReadError,
                                  Fault::CorruptFrame, Fault::WrongFormat};
@@ -121,7 +120,7 @@ class FaultScript {
   FaultScript() = default;
   explicit FaultScript(std::vector<ScriptedFault> faults) : faults_(std::move(faults)) {}
 
-  /// The fault that exposure `sequence` shows, or Fault::None.
+  /// Fault that exposure `sequence` shows, or Fault::None.
   Fault at(std::uint64_t sequence) const {
     for (const auto& entry : faults_) {
       if (sequence >= entry.from && sequence < entry.until) return entry.fault;

@@ -11,15 +11,15 @@ namespace orbwatch::hal {
 namespace {
 
 constexpr int kAddressBits = 128;
-constexpr int kMappedBits = 96;  // before an IPv4 address in an IPv6 one
+constexpr int kMappedBits = 96;  // bits before an IPv4 address in an IPv6 one
 
-/// `bits` leading ones of the byte at `place` of an address.
+/// Mask of the byte at `place` of an address with `prefix_length` leading ones.
 std::uint8_t mask_of(int prefix_length, std::size_t place) {
   const int bits = std::clamp(prefix_length - 8 * static_cast<int>(place), 0, 8);
   return static_cast<std::uint8_t>(0xff00 >> bits);
 }
 
-/// A whole number and nothing else.
+/// Parses a whole number without any other text.
 std::optional<int> number_in(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

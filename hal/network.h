@@ -17,13 +17,13 @@ using HostAddress = std::array<std::uint8_t, 16>;
 /// Parses a numeric IPv4 or IPv6 address: 10.0.0.7, fd00::1.
 std::optional<HostAddress> parse_host(const std::string& text);
 
-/// Text of the numbers: 10.0.0.7, fd00::1.
+/// Numeric text of an address: 10.0.0.7, fd00::1.
 std::string text_of(const HostAddress& host);
 
 /// One host, or all hosts of a CIDR prefix (RFC 4632, RFC 4291).
 struct Network {
   HostAddress address{};
-  int prefix_length = 128;  ///< in bits of the IPv6 form
+  int prefix_length = 128;  ///< counted in bits of the IPv6 form
 
   bool contains(const HostAddress& host) const;
 };
@@ -32,10 +32,10 @@ struct Network {
 /// set after the prefix, as in a host's address.
 Result<Network> parse_network(const std::string& text);
 
-/// The same for a list; the error is that of its first wrong text.
+/// Parses a list; the error is that of its first wrong text.
 Result<std::vector<Network>> parse_networks(const std::vector<std::string>& texts);
 
-/// True: it holds every IPv4 or every IPv6 address.
+/// True if it contains every IPv4 or every IPv6 address.
 bool is_everybody(const Network& network);
 
 bool any_contains(const std::vector<Network>& networks, const HostAddress& host);

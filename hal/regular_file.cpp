@@ -20,7 +20,7 @@ std::string system_reason() { return std::generic_category().message(errno); }
 }  // namespace
 
 Result<std::string> read_regular_file(const std::filesystem::path& file, std::size_t most) {
-  // Without O_NONBLOCK a pipe is waited for here already.
+  // Without O_NONBLOCK, opening a pipe would already block.
   const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!in.is_open()) return not_read(file, system_reason());
   return read_regular_file(in, file, most);

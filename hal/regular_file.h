@@ -10,16 +10,16 @@
 
 namespace orbwatch::hal {
 
-/// The whole of a regular file with at most `most` bytes. Never waits for another process, as a
-/// pipe would. Error: file and reason. Reentrant.
+/// Reads the whole of a regular file with at most `most` bytes. Never waits for another process, as
+/// a pipe would. Error: file and reason. Reentrant.
 Result<std::string> read_regular_file(const std::filesystem::path& file,
                                       std::size_t most = std::size_t{1} << 20);
-/// The same of one that is open, with O_NONBLOCK; `file` names it in the error.
+/// Reads a file that is open with O_NONBLOCK; `file` names it in the error.
 Result<std::string> read_regular_file(const FileDescriptor& opened,
                                       const std::filesystem::path& file,
                                       std::size_t most = std::size_t{1} << 20);
 
-/// Writes all of it. False: errno says why. Reentrant.
+/// Writes all of it. False: errno has the reason. Reentrant.
 bool write_all(const FileDescriptor& file, std::string_view text);
 
 }  // namespace orbwatch::hal

@@ -11,7 +11,7 @@
 
 namespace orbwatch::hal {
 
-/// A fixed set of buffers, lent out as shared_ptr without touching the heap: the control block of
+/// Fixed set of buffers, lent out as shared_ptr without touching the heap: the control block of
 /// each loan lies beside its buffer. The last release returns the buffer; a loan keeps the memory
 /// alive after the pool's end. Thread-safe; no lock is held while a buffer is in use.
 template <class T>
@@ -31,7 +31,7 @@ class BufferPool {
     }
   }
 
-  /// A buffer that nobody else holds, or nullptr when all are lent.
+  /// A free buffer, or nullptr when all are lent.
   std::shared_ptr<T> acquire() {
     const std::lock_guard lock(state_->mutex);
     for (std::size_t i = 0; i < state_->slots.size(); ++i) {
@@ -48,7 +48,7 @@ class BufferPool {
 
   std::size_t size() const { return state_->slots.size(); }
 
-  /// How many are lent now.
+  /// Number of buffers that are lent now.
   std::size_t lent() const {
     const std::lock_guard lock(state_->mutex);
     std::size_t count = 0;

@@ -13,10 +13,10 @@ namespace {
 
 Result<> synchronise(const FileDescriptor& file, unsigned long long moment) {
   dma_buf_sync sync{DMA_BUF_SYNC_READ | moment};
-  // The kernel's documentation asks for the repetition.
+  // The kernel's documentation requires the repetition.
   while (::ioctl(file.get(), DMA_BUF_IOCTL_SYNC, &sync) != 0) {
     if (errno == EINTR || errno == EAGAIN) continue;
-    // Plain shared memory, which software pipelines fill, needs none.
+    // Plain shared memory, which software pipelines fill, needs no synchronisation.
     if (errno == ENOTTY) return {};
     return fail("cannot synchronise a dma-buf: " + std::generic_category().message(errno));
   }

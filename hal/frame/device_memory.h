@@ -33,7 +33,7 @@ class DmaBuffer {
 
   int descriptor() const { return file_.get(); }
 
-  /// The first `bytes` of it. Error: with the system's message.
+  /// Maps the first `bytes`. Error: with the system's message.
   Result<MappedMemory> map(std::size_t bytes) const;
 
   /// Error: the device is gone or refuses, with the system's message.

@@ -15,7 +15,7 @@ namespace orbwatch::hal {
 namespace {
 
 constexpr std::array kHeaps{"vidbuf_cached", "linux,cma", "system"};
-constexpr std::size_t kForAnyDevice = 2;  ///< the first of them
+constexpr std::size_t kForAnyDevice = 2;  ///< first of the heaps that suit any device
 
 Result<DmaBuffer> allocate_from(const std::filesystem::path& path, const HeapAllocation& allocate,
                                 std::size_t bytes) {

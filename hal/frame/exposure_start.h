@@ -6,17 +6,18 @@
 
 namespace orbwatch::hal {
 
-/// What a site knows of a camera's time stamps beyond what the camera states.
+/// Facts about a camera's time stamps that the site states in addition to the camera.
 struct StampSettings {
-  /// From the first row to the last, of a data sheet; stamps at the end of a frame are later by it.
+  /// Time from the first row to the last, from a data sheet; stamps at the end of a frame are later
+  /// by it.
   std::chrono::microseconds readout_time{0};
-  /// How much later stamps are besides, as measured; below 0: earlier.
+  /// Measured additional delay of the stamps; below 0: earlier.
   std::chrono::microseconds offset{0};
 };
 
-/// When the exposure of a frame's first row began, from the stamp in `metadata.exposure_start`,
-/// which marks what `metadata.stamp_source` says: the exposure ends where the readout begins. An
-/// exposure time that the camera does not state is not subtracted. Reentrant.
+/// Start of the exposure of a frame's first row, from the stamp in `metadata.exposure_start`, whose
+/// meaning is `metadata.stamp_source`: the exposure ends where the readout begins. An exposure time
+/// that the camera does not state is not subtracted. Reentrant.
 inline TimePoint exposure_start(const FrameMetadata& metadata, const StampSettings& settings) {
   TimePoint start = metadata.exposure_start - settings.offset;
   if (metadata.stamp_source == StampSource::ExposureStart) return start;

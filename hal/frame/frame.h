@@ -11,7 +11,7 @@
 
 namespace orbwatch::hal {
 
-/// What a camera's time stamps mark.
+/// Event that a camera's time stamps mark.
 enum class StampSource : std::uint8_t {
   ExposureStart,
   ReadoutStart,  ///< arrival of the first pixel: later by the exposure time
@@ -19,28 +19,29 @@ enum class StampSource : std::uint8_t {
   Arrival,       ///< dequeued by the camera's thread: the camera gave no stamp
 };
 
-/// Whether a frame can be used.
+/// Usability of a frame.
 enum class FrameStatus : std::uint8_t {
   Intact,
   Flawed,    ///< complete; its JPEG data drew a warning: see JpegDecoder::is_flawed()
   Withheld,  ///< damaged, or intact between damaged ones: see DamageWatch; never delivered
 };
 
-/// What a camera states about one frame.
+/// Data that a camera states about one frame.
 struct FrameMetadata {
   std::uint64_t sequence = 0;  ///< counts exposures since start; a gap is a lost frame
-  TimePoint exposure_start;    ///< of the first row; back-ends give the stamp: see exposure_start()
-  StampSource stamp_source = StampSource::ExposureStart;  ///< what the camera's stamp marked
+  TimePoint exposure_start;    ///< start of the first row's exposure; back-ends put the stamp here:
+                               ///< see exposure_start()
+  StampSource stamp_source = StampSource::ExposureStart;  ///< event that the camera's stamp marked
   std::chrono::microseconds exposure_time{0};             ///< 0: unknown
-  double gain = 1.0;                                      ///< linear, analogue times digital
+  double gain = 1.0;                                      ///< linear gain, analogue times digital
   /// Number of the hardware trigger that began the exposure: rising, and the same for all cameras
   /// that it started. None: the camera runs freely.
   std::optional<std::uint64_t> trigger = std::nullopt;
   /// The exposure has every control that was set before this moment: see ControlDelay.
   TimePoint controls_as_of{};
-  /// The name of a control whose value the frame states, and it is another than was set; static.
+  /// Name of a control whose stated value differs from the one that was set; static.
   const char* not_as_set = nullptr;
-  double lux = 0;  ///< illuminance of the scene as the camera estimates it; 0: unknown
+  double lux = 0;  ///< camera's estimate of the scene's illuminance; 0: unknown
   FrameStatus status = FrameStatus::Intact;
 };
 
@@ -51,11 +52,11 @@ struct FrameBuffer {
   FrameMetadata metadata;
   std::byte* memory =
       nullptr;  ///< start of the buffer behind the picture; null where only a device writes
-  std::size_t capacity = 0;              ///< its size in bytes
-  std::unique_ptr<std::byte[]> storage;  ///< owns the memory, unless that is a driver's
+  std::size_t capacity = 0;              ///< size of the buffer in bytes
+  std::unique_ptr<std::byte[]> storage;  ///< owns the memory, unless it belongs to a driver
 };
 
-/// A frame on its way through the product: shared, read-only. Releasing the last one returns the
+/// Frame on its way through the product: shared, read-only. Releasing the last one returns the
 /// buffer to its camera; safe on any thread, also after the camera's stop or end.
 using Frame = std::shared_ptr<const FrameBuffer>;
 

@@ -10,27 +10,27 @@
 
 namespace orbwatch::hal {
 
-/// Where dma-bufs come from that devices import and fill, and that the CPU caches.
+/// Source of dma-bufs that devices import and fill, and that the CPU caches.
 struct DmaBufferSource {
   std::string name;  ///< for the log: "dma-heap system"
-  /// A dma-buf of `bytes` at least. Error: with the system's message.
+  /// Allocates a dma-buf of at least `bytes`. Error: with the system's message.
   std::function<Result<DmaBuffer>(std::size_t bytes)> allocate;
 };
 
-/// The sources that exist now, in the order of preference. Asked for at each start of a stream.
+/// Sources that exist now, in the order of preference. Called at each start of a stream.
 using DmaBufferSources = std::function<std::vector<DmaBufferSource>()>;
 
-/// The memory that a stream's buffers lie in.
+/// Memory that a stream's buffers lie in.
 struct FrameMemory {
   std::string source;    ///< name of the DmaBufferSource; empty: the driver's own
-  std::string refusals;  ///< why it is none of the preferred sources; empty: it is the first
+  std::string refusals;  ///< reasons why preferred sources were not used; empty: it is the first
 };
 
-/// The first of `sources` with which `attempt` succeeds, or the driver's own memory.
+/// Returns the first of `sources` with which `attempt` succeeds, or the driver's own memory.
 FrameMemory choose_memory(const std::vector<DmaBufferSource>& sources,
                           const std::function<Result<>(const DmaBufferSource&)>& attempt);
 
-/// For the log: the memory, and the buffers that were made of those `requested`.
+/// Text for the log: the memory, and the number of buffers made of those `requested`.
 std::string to_text(const FrameMemory& memory, std::size_t buffers, std::size_t requested);
 
 }  // namespace orbwatch::hal

@@ -20,7 +20,7 @@ class ReturnedBuffers {
     wake();
   }
   void wake() { woken_.signal(); }
-  /// One bit per returned buffer, of kMaxBuffers.
+  /// Takes the returned buffers, one bit for each of kMaxBuffers.
   std::uint32_t take() {
     woken_.clear();
     return returned_.exchange(0);

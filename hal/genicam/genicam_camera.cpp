@@ -10,10 +10,10 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Between readings of the camera's clock: crystals drift by some 50 us in it.
+/// Interval between readings of the camera's clock: crystals drift by some 50 us in it.
 constexpr std::chrono::seconds kLatchPeriod{1};
 
-/// Of the line through them the log says once how straight it is.
+/// Moments after which the residual of the clock's line is logged, once.
 constexpr std::size_t kTellingMoments = 10;
 
 std::string_view words_of(ArvBufferStatus status) {
@@ -38,7 +38,7 @@ GenicamCamera::GenicamCamera(GenicamSettings settings)
 
 GenicamCamera::~GenicamCamera() { stop(); }
 
-/// Finds the camera and takes control of it, unless it has it.
+/// Finds the camera and takes control of it, unless it already has control.
 DeviceResult<> GenicamCamera::open() {
   if (camera_) return {};
   auto found = find_camera_again(settings_.camera, found_);
@@ -67,7 +67,7 @@ DeviceResult<> GenicamCamera::set_up(std::string_view pixel_format, const Stream
   return {};
 }
 
-/// Sets up the camera that came back. Fault: its counts mean something else than before.
+/// Sets up a camera that reconnected. Fault: the scale of its counts has changed.
 DeviceResult<> GenicamCamera::set_up_again() {
   const StreamFormat& stream = format_.stream;
   const std::optional<CountScale> before = count_scale_;
@@ -81,7 +81,7 @@ DeviceResult<> GenicamCamera::set_up_again() {
                                       ": came back with another scale of its counts: " + changed);
 }
 
-/// What the features say about frames.
+/// Reads the features that describe frames.
 void GenicamCamera::read_features() {
   triggered_ = waits_for_trigger(camera_.get());
   exposure_time_ = exposure_time(camera_.get());
@@ -127,7 +127,7 @@ Result<> GenicamCamera::do_set(std::string_view control, double value) {
                 " cannot change after the start: it changes what a count means");
   }
   if (auto done = set_now(name, value); !done) {
-    // A camera that does not answer is searched again the next time.
+    // A camera that does not answer is searched again at the next attempt.
     if (!runs_) camera_.reset();
     return done;
   }
@@ -191,7 +191,8 @@ DeviceResult<double> GenicamCamera::open_stream() {
 }
 
 DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
-  const bool silence_is_normal = may_be_silent();  // before the wait, in which buffers may return
+  const bool silence_is_normal =
+      may_be_silent();  // before the wait, during which buffers may return
   const auto captured = stream_->next(deadline);
   if (!captured) {
     is_lost_ = true;
@@ -207,8 +208,8 @@ DeviceResult<std::size_t> GenicamCamera::capture(TimePoint deadline) {
   return *captured ? 1 : 0;
 }
 
-/// No frame came in time. Reported before the stream is closed, which takes seconds when the camera
-/// does not answer.
+/// Fault when no frame came in time. Reported before the stream is closed, which takes seconds when
+/// the camera does not answer.
 tl::unexpected<FaultReport> GenicamCamera::silence() {
   is_lost_ = true;
   const std::string who = "genicam: camera " + found_.id;
@@ -232,7 +233,7 @@ DeviceResult<> GenicamCamera::close_stream() {
   return {};
 }
 
-/// After a frame, when the camera surely answers.
+/// Called after a frame, when the camera certainly answers.
 void GenicamCamera::read_clock() {
   if (!latch_ || Clock::now() < latch_due_) return;
   const std::lock_guard lock(device_mutex_);
@@ -259,7 +260,7 @@ FrameMetadata GenicamCamera::metadata_of(const GenicamStream::Captured& captured
     if (!latch_) clock_.add_arrival(captured.stamp, captured.arrival);
     if (const auto moment = clock_.to_steady(captured.stamp)) {
       metadata.exposure_start = std::min(*moment, captured.arrival);
-      // The line of arrivals is that of the fastest first packets, which are sent when the readout
+      // The line of arrivals follows the fastest first packets, which are sent when the readout
       // begins.
       metadata.stamp_source = latch_ ? settings_.stamps_mark : StampSource::ReadoutStart;
     }
@@ -285,7 +286,7 @@ void GenicamCamera::forward_intact(const GenicamStream::Captured& captured) {
   forward(std::move(*frame));
 }
 
-/// Bytes from row to row. Fault: the frame is damaged, or is none of the negotiated format.
+/// Bytes from row to row. Fault: the frame is damaged, or does not have the negotiated format.
 DeviceResult<std::size_t> GenicamCamera::intact_stride(
     const GenicamStream::Captured& captured) const {
   if (captured.status != ARV_BUFFER_STATUS_SUCCESS) {
@@ -323,7 +324,7 @@ DeviceResult<std::size_t> GenicamCamera::intact_stride(
   return stride;
 }
 
-/// The frame that was received, decoded if need be; null when there is no buffer for it.
+/// The received frame, decoded if necessary; null when there is no buffer for it.
 Result<std::shared_ptr<FrameBuffer>> GenicamCamera::frame_of(
     const GenicamStream::Captured& captured, std::size_t stride) {
   if (decoder_) return decoder_->decode(captured.frame->memory, stride);

@@ -21,30 +21,30 @@
 
 namespace orbwatch::hal {
 
-/// A GigE Vision or USB3 Vision camera. Frames are forwarded in the buffer that was received, or
-/// decoded where the pipeline does not read their format. Incomplete ones are withheld and counted.
-/// From configure() on it controls the camera, which no other host can then, until its end or the
-/// loss of the connection. Silence while it waits for a trigger is no fault.
+/// GigE Vision or USB3 Vision camera. Frames are forwarded in the buffer that was received, or
+/// decoded if the pipeline does not read their format. Incomplete ones are withheld and counted.
+/// From configure() on it controls the camera, so that no other host can, until its end or the loss
+/// of the connection. Silence while it waits for a trigger is not a fault.
 class GenicamCamera : public DeviceCamera {
  public:
   explicit GenicamCamera(GenicamSettings settings);
   ~GenicamCamera() override;
 
-  /// The command TriggerSoftware. Errors: the camera does not run, or refuses.
+  /// Executes TriggerSoftware. Errors: the camera does not run, or refuses.
   Result<> trigger() override;
 
   LinkCounts link_counts() const override;
   std::optional<CountScale> count_scale() const override;
 
  protected:
-  /// See set_feature(). The value is set again after each reconnection. Error, too: it changes the
-  /// scale of the counts after the start.
+  /// See set_feature(). The value is set again after each reconnection. Further error: it changes
+  /// the scale of the counts after the start.
   Result<> do_set(std::string_view control, double value) override;
-  /// Sensors take exposure and gain on up to 2 exposures later; one more, as the frame that is
+  /// Sensors apply exposure and gain up to 2 exposures later; one more, since the frame that is
   /// being sent began before.
   std::size_t control_delay() const override { return 3; }
-  /// Errors: no such camera, or several; another host has it; size or format not offered; a stored
-  /// control that cannot be set.
+  /// Errors: no such camera, or several; another host controls it; size or format not offered; a
+  /// stored control that cannot be set.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
   DeviceResult<double> open_stream() override;
   DeviceResult<std::size_t> capture(TimePoint deadline) override;
@@ -71,30 +71,31 @@ class GenicamCamera : public DeviceCamera {
                                                 std::size_t stride);
 
   GenicamSettings settings_;
-  mutable std::mutex device_mutex_;  ///< of the seven that follow, and of the camera's features
+  mutable std::mutex
+      device_mutex_;  ///< guards the seven members that follow, and the camera's features
   FoundCamera found_;
-  OwnedObject<ArvCamera> camera_;  ///< while it is controlled
-  bool is_set_up_ = false;         ///< with format and controls
-  std::vector<Control> controls_;  ///< the stored ones, in the order of their first setting
+  OwnedObject<ArvCamera> camera_;  ///< camera while it is controlled
+  bool is_set_up_ = false;         ///< format and controls are set
+  std::vector<Control> controls_;  ///< stored controls, in the order of their first setting
   bool runs_ = false;
   std::optional<CountScale> count_scale_;
-  bool keeps_count_scale_ = false;  ///< it was started since it was configured
+  bool keeps_count_scale_ = false;  ///< the camera was started since it was configured
   GenicamStreamFormat format_;
-  std::size_t buffers_ = kFreeRunningBuffers;  ///< of the stream
-  std::unique_ptr<GenicamDecoder> decoder_;    ///< for formats that are not zero-copy
-  std::unique_ptr<GenicamStream> stream_;      ///< while open
+  std::size_t buffers_ = kFreeRunningBuffers;  ///< number of the stream's buffers
+  std::unique_ptr<GenicamDecoder> decoder_;    ///< decoder for formats that are not zero-copy
+  std::unique_ptr<GenicamStream> stream_;      ///< stream while it is open
   bool is_lost_ = false;                       ///< a fault ended the stream
   mutable std::mutex counts_mutex_;
-  LinkCounts counts_;  ///< of all streams
-  LinkCounts ended_;   ///< of those that ended
+  LinkCounts counts_;  ///< counts of all streams
+  LinkCounts ended_;   ///< counts of the streams that ended
   BlockCounter blocks_;
   DeviceClock clock_;
-  std::optional<TimestampLatch> latch_;  ///< nullopt: the clock is that of arrivals
+  std::optional<TimestampLatch> latch_;  ///< nullopt: the clock follows arrivals
   TimePoint latch_due_;
-  bool clock_is_told_ = false;                              ///< of this stream, to the log
+  bool clock_is_told_ = false;                              ///< the clock of this stream was logged
   TimePoint newest_;                                        ///< stamp of the last frame
-  std::atomic<bool> triggered_ = false;                     ///< it waits for triggers
-  std::atomic<std::chrono::microseconds> exposure_time_{};  ///< as exposure_time()
+  std::atomic<bool> triggered_ = false;                     ///< the camera waits for triggers
+  std::atomic<std::chrono::microseconds> exposure_time_{};  ///< exposure_time(), cached
 };
 
 }  // namespace orbwatch::hal

@@ -16,7 +16,7 @@ std::string range_text(const CameraControl& control) {
          std::to_string(static_cast<long>(control.maximum));
 }
 
-/// "1..2048x1..1088": each side's limits.
+/// Limits of each side: "1..2048x1..1088".
 std::string size_text(const std::vector<CameraControl>& controls) {
   std::string width = "?", height = "?";
   for (const CameraControl& control : controls) {

@@ -17,23 +17,24 @@
 
 namespace orbwatch::hal {
 
-/// Which GigE Vision or USB3 Vision camera, and how. Needs no header of Aravis.
+/// Selection and settings of a GigE Vision or USB3 Vision camera. Needs no header of Aravis.
 struct GenicamSettings {
   static constexpr std::string_view kName = "genicam";
   static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Module, .address_key = "camera"};
-  static constexpr int kAutomatic = 0;  ///< of packet_size
+  static constexpr int kAutomatic = 0;  ///< automatic packet_size
 
   /// Serial number, user-defined name, address, or the id that `orbwatch list` shows.
   std::string camera;
   std::string pixel_format = "auto";  ///< "auto" or a name of kGenicamFormats
   bool colour = true;                 ///< see frame_format()
   int binning = 1;                    ///< pixels of the sensor per pixel, in both directions
-  int offset_x = 0;                   ///< of the picture on the sensor, binned px
+  int offset_x = 0;                   ///< left edge of the picture on the sensor, binned px
   int offset_y = 0;
   std::string trigger_source = "Software";
-  /// What the camera's stamps mark, of its data sheet.
+  /// Event that the camera's stamps mark, from its data sheet.
   StampSource stamps_mark = StampSource::ExposureStart;
-  int packet_size = kAutomatic;  ///< bytes with the headers of IP and UDP; of GigE Vision
+  /// Packet size of GigE Vision, bytes including the IP and UDP headers.
+  int packet_size = kAutomatic;
 
   static GenicamSettings at(std::string address) {
     GenicamSettings settings;

@@ -11,11 +11,11 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Marks a buffer that no first packet has described.
+/// Marks a buffer without the id that a first packet states.
 constexpr std::uint64_t kNoId = std::numeric_limits<std::uint64_t>::max();
 
-/// Bytes that the kernel keeps while this process does not run: some pictures. The kernel gives
-/// less where net.core.rmem_max says so.
+/// Bytes that the kernel keeps while this process does not run: some pictures. The kernel limits
+/// them to net.core.rmem_max.
 int socket_buffer(std::size_t payload) {
   constexpr std::size_t kPictures = 4;
   constexpr std::size_t kLeast = std::size_t{1} << 20;
@@ -23,7 +23,8 @@ int socket_buffer(std::size_t payload) {
   return static_cast<int>(std::clamp(kPictures * payload, kLeast, kMost));
 }
 
-/// A stream's few buffers hold no older frame: the system's clock was set since.
+/// A stream's few buffers hold no older frame; an older stamp means that the system's clock was set
+/// since.
 constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace
@@ -57,7 +58,7 @@ DeviceResult<std::unique_ptr<GenicamStream>> GenicamStream::start(ArvCamera* cam
     g_object_set(stream->stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED,
                  "socket-buffer-size", socket_buffer(format.payload), nullptr);
   }
-  // The handler may run on while it is disconnected: it has a share of its own.
+  // The handler may still run after its disconnection, so it owns a reference of its own.
   stream->control_handler_ = g_signal_connect_data(
       arv_camera_get_device(camera), "control-lost", reinterpret_cast<GCallback>(on_control_lost),
       new std::shared_ptr<Events>(stream->events_),
@@ -71,7 +72,7 @@ DeviceResult<std::unique_ptr<GenicamStream>> GenicamStream::start(ArvCamera* cam
 }
 
 GenicamStream::~GenicamStream() {
-  // It fails when the camera is gone, and then nothing is left to do.
+  // This fails when the camera is gone; nothing is left to do then.
   if (is_started_ && !is_lost_) arv_camera_stop_acquisition(camera_, nullptr);
   if (control_handler_ != 0) {
     g_signal_handler_disconnect(arv_camera_get_device(camera_), control_handler_);
@@ -89,7 +90,7 @@ void GenicamStream::make_buffers(std::size_t bytes, std::size_t count) {
   for (std::size_t i = 0; i < frames_.size(); ++i) queue(i);
 }
 
-/// Aravis keeps a share in the buffer until take().
+/// Aravis keeps a reference to the buffer until take().
 void GenicamStream::queue(std::size_t index) {
   ArvBuffer* const buffer = frames_[index]->buffer.get();
   arv_buffer_set_frame_id(buffer, kNoId);

@@ -22,23 +22,23 @@ namespace orbwatch::hal {
 struct GenicamFrame : FrameBuffer {
   explicit GenicamFrame(std::size_t bytes);
 
-  OwnedObject<ArvBuffer> buffer;  ///< of this memory; names this frame
+  OwnedObject<ArvBuffer> buffer;  ///< Aravis' buffer of this memory; its user data is this frame
 };
 
-/// A camera that streams. Its end stops the camera; held frames stay valid. Aravis receives on a
-/// thread of its own; all calls of this class come from the camera's thread, but for wake().
+/// Streaming camera. Its end stops the camera; held frames stay valid. Aravis receives on a thread
+/// of its own; all calls of this class come from the camera's thread, except wake().
 class GenicamStream {
  public:
   /// A filled buffer, whole or not.
   struct Captured {
     std::shared_ptr<GenicamFrame> frame;
     ArvBufferStatus status;
-    std::optional<std::uint64_t> id;  ///< nullopt: its first packet was lost, and its stamp
-    std::chrono::nanoseconds stamp;   ///< of the camera's clock
-    TimePoint arrival;                ///< of its first packet; now, where that was lost
+    std::optional<std::uint64_t> id;  ///< nullopt: its first packet was lost, and its stamp with it
+    std::chrono::nanoseconds stamp;   ///< time by the camera's clock
+    TimePoint arrival;                ///< arrival of its first packet; now, if that packet was lost
   };
 
-  /// Makes `buffers` and starts the camera, whose format was negotiated.
+  /// Makes `buffers` and starts the camera, whose format is already negotiated.
   static DeviceResult<std::unique_ptr<GenicamStream>> start(ArvCamera* camera,
                                                             const GenicamStreamFormat& format,
                                                             std::size_t buffers);
@@ -50,7 +50,7 @@ class GenicamStream {
   /// Fault: the control of the camera was lost.
   DeviceResult<std::optional<Captured>> next(TimePoint deadline);
 
-  /// Of this stream.
+  /// Counts of this stream.
   LinkCounts link_counts() const;
 
   /// True when frames in use hold all buffers: there is none to fill.
@@ -59,11 +59,11 @@ class GenicamStream {
   /// Ends a wait in next(). Thread-safe.
   void wake() { events_->returned.wake(); }
 
-  /// The camera does not answer: its end does not try to stop it.
+  /// Marks the camera as unresponsive: the destructor does not try to stop it.
   void give_up() { is_lost_ = true; }
 
  private:
-  /// What Aravis' threads say; outlives the stream for as long as frames are held.
+  /// Events from Aravis' threads; outlives the stream for as long as frames are held.
   struct Events {
     ReturnedBuffers returned;
     std::atomic<bool> control_lost = false;
@@ -83,7 +83,7 @@ class GenicamStream {
   std::string id_;
   std::shared_ptr<Events> events_ = std::make_shared<Events>();
   std::optional<BufferPool<GenicamFrame>> pool_;
-  std::vector<GenicamFrame*> frames_;  ///< the pool's, by index
+  std::vector<GenicamFrame*> frames_;  ///< frames of the pool, by index
   std::size_t queued_ = 0;
   OwnedObject<ArvStream> stream_;
   gulong control_handler_ = 0;
@@ -91,8 +91,8 @@ class GenicamStream {
   bool is_lost_ = false;
 };
 
-/// When the packet with a system time (ns since 1970, as Aravis takes it) arrived, on the steady
-/// clock; `now` where it is unknown or not plausible.
+/// Arrival, on the steady clock, of the packet with a system time (ns since 1970, as Aravis reports
+/// it); `now` if the time is unknown or not plausible.
 TimePoint arrival_of(std::uint64_t system_time, TimePoint now);
 
 }  // namespace orbwatch::hal

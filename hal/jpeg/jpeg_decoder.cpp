@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint8_t kNeutral = 128;
 
-/// One row of pairs out of rows of one plane, where a pair has columns x rows samples.
+/// Writes one row of pairs from rows of one plane, whose pairs have columns x rows samples.
 template <int columns>
 void write_row(const std::uint8_t* upper, const std::uint8_t* lower, int count,
                std::uint8_t* pairs) {
@@ -23,7 +23,7 @@ void write_row(const std::uint8_t* upper, const std::uint8_t* lower, int count,
   }
 }
 
-/// The same where two pairs share a sample.
+/// Writes a row of pairs of which two share a sample.
 void write_shared_row(const std::uint8_t* upper, const std::uint8_t* lower, int count,
                       std::uint8_t* pairs) {
   for (int x = 0; x < count; ++x) {
@@ -31,11 +31,11 @@ void write_shared_row(const std::uint8_t* upper, const std::uint8_t* lower, int 
   }
 }
 
-/// Every other sample of the pairs, from their first on.
+/// Writes every other sample of the pairs, from the first on.
 void write_plane(const ImageView<const std::uint8_t>& plane, const ImageView<std::uint8_t>& pairs) {
   const int rows = plane.height / pairs.height;
   for (int y = 0; y < pairs.height; ++y) {
-    // Of planes with as many rows, the mean is of a row and itself.
+    // Planes with as many rows: the mean combines a row with itself.
     const std::uint8_t* const upper = plane.row(rows * y);
     const std::uint8_t* const lower = plane.row(rows * y + rows - 1);
     if (plane.width == pairs.width) {
@@ -48,7 +48,7 @@ void write_plane(const ImageView<const std::uint8_t>& plane, const ImageView<std
   }
 }
 
-/// Interleaves planes of U and V as Nv12: `pairs` has 2 channels and one pixel for 2x2 of the
+/// Interleaves planes of U and V to Nv12: `pairs` has 2 channels and one pixel for 2x2 of the
 /// picture. In each direction the planes have as many pixels as `pairs`, twice as many (averaged),
 /// or half as many columns (repeated); empty planes become neutral chroma.
 void interleave_chroma(const ImageView<const std::uint8_t>& u,
@@ -66,7 +66,7 @@ void interleave_chroma(const ImageView<const std::uint8_t>& u,
   write_plane(v, second);
 }
 
-/// Samples of the picture that one of the component covers, in each direction.
+/// Samples of the picture that one sample of the component covers, in each direction.
 struct Coverage {
   int columns = 0;
   int rows = 0;
@@ -81,7 +81,7 @@ Coverage coverage(const jpeg_decompress_struct& picture, std::size_t component) 
   return {columns / info.h_samp_factor, rows / info.v_samp_factor};
 }
 
-/// Whether write_strip() can make Nv12 of the picture.
+/// Checks that write_strip() can make Nv12 of the picture.
 Result<> check_components(const jpeg_decompress_struct& picture) {
   if (picture.num_components == 1) return {};
   if (picture.jpeg_color_space != JCS_YCbCr) {

@@ -13,7 +13,7 @@
 
 namespace orbwatch::hal {
 
-/// From the header of a JPEG picture, before its EXIF orientation is applied.
+/// Size from the header of a JPEG picture, before its EXIF orientation is applied.
 struct JpegSize {
   int width = 0;
   int height = 0;
@@ -21,18 +21,17 @@ struct JpegSize {
 
 class JpegReader;
 
-/// libjpeg-turbo in strict mode: data that it would repair (a truncated file, a broken code, bytes
-/// lost on USB) is an error here, because a repaired picture must not be measured. Padding before a
-/// marker, a missing end marker, and other data in its place, which many USB cameras send, are no
-/// errors. Reads grey and
-/// YCbCr pictures, baseline and progressive, also without the standard Huffman tables, which USB
-/// cameras omit. Thread-bound and reusable.
+/// Decodes with libjpeg-turbo in strict mode: data that it would repair (a truncated file, a broken
+/// code, bytes lost on USB) is an error here, because a repaired picture must not be measured.
+/// Padding before a marker, a missing end marker, and other data in its place, which many USB
+/// cameras send, are not errors. Reads grey and YCbCr pictures, baseline and progressive, also
+/// without the standard Huffman tables, which USB cameras omit. Thread-bound and reusable.
 class JpegDecoder {
  public:
   JpegDecoder();
   ~JpegDecoder();
 
-  /// Whether the picture checked or decoded last had such padding, or no end marker: see
+  /// True if the picture checked or decoded last had such padding, or no end marker: see
   /// JpegReader::is_flawed().
   bool is_flawed() const;
   /// Bytes of the picture checked or decoded last: see JpegReader::picture_bytes().
@@ -63,7 +62,7 @@ class JpegDecoder {
 
   std::unique_ptr<JpegReader> reader_;
   std::vector<std::uint8_t> thumbnail_;  ///< target of check()
-  /// One row of MCUs of Y, U and V in the file's resolution, and where its rows are.
+  /// One row of MCUs of Y, U and V in the file's resolution, and the start of each row.
   std::array<std::vector<std::uint8_t>, 3> strips_;
   std::array<std::vector<std::uint8_t*>, 3> rows_;
 };

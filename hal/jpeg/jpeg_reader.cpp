@@ -48,7 +48,7 @@ void JpegReader::on_message(j_common_ptr picture, int level) {
     case JWRN_EXTRANEOUS_DATA:
       reader.has_padding_ = true;
       return;
-    case JWRN_JPEG_EOF:  // whether more than the end marker is missing, finish() knows
+    case JWRN_JPEG_EOF:  // finish() knows whether more than the end marker is missing
       reader.broke_off_ = true;
       return;
     default:
@@ -86,7 +86,7 @@ Result<> JpegReader::failed(const char* what) {
   return fail(std::move(message));
 }
 
-/// Begin of the marker at which libjpeg gave up: it has read a marker's code before it judges.
+/// Offset of the marker at which libjpeg gave up: it reads a marker's code before it judges.
 std::size_t JpegReader::bytes_before_marker() const {
   const std::size_t read = jpeg_.size() - std::min(jpeg_.size(), picture_.src->bytes_in_buffer);
   const bool is_behind = read >= 2 && jpeg_[read - 2] == std::byte{0xff};
@@ -109,8 +109,8 @@ Result<> JpegReader::open(std::span<const std::byte> jpeg) {
   return {};
 }
 
-/// Pictures of several scans are read to their end here. Where a scan that could be the last one is
-/// followed by other data, they are read again without that, since libjpeg cannot resume.
+/// Pictures of several scans are read to their end here. If other data follows a scan that could be
+/// the last one, the picture is read again without it, since libjpeg cannot resume.
 template <class Call>
 Result<> JpegReader::start(Call call) {
   if (completes(call)) return {};
@@ -159,7 +159,7 @@ Result<> JpegReader::read_components(JSAMPIMAGE rows) {
 }
 
 Result<> JpegReader::finish() {
-  // Data in memory never lets libjpeg wait for more: it reaches an end.
+  // Data in memory never makes libjpeg wait for more: it reaches an end.
   const bool ended = completes([this] {
     while (jpeg_consume_input(&picture_) != JPEG_REACHED_EOI) {
     }
@@ -174,8 +174,8 @@ Result<> JpegReader::finish() {
   return {};
 }
 
-/// Where data is missing inside a Huffman-coded scan, libjpeg has warned. It says nothing about
-/// scans that are missing, nor about missing data of an arithmetic-coded one.
+/// Libjpeg has warned of data missing inside a Huffman-coded scan. It reports neither missing scans
+/// nor missing data of an arithmetic-coded one.
 bool JpegReader::is_complete() const {
   const std::span components(picture_.comp_info, static_cast<std::size_t>(picture_.num_components));
   const bool each_has_a_scan = std::ranges::all_of(
@@ -183,7 +183,7 @@ bool JpegReader::is_complete() const {
   if (!each_has_a_scan || !broke_off_) return each_has_a_scan;
   if (picture_.arith_code != FALSE) return false;
   if (picture_.coef_bits == nullptr) return true;
-  // Of a progressive picture: for each coefficient the bits that are still missing, -1 for all.
+  // For a progressive picture: the bits that each coefficient still lacks, -1 for all.
   return std::ranges::all_of(
       std::span(picture_.coef_bits, components.size()),
       [](const auto& bits) { return std::ranges::all_of(bits, [](int b) { return b == 0; }); });

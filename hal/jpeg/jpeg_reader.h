@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-// After <cstdio>.
+// Needs <cstdio> before it.
 #include <jpeglib.h>
 
 #include "proc/image/image_view.h"
@@ -15,9 +15,9 @@
 
 namespace orbwatch::hal {
 
-/// libjpeg's decompressor, with its errors as values. It reads one picture after another: open(),
-/// one of the starts, its reads until every row is there, finish(); or open() again at any point.
-/// A warning of libjpeg is an error, but for the two of is_flawed(). Thread-bound.
+/// Wraps libjpeg's decompressor, with its errors as values. It reads one picture after another:
+/// open(), one of the starts, its reads until every row is there, finish(); or open() again at any
+/// point. A warning of libjpeg is an error, except the two of is_flawed(). Thread-bound.
 class JpegReader {
  public:
   JpegReader();
@@ -25,11 +25,11 @@ class JpegReader {
   JpegReader(const JpegReader&) = delete;
   JpegReader& operator=(const JpegReader&) = delete;
 
-  /// Reads the header; `jpeg` must live until the picture is finished. Errors: no JPEG picture,
+  /// Reads the header; `jpeg` must live until the picture is finished. Errors: not a JPEG picture,
   /// header damaged, out of memory.
   Result<> open(std::span<const std::byte> jpeg);
 
-  /// The header after open(), the sizes of what is read after a start.
+  /// The header after open(); after a start, the sizes of the rows that are read.
   const jpeg_decompress_struct& picture() const { return picture_; }
 
   /// Luminance at 1/`reduction` of the size: 1 or 8. Errors: as read_grey(), since pictures of
@@ -39,23 +39,23 @@ class JpegReader {
   /// a picture needs.
   Result<> read_grey(const ImageView<std::uint8_t>& target);
 
-  /// The components as they were compressed. Errors: as start_grey().
+  /// Starts reading the components as they were compressed. Errors: as start_grey().
   Result<> start_components();
   /// Decodes the next row of MCUs: DCTSIZE rows for each of a component's vertical samples, whole
   /// blocks wide. Errors: damaged.
   Result<> read_components(JSAMPIMAGE rows);
 
-  /// Reads up to the end of the picture, or to what stands in place of its end marker. Errors: data
-  /// is missing, or damaged.
+  /// Reads up to the end of the picture, or to the data in place of its end marker. Errors: data is
+  /// missing, or damaged.
   Result<> finish();
 
-  /// The picture has more data before a marker than it needs, or lacks only its end marker, be it
-  /// that the data ends there or that other data follows. Cameras send it so, and no pixel is
-  /// missing; but too much data may also be the only trace of a bit that was sent wrong.
+  /// True if the picture has more data before a marker than it needs, or lacks only its end marker,
+  /// because the data ends there or because other data follows. Cameras send such pictures, and no
+  /// pixel is missing; but surplus data may also be the only trace of a bit error.
   bool is_flawed() const { return has_padding_ || broke_off_; }
 
-  /// Bytes of the picture that was finished last, up to and with the end marker, if it has one,
-  /// without other data that follows.
+  /// Bytes of the picture that was finished last, including the end marker, if it has one, without
+  /// other data that follows.
   std::size_t picture_bytes() const { return picture_bytes_; }
 
  private:
@@ -78,14 +78,15 @@ class JpegReader {
   jpeg_decompress_struct picture_{};
   jpeg_error_mgr errors_{};
   jpeg_progress_mgr progress_{};
-  std::jmp_buf way_out_{};  ///< of the call of libjpeg that is running
+  std::jmp_buf way_out_{};  ///< return point of the running call of libjpeg
   char message_[JMSG_LENGTH_MAX]{};
   bool is_created_ = false;
   bool has_padding_ = false;
-  bool broke_off_ = false;  ///< the data ended, or was other data, before the picture's end marker
-  /// libjpeg gave up at a marker: it only warns of damage between them.
+  bool broke_off_ =
+      false;  ///< the data ended, or other data followed, before the picture's end marker
+  /// Libjpeg gave up at a marker; it only warns of damage between markers.
   bool met_bad_marker_ = false;
-  std::span<const std::byte> jpeg_;  ///< since open()
+  std::span<const std::byte> jpeg_;  ///< data passed to open()
   std::size_t picture_bytes_ = 0;
 };
 

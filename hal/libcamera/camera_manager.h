@@ -19,22 +19,22 @@ Result<std::shared_ptr<libcamera::CameraManager>> camera_manager();
 /// A camera that libcamera found.
 struct ListedCamera {
   std::string id;
-  std::string model;  ///< of the sensor
+  std::string model;  ///< model of the sensor
 };
 
-/// The cameras that are there now. Thread-safe.
+/// Cameras that libcamera lists now. Thread-safe.
 std::vector<ListedCamera> list_cameras(const libcamera::CameraManager& manager);
 
 /// The sensor's own name, or "unknown".
 std::string model_of(const libcamera::Camera& camera);
 
-/// The id of the camera that `wanted` names: its whole id, or a part of id or model that only one
-/// of `cameras` has; "" is the only camera. The error lists what there is. Reentrant.
+/// Id of the camera that `wanted` names: its whole id, or a part of id or model that only one of
+/// `cameras` has; "" selects the only camera. The error lists the cameras found. Reentrant.
 Result<std::string> choose_camera(const std::vector<ListedCamera>& cameras,
                                   std::string_view wanted);
 
-/// Reports a camera's removal while it exists. `on_removed` is called on libcamera's thread and
-/// must return at once.
+/// Reports a camera's removal during its own lifetime. `on_removed` is called on libcamera's thread
+/// and must return at once.
 class RemovalWatch {
  public:
   RemovalWatch(std::shared_ptr<const libcamera::Camera> camera, std::function<void()> on_removed);
@@ -52,7 +52,7 @@ class RemovalWatch {
 
 /// True when a device node of the camera has vanished. Only libcamera's pipeline of USB cameras
 /// detects that; libcamera 0.4 aborts the process when such a camera of another pipeline is
-/// stopped, destroyed or connected again. False where libcamera lists no nodes.
+/// stopped, destroyed or connected again. False if libcamera lists no nodes.
 bool has_lost_its_nodes(const libcamera::Camera& camera);
 
 }  // namespace orbwatch::hal

@@ -37,7 +37,7 @@ LibcameraCamera::LibcameraCamera(LibcameraSettings settings, DmaBufferSources so
 
 LibcameraCamera::~LibcameraCamera() { stop(); }
 
-/// Whether the settings are valid for any camera.
+/// Checks that the settings are valid for any camera.
 Result<> LibcameraCamera::check() const {
   const std::string who = "camera " + info().id + ": ";
   std::string names = "auto";
@@ -161,7 +161,7 @@ void LibcameraCamera::forward_intact(const LibcameraStream::Captured& captured) 
   forward(captured.frame);
 }
 
-/// Error: the frame is damaged.
+/// Error when the frame is damaged.
 Result<> LibcameraCamera::check_intact(const LibcameraStream::Captured& captured) {
   if (captured.buffer.status != libcamera::FrameMetadata::FrameSuccess) {
     return fail("the driver marks a frame as damaged");

@@ -14,12 +14,12 @@
 
 namespace orbwatch::hal {
 
-/// A camera behind libcamera. Frames are forwarded in memory of a dma-heap, or the
-/// driver's own where there is none. The camera is acquired
-/// only while it runs or is configured.
+/// Camera behind libcamera. Frames are forwarded in memory of a dma-heap, or in the driver's own if
+/// there is none. The camera is acquired only while it runs or is configured.
 class LibcameraCamera : public DeviceCamera {
  public:
-  /// `sources`: none whose memory the camera's driver may refuse, which ends the process.
+  /// `sources` must not include memory that the camera's driver may refuse, which would end the
+  /// process.
   explicit LibcameraCamera(
       LibcameraSettings settings,
       DmaBufferSources sources = [] { return dma_heaps_for_any_device(); });
@@ -29,8 +29,8 @@ class LibcameraCamera : public DeviceCamera {
   /// See put_control(). Applied with the next request, and again at each start. Further error: the
   /// camera is not connected.
   Result<> do_set(std::string_view control, double value) override;
-  /// Controls ride on a request behind those that are queued; Raspberry Pi's sensors take exposure
-  /// and gain on up to 3 frames after it (libcamera's DelayedControls).
+  /// Controls are sent with a request behind those that are queued; Raspberry Pi's sensors apply
+  /// exposure and gain up to 3 frames after it (libcamera's DelayedControls).
   std::size_t control_delay() const override { return buffers_ + 3; }
   /// Errors: no such camera, or several; busy; size, format or sensor mode not offered.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
@@ -45,7 +45,7 @@ class LibcameraCamera : public DeviceCamera {
 
   LibcameraCamera(LibcameraSettings settings, DmaBufferSources sources, SharedManager manager);
   Result<> check() const;
-  /// The libcamera id of the settings' camera, once it was connected.
+  /// libcamera's id of the settings' camera, once it was connected.
   Result<std::string> find();
   Result<std::shared_ptr<libcamera::Camera>> open();
   DeviceResult<std::unique_ptr<LibcameraStream>> start_again();
@@ -55,17 +55,17 @@ class LibcameraCamera : public DeviceCamera {
 
   LibcameraSettings settings_;
   DmaBufferSources sources_;
-  /// Of id_, manager_, is_lost_, and of the camera's list of controls while it is configured.
+  /// Guards id_, manager_, is_lost_, and the camera's list of controls while it is configured.
   std::mutex camera_mutex_;
   SharedManager manager_;  ///< null while libcamera does not start
-  bool is_lost_ = false;   ///< permanently: see has_lost_its_nodes()
-  std::string id_;         ///< libcamera's; the same after a reconnection
+  bool is_lost_ = false;   ///< lost permanently: see has_lost_its_nodes()
+  std::string id_;         ///< libcamera's id; the same after a reconnection
   StreamFormat format_;
   std::size_t buffers_ = kFreeRunningBuffers;
   std::string_view pixel_format_;
   double expected_rate_ = 0;
   ControlSettings controls_;
-  std::unique_ptr<LibcameraStream> stream_;  ///< while open
+  std::unique_ptr<LibcameraStream> stream_;  ///< stream while it is open
 };
 
 }  // namespace orbwatch::hal

@@ -26,7 +26,7 @@ std::size_t length_of(const libcamera::FrameBuffer& buffer, const libcamera::Sha
   return length;
 }
 
-/// The driver made the file as large as it needs, which may be beyond the last plane.
+/// Size of the file, which the driver chose and which may extend beyond the last plane.
 std::size_t size_of(const libcamera::FrameBuffer& buffer, const libcamera::SharedFD& file) {
   const off_t size = ::lseek(file.get(), 0, SEEK_END);
   return std::max(length_of(buffer, file), size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -43,7 +43,7 @@ Result<MappedDmaBuffer> map_file(const libcamera::SharedFD& file, std::size_t le
 
 using std::chrono::nanoseconds;
 
-/// A camera's few buffers hold no older frame: the stamp is of another clock.
+/// A camera's few buffers hold no older frame; an older stamp belongs to another clock.
 constexpr std::chrono::seconds kOldest{60};
 
 }  // namespace
@@ -53,7 +53,7 @@ Result<std::unique_ptr<LibcameraFrame>> LibcameraFrame::map(const libcamera::Fra
                                                             int width, int height,
                                                             std::size_t stride) {
   auto frame = std::make_unique<LibcameraFrame>();
-  std::vector<int> files;  // of each mapped one, as libcamera numbers it
+  std::vector<int> files;  // file of each mapping, by libcamera's number
   std::vector<std::span<const std::byte>> planes;
   for (const auto& plane : buffer.planes()) {
     auto known = std::find(files.begin(), files.end(), plane.fd.get());
@@ -74,7 +74,7 @@ Result<std::unique_ptr<LibcameraFrame>> LibcameraFrame::map(const libcamera::Fra
 
 Result<std::unique_ptr<libcamera::FrameBuffer>> make_buffer_like(const libcamera::FrameBuffer& own,
                                                                  const DmaBufferSource& source) {
-  std::map<int, libcamera::SharedFD> files;  // by the own buffer's file
+  std::map<int, libcamera::SharedFD> files;  // file of each of the camera's own buffers
   std::vector<libcamera::FrameBuffer::Plane> planes;
   for (const auto& plane : own.planes()) {
     const auto [file, is_new] = files.try_emplace(plane.fd.get());

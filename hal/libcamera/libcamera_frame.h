@@ -23,7 +23,7 @@ struct MappedDmaBuffer {
   MappedMemory memory;
 };
 
-/// A frame in libcamera's buffer, which stays mapped while the frame is held, also after its stream
+/// Frame in libcamera's buffer, which stays mapped while the frame is held, also after its stream
 /// has ended. Only the device writes to it.
 struct LibcameraFrame : FrameBuffer {
   std::vector<MappedDmaBuffer> dma_buffers;
@@ -40,12 +40,12 @@ struct LibcameraFrame : FrameBuffer {
   Result<> synchronise(Result<> (DmaBuffer::*moment)() const) const;
 };
 
-/// A buffer whose planes lie as those of `own`, a buffer that the camera made, in memory of
-/// `source`. Error: it cannot be allocated.
+/// Makes a buffer in memory of `source` with the plane layout of `own`, a buffer that the camera
+/// made. Error: it cannot be allocated.
 Result<std::unique_ptr<libcamera::FrameBuffer>> make_buffer_like(const libcamera::FrameBuffer& own,
                                                                  const DmaBufferSource& source);
 
-/// Two of the kernel's clocks at one moment.
+/// Readings of two of the kernel's clocks at one moment.
 struct ClockReading {
   TimePoint steady;               ///< CLOCK_MONOTONIC
   std::chrono::nanoseconds boot;  ///< CLOCK_BOOTTIME, which includes suspend
@@ -58,11 +58,11 @@ struct ClockReading {
 /// CLOCK_MONOTONIC. The two differ only after a suspend, and then boot stamps are in the future.
 std::optional<TimePoint> to_steady(std::chrono::nanoseconds stamp, const ClockReading& arrival);
 
-/// A frame's metadata from its request; the sequence stays 0. SensorTimestamp is taken as the start
-/// of the readout: documented as the exposure of the first row, it is on a Raspberry Pi the frame
-/// start that Unicam or CFE sees, the end of that row's exposure (raspberrypi/picamera2 821), and
-/// nowhere earlier. Without it `buffer_stamp` (ns), the end of the frame, counts; where that is not
-/// plausible, `arrival`.
+/// A frame's metadata from its request; the sequence stays 0. SensorTimestamp is treated as the
+/// start of the readout: documented as the exposure of the first row, on a Raspberry Pi it is the
+/// frame start that Unicam or CFE detects, the end of that row's exposure (raspberrypi/picamera2
+/// 821), and it is not earlier on any other platform. Without it `buffer_stamp` (ns), the end of
+/// the frame, is used; if that is not plausible, `arrival`.
 FrameMetadata metadata_of(const libcamera::ControlList& request, std::uint64_t buffer_stamp,
                           const ClockReading& arrival);
 

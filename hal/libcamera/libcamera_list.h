@@ -6,7 +6,7 @@
 
 namespace orbwatch::hal {
 
-/// Every camera of libcamera, with its video modes and controls; one entry with the reason when
+/// All cameras of libcamera, with their video modes and controls; one entry with the reason when
 /// libcamera does not start. Disturbs no stream. Silences libcamera's own log. Thread-safe.
 std::vector<CameraEntry> list_libcamera_cameras();
 

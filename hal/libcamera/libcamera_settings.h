@@ -14,7 +14,7 @@
 
 namespace orbwatch::hal {
 
-/// How a sensor is read out. All zero leaves the choice to libcamera.
+/// Readout mode of a sensor. All zero leaves the choice to libcamera.
 struct SensorMode {
   int width = 0;
   int height = 0;
@@ -23,7 +23,7 @@ struct SensorMode {
   bool is_set() const { return width != 0 || height != 0 || bit_depth != 0; }
 };
 
-/// Which camera of libcamera, and how. Needs no header of libcamera.
+/// Selection and settings of a camera of libcamera. Needs no header of libcamera.
 struct LibcameraSettings {
   static constexpr std::string_view kName = "libcamera";
   static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Module,

@@ -75,7 +75,7 @@ LibcameraStream::~LibcameraStream() {
 
 bool LibcameraStream::end() {
   ended_ = true;
-  // libcamera allows the stop of a camera that it has removed itself.
+  // libcamera permits stopping a camera whose removal it detected itself.
   const bool gone = !removed_ && has_lost_its_nodes(*camera_);
   if (gone) return false;
   // Cancels queued requests.

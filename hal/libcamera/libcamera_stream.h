@@ -39,7 +39,7 @@ class CaptureEvents {
     bool woken = false;
   };
 
-  /// A request was completed; each is queued at most once.
+  /// Adds a completed request; each is queued at most once.
   void complete(std::size_t request);
   void return_buffer(std::size_t buffer);
   void remove_camera();
@@ -58,9 +58,9 @@ class CaptureEvents {
   Pending pending_;
 };
 
-/// A streaming camera: one request per buffer, queued again when the last frame of its buffer is
-/// released. Its end stops and releases the camera; held frames stay valid.
-/// Thread-bound but for wake().
+/// Streaming camera: one request per buffer, queued again when the last frame of its buffer is
+/// released. Its end stops and releases the camera; held frames stay valid. Thread-bound except
+/// wake().
 class LibcameraStream {
  public:
   /// A completed request. Its frame's picture is set, its memory readable.
@@ -86,14 +86,14 @@ class LibcameraStream {
   /// cancelled one.
   DeviceResult<std::size_t> wait(TimePoint deadline, const OnCaptured& on_captured);
 
-  /// Ends the stream, as the destructor does. False: the device vanished unnoticed by libcamera.
-  /// Then the owner must never destroy this object: see has_lost_its_nodes().
+  /// Ends the stream like the destructor. False: the device vanished unnoticed by libcamera. Then
+  /// the owner must never destroy this object: see has_lost_its_nodes().
   bool end();
 
   /// True when frames in use hold all buffers: the camera has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
-  /// For the log: how many buffers, in which memory.
+  /// Text for the log: number of buffers, and their memory.
   std::string memory_text() const { return to_text(memory_, frames_.size(), requested_); }
 
   /// Ends a wait(). Thread-safe.
@@ -105,7 +105,7 @@ class LibcameraStream {
   Result<> make_buffers(const NegotiatedConfiguration& negotiated,
                         const std::vector<DmaBufferSource>& sources);
   Result<> map_buffers(const NegotiatedConfiguration& negotiated);
-  /// Of the camera, or those that replace them.
+  /// The camera's buffers, or those that replace them.
   const std::vector<std::unique_ptr<libcamera::FrameBuffer>>& buffers() const {
     return imported_.empty() ? allocator_.buffers(stream_) : imported_;
   }
@@ -117,20 +117,20 @@ class LibcameraStream {
   DeviceResult<Captured> take(std::size_t number);
   tl::unexpected<FaultReport> failed(const std::string& action, int error) const;
 
-  // In order of dependence: requests are destroyed first, the camera last.
+  // Declared in order of dependence: requests are destroyed first, the camera last.
   AcquiredCamera camera_;
   ControlSettings& controls_;
   std::shared_ptr<CaptureEvents> events_ = std::make_shared<CaptureEvents>();
   RemovalWatch removal_;
   libcamera::FrameBufferAllocator allocator_;
   libcamera::Stream* stream_ = nullptr;
-  /// Empty: the allocator's are used.
+  /// Empty: the allocator's buffers are used.
   std::vector<std::unique_ptr<libcamera::FrameBuffer>> imported_;
   FrameMemory memory_;
-  std::size_t requested_ = 0;  ///< buffers
+  std::size_t requested_ = 0;  ///< number of buffers
   std::optional<BufferPool<LibcameraFrame>> pool_;
-  std::vector<const LibcameraFrame*> frames_;                  ///< the pool's, by buffer
-  std::vector<std::unique_ptr<libcamera::Request>> requests_;  ///< by buffer
+  std::vector<const LibcameraFrame*> frames_;                  ///< frames of the pool, by buffer
+  std::vector<std::unique_ptr<libcamera::Request>> requests_;  ///< one per buffer
   std::size_t queued_ = 0;
   bool removed_ = false;  ///< reported by libcamera
   bool ended_ = false;

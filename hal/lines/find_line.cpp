@@ -17,7 +17,7 @@ bool is_at(const ChipInfo& chip, const LineInfo& line, const LineAddress& addres
                               : line.name == address.name;
 }
 
-/// The existing chips and lines, for a line that was not found.
+/// Lists the existing chips and lines, for a line that was not found.
 std::string what_there_is(const std::vector<ChipInfo>& chips) {
   std::string names, labels, closed;
   const auto append = [](std::string& list, const std::string& item) {
@@ -78,7 +78,7 @@ std::string open_error(const FoundLine& found, const LineAddress& address, int c
       return line + chip_error(found.chip->path, code);
     case EINVAL:
     case ENOTSUP:
-    case 524:  // the kernel's own ENOTSUPP, which has no name here
+    case 524:  // the kernel's own ENOTSUPP, which has no name in user space
       return line + "its chip " + found.chip->label +
              " does not support these settings; bias needs a chip with resistors, an input one "
              "with "

@@ -28,7 +28,7 @@ void FrameTrigger::fire(TimePoint moment) {
   waiting_[counts_.waiting++] = {trigger, moment + settings_.delay, false};
 }
 
-/// In mode Software the first trigger without an exposure request.
+/// In mode Software, the moment of the first trigger without an exposure request.
 TimePoint FrameTrigger::due() const {
   if (settings_.mode != TriggerMode::Software) return TimePoint::max();
   const std::lock_guard lock(mutex_);
@@ -47,7 +47,7 @@ void FrameTrigger::run(TimePoint now) {
   }
 }
 
-/// Handles the trigger that is due; true when the camera is to be triggered.
+/// Handles the trigger that is due; returns true if the camera is to be triggered.
 bool FrameTrigger::prepare_exposure(TimePoint now, std::uint64_t& id) {
   const std::lock_guard lock(mutex_);
   if (counts_.waiting == 0) return false;  // abandoned meanwhile
@@ -80,10 +80,10 @@ bool FrameTrigger::miss(TimePoint exposure_start) {
   return trigger.has_value();
 }
 
-/// With the lock held: the trigger of an exposure, which waits no longer.
+/// Removes and returns the trigger of an exposure from the waiting ones. Call with the lock held.
 std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
   const bool software = settings_.mode == TriggerMode::Software;
-  std::size_t due = 0;  // triggers at or before the exposure
+  std::size_t due = 0;  // number of triggers at or before the exposure
   while (due < counts_.waiting && waiting_[due].moment <= exposure_start &&
          (!software || waiting_[due].exposed)) {
     ++due;
@@ -99,7 +99,7 @@ std::optional<TriggerStamp> FrameTrigger::take(TimePoint exposure_start) {
   return trigger;
 }
 
-/// Whether the first trigger after the exposure's start began it nevertheless.
+/// True if the first trigger after the exposure's start may have begun it nevertheless.
 bool FrameTrigger::may_have_begun(std::size_t next, TimePoint exposure_start) const {
   if (next == counts_.waiting) return false;
   const Clock::duration after = waiting_[next].moment - exposure_start;

@@ -12,31 +12,32 @@
 
 namespace orbwatch::hal {
 
-/// Which of a camera's frames count. Off: all. Software: an edge makes the camera expose. Line: the
-/// camera has the trigger line itself, or runs freely; the edge stamps the frame.
+/// Selection of a camera's frames by triggers. Off: all frames. Software: an edge makes the camera
+/// expose. Line: the camera is connected to the trigger line itself, or runs freely; the edge
+/// stamps the frame.
 enum class TriggerMode : std::uint8_t { Off, Software, Line };
 
-/// Which edges are triggers.
+/// Edges that are triggers.
 enum class TriggerActivation : std::uint8_t { RisingEdge, FallingEdge, AnyEdge };
 
 struct TriggerSettings {
   TriggerMode mode = TriggerMode::Line;
   TriggerActivation activation = TriggerActivation::RisingEdge;
   Clock::duration delay{0};  ///< from the edge to the exposure
-  /// Software: without a frame for so long after an exposure request, the request has failed.
+  /// Mode Software: an exposure request without a frame for this long has failed.
   Clock::duration timeout = std::chrono::seconds(1);
 };
 
-/// The trigger that a frame belongs to.
+/// Trigger that a frame belongs to.
 struct TriggerStamp {
-  std::uint64_t id = 0;  ///< counts triggers from 1
+  std::uint64_t id = 0;  ///< number of the trigger, counted from 1
   TimePoint edge;
 };
 
-/// At any moment triggers = frames + missed + waiting.
+/// Counts by fate; at any moment triggers = frames + missed + waiting.
 struct TriggerCounts {
   std::uint64_t triggers = 0;  ///< edges that are triggers
-  std::uint64_t frames = 0;    ///< with a trigger
+  std::uint64_t frames = 0;    ///< frames with a trigger
   std::uint64_t missed = 0;    ///< triggers without a frame: too fast for the camera, or its fault,
                                ///< or the frame is damaged
   std::uint64_t waiting = 0;   ///< triggers whose frame may still arrive, at most kMaxWaiting
@@ -47,39 +48,39 @@ struct TriggerCounts {
 /// A frame belongs to the newest trigger (edge plus delay) at or before its exposure's start, or to
 /// the next one if that is nearer and less than kStampError after it; earlier triggers without a
 /// frame are missed. In mode Software the camera is triggered when the trigger is due, unless the
-/// frame before is outstanding: then the trigger is missed.
-/// Bounded: of more than kMaxWaiting triggers the newest are missed, as the oldest may belong to
+/// previous frame is outstanding: then the trigger is missed.
+/// Bounded: beyond kMaxWaiting triggers the newest are missed, since the oldest may belong to
 /// frames that are on their way.
 /// Thread rule: on_edge on the line thread; due and run on a LineThread of its own in mode
-/// Software, as a camera may take its time to answer; claim, miss and abandon on the camera's, fire
+/// Software, since a camera may be slow to answer; claim, miss and abandon on the camera's, fire
 /// and counts on any.
 class FrameTrigger : public LineTask {
  public:
   static constexpr std::size_t kMaxWaiting = 32;
-  /// Of the start of an exposure that a line began: interrupts are stamped late, and the exposure
-  /// time that was subtracted is rounded. Half a period at the highest rate.
+  /// Error of the start of an exposure that a line began: interrupts are stamped late, and the
+  /// exposure time that was subtracted is rounded. Half a period at the highest rate.
   static constexpr std::chrono::microseconds kStampError{500};
   using Expose = std::function<Result<>()>;
 
   /// `expose` triggers the camera in mode Software; when it fails, the trigger is missed.
   FrameTrigger(const TriggerSettings& settings, Expose expose);
 
-  /// An edge of the line.
+  /// Adds an edge of the line.
   void on_edge(const EdgeEvent& edge);
 
-  /// A trigger without an edge (GenICam TriggerSoftware).
+  /// Adds a trigger without an edge (GenICam TriggerSoftware).
   void fire(TimePoint moment);
 
   TimePoint due() const override;
   void run(TimePoint now) override;
 
-  /// The trigger of a frame; nullopt: it has none and is to be dropped.
+  /// Returns the trigger of a frame; nullopt: it has none and is to be dropped.
   std::optional<TriggerStamp> claim(TimePoint exposure_start);
 
-  /// The trigger of a frame that is damaged is missed. False: it has none.
+  /// Counts the trigger of a damaged frame as missed. False: it has none.
   bool miss(TimePoint exposure_start);
 
-  /// The camera has a fault: waiting triggers are missed.
+  /// Counts waiting triggers as missed, because the camera has a fault.
   void abandon();
 
   TriggerCounts counts() const;

@@ -15,44 +15,44 @@
 
 namespace orbwatch::hal {
 
-/// A line's address: the board's name of it, or the label of its chip and its offset there. A
-/// chip's number is no address: it changes between boots.
+/// Address of a line: the board's name of it, or the label of its chip and its offset there. A
+/// chip's number is not an address: it changes between boots.
 struct LineAddress {
-  std::string name{};  ///< empty: by chip and offset
-  std::string chip{};  ///< label
+  std::string name{};  ///< empty: addressed by chip and offset
+  std::string chip{};  ///< label of the chip
   unsigned offset = 0;
 
-  /// "TRIGGER_IN" or "pinctrl-bcm2711 line 17"
+  /// Text such as "TRIGGER_IN" or "pinctrl-bcm2711 line 17".
   std::string text() const {
     return name.empty() ? chip + " line " + std::to_string(offset) : name;
   }
 };
 
-/// The chip's pull resistor; a chip without one refuses.
+/// Pull resistor of the chip; a chip without one refuses.
 enum class LineBias : std::uint8_t { AsIs, Disabled, PullUp, PullDown };
 
-/// A change of a line's logical level, which is the wire's unless the line is active low.
+/// Change of a line's logical level, which is the wire's unless the line is active low.
 enum class Edge : std::uint8_t { Rising, Falling };
 
-/// The edge that leads to a level.
+/// Edge that leads to a level.
 constexpr Edge edge_to(bool active) { return active ? Edge::Rising : Edge::Falling; }
 
 struct EdgeEvent {
   Edge edge = Edge::Rising;
-  TimePoint stamp;  ///< the kernel's; with debounce: of the edge to the level that was kept
-  /// Edges that a full queue dropped between the one before and this one, where the kernel numbers
-  /// edges (libgpiod 2.x); elsewhere 0.
+  TimePoint stamp;  ///< kernel's stamp; with debounce that of the edge to the level that was kept
+  /// Edges that a full queue dropped between the previous edge and this one, if the kernel numbers
+  /// edges (libgpiod 2.x); otherwise 0.
   std::uint32_t lost_before = 0;
 };
 
-/// The faults of a line in use. Append, never renumber.
+/// Faults of a line in use. Append, never renumber.
 enum class LineFault : std::uint8_t {
   None = 0,
   Gone = 1,
   ReadError = 2,
 };
 
-/// The one place of the operator's text for each fault.
+/// The operator's text for each fault, declared only here.
 constexpr std::string_view operator_text(LineFault fault) {
   switch (fault) {
     case LineFault::None:
@@ -65,7 +65,7 @@ constexpr std::string_view operator_text(LineFault fault) {
   return "unknown line fault";
 }
 
-/// The one place of the word for each fault, for the log; empty for none.
+/// The word for each fault in the log, declared only here; empty for an unknown one.
 constexpr std::string_view word(LineFault fault) {
   switch (fault) {
     case LineFault::None:
@@ -78,34 +78,33 @@ constexpr std::string_view word(LineFault fault) {
   return {};
 }
 
-/// A change of a line's state. LineFault::None: it works again.
+/// Change of a line's state. LineFault::None: it works again.
 struct LineFaultReport {
   LineFault fault = LineFault::None;
   std::string detail;  ///< line and system message; may be empty
 };
 
-/// A value of a line in use, or its fault.
+/// Value of a line in use, or its fault.
 template <class T = void>
 using LineResult = tl::expected<T, LineFaultReport>;
 
-/// The consumer's name of our lines in the kernel.
+/// Consumer name of our lines in the kernel.
 inline constexpr const char* kLineConsumer = "orbwatch";
 
 struct InputSettings {
   LineAddress address{};
   bool active_low = false;  ///< GenICam LineInverter
   LineBias bias = LineBias::AsIs;
-  Clock::duration debounce{0};  ///< GenICam LineDebouncerTime: shorter pulses are no edges
+  Clock::duration debounce{0};  ///< GenICam LineDebouncerTime: shorter pulses are not edges
 };
 
 struct OutputSettings {
   LineAddress address{};
   bool active_low = false;
-  LineBias bias = LineBias::AsIs;  ///< holds the wire when it is not driven
+  LineBias bias = LineBias::AsIs;  ///< pulls the wire to a level when it is not driven
 };
 
-/// An input. Both edges are recorded once it is open.
-/// Thread-bound, apart from level().
+/// Digital input. Both edges are recorded once it is open. Thread-bound, apart from level().
 class DigitalInput {
  public:
   DigitalInput() = default;
@@ -113,23 +112,23 @@ class DigitalInput {
   DigitalInput& operator=(const DigitalInput&) = delete;
   virtual ~DigitalInput() = default;
 
-  /// A file descriptor for epoll, readable when edges wait or the line has a fault.
+  /// File descriptor for epoll, readable when edges wait or the line has a fault.
   virtual int descriptor() const = 0;
 
-  /// Takes waiting edges, oldest first, at most `edges.size()`; returns how many. Never waits.
+  /// Takes waiting edges, oldest first, at most `edges.size()`; returns their number. Never waits.
   virtual LineResult<std::size_t> take(std::span<EdgeEvent> edges) = 0;
 
-  /// Whether the line is active now.
+  /// True if the line is active now.
   virtual LineResult<bool> level() const = 0;
 
-  /// Whether the edges are debounced already, with InputSettings::debounce.
+  /// True if the edges are debounced already, with InputSettings::debounce.
   virtual bool is_debounced() const = 0;
 };
 
-/// An output: inactive when opened, and set inactive before it is released. When the process dies,
-/// the kernel releases it, and the driver decides on the wire: most chips keep the level, some turn
-/// the line into an input, where the pull resistor decides. A safe state needs that resistor, or a
-/// WatchdogOutput with a time relay.
+/// Digital output: inactive when opened, and set inactive before it is released. When the process
+/// dies, the kernel releases it, and the driver determines the level of the wire: most chips keep
+/// the level, some turn the line into an input, and then the pull resistor decides. A safe state
+/// needs that resistor, or a WatchdogOutput with a time relay.
 class DigitalOutput {
  public:
   DigitalOutput() = default;
@@ -142,20 +141,20 @@ class DigitalOutput {
 
 struct LineInfo {
   unsigned offset = 0;
-  std::string name;  ///< the board's; may be empty
+  std::string name;  ///< board's name of the line; may be empty
   bool is_output = false;
   bool is_used = false;
-  std::string consumer;  ///< according to the kernel
+  std::string consumer;  ///< consumer that the kernel reports
 };
 
 struct ChipInfo {
   std::string path;     ///< device node: for messages, never stored
-  std::string label{};  ///< of the driver, stable
+  std::string label{};  ///< driver's label, stable
   std::vector<LineInfo> lines{};
-  std::string error{};  ///< why it could not be opened; then label and lines are empty
+  std::string error{};  ///< reason why it could not be opened; then label and lines are empty
 };
 
-/// A back-end of lines: the kernel's or simulated. Thread-safe.
+/// Back-end of lines: the kernel's or simulated. Thread-safe.
 class LineBackEnd {
  public:
   LineBackEnd() = default;
@@ -163,7 +162,7 @@ class LineBackEnd {
   LineBackEnd& operator=(const LineBackEnd&) = delete;
   virtual ~LineBackEnd() = default;
 
-  /// The chips that are connected now, including those that cannot be opened.
+  /// Chips that are connected now, including those that cannot be opened.
   virtual std::vector<ChipInfo> chips() const = 0;
 
   /// Errors: no such line (with a list of the existing ones), in use (with the consumer's name), no

@@ -9,11 +9,11 @@
 
 namespace orbwatch::hal {
 
-/// Between two probes of an open line: kernels before 6.6 do not signal the removal of a chip, and
-/// an output that is held is not heard of otherwise.
+/// Interval between probes of an open line: kernels before 6.6 do not signal the removal of a chip,
+/// and an output that keeps its level would otherwise not detect it.
 inline constexpr Clock::duration kLineCheckPeriod = std::chrono::seconds(1);
 
-/// When a line that failed is opened again, and what is told of it: a change of its fault or of the
+/// Decides when a failed line is opened again, and reports each change of its fault or of the
 /// reason. Thread-bound: the line thread.
 class LineRetry {
  public:
@@ -21,20 +21,20 @@ class LineRetry {
 
   explicit LineRetry(OnFault on_fault) : on_fault_(std::move(on_fault)) {}
 
-  /// The line cannot be opened.
+  /// Call when the line cannot be opened.
   void refused(const Error& error, TimePoint now) { failed({LineFault::Gone, error.message}, now); }
-  /// The line failed, and is closed.
+  /// Call when the line failed and was closed.
   void failed(const LineFaultReport& report, TimePoint now) {
     due_ = now + pause_.next();
     tell(report);
   }
-  /// The line is open.
+  /// Call when the line is open.
   void works() {
     pause_.reset();
     tell({});
   }
 
-  /// Of the next attempt.
+  /// Moment of the next attempt.
   TimePoint due() const { return due_; }
 
  private:

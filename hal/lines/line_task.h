@@ -12,7 +12,7 @@ class LineTask {
   LineTask& operator=(const LineTask&) = delete;
   virtual ~LineTask() = default;
 
-  /// When run() is to be called; TimePoint::max(): not before an event.
+  /// Moment at which run() is to be called; TimePoint::max(): not before an event.
   virtual TimePoint due() const = 0;
 
   /// Does the work that is due at `now`; does nothing before due().

@@ -19,7 +19,7 @@ bool poll_for_input(const FileDescriptor& poll, int file, void* who) {
   return ::epoll_ctl(poll.get(), EPOLL_CTL_ADD, file, &event) == 0;
 }
 
-/// Never zero, which would switch the timer off.
+/// A zero time would disarm the timer, so it is never set.
 itimerspec alarm_at(TimePoint moment) {
   const auto age = std::max(std::chrono::nanoseconds(1),
                             std::chrono::ceil<std::chrono::nanoseconds>(moment.time_since_epoch()));

@@ -12,28 +12,28 @@
 
 namespace orbwatch::hal {
 
-/// The thread of lines and of timed tasks: forwards edges and runs tasks when they are due. All
-/// lines share one; a task that may wait for a device has one of its own.
+/// Thread of lines and of timed tasks: forwards edges and runs tasks when they are due. All lines
+/// share one; a task that may wait for a device has one of its own.
 /// Thread rule: watch, add, start and stop on one thread; wake on any.
 class LineThread {
  public:
-  /// Inputs and tasks are the caller's and outlive the run; added before start().
+  /// Inputs and tasks belong to the caller and outlive the run; added before start().
   void watch(WatchedInput& input) { watched_.push_back({&input, 0}); }
   void add(LineTask& task) { tasks_.push_back(&task); }
 
-  /// `name`: of the thread. Error: too many open files.
+  /// `name` is the thread's. Error: too many open files.
   Result<> start(std::string_view name = "lines");
   void stop() { thread_.stop(); }
 
   bool has_work() const { return !watched_.empty() || !tasks_.empty(); }
 
-  /// A task's due() changed on another thread.
+  /// Call when a task's due() changed on another thread.
   void wake() { woken_.signal(); }
 
  private:
   struct Watched {
     WatchedInput* input = nullptr;
-    unsigned registered = 0;  ///< opened() of the file that is polled
+    unsigned registered = 0;  ///< opened() of the polled file
   };
 
   void run();

@@ -6,10 +6,10 @@
 
 namespace orbwatch::hal {
 
-/// The state of an input from the machine, for example laser on. Thread-safe.
+/// State of an input from the machine, for example laser on. Thread-safe.
 class ProcessInput {
  public:
-  /// Nullopt: not known, as its line has a fault.
+  /// Nullopt: unknown, because its line has a fault.
   explicit ProcessInput(std::optional<bool> active = {}) { set(active); }
 
   void set(std::optional<bool> active) {
@@ -22,7 +22,7 @@ class ProcessInput {
   }
 
  private:
-  /// Not an optional: not every compiler reads one without a lock.
+  /// An optional would not do: not every compiler reads one without a lock.
   enum class State : std::uint8_t { Unknown, Inactive, Active };
   std::atomic<State> state_;
 };

@@ -32,7 +32,7 @@ void PulseOutput::run(TimePoint now) {
   schedule(now);
   if (driven_ == active_) return;
   driven_ = active_;
-  // Without the lock, so that fire() does not wait for a line.
+  // Counted without the lock, so that fire() does not wait for a line.
   std::uint64_t failed = 0;
   for (const auto& output : outputs_) failed += output->set(driven_) ? 0 : 1;
   const std::lock_guard lock(mutex_);

@@ -12,20 +12,20 @@
 namespace orbwatch::hal {
 
 struct PulseSettings {
-  Clock::duration period{0};  ///< 0: pulses on request; else longer than the pulse
-  Clock::duration delay{0};   ///< from the request to the pulse
+  Clock::duration period{0};  ///< 0: pulses on request; otherwise longer than the pulse
+  Clock::duration delay{0};   ///< time from the request to the pulse
   Clock::duration width = std::chrono::milliseconds(1);
 };
 
 struct PulseCounts {
   std::uint64_t pulses = 0;
   std::uint64_t missed = 0;  ///< requests during a pulse; skipped periods
-  std::uint64_t failed = 0;  ///< refused by a line
+  std::uint64_t failed = 0;  ///< pulses that a line refused
 };
 
 /// Pulses on several lines at once: camera triggers, periodic or on request, or a strobe on the
 /// trigger's edges. A pulse is never shorter than its width; under load it may be late or longer.
-/// Periodic pulses do not drift: they stay on the grid of the first.
+/// Periodic pulses do not drift: they keep the grid of the first.
 /// Thread rule: fire and counts on any thread, the others on the line thread.
 class PulseOutput : public LineTask {
  public:
@@ -35,8 +35,8 @@ class PulseOutput : public LineTask {
   /// first run().
   PulseOutput(const PulseSettings& settings, Outputs outputs, std::function<void()> wake);
 
-  /// One pulse, `delay` after `moment`. Returns false, and counts it as missed, during a pulse or
-  /// with periodic pulses.
+  /// Requests one pulse, `delay` after `moment`. Returns false, and counts it as missed, during a
+  /// pulse or with periodic pulses.
   bool fire(TimePoint moment);
 
   TimePoint due() const override;
@@ -52,9 +52,9 @@ class PulseOutput : public LineTask {
   const std::function<void()> wake_;
   Outputs outputs_;
   mutable std::mutex mutex_;
-  bool driven_ = false;  ///< the lines' level; the line thread's
+  bool driven_ = false;  ///< level of the lines; used by the line thread only
   bool active_ = false;
-  TimePoint rise_;  ///< of the next pulse; max(): none; min(): periodic, not begun
+  TimePoint rise_;  ///< moment of the next pulse; max(): none; min(): periodic, not begun
   TimePoint fall_ = TimePoint::max();
   PulseCounts counts_;
 };

@@ -22,12 +22,12 @@ struct SimulatedLines::Wire {
   bool level = false;
   bool has_input = false;
   bool has_output = false;
-  std::optional<EventFd> readable;  ///< the input's descriptor, while it is open
+  std::optional<EventFd> readable;  ///< descriptor of the input while it is open
   std::array<EdgeEvent, kQueue> edges;
   std::size_t waiting = 0;
   LineFault fault = LineFault::None;
 
-  /// An error while it has a fault; the caller holds the mutex.
+  /// Returns an error while the wire has a fault; the caller holds the mutex.
   LineResult<> check() const {
     if (is_connected && !is_connected(name)) {
       return tl::unexpected(

@@ -9,21 +9,21 @@
 
 namespace orbwatch::hal {
 
-/// Lines of a simulated chip, labelled "simulated", that behave as the kernel's without debounce. A
-/// line may be opened once as an input and once as an output: then it is a wire between the two.
+/// Lines of a simulated chip, labelled "simulated", that behave like the kernel's without debounce.
+/// A line may be opened once as an input and once as an output: then it is a wire between the two.
 /// Thread-safe; opened lines may outlive it.
 class SimulatedLines : public LineBackEnd {
  public:
-  /// Edges that wait for each input; of more, the newest are dropped, as by the kernel.
+  /// Edges that wait for each input; beyond that the newest are dropped, as in the kernel.
   static constexpr std::size_t kQueue = 16;
 
   /// Called with each new level of a wire, on the thread that changed it, in order.
   using OnChange = std::function<void(const std::string& line, bool level)>;
 
-  /// Whether a line is there now. Thread-safe.
+  /// True while a line is connected. Thread-safe.
   using IsConnected = std::function<bool(const std::string& line)>;
 
-  /// Null: nobody hears of changes; every line is there.
+  /// Null: changes are not reported; every line is connected.
   explicit SimulatedLines(const std::vector<std::string>& names,
                           const OnChange& on_change = nullptr,
                           const IsConnected& is_connected = nullptr);
@@ -33,13 +33,13 @@ class SimulatedLines : public LineBackEnd {
   Result<std::unique_ptr<DigitalInput>> open_input(const InputSettings& settings) override;
   Result<std::unique_ptr<DigitalOutput>> open_output(const OutputSettings& settings) override;
 
-  /// Drives a wire from outside; an edge if the level differs. The line must exist.
+  /// Drives a wire from outside; makes an edge if the level differs. The line must exist.
   void drive(const std::string& line, bool level, TimePoint stamp = Clock::now());
 
-  /// The wire's level.
+  /// Level of the wire.
   bool level(const std::string& line) const;
 
-  /// A fault from now on, until a call with None; edges are lost meanwhile.
+  /// Sets a fault from now on, until a call with None; edges are lost meanwhile.
   void fail_with(const std::string& line, LineFault fault);
 
  private:

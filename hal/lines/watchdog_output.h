@@ -12,15 +12,16 @@
 namespace orbwatch::hal {
 
 struct WatchdogSettings {
-  Clock::duration timeout = std::chrono::seconds(1);  ///< without a report the line goes inactive
-  Clock::duration half_period{0};                     ///< of the toggling; 0: held active
+  Clock::duration timeout =
+      std::chrono::seconds(1);     ///< longest time without a report before the line goes inactive
+  Clock::duration half_period{0};  ///< half period of the toggling; 0: held active
 };
 
-/// A line that is active or toggles only while healthy reports arrive: process OK (the pipeline
+/// Line that is active or toggles only while healthy reports arrive: process OK (the pipeline
 /// works), or an alarm line on the closed-circuit principle (no alarm). It goes inactive on an
-/// unhealthy report, without a report in time, when the program ends, and, where the board pulls
-/// the wire down, when it crashes. Only toggling also reveals a stuck line. Thread rule: report on
-/// any thread, the others on the line thread.
+/// unhealthy report, without a report in time, when the program ends, and, if the board pulls the
+/// wire down, when it crashes. Only toggling also reveals a stuck line. Thread rule: report on any
+/// thread, the others on the line thread.
 class WatchdogOutput : public LineTask {
  public:
   /// `wake` is called when report() has changed due().
@@ -32,7 +33,7 @@ class WatchdogOutput : public LineTask {
   TimePoint due() const override;
   void run(TimePoint now) override;
 
-  /// Refused by the line.
+  /// Number of levels that the line refused.
   std::uint64_t failed() const { return failed_; }
 
  private:
@@ -43,10 +44,10 @@ class WatchdogOutput : public LineTask {
   const std::unique_ptr<DigitalOutput> output_;
   mutable std::mutex mutex_;
   bool healthy_ = false;
-  TimePoint last_;         ///< healthy report
-  bool is_up_ = false;     ///< held or toggling
-  TimePoint next_toggle_;  ///< while it is up
-  bool active_ = false;    ///< the line's level; the line thread's
+  TimePoint last_;         ///< moment of the last healthy report
+  bool is_up_ = false;     ///< the line is held active or toggles
+  TimePoint next_toggle_;  ///< valid while is_up_
+  bool active_ = false;    ///< level of the line; used by the line thread only
   std::atomic<std::uint64_t> failed_{0};
 };
 

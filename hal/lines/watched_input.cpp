@@ -10,7 +10,7 @@ namespace {
 /// Batches per read(), so that one line does not starve the others.
 constexpr int kBatches = 4;
 
-/// Edges that the kernel keeps of a line: a full batch may mean that more are lost.
+/// Edges of a line that the kernel keeps: a full batch may mean that more are lost.
 constexpr std::size_t kKernelQueue = 16;
 
 }  // namespace
@@ -24,7 +24,8 @@ std::optional<EdgeEvent> EdgeFilter::take(const EdgeEvent& edge) {
   const EdgeEvent before = std::exchange(last_, edge);
   if (edge.lost_before > 0) doubt();
   if (period_.count() <= 0) {
-    if (edge.lost_before % 2 == 0) level_ = !level_;  // else the lost ones led to the other level
+    if (edge.lost_before % 2 == 0)
+      level_ = !level_;  // an odd number of lost edges led to the other level
     return last_ = {edge_to(level_), edge.stamp};
   }
   return kept ? change_to(before.edge == Edge::Rising, before.stamp) : std::nullopt;
@@ -43,7 +44,7 @@ std::optional<EdgeEvent> EdgeFilter::settle(bool level, TimePoint now) {
 }
 
 void EdgeFilter::doubt() {
-  if (in_doubt_ || period_.count() > 0) return;  // with a period each burst ends with a reading
+  if (in_doubt_ || period_.count() > 0) return;  // each burst with a period ends with a reading
   in_doubt_ = true;
   readings_ = 0;
 }
@@ -90,7 +91,7 @@ Result<> WatchedInput::open_line() {
 void WatchedInput::read(TimePoint now) {
   std::array<EdgeEvent, kKernelQueue> edges;
   for (int batch = 0; input_ && batch < kBatches; ++batch) {
-    // Level before edges: an edge between the two must not count as lost.
+    // The level is read before the edges: an edge between the two must not count as lost.
     const LineResult<bool> level = filter_.in_doubt() ? input_->level() : false;
     if (!level) return fail_with(level.error(), now);
     const auto count = input_->take(edges);
@@ -135,7 +136,7 @@ void WatchedInput::open(TimePoint now) {
   if (const auto opened = open_line(); !opened) return retry_.refused(opened.error(), now);
   retry_.works();
   const bool level = *state_->active();
-  // Changes meanwhile count as one edge, stamped now.
+  // Changes in the meantime count as one edge, stamped now.
   if (level_ && *level_ != level) forward(EdgeEvent{edge_to(level), now});
   level_ = level;
 }

@@ -33,7 +33,7 @@ void WatchedOutput::open(TimePoint now) {
   if (!opened) return retry_.refused(opened.error(), now);
   output_ = std::move(*opened);
   retry_.works();
-  check_ = now;  // run() gives it its level
+  check_ = now;  // run() sets its level
 }
 
 }  // namespace orbwatch::hal

@@ -8,16 +8,15 @@
 
 namespace orbwatch::hal {
 
-/// An output line that may be missing. One that is not there, or fails later, is a fault, is opened
-/// again after a BackOff, and then has the level that it was set to last. Thread-bound: the line
-/// thread.
+/// Output line that may be missing. A line that is missing, or fails later, is a fault, is opened
+/// again after a BackOff, and then gets the level that was set last. Thread-bound: the line thread.
 class WatchedOutput : public DigitalOutput, public LineTask {
  public:
-  /// Opens the line of `back_end`, which must outlive it; `on_fault` is told when that fails.
+  /// Opens the line of `back_end`, which must outlive it; `on_fault` is called when that fails.
   WatchedOutput(LineBackEnd& back_end, OutputSettings settings, LineRetry::OnFault on_fault,
                 TimePoint now);
 
-  /// Error: the line has a fault; it gets the level once it is there.
+  /// Error: the line has a fault; it gets the level once it is open again.
   LineResult<> set(bool active) override;
 
   TimePoint due() const override { return output_ ? check_ : retry_.due(); }
@@ -30,8 +29,8 @@ class WatchedOutput : public DigitalOutput, public LineTask {
   const OutputSettings settings_;
   LineRetry retry_;
   std::unique_ptr<DigitalOutput> output_;
-  bool active_ = false;                 ///< what it was set to last
-  TimePoint check_ = TimePoint::min();  ///< when the open line is set again, as a probe
+  bool active_ = false;                 ///< level that was set last
+  TimePoint check_ = TimePoint::min();  ///< moment at which the open line is set again, as a probe
 };
 
 }  // namespace orbwatch::hal

@@ -10,30 +10,30 @@
 
 namespace orbwatch::hal {
 
-/// Of the descriptor below. A change of CameraModule makes it the next number; changes of the
-/// classes that cross the boundary are found by the build id.
+/// Version of the descriptor below. A change of CameraModule increments it; changes of the classes
+/// that cross the boundary are detected by the build id.
 inline constexpr int kCameraModuleInterface = 1;
 
-/// What a module says of itself. The first two members never move: they are read before it is known
-/// whether the rest is understood. All texts and functions live as long as the program.
+/// Description that a module exports. The first two members never move: they are read before it is
+/// known whether the rest is understood. All texts and functions live as long as the program.
 struct CameraModule {
   int interface_version = kCameraModuleInterface;
-  /// Identifies the headers that the module was compiled with, as ORBWATCH_MODULE_BUILD_ID.
+  /// Identifies the headers that the module was compiled with: ORBWATCH_MODULE_BUILD_ID.
   const char* build_id = nullptr;
-  /// The back-end's word in a configuration.
+  /// Word of the back-end in a configuration.
   std::string_view back_end;
   /// `settings` is the back-end's own settings struct. Thread-safe.
   std::unique_ptr<Camera> (*make_camera)(const void* settings,
                                          const CameraContext& context) = nullptr;
-  /// The connected cameras; one entry with the reason when they cannot be listed. Disturbs no
-  /// stream. Thread-safe.
+  /// Connected cameras; one entry with the reason when they cannot be listed. Disturbs no stream.
+  /// Thread-safe.
   std::vector<CameraEntry> (*list_cameras)() = nullptr;
-  /// Of the library in use. Thread-safe.
+  /// Version of the library in use. Thread-safe.
   std::string (*library_version)() = nullptr;
 };
 
-/// The name of the function with C linkage that each module exports:
-/// `const CameraModule* orbwatch_camera_module()`.
+/// Name of the function with C linkage that each module exports: `const CameraModule*
+/// orbwatch_camera_module()`.
 inline constexpr const char* kCameraModuleEntry = "orbwatch_camera_module";
 using CameraModuleEntry = const CameraModule* (*)();
 

@@ -9,19 +9,20 @@
 
 namespace orbwatch::hal {
 
-/// Where modules are: the configured folder, or the one that ORBWATCH_MODULES names, which a
+/// Folder of the modules: the configured one, or the one that ORBWATCH_MODULES names, which a
 /// program with raised privileges ignores. Thread-safe while nothing changes the environment.
 std::filesystem::path module_folder();
 
-/// The file of a back-end's module, whether it is there or not.
+/// File of a back-end's module, even if it does not exist.
 std::filesystem::path module_file(std::string_view back_end);
 
-/// Loads a module from a file and checks that it fits this program and is the back-end's. The error
-/// names file, reason and remedy. It stays loaded; loading it again costs little. Thread-safe.
+/// Loads a module from a file and checks that it fits this program and belongs to the back-end. The
+/// error names file, reason and remedy. It stays loaded; loading it again costs little.
+/// Thread-safe.
 Result<const CameraModule*> load_module(const std::filesystem::path& file,
                                         std::string_view back_end);
 
-/// The module of a back-end. Error: it is not installed, and which package to install; or as
+/// Module of a back-end. Error: it is not installed, with the package to install; or as
 /// load_module(). Thread-safe.
 Result<const CameraModule*> module_of(std::string_view back_end);
 

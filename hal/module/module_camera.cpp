@@ -11,7 +11,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Stands for a camera whose module cannot be used.
+/// Replaces a camera whose module cannot be used.
 class AbsentCamera : public Camera {
  public:
   AbsentCamera(CameraInfo info, std::string reason)

@@ -8,8 +8,8 @@
 
 namespace orbwatch::hal {
 
-/// The back-ends that are modules: one line each. The module of NAME is the file camera-NAME.so in
-/// the package orbwatch-camera-NAME.
+/// Back-ends that are modules, one per line. The module of NAME is the file camera-NAME.so in the
+/// package orbwatch-camera-NAME.
 inline constexpr std::array kModuleBackEnds{LibcameraSettings::kName, GenicamSettings::kName};
 
 }  // namespace orbwatch::hal

@@ -25,7 +25,7 @@ int conversion(Mosaic mosaic) {
 }
 
 cv::Mat pixels(const ImageView<const std::uint8_t>& view, int type) {
-  // OpenCV has no view of what it must not change.
+  // OpenCV has no read-only view.
   return {view.height, view.width, type, const_cast<std::uint8_t*>(view.data),
           static_cast<std::size_t>(view.stride)};
 }

@@ -9,7 +9,7 @@
 namespace orbwatch::hal {
 
 /// Demosaics bilinearly: `samples` and `bgr` have the same size, 8 bit per sample; `bgr` is B G R.
-/// Pixels on the picture's edge repeat their neighbours. Without allocation where the process keeps
+/// Pixels on the picture's edge repeat their neighbours. Does not allocate if the process keeps
 /// OpenCV on the calling thread, as orbwatchd does.
 /// Errors: no mosaic, smaller than 4x4, other sizes. Reentrant.
 Result<> demosaic(Mosaic mosaic, const ImageView<const std::uint8_t>& samples,

@@ -4,7 +4,7 @@
 
 namespace orbwatch::hal {
 
-/// A Bayer pattern: the colours of the first two pixels of the first two rows.
+/// Bayer pattern: the colours of the first two pixels of the first two rows.
 enum class Mosaic : std::uint8_t { None, Rggb, Grbg, Gbrg, Bggr };
 
 }  // namespace orbwatch::hal

@@ -74,7 +74,7 @@ std::optional<Segment> take_segment(Bytes& rest) {
 int exif_orientation(std::span<const std::byte> jpeg) {
   constexpr unsigned kApp1 = 0xe1;
   constexpr std::string_view kExif("Exif\0", 5);
-  constexpr std::size_t kExifBytes = 6;  // with a byte of padding, which may have any value
+  constexpr std::size_t kExifBytes = 6;  // includes a byte of padding, which may have any value
   if (!begins_with(jpeg, "\xff\xd8")) return kUpright;
   Bytes rest = jpeg.subspan(2);
   while (const auto segment = take_segment(rest)) {

@@ -22,10 +22,10 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
 struct CheckedFile {
-  std::uint32_t width = 0;  ///< as the picture lies in the file
+  std::uint32_t width = 0;  ///< width in the file, before the orientation is applied
   std::uint32_t height = 0;
   bool is_flawed = false;
-  std::size_t jpeg_bytes = 0;  ///< of a flawed JPEG picture, without what follows it
+  std::size_t jpeg_bytes = 0;  ///< size of a flawed JPEG picture, without the data that follows it
 
   std::uint32_t side() const { return std::max(width, height); }
 };
@@ -83,7 +83,7 @@ Result<DecodedPicture> to_picture(const cv::Mat& image) {
   return decoded;
 }
 
-/// The picture as its EXIF orientation says that it is to be seen.
+/// Turns the picture upright by its EXIF orientation.
 cv::Mat upright(const cv::Mat& image, int orientation) {
   constexpr int kFirstTransposed = 5;
   cv::Mat turned = image;
@@ -118,7 +118,7 @@ cv::Mat decode_upright(std::span<const std::byte> file) {
                  exif_orientation(file));
 }
 
-/// The picture's own data and an end marker: OpenCV cannot do without.
+/// The picture's own data and an end marker, which OpenCV needs.
 std::vector<std::byte> with_end_marker(std::span<const std::byte> jpeg) {
   std::vector<std::byte> ended(jpeg.begin(), jpeg.end());
   ended.insert(ended.end(), {std::byte{0xff}, std::byte{0xd9}});

@@ -20,7 +20,7 @@ struct DecodedPicture {
   bool is_turned = false;  ///< EXIF orientation exchanged width and height
 };
 
-/// An addition to a message on a picture's size: "; its EXIF orientation turns its 640x480"; empty
+/// Addition to a message on a picture's size: "; its EXIF orientation turns its 640x480"; empty
 /// unless EXIF exchanged width and height.
 std::string exif_note(const DecodedPicture& decoded);
 

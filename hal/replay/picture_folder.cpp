@@ -48,7 +48,7 @@ bool natural_order(std::string_view a, std::string_view b) {
     }
   }
   if (a.empty() != b.empty()) return a.empty();
-  return whole.first < whole.second;  // "f1" and "f01"
+  return whole.first < whole.second;  // distinguishes "f1" and "f01"
 }
 
 Result<std::vector<std::filesystem::path>> pictures_in(const std::filesystem::path& folder) {

@@ -20,12 +20,12 @@ inline constexpr std::size_t kKeptFolderBytes = std::size_t{64} << 20;
 /// Natural order: digits count as numbers, so "f2" is before "f10".
 bool natural_order(std::string_view a, std::string_view b);
 
-/// The JPEG and PNG files of a folder in natural order of their names, hidden ones ignored; a file
-/// is a folder of one. Reentrant. Error: it cannot be read, or there are none.
+/// The JPEG and PNG files of a folder in natural order of their names, without hidden ones; a
+/// single file counts as a folder of one. Reentrant. Error: it cannot be read, or there are none.
 Result<std::vector<std::filesystem::path>> pictures_in(const std::filesystem::path& folder);
 
-/// The JPEG and PNG pictures of one folder in natural order of their names; other and hidden files
-/// are ignored. Or a single picture, which is a folder of one.
+/// Plays the JPEG and PNG pictures of one folder in natural order of their names, without other and
+/// hidden files; a single picture counts as a folder of one.
 class PictureFolder : public Recording {
  public:
   /// The format is that of the first picture. Errors: no pictures, the first cannot be decoded.

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kSignature{std::byte{0x89}, std::byte{'P'},  std::byte{'N'},  std::byte{'G'},
                                 std::byte{'\r'}, std::byte{'\n'}, std::byte{0x1a}, std::byte{'\n'}};
 
-/// As in ISO/IEC 15948, annex D.
+/// CRC of ISO/IEC 15948, annex D.
 std::uint32_t crc(std::span<const std::byte> data) {
   const auto* const bytes = reinterpret_cast<const Bytef*>(data.data());
   return static_cast<std::uint32_t>(::crc32(0, bytes, static_cast<uInt>(data.size())));

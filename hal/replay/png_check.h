@@ -8,13 +8,13 @@
 
 namespace orbwatch::hal {
 
-/// From the header of a PNG picture.
+/// Size from the header of a PNG picture.
 struct PngSize {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
 };
 
-/// True when `file` starts as a PNG picture does.
+/// True when `file` starts with the signature of PNG.
 bool is_png(std::span<const std::byte> file);
 
 /// Checks the CRC of each chunk of a PNG picture up to its end (ISO/IEC 15948, 5.3), as the decoder

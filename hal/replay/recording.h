@@ -21,12 +21,12 @@ class Recording {
   /// Size and format of every picture, and the recorded rate; 0: unknown.
   virtual const StreamFormat& format() const = 0;
 
-  /// An addition to a message on its size: see exif_note().
+  /// Addition to a message on its size: see exif_note().
   virtual std::string size_note() const { return {}; }
 
   /// Copies the pixels of picture `number` into `target`, which has the recording's size and
-  /// format, and sets its status where the picture is flawed. A looped recording shows number
-  /// modulo count. Faults: CorruptFrame or WrongFormat, for this picture only; Unplugged at the
+  /// format, and sets its status if the picture is flawed. A looped recording shows number modulo
+  /// count. Faults: CorruptFrame or WrongFormat, for this picture only; Unplugged at the
   /// recording's end; any fault once `stop` is requested.
   virtual DeviceResult<> show(std::uint64_t number, FrameBuffer& target,
                               const std::stop_token& stop) = 0;

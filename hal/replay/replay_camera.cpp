@@ -19,7 +19,7 @@ Clock::duration offset(std::uint64_t exposure, double frame_rate) {
       std::chrono::duration<double>(static_cast<double>(exposure) / frame_rate));
 }
 
-/// The newest exposure that is due `elapsed` after the start.
+/// Newest exposure that is due `elapsed` after the start.
 std::uint64_t exposure_at(Clock::duration elapsed, double frame_rate) {
   return static_cast<std::uint64_t>(std::chrono::duration<double>(elapsed).count() * frame_rate);
 }
@@ -89,7 +89,7 @@ void ReplayCamera::run(const std::stop_token& stop) {
   }
 }
 
-/// One exposure; false when the recording is over.
+/// Makes one exposure; false when the recording is over.
 bool ReplayCamera::expose(std::uint64_t exposure, TimePoint due, const std::stop_token& stop) {
   const FrameMetadata metadata{.sequence = exposure, .exposure_start = due};
   if (fails(script_, metadata)) return true;

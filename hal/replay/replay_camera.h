@@ -14,11 +14,10 @@
 
 namespace orbwatch::hal {
 
-/// A camera that plays a recording. Exposure n is due at start + n / rate and shows picture n
-/// modulo count, so cameras that start together stay synchronous. When late by a period or more, it
-/// skips exposures, a gap in the sequence, as when all buffers are lent. A picture that is damaged
-/// is withheld and counted, one that differs from the first in size or format withheld and
-/// reported.
+/// Camera that plays a recording. Exposure n is due at start + n / rate and shows picture n modulo
+/// count, so cameras that start together stay synchronous. When late by a period or more, it skips
+/// exposures, a gap in the sequence, as when all buffers are lent. A damaged picture is withheld
+/// and counted; one that differs from the first in size or format is withheld and reported.
 class ReplayCamera : public Camera {
  public:
   explicit ReplayCamera(ReplaySettings settings);

@@ -14,7 +14,7 @@
 
 namespace orbwatch::hal {
 
-/// What a replay camera plays, and how.
+/// Recording that a replay camera plays, and its settings.
 struct ReplaySettings {
   static constexpr std::string_view kName = "replay";
   static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Files, .address_key = "source"};
@@ -36,7 +36,7 @@ struct ReplaySettings {
   static std::optional<PixelFormat> stated_format() { return std::nullopt; }
 };
 
-/// All but what the context of a camera states.
+/// Visits all settings except those from the camera's context.
 template <class Visitor>
 void visit(Visitor& v, ReplaySettings& settings) {
   v.required("source", settings.source,

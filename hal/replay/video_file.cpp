@@ -10,7 +10,7 @@ namespace orbwatch::hal {
 
 struct VideoFile::Decoder {
   cv::VideoCapture capture;
-  cv::Mat picture;  ///< the one decoded last, B G R; made once and reused
+  cv::Mat picture;  ///< picture that was decoded last, B G R; made once and reused
 };
 
 VideoFile::VideoFile(std::filesystem::path file, bool loop)

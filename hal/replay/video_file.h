@@ -26,7 +26,7 @@ class VideoFile : public Recording {
 
   VideoFile(std::filesystem::path file, bool loop);
 
-  /// Back to the start; false when the file can no longer be opened.
+  /// Returns to the start; false when the file can no longer be opened.
   bool rewind();
   /// Decodes forward up to picture `number`; false when the recording ends before it.
   bool skip_to(std::uint64_t number, const std::stop_token& stop);
@@ -38,8 +38,9 @@ class VideoFile : public Recording {
   bool loop_;
   StreamFormat format_;
   std::unique_ptr<Decoder> decoder_;
-  std::uint64_t position_ = 0;          ///< of the next picture to decode
-  std::optional<std::uint64_t> count_;  ///< known after the end was reached; headers estimate it
+  std::uint64_t position_ = 0;  ///< number of the next picture to decode
+  std::optional<std::uint64_t>
+      count_;  ///< known once the end was reached; headers only estimate it
 };
 
 }  // namespace orbwatch::hal

@@ -7,7 +7,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Of a free-running camera, before it counts as late.
+/// Intervals without a frame after which a free-running camera is late.
 constexpr int kLateIntervals = 3;
 constexpr Clock::duration kLeastPatience = std::chrono::milliseconds(100);
 
@@ -95,7 +95,7 @@ std::size_t FrameMatcher::depth(const Frame& frame) const {
   return cameras_ == 1 ? 1 : kFreeRunningDepth;
 }
 
-/// The first camera that delivers; a late one only when all are.
+/// The first camera that delivers; a late one only if all are late.
 std::size_t FrameMatcher::pacing(TimePoint now) const {
   std::size_t first = cameras_;
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
@@ -117,7 +117,8 @@ std::optional<FrameSet> FrameMatcher::take(TimePoint now, ReleasedFrames& releas
   return assemble(pacer, now, released);
 }
 
-/// A trigger makes one set at most: a new pacing camera does not repeat those of the last one.
+/// A trigger makes one set at most: a new pacing camera does not repeat the sets of the previous
+/// one.
 void FrameMatcher::discard_late(Inbox& pacer, ReleasedFrames& released) {
   while (pacer.size > 0 && last_trigger_ && pacer.queue[0].frame->metadata.trigger &&
          *pacer.queue[0].frame->metadata.trigger <= *last_trigger_) {
@@ -158,7 +159,7 @@ bool FrameMatcher::is_ready(std::size_t pacer, std::size_t index, TimePoint now)
   return true;
 }
 
-/// True when no better partner for `paced` can arrive from this camera any more.
+/// True when this camera can no longer deliver a better partner for `paced`.
 bool FrameMatcher::is_settled(const Inbox& partner, const FrameMetadata& paced) const {
   if (!partner.delivers) return true;
   if (!partner.last) return false;
@@ -193,7 +194,7 @@ std::optional<std::size_t> FrameMatcher::nearest(const Inbox& partner,
   return best;
 }
 
-/// Puts one camera's frame into the set; true when it is of the set's moment.
+/// Puts one camera's frame into the set; true when it belongs to the set's moment.
 bool FrameMatcher::join(std::size_t partner, const FrameMetadata& paced, TimePoint now,
                         FrameSet& set, ReleasedFrames& released) {
   Inbox& inbox = inboxes_[partner];

@@ -11,33 +11,35 @@
 
 namespace orbwatch::hal {
 
-/// What a set contains of a camera that has no frame of the set's moment.
+/// Content of a set for a camera that has no frame of the set's moment.
 enum class SyncPolicy : std::uint8_t {
-  Hold,     ///< its newest older frame, from set to set, until it is late
-  Nearest,  ///< nothing; each frame is in one set at most
+  Hold,     ///< the camera's newest older frame, from set to set, until it is late
+  Nearest,  ///< no frame; each frame is in one set at most
 };
 
-/// How frames are joined.
+/// Settings for joining frames.
 struct SyncSettings {
   /// Largest difference of exposure starts within one moment. Below half a period of the fastest
   /// camera no frame has two partners to choose from.
   Clock::duration window = std::chrono::milliseconds(10);
   /// Longest time that a frame of the pacing camera waits for its partners after it arrived.
   Clock::duration max_wait = std::chrono::milliseconds(10);
-  std::array<SyncPolicy, kMaxCameras> policies{};  ///< by camera
+  std::array<SyncPolicy, kMaxCameras> policies{};  ///< policy of each camera
 };
 
-/// One camera's frames by their fate. A frame in none of the sums still waits.
+/// Counts one camera's frames by their fate. A frame in none of the sums still waits.
 struct FrameCounts {
-  std::uint64_t frames = 0;      ///< delivered
-  std::uint64_t lost = 0;        ///< never delivered: gaps in the camera's sequence
-  std::uint64_t used = 0;        ///< in a set; once, also when held
-  std::uint64_t superseded = 0;  ///< of the pacing camera: a newer one was ready before it was used
-  std::uint64_t overflowed = 0;  ///< triggered: the queue was full of newer ones
-  std::uint64_t unmatched = 0;   ///< no set of its moment: the pacing camera had no frame then
-  std::uint64_t cleared = 0;     ///< waiting when its camera had a fault
+  std::uint64_t frames = 0;  ///< delivered frames
+  std::uint64_t lost = 0;    ///< frames that were never delivered: gaps in the camera's sequence
+  std::uint64_t used = 0;    ///< frames in a set; counted once, also when held
+  std::uint64_t superseded =
+      0;  ///< frames of the pacing camera that a newer ready one replaced before use
+  std::uint64_t overflowed = 0;  ///< triggered frames lost because the queue was full of newer ones
+  std::uint64_t unmatched =
+      0;  ///< frames without a set of their moment: the pacing camera had no frame then
+  std::uint64_t cleared = 0;  ///< frames that waited when their camera had a fault
 
-  /// Frames that never reached the pipeline although they should have.
+  /// Frames that should have reached the pipeline but did not.
   std::uint64_t dropped() const { return superseded + overflowed + cleared; }
 };
 
@@ -61,35 +63,36 @@ class ReleasedFrames {
 
 /// Decides which frames form a set; uses neither clock nor threads. Thread-bound.
 ///
-/// The first camera without a fault that is not late sets the pace: each set is a frame of it and,
-/// of every other camera, the unused frame of the same moment. That is the one with the same
-/// trigger number when both have one, else the nearest whose exposure began within the window. A
-/// frame of the pacing camera waits until no nearer partner can come, judged by the partner's own
-/// interval, or until for SyncSettings::max_wait. A free-running camera is late after three of its
-/// intervals without a frame, and 100 ms at least: a silent one must not stop the sets of the
-/// others until it is known to have a fault, nor be shown as new. Queues: of a free-running camera
-/// the last kFreeRunningDepth frames (1 when it is alone); of the pacing camera
-/// the newest ready frame wins; of a triggered camera a FIFO of kTriggeredDepth, each of which
-/// becomes a set. Frames that leave unused are counted by reason.
+/// The first camera without a fault that is not late sets the pace: each set consists of one of its
+/// frames and, from every other camera, the unused frame of the same moment. That is the one with
+/// the same trigger number when both have one, else the nearest whose exposure began within the
+/// window. A frame of the pacing camera waits until no nearer partner can come, judged by the
+/// partner's own interval, or for at most SyncSettings::max_wait. A free-running camera is late
+/// after three of its intervals without a frame, and 100 ms at least: a silent one must neither
+/// stop the sets of the others until it is known to have a fault, nor be shown as new. Queues: for
+/// a free-running camera the last kFreeRunningDepth frames (1 when it is alone); for the pacing
+/// camera the newest ready frame wins; for a triggered camera a FIFO of kTriggeredDepth, each of
+/// which becomes a set. Frames that leave unused are counted by reason.
 class FrameMatcher {
  public:
   /// `cameras`: 1..kMaxCameras. Window and max_wait must not be below 0.
   FrameMatcher(std::size_t cameras, const SyncSettings& settings);
 
-  /// A frame of `camera`, which arrived at `now`.
+  /// Adds a frame of `camera` that arrived at `now`.
   void put(std::size_t camera, Frame frame, TimePoint now, ReleasedFrames& released);
 
-  /// The camera has a fault: discards its frames. Until it delivers again, it does not pace and no
-  /// set waits for it.
+  /// Discards the frames of a camera that has a fault. Until it delivers again, it does not pace
+  /// and no set waits for it.
   void clear(std::size_t camera, ReleasedFrames& released);
 
-  /// The set that is ready at `now`, or nullopt.
+  /// Takes the set that is ready at `now`, or nullopt.
   std::optional<FrameSet> take(TimePoint now, ReleasedFrames& released);
 
-  /// Whether the camera, which has no fault, is late at `now`.
+  /// True if the camera, which has no fault, is late at `now`.
   bool is_late(std::size_t camera, TimePoint now) const { return now > due(inboxes_[camera]); }
 
-  /// When take() may return a set without another put(), seen at `now`; TimePoint::max(): never.
+  /// Earliest moment, seen at `now`, at which take() may return a set without another put();
+  /// TimePoint::max(): never.
   TimePoint wake(TimePoint now) const;
 
   const FrameCounts& counts(std::size_t camera) const { return inboxes_[camera].counts; }
@@ -104,11 +107,11 @@ class FrameMatcher {
   struct Inbox {
     std::array<Waiting, kTriggeredDepth> queue;  ///< in the order of arrival
     std::size_t size = 0;
-    Frame held;                         ///< last used
-    bool delivers = true;               ///< no fault since its last frame
-    std::optional<FrameMetadata> last;  ///< of the newest frame
-    TimePoint arrived;                  ///< of the newest frame
-    Clock::duration interval{0};        ///< between exposures; 0: unknown
+    Frame held;                         ///< frame that was used last
+    bool delivers = true;               ///< it had no fault since its last frame
+    std::optional<FrameMetadata> last;  ///< metadata of the newest frame
+    TimePoint arrived;                  ///< arrival of the newest frame
+    Clock::duration interval{0};        ///< time between exposures; 0: unknown
     FrameCounts counts;
 
     Frame pop(std::size_t index);
@@ -133,7 +136,7 @@ class FrameMatcher {
   const SyncSettings settings_;
   std::array<Inbox, kMaxCameras> inboxes_;
   std::uint64_t sets_ = 0;
-  std::optional<std::uint64_t> last_trigger_;  ///< of the newest triggered set
+  std::optional<std::uint64_t> last_trigger_;  ///< trigger of the newest triggered set
 };
 
 }  // namespace orbwatch::hal

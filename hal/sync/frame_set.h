@@ -16,17 +16,17 @@ inline constexpr std::size_t kMaxCameras = 4;
 struct FrameSet {
   std::uint64_t id = 0;                  ///< counts sets from 1
   TimePoint stamp;                       ///< exposure start of the pacing camera's frame
-  std::optional<std::uint64_t> trigger;  ///< of that frame, see FrameMetadata
-  /// By camera; null while the camera has a fault, has delivered nothing yet, or has no frame of
-  /// this moment under SyncPolicy::Nearest.
+  std::optional<std::uint64_t> trigger;  ///< trigger of that frame, see FrameMetadata
+  /// Frame of each camera; null while the camera has a fault, has delivered nothing yet, or has no
+  /// frame of this moment under SyncPolicy::Nearest.
   std::array<Frame, kMaxCameras> frames;
-  std::array<bool, kMaxCameras> held{};  ///< by camera: the frame was in an earlier set, too
-  bool matched = true;  ///< every camera without a fault has a frame of this moment in it
+  std::array<bool, kMaxCameras> held{};  ///< for each camera: the frame was in an earlier set, too
+  bool matched = true;  ///< every camera without a fault has a frame of this moment in the set
   Clock::duration skew{
-      0};  ///< between the first and the last exposure start of this moment's frames
+      0};  ///< time between the first and the last exposure start of this moment's frames
 
-  /// How long before `stamp` the exposure of a camera's frame began; below 0 when it was later. The
-  /// camera must have a frame in the set.
+  /// Time from the start of the exposure of a camera's frame to `stamp`; below 0 when it began
+  /// later. The camera must have a frame in the set.
   Clock::duration age(std::size_t camera) const {
     return stamp - frames[camera]->metadata.exposure_start;
   }

@@ -8,20 +8,19 @@
 
 namespace orbwatch::hal {
 
-/// Hands frames from the cameras' threads to the pipeline's: a FrameMatcher on the steady clock.
-/// Cameras never wait here. Thread rule: put and clear on any thread, next on one, the rest on
-/// any.
+/// Passes frames from the cameras' threads to the pipeline's: a FrameMatcher on the steady clock.
+/// Cameras never wait here. Thread rule: put and clear on any thread, next on one, the rest on any.
 class FrameSync {
  public:
   FrameSync(std::size_t cameras, const SyncSettings& settings) : matcher_(cameras, settings) {}
 
-  /// A frame of `camera`, on the camera's thread.
+  /// Adds a frame of `camera`, on the camera's thread.
   void put(std::size_t camera, Frame frame);
 
-  /// The camera has a fault: see FrameMatcher::clear().
+  /// Discards the frames of a camera that has a fault: see FrameMatcher::clear().
   void clear(std::size_t camera);
 
-  /// The next set; nullopt at `until`, or at once after close().
+  /// Waits for the next set; nullopt at `until`, or at once after close().
   std::optional<FrameSet> next(TimePoint until);
 
   /// Ends next() for good.

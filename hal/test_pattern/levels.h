@@ -2,7 +2,7 @@
 
 namespace orbwatch::hal {
 
-/// What is dark and what is bright in a test pattern, as shares of a sample's full scale; of a
+/// Levels of dark and bright in a test pattern, as shares of a sample's full scale; with a
 /// radiometric camera of 0.04 K per count 20 and 1700 degC.
 inline constexpr double kDarkLevel = 0.112, kBrightLevel = 0.75;
 

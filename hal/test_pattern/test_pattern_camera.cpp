@@ -13,8 +13,8 @@ namespace orbwatch::hal {
 namespace {
 
 constexpr double kNoise = 0.002;           ///< share of a sample's full scale
-constexpr int kMaxTestPatternSide = 8192;  ///< pixels: ten buffers of it are drawn
-constexpr int kDiscShare = 40;             ///< of the picture's height: the disc's radius
+constexpr int kMaxTestPatternSide = 8192;  ///< pixels; ten buffers of this size are drawn
+constexpr int kDiscShare = 40;             ///< picture height divided by the disc's radius
 
 template <class Sample>
 void draw(const BasicPicture<std::byte>::Plane& plane, int samples, int rows, int bits,
@@ -33,7 +33,7 @@ void draw(const BasicPicture<std::byte>::Plane& plane, int samples, int rows, in
   }
 }
 
-/// Fills a buffer of its own format; another `seed`, other noise.
+/// Fills a buffer of its own format; each `seed` gives different noise.
 void draw(FrameBuffer& buffer, unsigned seed) {
   const Picture& picture = buffer.picture;
   const PixelFormatInfo& format = info(picture.format);
@@ -62,7 +62,7 @@ FramePool drawn_pool(const StreamFormat& format, std::size_t buffers) {
   return pool;
 }
 
-/// Whether its subsampled planes have whole samples.
+/// True if the subsampled planes have whole samples.
 bool is_whole(PixelFormat format, int width, int height) {
   int columns = format == PixelFormat::Yuyv || format == PixelFormat::Uyvy ? 2 : 1, rows = 1;
   for (const PlaneInfo& plane : info(format).planes) {

@@ -8,16 +8,16 @@
 
 namespace orbwatch::hal {
 
-/// Delivers noisy pictures with a bright disc, which were drawn before the start: what remains, but
-/// for the number if that is asked for, is the work of those who read them. Exposure n is at start
-/// + n / rate on the steady clock; it is lost, a gap in the sequence, when all buffers are lent.
+/// Delivers noisy pictures with a bright disc that were drawn before the start: the remaining load,
+/// apart from the optional number, is that of the readers. Exposure n is at start + n / rate on the
+/// steady clock; it is lost, a gap in the sequence, when all buffers are lent.
 class TestPatternCamera : public Camera {
  public:
   explicit TestPatternCamera(TestPatternSettings settings);
   ~TestPatternCamera() override;
 
  protected:
-  /// Errors: no size, or one that the format cannot have.
+  /// Errors: no size, or one that the format does not permit.
   Result<StreamFormat> do_configure(const StreamRequest& request) override;
   ThreadRole role() const override { return ThreadRole::Service; }
   void run(const std::stop_token& stop) override;

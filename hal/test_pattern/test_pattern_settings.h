@@ -16,15 +16,15 @@
 
 namespace orbwatch::hal {
 
-/// A camera whose pictures cost nothing; without a device (GenICam TestPattern).
+/// Camera whose pictures cost no processor time; without a device (GenICam TestPattern).
 struct TestPatternSettings {
   static constexpr std::string_view kName = "test_pattern";
   static constexpr BackEndFacts kFacts{.origin = CameraOrigin::Process, .needs_size = true};
 
   std::string name;  ///< becomes CameraInfo::id
   PixelFormat pixel_format = PixelFormat::Grey;
-  int width = 0;          ///< unless configure() asks for another size
-  int height = 0;         ///< the same
+  int width = 0;          ///< used unless configure() requests another size
+  int height = 0;         ///< used unless configure() requests another size
   double frame_rate = 0;  ///< per second; 0: kTestPatternRate
   bool numbered = false;  ///< see paint_number()
   std::vector<ScriptedFault> faults = {};
@@ -34,7 +34,7 @@ struct TestPatternSettings {
 
 inline constexpr double kTestPatternRate = 30;
 
-/// Every format by its name.
+/// Names of all formats.
 inline constexpr auto kPixelFormatWords = [] {
   std::array<Word<PixelFormat>, kPixelFormats.size()> words{};
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -43,7 +43,7 @@ inline constexpr auto kPixelFormatWords = [] {
   return words;
 }();
 
-/// All but what the context of a camera states.
+/// Visits all settings except those from the camera's context.
 template <class Visitor>
 void visit(Visitor& v, TestPatternSettings& settings) {
   v.required("pixel_format", settings.pixel_format, kPixelFormatWords, "Of its frames");

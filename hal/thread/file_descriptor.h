@@ -11,7 +11,7 @@
 
 namespace orbwatch::hal {
 
-/// Owns an open file of the kernel and closes it; -1 is none.
+/// Owns an open file of the kernel and closes it; -1: no file.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int number = -1) : number_(number) {}
@@ -32,19 +32,19 @@ class FileDescriptor {
 };
 
 /// Wakes a thread that waits on files: an eventfd, readable from signal() to clear().
-/// Thread rule: signal on any thread, it waits for nothing; clear on the thread that waits.
+/// Thread rule: signal on any thread, without waiting; clear on the thread that waits.
 class EventFd {
  public:
-  /// Not open when the process may have no more files.
+  /// The file is not open when the process has reached its limit of files.
   EventFd() : file_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
   bool is_open() const { return file_.is_open(); }
   int get() const { return file_.get(); }
 
-  /// Fails only when 2^64 - 1 signals were not cleared, which are as good as one.
+  /// This fails only when 2^64 - 1 signals were not cleared, which is equivalent to one.
   void signal() const { static_cast<void>(::eventfd_write(get(), 1)); }
 
-  /// Fails only when there was no signal.
+  /// This fails only when there was no signal.
   void clear() const {
     eventfd_t signals = 0;
     static_cast<void>(::eventfd_read(get(), &signals));
@@ -54,8 +54,8 @@ class EventFd {
   FileDescriptor file_;
 };
 
-/// The timeout for poll() and epoll_wait() that ends at or after `deadline`, or in a minute:
-/// callers wait again until their deadline has passed.
+/// Timeout for poll() and epoll_wait() that ends at or after `deadline`, or in a minute: callers
+/// wait again until their deadline has passed.
 inline int poll_timeout(TimePoint deadline) {
   using std::chrono::milliseconds;
   const auto now = Clock::now();

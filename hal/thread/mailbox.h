@@ -8,8 +8,9 @@
 
 namespace orbwatch::hal {
 
-/// Wakes a thread that waits for work. A ring while nobody waits is kept; several are kept as one.
-/// Thread rule: ring by any thread, it waits for nothing; wait by one thread.
+/// Wakes a thread that waits for work. A ring without a waiting thread is kept; several count as
+/// one.
+/// Thread rule: ring by any thread, without waiting; wait by one thread.
 class Doorbell {
  public:
   void ring() {
@@ -17,20 +18,20 @@ class Doorbell {
     rings_.notify_one();
   }
 
-  /// Returns when it was rung since the last wait.
+  /// Returns when it was rung since the previous wait.
   void wait() {
     rings_.wait(heard_, std::memory_order_acquire);
     heard_ = rings_.load(std::memory_order_acquire);
   }
 
  private:
-  std::atomic<int> rings_{0};  // an int is what the kernel waits for without a lock
-  int heard_ = 0;              // the waiting thread's
+  std::atomic<int> rings_{0};  // the kernel waits for an int without a lock
+  int heard_ = 0;              // used by the waiting thread only
 };
 
-/// A queue of depth one between two threads: the newest value wins, replaced ones are counted. A
-/// triple buffer: sender and receiver own one place each and swap it for the one between them, so
-/// neither waits for the other.
+/// Queue of depth one between two threads: the newest value wins, replaced ones are counted. A
+/// triple buffer: sender and receiver own one slot each and exchange it for the one between them,
+/// so neither waits for the other.
 /// Thread rule: put and withdraw by one thread, take and try_take by one other; the rest by any.
 template <class T>
 class Mailbox {
@@ -47,7 +48,7 @@ class Mailbox {
     return !replaced;
   }
 
-  /// Takes back a value that was not taken, which counts as replaced. By the sender.
+  /// Withdraws a value that was not taken, which counts as replaced. Called by the sender.
   void withdraw() {
     if (!(between_.load(std::memory_order_relaxed) & kFull)) return;
     const int between = between_.exchange(sender_, std::memory_order_acq_rel);
@@ -56,7 +57,7 @@ class Mailbox {
     places_[sender_].reset();
   }
 
-  /// Waits for a value; nullopt while the mailbox is closed, which keeps its value.
+  /// Waits for a value; nullopt while the mailbox is closed; it keeps its value.
   std::optional<T> take() {
     while (!closed_) {
       if (auto value = try_take()) return value;
@@ -72,7 +73,7 @@ class Mailbox {
     return std::exchange(places_[receiver_], std::nullopt);
   }
 
-  /// Drops the value, which counts as replaced. By the receiver.
+  /// Drops the value, which counts as replaced. Called by the receiver.
   void discard() { drops_ += try_take() ? 1 : 0; }
 
   /// Ends take() until open().
@@ -91,8 +92,8 @@ class Mailbox {
   static constexpr int kFull = 4;  ///< the value was not taken yet
 
   std::array<std::optional<T>, 3> places_;
-  int sender_ = 0;    // its place, the sender's
-  int receiver_ = 1;  // its place, the receiver's
+  int sender_ = 0;    // slot of the sender
+  int receiver_ = 1;  // slot of the receiver
   std::atomic<int> between_{2};
   Doorbell bell_;
   std::atomic<std::uint64_t> drops_{0};

@@ -4,11 +4,11 @@
 
 namespace orbwatch::hal {
 
-/// A mutex that threads of the frame path share with others: whoever holds it runs with the
-/// priority of the most urgent thread that waits for it (PTHREAD_PRIO_INHERIT). With a std::mutex a
-/// thread of ordinary priority, displaced by other programs while it holds it, would hold up the
-/// pipeline. A BasicLockable with try_lock, for std::lock_guard and std::unique_lock. Where the
-/// kernel has no priority inheritance it is an ordinary mutex.
+/// Mutex that threads of the frame path share with others: its holder runs with the priority of the
+/// most urgent waiting thread (PTHREAD_PRIO_INHERIT). With a std::mutex, a holder of ordinary
+/// priority that other programs preempt would block the pipeline. A BasicLockable with try_lock,
+/// for std::lock_guard and std::unique_lock. On a kernel without priority inheritance it is an
+/// ordinary mutex.
 class PriorityMutex {
  public:
   PriorityMutex() {
@@ -27,7 +27,7 @@ class PriorityMutex {
   bool try_lock() { return ::pthread_mutex_trylock(&mutex_) == 0; }
   void unlock() { ::pthread_mutex_unlock(&mutex_); }
 
-  /// True: the kernel has it.
+  /// True if the kernel supports priority inheritance.
   bool inherits() const { return inherits_; }
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kBackgroundNice = 5;
 
-/// Of the process, as schedule_threads() set it; the log's thread may have started before.
+/// Scheduling of the process, set by schedule_threads(); the log's thread may have started before.
 struct Scheduling {
   bool by_role = false;
   bool realtime = false;
@@ -34,15 +34,15 @@ Scheduling present_scheduling() {
   return scheduling;
 }
 
-/// Of the calling thread; those that it creates itself, in a library perhaps, are as any. Returns
-/// errno, or 0.
+/// Schedules the calling thread with SCHED_FIFO; threads that it creates itself, for example in a
+/// library, do not inherit it. Returns errno, or 0.
 int run_first_in_first_out(int priority) {
   const sched_param parameters{priority};
   const int policy = SCHED_FIFO | SCHED_RESET_ON_FORK;
   return ::sched_setscheduler(0, policy, &parameters) == 0 ? 0 : errno;
 }
 
-/// Tried on a thread of its own, which leaves the calling one as it is.
+/// Attempted on a thread of its own, so that the calling one keeps its scheduling.
 int try_realtime() {
   int error = 0;
   std::thread([&error] {
@@ -60,14 +60,14 @@ bool has_capability(unsigned capability) {
   return (data[CAP_TO_INDEX(capability)].effective & CAP_TO_MASK(capability)) != 0;
 }
 
-/// With a limit, each mapping beyond it would fail later on, and the process with it.
+/// Under a limit, each mapping beyond it would fail later, and with it the process.
 bool may_lock_all_memory() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) return true;
   return has_capability(CAP_IPC_LOCK);
 }
 
-/// Pages are locked once they are used: stacks and pools take no memory before they need it.
+/// Pages are locked once they are used: stacks and pools occupy no memory before they need it.
 std::string lock_memory() {
   if (!may_lock_all_memory()) return "the limit of locked memory is too low";
   const bool locked = ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
@@ -84,7 +84,8 @@ void keep_to(const std::vector<int>& cores) {
   cpu_set_t set;
   CPU_ZERO(&set);
   for (const int core : cores) CPU_SET(static_cast<std::size_t>(core), &set);
-  // Fails when all of them were switched off since check(): then any core is better than none.
+  // This fails when all of the cores were switched off since check(): then any core is better than
+  // none.
   static_cast<void>(::pthread_setaffinity_np(::pthread_self(), sizeof set, &set));
 }
 
@@ -144,7 +145,7 @@ void schedule_this_thread(ThreadRole role) {
   if (priority > 0 && role != ThreadRole::Lines && !present.cores.empty()) {
     keep_to(present.cores);
   }
-  // Allowed already, or without effect: schedule_threads() has said so.
+  // Permitted already, or without effect; schedule_threads() has reported which.
   if (priority > 0 && present.realtime) run_first_in_first_out(priority);
   if (role == ThreadRole::Background) {
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kBackgroundNice);

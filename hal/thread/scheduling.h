@@ -9,19 +9,19 @@
 
 namespace orbwatch::hal {
 
-/// What a thread is for, by which the kernel schedules it; later ones are more urgent. Those of the
-/// frame path are Worker and later.
+/// Purpose of a thread, which determines its scheduling; later ones are more urgent. The frame path
+/// uses Worker and later.
 enum class ThreadRole : std::uint8_t {
   Background,  ///< encodes, writes files, compiles views: SCHED_OTHER, nice 5
-  Service,     ///< answers PLC and controller: SCHED_OTHER
-  Worker,      ///< shares the pipeline's work, which waits for it
+  Service,     ///< answers a PLC or controller: SCHED_OTHER
+  Worker,      ///< shares the work of the pipeline, which waits for it
   Pipeline,
-  Capture,  ///< a camera's: a driver's buffer waits for it
-  Lines,    ///< digital inputs and outputs: microseconds of work, whose moment counts
+  Capture,  ///< thread of a camera: a driver's buffer waits for it
+  Lines,    ///< digital inputs and outputs: microseconds of work, time-critical
 };
 
-/// Of SCHED_FIFO; 0: the role is not of the frame path. All are below the threads that a kernel
-/// with PREEMPT_RT makes of its interrupts (50), without which no frame comes.
+/// Priority under SCHED_FIFO; 0: the role is not part of the frame path. All are below the
+/// interrupt threads of a kernel with PREEMPT_RT (50), without which no frame arrives.
 constexpr int fifo_priority(ThreadRole role) {
   switch (role) {
     case ThreadRole::Background:
@@ -38,25 +38,25 @@ constexpr int fifo_priority(ThreadRole role) {
   return 0;
 }
 
-/// What the kernel allowed of ThreadSettings.
+/// Permissions that the kernel granted for ThreadSettings.
 struct ThreadGrants {
   bool realtime = false;
   bool memory_locked = false;
-  std::vector<std::string> refusals;  ///< what was asked for in vain, why, and what would allow it
+  std::vector<std::string> refusals;  ///< refused requests, with reason and remedy
 };
 
-/// The cores that this process may use, ascending. Reentrant.
+/// Cores that this process may use, ascending. Reentrant.
 std::vector<int> usable_cores();
 
-/// Whether the computer has the cores. The error names key and cores.
+/// Checks that the computer has the cores. The error names key and cores.
 Result<> check(const ThreadSettings& settings);
 
 /// Schedules the threads that hal::Thread starts from now on by their roles, and locks the memory.
-/// Without it they are as any thread of the program. `settings` passed check(). Before threads of
-/// the frame path start.
+/// Without this call they have the program's default scheduling. `settings` passed check(). Call
+/// before threads of the frame path start.
 ThreadGrants schedule_threads(const ThreadSettings& settings);
 
-/// For hal::Thread: the calling thread has this role.
+/// For hal::Thread: gives the calling thread this role.
 void schedule_this_thread(ThreadRole role);
 
 }  // namespace orbwatch::hal

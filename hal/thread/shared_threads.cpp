@@ -30,7 +30,7 @@ void SharedThreads::Work::request(TimePoint due) {
 void SharedThreads::Work::cancel() {
   std::unique_lock lock(threads_->mutex_);
   due_ = TimePoint::max();
-  is_cancelled_ = true;  // the call under way may request another
+  is_cancelled_ = true;  // the running call may request another
   threads_->ended_.wait(lock, [this] { return !runs_; });
   is_cancelled_ = false;
 }
@@ -56,7 +56,7 @@ void SharedThreads::serve(Thread& thread) {
   }
 }
 
-/// The requested work that is due first and is not being done; null: none.
+/// The requested work that is due first and does not run yet; null: none.
 SharedThreads::Work* SharedThreads::next() {
   Work* first = nullptr;
   for (Work* work : works_) {

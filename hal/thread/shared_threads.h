@@ -17,8 +17,8 @@
 namespace orbwatch::hal {
 
 /// A few threads for many kinds of work that may wait for each other: pictures to encode, views to
-/// compile. What was requested first is done first; each work is done by one thread at a time.
-/// Works keep their threads alive. Thread-safe.
+/// compile. The earliest request is served first; each work runs on one thread at a time. Works
+/// keep their threads alive. Thread-safe.
 class SharedThreads {
  public:
   class Work {
@@ -29,11 +29,12 @@ class SharedThreads {
     Work& operator=(const Work&) = delete;
     ~Work();
 
-    /// Has the body called once, soon after `due`; several requests before it begins are one, by
-    /// the earliest. Waits for no work. On any thread, the body included.
+    /// Requests one call of the body, soon after `due`; several requests before it begins are
+    /// combined, with the earliest moment. Does not wait for work. On any thread, including the
+    /// body's.
     void request(TimePoint due = Clock::now());
 
-    /// Forgets a request and waits for the end of a call under way. Not in the body.
+    /// Cancels a request and waits for the end of a running call. Must not be called by the body.
     void cancel();
 
     /// Processor time of the calls that have ended.
@@ -44,9 +45,9 @@ class SharedThreads {
 
     const std::shared_ptr<SharedThreads> threads_;
     const std::function<void()> body_;
-    TimePoint due_ = TimePoint::max();  ///< max(): not requested; under the threads' mutex_
-    bool runs_ = false;                 ///< under the threads' mutex_
-    bool is_cancelled_ = false;         ///< requests are ignored; under the threads' mutex_
+    TimePoint due_ = TimePoint::max();  ///< max(): not requested; guarded by the threads' mutex_
+    bool runs_ = false;                 ///< guarded by the threads' mutex_
+    bool is_cancelled_ = false;         ///< requests are ignored; guarded by the threads' mutex_
     std::atomic<std::int64_t> spent_{0};
   };
 
@@ -55,10 +56,10 @@ class SharedThreads {
   SharedThreads(const SharedThreads&) = delete;
   SharedThreads& operator=(const SharedThreads&) = delete;
 
-  /// How many works are done at a time at most.
+  /// Largest number of works that run at the same time.
   std::size_t count() const { return threads_.size(); }
 
-  /// One of its own for each caller: for objects that stand alone.
+  /// Makes threads of its own for each caller, for objects used on their own.
   static std::shared_ptr<SharedThreads> alone(std::string_view name = kBackgroundName) {
     return std::make_shared<SharedThreads>(name, ThreadRole::Background, 1);
   }

@@ -6,11 +6,11 @@
 
 namespace orbwatch::hal {
 
-/// How the kernel shall treat the frame path: capture, pipeline, workers and lines.
+/// Kernel scheduling of the frame path: capture, pipeline, workers and lines.
 struct ThreadSettings {
   bool realtime = true;
   bool lock_memory = true;
-  std::vector<int> cores;  ///< of the frame path; none: all
+  std::vector<int> cores;  ///< cores of the frame path; none: all
   int background = 1;      ///< threads that encode pictures and compile views
 };
 

@@ -42,7 +42,7 @@ Result<StreamFormat> V4l2Camera::do_configure(const StreamRequest& request) {
   return negotiated_.stream;
 }
 
-/// Whether the settings are valid for any device.
+/// Checks that the settings are valid for any device.
 Result<> V4l2Camera::check() const {
   const auto& names = kPixelCodingNames;
   if (std::find(names.begin(), names.end(), settings_.pixel_format) == names.end()) {
@@ -76,7 +76,7 @@ DeviceResult<> V4l2Camera::set_up(V4l2Device& device, std::string_view pixel_for
   return {};
 }
 
-/// What the controls say about frames.
+/// Reads the controls that describe frames.
 void V4l2Camera::read_controls(const V4l2Device& device) {
   triggered_ = waits_for_trigger(device);
   exposure_time_ = exposure_time(device);
@@ -101,7 +101,7 @@ Result<> V4l2Camera::trigger() {
 }
 
 Result<> V4l2Camera::do_set(std::string_view control, double value) {
-  // Controls do not belong to the stream: another descriptor of the device will do.
+  // Controls do not belong to the stream: any descriptor of the device can set them.
   auto device = open();
   if (!device) return fail(device.error().detail);
   if (auto done = set_control(*device, control, value); !done) return done;
@@ -145,7 +145,7 @@ DeviceResult<> V4l2Camera::close_stream() {
   return {};
 }
 
-/// With the configured format, which frames in use and the decoder's buffers have.
+/// Sets up with the configured format, which frames in use and the decoder's buffers have.
 DeviceResult<> V4l2Camera::set_up_again(V4l2Device& device) {
   const NegotiatedFormat before = negotiated_;
   const StreamFormat& stream = before.stream;
@@ -169,7 +169,7 @@ void V4l2Camera::forward_intact(const V4l2Stream::Captured& captured) {
   forward(std::move(*frame));
 }
 
-/// The frame that the driver delivered, decoded if need be; null when there is no buffer for it.
+/// The frame that the driver delivered, decoded if necessary; null when there is no buffer for it.
 /// Error: it is damaged.
 Result<std::shared_ptr<FrameBuffer>> V4l2Camera::intact_frame(
     const V4l2Stream::Captured& captured) {

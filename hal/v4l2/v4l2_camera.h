@@ -18,11 +18,11 @@
 
 namespace orbwatch::hal {
 
-/// A USB, CSI or other V4L2 camera. Frames are forwarded in memory of a dma-heap that the driver
-/// imports, in the driver's own where it does not, or decoded where
-/// the pipeline does not read their format. Frames that are short, damaged according to the driver,
-/// or whose JPEG picture is damaged are withheld and counted. The device is open only while the
-/// camera runs or a call needs it; silence while it waits for a trigger is no fault.
+/// USB, CSI or other V4L2 camera. Frames are forwarded in memory of a dma-heap that the driver
+/// imports, in the driver's own if it does not import, or decoded if the pipeline does not read
+/// their format. Frames that are short, damaged according to the driver, or whose JPEG picture is
+/// damaged are withheld and counted. The device is open only while the camera runs or a call needs
+/// it; silence while it waits for a trigger is not a fault.
 class V4l2Camera : public DeviceCamera {
  public:
   explicit V4l2Camera(
@@ -34,11 +34,11 @@ class V4l2Camera : public DeviceCamera {
   Result<> trigger() override;
 
  protected:
-  /// See set_control(). The value is set again after each reconnection, as USB cameras lose it with
-  /// their power, unless a later setting put the control under automatic control.
+  /// See set_control(). The value is set again after each reconnection, since USB cameras lose it
+  /// with their power, unless a later setting put the control under automatic control.
   Result<> do_set(std::string_view control, double value) override;
-  /// Drivers set controls at once, sensors take them on 2 exposures later; one more for a camera
-  /// that computes its exposures ahead, and one for stamps that mark a frame's end.
+  /// Drivers set controls at once, sensors apply them 2 exposures later; one more for a camera that
+  /// computes its exposures ahead, and one for stamps that mark a frame's end.
   std::size_t control_delay() const override { return 4; }
   /// Errors: no such device or not a camera, busy, size or format not offered, a stored control
   /// that cannot be set.
@@ -51,7 +51,7 @@ class V4l2Camera : public DeviceCamera {
 
  private:
   using Control = std::pair<std::string, double>;
-  /// On a descriptor of its own, so that a trigger is one call.
+  /// Uses a descriptor of its own, so that a trigger is one call.
   struct TriggerButton {
     V4l2Device device;
     v4l2_query_ext_ctrl control;
@@ -70,11 +70,11 @@ class V4l2Camera : public DeviceCamera {
   V4l2Settings settings_;
   DmaBufferSources sources_;
   NegotiatedFormat negotiated_;
-  std::size_t buffers_ = kFreeRunningBuffers;               ///< of the driver
-  std::unique_ptr<FrameDecoder> decoder_;                   ///< for formats that are not zero-copy
-  std::unique_ptr<V4l2Stream> stream_;                      ///< while open
-  std::atomic<bool> triggered_ = false;                     ///< it waits for triggers
-  std::atomic<std::chrono::microseconds> exposure_time_{};  ///< as exposure_time()
+  std::size_t buffers_ = kFreeRunningBuffers;  ///< number of the driver's buffers
+  std::unique_ptr<FrameDecoder> decoder_;      ///< decoder for formats that are not zero-copy
+  std::unique_ptr<V4l2Stream> stream_;         ///< stream while it is open
+  std::atomic<bool> triggered_ = false;        ///< the camera waits for triggers
+  std::atomic<std::chrono::microseconds> exposure_time_{};  ///< exposure_time(), cached
   std::mutex button_mutex_;
   Result<TriggerButton> button_ = fail("does not run");
   std::mutex controls_mutex_;

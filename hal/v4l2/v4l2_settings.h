@@ -15,7 +15,7 @@
 
 namespace orbwatch::hal {
 
-/// Which V4L2 device, and how.
+/// Selection and settings of a V4L2 device.
 struct V4l2Settings {
   static constexpr std::string_view kName = "v4l2";
   static constexpr BackEndFacts kFacts{
@@ -26,7 +26,7 @@ struct V4l2Settings {
           "state pixel_format = \"y16\", also for 16 bit words that the driver "
           "calls YUYV"};
 
-  /// A device node, or another name that find_v4l2_device() knows. Links in /dev/v4l/by-id or
+  /// Device node, or another name that find_v4l2_device() resolves. Links in /dev/v4l/by-id or
   /// by-path and places on a bus name the same camera after it was plugged in again, while
   /// /dev/video0 may then be another.
   std::string device = "/dev/video0";

@@ -11,7 +11,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// A driver's few buffers hold no older frame: the stamp is of another clock.
+/// A driver's few buffers hold no older frame; an older stamp belongs to another clock.
 constexpr std::chrono::seconds kOldest{60};
 
 /// The picture in a driver's memory.
@@ -92,7 +92,7 @@ V4l2Stream::~V4l2Stream() { reset(); }
 /// Ends the stream and frees the device's buffers. Mapped ones keep the device's file open; freeing
 /// them still releases the device for the next stream.
 void V4l2Stream::reset() {
-  // Both calls fail when the device is gone, and then nothing is left to do.
+  // Both calls fail when the device is gone; nothing is left to do then.
   static_cast<void>(device_.stream_off());
   static_cast<void>(device_.free_buffers());
   pool_.reset();
@@ -130,7 +130,7 @@ DeviceResult<> V4l2Stream::start_in(const DmaBufferSource& source) {
   return start_with(std::move(frames));
 }
 
-/// The memory planes of one buffer.
+/// Allocates the memory planes of one buffer.
 Result<std::vector<BufferMemory>> V4l2Stream::allocate(const DmaBufferSource& source,
                                                        const DriverFormat& format) {
   std::vector<BufferMemory> memory;
@@ -203,7 +203,7 @@ DeviceResult<> V4l2Stream::queue(std::uint32_t index) {
 }
 
 DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::next(TimePoint deadline) {
-  // A driver without a buffer to fill makes poll() report an error, so it is left out then.
+  // A device without a buffer to fill makes poll() report an error, so it is omitted then.
   std::array<pollfd, 2> files{{{returned_->descriptor(), POLLIN, 0},
                                {is_starved() ? -1 : device_.descriptor(), POLLIN, 0}}};
   if (::poll(files.data(), files.size(), poll_timeout(deadline)) <= 0) return std::nullopt;
@@ -226,8 +226,8 @@ DeviceResult<std::optional<V4l2Stream::Captured>> V4l2Stream::take() {
   if (index >= pool_->size()) {
     return failed("filled buffer " + std::to_string(index) + ", which does not exist");
   }
-  // v4l2loopback fills buffers that were not queued. One in use is no new frame; the new frame is
-  // lost, visible as a gap in the sequence.
+  // v4l2loopback fills buffers that were not queued. One in use does not count as a new frame; the
+  // new frame is lost, visible as a gap in the sequence.
   if ((queued_ >> index & 1U) == 0) return std::nullopt;
   queued_ &= ~(1U << index);
   auto frame = pool_->acquire(index);

@@ -24,20 +24,21 @@ struct FrameStamp {
   StampSource source = StampSource::Arrival;
 };
 
-/// The driver's time stamp, or `arrival` when it is of another clock or not plausible. Drivers
-/// declare whether they stamp the start of the exposure (USB cameras do) or the end of the frame.
+/// The driver's time stamp, or `arrival` when it belongs to another clock or is not plausible.
+/// Drivers declare whether they stamp the start of the exposure (USB cameras do) or the end of the
+/// frame.
 FrameStamp frame_stamp(const FilledBuffer& buffer, TimePoint arrival);
 
 /// A frame in a device's buffer, which stays mapped while the frame is held.
 struct DriverFrame : FrameBuffer {
   explicit DriverFrame(std::vector<BufferMemory> buffer);
 
-  /// For the camera's thread: before the first read of what the device wrote, and before the device
-  /// writes again. Error: as DmaBuffer.
+  /// For the camera's thread: call before the first read of the device's data, and before the
+  /// device writes again. Error: as DmaBuffer.
   Result<> begin_read();
   Result<> end_read();
 
-  std::vector<BufferMemory> memory_planes;  ///< in the format's order
+  std::vector<BufferMemory> memory_planes;  ///< memory planes in the format's order
 
  private:
   Result<> synchronise(Result<> (DmaBuffer::*moment)() const);
@@ -45,8 +46,8 @@ struct DriverFrame : FrameBuffer {
   bool is_read_ = false;
 };
 
-/// A device that streams into mapped buffers, its own or imported ones. Its end stops the device
-/// and closes it; frames that are still held stay valid. Thread-bound but for wake().
+/// Device that streams into mapped buffers, its own or imported ones. Its end stops the device and
+/// closes it; frames that are still held stay valid. Thread-bound except wake().
 class V4l2Stream {
  public:
   struct Captured {
@@ -57,9 +58,9 @@ class V4l2Stream {
     std::span<const std::byte> samples(std::size_t memory) const;
   };
 
-  /// Makes `buffers`, or as many as the driver does, and starts the device, whose format was
-  /// negotiated. They lie in memory of the first of `sources` with which the device starts, else in
-  /// the driver's own.
+  /// Makes `buffers`, or the number that the driver chooses, and starts the device, whose format is
+  /// already negotiated. They lie in memory of the first of `sources` with which the device starts,
+  /// else in the driver's own.
   static DeviceResult<std::unique_ptr<V4l2Stream>> start(
       V4l2Device device, const NegotiatedFormat& format, std::size_t buffers,
       const std::vector<DmaBufferSource>& sources);
@@ -73,7 +74,7 @@ class V4l2Stream {
   /// True when frames in use hold all buffers: the device has none to fill.
   bool is_starved() const { return queued_ == 0; }
 
-  /// For the log: how many buffers, in which memory.
+  /// Text for the log: number of buffers, and their memory.
   std::string memory_text() const { return to_text(memory_, frames_.size(), requested_); }
 
   /// Ends a wait in next(). Thread-safe.
@@ -102,12 +103,12 @@ class V4l2Stream {
 
   V4l2Device device_;
   NegotiatedFormat format_;
-  const std::size_t requested_;  ///< buffers
+  const std::size_t requested_;  ///< number of buffers
   FrameMemory memory_;
   std::shared_ptr<ReturnedBuffers> returned_;
   std::optional<BufferPool<DriverFrame>> pool_;
-  std::vector<DriverFrame*> frames_;  ///< the pool's, by index
-  std::uint32_t queued_ = 0;          ///< one bit per buffer that the device has
+  std::vector<DriverFrame*> frames_;  ///< frames of the pool, by index
+  std::uint32_t queued_ = 0;          ///< one bit for each buffer that the device has
 };
 
 }  // namespace orbwatch::hal

@@ -55,7 +55,7 @@ void DeviceClock::add_arrival(nanoseconds device, TimePoint steady) {
   if (!has_block_) block_begin_ = device;
   if (!has_block_ || lateness(moment) < lateness(fastest_)) fastest_ = moment;
   has_block_ = true;
-  // Before there are moments the line goes through the fastest frame so far.
+  // Before there are moments, the line passes through the fastest frame so far.
   if (count_ == 0) origin_ = fastest_;
 }
 

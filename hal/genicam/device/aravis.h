@@ -7,21 +7,21 @@
 
 namespace orbwatch::hal {
 
-/// A share in an object of Aravis, released at its end.
+/// Owns a reference to an object of Aravis, released at its end.
 struct ReleaseObject {
   void operator()(void* object) const { g_object_unref(object); }
 };
 template <class T>
 using OwnedObject = std::unique_ptr<T, ReleaseObject>;
 
-/// Memory of GLib.
+/// Frees memory of GLib.
 struct FreeMemory {
   void operator()(const void* memory) const { g_free(const_cast<void*>(memory)); }
 };
 template <class T>
 using OwnedMemory = std::unique_ptr<T, FreeMemory>;
 
-/// The error of a call of Aravis: pass out(), then ask.
+/// Error of a call of Aravis: pass out() to the call, then query.
 class AravisError {
  public:
   AravisError() = default;
@@ -29,7 +29,7 @@ class AravisError {
   AravisError& operator=(const AravisError&) = delete;
   ~AravisError() { g_clear_error(&error_); }
 
-  /// Forgets the error of a call before.
+  /// Clears the error of an earlier call.
   GError** out() {
     g_clear_error(&error_);
     return &error_;
@@ -41,7 +41,7 @@ class AravisError {
   GError* error_ = nullptr;
 };
 
-/// A text of Aravis, which may be none.
+/// Converts a text of Aravis, which may be null.
 inline std::string text_of(const char* text) { return text != nullptr ? text : ""; }
 
 }  // namespace orbwatch::hal

@@ -7,7 +7,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// A way of counting temperatures, as FLIR describes it: without an offset, from 0 K.
+/// A camera's linear count scale, as FLIR describes it: without an offset, from 0 K.
 struct LinearScale {
   std::string_view feature;
   std::string_view value;
@@ -15,7 +15,8 @@ struct LinearScale {
   double kelvin_per_count;
 };
 
-/// IRFormat is that of the series A3x5, A6x5 and later ones, the other that of the series Ax5.
+/// IRFormat is the feature of the series A3x5, A6x5 and later ones, the other that of the series
+/// Ax5.
 constexpr std::array kLinearScales{
     LinearScale{"IRFormat", "TemperatureLinear10mK", "Mono16", 0.01},
     LinearScale{"IRFormat", "TemperatureLinear100mK", "Mono16", 0.1},

@@ -8,11 +8,12 @@
 
 namespace orbwatch::hal {
 
-/// What the features of a thermal camera say of its counts now, in pictures of this format, one of
-/// kGenicamFormats; nullopt: nothing.
+/// Count scale that the present features of a thermal camera state for pictures of this format, one
+/// of kGenicamFormats; nullopt: none.
 std::optional<CountScale> read_count_scale(ArvCamera* camera, std::string_view pixel_format);
 
-/// Whether `feature` is one of those, and has another value now: to set it would change the scale.
+/// True if `feature` determines the scale and has another value now: setting it would change the
+/// scale.
 bool would_rescale(ArvCamera* camera, std::string_view feature, double value);
 
 }  // namespace orbwatch::hal

@@ -29,11 +29,11 @@ std::string number_text(double number) {
   return text.str();
 }
 
-/// What a camera takes for a number now.
+/// Limits that a camera states for a number now.
 struct Limits {
   double least = 0;
   double most = 0;
-  double step = 0;  ///< from `least`; 0: any value
+  double step = 0;  ///< increment from `least`; 0: any value
 };
 
 Result<> check(std::string_view name, double value, const Limits& limits) {
@@ -46,7 +46,7 @@ Result<> check(std::string_view name, double value, const Limits& limits) {
   return refused(name, text);
 }
 
-/// A feature of older cameras that the library finds by one of several names.
+/// Feature of older cameras that the library finds by one of several names.
 struct OlderName {
   std::string_view name;
   gboolean (*is_available)(ArvCamera*, GError**);
@@ -83,7 +83,7 @@ struct Entry {
   std::int64_t number = 0;
 };
 
-/// The entries of a menu that the camera offers now.
+/// Menu entries that the camera offers now.
 std::vector<Entry> entries_of(ArvGcEnumeration* menu) {
   guint count = 0;
   const OwnedMemory<const char*> names(
@@ -98,7 +98,7 @@ std::vector<Entry> entries_of(ArvGcEnumeration* menu) {
   return entries;
 }
 
-/// As `orbwatch list` shows it: "1 = Line1".
+/// Texts that `orbwatch list` shows: "1 = Line1".
 std::vector<std::string> entry_texts(const std::vector<Entry>& entries) {
   std::vector<std::string> texts;
   texts.reserve(entries.size());
@@ -108,7 +108,7 @@ std::vector<std::string> entry_texts(const std::vector<Entry>& entries) {
   return texts;
 }
 
-/// Cameras number Off, Once and Continuous as they like.
+/// Cameras assign numbers to Off, Once and Continuous arbitrarily.
 std::vector<Entry> as_switch(std::vector<Entry> entries) {
   std::vector<Entry> numbered;
   for (Entry& entry : entries) {
@@ -121,7 +121,7 @@ std::vector<Entry> as_switch(std::vector<Entry> entries) {
   return numbered;
 }
 
-/// The entries by the numbers that set_feature() takes.
+/// Entries by the numbers that set_feature() accepts.
 std::vector<Entry> numbered_entries(ArvGcEnumeration* menu, std::string_view name) {
   auto entries = entries_of(menu);
   return name.ends_with("Auto") ? as_switch(std::move(entries)) : entries;
@@ -165,8 +165,8 @@ Result<> set_trigger_mode(ArvCamera* camera, double value, const std::string& so
   return done(kTriggerMode, error);
 }
 
-/// The names of all features below a category, depth first. Categories may name each other, so a
-/// name is there once.
+/// Collects the names of all features below a category, depth first. Categories may name each
+/// other, so a name is listed once.
 void collect(ArvDevice* device, const char* category, std::vector<std::string>& names) {
   ArvGcNode* const node = arv_device_get_feature(device, category);
   if (node == nullptr) return;
@@ -174,7 +174,7 @@ void collect(ArvDevice* device, const char* category, std::vector<std::string>& 
     names.emplace_back(category);
     return;
   }
-  const std::string self = std::string("/") + category;  // no feature's name
+  const std::string self = std::string("/") + category;  // not the name of a feature
   if (std::ranges::find(names, self) != names.end()) return;
   names.push_back(self);
   for (const GSList* entry = arv_gc_category_get_features(ARV_GC_CATEGORY(node)); entry != nullptr;
@@ -204,7 +204,7 @@ void put_limits(const Limits& limits, double value, CameraControl& control) {
   control.default_value = value;
 }
 
-/// A feature that takes a number; nullopt for another one, or one that the camera has not now.
+/// Describes a feature with a number; nullopt for another one, or one that is not available now.
 std::optional<CameraControl> describe(ArvDevice* device, const std::string& name) {
   ArvGcNode* const node = arv_device_get_feature(device, name.c_str());
   if (!ARV_IS_GC_FEATURE_NODE(node)) return std::nullopt;

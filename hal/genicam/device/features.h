@@ -13,18 +13,18 @@ namespace orbwatch::hal {
 
 /// Sets a feature by its GenICam name in its own unit (SFNC: ExposureTime in microseconds, Gain in
 /// dB, ...). Integers are rounded; switches take 0 and 1; a menu takes the number of an entry, but
-/// 0 (Off) and 1 (Continuous) where its name ends in Auto; any value executes a command.
+/// a menu whose name ends in Auto takes 0 (Off) and 1 (Continuous); any value executes a command.
 /// TriggerMode 1 makes the camera wait for `trigger_source`, 0 lets it run freely. ExposureTime and
-/// Gain also name what older cameras have instead.
+/// Gain also name the equivalents of older cameras.
 /// Errors: no such feature, not a number, read only, not available now, outside of the limits that
 /// the camera states now, refused by the camera.
 Result<> set_feature(ArvCamera* camera, const std::string& name, double value,
                      const std::string& trigger_source);
 
-/// The features of set_feature(), by name.
+/// Features that set_feature() accepts, by name.
 std::vector<CameraControl> list_features(ArvCamera* camera);
 
-/// The exposure time that is set; 0: unknown, as under automatic control.
+/// Exposure time that is set; 0: unknown, such as under automatic control.
 std::chrono::microseconds exposure_time(ArvCamera* camera);
 
 /// True when frames arrive on triggers.

@@ -25,7 +25,7 @@ bool is_named(const FoundCamera& camera, const std::string& wanted) {
          (!camera.name.empty() && camera.name == wanted);
 }
 
-/// A camera that answers at its address.
+/// Searches a camera at its address.
 std::optional<FoundCamera> at_address(const std::string& address) {
   const auto identity = read_gige_identity(address);
   if (!identity) return std::nullopt;
@@ -36,7 +36,7 @@ std::optional<FoundCamera> at_address(const std::string& address) {
 }  // namespace
 
 std::vector<FoundCamera> find_cameras() {
-  // Aravis has one list in a process, whose texts are valid until it is made again.
+  // Aravis has one list per process, whose texts are valid until it is made again.
   static std::mutex mutex;
   std::vector<FoundCamera> cameras;
   {

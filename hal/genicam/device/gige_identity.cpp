@@ -60,7 +60,7 @@ std::array<std::byte, 16> read_memory_request(std::uint16_t id, const Register& 
   return packet;
 }
 
-/// The answer until `deadline`.
+/// Receives the answer until `deadline`.
 std::optional<std::string> receive(const FileDescriptor& socket, std::uint16_t id,
                                    const Register& wanted, TimePoint deadline) {
   while (Clock::now() < deadline) {
@@ -68,7 +68,7 @@ std::optional<std::string> receive(const FileDescriptor& socket, std::uint16_t i
     if (::poll(&file, 1, poll_timeout(deadline)) <= 0) continue;
     std::array<std::byte, 576> answer;
     const ssize_t size = ::recv(socket.get(), answer.data(), answer.size(), 0);
-    if (size < 0) return std::nullopt;  // nobody listens there
+    if (size < 0) return std::nullopt;  // nothing listens there
     auto memory = memory_in_answer({answer.data(), static_cast<std::size_t>(size)}, id,
                                    wanted.address, wanted.size);
     if (memory) return memory;
@@ -115,7 +115,7 @@ std::optional<GigeIdentity> read_gige_identity(const std::string& address) {
   if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&camera), sizeof(camera)) != 0) {
     return std::nullopt;
   }
-  // Absent cameras cost the patience for one register only.
+  // An absent camera costs the timeout of only one register.
   const auto serial = read_text(socket, 1, kSerial);
   if (!serial) return std::nullopt;
   return GigeIdentity{read_text(socket, 2, kModel).value_or(""), *serial,

@@ -7,7 +7,7 @@ DeviceResult<OwnedObject<ArvCamera>> open_camera(const FoundCamera& found) {
     return fail(Fault::Unplugged, "genicam: camera " + found.id + ": " + reason);
   };
   AravisError error;
-  // By its address a GigE Vision camera is opened without another search.
+  // A GigE Vision camera is opened by its address, without another search.
   const std::string& where = found.is_gige() ? found.address : found.id;
   const OwnedObject<ArvDevice> device(arv_open_device(where.c_str(), error.out()));
   if (error || !device) return failed("cannot be opened: " + error.message());
@@ -16,7 +16,7 @@ DeviceResult<OwnedObject<ArvCamera>> open_camera(const FoundCamera& found) {
     if (!arv_gv_device_is_controller(gige)) {
       return failed("is under the control of another host or program");
     }
-    // Packets by a socket of UDP, as without the rights of an administrator.
+    // Packets come through a UDP socket, which needs no administrator rights.
     arv_gv_device_set_stream_options(gige, ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
   }
   OwnedObject<ArvCamera> camera(arv_camera_new_with_device(device.get(), error.out()));

@@ -7,7 +7,7 @@
 namespace orbwatch::hal {
 
 /// Opens a camera and takes control of it. Faults: it does not answer, another host or program has
-/// it, its description of itself is unusable. Thread-safe.
+/// control of it, its description of itself is unusable. Thread-safe.
 DeviceResult<OwnedObject<ArvCamera>> open_camera(const FoundCamera& found);
 
 }  // namespace orbwatch::hal

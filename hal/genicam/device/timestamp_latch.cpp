@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::uint64_t kNanoseconds = 1'000'000'000;  // per second
 
-/// As Aravis converts the stamps of frames: whole seconds first, so that no digit is lost.
+/// Converts ticks like Aravis converts the stamps of frames: whole seconds first, so that no digit
+/// is lost.
 std::chrono::nanoseconds to_ns(std::uint64_t ticks, std::uint64_t frequency) {
   const std::uint64_t rest = ticks % frequency * kNanoseconds / frequency;
   return std::chrono::seconds(ticks / frequency) +
@@ -32,7 +33,7 @@ std::optional<TimestampLatch> TimestampLatch::find(ArvCamera* camera) {
     if (!ARV_IS_GV_DEVICE(device)) continue;
     const guint64 frequency =
         arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(device), nullptr);
-    // Beyond 10 GHz it is none, and would not fit the conversion.
+    // A frequency beyond 10 GHz is not plausible, and would overflow the conversion.
     if (frequency > 0 && frequency <= 10 * kNanoseconds) {
       return TimestampLatch(device, names, frequency);
     }

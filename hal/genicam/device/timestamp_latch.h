@@ -9,16 +9,16 @@
 
 namespace orbwatch::hal {
 
-/// Asks a camera what time it is: SFNC's TimestampLatch, or GevTimestampControlLatch of older GigE
-/// Vision cameras. The camera outlives it. Under the lock of the camera's features.
+/// Reads a camera's clock: SFNC's TimestampLatch, or GevTimestampControlLatch of older GigE Vision
+/// cameras. The camera outlives it. Call under the lock of the camera's features.
 class TimestampLatch {
  public:
   struct Reading {
-    std::chrono::nanoseconds device;  ///< latched between the two:
+    std::chrono::nanoseconds device;  ///< camera's time, latched between the two:
     TimePoint before, after;
   };
 
-  /// Nullopt: the camera has none.
+  /// Nullopt: the camera has no latch.
   static std::optional<TimestampLatch> find(ArvCamera* camera);
 
   /// Nullopt: the camera did not answer.
@@ -28,7 +28,7 @@ class TimestampLatch {
   struct Names {
     const char* command;
     const char* value;
-    bool in_ticks;  ///< of the camera's frequency, else ns
+    bool in_ticks;  ///< readings count ticks of the camera's frequency, else ns
   };
 
   TimestampLatch(ArvDevice* device, const Names& names, std::uint64_t frequency)
@@ -36,7 +36,7 @@ class TimestampLatch {
 
   ArvDevice* device_;
   Names names_;
-  std::uint64_t frequency_;  ///< of its units, per second
+  std::uint64_t frequency_;  ///< units of the readings per second
 };
 
 }  // namespace orbwatch::hal

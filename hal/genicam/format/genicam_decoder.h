@@ -15,17 +15,17 @@ namespace orbwatch::hal {
 /// Thread-bound.
 class GenicamDecoder {
  public:
-  /// For a format that is not zero-copy, with `buffers` for its frames.
+  /// Made for a format that is not zero-copy, with `buffers` for its frames.
   GenicamDecoder(const GenicamStreamFormat& format, std::size_t buffers);
 
-  /// The frame whose rows begin every `stride` bytes from `rows` on; nullptr when all buffers are
-  /// in use. Error: the mosaic is too small.
+  /// Decodes the frame whose rows begin every `stride` bytes from `rows` on; nullptr when all
+  /// buffers are in use. Error: the mosaic is too small.
   Result<std::shared_ptr<FrameBuffer>> decode(const std::byte* rows, std::size_t stride);
 
  private:
   GenicamStreamFormat format_;
   FramePool pool_;
-  std::vector<std::uint8_t> mosaic_;  ///< in 8 bit
+  std::vector<std::uint8_t> mosaic_;  ///< mosaic in 8 bit
 };
 
 }  // namespace orbwatch::hal

@@ -10,9 +10,9 @@
 
 namespace orbwatch::hal {
 
-/// How GenICam's Pixel Format Naming Convention (PFNC) packs samples.
+/// Sample packings of GenICam's Pixel Format Naming Convention (PFNC).
 enum class SamplePacking : std::uint8_t {
-  None,   ///< as the PixelFormat: frames are forwarded in the buffer that was received
+  None,   ///< layout of the PixelFormat: frames are forwarded in the buffer that was received
   Lsb10,  ///< "p": a stream of bits, lowest first: 4 samples in 5 bytes
   Lsb12,  ///< "p": 2 samples in 3 bytes
   Lsb14,  ///< "p": 4 samples in 7 bytes
@@ -20,17 +20,17 @@ enum class SamplePacking : std::uint8_t {
   Gev12,  ///< "Packed": upper 8 bits, both lower 4, upper 8 bits
 };
 
-/// A supported pixel format of GenICam, and what its frames become.
+/// Supported pixel format of GenICam, and the format of its decoded frames.
 struct GenicamFormat {
-  std::string_view name;  ///< PFNC's
-  std::uint32_t code;     ///< PFNC's
-  PixelFormat format;     ///< of its unpacked samples; luminance for a mosaic
+  std::string_view name;  ///< name in PFNC
+  std::uint32_t code;     ///< code in PFNC
+  PixelFormat format;     ///< format of its unpacked samples; luminance for a mosaic
   SamplePacking packing = SamplePacking::None;
   Mosaic mosaic = Mosaic::None;
 };
 
-/// In the order of preference of "auto": colour, mosaics, then luminance, deep before shallow. The
-/// counts of Mono14, which thermal cameras send, are kept in the low bits of 16.
+/// Formats in the order of preference of "auto": colour, mosaics, then luminance, deep before
+/// shallow. The counts of Mono14, which thermal cameras send, are kept in the low bits of 16.
 inline constexpr std::array kGenicamFormats{
     GenicamFormat{"RGB8", 0x02180014, PixelFormat::Rgb},
     GenicamFormat{"BGR8", 0x02180015, PixelFormat::Bgr},
@@ -88,10 +88,10 @@ inline constexpr std::array kGenicamFormats{
 /// The entry of kGenicamFormats for a PFNC code, or nullptr.
 const GenicamFormat* find_genicam_format(std::uint32_t code);
 
-/// The same for a name.
+/// Finds an entry by its name.
 const GenicamFormat* find_genicam_format(std::string_view name);
 
-/// The format of the frames: with `colour`, a mosaic becomes Bgr of 8 bit.
+/// Format of the frames: with `colour`, a mosaic becomes Bgr of 8 bit.
 PixelFormat frame_format(const GenicamFormat& format, bool colour);
 
 /// True when frames are forwarded in the buffer that was received.
@@ -100,7 +100,7 @@ bool is_zero_copy(const GenicamFormat& format, bool colour);
 /// True when the size is a multiple of the format's groups of pixels and of its mosaic.
 bool is_whole(const GenicamFormat& format, int width, int height);
 
-/// Bytes of a row as the camera sends it, without padding; `width` is whole.
+/// Bytes of a row on the wire, without padding; `width` is whole.
 std::size_t sent_row_bytes(const GenicamFormat& format, int width);
 
 }  // namespace orbwatch::hal

@@ -10,7 +10,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// Sets what the camera and the site must agree on.
+/// Negotiates the settings on which the camera and the site must agree.
 class Negotiation {
  public:
   Negotiation(ArvCamera* camera, const GenicamSettings& settings)
@@ -70,13 +70,13 @@ class Negotiation {
     return {};
   }
 
-  /// Where a camera has the feature; else only `neutral` will do.
+  /// Sets a feature that the camera has; without the feature, only the value `neutral` is accepted.
   DeviceResult<> set_if_there(const char* feature, int value, int neutral) {
     if (value == neutral && !has(feature)) return {};
     return set(feature, value);
   }
 
-  /// The binning limits the size, and the place on the sensor does.
+  /// The binning limits the size, and the offset on the sensor limits it too.
   DeviceResult<> set_region(const StreamRequest& request) {
     return set_if_there("BinningHorizontal", settings_.binning, 1)
         .and_then([&] { return set_if_there("BinningVertical", settings_.binning, 1); })
@@ -98,7 +98,7 @@ class Negotiation {
     AravisError error;
     arv_camera_set_acquisition_mode(camera_, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
     if (auto set = done("AcquisitionMode", error); !set) return set;
-    // Cameras that run at one rate have no such feature.
+    // Cameras with a fixed rate have no such feature.
     if (!arv_camera_is_frame_rate_available(camera_, nullptr)) return {};
     if (frame_rate > 0) {
       arv_camera_set_frame_rate(camera_, frame_rate, error.out());
@@ -108,7 +108,8 @@ class Negotiation {
     return done("TriggerMode", error);
   }
 
-  /// Of GigE Vision. Found out by packets that the camera sends to try, where it can.
+  /// Sets the packet size of GigE Vision; determined with the camera's test packets if it can send
+  /// them.
   DeviceResult<> set_packet_size() {
     if (!arv_camera_is_gv_device(camera_)) return {};
     arv_camera_gv_set_packet_size_adjustment(camera_, ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
@@ -121,7 +122,7 @@ class Negotiation {
     return done("packet_size", error);
   }
 
-  /// What the camera made of it.
+  /// Reads back the format that the camera set.
   DeviceResult<> read(GenicamStreamFormat& format) {
     AravisError error;
     int x = 0, y = 0, width = 0, height = 0;
@@ -150,13 +151,13 @@ class Negotiation {
     return {};
   }
 
-  /// Of GenICam's YUV422_8 and YCbCr422_8, which use the whole range.
+  /// Colour space of GenICam's YUV422_8 and YCbCr422_8, which use the whole range.
   static ColourSpace colours_of(const GenicamFormat& format) {
     const bool is_yuv = info(format.format).colour == ColourModel::Yuv;
     return is_yuv ? ColourSpace{ColourMatrix::Bt601, ColourRange::Full} : ColourSpace{};
   }
 
-  /// Chunks and padding behind a picture.
+  /// Largest size of chunks and padding behind a picture.
   static constexpr std::size_t kMostExtra = std::size_t{1} << 20;
 
   ArvCamera* camera_;

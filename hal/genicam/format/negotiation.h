@@ -11,9 +11,9 @@
 
 namespace orbwatch::hal {
 
-/// What a camera will send, and what its frames become.
+/// Format that a camera will send, and the format of its decoded frames.
 struct GenicamStreamFormat {
-  const GenicamFormat* pixels = nullptr;  ///< in kGenicamFormats
+  const GenicamFormat* pixels = nullptr;  ///< entry in kGenicamFormats
   StreamFormat stream;                    ///< frame rate 0: unknown
   std::size_t payload = 0;                ///< bytes of a buffer
 
@@ -26,7 +26,7 @@ struct GenicamStreamFormat {
   }
 };
 
-/// Sets pixel format, binning, size, place on the sensor and rate of an open camera, which then
+/// Sets pixel format, binning, size, offset on the sensor and rate of an open camera, which then
 /// runs freely. `pixel_format` is "auto", the first of kGenicamFormats that the camera has, or a
 /// name. The size is honoured or refused with the camera's limits; the rate is the nearest that the
 /// camera has.
@@ -34,10 +34,10 @@ DeviceResult<GenicamStreamFormat> negotiate(ArvCamera* camera, const GenicamSett
                                             std::string_view pixel_format,
                                             const StreamRequest& request);
 
-/// The pixel formats that a camera offers, by PFNC code.
+/// Pixel formats that a camera offers, by PFNC code.
 std::vector<std::uint32_t> offered_formats(ArvCamera* camera);
 
-/// A camera's name of a format, or PFNC's, or its code.
+/// The camera's name of a format, or PFNC's, or its code.
 std::string format_name(std::uint32_t code);
 
 }  // namespace orbwatch::hal

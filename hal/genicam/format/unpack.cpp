@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t byte(std::byte value) { return std::to_integer<std::uint64_t>(value); }
 
-/// A stream of bits, lowest first: groups of `samples` in `bytes`.
+/// Reads a stream of bits, lowest first: groups of `samples` in `bytes`.
 template <int kBits, int kSamples, int kBytes, class Put>
 void read_bits(const std::byte* row, int width, const Put& put) {
   static_assert(kBits * kSamples == 8 * kBytes);
@@ -23,7 +23,8 @@ void read_bits(const std::byte* row, int width, const Put& put) {
   }
 }
 
-/// Pairs in 3 bytes: the upper 8 bits at the outside, the lower ones in both halves of the middle.
+/// Reads pairs in 3 bytes: the upper 8 bits at the outside, the lower ones in both halves of the
+/// middle.
 template <int kBits, class Put>
 void read_pairs(const std::byte* row, int width, const Put& put) {
   constexpr int kLow = kBits - 8;
@@ -38,7 +39,7 @@ void read_pairs(const std::byte* row, int width, const Put& put) {
 template <class Put>
 void read_words(const std::byte* row, int width, const Put& put) {
   for (int x = 0; x < width; ++x) {
-    std::uint16_t sample;  // GigE Vision's and USB3 Vision's are little-endian
+    std::uint16_t sample;  // samples of GigE Vision and USB3 Vision are little-endian
     std::memcpy(&sample, row + std::ptrdiff_t{2} * x, sizeof(sample));
     put(x, sample);
   }

@@ -11,7 +11,7 @@ namespace orbwatch::hal {
 /// bits of 16. Reentrant.
 void unpack_samples(SamplePacking packing, const std::byte* row, int width, std::uint16_t* samples);
 
-/// The upper 8 of the format's bits of each sample of a row, in any packing. Reentrant.
+/// Extracts the upper 8 of the format's bits of each sample of a row, in any packing. Reentrant.
 void unpack_upper_bits(const GenicamFormat& format, const std::byte* row, int width,
                        std::uint8_t* samples);
 

@@ -44,7 +44,8 @@ std::string names_of(const libcamera::ControlInfoMap& offered) {
   return text.empty() ? "none" : text;
 }
 
-/// `visit(T())`, where T has the numbers of that type; nothing for what is not a number.
+/// Calls `visit(T())` with the number type T of that control type; does nothing for a type that is
+/// not a number.
 template <class Visit>
 auto with_number(libcamera::ControlType type, const Visit& visit)
     -> std::optional<decltype(visit(false))> {
@@ -64,7 +65,7 @@ auto with_number(libcamera::ControlType type, const Visit& visit)
   }
 }
 
-/// Nothing for none, arrays and what is not a number.
+/// Converts a value; nullopt for none, arrays and values that are not numbers.
 std::optional<double> as_number(const libcamera::ControlValue& value) {
   if (value.isArray()) return std::nullopt;
   return with_number(value.type(), [&value](auto number) {
@@ -77,7 +78,7 @@ struct Limits {
   double most;
 };
 
-/// What a type holds; nothing for what is not a number. A double has the integers up to 2^53.
+/// Range of a type; nullopt for one that is not a number. A double has the integers up to 2^53.
 std::optional<Limits> limits_of(libcamera::ControlType type) {
   return with_number(type, []<class Number>(Number) {
     using Holds = std::numeric_limits<Number>;
@@ -95,7 +96,7 @@ std::optional<Limits> limits_of(libcamera::ControlType type, const libcamera::Co
   return limits;
 }
 
-/// `value`, rounded for integer controls.
+/// Returns `value`, rounded for integer controls.
 Result<double> check(std::string_view name, libcamera::ControlType type,
                      const libcamera::ControlInfo& info, double value) {
   const auto limits = limits_of(type, info);
@@ -118,7 +119,7 @@ void put_colour_gain(std::size_t element, double gain, libcamera::ControlList& l
   list.set(controls::ColourGains, libcamera::Span<const float, 2>(gains));
 }
 
-/// The controls with more than one number.
+/// True for a control with more than one number.
 bool is_array(const libcamera::ControlId& id) {
   namespace controls = libcamera::controls;
   const std::array<const libcamera::ControlId*, 3> arrays{
@@ -126,7 +127,7 @@ bool is_array(const libcamera::ControlId& id) {
   return std::find(arrays.begin(), arrays.end(), &id) != arrays.end();
 }
 
-/// What sensors round to: exposures to lines, gains to codes, which are coarse where they are high.
+/// Rounding of sensors: exposures to lines, gains to codes, which are coarse at high gains.
 constexpr double kExposureError = 60;  // us
 constexpr double kRelativeError = 0.05;
 
@@ -134,7 +135,7 @@ bool is_near(double asked, double stated, double error) {
   return std::abs(asked - stated) <= std::max(error, kRelativeError * asked);
 }
 
-/// Whether both lists have the control, with values that are not near each other.
+/// True if both lists have the control, with values that are not near each other.
 template <class Number>
 bool differs(const libcamera::Control<Number>& control, const libcamera::ControlList& asked,
              const libcamera::ControlList& stated, double error) {

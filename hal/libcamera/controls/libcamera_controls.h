@@ -21,14 +21,14 @@ namespace orbwatch::hal {
 Result<> put_control(const libcamera::ControlInfoMap& offered, std::string_view name, double value,
                      libcamera::ControlList& list);
 
-/// libcamera's id of the control `name`, as in put_control(), or nullptr.
+/// Libcamera's id of the control `name`, as in put_control(), or nullptr.
 const libcamera::ControlId* find_control(const libcamera::ControlInfoMap& offered,
                                          std::string_view name);
 
-/// The controls of put_control(), by name.
+/// Controls that put_control() accepts, by name.
 std::vector<CameraControl> list_controls(const libcamera::ControlInfoMap& offered);
 
-/// Controls that are set, until they reach the camera. Thread-safe.
+/// Settings of controls that have not reached the camera yet. Thread-safe.
 class ControlSettings {
  public:
   ControlSettings();
@@ -36,19 +36,19 @@ class ControlSettings {
   /// Stores a setting; see put_control().
   Result<> set(const libcamera::ControlInfoMap& offered, std::string_view name, double value);
 
-  /// Every control that was set, for a camera's start.
+  /// All controls that were set, for a camera's start.
   libcamera::ControlList all();
 
-  /// The first control that was set to another value than a frame's metadata state, or nullptr. Of
-  /// exposure, gains and colour gains, which are fixed and which metadata state as the sensor
-  /// rounded them.
+  /// First control whose value in a frame's metadata differs from the one that was set, or nullptr.
+  /// Considers fixed exposure, gains and colour gains, which metadata state as the sensor rounded
+  /// them.
   const libcamera::ControlId* find_other(const libcamera::ControlList& metadata) const;
 
   /// Adds the settings since the last call, or since all(), to a request.
   void add_changes(libcamera::ControlList& request);
 
  private:
-  std::atomic<bool> changed_{false};  ///< spares the frame path the lock
+  std::atomic<bool> changed_{false};  ///< saves the frame path from locking
   mutable std::mutex mutex_;
   libcamera::ControlList all_;
   libcamera::ControlList changes_;

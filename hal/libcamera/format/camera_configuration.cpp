@@ -22,7 +22,7 @@ std::string to_text(const libcamera::StreamConfiguration& stream) {
   return stream.pixelFormat.toString() + " " + stream.size.toString();
 }
 
-/// "NV12 32x32..3280x2464; not supported: SRGGB10"
+/// Text such as "NV12 32x32..3280x2464; not supported: SRGGB10".
 std::string offers_of(const libcamera::StreamConfiguration& stream) {
   std::string offers;
   std::string others;
@@ -80,7 +80,7 @@ Result<NegotiatedConfiguration> validate(libcamera::Camera& camera, const Libcam
   return negotiated;
 }
 
-/// The settable rate nearest to `wanted`; 0 if the camera has no such control or `wanted` is 0.
+/// Settable rate nearest to `wanted`; 0 if the camera has no such control or `wanted` is 0.
 double possible_rate(const libcamera::ControlInfoMap& offered, double wanted) {
   const auto limits = offered.find(controls::FrameDurationLimits.id());
   if (limits == offered.end() || wanted == 0) return 0;
@@ -130,7 +130,7 @@ std::string to_text(const SensorMode& mode) {
 }
 
 int raw_bit_depth(libcamera::PixelFormat format) {
-  // SRGGB10, SBGGR12_CSI2P, R10: a Bayer order or R for grey, then the depth.
+  // Names such as SRGGB10, SBGGR12_CSI2P, R10: a Bayer order or R for grey, then the depth.
   const std::string name = format.toString();
   std::size_t at = 0;
   if (name.size() > 5 && name[0] == 'S' && name.find_first_not_of("RGB", 1) == 5) {
@@ -156,7 +156,7 @@ std::string sensor_modes_of(libcamera::Camera& camera) {
     for (const auto& size : raw->at(0).formats().sizes(format)) {
       const std::string mode =
           to_text({static_cast<int>(size.width), static_cast<int>(size.height), depth});
-      // Packed and plain formats of the same mode.
+      // Packed and plain formats share a mode.
       if (modes.find(mode) == std::string::npos) modes += (modes.empty() ? "" : ", ") + mode;
     }
   }

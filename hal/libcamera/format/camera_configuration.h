@@ -15,7 +15,7 @@
 
 namespace orbwatch::hal {
 
-/// "1640x1232 10 bit"
+/// Text such as "1640x1232 10 bit".
 std::string to_text(const SensorMode& mode);
 
 /// Bits per sample of a raw format, packed or not, or 0 for other formats.
@@ -29,7 +29,7 @@ std::string sensor_modes_of(libcamera::Camera& camera);
 Result<std::unique_ptr<libcamera::CameraConfiguration>> begin_configuration(
     libcamera::Camera& camera, const SensorMode& mode);
 
-/// Whether a configuration of begin_configuration() still has the mode after validate().
+/// True if a configuration of begin_configuration() still has the mode after validate().
 bool has_sensor_mode(const libcamera::CameraConfiguration& validated, const SensorMode& mode);
 
 /// Exclusive access to a camera, until the end of this object.
@@ -51,18 +51,18 @@ class AcquiredCamera {
   std::shared_ptr<libcamera::Camera> camera_;
 };
 
-/// What a camera will deliver.
+/// Configuration that a camera will deliver.
 struct NegotiatedConfiguration {
   std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< the camera's current one
-  const LibcameraFormat* pixels = nullptr;                        ///< in kLibcameraFormats
+  const LibcameraFormat* pixels = nullptr;                        ///< entry in kLibcameraFormats
   StreamFormat stream;                                            ///< frame rate 0: unknown
-  std::size_t stride = 0;                                         ///< of the first plane, bytes
-  std::size_t requested_buffers = 0;                              ///< a pipeline may make fewer
+  std::size_t stride = 0;             ///< stride of the first plane, bytes
+  std::size_t requested_buffers = 0;  ///< a pipeline may make fewer
 
   const libcamera::StreamConfiguration& picture() const { return configuration->at(0); }
 };
 
-/// How validate() changed the requested size or pixel format, as text; nullopt if not. Buffer
+/// Changes by validate() to the requested size or pixel format, as text; nullopt if none. Buffer
 /// count, stride and colour space are libcamera's choice.
 std::optional<std::string> difference(const libcamera::StreamConfiguration& asked,
                                       const libcamera::StreamConfiguration& given);

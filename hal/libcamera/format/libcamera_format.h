@@ -15,17 +15,17 @@
 
 namespace orbwatch::hal {
 
-/// A supported pixel format of libcamera, and what its frames become.
+/// Supported pixel format of libcamera, and the format of its frames.
 struct LibcameraFormat {
-  std::string_view name;  ///< libcamera's, as in the settings
+  std::string_view name;  ///< name in libcamera and in the settings
   libcamera::PixelFormat code;
   PixelFormat format;
-  bool v_before_u = false;  ///< of separate chroma planes
+  bool v_before_u = false;  ///< order of separate chroma planes
 };
 
-/// In the order of preference of "auto": colour of an ISP, then grey, deep before shallow.
-/// libcamera names RGB formats as DRM does, by the bits of a little-endian word: its RGB888 is B,
-/// G, R in memory.
+/// Formats in the order of preference of "auto": colour of an ISP, then grey, deep before shallow.
+/// libcamera names RGB formats like DRM, by the bits of a little-endian word: its RGB888 is B, G, R
+/// in memory.
 inline constexpr std::array kLibcameraFormats{
     LibcameraFormat{"NV12", libcamera::formats::NV12, PixelFormat::Nv12},
     LibcameraFormat{"NV21", libcamera::formats::NV21, PixelFormat::Nv21},
@@ -37,7 +37,7 @@ inline constexpr std::array kLibcameraFormats{
     LibcameraFormat{"RGB888", libcamera::formats::RGB888, PixelFormat::Bgr},
     LibcameraFormat{"XRGB8888", libcamera::formats::XRGB8888, PixelFormat::Bgra},
     LibcameraFormat{"ARGB8888", libcamera::formats::ARGB8888, PixelFormat::Bgra},
-    // Has no name in libcamera 0.0.3.
+    // R16 has no name in libcamera 0.0.3.
     LibcameraFormat{"R16", libcamera::PixelFormat(0x20363152 /* "R16 " */), PixelFormat::Y16},
     LibcameraFormat{"R12", libcamera::formats::R12, PixelFormat::Y12},
     LibcameraFormat{"R10", libcamera::formats::R10, PixelFormat::Y10},
@@ -47,13 +47,13 @@ inline constexpr std::array kLibcameraFormats{
 /// The entry of kLibcameraFormats for a code, or nullptr.
 const LibcameraFormat* find_format(libcamera::PixelFormat code);
 
-/// The colour space that libcamera declares, else BT.601 of limited range, V4L2's default. Nullopt
-/// for an unsupported YCbCr encoding (BT.2020).
+/// Colour space that libcamera declares, else BT.601 of limited range, V4L2's default. Nullopt for
+/// an unsupported YCbCr encoding (BT.2020).
 std::optional<ColourSpace> colour_space_of(const std::optional<libcamera::ColorSpace>& space,
                                            PixelFormat format);
 
-/// The picture of `format` in `planes`, in libcamera's order; one plane may contain those that
-/// follow. `stride` is the first plane's, bytes. Error: a plane is too short. Reentrant.
+/// Describes the picture of `format` in `planes`, in libcamera's order; one plane may contain those
+/// that follow. `stride` is the first plane's, bytes. Error: a plane is too short. Reentrant.
 Result<Picture> lay_out(const LibcameraFormat& format, int width, int height, std::size_t stride,
                         std::span<const std::span<const std::byte>> planes);
 

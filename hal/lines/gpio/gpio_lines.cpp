@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By number: /dev/gpiochip10 after /dev/gpiochip9.
+/// Sorted by number: /dev/gpiochip10 after /dev/gpiochip9.
 std::vector<std::string> chip_paths() {
   std::vector<std::string> paths;
   std::error_code none;  // no /dev: no chips

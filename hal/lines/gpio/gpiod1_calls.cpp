@@ -85,7 +85,7 @@ class Output : public DigitalOutput {
  public:
   Output(Requested requested, std::string text)
       : requested_(std::move(requested)), text_(std::move(text)) {}
-  // Fails when the chip is gone; then nothing is left to do.
+  // This fails when the chip is gone; nothing is left to do then.
   ~Output() override { static_cast<void>(gpiod_line_set_value(requested_.line(), 0)); }
 
   LineResult<> set(bool active) override {

@@ -40,7 +40,7 @@ gpiod_line_bias bias_of(LineBias bias) {
   return GPIOD_LINE_BIAS_AS_IS;
 }
 
-/// Requests one line, which has a file of its own; the chip's may be closed.
+/// Requests one line, which has a file of its own; the chip's file may be closed.
 tl::expected<Request, int> request_line(const std::string& path, unsigned offset,
                                         gpiod_line_settings* settings) {
   const Chip chip(gpiod_chip_open(path.c_str()));
@@ -106,14 +106,14 @@ class Input : public DigitalInput {
   unsigned offset_;
   Clock::duration debounce_;
   std::string text_;
-  std::uint32_t last_number_ = 0;  ///< wraps as the kernel's
+  std::uint32_t last_number_ = 0;  ///< wraps like the kernel's number
 };
 
 class Output : public DigitalOutput {
  public:
   Output(Request request, unsigned offset, std::string text)
       : request_(std::move(request)), offset_(offset), text_(std::move(text)) {}
-  // Fails when the chip is gone; then nothing is left to do.
+  // This fails when the chip is gone; nothing is left to do then.
   ~Output() override {
     static_cast<void>(
         gpiod_line_request_set_value(request_.get(), offset_, GPIOD_LINE_VALUE_INACTIVE));

@@ -7,8 +7,8 @@
 
 #include "hal/lines/line.h"
 
-/// The calls that differ between libgpiod 1.6 (gpiod1_calls.cpp) and 2.x (gpiod2_calls.cpp); the
-/// build selects one by the library's version. Errors are errno's.
+/// Calls that differ between libgpiod 1.6 (gpiod1_calls.cpp) and 2.x (gpiod2_calls.cpp); the build
+/// selects one by the library's version. Errors are values of errno.
 namespace orbwatch::hal::gpiod_calls {
 
 /// Label and lines of the chip at `path`.
@@ -22,10 +22,10 @@ tl::expected<std::unique_ptr<DigitalOutput>, int> request_output(const std::stri
                                                                  unsigned offset,
                                                                  const OutputSettings& settings);
 
-/// The fault of a failed call on the open line `text`.
+/// Fault of a failed call on the open line `text`.
 LineFaultReport line_fault(const std::string& text, int code);
 
-/// Makes reads from a line's descriptor non-blocking.
+/// Makes reads from a line's descriptor non-blocking. False: errno has the reason.
 bool never_wait(int descriptor);
 
 }  // namespace orbwatch::hal::gpiod_calls

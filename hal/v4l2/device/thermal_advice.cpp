@@ -9,7 +9,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// A picture and the lines of telemetry that FLIR's Lepton adds to it.
+/// Picture and the telemetry lines that FLIR's Lepton adds to it.
 struct Telemetry {
   std::uint32_t width;
   std::uint32_t height;
@@ -32,7 +32,7 @@ std::string size_keys(std::uint32_t width, std::uint32_t height) {
   return "[[camera]] width = " + std::to_string(width) + ", height = " + std::to_string(height);
 }
 
-/// No other camera's frames are higher than wide, or offered in half their height as well.
+/// No other camera's frames are higher than wide, or also offered in half their height.
 std::string stacked_advice(const FrameSizeOffer& size, std::span<const FrameSizeOffer> sizes) {
   const std::uint32_t width = size.min_width, height = size.min_height, half = height / 2;
   const bool is_stacked = height % 2 == 0 && (height > width || has_size(sizes, width, half));

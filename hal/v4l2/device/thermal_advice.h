@@ -8,9 +8,9 @@
 
 namespace orbwatch::hal {
 
-/// Advice on configuring a thermal camera that offers a format in these sizes where its frames
-/// are not what they are called: 16 bit words as YUYV below a picture, or lines of telemetry beside
-/// it. Empty for other sizes. Reentrant.
+/// Advice on configuring a thermal camera whose offered format and sizes reveal that its frames
+/// differ from their declared format: 16 bit words as YUYV below a picture, or lines of telemetry
+/// beside it. Empty for other sizes. Reentrant.
 std::string thermal_advice(std::uint32_t fourcc, std::span<const FrameSizeOffer> sizes);
 
 }  // namespace orbwatch::hal

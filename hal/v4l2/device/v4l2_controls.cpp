@@ -11,14 +11,14 @@
 namespace orbwatch::hal {
 namespace {
 
-/// A GenICam name (SFNC 2.7) for a control of V4L2.
+/// GenICam name (SFNC 2.7) for a control of V4L2.
 struct Alias {
   std::string_view name;
   std::uint32_t id;
-  double units;  ///< V4L2's per GenICam unit
+  double units;  ///< V4L2's units per GenICam unit
 };
 
-/// Of V4L2_CID_EXPOSURE_ABSOLUTE.
+/// Unit of V4L2_CID_EXPOSURE_ABSOLUTE.
 constexpr std::chrono::microseconds kExposureUnit{100};
 
 constexpr std::array kAliases{
@@ -45,8 +45,7 @@ std::string letters_of(std::string_view name) {
   return letters;
 }
 
-/// V4L2's menu entry for GenICam's ExposureAuto: off, or on with the automatic mode that the camera
-/// has.
+/// V4L2's menu entry for GenICam's ExposureAuto: off, or the automatic mode that the camera has.
 Result<double> exposure_entry(const V4l2Device& device, const v4l2_query_ext_ctrl& control,
                               double value) {
   if (value == 0) return V4L2_EXPOSURE_MANUAL;

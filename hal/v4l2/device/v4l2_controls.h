@@ -9,13 +9,13 @@
 
 namespace orbwatch::hal {
 
-/// A control's name as in v4l2-ctl: "Exposure Time, Absolute" is exposure_time_absolute.
+/// v4l2-ctl's name of a control: "Exposure Time, Absolute" is exposure_time_absolute.
 std::string control_variable(std::string_view name);
 
-/// True for the types of set_control(): number, boolean, menu, button.
+/// True for the types that set_control() accepts: number, boolean, menu, button.
 bool takes_number(const v4l2_query_ext_ctrl& control);
 
-/// A control by its name, as in set_control(). Error: there is none.
+/// Finds a control by its name, as in set_control(). Error: there is none.
 Result<v4l2_query_ext_ctrl> find_control(const V4l2Device& device, std::string_view name);
 
 /// Sets a control by its V4L2 name in V4L2's units, regardless of case and punctuation
@@ -26,14 +26,14 @@ Result<v4l2_query_ext_ctrl> find_control(const V4l2Device& device, std::string_v
 /// out of range, refused by the driver.
 Result<> set_control(V4l2Device& device, std::string_view name, double value);
 
-/// True when the control cannot be set now: it is under automatic control, or another program's.
-/// False for an unknown name. Names as in set_control.
+/// True when the control cannot be set now: it is under automatic control, or another program
+/// controls it. False for an unknown name. Names as in set_control.
 bool is_inactive(const V4l2Device& device, std::string_view name);
 
 /// True for a button, which has no value. Names as in set_control.
 bool is_button(const V4l2Device& device, std::string_view name);
 
-/// The exposure time that is set, as ExposureTime says; 0: unknown, as under automatic control.
+/// Exposure time that is set, as control ExposureTime; 0: unknown, such as under automatic control.
 std::chrono::microseconds exposure_time(const V4l2Device& device);
 
 /// True when the device's control TriggerMode is on: frames then arrive on triggers.

@@ -14,7 +14,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// More entries than any camera lists; bounds the enumeration with a broken driver.
+/// Larger than the entries of any camera; bounds the enumeration with a broken driver.
 constexpr std::uint32_t kMaxEntries = 256;
 
 /// One ioctl, repeated when a signal interrupts it: 0, or the error number.
@@ -41,7 +41,7 @@ std::string text_of(const Byte (&field)[N]) {
   return {text, ::strnlen(text, N)};
 }
 
-/// The fault that a failed call means.
+/// Fault for a failed call.
 Fault fault_of(int error) {
   return error == ENOENT || error == ENODEV || error == ENXIO ? Fault::Unplugged : Fault::ReadError;
 }
@@ -52,7 +52,7 @@ std::string hint(int error) {
   return "; the user must be in the group of the device (video)";
 }
 
-/// What both of V4L2's structures state alike.
+/// The members that both of V4L2's structures have.
 template <class Pix>
 DriverFormat picture_format(const Pix& pix, std::size_t memory_count) {
   return {pix.width,     pix.height,       pix.pixelformat, pix.field, pix.colorspace,
@@ -192,7 +192,7 @@ struct V4l2Device::BufferQuery {
   BufferQuery(const BufferQuery&) = delete;
   BufferQuery& operator=(const BufferQuery&) = delete;
 
-  /// Names the dma-bufs to fill, of either interface.
+  /// Sets the dma-bufs to fill, for either interface.
   void import(std::span<const BufferMemory> memory) {
     const bool single = buffer.type != V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE;
     for (std::size_t i = 0; i < memory.size() && i < planes.size(); ++i) {

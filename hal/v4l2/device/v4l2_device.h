@@ -17,7 +17,7 @@
 
 namespace orbwatch::hal {
 
-/// Whose memory a device's buffers lie in: the driver's, or dma-bufs that it imports.
+/// Owner of the memory of a device's buffers: the driver, or dma-bufs that it imports.
 enum class BufferOwner : std::uint32_t {
   Driver = V4L2_MEMORY_MMAP,
   Importer = V4L2_MEMORY_DMABUF,
@@ -29,9 +29,9 @@ struct BufferMemory {
   std::optional<DmaBuffer> dma_buffer;
 };
 
-/// What a driver states about a filled buffer.
+/// Data that a driver states about a filled buffer.
 struct FilledBuffer {
-  /// Where the samples are in one memory plane, bytes.
+  /// Position of the samples in one memory plane, bytes.
   struct Samples {
     std::size_t offset = 0;
     std::size_t size = 0;
@@ -50,7 +50,7 @@ struct FrameSizeOffer {
   std::uint32_t min_height = 0, max_height = 0;
 };
 
-/// An open V4L2 capture device, of the single- or of the multi-planar interface: each call is one
+/// Open V4L2 capture device, of the single- or of the multi-planar interface: each call is one
 /// ioctl, repeated when a signal interrupts it. Every error names the device. Thread-bound.
 class V4l2Device {
  public:
@@ -58,9 +58,9 @@ class V4l2Device {
   static DeviceResult<V4l2Device> open(const std::string& path);
 
   const std::string& path() const { return path_; }
-  const std::string& card() const { return card_; }  ///< the device's own name
+  const std::string& card() const { return card_; }  ///< device's own name
   const std::string& driver() const { return driver_; }
-  const std::string& bus() const { return bus_; }  ///< where it is: "usb-0000:00:14.0-1"
+  const std::string& bus() const { return bus_; }  ///< place on the bus: "usb-0000:00:14.0-1"
   int descriptor() const { return file_.get(); }
 
   /// The offered pixel formats, by four-character code.
@@ -80,16 +80,16 @@ class V4l2Device {
 
   /// The control after id `after` (0: the first), or nullopt after the last.
   std::optional<v4l2_query_ext_ctrl> next_control(std::uint32_t after) const;
-  /// The text of a menu's entry, or nullopt where the menu has none.
+  /// The text of a menu's entry, or nullopt if the menu does not have it.
   std::optional<std::string> menu_entry(const v4l2_query_ext_ctrl& control,
                                         std::int64_t index) const;
   DeviceResult<std::int64_t> control(const v4l2_query_ext_ctrl& control) const;
   DeviceResult<> set_control(const v4l2_query_ext_ctrl& control, std::int64_t value);
 
-  /// Whether the driver does not exclude BufferOwner::Importer; drivers before Linux 4.20 state
-  /// nothing. Only while there are no buffers.
+  /// True if the driver does not exclude BufferOwner::Importer; drivers before Linux 4.20 state
+  /// nothing. Call only while there are no buffers.
   bool may_import() const;
-  /// Requests `count` buffers; returns how many the driver made.
+  /// Requests `count` buffers; returns the number that the driver made.
   DeviceResult<std::uint32_t> request_buffers(std::uint32_t count,
                                               BufferOwner owner = BufferOwner::Driver);
   DeviceResult<> free_buffers();
@@ -115,7 +115,7 @@ class V4l2Device {
   DeviceResult<BufferMemory> map_memory(std::uint32_t index, std::uint32_t number,
                                         std::size_t length, std::uint32_t offset);
   std::optional<DmaBuffer> export_memory(std::uint32_t index, std::uint32_t number);
-  /// A call whose failure is a fault; `action` is for its message.
+  /// Makes a call whose failure is a fault; `action` is for its message.
   template <class T>
   DeviceResult<> request(unsigned long code, T& argument, const std::string& action) const;
   tl::unexpected<FaultReport> failed(const std::string& action, int error) const;
@@ -126,7 +126,7 @@ class V4l2Device {
   std::string driver_;
   std::string bus_;
   std::uint32_t type_ = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  BufferOwner owner_ = BufferOwner::Driver;  ///< of the buffers that were requested last
+  BufferOwner owner_ = BufferOwner::Driver;  ///< owner of the buffers that were requested last
 };
 
 }  // namespace orbwatch::hal

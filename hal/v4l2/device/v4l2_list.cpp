@@ -27,7 +27,7 @@ std::vector<fs::path> entries(const fs::path& folder) {
   return found;
 }
 
-/// "video12" is 12; -1 for other names.
+/// Number of a node: "video12" is 12; -1 for other names.
 int node_number(const fs::path& path) {
   constexpr std::string_view kPrefix = "video";
   const std::string name = path.filename().string();
@@ -81,7 +81,7 @@ std::string advice_of(const V4l2Device& device) {
   return all;
 }
 
-/// "1 = manual mode"
+/// Menu entries as texts such as "1 = manual mode".
 std::vector<std::string> menu_of(const V4l2Device& device, const v4l2_query_ext_ctrl& control) {
   std::vector<std::string> menu;
   if (control.type != V4L2_CTRL_TYPE_MENU && control.type != V4L2_CTRL_TYPE_INTEGER_MENU) {

@@ -28,15 +28,15 @@ struct DriverFormat {
   std::array<Memory, kMaxPlanes> memory;
 };
 
-/// The matrix and range of the YCbCr that a driver declares.
+/// Matrix and range of the YCbCr that a driver declares.
 ColourSpace colour_space_of(const DriverFormat& format);
 
-/// Where a driver places the planes of a picture in the memory planes of a buffer.
+/// Placement of a picture's planes in the memory planes of a buffer.
 struct DriverLayout {
   struct Plane {
     std::size_t memory = 0;  ///< index of the memory plane
-    std::size_t offset = 0;  ///< from its first sample, bytes
-    std::size_t stride = 0;  ///< from row to row, bytes
+    std::size_t offset = 0;  ///< offset from the memory plane's first sample, bytes
+    std::size_t stride = 0;  ///< bytes from row to row
   };
 
   std::size_t plane_count = 0;
@@ -45,7 +45,8 @@ struct DriverLayout {
   std::array<std::size_t, kMaxPlanes> needed{};  ///< bytes of a complete picture, by memory plane
 };
 
-/// Of a coding in a format that the driver accepted. JPEG pictures have one plane without rows.
+/// Layout of a coding in a format that the driver accepted. JPEG pictures have one plane without
+/// rows.
 DriverLayout driver_layout(const PixelCoding& coding, const DriverFormat& format);
 
 }  // namespace orbwatch::hal

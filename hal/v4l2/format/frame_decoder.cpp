@@ -44,7 +44,7 @@ void pick_upper(const std::byte* row, int width, int picked, int bytes, std::uin
 
 void shift_to_8_bit(const std::byte* row, int width, int bits, std::uint8_t* samples) {
   for (int x = 0; x < width; ++x) {
-    std::uint16_t sample;  // V4L2's are little-endian
+    std::uint16_t sample;  // samples of V4L2 are little-endian
     std::memcpy(&sample, row + std::ptrdiff_t{2} * x, sizeof(sample));
     samples[x] = static_cast<std::uint8_t>(sample >> (bits - 8));
   }

@@ -18,8 +18,8 @@ namespace orbwatch::hal {
 /// Mipi10, Mipi12 or BigEndian. Reentrant.
 void unpack_row(Packing packing, const std::byte* row, int width, std::uint16_t* samples);
 
-/// The upper 8 bits of each sample of a row of luminance with `bits` per sample (8, 10, 12 or 16),
-/// in any packing but Jpeg. Reentrant.
+/// Extracts the upper 8 bits of each sample of a row of luminance with `bits` per sample (8, 10, 12
+/// or 16), in any packing but Jpeg. Reentrant.
 void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int width,
                          std::uint8_t* samples);
 
@@ -27,17 +27,17 @@ void unpack_row_to_8_bit(Packing packing, int bits, const std::byte* row, int wi
 /// Thread-bound.
 class FrameDecoder {
  public:
-  /// For a format that is not zero-copy, with `buffers` for its frames.
+  /// Made for a format that is not zero-copy, with `buffers` for its frames.
   FrameDecoder(const NegotiatedFormat& format, std::size_t buffers);
 
-  /// After a reconnection with the same stream format, whose layout may differ.
+  /// Call after a reconnection with the same stream format, whose layout may differ.
   void follow(const NegotiatedFormat& format) { format_ = format; }
 
-  /// The frame in `samples`, which has at least the layout's size; nullptr when all buffers are in
-  /// use. Errors: a damaged JPEG picture, or one of another size.
+  /// Decodes the frame in `samples`, which has at least the layout's size; nullptr when all buffers
+  /// are in use. Errors: a damaged JPEG picture, or one of another size.
   Result<std::shared_ptr<FrameBuffer>> decode(std::span<const std::byte> samples);
 
-  /// Of the frame decoded last: see JpegDecoder::is_flawed().
+  /// True for a flawed picture decoded last: see JpegDecoder::is_flawed().
   bool is_flawed() const { return jpeg_.is_flawed(); }
 
  private:
@@ -48,7 +48,7 @@ class FrameDecoder {
   NegotiatedFormat format_;
   FramePool pool_;
   JpegDecoder jpeg_;
-  std::vector<std::uint8_t> mosaic_;  ///< in 8 bit
+  std::vector<std::uint8_t> mosaic_;  ///< mosaic in 8 bit
 };
 
 }  // namespace orbwatch::hal

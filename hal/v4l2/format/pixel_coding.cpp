@@ -5,7 +5,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// The pixels of a row that share bytes or chroma, a power of two.
+/// Number of pixels of a row that share bytes or chroma, a power of two.
 int column_group(const PixelCoding& coding, const PixelFormatInfo& frame) {
   if (coding.packing == Packing::Mipi10) return 4;
   const bool pairs = coding.packing == Packing::Mipi12 || coding.mosaic != Mosaic::None ||

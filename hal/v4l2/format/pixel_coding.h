@@ -12,30 +12,30 @@
 
 namespace orbwatch::hal {
 
-/// How a driver packs samples.
+/// Sample packings of drivers.
 enum class Packing : std::uint8_t {
-  None,       ///< as the PixelFormat: frames are forwarded in the driver's memory
+  None,       ///< layout of the PixelFormat: frames are forwarded in the driver's memory
   Mipi10,     ///< 4 samples in 5 bytes: the upper 8 bits of each, then their lower 2, first lowest
   Mipi12,     ///< 2 samples in 3 bytes: the upper 8 bits of each, then their lower 4
   BigEndian,  ///< 16 bit, high byte first
   Jpeg,       ///< one JPEG picture per frame
 };
 
-/// A supported pixel format of V4L2.
+/// Supported pixel format of V4L2.
 struct PixelCoding {
-  std::string_view name;  ///< as in the settings
+  std::string_view name;  ///< name in the settings
   std::uint32_t fourcc;
-  PixelFormat format;  ///< of its unpacked samples; luminance for a mosaic
+  PixelFormat format;  ///< format of its unpacked samples; luminance for a mosaic
   Packing packing = Packing::None;
   Mosaic mosaic = Mosaic::None;
-  std::size_t memory_count = 1;  ///< memory planes
+  std::size_t memory_count = 1;  ///< number of memory planes
 };
 
 /// Missing in the headers of some kernels.
 inline constexpr std::uint32_t kFourccY12p = v4l2_fourcc('Y', '1', '2', 'P');
 
-/// In the order of preference of "auto": uncompressed colour, compressed colour, mosaics, then
-/// luminance, 8 bit first.
+/// Formats in the order of preference of "auto": uncompressed colour, compressed colour, mosaics,
+/// then luminance, 8 bit first.
 inline constexpr std::array kPixelCodings{
     PixelCoding{"yuyv", V4L2_PIX_FMT_YUYV, PixelFormat::Yuyv},
     PixelCoding{"uyvy", V4L2_PIX_FMT_UYVY, PixelFormat::Uyvy},
@@ -87,11 +87,11 @@ inline constexpr std::array kPixelCodings{
     PixelCoding{"y10p", V4L2_PIX_FMT_Y10P, PixelFormat::Y10, Packing::Mipi10},
 };
 
-/// 16 bit words that a thermal camera sends as YUYV, since a UVC device of the day can say no more:
-/// not in the table, because nothing but the settings tells them from a picture.
+/// 16 bit words that a thermal camera sends as YUYV, because a UVC device of its time could not
+/// declare them: not in the table, since only the settings distinguish them from a picture.
 inline constexpr PixelCoding kWordsAsYuyv{"y16", V4L2_PIX_FMT_YUYV, PixelFormat::Y16};
 
-/// What the settings allow: "auto" and the names above.
+/// Values that the settings allow: "auto" and the names above.
 inline constexpr auto kPixelCodingNames = [] {
   std::array<std::string_view, kPixelCodings.size() + 1> names{"auto"};
   for (std::size_t i = 0; i < kPixelCodings.size(); ++i) names[i + 1] = kPixelCodings[i].name;
@@ -101,14 +101,14 @@ inline constexpr auto kPixelCodingNames = [] {
 /// The coding with a four-character code, or nullptr.
 const PixelCoding* find_coding(std::uint32_t fourcc);
 
-/// The format of the frames: with `colour`, a mosaic becomes Bgr of 8 bit and a JPEG picture Nv12;
+/// Format of the frames: with `colour`, a mosaic becomes Bgr of 8 bit and a JPEG picture Nv12;
 /// without it a mosaic is kept and a JPEG picture becomes its luminance.
 PixelFormat frame_format(const PixelCoding& coding, bool colour);
 
 /// True when the size is a multiple of the coding's pixel groups and Bayer pattern.
 bool is_whole(const PixelCoding& coding, bool colour, int width, int height);
 
-/// Bytes of a row of the first plane as the driver packs it, without padding.
+/// Bytes of a row of the first plane in the driver's packing, without padding.
 std::size_t packed_row_bytes(const PixelCoding& coding, int width);
 
 }  // namespace orbwatch::hal

@@ -10,7 +10,7 @@ namespace {
 /// Drivers count time in integer ticks: 30 frames per second may be 29.97.
 constexpr double kRateTolerance = 0.98;
 
-/// "YUYV 640x480, 1280x720; MJPG 1920x1080; not supported: H264"
+/// Text such as "YUYV 640x480, 1280x720; MJPG 1920x1080; not supported: H264".
 std::string offers_of(const V4l2Device& device) {
   std::string offers;
   std::string others;
@@ -29,7 +29,7 @@ std::string offers_of(const V4l2Device& device) {
   return others.empty() ? offers : offers + "; not supported: " + others;
 }
 
-/// Whether the driver's answer is usable, regardless of the request.
+/// True if the driver's answer is usable, regardless of the request.
 bool is_usable(const DriverFormat& got, const PixelCoding& coding, bool colour) {
   const auto side = std::max(got.width, got.height);
   if (got.fourcc != coding.fourcc || got.field != V4L2_FIELD_NONE || side > kMaxSide) return false;
@@ -41,13 +41,13 @@ bool is_usable(const DriverFormat& got, const PixelCoding& coding, bool colour) 
 }
 
 ColourSpace colour_space(const PixelCoding& coding, const DriverFormat& format) {
-  // JFIF's; drivers often declare a wrong YCbCr for JPEG pictures.
+  // JFIF's colour space; drivers often declare a wrong one for JPEG pictures.
   if (coding.packing == Packing::Jpeg) return {ColourMatrix::Bt601, ColourRange::Full};
   return colour_space_of(format);
 }
 
-/// Cuts the picture out of the device's frames. False: it does not lie in them, or shares pixel
-/// groups with what is cut.
+/// Crops the picture out of the device's frames. False: it does not lie within them, or shares
+/// pixel groups with the cropped part.
 bool cut(NegotiatedFormat& format, const FormatRequest& wanted) {
   if (wanted.frame_height == 0) return true;
   const int first = wanted.first_row;
@@ -114,7 +114,7 @@ std::vector<PixelCoding> candidates(const V4l2Device& device, const FormatReques
   return found;
 }
 
-/// Advice where a thermal camera's frames are not what they are called.
+/// Advice if a thermal camera's frames differ from their declared format.
 std::string advice(const V4l2Device& device, const FormatRequest& wanted) {
   std::string text;
   if (wanted.pixel_format == kWordsAsYuyv.name && !wanted.is_radiometric &&

@@ -10,20 +10,20 @@
 
 namespace orbwatch::hal {
 
-/// The pictures that are requested of a device.
+/// Pictures that are requested from a device.
 struct FormatRequest {
   std::string_view pixel_format = "auto";  ///< one of kPixelCodingNames
   bool colour = true;                      ///< see frame_format()
   StreamRequest stream;
-  /// Height of the device's frames, px; 0: the picture's. The picture is stream.height of their
-  /// rows, all if that is 0, from first_row on.
+  /// Height of the device's frames, px; 0: the picture's. The picture consists of stream.height of
+  /// their rows, all if that is 0, from first_row on.
   int frame_height = 0;
   int first_row = 0;
-  /// Its samples are counts of temperature: "y16" is also kWordsAsYuyv, where there is no Y16.
+  /// Its samples are counts of temperature: "y16" then also means kWordsAsYuyv, if there is no Y16.
   bool is_radiometric = false;
 };
 
-/// What a device will deliver, and what its frames become.
+/// Format that a device will deliver, and the format of its decoded frames.
 struct NegotiatedFormat {
   PixelCoding coding;
   DriverLayout layout;
@@ -37,13 +37,13 @@ struct NegotiatedFormat {
 
 /// Sets format, size and rate. "auto" selects the first of kPixelCodings with the requested size
 /// and rate, else the first with the size. The size is honoured, or refused with a list of the
-/// offers and what would help; the rate is the driver's nearest. JPEG pictures cannot be cut.
+/// offers and a remedy; the rate is the driver's nearest. JPEG pictures cannot be cropped.
 DeviceResult<NegotiatedFormat> negotiate_format(V4l2Device& device, const FormatRequest& wanted);
 
 /// A four-character code as text: "YUYV", "Y16-BE" for big-endian formats.
 std::string fourcc_text(std::uint32_t fourcc);
 
-/// "640x480", or "2x2..4096x2160" for a range.
+/// Text such as "640x480", or "2x2..4096x2160" for a range.
 std::string size_text(const FrameSizeOffer& size);
 
 }  // namespace orbwatch::hal
