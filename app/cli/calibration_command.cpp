@@ -38,7 +38,7 @@ struct Calibrations {
   std::vector<CalibrationEntry> entries;
 };
 
-/// Place of the calibrations and checksum of the rig, without the entries.
+/// Folder of the calibrations and checksum of the rig, without the entries.
 Result<Calibrations> locate(const std::filesystem::path& config) {
   const auto site = read_site(config);
   if (!site) return tl::unexpected(site.error());
@@ -57,7 +57,7 @@ Result<> load(Calibrations& calibrations) {
   return {};
 }
 
-/// Whether an alignment counts now, in words.
+/// State of an alignment in words: used now or not.
 std::string state_of(const CalibrationEntry& entry, const Calibrations& all) {
   const auto current = in_force(all.entries, all.rig);
   if (std::ranges::count(current, entry.number, &CalibrationEntry::number) > 0) return "in force";
@@ -144,7 +144,7 @@ Result<std::string> run(const std::filesystem::path& config, bool json,
     return load(*all).map([&] { return json ? history_json(*all) : history_text(*all); });
   }
   Result<std::string> text;
-  // A running orbwatchd may accept one meanwhile.
+  // A running orbwatchd may accept one at the same time.
   return with_lock(all->file,
                    [&]() -> Result<> {
                      if (auto loaded = load(*all); !loaded) return loaded;

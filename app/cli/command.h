@@ -13,7 +13,7 @@ namespace orbwatch::app {
 /// A command of `orbwatch`, or a subject of `orbwatch describe`.
 struct Subcommand {
   std::string_view name;
-  std::string_view text;  ///< what it does, for --help
+  std::string_view text;  ///< description for --help
   /// `arguments` begin with its name. Returns the text for standard output.
   Result<std::string> (*run)(const std::vector<std::string>& arguments);
 };
@@ -21,7 +21,7 @@ struct Subcommand {
 /// All commands of `orbwatch`.
 std::span<const Subcommand> all_commands();
 
-/// A line of --help for each.
+/// Lines of --help, one for each.
 std::string subcommands_help(std::span<const Subcommand> subcommands);
 
 Result<std::string> project_command(const std::vector<std::string>& arguments);
@@ -44,7 +44,7 @@ Result<std::string> lines_command(const std::vector<std::string>& arguments);
 Result<std::string> password_command(const std::vector<std::string>& arguments);
 Result<std::string> list_command(const std::vector<std::string>& arguments);
 
-// Subjects of describe_command; they write no file but that of -o.
+// Subjects of describe_command; they write no file except that of -o.
 Result<std::string> describe_view(const std::vector<std::string>& arguments);
 Result<std::string> describe_camera(const std::vector<std::string>& arguments);
 

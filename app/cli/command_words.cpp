@@ -11,7 +11,7 @@ std::string capitals(std::string_view text) {
   return result;
 }
 
-/// "point_view VIEW YAW PITCH H_FOV".
+/// Usage such as "point_view VIEW YAW PITCH H_FOV".
 std::string usage(const CommandInfo& info) {
   std::string text(info.name);
   for (std::size_t i = 0; i < info.argument_count(); ++i) {

@@ -8,11 +8,11 @@
 
 namespace orbwatch::app {
 
-/// A command from its name and its arguments, in the units of kCommands. Errors: unknown command,
-/// wrong number of arguments, not a number, out of range. Reentrant.
+/// Parses a command from its name and its arguments, in the units of kCommands. Errors: unknown
+/// command, wrong number of arguments, not a number, out of range. Reentrant.
 Result<Command> parse_command(const std::vector<std::string>& words);
 
-/// Every command with its arguments, for --help. Reentrant.
+/// All commands with their arguments, for --help. Reentrant.
 std::string commands_help();
 
 }  // namespace orbwatch::app

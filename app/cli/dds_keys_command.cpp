@@ -9,7 +9,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// A hundred years: the dates of DDS Security end in 2262.
+/// About a hundred years: the dates of DDS Security end in 2262.
 constexpr int kMaxDays = 36500;
 
 struct KeysOptions {
@@ -51,7 +51,7 @@ constexpr const char* kDdsKeysUsage =
     "configuration), FOLDER/enclaves/NAME for a subscriber (--security of orbwatch subscribe,\n"
     "state and command). Whoever has FOLDER/private can let anybody in: keep it elsewhere.\n\n";
 
-/// Returns the new folders, one a line.
+/// Returns the new folders, one per line.
 Result<std::string> make_keys(KeysOptions& o, const std::vector<std::string>& words) {
   if (words.size() != 1 || words.front().empty()) {
     return usage_error("say which FOLDER to make keys in, and one only");

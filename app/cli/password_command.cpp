@@ -36,7 +36,7 @@ struct PasswordOptions {
   bool show = false;
 };
 
-/// A terminal that shows nothing of what is typed, and passes Ctrl-C on as a character.
+/// Terminal without echo that passes Ctrl-C as a character.
 class SilentTerminal {
  public:
   SilentTerminal() {
@@ -83,7 +83,7 @@ Result<std::string> read_password(const std::string& name) {
   return first;
 }
 
-/// The first user is administrator.
+/// Role of a new user; the first user is administrator.
 std::optional<Role> role_of_new(const web::Users& users) {
   return users.users.empty() ? std::optional(Role::Administrator) : std::nullopt;
 }

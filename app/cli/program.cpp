@@ -29,7 +29,7 @@ const std::atomic<bool>& cancelled_by_signal() {
 
 int run_program(const char* name, const std::vector<std::string>& arguments,
                 Result<std::string> (*run)(const std::vector<std::string>& arguments)) try {
-  // A command may run beside orbwatchd, whose cores OpenCV would take.
+  // A command may run beside orbwatchd, and OpenCV's threads would occupy its cores.
   cv::setNumThreads(1);
   const auto text = run(arguments);
   if (text) {

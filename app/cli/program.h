@@ -7,7 +7,7 @@
 
 namespace orbwatch::app {
 
-/// The body of main(): prints what `run` makes of the arguments, or its error after the program's
+/// Body of main(): prints the result of `run` for the arguments, or its error after the program's
 /// name, and returns the exit status.
 int run_program(const char* name, const std::vector<std::string>& arguments,
                 Result<std::string> (*run)(const std::vector<std::string>& arguments));

@@ -11,14 +11,15 @@ namespace {
 constexpr std::chrono::milliseconds kPeriod{100};
 constexpr std::size_t kUsualColumns = 80;
 
-/// A line that fills the last column could wrap, and would not be rewritten.
+/// Columns that a line may use: a line that fills the last column could wrap, and would not be
+/// rewritten.
 std::size_t usable_columns(int terminal) {
   winsize size{};
   const bool is_known = ::ioctl(terminal, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
   return (is_known ? size.ws_col : kUsualColumns) - 1;
 }
 
-/// File names may hold anything; a terminal would obey control characters.
+/// Replaces control characters: file names may contain them, and a terminal would obey them.
 void disarm(std::string& line) {
   std::ranges::replace_if(
       line, [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
@@ -59,7 +60,7 @@ void Progress::write(std::string line) {
   line.insert(line.begin(), '\r');
   if (columns == 0) line += '\r';
   written_ = columns;
-  // A terminal that went away loses what nobody reads.
+  // A failed write is ignored: the terminal is gone, and nothing reads the line.
   static_cast<void>(::write(output_, line.data(), line.size()) < 0);
 }
 

@@ -9,8 +9,8 @@
 
 namespace orbwatch::app {
 
-/// What a command is doing, for people who wait: one line on a terminal, rewritten in place and
-/// erased at this object's end. On anything but a terminal it writes nothing. Thread-bound.
+/// Shows the progress of a command to the user: one line on a terminal, rewritten in place and
+/// erased at this object's end. Writes nothing if the output is not a terminal. Thread-bound.
 class Progress {
  public:
   explicit Progress(int output = STDERR_FILENO);
@@ -18,14 +18,14 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress() { erase(); }
 
-  /// The step that begins: "matching edges".
+  /// Shows the step that begins, such as "matching edges".
   void begin(const std::string& step);
 
-  /// How far a step is: "watching: 12 of 300 pictures". Shown ten times a second at most, and when
-  /// the step changes.
+  /// Shows the progress of a step: "watching: 12 of 300 pictures". Updated ten times a second at
+  /// most, and when the step changes.
   void count(const std::string& step, std::size_t done, std::size_t of, const std::string& unit);
 
-  /// Makes room for other text on the terminal; the next call writes anew.
+  /// Makes room for other text on the terminal; the next call writes the line again.
   void erase();
 
  private:
@@ -35,7 +35,7 @@ class Progress {
 
   int output_;
   bool is_terminal_;
-  std::size_t written_ = 0;  ///< columns of the line that is shown
+  std::size_t written_ = 0;  ///< columns of the visible line
   std::string step_;
   Clock::time_point shown_{};
 };

@@ -36,7 +36,8 @@ StagedFolder::~StagedFolder() {
 Result<StagedFolder> StagedFolder::beside(const fs::path& target) {
   std::error_code error;
   fs::path place = fs::weakly_canonical(fs::absolute(target), error);
-  if (!place.has_filename()) place = place.parent_path();  // given with a '/' at its end
+  if (!place.has_filename())
+    place = place.parent_path();  // the path was given with a '/' at its end
   if (!error) fs::create_directories(place.parent_path(), error);
   if (error) return cannot_make(target, error.message());
   std::string name = (place.parent_path() / ("." + place.filename().string() + ".XXXXXX")).string();

@@ -6,32 +6,32 @@
 
 namespace orbwatch::app {
 
-/// A folder that is filled under a temporary name beside its place and moved there when it is
+/// Folder that is filled under a temporary name beside its place and moved there when it is
 /// complete, so that it is never visible in part. Removed with the object unless it was moved.
 /// Thread-bound.
 class StagedFolder {
  public:
-  /// For the folder `target`, whose parents are created if missing. Accessible to its owner only.
-  /// Error: names folder and reason.
+  /// Creates it for the folder `target`, whose parents are created if missing. Accessible to its
+  /// owner only. Error: names folder and reason.
   static Result<StagedFolder> beside(const std::filesystem::path& target);
 
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder& operator=(StagedFolder&&) = delete;
   ~StagedFolder();
 
-  /// Where to write.
+  /// Folder to write into.
   const std::filesystem::path& path() const { return path_; }
 
   /// Moves it to its place. Error: the place is occupied, other than by an empty folder.
   Result<> place();
-  /// The same, replacing an existing folder atomically.
+  /// Moves it and replaces an existing folder atomically.
   Result<> replace();
 
  private:
   StagedFolder(std::filesystem::path target, std::filesystem::path path);
 
   std::filesystem::path target_;
-  std::filesystem::path path_;  ///< empty when it was moved
+  std::filesystem::path path_;  ///< empty once it was moved
 };
 
 }  // namespace orbwatch::app

@@ -24,7 +24,7 @@ std::string cell(const Reading& reading) {
   return reading.unit.empty() ? text.data() : text.data() + (" " + std::string(reading.unit));
 }
 
-/// Headed by the component's name.
+/// Fields of a component, headed by its name.
 Fields fields_of(const ComponentReadings& component) {
   Fields fields{{std::string(component.component.kind), component.component.name}};
   for (const Reading& reading : component.readings) {

@@ -6,11 +6,11 @@
 
 namespace orbwatch::app {
 
-/// A process state as one line of JSON (RFC 8259): the members of the message, then its components
-/// as app/model/json.h writes them. Bytes that are not UTF-8 become U+FFFD. Reentrant.
+/// Process state as one line of JSON (RFC 8259): the members of the message, then its components in
+/// the format of app/model/json.h. Bytes that are not UTF-8 become U+FFFD. Reentrant.
 std::string state_json(const ReceivedState& state);
 
-/// A process state as text for people. Control characters become question marks. Reentrant.
+/// Process state as text for people. Control characters become question marks. Reentrant.
 std::string state_table(const ReceivedState& state);
 
 }  // namespace orbwatch::app

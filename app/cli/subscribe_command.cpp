@@ -36,7 +36,7 @@ constexpr const char* kSubscribeNotes =
     "refused (since the beginning) and refusal (why the newest one was; empty: none was). --each:\n"
     "topic, content, since_exposure_ms.\n";
 
-/// Prints as it reads.
+/// Reads topics and prints while reading.
 Result<std::string> read_topics(const SubscribeOptions& o) {
   if (o.json && !o.stats && !o.each) return usage_error("--json needs --stats or --each");
   const auto reports = subscribe(o, cancelled_by_signal(), std::cout);

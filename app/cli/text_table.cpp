@@ -22,7 +22,7 @@ std::string title(std::string name) {
 
 bool is_content(const std::string& cell) { return !cell.empty() && cell != kNoValue; }
 
-/// Columns padded to the widest cell. Every row has as many cells as the first.
+/// Pads columns to the widest cell. Every row has as many cells as the first.
 std::string aligned(const std::vector<Row>& rows, const std::string& indent) {
   std::vector<std::size_t> widths(rows.empty() ? 0 : rows.front().size(), 0);
   for (const Row& row : rows) {
@@ -39,7 +39,7 @@ std::string aligned(const std::vector<Row>& rows, const std::string& indent) {
   return text;
 }
 
-/// A row per field: its name, then its cell of each record. The first row stays, the others where
+/// One row per field: its name, then its cell of each record. The first row is kept, the others if
 /// they have content.
 std::vector<Row> rows_of(const std::vector<Fields>& records) {
   std::vector<std::string> names;

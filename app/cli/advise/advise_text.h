@@ -6,7 +6,7 @@
 
 namespace orbwatch::app {
 
-/// For people, with what to change.
+/// Text for people, with the changes to make.
 std::string advise_text(const align::Arrangement& arrangement, const align::Advice& advice);
 
 /// One JSON object (RFC 8259) with the members of align::Advice under their names.

@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPoll{20};
 constexpr milliseconds kWarmUp{1000};
 
-/// Polls until `done`; false at `end`, or when the user has no more patience.
+/// Polls until `done`; false at `end`, or when cancelled.
 bool wait_until(const std::function<bool()>& done, hal::TimePoint end,
                 const std::atomic<bool>& cancelled) {
   while (!cancelled && hal::Clock::now() < end) {
@@ -43,7 +43,7 @@ std::string format_text(const hal::StreamFormat& format) {
          std::to_string(format.height) + " at " + rate;
 }
 
-/// "camera front: camera is not connected", of those with a fault.
+/// Texts such as "camera front: camera is not connected", for cameras with a fault.
 std::string faults_of(const Resolved& site, const Status& status) {
   std::string text;
   for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
@@ -54,7 +54,7 @@ std::string faults_of(const Resolved& site, const Status& status) {
   return text;
 }
 
-/// What is known before the run.
+/// Figures that are known before the run.
 BenchFigures described(const Resolved& site, const std::vector<std::string>& notes,
                        const std::vector<hal::StreamFormat>& formats) {
   BenchFigures figures;
@@ -78,7 +78,7 @@ BenchFigures described(const Resolved& site, const std::vector<std::string>& not
   return figures;
 }
 
-/// Frame sets per second that the cameras or the configuration ask for.
+/// Frame sets per second that the cameras or the configuration request.
 double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
                    const CameraStatus& camera) {
   const double deadline = std::chrono::duration<double>(site.site.pipeline.deadline).count();
@@ -86,7 +86,7 @@ double wanted_rate(const Resolved& site, const hal::StreamFormat& pacing,
   return pacing.frame_rate > 0 ? pacing.frame_rate : camera.frames_per_second;
 }
 
-/// A folder of the run's own: what it sees is nothing that the machine should remember.
+/// Folder for the state of the run only: the machine must not remember its results.
 class TemporaryState {
  public:
   explicit TemporaryState(const Resolved& site) : site_(site) {

@@ -14,18 +14,18 @@ namespace orbwatch::app {
 
 struct BenchSettings {
   double seconds = 10;
-  std::chrono::milliseconds patience{10000};  ///< until the first frame set
+  std::chrono::milliseconds patience{10000};  ///< time until the first frame set
 };
 
-/// What a run tells of itself, and how it is ended.
+/// Progress and cancellation of a run.
 struct BenchWatch {
   const std::atomic<bool>& cancelled;
   Progress& progress;
 };
 
-/// Runs the appliance of a site, as orbwatchd does, and returns what it took. It warms up for a
-/// second first. `notes`, by camera, are for people. Errors: those of Appliance, a camera that
-/// cannot be opened, no frame within the patience, `cancelled` before a frame set was measured.
+/// Runs the appliance of a site like orbwatchd and returns its cost. It warms up for a second
+/// first. `notes`, by camera, are for people. Errors: those of Appliance, a camera that cannot be
+/// opened, no frame within the patience, `cancelled` before a frame set was measured.
 Result<BenchFigures> run_bench(const Resolved& site, const std::vector<std::string>& notes,
                                const BenchSettings& settings, const BenchWatch& watch);
 

@@ -10,28 +10,28 @@
 
 namespace orbwatch::app {
 
-/// Keeps the figures of each frame set while it records. Its memory is bounded: what does not fit
-/// is counted but not ranked.
+/// Keeps the figures of each frame set while it records. Its memory is bounded: figures beyond it
+/// are counted but not ranked.
 /// Thread rule: as Sink; the rest on the thread that started it.
 class BenchSink final : public Sink {
  public:
-  /// For `seconds` of up to kMostPerSecond frame sets.
+  /// Reserves memory for `seconds` of up to kMostPerSecond frame sets.
   explicit BenchSink(double seconds);
 
   static constexpr double kMostPerSecond = 250;
 
   Result<> start() override { return {}; }
   void stop() override {}
-  /// Every view in colour, as if it were read.
+  /// Requests every view in colour, as if it were read.
   PictureNeeds needs(std::size_t /*view*/, hal::TimePoint /*stamp*/) override {
     return need_of(PixelFormat::Rgb);
   }
   void accept(const ViewPtr& view) override;
   void accept(const Status& status) override;
 
-  /// Begins anew.
+  /// Starts a new recording.
   void record();
-  /// Ends the recording and fills in what was seen: rates and names are the caller's.
+  /// Ends the recording and fills in its figures: rates and names are the caller's.
   void report(BenchFigures& figures);
 
   Status newest() const;
@@ -52,9 +52,9 @@ class BenchSink final : public Sink {
     std::size_t count_ = 0;
   };
 
-  mutable std::mutex mutex_;  ///< held while figures are copied only
+  mutable std::mutex mutex_;  ///< held only while figures are copied
   bool records_ = false;
-  Status first_;  ///< of the recording
+  Status first_;  ///< status at the start of the recording
   Status newest_;
   Samples busy_;
   std::array<Samples, kStages> stages_;

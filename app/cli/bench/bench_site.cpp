@@ -12,7 +12,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Of cameras that state none and are not connected: what most of them have.
+/// Format assumed for cameras that state none and are not connected: the most common one.
 constexpr PixelFormat kAssumed = PixelFormat::Nv12;
 
 /// What the camera itself says; nullopt: it is not there. A simulated one needs no question, and
@@ -25,7 +25,7 @@ std::optional<hal::StreamFormat> asked_format(const Resolved& site, std::size_t 
   return format ? std::optional(*format) : std::nullopt;
 }
 
-/// The camera's format, and how it is known.
+/// Format of the camera, and its source.
 std::pair<hal::StreamFormat, std::string> format_of(const Resolved& site, std::size_t index) {
   const CameraSettings& settings = site.site.cameras[index];
   if (const auto asked = asked_format(site, index)) return {*asked, "as the camera says"};

@@ -8,7 +8,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Of frame sets or pictures of a view: so many may be late or left out.
+/// Tolerated share of frame sets or pictures of a view that are late or omitted.
 constexpr double kTolerated = 0.01;
 
 std::string percent(double share) {
@@ -29,10 +29,10 @@ std::string largest_view(const BenchFigures& figures) {
          std::to_string(largest->height);
 }
 
-/// Below it the processor time is not why frame sets are late.
+/// Load below which the processor time is not the reason for late frame sets.
 constexpr double kBusy = 0.8;
 
-/// What to lower first: the setting behind the stage with the most processor time.
+/// First setting to lower: the one behind the stage with the most processor time.
 std::string advice(const BenchFigures& figures) {
   const auto costliest = std::ranges::max_element(figures.means) - figures.means.begin();
   switch (static_cast<Stage>(costliest)) {

@@ -12,8 +12,9 @@
 namespace orbwatch::app {
 namespace {
 
-/// Of /proc/PID/task/TID/stat: what follows the name, which may have blanks and parentheses itself,
-/// begins with field 3; 14 and 15 are the ticks in user and in kernel mode (proc(5)).
+/// Processor time in /proc/PID/task/TID/stat: the text after the name, which may contain blanks and
+/// parentheses itself, begins with field 3; 14 and 15 are the ticks in user and in kernel mode
+/// (proc(5)).
 std::chrono::nanoseconds time_of(const std::string& stat) {
   std::istringstream fields(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
   std::string skipped;
@@ -32,7 +33,7 @@ std::vector<ThreadLoad> thread_loads(const std::filesystem::path& proc) {
     const auto id = to_integer(task.filename().native());
     const auto stat = read_system_file(task / "stat");
     auto name = read_system_file(task / "comm");
-    if (!id || !stat || !name) continue;  // it has just ended
+    if (!id || !stat || !name) continue;  // the thread has just ended
     while (!name->empty() && name->back() == '\n') name->pop_back();
     threads.push_back({static_cast<int>(*id), std::move(*name), time_of(*stat)});
   }

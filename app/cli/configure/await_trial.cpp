@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPause(50);
 
-/// False: the condition was not fulfilled in time.
+/// Waits for the condition. False: it was not fulfilled in time.
 template <class Condition>
 bool is_fulfilled(std::chrono::milliseconds patience, const Condition& condition) {
   const auto end = Clock::now() + patience;
@@ -24,7 +24,7 @@ bool is_fulfilled(std::chrono::milliseconds patience, const Condition& condition
   return true;
 }
 
-/// It runs, is confirmed already, or waits to be taken.
+/// True if the trial runs, is confirmed already, or waits for a daemon.
 bool is_alive(const std::filesystem::path& folder) {
   const auto running = running_trial(folder), confirmed = confirmed_trial(folder);
   return is_trial_requested(folder) || !running || *running || !confirmed || *confirmed;
@@ -45,7 +45,8 @@ Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& p
   }
   Result<std::optional<std::string>> report;
   const auto is_known = [&] {
-    const bool was_alive = is_alive(folder);  // before: the report is written before the end
+    const bool was_alive =
+        is_alive(folder);  // read before the report, which is written before the end
     report = trial_report(folder);
     return !report || *report || !was_alive;
   };

@@ -7,14 +7,16 @@
 
 namespace orbwatch::app {
 
-/// Time that a daemon may take.
+/// Time limits for a daemon.
 struct TrialPatience {
-  std::chrono::milliseconds taken{30'000};     ///< from the request to its being taken up
-  std::chrono::milliseconds started{180'000};  ///< from then on, as the service manager grants it
+  std::chrono::milliseconds taken{30'000};  ///< from the request until a daemon accepts it
+  std::chrono::milliseconds started{
+      180'000};  ///< from then on, as long as the service manager permits
 };
 
 /// Waits until the daemon that has the state folder `folder` runs the trial that was requested
-/// there. Error: why it does not; a request that no daemon took up is withdrawn. Reentrant.
+/// there. Error: the reason why it does not; a request that no daemon accepted is withdrawn.
+/// Reentrant.
 Result<> await_trial(const std::filesystem::path& folder, const TrialPatience& patience = {});
 
 }  // namespace orbwatch::app

@@ -33,19 +33,21 @@ constexpr const char* kConfigureUsage =
 
 struct Options {
   fs::path config;
-  std::string named;  ///< the option that names it, for commands to follow; empty: none did
+  std::string named;  ///< option that names it, for follow-up commands; empty: none did
   int seconds = kUsualTrial;
   bool dry_run = false;
   bool confirm = false;
   bool cancel = false;
 };
 
-/// The texts by their places beside the installed file. Error: one is not in the new one's folder.
+/// The texts by their paths relative to the installed file. Error: one is not in the new one's
+/// folder.
 Result<FileTexts> placed(const FileTexts& texts, const fs::path& from, const fs::path& to) {
   FileTexts moved;
   for (const auto& [path, text] : texts) {
     const fs::path inside = path.lexically_relative(from);
-    if (path.is_absolute() && (inside.empty() || *inside.begin() == "..")) continue;  // stays there
+    if (path.is_absolute() && (inside.empty() || *inside.begin() == ".."))
+      continue;  // it keeps its place
     if (inside.empty() || *inside.begin() == "..") {
       return fail(path.string() + ": is not in the folder of the configuration, " + from.string());
     }
@@ -54,7 +56,7 @@ Result<FileTexts> placed(const FileTexts& texts, const fs::path& from, const fs:
   return moved;
 }
 
-/// The texts of the new files by their places beside the installed one, whose name may differ.
+/// The texts of the new files by their paths relative to the installed one, whose name may differ.
 Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
   fs::path folder = file.parent_path();
   if (folder.empty()) folder = ".";
@@ -67,8 +69,8 @@ Result<FileTexts> new_texts(const fs::path& file, const fs::path& installed) {
   return texts;
 }
 
-/// Root may replace any file: a folder that somebody else has prepared must not have it replace a
-/// key. Files with the ending of a configuration may be there and not be named yet.
+/// Root may replace any file: a folder that another user has prepared must not make it replace a
+/// key. Files with a configuration's extension may exist without being named yet.
 Result<> check_places(const FileTexts& texts, const fs::path& config, const fs::path& folder) {
   std::vector<fs::path> state{folder};
   std::set<fs::path> named{config};
@@ -83,7 +85,7 @@ Result<> check_places(const FileTexts& texts, const fs::path& config, const fs::
   return {};
 }
 
-/// `folder`: of the orbwatchd that runs the installed file.
+/// `folder` belongs to the orbwatchd that runs the installed file.
 Result<std::string> try_out(const Options& o, const fs::path& file, const fs::path& folder) {
   const auto texts = new_texts(file, o.config);
   if (!texts) return tl::unexpected(texts.error());

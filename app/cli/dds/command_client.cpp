@@ -17,12 +17,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// `cancelled` is checked once in this period.
+/// Period in which `cancelled` is checked.
 constexpr milliseconds kPollPeriod{100};
-/// An answer is lost while orbwatchd has not discovered our reader yet.
+/// Period of the repetition: an answer is lost while orbwatchd has not discovered our reader yet.
 constexpr milliseconds kRepeatPeriod{500};
 
-/// Not 0; unique but for chance.
+/// Random id, never 0; collisions are improbable.
 std::uint64_t random_client() {
   std::random_device random;
   return std::uint64_t{random()} << 32 | random() | 1;
@@ -48,14 +48,14 @@ class Exchange {
         .map([&](Entity wait_set) { wait_set_ = std::move(wait_set); });
   }
 
-  /// The same command as another request.
+  /// Makes the same command another request.
   void renew() { ++id_.number; }
 
   bool has_reader() const { return requests_.has_reader(); }
 
   void send() {
     const auto count = static_cast<std::uint32_t>(info_.argument_count());
-    // The C API takes no const pointers, but a write changes nothing.
+    // The C API has no const pointers, but a write changes nothing.
     const CommandMessage message{id_.client,
                                  id_.number,
                                  const_cast<char*>(info_.name.data()),
@@ -63,7 +63,7 @@ class Exchange {
     requests_.write(&message);
   }
 
-  /// The answer, if it arrives within `timeout`.
+  /// Receives the answer, if it arrives within `timeout`.
   Result<std::optional<CommandAnswer>> receive(std::chrono::nanoseconds timeout) {
     std::optional<CommandAnswer> answer;
     const auto look = [&](const void* sample, const dds_sample_info_t&) {
@@ -112,8 +112,8 @@ Result<CommandAnswer> send_command(const CommandOptions& options, const Command&
     }
     auto answer = exchange.receive(std::min<hal::Clock::duration>(kPollPeriod, end - now));
     if (!answer) return tl::unexpected(answer.error());
-    // An orbwatchd that keeps no record cannot tell whether one before it carried the request out.
-    // What was sent only once was received by this one alone.
+    // An orbwatchd without a record cannot tell whether a previous one executed the request. A
+    // request that was sent only once was received by this one alone.
     if (*answer && (*answer)->result == CommandResult::NotCarriedOut && times_sent == 1) {
       exchange.renew();
       sent.reset();

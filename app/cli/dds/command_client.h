@@ -13,16 +13,17 @@
 namespace orbwatch::app {
 
 struct CommandOptions {
-  int domain = 0;                              ///< DDS domain, 0 to 230
-  std::string prefix = "orbwatch";             ///< of the topics
-  std::chrono::milliseconds timeout{5000};     ///< to discover orbwatchd and receive its answer
-  std::optional<SecuritySettings> security{};  ///< required where orbwatchd has it
+  int domain = 0;                   ///< DDS domain, 0 to 230
+  std::string prefix = "orbwatch";  ///< prefix of the topics
+  std::chrono::milliseconds timeout{
+      5000};  ///< limit for discovering orbwatchd and receiving its answer
+  std::optional<SecuritySettings> security{};  ///< required if orbwatchd has it
 };
 
 /// Sends one of kCommands over DDS and waits for its answer. The request is repeated until the
 /// answer arrives, which does not repeat the command. Thread-bound; `cancelled` is checked ten
-/// times a second. Errors: nobody accepts commands there, no answer in time, an unknown result, no
-/// usable network interface.
+/// times a second. Errors: no orbwatchd accepts commands there, no answer in time, an unknown
+/// result, no usable network interface.
 Result<CommandAnswer> send_command(const CommandOptions& options, const Command& command,
                                    const std::atomic<bool>& cancelled);
 

@@ -10,8 +10,8 @@
 
 namespace orbwatch::app {
 
-/// Joins the domain, with `security` where the appliances have it, and fills `fleet` for
-/// `duration`, or until `cancelled`, which is checked ten times a second. Thread-bound. Errors: as
+/// Joins the domain, with `security` if the appliances have it, and fills `fleet` for `duration`,
+/// or until `cancelled`, which is checked ten times a second. Thread-bound. Errors: as
 /// Participant::join, DDS refuses.
 Result<> hear_appliances(int domain, const std::optional<SecuritySettings>& security,
                          std::chrono::nanoseconds duration, const std::atomic<bool>& cancelled,

@@ -37,7 +37,7 @@ cv::Mat to_mat(const ReceivedImage& image) {
   return result;
 }
 
-/// `make_image` returns the image and may throw as OpenCV does.
+/// Saves the image that `make_image` returns; it may throw OpenCV's exceptions.
 template <class MakeImage>
 Result<> save(MakeImage make_image, const std::filesystem::path& path) try {
   std::vector<std::uint8_t> png;
@@ -52,7 +52,7 @@ Result<> save(MakeImage make_image, const std::filesystem::path& path) try {
 Result<ReceivedImage> check_image(const ImageMessage& message) {
   const auto encoding =
       std::ranges::find(kImageEncodings, std::string_view(message.encoding), &ImageEncoding::name);
-  // The message does not quote the sender, whose text may hold control characters.
+  // The message does not quote the sender, whose text may contain control characters.
   if (encoding == kImageEncodings.end()) {
     return fail("image: encoding is none of rgb8, bgr8, mono8, mono16");
   }

@@ -12,7 +12,7 @@
 namespace orbwatch::app {
 namespace {
 
-// Errors do not quote the sender, whose text may hold control characters.
+// Errors do not quote the sender, whose text may contain control characters.
 
 Result<> check_length(std::size_t length, std::string_view what) {
   if (length <= kMaxListLength) return {};
@@ -106,7 +106,7 @@ Result<> StateReader::open(int domain, const std::optional<SecuritySettings>& se
 
 Result<bool> StateReader::next(std::chrono::nanoseconds timeout, const AcceptState& accept) {
   bool accepted = false;
-  // The topic has one instance and a history of one: no more than one sample.
+  // The topic has one instance and a history of one: there is at most one sample.
   const auto look = [&](const void* sample, const dds_sample_info_t&) {
     const auto state = check_process_state(*static_cast<const ProcessStateMessage*>(sample));
     if (state) {

@@ -45,16 +45,16 @@ class StateReader {
  public:
   explicit StateReader(const std::string& prefix);
 
-  /// Joins the domain, with `security` where orbwatchd has it. Errors: as Participant::join, DDS
+  /// Joins the domain, with `security` if orbwatchd has it. Errors: as Participant::join, DDS
   /// refuses.
   Result<> open(int domain, const std::optional<SecuritySettings>& security = std::nullopt);
 
   /// Calls `accept` with the newest state that was not passed to it before, if one arrives within
-  /// `timeout`; returns whether one did. The first one arrives as soon as orbwatchd is discovered.
-  /// Invalid states are skipped: anybody may write them. Error: DDS refuses.
+  /// `timeout`; returns true if one did. The first one arrives as soon as orbwatchd is discovered.
+  /// Invalid states are skipped, since any participant may write them. Error: DDS refuses.
   Result<bool> next(std::chrono::nanoseconds timeout, const AcceptState& accept);
 
-  /// Why the newest invalid state was refused; empty when there was none.
+  /// Reason why the newest invalid state was refused; empty when there was none.
   const std::string& refusal() const { return refusal_; }
 
  private:

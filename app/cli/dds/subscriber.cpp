@@ -21,7 +21,7 @@ namespace {
 constexpr std::chrono::milliseconds kCancelPeriod{100};
 constexpr std::chrono::seconds kLinePeriod{1};
 constexpr hal::Clock::duration kNoTime{0};
-/// Thirty years; more might overflow the clock.
+/// About thirty years; more might overflow the clock.
 constexpr double kMaxSeconds = 1e9;
 
 using Subscriptions = std::vector<std::unique_ptr<Subscription>>;
@@ -73,7 +73,7 @@ class Schedule {
     return std::min(next, end_ - now);
   }
 
-  /// Seconds since the last line when one is due.
+  /// Returns the seconds since the last line when one is due.
   std::optional<double> line_due(hal::TimePoint now) {
     if (now - line_ < kLinePeriod) return std::nullopt;
     const std::chrono::duration<double> passed = now - line_;
@@ -93,7 +93,7 @@ bool has_enough(const Subscriptions& subscriptions, int count) {
          });
 }
 
-/// Error: one of the topics is written with a type that it is not read with.
+/// Error: one of the topics is written with a type other than the type that reads it.
 Result<> check_types(const Subscriptions& subscriptions, WriterTypes& types) {
   const auto now = hal::Clock::now();
   if (const auto updated = types.update(now); !updated) return updated;
@@ -117,7 +117,7 @@ Result<> read(const Subscriptions& subscriptions, WriterTypes& types, const Enti
   Schedule schedule(options.seconds);
   for (bool last = false; !last;) {
     const auto now = hal::Clock::now();
-    // Once more after the end, for samples that have arrived by then.
+    // Reads once more after the end, for samples that have arrived by then.
     last = cancelled || schedule.over(now) || has_enough(subscriptions, options.count);
     const auto waited = wait_for_data(wait_set, last ? kNoTime : schedule.wait(now));
     if (!waited) return tl::unexpected(waited.error());

@@ -1,7 +1,7 @@
 #include "app/cli/command.h"
 #include "app/cli/program.h"
 
-/// `orbwatch subscribe` by itself, for the demo: built without the other commands.
+/// `orbwatch subscribe` as a program of its own, for the demo: built without the other commands.
 int main(int argc, char** argv) {
   std::vector<std::string> arguments{"subscribe"};
   arguments.insert(arguments.end(), argv + 1, argv + argc);

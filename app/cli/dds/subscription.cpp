@@ -24,13 +24,13 @@ bool is_file_name_letter(char c) {
          c == '-' || c == '.';
 }
 
-/// With a history that bridges a pause of the reader.
+/// Adds a history that bridges a pause of the reader.
 Qos deep(Qos qos) {
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kMaxTaken);
   return qos;
 }
 
-/// In floating point: a foreign writer may send any stamp.
+/// Computes in floating point, because a foreign writer may send any stamp.
 double milliseconds_between(dds_time_t earlier, dds_time_t later) {
   return (static_cast<double>(later) - static_cast<double>(earlier)) * 1e-6;
 }
@@ -39,7 +39,7 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// A topic of sensor_msgs/Image.
+/// Topic of sensor_msgs/Image.
 class ImageSubscription final : public Subscription {
  public:
   ImageSubscription(const std::string& topic, bool keep)
@@ -65,12 +65,12 @@ class ImageSubscription final : public Subscription {
   }
 
   bool keep_;
-  ReceivedImage newest_;  ///< its data, if kept, are bytes_
+  ReceivedImage newest_;  ///< its data, if kept, point to bytes_
   std::vector<std::uint8_t> bytes_;
 };
 
-/// A topic of sensor_msgs/CompressedImage that carries JPEG. The header of each picture is checked,
-/// its data when it is saved.
+/// Topic of sensor_msgs/CompressedImage that carries JPEG. The header of each picture is checked on
+/// arrival, its data when it is saved.
 class CompressedImageSubscription final : public Subscription {
  public:
   CompressedImageSubscription(const std::string& topic, bool keep)
@@ -102,7 +102,7 @@ class CompressedImageSubscription final : public Subscription {
   std::vector<std::uint8_t> jpeg_;
 };
 
-/// A topic of process states.
+/// Topic of process states.
 class ProcessStateSubscription final : public Subscription {
  public:
   explicit ProcessStateSubscription(const std::string& topic)

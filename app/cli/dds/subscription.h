@@ -15,41 +15,41 @@
 
 namespace orbwatch::app {
 
-/// Whether the topic of that name carries JPEG pictures.
+/// True if the topic of that name carries JPEG pictures.
 bool is_compressed_topic(std::string_view topic);
-/// Whether the topic of that name carries the process state.
+/// True if the topic of that name carries the process state.
 bool is_process_state_topic(std::string_view topic);
 
-/// The types that topics are read with, in words: by their names.
+/// Names of the types that can be read, as text.
 std::string readable_types();
 
-/// The DDS name of a topic given with or without "rt/" or a leading "/".
+/// DDS name of a topic given with or without "rt/" or a leading "/".
 std::string full_topic(std::string_view topic);
 
-/// The file name, without extension, of the newest image of `topic`: "front" of
-/// rt/<prefix>/front/image_raw, "front-radiometric" of rt/<prefix>/front/radiometric/image_raw,
-/// "front-compressed" of rt/<prefix>/front/image_raw/compressed. Whatever the topic, it holds
-/// letters, digits, '_', '-' and '.' only and never starts with a dot.
+/// File name, without extension, of the newest image of `topic`: "front" for
+/// rt/<prefix>/front/image_raw, "front-radiometric" for rt/<prefix>/front/radiometric/image_raw,
+/// "front-compressed" for rt/<prefix>/front/image_raw/compressed. For any topic, it contains only
+/// letters, digits, '_', '-' and '.' and never starts with a dot.
 std::string file_stem(std::string_view topic, std::string_view prefix);
 
-/// What was received on one topic.
+/// Reception of one topic.
 struct TopicReport {
   std::string topic;
   std::uint64_t received = 0;  ///< valid samples
   /// Samples that DDS reports as lost (SAMPLE_LOST). Samples that a KEEP_LAST writer replaced
-  /// before their delivery are not among them; they show as gaps.
+  /// before their delivery are not included; they show as gaps.
   std::uint64_t lost = 0;
-  double longest_gap_ms = 0;    ///< between two samples, by the writer's clock
+  double longest_gap_ms = 0;    ///< longest time between two samples, by the writer's clock
   std::uint64_t refused = 0;    ///< invalid samples
-  std::string refusal;          ///< why the newest refused one was
+  std::string refusal;          ///< reason of the newest refusal
   std::filesystem::path saved;  ///< the picture file; empty when none was written
 };
 
-/// One topic that is read. Thread-bound.
+/// Subscription to one topic. Thread-bound.
 class Subscription {
  public:
-  /// By its name `topic` carries process states, JPEG pictures or images. `keep`: the newest
-  /// picture is wanted by save().
+  /// Makes a subscription for process states, JPEG pictures or images, by the name of `topic`.
+  /// `keep`: save() needs the newest picture.
   static std::unique_ptr<Subscription> make(const std::string& topic, bool keep);
 
   Subscription(const Subscription&) = delete;
@@ -63,7 +63,7 @@ class Subscription {
   /// with every valid one. Error: DDS refuses.
   Result<> take(const std::function<void(const TopicSample&)>& each);
 
-  /// What came in the time since the last call, `seconds` long.
+  /// Figures of the time since the last call, `seconds` long.
   TopicFigures figures(double seconds);
 
   /// Saves the newest picture as PNG into `folder`; does nothing for other content, or without a
@@ -73,21 +73,21 @@ class Subscription {
   const TopicReport& report() const { return report_; }
 
  protected:
-  /// What a valid sample is.
+  /// Content of a valid sample.
   struct Content {
     TimeMessage stamp;  ///< exposure start
-    std::string text;   ///< in a few words
+    std::string text;   ///< short description
   };
 
   Subscription(const dds_topic_descriptor_t& type, std::string topic, Qos qos);
 
-  /// Checks a sample, which is valid during the call only, and copies what is needed of it.
+  /// Checks a sample, which is valid during the call only, and copies the data needed later.
   virtual Result<Content> accept(const void* sample) = 0;
   virtual bool has_picture() const { return false; }
   virtual Result<> write_png(const std::filesystem::path& /*path*/) const { return {}; }
 
  private:
-  /// Returns the sample.
+  /// Counts and returns the sample.
   TopicSample count(const Content& content, dds_time_t written);
 
   /// Sums over the samples since the last figures().
@@ -102,7 +102,7 @@ class Subscription {
   TopicReader reader_;
   TopicReport report_;
   Interval interval_;
-  std::string newest_;  ///< content
+  std::string newest_;  ///< content of the newest sample
   std::optional<dds_time_t> last_written_;
 };
 

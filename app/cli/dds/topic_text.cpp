@@ -11,12 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What foreign writers send need not be UTF-8.
+/// Text from foreign writers may not be UTF-8.
 std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Null where there is no sample to have it from.
+/// Mean; null without a sample.
 Json mean(double value, const TopicFigures& figures) {
   return figures.samples > 0 ? to_json(value) : Json();
 }

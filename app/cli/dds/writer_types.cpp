@@ -7,9 +7,9 @@
 namespace orbwatch::app {
 namespace {
 
-/// Foreign types may have any name.
+/// Limit for the names of foreign types, which are arbitrary.
 constexpr std::size_t kLongestType = 200;
-/// Nobody has more on a topic that is read; a flood of them is not kept.
+/// Limit for the types on one topic; a flood of them is not kept.
 constexpr std::size_t kMostTypes = 8;
 constexpr std::size_t kMostTopics = 10000;
 

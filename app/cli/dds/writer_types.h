@@ -10,29 +10,29 @@
 
 namespace orbwatch::app {
 
-/// A type as ROS 2 names it: "sensor_msgs/msg/Image" of "sensor_msgs::msg::dds_::Image_"; others
-/// as they are. One line, whatever was sent. Reentrant.
+/// ROS 2's name of a type: "sensor_msgs/msg/Image" for "sensor_msgs::msg::dds_::Image_"; other
+/// names are unchanged. One line for any input. Reentrant.
 std::string type_text(std::string_view type);
 
-/// The types of the writers in a domain. DDS never matches a reader with a writer of another type,
-/// and says nothing. Thread-bound.
+/// Types of the writers in a domain. DDS never matches a reader with a writer of another type, and
+/// does not report it. Thread-bound.
 class WriterTypes {
  public:
-  /// Writers of the right type may be discovered a while after others.
+  /// Time during which writers of the right type may be discovered after others.
   static constexpr std::chrono::seconds kDiscovery{2};
 
   /// Error: DDS refuses.
   Result<> open(const Entity& participant);
 
-  /// Takes what was discovered since. Error: DDS refuses.
+  /// Takes the writers discovered since the last call. Error: DDS refuses.
   Result<> update(hal::TimePoint now);
 
-  /// The type with which a topic is written, when `reader` has none of its own type to read from
-  /// for kDiscovery; else empty.
+  /// The type with which a topic is written, if `reader` has found no writer of its own type for
+  /// kDiscovery; else empty.
   std::string unreadable(const TopicReader& reader, hal::TimePoint now) const;
 
  private:
-  using Types = std::map<std::string, hal::TimePoint>;  ///< with the time of discovery
+  using Types = std::map<std::string, hal::TimePoint>;  ///< time of discovery of each type
 
   Entity reader_;
   std::map<std::string, Types> topics_;

@@ -90,7 +90,7 @@ void write_lens(const optics::Intrinsics& lens, std::ostream& out) {
   out << "\n";
 }
 
-/// Where the camera stands and how it sees the ball, as the projection has it.
+/// Position of the camera and its view of the ball, from the projection.
 struct Place {
   explicit Place(const optics::BallProjection& ball)
       : yaw(optics::degrees(std::atan2(ball.facing().x, ball.facing().y))),
@@ -107,7 +107,7 @@ struct Place {
   double distance_mm;
   double alpha;                          ///< degrees
   std::optional<optics::Vec3> position;  ///< mm, machine frame
-  std::optional<optics::Outline> limb;   ///< if the lens shows it wholly
+  std::optional<optics::Outline> limb;   ///< set if the lens shows it wholly
 };
 
 void write_place(const Place& place, std::ostream& out) {

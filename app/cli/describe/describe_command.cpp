@@ -12,7 +12,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// A subject that takes no options.
+/// Runs a subject that takes no options.
 template <std::string (*manual)()>
 Result<std::string> describe_manual(const std::vector<std::string>& arguments) {
   return run_command(

@@ -7,7 +7,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// As man(7) reads it: no line is a request, no hyphen a dash.
+/// Escapes text for man(7): no line is a request, no hyphen a dash.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -28,7 +28,7 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Its lines as they are.
+/// Keeps the lines of a text unchanged.
 std::string verbatim(const std::string& text) {
   return ".nf\n" + escaped(trimmed(text)) + "\n.fi\n";
 }

@@ -7,11 +7,11 @@
 
 namespace orbwatch::app {
 
-/// Manual page of `orbwatch` in man(7)'s language, from what its commands declare. Subjects are
-/// those of `orbwatch describe`.
+/// Manual page of `orbwatch` in the language of man(7), generated from the declarations of its
+/// commands. Subjects are those of `orbwatch describe`.
 std::string man_page(std::span<const Subcommand> commands, std::span<const Subcommand> subjects);
 
-/// Completion of its command line by bash(1).
+/// Completion of the command line of `orbwatch` for bash(1).
 std::string bash_completion(std::span<const Subcommand> commands,
                             std::span<const Subcommand> subjects);
 

@@ -20,7 +20,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Of the resolution map's picture.
+/// Scale of the resolution map's picture.
 constexpr double kCountsPerPixelPerDegree = 100;
 
 constexpr const char* kDescribeViewNotes =
@@ -56,13 +56,13 @@ std::vector<Option> declare(DescribeViewOptions& o) {
   return options;
 }
 
-/// What one camera gives to the view. Shares are of the view's pixels.
+/// Contribution of one camera to the view. Shares are of the view's pixels.
 struct CameraFigures {
   std::string name;
   double seen = 0;
   double blind = 0;
   double outside = 0;
-  /// Source pixels per degree where it sees; nothing if it sees nothing.
+  /// Source pixels per degree within its coverage; nullopt if it covers nothing.
   struct Resolution {
     double least;
     double median;
@@ -96,7 +96,8 @@ CameraFigures figures_of(const ChosenCamera& camera, const optics::ViewProjectio
           summary(std::move(seen))};
 }
 
-/// Edge to edge through the middle, degrees; nothing where the projection ends before the edge.
+/// Field of view from edge to edge through the middle, degrees; nullopt if the projection ends
+/// before the edge.
 struct Fov {
   std::optional<double> horizontal;
   std::optional<double> vertical;

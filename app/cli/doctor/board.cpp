@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The keys of a file: a board's, and the board that it is like.
+/// Keys of a file: a board's, and the board that it is based on.
 struct BoardFile {
   std::string like;
   Board board;
@@ -24,7 +24,7 @@ void visit(Visitor& v, BoardFile& file) {
   visit(v, file.board);
 }
 
-/// Over what `file` holds already. Lists of tables are added to.
+/// Reads a file over the contents of `file`. Lists of tables are appended.
 Result<> read_over(const fs::path& path, BoardFile& file) {
   TextFiles files;
   const auto text = files.read(path, "a TOML file");

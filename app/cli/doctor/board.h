@@ -13,39 +13,39 @@
 
 namespace orbwatch::app::doctor {
 
-/// The resistor of a line from power-on until somebody sets it.
+/// Resistor of a line from power-on until a program sets it.
 enum class Pull : std::uint8_t { Unknown, None, Up, Down };
 
 inline constexpr std::array kPulls{Word{"unknown", Pull::Unknown}, Word{"none", Pull::None},
                                    Word{"up", Pull::Up}, Word{"down", Pull::Down}};
 
-/// Digital lines of a board that are alike.
+/// Digital lines of a board with equal properties.
 struct BoardLines {
-  std::vector<std::string> names;  ///< as the kernel names them
-  double volt = 0;                 ///< of a high level
+  std::vector<std::string> names;  ///< names in the kernel
+  double volt = 0;                 ///< voltage of a high level
   Pull pull = Pull::Unknown;
 };
 
-/// A camera that the board does not find by itself.
+/// Camera that the board does not detect by itself.
 struct BoardCamera {
-  std::string sensor;       ///< libcamera's model
+  std::string sensor;       ///< model in libcamera
   std::string overlay;      ///< line of the firmware's configuration
-  double trigger_volt = 0;  ///< of its trigger input; 0: it has none
+  double trigger_volt = 0;  ///< voltage of its trigger input; 0: it has none
 };
 
-/// What is known of a board: a file of platform/boards.
+/// Facts about a board: a file of platform/boards.
 struct Board {
   std::string name{};
-  std::vector<std::string> models{};  ///< beginnings of what the board calls itself
-  std::string architecture{};         ///< as uname -m; of a file for all other boards of it
-  std::string tried{};                ///< what was run on it, and where the facts are from
+  std::vector<std::string> models{};  ///< beginnings of the model names that the board reports
+  std::string architecture{};         ///< value of uname -m; in the file for all other boards of it
+  std::string tried{};                ///< tests that were run on it, and sources of the facts
   std::string processor{};
-  std::vector<std::string> camera_drivers{};  ///< of the kernel, for libcamera
-  std::string kernel_package{};               ///< of Debian's kind, with these drivers
-  std::string firmware_file{};                ///< where the lines of overlays are written
-  std::vector<std::string> firmware_lines{};  ///< in front of a camera's overlay there
+  std::vector<std::string> camera_drivers{};  ///< kernel drivers for libcamera
+  std::string kernel_package{};               ///< Debian kernel package with these drivers
+  std::string firmware_file{};                ///< file for the lines of overlays
+  std::vector<std::string> firmware_lines{};  ///< lines that precede a camera's overlay there
   double slows_down_at = 0;                   ///< degC; 0: unknown
-  std::string battery_clock{};                ///< how it is fitted, if it needs fitting
+  std::string battery_clock{};                ///< instructions to fit it, if it needs fitting
   std::string supply{};                       ///< volts and amperes
   std::vector<BoardLines> lines{};
   std::vector<BoardCamera> cameras{};
@@ -84,23 +84,23 @@ void visit(Visitor& v, Board& board) {
   v.tables("camera", board.cameras, 0, 64, "Cameras that are not found by themselves");
 }
 
-/// Reads a board's file. A key `like` names the file, without its ending, that it adds to or
-/// differs from; that one names none. Error: file, line, key and what is wrong.
+/// Reads a board's file. A key `like` names the file, without its extension, that it extends or
+/// overrides; that file must not have a `like`. Error: file, line, key and reason.
 Result<Board> read_board(const std::filesystem::path& file);
 
-/// The files of `folder` that can be read. `problems`: a line for each that cannot.
+/// The readable files of `folder`. `problems`: a line for each file that cannot be read.
 std::vector<Board> read_boards(const std::filesystem::path& folder,
                                std::vector<std::string>& problems);
 
-/// The board whose name of itself is `model`, by the longest beginning that fits; else the one for
-/// all of `architecture`. Nullptr: none.
+/// The board that reports the name `model`, by the longest matching beginning; else the one for all
+/// of `architecture`. Nullptr: none.
 const Board* find_board(const std::vector<Board>& boards, std::string_view model,
                         std::string_view architecture);
 
-/// The lines of a board that include one of this name; nullptr: unknown.
+/// The group of lines of a board that includes this name; nullptr: unknown.
 const BoardLines* find_lines(const Board& board, std::string_view name);
 
-/// The camera whose sensor's name is in `wanted`; nullptr: unknown.
+/// The camera whose sensor's name is part of `wanted`; nullptr: unknown.
 const BoardCamera* find_camera(const Board& board, std::string_view wanted);
 
 }  // namespace orbwatch::app::doctor

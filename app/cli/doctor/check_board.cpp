@@ -2,7 +2,7 @@
 
 #include "app/cli/doctor/checks.h"
 
-/// Configuration, board, kernel, and how warm it is.
+/// Checks of configuration, board, kernel and temperature.
 namespace orbwatch::app::doctor {
 namespace {
 
@@ -10,7 +10,7 @@ constexpr double kNearlyHot = 10;  // K below the temperature at which the board
 
 std::string whole(double value) { return std::to_string(std::lround(value)); }
 
-/// What to install for a driver that the kernel lacks.
+/// Package to install for a driver that the kernel lacks.
 std::string kernel_remedy(const BoardFacts& board) {
   const std::string package = board.known ? board.known->kernel_package : "";
   return "sudo apt install " +

@@ -3,7 +3,7 @@
 #include "app/cli/doctor/checks.h"
 #include "hal/lines/find_line.h"
 
-/// Memory of cameras, cameras, digital lines.
+/// Checks of memory for cameras, cameras, digital lines.
 namespace orbwatch::app::doctor {
 namespace {
 
@@ -23,7 +23,7 @@ std::string join_group(const char* group) {
   return std::string("sudo usermod -aG ") + group + " $USER, then log in again";
 }
 
-/// For a camera that the board does not find by itself.
+/// Remedy for a camera that the board does not detect by itself.
 std::string missing_camera_remedy(const CameraFacts& camera, const BoardFacts& board) {
   const BoardCamera* const known =
       board.known ? find_camera(*board.known, camera.address) : nullptr;
@@ -57,7 +57,7 @@ Diagnosis camera_diagnosis(const CameraFacts& camera, const BoardFacts& board) {
   return fault(who + ": " + camera.error + "; " + others, missing_camera_remedy(camera, board));
 }
 
-/// What the board's file says of a line, for the text.
+/// Electrical facts about a line from the board's file, as text.
 std::string electrical(const BoardLines* lines) {
   if (lines == nullptr) return "";
   std::string text = std::to_string(lines->volt);
@@ -69,13 +69,14 @@ std::string electrical(const BoardLines* lines) {
   return text;
 }
 
-/// Whether the resistor of the board makes an output active that nobody drives.
+/// True if the board's resistor makes an output active that no program drives.
 bool rests_active(const LineSettings& line, const BoardLines* lines) {
   if (is_input(line.use) || lines == nullptr || line.wire.bias != hal::LineBias::AsIs) return false;
   return lines->pull == (line.wire.active_low ? Pull::Down : Pull::Up);
 }
 
-/// Of a configured camera of this board whose trigger input has another voltage than the line.
+/// Warning about a configured camera of this board whose trigger input has a voltage other than the
+/// line's.
 std::string trigger_hint(const LineSettings& line, const BoardLines* lines, const Facts& facts) {
   if (line.use != LineUse::TriggerOut || lines == nullptr) return "";
   for (const CameraFacts& camera : facts.cameras) {

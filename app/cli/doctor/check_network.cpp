@@ -5,13 +5,13 @@
 #include "app/cli/doctor/packet_filter.h"
 #include "app/ports/web/http/address.h"
 
-/// Ports, buffers and packet filter.
+/// Checks of ports, buffers and packet filter.
 namespace orbwatch::app::doctor {
 namespace {
 
 constexpr std::int64_t kLeastBuffer = std::int64_t{8} << 20;  // bytes; the package sets 16 MiB
 
-// Of a domain's UDP ports (DDSI-RTPS 2.2, 9.6.1); the first is that of discovery.
+// First UDP port of a domain (DDSI-RTPS 2.2, 9.6.1), for discovery.
 constexpr int kFirstDdsPort = 7400;
 constexpr int kDdsPorts = 250;
 
@@ -57,7 +57,8 @@ Diagnosis port_diagnosis(const PortFacts& port, const NetworkFacts& network) {
   }
 }
 
-/// `ports` as a rule of `chain` would accept them, of the protocol.
+/// Diagnosis of a chain that filters the protocol's `ports`, with the rule of `chain` that would
+/// accept them.
 Diagnosis filtered(const std::string& who, const std::string& chain, const std::string& ports) {
   return warning(who + ": the chain " + chain + " drops input, and no rule names " + ports,
                  "sudo nft add rule " + chain + " " + ports + " accept");

@@ -4,15 +4,16 @@
 #include "app/cli/doctor/checks.h"
 #include "hal/thread/scheduling.h"
 
-/// What the frame path's deadlines and time stamps need.
+/// Checks of the conditions for the frame path's deadlines and time stamps.
 namespace orbwatch::app::doctor {
 namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
-constexpr double kShareOfKernel = 0.95;  // of real-time threads, as the kernel sets it
-constexpr double kLongestWatchdog = 14;  // s; above 15 s a Raspberry Pi's is off before Linux 6.8
+constexpr double kShareOfKernel = 0.95;  // share of real-time threads, the kernel's default
+constexpr double kLongestWatchdog =
+    14;  // s; on a Raspberry Pi before Linux 6.8, more than 15 s disables it
 
-/// Who has these limits, and what gives them.
+/// Owner of these limits, and the setting that raises them.
 struct LimitOwner {
   std::string name;
   std::string remedy;

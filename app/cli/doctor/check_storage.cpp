@@ -2,11 +2,11 @@
 
 #include "app/cli/doctor/checks.h"
 
-/// Room for what must outlast a restart, and for pictures.
+/// Checks of space for state that must survive a restart, and for pictures.
 namespace orbwatch::app::doctor {
 namespace {
 
-constexpr double kFull = 20;         // MiB: an accepted alignment may not be kept any more
+constexpr double kFull = 20;         // MiB; an accepted alignment may no longer be kept
 constexpr double kNearlyFull = 500;  // MiB
 
 Diagnosis folder_diagnosis(const FolderFacts& folder) {

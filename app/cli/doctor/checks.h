@@ -3,8 +3,8 @@
 #include "app/cli/doctor/diagnosis.h"
 #include "app/cli/doctor/facts.h"
 
-/// The checks: what follows from facts. Each returns a line or more without the check's name, or
-/// none where the configuration has no use for it. All pure and reentrant.
+/// Checks: conclusions from facts. Each returns a line or more without the check's name, or none if
+/// the configuration does not need it. All pure and reentrant.
 namespace orbwatch::app::doctor {
 
 Diagnoses check_configuration(const Facts& facts);
@@ -22,7 +22,7 @@ Diagnoses check_disk(const Facts& facts);
 Diagnoses check_watchdog(const Facts& facts);
 Diagnoses check_heat(const Facts& facts);
 
-/// All of them, in this order, with their names.
+/// Runs all of them, in this order, with their names.
 Diagnoses diagnose(const Facts& facts);
 
 }  // namespace orbwatch::app::doctor

@@ -12,19 +12,19 @@ namespace orbwatch::app::doctor {
 
 enum class Level : std::uint8_t {
   Ok,
-  Warning,  ///< orbwatchd runs, with a risk or a lack
-  Fault,    ///< orbwatchd does not do what its configuration says
+  Warning,  ///< orbwatchd runs, with a risk or a limitation
+  Fault,    ///< orbwatchd does not do what its configuration requires
 };
 
 inline constexpr std::array kLevels{Word{"ok", Level::Ok}, Word{"warning", Level::Warning},
                                     Word{"fault", Level::Fault}};
 
-/// What one check found.
+/// Result of one check.
 struct Diagnosis {
-  std::string check{};  ///< its name
+  std::string check{};  ///< name of the check
   Level level = Level::Ok;
   std::string text{};    ///< may quote devices and files
-  std::string remedy{};  ///< the command that mends it, or the deed where none does; empty: ok
+  std::string remedy{};  ///< command that corrects it, or the action if no command does; empty: ok
 };
 using Diagnoses = std::vector<Diagnosis>;
 

@@ -32,7 +32,7 @@ std::string doctor_table(const Diagnoses& diagnoses) {
   std::vector<Fields> records;
   records.reserve(diagnoses.size());
   for (const Diagnosis& diagnosis : diagnoses) {
-    // The last column: it is not padded.
+    // The last column is not padded.
     const std::string remedy = diagnosis.remedy.empty() ? "" : ". Remedy: " + diagnosis.remedy;
     records.push_back({{"level", name_of(diagnosis.level)},
                        {"check", diagnosis.check},

@@ -9,10 +9,10 @@ namespace orbwatch::app::doctor {
 /// The worst level.
 Level worst(const Diagnoses& diagnoses);
 
-/// One sentence: how many faults and warnings.
+/// One sentence with the numbers of faults and warnings.
 std::string summary(const Diagnoses& diagnoses);
 
-/// A line per diagnosis and the summary. Control characters become question marks.
+/// One line per diagnosis and the summary. Control characters become question marks.
 std::string doctor_table(const Diagnoses& diagnoses);
 
 /// One JSON document (RFC 8259): {"worst": LEVEL, "checks": [{"check", "level", "text",

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All of it that can be read: of a site whose rig is wrong, the cameras still can be looked for.
+/// Reads as much as possible: the cameras of a site with a wrong rig can still be checked.
 void gather_configuration(const fs::path& file, Facts& facts) {
   facts.configuration.file = file;
   std::error_code unknown;
@@ -48,7 +48,7 @@ HealthSources health_sources(const Sources& sources, fs::path disk) {
   return {sources.at("/sys"), sources.at("/proc"), std::move(disk)};
 }
 
-/// The folder, or the nearest one above it that is there.
+/// The folder, or its nearest existing ancestor.
 fs::path existing(fs::path folder) {
   std::error_code unknown;
   while (!fs::exists(folder, unknown) && folder.has_relative_path()) folder = folder.parent_path();

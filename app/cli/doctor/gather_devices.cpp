@@ -11,7 +11,7 @@
 #include "hal/thread/file_descriptor.h"
 #include "hal/v4l2/device/v4l2_list.h"
 
-/// Memory of cameras, cameras, chips of digital lines.
+/// Facts about memory for cameras, cameras, chips of digital lines.
 namespace orbwatch::app::doctor {
 namespace {
 

@@ -4,21 +4,21 @@
 #include "app/cli/doctor/gather.h"
 #include "app/health/system_file.h"
 
-/// The board, and the kernel with the drivers that the configuration needs.
+/// Facts about the board, and about the kernel with the drivers that the configuration needs.
 namespace orbwatch::app::doctor {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestList = std::size_t{8} << 20;  // bytes; Debian's has 600 000
+constexpr std::size_t kLongestList = std::size_t{8} << 20;  // bytes; Debian's list has 600 000
 
-/// The first line of a file, without what ends texts of a device tree.
+/// The first line of a file, without the terminator of device tree texts.
 std::string line_of(const fs::path& file) {
   const std::string text = read_system_file(file).value_or("");
   return text.substr(0, text.find_first_of(std::string_view("\n\0", 2)));
 }
 
-/// By the device tree, or by the firmware of a PC.
+/// Model by the device tree, or by the firmware of a PC.
 std::string model_of(const Sources& sources) {
   const std::string model = line_of(sources.at("/proc/device-tree/model"));
   if (!model.empty()) return model;
@@ -27,13 +27,13 @@ std::string model_of(const Sources& sources) {
   return vendor + (vendor.empty() || product.empty() ? "" : " ") + product;
 }
 
-/// The kernel has no difference between the two.
+/// Replaces hyphens, which the kernel treats like underscores.
 std::string with_underscores(std::string name) {
   std::ranges::replace(name, '-', '_');
   return name;
 }
 
-/// The modules of a list with a path at the beginning of each line, as modules.dep and
+/// Adds the modules of a list with a path at the beginning of each line, such as modules.dep and
 /// modules.builtin: "kernel/drivers/media/usb/uvc/uvcvideo.ko.xz: ...".
 void add_modules(const std::string& list, std::vector<std::string>& modules) {
   std::istringstream lines(list);
@@ -47,7 +47,7 @@ void add_modules(const std::string& list, std::vector<std::string>& modules) {
   }
 }
 
-/// Nullopt: the kernel's lists cannot be read.
+/// Modules of the kernel; nullopt: its lists cannot be read.
 std::optional<std::vector<std::string>> modules_of(const Sources& sources,
                                                    const std::string& release) {
   if (release.empty() || release.find('/') != std::string::npos) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<std::vector<std::string>> modules_of(const Sources& sources,
   return modules;
 }
 
-/// The drivers without which no camera of a back-end is there.
+/// Adds the drivers that a camera of the back-end requires.
 void add_drivers(const CameraSettings& camera, const BoardFacts& board,
                  std::vector<Driver>& drivers) {
   const auto add = [&](const std::string& name) {

@@ -6,7 +6,7 @@
 #include "app/health/system_file.h"
 #include "hal/thread/scheduling.h"
 
-/// What the kernel allows the service, or this program.
+/// Limits of the kernel for the service, or for this program.
 namespace orbwatch::app::doctor {
 namespace {
 
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 // Numbers of capabilities in linux/capability.h.
 constexpr unsigned kIpcLock = 14, kSysNice = 23;
 
-/// The soft limit of a line of /proc/PID/limits.
+/// The soft limit in a line of /proc/PID/limits.
 std::optional<std::uint64_t> soft_limit(const std::string& limits, std::string_view name) {
   std::istringstream lines(limits);
   for (std::string line; std::getline(lines, line);) {

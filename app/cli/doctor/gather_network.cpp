@@ -11,7 +11,7 @@
 #include "app/ports/web/http/address.h"
 #include "hal/thread/file_descriptor.h"
 
-/// Ports, limits of the network, packet filter.
+/// Facts about ports, limits of the network, packet filter.
 namespace orbwatch::app::doctor {
 namespace {
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestTable = std::size_t{1} << 20;  // bytes, 7000 sockets
 
-/// errno of binding as orbwatchd does; the port is free again at once, since nothing listened.
+/// errno of binding like orbwatchd; the port is free again at once, since nothing listened.
 int bind_error(const std::string& address, int port) {
   const auto parsed = web::parse_address(address, port);
   if (!parsed) return EINVAL;
@@ -31,7 +31,7 @@ int bind_error(const std::string& address, int port) {
   return ::bind(socket.get(), parsed->get(), parsed->length) == 0 ? 0 : errno;
 }
 
-/// The sockets that listen on `port`, in a table as /proc/net/tcp: by inode.
+/// Adds the sockets that listen on `port`, by inode, from a table in the format of /proc/net/tcp.
 void add_listeners(const fs::path& table, int port, std::set<std::string>& sockets) {
   std::istringstream lines(read_system_file(table, kLongestTable).value_or(""));
   for (std::string line; std::getline(lines, line);) {

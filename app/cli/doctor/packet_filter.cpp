@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The member, or null: of an object without it, and of anything else.
+/// The member; null if the object lacks it, or if the value is not an object.
 const Json& member(const Json& value, const char* name) {
   static const Json kNull;
   if (!value.is_object()) return kNull;
@@ -22,14 +22,14 @@ bool drops_input(const Json& chain) {
   return text(member(chain, "hook")) == "input" && text(member(chain, "policy")) == "drop";
 }
 
-/// A word of nft's language. Anything else would not be safe in the command that is proposed.
+/// True for a word of nft's language. Other text would be unsafe in the proposed command.
 bool is_word(const std::string& name) {
   return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
 }
 
-/// Family, table and name; nullopt: not words.
+/// Family, table and name; nullopt: they are not words.
 std::optional<std::string> name_of(const Json& chain) {
   std::string name;
   for (const char* part : {"family", "table", "name"}) {
@@ -47,7 +47,7 @@ int port_number(const Json& value) {
   return number <= 65535 ? static_cast<int>(number) : -1;
 }
 
-/// A number, {"range": [a, b]}, or {"set": [those]}.
+/// Adds a number, {"range": [a, b]}, or {"set": [those]}.
 void add_ports(const Json& value, PortRanges& ports) {
   if (const int port = port_number(value); port >= 0) ports.emplace_back(port, port);
   const Json& range = member(value, "range");
@@ -58,7 +58,7 @@ void add_ports(const Json& value, PortRanges& ports) {
   const Json& set = member(value, "set");
   if (!set.is_array()) return;
   for (const Json& item : set) {
-    if (!member(item, "set").is_array()) add_ports(item, ports);  // sets have no sets
+    if (!member(item, "set").is_array()) add_ports(item, ports);  // sets are not nested
   }
 }
 
@@ -74,7 +74,7 @@ void add_rule(const Json& rule, PacketFilter& filter) {
     const Json& payload = member(member(match, "left"), "payload");
     const std::string protocol = text(member(payload, "protocol"));
     if (text(member(payload, "field")) != "dport" || text(member(match, "op")) == "!=") continue;
-    const bool both = protocol == "th";  // the header of whatever transport
+    const bool both = protocol == "th";  // header of any transport
     if (both || protocol == "tcp") add_ports(member(match, "right"), filter.tcp);
     if (both || protocol == "udp") add_ports(member(match, "right"), filter.udp);
   }

@@ -20,7 +20,7 @@ namespace {
 
 using hal::FileDescriptor;
 
-/// A child in a process group of its own, killed and waited for at this object's end.
+/// Child in a process group of its own, killed and waited for at this object's end.
 class Child {
  public:
   Child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
@@ -31,7 +31,7 @@ class Child {
 
   bool is_started() const { return pid_ > 0; }
 
-  /// Waits for its end until the deadline, and kills what is left of its group. Returns whether it
+  /// Waits for its end until the deadline, then kills the rest of its group. Returns true if it
   /// ended by itself, with status 0.
   bool end_by(hal::TimePoint deadline);
 
@@ -78,10 +78,10 @@ bool wait_readable(int file, hal::TimePoint deadline) {
 bool Child::end_by(hal::TimePoint deadline) {
   const pid_t pid = std::exchange(pid_, -1);
   if (pid <= 0) return false;
-  // A process's descriptor is readable from its end on (Linux 5.3).
+  // A process's descriptor is readable once it has ended (Linux 5.3).
   const FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   if (process.is_open()) wait_readable(process.get(), deadline);
-  // Not reaped yet, so that the group's number is still its own.
+  // The process is not reaped yet, so that the group's number is still its own.
   siginfo_t ended{};
   ::waitid(P_PID, static_cast<id_t>(pid), &ended, WEXITED | WNOHANG | WNOWAIT);
   const bool by_itself = ended.si_pid == pid;
@@ -92,7 +92,7 @@ bool Child::end_by(hal::TimePoint deadline) {
   return by_itself && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// All that comes until the end of the file. Nullopt: too much, too late, or an error.
+/// Reads until the end of the file. Nullopt: too much, too late, or an error.
 std::optional<std::string> read_all(int file, std::size_t most, hal::TimePoint deadline) {
   std::string text;
   std::array<char, 4096> part{};
@@ -119,10 +119,10 @@ std::optional<std::string> program_output(const std::filesystem::path& program,
   FileDescriptor writing(ends[1]);
   Child child(program, arguments, writing.get());
   if (!child.is_started()) return std::nullopt;
-  writing = FileDescriptor();  // so that the child's end is the end of the file
+  writing = FileDescriptor();  // closed, so that the child's end is the end of the file
   auto text = read_all(reading.get(), limits.bytes, deadline);
   if (!text) return std::nullopt;
-  // It may live on after it closed its output: then it is killed at the deadline.
+  // The child may continue after it closed its output: then it is killed at the deadline.
   return child.end_by(deadline) ? text : std::nullopt;
 }
 

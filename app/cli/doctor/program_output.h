@@ -14,9 +14,9 @@ struct ProgramLimits {
   std::size_t bytes = std::size_t{1} << 20;
 };
 
-/// What a program prints to standard output, in the language C. Nullopt: it cannot be started,
-/// ends with another status than 0, prints more than `limits.bytes`, or does not end in time; it
-/// and what it started in its process group are killed then. Never waits longer.
+/// Standard output of a program, in the language C. Nullopt: it cannot be started, ends with a
+/// status other than 0, prints more than `limits.bytes`, or does not end in time; it and the rest
+/// of its process group are killed then. Never waits longer.
 std::optional<std::string> program_output(const std::filesystem::path& program,
                                           const std::vector<std::string>& arguments,
                                           const ProgramLimits& limits = {});

@@ -13,29 +13,29 @@
 
 namespace orbwatch::app::doctor {
 
-/// Where facts come from; tests use trees and devices of their own.
+/// Sources of facts; tests use trees and devices of their own.
 struct Sources {
-  std::filesystem::path root = "/";  ///< of /proc, /sys, /dev, programs and absolute paths
-  std::filesystem::path boards;      ///< the boards' files
-  std::string architecture;          ///< as uname -m
-  /// The GPIO chips that are connected.
+  std::filesystem::path root = "/";  ///< prefix of /proc, /sys, /dev, programs and absolute paths
+  std::filesystem::path boards;      ///< folder of the boards' files
+  std::string architecture;          ///< value of uname -m
+  /// GPIO chips that are connected.
   std::function<std::vector<hal::ChipInfo>()> chips;
-  /// The cameras of a back-end that is a module. Error: the module cannot be used.
+  /// Cameras of a back-end that is a module. Error: the module cannot be used.
   std::function<Result<std::vector<hal::CameraEntry>>(std::string_view back_end)> module_cameras;
 
-  /// An absolute path of the judged system.
+  /// Resolves an absolute path of the examined system.
   std::filesystem::path at(const std::filesystem::path& path) const {
     return root / path.relative_path();
   }
 
-  /// Whether an absolute path of it leads to something.
+  /// True if an absolute path of it exists.
   bool has(const std::filesystem::path& path) const {
     std::error_code unknown;
     return std::filesystem::exists(at(path), unknown);
   }
 };
 
-/// This computer.
+/// Sources of this computer.
 Sources this_computer();
 
 }  // namespace orbwatch::app::doctor

@@ -24,9 +24,10 @@ constexpr const char* kPermissionsCa = "permissions_ca";
 constexpr const char* kSubscriberEnclave = "subscriber";
 constexpr const char* kPrivate = "private";
 constexpr const char* kEnclaves = "enclaves";
-/// RFC 5280's limit of a common name.
+/// Limit of a common name in RFC 5280.
 constexpr std::size_t kLongestName = 64;
-/// Clocks differ, and boards without a clock start with the time of their last shutdown.
+/// Margin for clocks that differ, and for boards without a clock, which start with the time of
+/// their last shutdown.
 constexpr std::chrono::days kClockDifference{1};
 
 struct Authorities {
@@ -133,7 +134,7 @@ Result<Authorities> read_authorities(const fs::path& keystore) {
   });
 }
 
-/// `text` beside its signed form, whose name is `document`.
+/// Writes `text` beside its signed form, whose name is `document`.
 Result<> write_document(const fs::path& document, const std::string& text,
                         const Credential& signer) {
   return sign_document(text, signer)
@@ -198,7 +199,7 @@ Result<Folders> make_keystore(const KeystoreRequest& request, std::chrono::sys_s
   return folders;
 }
 
-/// Whether the appliance of a keystore has the pictures that new subscribers may read.
+/// Checks that the appliance of a keystore has the pictures that new subscribers may read.
 Result<> check_appliance(const KeystoreRequest& request, const Authorities& authorities) {
   const fs::path folder = enclave_folder(request.folder, kApplianceEnclave);
   const auto grants =
@@ -253,10 +254,11 @@ Result<Folders> add_subscribers(const KeystoreRequest& request, std::chrono::sys
   return folders;
 }
 
-/// The topic of ROS 2's graph: every participant writes and reads it.
+/// Topic of ROS 2's graph: every participant writes and reads it.
 constexpr const char* kDiscovery = "ros_discovery_info";
 
-/// All but the requests: their readers share the key that protects them, and could forge some.
+/// All topics except the requests: their readers share the key that protects them, and could forge
+/// some.
 std::vector<std::string> published(std::string_view prefix) {
   std::vector<std::string> topics = bulk_topics(prefix);
   topics.insert(topics.end(), {process_state_topic(prefix), event_topic(prefix),
@@ -267,7 +269,7 @@ std::vector<std::string> published(std::string_view prefix) {
 
 }  // namespace
 
-// Those of views and cameras: all below a name.
+// Topics of views and cameras: all below a name.
 std::vector<std::string> bulk_topics(std::string_view prefix) {
   const std::string image = image_topic(prefix, "*");
   return {image.substr(0, image.rfind('/') + 1) + "*"};

@@ -11,34 +11,35 @@
 
 namespace orbwatch::app {
 
-/// The rights that orbwatchd needs for these topics.
+/// Rights that orbwatchd needs for these topics.
 TopicAccess appliance_access(std::string_view prefix);
 
-/// The rights of its readers, and of readers that also send commands.
+/// Rights of its readers, and of readers that also send commands.
 TopicAccess reader_access(std::string_view prefix);
 TopicAccess controller_access(std::string_view prefix);
 
-/// The topics of pictures.
+/// Topics of pictures.
 std::vector<std::string> bulk_topics(std::string_view prefix);
 
-/// The contents of a keystore.
+/// Contents of a keystore.
 struct KeystoreRequest {
   std::filesystem::path folder;
   DomainRange domains;
-  int days = 3650;  ///< of validity, at most that of the authorities
+  int days = 3650;  ///< days of validity, at most those of the authorities
   TopicAccess appliance;
   TopicAccess subscriber;
   std::vector<std::string> bulk_topics;  ///< see governance_document()
-  /// None: one of the name "subscriber", in a new keystore.
+  /// Empty: one subscriber named "subscriber", in a new keystore.
   std::vector<std::string> subscribers{};
-  bool replace = false;  ///< existing keys: of these subscribers, or of all when none is named
+  bool replace =
+      false;  ///< replaces existing keys: of these subscribers, or of all when none is named
 };
 
-/// The enclave that every keystore has.
+/// Enclave that every keystore has.
 inline constexpr const char* kApplianceEnclave = "appliance";
 
-/// The folder of a participant's files in a keystore, see EnclaveFiles. Beside the enclaves, in
-/// private/, are the keys of two authorities: one issues certificates, one signs governance and
+/// Folder of a participant's files in a keystore, see EnclaveFiles. Beside the enclaves, private/
+/// holds the keys of two authorities: one issues certificates, one signs governance and
 /// permissions. With a single authority every participant could sign its own permissions: Cyclone
 /// DDS up to 0.10.2, among others, accepts signatures of any certificate of the authority
 /// (CVE-2023-24011).

@@ -14,14 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The record of outputs by the orbwatchd of this file. Error: the state folder is
-/// another machine's.
+/// Folder with the record of outputs by the orbwatchd of this file. Error: the state folder belongs
+/// to another machine.
 Result<fs::path> record_folder(const fs::path& file) {
   if (auto folder = runtime_directory()) return std::move(*folder);
   return state_folder({}, file);
 }
 
-/// Lines of the file, or of what ran last if it is wrong.
+/// Lines of the file, or of the configuration that ran last if the file is wrong.
 Result<std::vector<LineSettings>> lines_of_file(const fs::path& file) {
   const auto read = read_site(file);
   if (read) return std::vector<LineSettings>(read->lines.begin(), read->lines.end());

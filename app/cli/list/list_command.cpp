@@ -60,7 +60,7 @@ constexpr const char* kListNotes =
     "computers),\n"
     "pictures (0)}]. It fails with status 1 when no appliance is heard.\n";
 
-/// The devices that are connected now, of every back-end that can list them. Does not disturb
+/// Lists the devices that are connected now, of every back-end that can list them. Does not disturb
 /// streaming cameras.
 hal::Inventory take_inventory() {
   hal::Inventory inventory{hal::list_v4l2_cameras(), hal::GpioLines().chips()};

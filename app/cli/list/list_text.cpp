@@ -70,7 +70,7 @@ Json json_of(const hal::Inventory& inventory) {
   return {{"cameras", list_of(inventory.cameras)}, {"chips", list_of(inventory.chips)}};
 }
 
-/// Text or number, or a list of those.
+/// Text of a text or number, or of a list of those.
 std::string cell(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.is_null() ? "" : value.dump();
@@ -91,7 +91,7 @@ Fields fields_of(const Json& entry) {
   return fields;
 }
 
-/// A line for each of its fields, a table for each of its lists.
+/// One line for each of its fields, one table for each of its lists.
 std::string entry_text(const Json& entry) {
   std::string text = field_lines(fields_of(entry));
   for (const Json& value : entry) {

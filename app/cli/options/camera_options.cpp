@@ -29,7 +29,7 @@ Result<> set_rotation(const std::string& value, std::optional<optics::YawPitchRo
   return {};
 }
 
-/// NAME or NAME=IMAGE.
+/// Parsed NAME or NAME=IMAGE.
 struct Named {
   explicit Named(const std::string& text)
       : name(text.substr(0, text.find('='))),
@@ -53,7 +53,7 @@ Result<> check_choice(const std::vector<std::string>& cameras) {
   return {};
 }
 
-/// An orthographic model takes no distance, whatever the rig states.
+/// An orthographic model takes no distance, even if the rig states one.
 void replace_model(optics::BallModel::Kind model, optics::RigCamera& camera) {
   camera.model = model;
   if (!optics::law(model).is_orthographic) return;

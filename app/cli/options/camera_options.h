@@ -11,39 +11,39 @@
 
 namespace orbwatch::app {
 
-/// The cameras of a command: some of a rig's, or one described by options.
+/// Cameras of a command: some of a rig's, or one described by options.
 struct CameraOptions {
   std::filesystem::path rig;
-  std::vector<std::string> cameras;  ///< as given: NAME or NAME=IMAGE
+  std::vector<std::string> cameras;  ///< arguments: NAME or NAME=IMAGE
   std::optional<optics::BallModel::Kind> model;
-  // Instead of a rig:
+  // Description that replaces a rig:
   std::optional<optics::Outline> ball;
   std::optional<double> alpha;
   std::optional<double> distance;
   std::optional<optics::YawPitchRoll> rotation;
 };
 
-/// The options; they write into `cameras`, which outlives them.
+/// Options of the cameras; they write into `cameras`, which outlives them.
 std::vector<Option> camera_options(CameraOptions& cameras);
 
-/// One of the cameras.
+/// One of the selected cameras.
 struct ChosenCamera {
-  std::string name;               ///< in the rig; empty without one
-  std::filesystem::path picture;  ///< given behind NAME=
+  std::string name;               ///< name in the rig; empty without one
+  std::filesystem::path picture;  ///< the image in NAME=IMAGE
   optics::BallProjection ball;
-  std::optional<Size> size;                ///< of its pictures, if the rig states it
-  std::optional<optics::Outline> outline;  ///< given by --ball
+  std::optional<Size> size;                ///< size of its pictures, if the rig states it
+  std::optional<optics::Outline> outline;  ///< set by --ball
 };
 
-/// The cameras in the order given, 1 to remap::kMaxSources. Errors: no camera, too many, a
+/// Returns the cameras in the order given, 1 to remap::kMaxSources. Errors: no camera, too many, a
 /// duplicate, an unknown one, --rig together with an option that it replaces, those of load_rig and
 /// optics::ball_projection.
 Result<std::vector<ChosenCamera>> choose_cameras(const CameraOptions& options);
 
-/// Refuses a picture that is not of the rig's size or does not contain the ball.
+/// Refuses a picture whose size is not the rig's or that does not contain the ball.
 Result<> check_picture_size(const ChosenCamera& camera, const Size& picture);
 
-/// The rig's camera of that name. The error lists the existing ones.
+/// Finds the rig's camera of that name. The error lists the existing ones.
 Result<optics::RigCamera> find_camera(const optics::Rig& rig, const std::string& name);
 
 }  // namespace orbwatch::app

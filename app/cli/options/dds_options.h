@@ -9,14 +9,14 @@
 
 namespace orbwatch::app {
 
-/// The domain and topics of the orbwatchd that a command communicates with.
+/// Options for domain and topics of the orbwatchd that a command communicates with.
 Option domain_option(int& domain);
 Option prefix_option(std::string& prefix);
 
-/// The keys for an orbwatchd with [dds.security].
+/// Option for the keys of an orbwatchd with [dds.security].
 Option security_option(std::optional<SecuritySettings>& security);
 
-/// How long to wait for an answer.
+/// Option for the limit of the wait for an answer.
 Option timeout_option(std::chrono::milliseconds& timeout);
 
 }  // namespace orbwatch::app

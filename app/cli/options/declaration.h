@@ -7,8 +7,8 @@
 
 namespace orbwatch::app {
 
-/// What a command declares to run_command(), without running it; its options are not to be set.
-/// Nullopt: it takes no options. Thread-bound.
+/// Declaration that a command passes to run_command(), without running it; its options must not be
+/// set. Nullopt: it takes no options. Thread-bound.
 std::optional<CommandLine> declaration_of(const Subcommand& command);
 
 }  // namespace orbwatch::app

@@ -14,18 +14,18 @@ namespace {
 
 constexpr int kFirstLong = 1000;
 
-/// Where a command line goes instead of being run, while declaration_of() asks for it.
+/// Destination of a command line that declaration_of() requests instead of a run.
 std::optional<CommandLine>* asked_declaration = nullptr;
 
-/// Of the error that was returned last.
+/// Exit status of the error that was returned last.
 ExitStatus last_error_status = ExitStatus::Failed;
 
-/// Calls the options' set(); returns the arguments that are no option.
+/// Calls the options' set(); returns the arguments that are not options.
 Result<std::vector<std::string>> parse(std::vector<std::string> arguments,
                                        const std::vector<Option>& options, OptionOrder order) {
   std::vector<option> table;
   table.reserve(options.size() + 1);
-  // The colon: errors are reported here, not by getopt.
+  // The colon makes getopt leave the reporting of errors to this function.
   std::string letters = order == OptionOrder::First ? "+:" : ":";
   for (std::size_t i = 0; i < options.size(); ++i) {
     const int takes = options[i].argument.empty() ? no_argument : required_argument;
@@ -100,7 +100,7 @@ ExitStatus error_status() { return last_error_status; }
 std::optional<CommandLine> declaration_of(const Subcommand& command) {
   std::optional<CommandLine> declared;
   asked_declaration = &declared;
-  // A command without options prints or refuses at once, to nobody.
+  // A command without options prints or refuses; its result is dropped.
   static_cast<void>(command.run({std::string(command.name)}));
   asked_declaration = nullptr;
   return declared;

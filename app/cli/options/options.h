@@ -12,59 +12,58 @@
 
 namespace orbwatch::app {
 
-/// One option of a command: declared once, for parsing and for --help.
+/// Option of a command: declared once, for parsing and for --help.
 struct Option {
-  std::string name;      ///< without the dashes
+  std::string name;      ///< name without the dashes
   char letter = '\0';    ///< short form, or none
-  std::string argument;  ///< its value, in capitals; empty for a flag
+  std::string argument;  ///< placeholder of its value, in capitals; empty for a flag
   std::string text;
   std::function<Result<>(const std::string& value)> set;
 };
 
-/// The place of options among the arguments.
+/// Place of options among the arguments.
 enum class OptionOrder {
   Anywhere,
-  First  ///< before the first other argument, so that -40 may be a number there
+  First  ///< before the first other argument, which then may be a number such as -40
 };
 
-/// What a command accepts; --help is added to its options.
+/// Syntax of a command; --help is added to its options.
 struct CommandLine {
   std::string usage;  ///< printed by --help before the options
   std::vector<Option> options;
-  bool takes_words = false;  ///< arguments that are no option
+  bool takes_words = false;  ///< accepts arguments that are not options
   OptionOrder order = OptionOrder::Anywhere;
-  std::string notes{};  ///< printed by --help behind the options
+  std::string notes{};  ///< printed by --help after the options
 };
 
-/// Parses `arguments` (the command's name first), calls the options' set(), and returns what `run`
-/// makes of the arguments that are no option; or the help. Errors: unknown option, missing value,
-/// unexpected argument, those of set() and `run`.
+/// Parses `arguments` (the command's name first), calls the options' set(), and returns the result
+/// of `run` for the arguments that are not options; or the help. Errors: unknown option, missing
+/// value, unexpected argument, those of set() and `run`.
 Result<std::string> run_command(
     std::vector<std::string> arguments, CommandLine line,
     const std::function<Result<std::string>(const std::vector<std::string>& words)>& run);
 
-/// The error of a command whose options or arguments are wrong: `what`, and where to read how it is
-/// right. It ends with ExitStatus::WrongUsage, as those of run_command() itself and of set() do.
-/// Thread-bound.
+/// Error of a command whose options or arguments are wrong: `what`, and a reference to the help. It
+/// ends with ExitStatus::WrongUsage, like those of run_command() itself and of set(). Thread-bound.
 tl::unexpected<Error> usage_error(const std::string& what);
 
-/// How the error that a command returned last ends the program. Thread-bound.
+/// Exit status for the error that a command returned last. Thread-bound.
 ExitStatus error_status();
 
-/// `text` as a finite number. The error names the option `name`.
+/// Parses `text` as a finite number. The error names the option `name`.
 Result<double> parse_number(std::string_view name, std::string_view text);
-/// `text` as a whole number.
+/// Parses `text` as a whole number.
 Result<int> parse_whole(std::string_view name, std::string_view text);
-/// `text` as numbers with commas between.
+/// Parses `text` as numbers separated by commas.
 Result<std::vector<double>> parse_numbers(std::string_view name, std::string_view text);
 
-/// Of a picture, pixels.
+/// Size of a picture, pixels.
 struct Size {
   int width = 0;
   int height = 0;
 };
 
-/// `text` as WIDTHxHEIGHT.
+/// Parses `text` as WIDTHxHEIGHT.
 Result<Size> parse_size(std::string_view name, std::string_view text);
 
 /// set() for a flag.
