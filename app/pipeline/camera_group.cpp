@@ -9,7 +9,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// More than any camera takes for a control that it accepts.
+/// Longest time that any camera needs to apply a control that it accepts.
 constexpr std::chrono::seconds kControlPatience{2};
 
 bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
@@ -17,7 +17,8 @@ bool is_as_configured(const Picture& picture, const hal::StreamFormat& format) {
          picture.height == format.height;
 }
 
-/// Passes the frames that belong to a trigger and numbers them; that of a withheld one is missed.
+/// Passes the frames that belong to a trigger and numbers them; the trigger of a withheld frame is
+/// missed.
 hal::Camera::Gate stamp_with(const std::shared_ptr<hal::FrameTrigger>& trigger) {
   return [trigger](hal::FrameMetadata& metadata) {
     if (metadata.status == hal::FrameStatus::Withheld) {
@@ -153,7 +154,8 @@ void CameraGroup::on_frame(std::size_t index, hal::Frame frame) {
   sync_.put(index, std::move(frame));
 }
 
-/// Says once that a camera does not do what it was set to; what needs the setting is not measured.
+/// Logs once that a camera deviates from its settings; regions that need the setting are not
+/// measured.
 void CameraGroup::watch_controls(Member& member, const hal::FrameMetadata& metadata) {
   const bool is_overdue =
       metadata.not_as_set && metadata.exposure_start - metadata.controls_as_of > kControlPatience;

@@ -22,7 +22,7 @@
 
 namespace orbwatch::app {
 
-/// Bit n: camera n.
+/// Set of cameras; bit n: camera n.
 using CameraSet = std::bitset<kMaxCameras>;
 
 /// The cameras of a pipeline: joins their frames into frame sets, turns their faults into values
@@ -36,14 +36,14 @@ class CameraGroup {
   using Formats = std::vector<hal::StreamFormat>;
   using Triggers = std::vector<std::shared_ptr<hal::FrameTrigger>>;
 
-  /// 1..kMaxCameras cameras, configured to `formats` unless they are `absent`. The log says
-  /// `names`, without them the cameras' ids. A camera with a trigger delivers only the frames that
-  /// belong to one.
+  /// Takes 1..kMaxCameras cameras, configured to `formats` unless they are `absent`. The log uses
+  /// `names`, or without them the cameras' ids. A camera with a trigger delivers only the frames
+  /// that belong to one.
   CameraGroup(Cameras cameras, const Names& names, const Formats& formats, const CameraSet& absent,
               const Triggers& triggers, const hal::SyncSettings& sync);
 
   Result<> start();
-  /// No frame set comes after close(), no frame after stop().
+  /// Stops the cameras. There is no frame set after close(), and no frame after stop().
   void stop();
   void close() { sync_.close(); }
 
@@ -51,43 +51,45 @@ class CameraGroup {
   std::optional<hal::FrameSet> next(hal::TimePoint until) { return sync_.next(until); }
 
   std::size_t size() const { return members_.size(); }
-  /// How many cameras have a fault.
+  /// Number of cameras with a fault.
   std::size_t faulty() const;
-  /// How many cameras have no fault but are late: see FrameMatcher.
+  /// Number of cameras without a fault that are late: see FrameMatcher.
   std::size_t late() const;
-  /// The first camera without a fault that is not late, or the first without a fault when all are:
-  /// its frames begin the sets, see FrameMatcher.
+  /// The first camera without a fault that is not late, or the first without a fault when all are
+  /// late: its frames begin the sets, see FrameMatcher.
   std::size_t pacing_camera() const;
 
   /// Processor time of all cameras' capture since the start.
   std::chrono::nanoseconds capture_time() const;
 
-  /// An absent camera's fault.
+  /// Sets the fault of an absent camera.
   void miss(std::size_t camera, hal::Fault fault);
   /// Starts an absent camera, configured to `format`, with the controls that were applied last. It
   /// stays absent on error: it refuses one of them.
   Result<> admit(std::size_t camera, const hal::StreamFormat& format);
 
-  /// Sets the controls of a recipe; may wait for the cameras. A refused one does not keep the
-  /// others from being set, since the way back must set as many as possible; returns the first
+  /// Sets the controls of a recipe; may wait for the cameras. After a refusal the others are still
+  /// set, since a return to the previous recipe must set as many as possible; returns the first
   /// error. An absent camera gets them when it is admitted.
   Result<> apply(std::uint16_t recipe, const std::vector<CameraControl>& controls);
 
-  /// Fills in `status.cameras`; rates and latencies only with `elapsed`, the time since they were
-  /// reported last.
+  /// Fills in `status.cameras`; rates and latencies only with `elapsed`, the time since the last
+  /// report of them.
   void report(Status& status, std::optional<hal::Clock::duration> elapsed);
 
  private:
   struct Member {
     std::unique_ptr<hal::Camera> camera;
-    std::string name;     ///< for the log
+    std::string name;     ///< name in the log
     bool absent = false;  ///< changed on the main thread, under setting_
     hal::StreamFormat format;
-    std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: it runs freely
+    std::shared_ptr<hal::FrameTrigger> trigger;  ///< null: the camera runs freely
     std::atomic<hal::Fault> fault{hal::Fault::None};
-    bool is_otherwise = false;                 ///< than it was set; the camera's thread's
-    std::atomic<hal::TimePoint> last_frame{};  ///< arrival
-    hal::PriorityMutex metering;               ///< of the camera's thread and the pipeline's
+    bool is_otherwise =
+        false;  ///< a control differs from its setting; used by the camera's thread only
+    std::atomic<hal::TimePoint> last_frame{};  ///< arrival of the last frame
+    hal::PriorityMutex
+        metering;  ///< guards the figures that the camera's thread shares with the pipeline's
     SecondMeter meter;
   };
 
@@ -99,7 +101,7 @@ class CameraGroup {
 
   hal::FrameSync sync_;
   std::mutex setting_;                   ///< held while controls are set
-  std::vector<CameraControl> controls_;  ///< applied last; under setting_
+  std::vector<CameraControl> controls_;  ///< controls applied last; guarded by setting_
   std::vector<Member> members_;
 };
 

@@ -9,22 +9,22 @@
 
 namespace orbwatch::app {
 
-/// The time that each frame set may take, and what happens when one takes longer: display views
-/// slow down, so that measurements keep up. After an overrun they are due half as often, down to
-/// every eighth set; after a calm second twice as often again. Thread-bound.
+/// Processing time allowed per frame set, and the reaction to an overrun: display views slow down,
+/// so that measurements keep up. After an overrun they are due half as often, down to every eighth
+/// set; after a second of low load twice as often again. Thread-bound.
 class FrameBudget {
  public:
   /// `deadline` is above 0.
   explicit FrameBudget(hal::Clock::duration deadline) : deadline_(deadline) {}
 
-  /// For the sets to come.
+  /// Applies to the following sets.
   void set_deadline(hal::Clock::duration deadline) { deadline_ = deadline; }
 
-  /// Whether display views are due in frame set `id`.
+  /// True if display views are due in frame set `id`.
   bool is_display_due(std::uint64_t id) const { return id % interval_ == 0; }
   std::uint64_t interval() const { return interval_; }
 
-  /// Called after each frame set, which took `spent`. Returns true for an overrun.
+  /// Call after each frame set; `spent` is its processing time. Returns true for an overrun.
   bool add(hal::Clock::duration spent) {
     const double load = seconds(spent) / seconds(deadline_);
     largest_load_ = std::max(largest_load_, load);
@@ -45,13 +45,13 @@ class FrameBudget {
 
   std::uint64_t overruns() const { return overruns_; }
 
-  /// The largest share of the deadline since the last call.
+  /// Returns the largest share of the deadline since the last call.
   double roll_load() { return std::exchange(largest_load_, 0); }
 
  private:
   static constexpr std::uint64_t kSlowest = 8;
   static constexpr double kCalm = 0.5;
-  static constexpr double kRounding = 1e-6;  ///< s, of a sum of deadlines
+  static constexpr double kRounding = 1e-6;  ///< s, rounding error of a sum of deadlines
 
   static double seconds(hal::Clock::duration time) {
     return std::chrono::duration<double>(time).count();

@@ -10,21 +10,21 @@
 namespace orbwatch::app {
 namespace {
 
-/// Without frames the status is still published this often: the PLC's heartbeat.
+/// Period of the status without frames: the PLC's heartbeat.
 constexpr std::chrono::milliseconds kHeartbeatPeriod{100};
 
-/// With the pipeline's own thread they take the cores that are theirs alone, or leave one to
-/// sinks, drivers and other programs.
+/// Number of workers: with the pipeline's own thread they use all reserved cores, or leave one core
+/// to sinks, drivers and other programs.
 std::size_t worker_count(int asked, std::size_t reserved_cores) {
   if (asked >= 0) return static_cast<std::size_t>(asked);
   if (reserved_cores > 0) return reserved_cores - 1;
   return std::max(2U, std::thread::hardware_concurrency()) - 2;
 }
 
-/// Of the frame sets as long as the pacing camera's rate is not known.
+/// Deadline of frame sets while the pacing camera's rate is unknown.
 constexpr std::chrono::seconds kUnknownPeriod{1};
 
-/// Those of every view, without areas.
+/// Sharpenings of all views, without areas.
 PictureUses sharpenings_of(const std::vector<ViewPlan>& views) {
   PictureUses uses;
   for (const ViewPlan& view : views) {
@@ -39,7 +39,7 @@ PictureUses uses_of(std::span<const ViewChannel> views) {
   return uses;
 }
 
-/// By index.
+/// All views by index.
 std::vector<ViewPlan> all_views(const PipelinePlan& plan) {
   std::vector<ViewPlan> views = plan.views;
   for (const auto& recipe : plan.recipes) {
@@ -73,7 +73,7 @@ Pipeline::Pipeline(PipelinePlan plan)
 }
 
 void Pipeline::make_measurement() {
-  std::vector<std::pair<std::uint16_t, std::vector<CameraControl>>> settings;  // by recipe
+  std::vector<std::pair<std::uint16_t, std::vector<CameraControl>>> settings;  // controls by recipe
   bool sets_cameras = false;
   for (const auto& recipe : plan_.recipes) {
     settings.emplace_back(recipe->plan().number, recipe->plan().controls);
@@ -144,14 +144,14 @@ Result<> Pipeline::take_over(Recompiled recompiled) {
   }
   FramePyramids pyramids(recompiled.formats, sharpenings_);
   Exchange exchange{std::move(pyramids), std::make_unique<ExposureMatch>(views_, plan_.background),
-                    std::move(recompiled)};  // frees here what it replaces
+                    std::move(recompiled)};  // frees the replaced objects here
   std::unique_lock lock(exchanging_);
   exchange_ = &exchange;
   exchanged_.wait(lock, [this] { return exchange_ == nullptr; });
   return {};
 }
 
-/// Between two sets; allocates and frees nothing.
+/// Swaps in an exchange between two sets; allocates and frees nothing.
 void Pipeline::exchange() {
   const std::lock_guard lock(exchanging_);
   if (!exchange_) return;
@@ -162,7 +162,7 @@ void Pipeline::exchange() {
   exchange_->is_in_use = true;
 }
 
-/// What was replaced is not needed any more.
+/// Ends an exchange: the replaced objects are no longer needed.
 void Pipeline::end_exchange() {
   const std::lock_guard lock(exchanging_);
   if (!exchange_ || !exchange_->is_in_use) return;
@@ -170,7 +170,7 @@ void Pipeline::end_exchange() {
   exchanged_.notify_one();
 }
 
-/// The way of a frame set through the product. Measured views come first and with every set;
+/// Processes a frame set from commands to status. Measured views come first and with every set;
 /// display views slow down under overload.
 void Pipeline::process(const hal::FrameSet& set) {
   const auto begin = hal::Clock::now();
@@ -188,9 +188,9 @@ void Pipeline::process(const hal::FrameSet& set) {
   exchange_colours(measured);
   exchange_colours(displays_);
   ask_readers(measured, set.stamp);
-  stages_.end(Stage::Publication);  // with the status of the set before
+  stages_.end(Stage::Publication);  // includes the status of the previous set
 
-  // A camera's picture is halved and sharpened once for all views that sample that.
+  // A camera's picture is halved and sharpened once for all views that sample it.
   pyramids_.build(set, uses_of(measured), workers_);
   match_exposures(set);
   stages_.end(Stage::Halving, workers_.take_spent());
@@ -231,7 +231,7 @@ void Pipeline::exchange_colours(std::span<ViewChannel> views) {
   for (ViewChannel& view : views) view.set_colours(colours_.exchange(view.plan().index));
 }
 
-/// A view is made in the format in which it is read.
+/// Queries the readers, so that a view is made in the formats in which it is read.
 void Pipeline::ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp) {
   for (ViewChannel& view : views) {
     PictureNeeds needs;
@@ -241,15 +241,15 @@ void Pipeline::ask_readers(std::span<ViewChannel> views, hal::TimePoint stamp) {
   }
 }
 
-/// Replaces process() while no set comes.
+/// Replaces process() when there is no set.
 void Pipeline::idle() {
   if (!measurement_) return;
   measurement_->apply_commands(hal::Clock::now());
   measurement_->idle(cameras_.faulty() + cameras_.late() == cameras_.size());
 }
 
-/// Forwards the view that was rendered last; without one, since it was not due or the sinks hold
-/// every buffer of its size, it counts as skipped.
+/// Forwards the view that was rendered last; it counts as skipped if there is none, because it was
+/// not due or the sinks hold every buffer of its size.
 void Pipeline::publish(ViewChannel& channel) {
   const std::size_t index = channel.plan().index;
   const ViewPtr view = channel.take();
@@ -279,7 +279,7 @@ void Pipeline::count(const hal::FrameSet& set, hal::Clock::duration spent) {
   }
 }
 
-/// Steps the alarms, whose notices come before the status that shows them, and publishes it.
+/// Steps the alarms, whose notices precede the status that shows them, and publishes the status.
 void Pipeline::publish_status() {
   const auto now = hal::Clock::now();
   if (measurement_) {
@@ -341,7 +341,8 @@ void Pipeline::report_live_views() {
   if (measurement_) std::ranges::for_each(measurement_->views(), report);
 }
 
-/// A camera that states no rate has the one at which its frames arrive, processed or not.
+/// Sets the deadline from the pacing camera; a camera that states no rate has the one at which its
+/// frames arrive, processed or not.
 void Pipeline::follow_pace() {
   if (plan_.deadline.count() > 0) return;
   const std::size_t camera = cameras_.pacing_camera();
@@ -374,7 +375,8 @@ CommandResult Pipeline::select_view(std::size_t view) {
   return CommandResult::Done;
 }
 
-/// The views of recipes cannot be pointed, so that no operator changes a measurement.
+/// Refuses the views of recipes, which cannot be pointed, so that no operator changes a
+/// measurement.
 CommandResult Pipeline::check_display_view(std::size_t view) const {
   if (view >= plan_.view_count) return CommandResult::ArgumentOutOfRange;
   return view < plan_.views.size() ? CommandResult::Done : CommandResult::NotPossible;

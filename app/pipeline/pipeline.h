@@ -39,39 +39,39 @@
 
 namespace orbwatch::app {
 
-/// What the pipeline cannot see and reports for others.
+/// State from outside the pipeline that it reports.
 struct Surroundings {
   Health health;
-  std::uint32_t line_faults = 0;       ///< as SystemStatus
-  std::uint32_t interface_faults = 0;  ///< as SystemStatus
-  bool realtime = false;               ///< as SystemStatus
-  bool memory_locked = false;          ///< as SystemStatus
+  std::uint32_t line_faults = 0;       ///< see SystemStatus
+  std::uint32_t interface_faults = 0;  ///< see SystemStatus
+  bool realtime = false;               ///< see SystemStatus
+  bool memory_locked = false;          ///< see SystemStatus
   std::array<CameraWatchStatus, kMaxCameras> watched{};
-  bool configuration_refused = false;  ///< as SystemStatus
+  bool configuration_refused = false;  ///< see SystemStatus
 };
 
-/// Everything the pipeline needs; cameras are configured already, unless they are absent.
+/// Everything that the pipeline needs; cameras are configured already, unless they are absent.
 struct PipelinePlan : PipelineSettings {
   std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< 1..kMaxCameras; the first one paces
-  std::vector<std::string> camera_names;              ///< in the site's files; none: their ids
-  std::vector<hal::StreamFormat> formats;             ///< by camera; of an absent one a guess
-  CameraSet absent;                                   ///< to be taken up when they come
+  std::vector<std::string> camera_names;   ///< names in the site's files; none: their ids
+  std::vector<hal::StreamFormat> formats;  ///< format of each camera; assumed for an absent one
+  CameraSet absent;                        ///< cameras to be admitted when they connect
   std::vector<std::shared_ptr<hal::FrameTrigger>>
-      triggers;  ///< by camera; null or none: runs freely
+      triggers;  ///< trigger of each camera; null or none: runs freely
   std::vector<std::shared_ptr<const hal::ProcessInput>> process_inputs;  ///< at most 32
-  std::vector<ViewPlan> views;  ///< display views, by index; those of the recipes follow them
+  std::vector<ViewPlan> views;  ///< display views, by index; those of the recipes come after them
   std::vector<std::unique_ptr<CompiledRecipe>> recipes;  ///< at most kMaxRecipes
-  std::vector<remap::ColourMap::Table> colour_maps;      ///< by SourceColours::map, all
-  std::size_t view_count = 0;                            ///< those of the recipes included
+  std::vector<remap::ColourMap::Table> colour_maps;      ///< tables by SourceColours::map, all maps
+  std::size_t view_count = 0;  ///< number of views, including those of the recipes
   std::uint32_t configuration_checksum = 0;
-  /// For what is off the frame path, and may wait.
+  /// Threads for work off the frame path, which may be slow.
   std::shared_ptr<hal::SharedThreads> background = hal::SharedThreads::alone();
-  std::size_t reserved_cores = 0;  ///< for the frame path alone; 0: it shares all
-  /// The newest figures, without waiting; null: none are known.
+  std::size_t reserved_cores = 0;  ///< cores for the frame path alone; 0: it shares all
+  /// Returns the newest figures without waiting; null: none are known.
   std::function<Surroundings(hal::TimePoint now)> surroundings;
 };
 
-/// Frames in, views and status out, on one thread and its workers; see process(). Nothing here
+/// Makes views and status from frames, on one thread and its workers; see process(). Nothing here
 /// waits for a sink.
 /// Thread rule: start and stop on the main thread, all else on any.
 class Pipeline {
@@ -81,30 +81,30 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  /// Sinks are the caller's, started, and outlive the run.
+  /// The sinks belong to the caller, are started, and outlive the run.
   Result<> start(std::vector<Sink*> sinks);
   void stop();
 
-  /// What the views are compiled for, by camera. On the main thread.
+  /// Formats for which the views are compiled, by camera. On the main thread.
   const std::vector<hal::StreamFormat>& formats() const { return formats_; }
-  /// Between two frame sets: takes over what was made for a camera. Returns once it is in use, at
-  /// the latest after a heartbeat. On the main thread, while the pipeline runs.
+  /// Exchanges the objects made for a camera between two frame sets. Returns once they are in use,
+  /// at the latest after a heartbeat. On the main thread, while the pipeline runs.
   Result<> take_over(Recompiled recompiled);
   /// Starts an absent camera that was configured to `format`: see CameraGroup::admit(). On the
   /// main thread.
   Result<> admit(std::size_t camera, const hal::StreamFormat& format) {
     return cameras_.admit(camera, format);
   }
-  /// An absent camera's fault. On the main thread.
+  /// Sets the fault of an absent camera. On the main thread.
   void miss(std::size_t camera, hal::Fault fault) { cameras_.miss(camera, fault); }
 
-  /// Those of the recipes included.
+  /// Number of views, including those of the recipes.
   std::size_t view_count() const { return plan_.view_count; }
 
   /// The first camera without a fault: its frames begin the sets.
   std::size_t pacing_camera() const { return cameras_.pacing_camera(); }
 
-  /// Points a display view elsewhere: see PanTiltZoom::point().
+  /// Points a display view in another direction: see PanTiltZoom::point().
   Result<std::uint64_t> point(std::size_t view, const Pointing& pointing) {
     return pan_tilt_zoom_.point(view, pointing);
   }
@@ -114,8 +114,8 @@ class Pipeline {
 
   /// Publishes this view as the selected one. ArgumentOutOfRange: no such view.
   CommandResult select_view(std::size_t view);
-  /// Turns a display view: see PanTiltZoom::turn(). ArgumentOutOfRange: no such view, or what it
-  /// refuses; NotPossible: the view is a recipe's.
+  /// Turns a display view: see PanTiltZoom::turn(). ArgumentOutOfRange: no such view, or arguments
+  /// that turn() refuses; NotPossible: the view is a recipe's.
   CommandResult point_view(std::size_t view, double yaw, double pitch, double h_fov);
   /// Changes a source's weight in a display view: see PanTiltZoom::mix(). Results as point_view().
   CommandResult mix_sources(std::size_t view, std::size_t source, double weight);
@@ -135,7 +135,7 @@ class Pipeline {
   CommandResult set_process_active(bool active);
 
  private:
-  /// What take_over() waits for.
+  /// Exchange that take_over() waits for.
   struct Exchange {
     FramePyramids pyramids;
     std::unique_ptr<ExposureMatch> exposures;
@@ -164,27 +164,28 @@ class Pipeline {
   SystemState state() const;
 
   PipelinePlan plan_;
-  std::vector<hal::StreamFormat> formats_;  ///< the main thread's copy
-  std::vector<ViewPlan> views_;             ///< all, by index; the main thread's
+  std::vector<hal::StreamFormat> formats_;  ///< copy for the main thread
+  std::vector<ViewPlan> views_;             ///< all views, by index; used by the main thread only
   std::mutex exchanging_;
   std::condition_variable exchanged_;
-  Exchange* exchange_ = nullptr;  ///< pending or in use; under exchanging_
+  Exchange* exchange_ = nullptr;  ///< pending or in use; guarded by exchanging_
   CameraGroup cameras_;
   WorkerPool workers_;
-  const PictureUses sharpenings_;  ///< that any view may ask for; no areas
+  const PictureUses sharpenings_;  ///< sharpenings that any view may request; no areas
   FramePyramids pyramids_;
   std::unique_ptr<ExposureMatch> exposures_;
   std::vector<ViewChannel> displays_;
-  std::optional<ViewBuffers> buffers_;      ///< since start()
-  std::optional<Measurement> measurement_;  ///< if there are recipes
+  std::optional<ViewBuffers> buffers_;      ///< set by start()
+  std::optional<Measurement> measurement_;  ///< set if there are recipes
   PanTiltZoom pan_tilt_zoom_;
   ViewColours colours_;
   FrameBudget budget_;
   StageMeter stages_;
-  std::vector<SecondMeter> view_meters_;  ///< by index; recipes may share a view's name
+  std::vector<SecondMeter>
+      view_meters_;  ///< one per view, by index; recipes may share a view's name
   std::atomic<std::size_t> selected_view_{0};
   Status status_;
-  hal::Clock::duration largest_skew_{0};  ///< since last_roll_
+  hal::Clock::duration largest_skew_{0};  ///< largest skew since last_roll_
   hal::TimePoint last_roll_;
   std::vector<Sink*> sinks_;
   hal::Thread thread_;

@@ -7,9 +7,10 @@ namespace orbwatch::app {
 
 /// Frame budget and workers.
 struct PipelineSettings {
-  hal::Clock::duration deadline{0};  ///< of a frame set; 0: the pacing camera's frame period
+  hal::Clock::duration deadline{0};  ///< for a frame set; 0: the pacing camera's frame period
   hal::SyncSettings sync;
-  int workers = -1;  ///< threads besides the pipeline's own; -1: by the cores, see visit()
+  int workers =
+      -1;  ///< threads besides the pipeline's own; -1: derived from the cores, see visit()
 };
 
 template <class Visitor>

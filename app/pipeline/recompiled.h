@@ -11,11 +11,13 @@
 
 namespace orbwatch::app {
 
-/// What is made anew for a camera that delivers another format than was guessed.
+/// Objects made anew for a camera whose format differs from the assumed one.
 struct Recompiled {
-  std::vector<hal::StreamFormat> formats;                  ///< by camera
-  std::map<std::size_t, std::vector<ViewSource>> sources;  ///< of the display views that show it
-  std::vector<std::unique_ptr<CompiledRecipe>> recipes;    ///< by index; null: not of this camera
+  std::vector<hal::StreamFormat> formats;  ///< format of each camera
+  std::map<std::size_t, std::vector<ViewSource>>
+      sources;  ///< sources of the display views that show it
+  std::vector<std::unique_ptr<CompiledRecipe>>
+      recipes;  ///< one per index; null: does not use this camera
 };
 
 }  // namespace orbwatch::app

@@ -9,7 +9,7 @@
 
 namespace orbwatch::app {
 
-/// Rate and latency of something over the last full second. Fixed memory; thread-bound.
+/// Rate and latency over the last full second. Fixed memory; thread-bound.
 class SecondMeter {
  public:
   struct Figures {
@@ -18,7 +18,7 @@ class SecondMeter {
     double p99_ms = 0;
   };
 
-  /// Counts one more, `latency` old.
+  /// Counts one event with its `latency`.
   void add(hal::Clock::duration latency) {
     if (count_ < samples_.size()) {
       samples_[count_] = std::chrono::duration<float, std::milli>(latency).count();
@@ -26,7 +26,7 @@ class SecondMeter {
     ++count_;
   }
 
-  /// The figures since the last call, which was `elapsed` ago; starts the next second.
+  /// Returns the figures since the last call, which was `elapsed` ago; starts the next second.
   Figures roll(hal::Clock::duration elapsed) {
     Figures figures;
     figures.per_second =
@@ -38,7 +38,7 @@ class SecondMeter {
     return figures;
   }
 
-  /// The same, into the members of a CameraStatus or ViewStatus.
+  /// Writes them into the members of a CameraStatus or ViewStatus.
   template <class FigureStatus>
   void roll(hal::Clock::duration elapsed, FigureStatus& status) {
     const Figures figures = roll(elapsed);
@@ -58,7 +58,7 @@ class SecondMeter {
     return static_cast<double>(*at);
   }
 
-  std::array<float, 1024> samples_{};  ///< more in a second are counted but not ranked
+  std::array<float, 1024> samples_{};  ///< further samples in a second are counted but not ranked
   std::size_t count_ = 0;
 };
 

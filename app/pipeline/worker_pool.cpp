@@ -49,7 +49,7 @@ void WorkerPool::run_bands(int bands, Call call, void* context) {
   for (; left > 0; left = unfinished_) unfinished_.wait(left);
 }
 
-/// A band that is the caller's now; -1: none is left.
+/// Claims a band for the caller; -1: none is left.
 int WorkerPool::claim() {
   std::uint64_t seen = claims_.load(std::memory_order_acquire);
   while (next_of(seen) < bands_of(seen)) {
@@ -61,8 +61,8 @@ int WorkerPool::claim() {
   return -1;
 }
 
-/// Does the claimed `band`, if any, and those that can be claimed after it. Returns how many; the
-/// run cannot end before they are subtracted from unfinished_.
+/// Does the claimed `band`, if any, and those that can be claimed after it. Returns their number;
+/// the run cannot end before it is subtracted from unfinished_.
 int WorkerPool::work_on(int band) {
   int done = 0;
   for (; band >= 0; band = claim()) {
@@ -78,7 +78,7 @@ void WorkerPool::serve(hal::Thread& thread) {
     const int band = claim();
     if (band < 0) continue;
     const int done = work_on(band);
-    // With what waking up took, also when it was in vain.
+    // This includes the time to wake up, also when no band was left.
     const auto now = hal::cpu_time_of_this_thread();
     spent_ += (now - counted).count();
     counted = now;

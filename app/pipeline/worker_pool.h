@@ -10,12 +10,12 @@
 
 namespace orbwatch::app {
 
-/// Threads that share the bands of one picture with the caller. A band belongs to whoever claims it
-/// first, and run() waits for claimed bands only: a worker that the kernel did not let run in time
-/// delays nobody. Thread-bound: one caller.
+/// Threads that share the bands of one picture with the caller. A band belongs to the thread that
+/// claims it first, and run() waits for claimed bands only: a worker that the kernel did not
+/// schedule in time delays no other thread. Thread-bound: one caller.
 class WorkerPool {
  public:
-  /// `threads` besides the caller's own; 0 makes run() a plain loop.
+  /// `threads` do not include the caller's own; 0 makes run() a plain loop.
   explicit WorkerPool(std::size_t threads);
 
   /// Calls work(band) for every band in [0, bands), each once, in any order, and returns when all
@@ -29,7 +29,8 @@ class WorkerPool {
   static constexpr int kBandBits = 20;
   static constexpr int kMaxBands = (1 << kBandBits) - 1;
 
-  /// Processor time of the workers, without the caller's, for the runs since the last call.
+  /// Returns the processor time of the workers, without the caller's, for the runs since the last
+  /// call.
   std::chrono::nanoseconds take_spent();
 
  private:
@@ -40,13 +41,13 @@ class WorkerPool {
   int work_on(int band);
   void serve(hal::Thread& thread);
 
-  // Written by the caller while no band is claimed, read by those who claimed one.
+  // Written by the caller while no band is claimed, read by the threads that claimed one.
   Call call_ = nullptr;
   void* context_ = nullptr;
-  /// Number of the run, its bands, and the next one that nobody has claimed: one word, so that a
-  /// band can be claimed only in the run that it was seen in.
+  /// Number of the run, its bands, and the next unclaimed one: one word, so that a band can be
+  /// claimed only in the run in which it was read.
   std::atomic<std::uint64_t> claims_{0};
-  std::atomic<int> unfinished_{0};  ///< bands; an int is what the kernel waits for without a lock
+  std::atomic<int> unfinished_{0};  ///< number of bands; the kernel waits for an int without a lock
   std::atomic<std::int64_t> spent_{0};  ///< ns
   std::vector<hal::Thread> threads_;
 };

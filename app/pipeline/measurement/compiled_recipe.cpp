@@ -11,14 +11,15 @@ Quality quality_of(const signals::Radiometry& radiometry) {
   return apparent ? Quality::Apparent : Quality::Good;
 }
 
-/// Whether the direction is outside the blind cone and inside the picture.
+/// True if the direction is outside the blind cone and inside the picture.
 bool sees(const ViewSource& source, const optics::Vec3& direction) {
   const auto pixel = source.ball.pixel(direction);
   return pixel && pixel->u >= 0 && pixel->u <= source.format.width - 1 && pixel->v >= 0 &&
          pixel->v <= source.format.height - 1;
 }
 
-/// Whether the set has the frame, and not that of another trigger: it would show another part.
+/// True if the set has the frame, and it does not belong to another trigger, which would show
+/// another part.
 bool is_of_trigger(const hal::FrameSet& set, const hal::Frame& frame) {
   if (!frame) return false;
   const auto& trigger = frame->metadata.trigger;

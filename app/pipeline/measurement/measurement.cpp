@@ -80,7 +80,7 @@ void Measurement::apply_commands(hal::TimePoint stamp) {
   CompiledRecipe& selected = *recipes_[selection_->recipe];
   const bool is_another = &selected != recipe_;
   if (is_another) change_to(selected);
-  // Also when a refusal set the cameras back to the same recipe.
+  // Settling also restarts when a refusal set the cameras back to the same recipe.
   if (std::exchange(changes_, selection_->changes) != selection_->changes || is_another) {
     to_settle_ = selected.plan().settle_frames;
   }
@@ -122,9 +122,10 @@ void Measurement::idle(bool blind) {
   if (blind || paused_) recipe_->skip();
 }
 
-/// Every triggered set is a result, even when nothing could be measured: whoever triggered waits
-/// for it. A set that has a trigger of its own answers a commanded one, too: another camera paces
-/// than when it was commanded, and the command triggered that.
+/// True if the set is a result. Every triggered set is one, even when nothing could be measured,
+/// because the sender of the trigger waits for it. A set with a trigger of its own also answers a
+/// commanded trigger: the pacing camera has changed since the command, and the command triggered
+/// the new one.
 bool Measurement::is_result(const hal::FrameSet& set) {
   const hal::Clock::rep since = trigger_;
   const bool is_commanded = since != 0 && set.stamp.time_since_epoch().count() >= since;
@@ -152,7 +153,7 @@ void Measurement::watch(hal::TimePoint now, const Notify& notify) {
   suppress_previous(now, notify);
   const std::optional<bool> active = process_active();
   active_ = active.value_or(active_);
-  // Where it is not known, alarms act: a lost measurement must raise its alarm, not calm it.
+  // If it is unknown, alarms are active: a lost measurement must raise its alarm, not clear it.
   const bool is_watched = active.value_or(true);
   const Acknowledged acknowledged = take_acknowledged();
   for (const signals::AlarmEvent& event : recipe_->watch(now, is_watched, acknowledged.alarms)) {
@@ -166,8 +167,8 @@ Measurement::Acknowledged Measurement::take_acknowledged() {
   return std::exchange(acknowledged_, {});
 }
 
-/// A recipe that was left is watched no longer: without a last notice its alarms would stay raised
-/// in every log of notices.
+/// Suppresses the alarms of a recipe that is no longer selected: without a last notice they would
+/// stay raised in every log of notices.
 void Measurement::suppress_previous(hal::TimePoint now, const Notify& notify) {
   const CompiledRecipe* previous = std::exchange(previous_, nullptr);
   if (!previous) return;

@@ -21,64 +21,67 @@
 
 namespace orbwatch::app {
 
-/// Decides what is measured: by which recipe, which frame sets are results, whether the process
-/// runs, which alarms stand.
+/// Decides which recipe is measured, which frame sets are results, whether the process is active,
+/// and which alarms are raised.
 /// Thread rule: commands on any thread, stop on the main, all else on the pipeline's.
 class Measurement {
  public:
   using ProcessInputs = std::vector<std::shared_ptr<const hal::ProcessInput>>;
   using Notify = std::function<void(const AlarmNotice&)>;
 
-  /// Starts with the first of `recipes`, at least one. `apply` is null when no recipe sets a
-  /// camera.
+  /// Starts with the first of `recipes`, which must not be empty. `apply` is null when no recipe
+  /// sets a camera.
   Measurement(std::vector<std::unique_ptr<CompiledRecipe>> recipes, ProcessInputs inputs,
               RecipeSwitch::Apply apply);
 
   // Commands; each returns at once and takes effect with the next apply_commands().
 
-  /// Measures again after pause().
+  /// Resumes measuring after pause().
   CommandResult resume();
-  /// Views go on, nothing is measured.
+  /// Stops measuring; views continue.
   CommandResult pause();
-  /// By its number, for frame sets exposed from now on. ArgumentOutOfRange: no such recipe.
+  /// Selects a recipe by its number, for frame sets exposed from now on. ArgumentOutOfRange: no
+  /// such recipe.
   CommandResult select_recipe(std::size_t number);
   /// Makes a result of the next frame set exposed from now on. Busy: one is pending.
   CommandResult trigger();
-  /// By its number, from 1; 0: all. ArgumentOutOfRange: the recipe has no such alarm.
+  /// Acknowledges an alarm by its number, from 1; 0: all. ArgumentOutOfRange: the recipe has no
+  /// such alarm.
   CommandResult acknowledge_alarm(std::size_t number, const Giver& by = {});
-  /// For recipes whose process_active is ActiveSource::Command.
+  /// Applies to recipes whose process_active is ActiveSource::Command.
   CommandResult set_process_active(bool active);
 
-  /// Pause, resume and the recipe take effect here, between two sets, and nowhere else, so that one
-  /// status never mixes two of them. `stamp`: exposure of the next set; without one, now.
+  /// Applies pause, resume and the selected recipe between two sets; they take effect nowhere else,
+  /// so that one status never mixes two of them. `stamp`: exposure of the next set; without one,
+  /// now.
   void apply_commands(hal::TimePoint stamp);
 
-  /// Between two sets: takes `recipes`, by index, in place of its own and leaves those there; null:
-  /// keeps its own. The replaced ones are needed until the next watch() is over.
+  /// Swaps in the `recipes` that are not null, by index, between two sets, and leaves its own
+  /// there. The replaced ones are needed until the next watch() has returned.
   void exchange(std::vector<std::unique_ptr<CompiledRecipe>>& recipes);
 
-  /// The planned views of each recipe.
+  /// Planned views of each recipe.
   std::vector<std::span<const ViewPlan>> planned_views() const;
 
-  /// The views of the current recipe.
+  /// Views of the current recipe.
   std::span<ViewChannel> views() { return recipe_->views(); }
 
   /// Renders the views of a set.
   void render(const hal::FrameSet& set, const FramePyramids& pyramids, ViewBuffers& buffers,
               WorkerPool& workers);
-  /// Measures in the views of the set that was rendered.
+  /// Measures in the views of the rendered set.
   void measure(const hal::FrameSet& set);
-  /// Replaces render() and measure() while no set comes. `blind`: no camera delivers, or all are
+  /// Replaces render() and measure() when there is no set. `blind`: no camera delivers, or all are
   /// late.
   void idle(bool blind);
 
   /// Steps the alarms; called after each measure() or idle(), and at least ten times a second.
   void watch(hal::TimePoint now, const Notify& notify);
 
-  /// Fills in the members of `status` that are known here.
+  /// Fills in the members of `status` that this class determines.
   void report(Status& status) const;
 
-  /// As of the last apply_commands().
+  /// State after the last apply_commands().
   bool is_paused() const { return paused_; }
 
   void stop() { switch_.stop(); }
@@ -95,31 +98,31 @@ class Measurement {
   void notify_of(const CompiledRecipe& recipe, const signals::AlarmEvent& event,
                  const Notify& notify, const Giver& by = {});
   Acknowledged take_acknowledged();
-  /// Nullopt: what would tell is not measured.
+  /// Nullopt: the region that would decide is not measured.
   std::optional<bool> process_active() const;
 
-  const std::vector<std::uint16_t> numbers_;  ///< of recipes_, by index
+  const std::vector<std::uint16_t> numbers_;  ///< numbers of recipes_, by index
   std::vector<std::unique_ptr<CompiledRecipe>> recipes_;
   const ProcessInputs inputs_;
   RecipeSwitch switch_;
   CompiledRecipe* recipe_;
-  const CompiledRecipe* previous_ = nullptr;  ///< left since the last watch()
-  /// Of the newest set; nullopt: it belongs to no recipe.
+  const CompiledRecipe* previous_ = nullptr;  ///< recipe that was replaced since the last watch()
+  /// Selection for the newest set; nullopt: it belongs to no recipe.
   std::optional<RecipeSwitch::Selection> selection_;
-  std::uint64_t changes_ = 0;  ///< of the cameras, up to the one that was settled for
-  int to_settle_ = 0;          ///< sets with all settings that are not measured
+  std::uint64_t changes_ = 0;  ///< camera changes for which settling has begun
+  int to_settle_ = 0;          ///< remaining sets with all settings that are not measured
   bool paused_ = false;
   std::uint64_t frame_set_ = 0;
   hal::TimePoint stamp_{};
-  std::uint64_t result_ = 0;  ///< number of the newest; 0: none yet
+  std::uint64_t result_ = 0;  ///< number of the newest result; 0: none yet
   std::uint64_t notices_ = 0;
-  bool active_ = false;  ///< as far as it was known last
+  bool active_ = false;  ///< last known state of the process
   std::atomic<bool> pause_requested_{false};
   std::atomic<bool> commanded_active_{false};
-  std::atomic<std::size_t> alarm_count_;  ///< of the recipe
-  hal::PriorityMutex acknowledging_;      ///< of the next one, held for a copy only
-  Acknowledged acknowledged_;             ///< since the last watch()
-  /// When the pending trigger was commanded, of hal::Clock; 0: none is pending.
+  std::atomic<std::size_t> alarm_count_;  ///< number of alarms of the recipe
+  hal::PriorityMutex acknowledging_;      ///< guards acknowledged_, held for a copy only
+  Acknowledged acknowledged_;             ///< acknowledgements since the last watch()
+  /// Time of the pending trigger command on hal::Clock; 0: none is pending.
   std::atomic<hal::Clock::rep> trigger_{0};
 };
 

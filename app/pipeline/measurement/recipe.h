@@ -15,10 +15,10 @@ namespace orbwatch::app {
 
 inline constexpr std::size_t kMaxRecipes = 16;
 
-/// One region of interest as a recipe's file states it, in degC or percent of full scale.
+/// Region of interest as stated in a recipe's file, in degC or percent of full scale.
 struct RegionOfInterest {
   std::string name;
-  Reference view;  ///< among the recipe's
+  Reference view;  ///< one of the recipe's views
   std::vector<std::array<double, 2>> directions;
   std::vector<std::array<double, 3>> points;
   double hot_spot_threshold = 0;
@@ -32,11 +32,11 @@ struct RegionOfInterest {
   std::vector<Located<signals::AlarmLimits>> alarms;
 };
 
-/// What a recipe's file states.
+/// Contents of a recipe's file.
 struct Recipe {
   std::string name;
   ActiveSource process_active = ActiveSource::Always;
-  Reference process_input;  ///< for ActiveSource::Input: among the process inputs
+  Reference process_input;  ///< process input, for ActiveSource::Input
   int settle_frames = 0;
   std::vector<Located<MeasuredViewSettings>> views;
   std::vector<Located<RegionOfInterest>> regions;

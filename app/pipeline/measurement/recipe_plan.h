@@ -12,17 +12,17 @@
 
 namespace orbwatch::app {
 
-/// Which source decides whether the process runs.
+/// Source that decides whether the process is active.
 enum class ActiveSource : std::uint8_t { Always, Input, Command, Detected };
 
-/// One region of interest.
+/// Planned region of interest.
 struct RegionPlan {
   std::string name;
   std::size_t view = 0;  ///< index among the recipe's views
   signals::RegionSettings settings;
 };
 
-/// A camera control that a recipe sets.
+/// Camera control that a recipe sets.
 struct CameraControl {
   Reference camera;
   std::string name;
@@ -31,14 +31,14 @@ struct CameraControl {
 
 /// A recipe, ready to be compiled into a CompiledRecipe.
 struct RecipePlan {
-  std::uint16_t number = 0;     ///< selects it
-  std::vector<ViewPlan> views;  ///< each one measured
+  std::uint16_t number = 0;     ///< number that selects it
+  std::vector<ViewPlan> views;  ///< measured views
   std::vector<RegionPlan> regions;
   std::vector<signals::AlarmLimits> alarms;
   std::vector<CameraControl> controls;
-  int settle_frames = 0;  ///< sets with its settings that are not measured
+  int settle_frames = 0;  ///< sets with its settings that are not measured yet
   ActiveSource process_active = ActiveSource::Always;
-  std::size_t process_input = 0;  ///< index, for ActiveSource::Input
+  std::size_t process_input = 0;  ///< index of the input, for ActiveSource::Input
 };
 
 }  // namespace orbwatch::app

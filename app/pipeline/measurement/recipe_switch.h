@@ -14,7 +14,7 @@
 namespace orbwatch::app {
 
 /// Selects recipes while frames run: sets the cameras on a thread of its own, off the frame path,
-/// and assigns each frame set to a recipe by its exposure. What is exposed after a request never
+/// and assigns each frame set to a recipe by its exposure. A set exposed after a request never
 /// belongs to an earlier recipe. Queue: one request; the newest wins.
 /// Thread rule: request and has_failed on any thread, selection_at on the pipeline's, stop on the
 /// main.
@@ -23,13 +23,13 @@ class RecipeSwitch {
   /// Sets the cameras' controls for a recipe; may wait for them.
   using Apply = std::function<Result<>(std::size_t recipe)>;
 
-  /// The recipe of a frame set.
+  /// Recipe of a frame set.
   struct Selection {
     std::size_t recipe = 0;
-    /// When the cameras were set, which takes effect later: see hal::FrameMetadata; min() until
-    /// they are set for the first time.
+    /// Moment at which the cameras were set; the settings take effect later: see
+    /// hal::FrameMetadata; min() until they are set for the first time.
     hal::TimePoint set_since = hal::TimePoint::min();
-    std::uint64_t changes = 0;  ///< how often cameras were set since the start
+    std::uint64_t changes = 0;  ///< number of times that cameras were set since the start
 
     bool operator==(const Selection&) const = default;
   };
@@ -44,14 +44,15 @@ class RecipeSwitch {
   /// Requests a recipe; does not wait for the cameras.
   void request(std::size_t recipe);
 
-  /// The recipe of a set exposed at `stamp`. nullopt: it was exposed after a request whose settings
-  /// the cameras do not have yet, or before a selection that was returned already.
+  /// Returns the recipe of a set exposed at `stamp`. nullopt: it was exposed after a request whose
+  /// settings the cameras do not have yet, or before a selection that was returned already.
   std::optional<Selection> selection_at(hal::TimePoint stamp);
 
-  /// The cameras refused the newest request's settings and were set back to the previous recipe's.
+  /// True if the cameras refused the newest request's settings and were set back to the previous
+  /// recipe's.
   bool has_failed() const;
 
-  /// Ends the thread, after the request under way; repeating it does nothing.
+  /// Ends the thread after the current request; repeating it does nothing.
   void stop();
 
  private:
@@ -64,13 +65,14 @@ class RecipeSwitch {
   void change(std::size_t wanted);
 
   const Apply apply_;
-  std::size_t set_to_;                ///< what the cameras are set to; the thread's
+  std::size_t set_to_;  ///< recipe that the cameras are set to; used by the thread only
   mutable hal::PriorityMutex mutex_;  ///< never held while cameras are set
   std::optional<std::size_t> requested_;
-  Selection current_;  ///< returned last
+  Selection current_;  ///< selection that was returned last
   hal::TimePoint current_from_ = hal::TimePoint::min();
-  std::optional<hal::TimePoint> changing_;  ///< what is exposed from here on is not `current_`'s
-  std::optional<Pending> pending_;          ///< follows it, once that is known
+  std::optional<hal::TimePoint>
+      changing_;                    ///< sets exposed from here on do not belong to `current_`
+  std::optional<Pending> pending_;  ///< next selection, once it is known
   std::uint64_t changes_ = 0;
   bool failed_ = false;
   hal::Thread thread_;
