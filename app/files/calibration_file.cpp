@@ -154,10 +154,10 @@ Result<std::filesystem::path> keep_damaged(const std::filesystem::path& file) {
     fs::create_hard_link(file, kept, error);
   }
   if (!error) return kept;
-  // Another user's file gets no second name (fs.protected_hardlinks), as on some file systems none
-  // does. One that cannot be read either is moved.
+  // A hard link to another user's file is refused (fs.protected_hardlinks), and some file systems
+  // have none. A file that cannot be copied either is moved.
   if (fs::copy_file(file, kept, error)) return kept;
-  fs::remove(kept, error);  // a part of the copy
+  fs::remove(kept, error);  // an incomplete copy
   fs::rename(file, kept, error);
   if (error) return fail(kept.string() + ": cannot be written: " + error.message());
   return kept;

@@ -19,17 +19,17 @@ namespace {
 using optics::Distortion;
 using optics::Intrinsics;
 
-/// The shortest text that reads back as the same number.
+/// Shortest text that reads back as the same number.
 std::string text_of(double number) {
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
   std::string text(buffer, end);
-  // A YAML reader would take "1" for a whole number.
+  // A YAML reader would parse "1" as an integer.
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
 
-/// What a calibration file lacks; leaves this file as an Error.
+/// Defect of a calibration file; converted to an Error within this file.
 struct Unusable {
   std::string reason;
 };
@@ -49,10 +49,10 @@ T scalar(const YAML::Node& node, const char* key, const char* kind) {
   }
 }
 
-/// Numbers of a matrix beyond rows x cols: refused, or read as well.
+/// Treatment of numbers in a matrix beyond rows x cols: refused, or also read.
 enum class Surplus { Refused, Read };
 
-/// The numbers of a matrix {rows, cols, data}.
+/// Numbers of a matrix {rows, cols, data}.
 std::vector<double> matrix(const YAML::Node& file, const char* key, Surplus surplus) {
   const YAML::Node node = required(file, key);
   const YAML::Node data = node.IsMap() ? node["data"] : YAML::Node(YAML::NodeType::Undefined);
@@ -104,7 +104,8 @@ Intrinsics intrinsics_of(const YAML::Node& file) {
   intrinsics.width = scalar<int>(required(file, "image_width"), "image_width", "a whole number");
   intrinsics.height = scalar<int>(required(file, "image_height"), "image_height", "a whole number");
   set_camera_matrix(intrinsics, file);
-  // ROS' camera_calibration of some years wrote cols: 5 above the 8 numbers of rational_polynomial.
+  // Some versions of ROS' camera_calibration wrote cols: 5 above the 8 numbers of
+  // rational_polynomial.
   const std::vector<double> coefficients = matrix(file, "distortion_coefficients", Surplus::Read);
   const auto set =
       set_distortion(intrinsics, distortion_model(file, coefficients.size()), coefficients);
@@ -113,7 +114,7 @@ Intrinsics intrinsics_of(const YAML::Node& file) {
   return intrinsics;
 }
 
-/// A matrix the way its format writes it: OpenCV marks the type.
+/// Text of a matrix in the given format: OpenCV marks the type.
 std::string matrix_text(const std::string& key, int columns, const std::vector<double>& numbers,
                         CalibrationFormat format) {
   const bool opencv = format == CalibrationFormat::OpenCv;
@@ -129,7 +130,7 @@ std::string matrix_text(const std::string& key, int columns, const std::vector<d
 
 Result<> set_distortion(Intrinsics& intrinsics, std::string_view model,
                         std::span<const double> coefficients) {
-  // OpenCV and drivers write longer lists than the model takes, the rest 0: for other models, thin
+  // OpenCV and drivers write longer lists than the model has, the rest 0: for other models, thin
   // prisms and a tilted sensor.
   const std::size_t given = coefficients.size();
   std::size_t used = given;

@@ -80,9 +80,9 @@ struct ControlSettings {
   double value = 0;
 };
 
-/// A camera of the site.
+/// Camera of the site.
 struct CameraSettings {
-  std::string name;  ///< also in the rig
+  std::string name;  ///< also the name in the rig
   BackEndSettings back_end;
   hal::StreamRequest stream;
   hal::StampSettings stamps;

@@ -25,21 +25,21 @@
 
 namespace orbwatch::app {
 
-/// The list of sinks: one line each. A settings struct has the name and the meaning of its table as
+/// The list of sinks, one per line. A settings struct has the name and the meaning of its table as
 /// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
-/// if it is not enabled, and commanders() says who may command by it.
+/// if it is not enabled, and commanders() lists the clients that may command through it.
 using SinkSettings = std::tuple<ConsoleSettings,  //
                                 ModbusSettings,   //
                                 DdsSettings,      //
                                 WebSettings>;
 
-/// A recipe's file and the number that selects it.
+/// File of a recipe, and the number that selects it.
 struct RecipeFile {
   std::uint16_t number = 0;
   NamedFile file;
 };
 
-/// The file of `orbwatchd --config`, as it stands: names, not indices. See resolve().
+/// Contents of the file of `orbwatchd --config`: names, not indices. See resolve().
 struct Configuration {
   NamedFile rig;
   PipelineSettings pipeline;
@@ -48,10 +48,10 @@ struct Configuration {
   std::vector<Located<CameraSettings>> cameras;
   std::vector<Located<LineSettings>> lines;
   std::vector<Located<ViewSettings>> views;
-  std::vector<Located<RecipeFile>> recipes;  ///< the first one is measured from the start
+  std::vector<Located<RecipeFile>> recipes;  ///< the first recipe is measured from the start
   PlaceSettings place;
   std::optional<SnapshotSettings> snapshot;
-  /// Folder of what must outlast a restart. Empty when read: the file names none; see
+  /// Folder of state that survives a restart. Empty when read: the file names none; see
   /// state_folder().
   std::filesystem::path state_folder;
   SinkSettings sinks;
@@ -93,7 +93,7 @@ void visit(Visitor& v, Configuration& configuration) {
       configuration.sinks);
 }
 
-/// The manual of all keys in Markdown.
+/// Manual of all keys in Markdown.
 std::string configuration_manual();
 
 }  // namespace orbwatch::app

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One output: what opening it needs.
+/// Output with the settings that are needed to open it.
 struct DrivenLine {
   std::string name;
   hal::OutputSettings output;
@@ -45,7 +45,7 @@ void visit(Visitor& v, DrivenLines& driven) {
 
 fs::path record_in(const fs::path& folder) { return folder / "driven-lines.toml"; }
 
-/// Empty where the kernel tells none.
+/// Id of the current boot; empty if the kernel reports none.
 std::string this_boot() {
   auto id = hal::read_regular_file("/proc/sys/kernel/random/boot_id").value_or("");
   return id.substr(0, id.find('\n'));
@@ -72,7 +72,7 @@ std::string text_of(const LineSettings& line) {
 LineSettings line_of(const DrivenLine& driven) {
   LineSettings line;
   line.name = driven.name;
-  line.use = LineUse::ProcessOk;  // an output
+  line.use = LineUse::ProcessOk;  // any use as an output
   line.wire.address = driven.output.address;
   line.wire.active_low = driven.output.active_low;
   line.wire.bias = driven.output.bias;
@@ -95,7 +95,7 @@ Result<> record_driven_lines(const fs::path& folder, const std::vector<LineSetti
 
 Result<std::optional<std::vector<LineSettings>>> driven_lines(const fs::path& folder) {
   const fs::path file = record_in(folder);
-  std::error_code none;  // read_regular_file() says what is wrong
+  std::error_code none;  // read_regular_file() reports the error
   if (!fs::exists(file, none) && !none) return std::nullopt;
   const auto text = hal::read_regular_file(file);
   if (!text) return tl::unexpected(text.error());

@@ -10,16 +10,16 @@
 namespace orbwatch::app {
 
 /// Records the GPIO outputs among `lines` in `folder`, runtime_directory() or else the state
-/// folder: after SIGKILL they are set inactive, whatever the files say then. Error: as
-/// hal::write_file(); then the record before is gone, too. Reentrant.
+/// folder: after SIGKILL they are set inactive, independent of the files at that time. Error: as
+/// hal::write_file(); the previous record is then lost, too. Reentrant.
 Result<> record_driven_lines(const std::filesystem::path& folder,
                              const std::vector<LineSettings>& lines);
 
-/// The outputs that were driven last since the board's start; nullopt: none are recorded. Error:
-/// the record cannot be read. Reentrant.
+/// Outputs that were driven last since the board's start; nullopt: none are recorded. Error: the
+/// record cannot be read. Reentrant.
 Result<std::optional<std::vector<LineSettings>>> driven_lines(const std::filesystem::path& folder);
 
-/// Removes the record: the outputs are inactive. Reentrant.
+/// Removes the record, because the outputs are inactive. Reentrant.
 void forget_driven_lines(const std::filesystem::path& folder);
 
 }  // namespace orbwatch::app

@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Its number where nothing knows the name.
+/// Name of an account; its number if the name is unknown.
 std::string account_name(uid_t id) {
   std::array<char, 4096> texts{};
   passwd entry{};
@@ -22,7 +22,7 @@ std::string account_name(uid_t id) {
   return error == 0 && found != nullptr ? found->pw_name : "user " + std::to_string(id);
 }
 
-/// "2026-11-21T20:57:46.123456789Z" without its fraction.
+/// Removes the fraction of "2026-11-21T20:57:46.123456789Z".
 std::string to_the_second(const std::string& utc) {
   const auto point = utc.find('.');
   return point == std::string::npos ? utc : utc.substr(0, point) + "Z";

@@ -15,17 +15,17 @@ inline std::string one_line(std::string text) {
   return text;
 }
 
-/// Another file that a file names, and the line of the key that names it.
+/// File that another file names, and the line of the key that names it.
 struct NamedFile {
   std::filesystem::path path;
   int line = 0;
 };
 
-/// Why a file is refused. Only the first reason is kept, since later ones often follow from it; an
-/// unknown key replaces it, since a misspelt key is also a missing one.
+/// Reason why a file is refused. Only the first reason is kept, since later ones often follow from
+/// it; an unknown key replaces it, since a misspelt key is also a missing one.
 struct Finding {
   std::string file;
-  std::filesystem::path folder;  ///< relative paths in the file count from here
+  std::filesystem::path folder;  ///< base of relative paths in the file
   std::optional<std::string> message{};
   bool unknown_key = false;
 

@@ -20,7 +20,7 @@
 
 namespace orbwatch::app {
 
-/// The visitor that writes a file's manual in Markdown: a table of keys per TOML table.
+/// Visitor that writes a file's manual in Markdown: a table of keys per TOML table.
 class ManualWriter {
  public:
   ManualWriter(std::string path, std::string heading)
@@ -83,7 +83,7 @@ class ManualWriter {
   void require(bool, const char*, const std::string&) {}
   void line(int&) {}
 
-  /// The rows of this table, then the tables in it.
+  /// Returns the rows of this table, then its nested tables.
   std::string finish() {
     std::string text;
     if (!rows_.empty()) {
@@ -226,7 +226,7 @@ class ManualWriter {
   std::string nested_;
 };
 
-/// The manual of a file whose keys visit() declares for `settings`, after an introduction.
+/// Manual of a file whose keys visit() declares for `settings`, after an introduction.
 template <class Settings>
 std::string manual(const std::string& introduction, Settings& settings) {
   ManualWriter writer("", introduction);

@@ -8,7 +8,7 @@
 
 namespace orbwatch::app {
 
-/// Whether a name can be part of topics and file names: letters, digits and single _, a letter
+/// True if a name can be part of topics and file names: letters, digits and single _, a letter
 /// first, at most 64.
 bool is_plain_name(const std::string& name);
 

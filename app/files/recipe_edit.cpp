@@ -35,7 +35,7 @@ bool is_at(const toml::node& node, const std::array<double, N>& corner) {
   return true;
 }
 
-/// A text, and beside it the tables that it is to state: whatever else it stated, it is refused.
+/// Edits a text and keeps the tables that it must state: any other result is refused.
 class RecipeEdit {
  public:
   RecipeEdit(TomlEdit edit, Recipe recipe)
@@ -48,7 +48,7 @@ class RecipeEdit {
   bool is_intended(const std::string& text) const { return parse_toml(text) == intended_; }
 
  private:
-  /// The same table in the text and in what is intended.
+  /// One table, both in the text and in the intended result.
   struct Place {
     const toml::table* given;
     toml::table* intended;
@@ -67,7 +67,7 @@ class RecipeEdit {
   toml::table intended_;
 };
 
-/// The recipe was read: there is a list of tables.
+/// The recipe was read, therefore there is a list of tables.
 RecipeEdit::Place RecipeEdit::region_at(std::size_t index) {
   const auto at = [index](auto& root) { return (*root["region"].as_array())[index].as_table(); };
   return {at(edit_.root()), at(intended_)};
@@ -143,7 +143,7 @@ Result<> RecipeEdit::change(const RegionChange& change) {
   return done ? done : fail("region " + change.name + ": " + done.error().message);
 }
 
-/// Corner by corner: what stands between them stays.
+/// Sets corner by corner, so that the text between them is kept.
 template <std::size_t N>
 Result<> RecipeEdit::set_corners(const Place& region, const char* key,
                                  const std::vector<std::array<double, N>>& corners) {
@@ -182,7 +182,8 @@ Result<> RecipeEdit::add(const RegionChange& change) {
   return {};
 }
 
-/// Its alarms are tables within it. The last change: places in what is intended move.
+/// Removes a region; its alarms are tables within it. Must be the last change, since it moves
+/// places in the intended result.
 Result<> RecipeEdit::remove(std::size_t index) {
   const std::string& name = recipe_.regions[index].name;
   const toml::table& given = *(*edit_.root()["region"].as_array())[index].as_table();
@@ -198,7 +199,7 @@ Result<> RecipeEdit::remove(std::size_t index) {
   return {};
 }
 
-/// Those that stand in the text before those that come behind everything, and those that go last.
+/// Applies changes inside the text before additions at its end; removals come last.
 Result<> apply(RecipeEdit& edit, const RecipeChange& change) {
   for (const LimitChange& limit : change.limits) {
     if (auto done = edit.change(limit); !done) return done;
@@ -232,7 +233,7 @@ Result<> check_once(const RecipeChange& change) {
   return {};
 }
 
-/// Throws what toml++ does of names that are not UTF-8.
+/// Edits a recipe. Throws the exceptions of toml++ for names that are not UTF-8.
 Result<std::string> edited(const std::string& text, const std::string& name,
                            const RecipeChange& change, Recipe recipe) {
   auto toml = TomlEdit::make(text, name);

@@ -41,7 +41,7 @@ std::optional<std::size_t> index_of(const std::vector<Named>& list, const std::s
 }
 
 /// Resolves the references of one file after the other. Messages on a recipe name the recipe's
-/// file, whose lines they count.
+/// file, to which their lines refer.
 class Resolver {
  public:
   Resolver(Resolved& resolved, Finding& finding)
@@ -65,7 +65,7 @@ class Resolver {
   }
 
  private:
-  /// A line that triggers.
+  /// Checks a line that triggers.
   void check_trigger_line(int line, const char* key, const std::string& name) {
     const auto found = index_of(site_.lines, name);
     if (found && site_.lines[*found].use == LineUse::TriggerIn) return;
@@ -204,8 +204,8 @@ class Resolver {
                        "\" with use process_input; lines: " + joined_names(site_.lines));
   }
 
-  /// Every recipe must set the same controls, and the configuration none of them, or a camera's
-  /// settings would depend on what was selected before.
+  /// Every recipe must set the same controls, and the configuration none of them; otherwise a
+  /// camera's settings would depend on previous selections.
   void check_control(const CameraControl& control, int line, Finding& finding) {
     const std::string what = control.camera.name + "'s " + control.name;
     const auto camera = index_of(site_.cameras, control.camera.name);
@@ -229,17 +229,17 @@ class Resolver {
   Resolved& resolved_;
   Configuration& site_;
   Finding& finding_;
-  PictureUses sharpened_;  ///< by all views
+  PictureUses sharpened_;  ///< sharpenings of all views
 };
 
-/// Leaves it empty where it is another machine's: files of this one by themselves are right.
+/// Leaves it empty if it belongs to another machine; the files of this one are still valid.
 void settle_state_folder(Configuration& site, const std::filesystem::path& file) {
   site.state_folder = state_folder(site.state_folder, file).value_or(std::filesystem::path());
 }
 
-/// Puts the alignments that were accepted for this rig in the place of what its file says.
+/// Replaces the rig file's alignments by those accepted for this rig.
 Result<> calibrate(Resolved& resolved, TextFiles& files) {
-  // The texts that were read count: the files may be others by now.
+  // The texts that were read are used: the files may have changed since.
   const auto rig = rig_checksum(resolved.site.rig.path, files.texts());
   if (!rig) return tl::unexpected(rig.error());
   resolved.rig_checksum = *rig;

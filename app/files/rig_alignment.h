@@ -9,24 +9,24 @@
 
 namespace orbwatch::app {
 
-/// What an alignment found out about a camera of a rig; the rest stays.
+/// Result of an alignment for a camera of a rig; other values are kept.
 struct CameraAlignment {
   std::string camera;
   std::optional<optics::Outline> outline{};
-  /// Belongs to the outline; excludes `pose`. None: as before, perhaps not registered.
+  /// Belongs to the outline; excludes `pose`. None: unchanged, perhaps not registered.
   std::optional<optics::Mat3> registration{};
-  std::optional<optics::Pose> pose{};  ///< instead of outline and registration
+  std::optional<optics::Pose> pose{};  ///< replaces outline and registration
   std::optional<optics::Intrinsics> intrinsics{};
 };
 
-/// What an alignment found out about a rig.
+/// Result of an alignment for a rig.
 struct RigAlignment {
   std::optional<optics::Vec3> ball_centre{};  ///< machine frame, mm
   std::vector<CameraAlignment> cameras{};
 };
 
-/// Puts it in the place of what the rig had; cameras that the rig does not have are ignored. Error:
-/// a camera whose projection cannot be made any more, a ball that the scene cuts.
+/// Replaces the values of the rig; cameras that the rig does not have are ignored. Error: a camera
+/// whose projection can no longer be made, a ball that the scene intersects.
 Result<> apply(const RigAlignment& alignment, optics::Rig& rig);
 
 }  // namespace orbwatch::app

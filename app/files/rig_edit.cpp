@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// A key's new value, or none for a key to be removed.
+/// New value of a key, or none to remove the key.
 struct Value {
   const char* key;
   std::optional<std::string> text;
@@ -32,7 +32,7 @@ std::vector<Value> values(const CameraAlignment& alignment) {
     values.push_back({"rotation", std::nullopt});
     values.push_back({"rotation_matrix", toml_matrix(*alignment.registration)});
   }
-  // The lens tells the distance.
+  // The distance follows from the lens.
   if (alignment.intrinsics) {
     values.insert(values.end(), {{"alpha", std::nullopt}, {"distance", std::nullopt}});
   }
@@ -102,7 +102,7 @@ Result<> change_camera(TomlEdit& edit, const CameraAlignment& alignment) {
   return {};
 }
 
-/// Whether the text states what it should: 10 digits of everything.
+/// True if the text states the expected values, to 10 digits.
 bool agrees(const optics::Mat3& a, const optics::Mat3& b) {
   const auto near = [](const optics::Vec3& x, const optics::Vec3& y) {
     return optics::norm(x - y) < 1e-8;
@@ -124,7 +124,7 @@ bool states(const optics::RigCamera& camera, const CameraAlignment& alignment) {
           (camera.is_registered && agrees(camera.registration, *alignment.registration)));
 }
 
-/// The camera's tables are written in a way that only a person can change.
+/// Error for a camera whose tables have a notation that can only be changed by hand.
 tl::unexpected<Error> not_changed(const std::string& name, const std::string& camera) {
   return fail(name + ": camera " + camera +
               " cannot be changed; write its tables with headers: [camera.outline], [camera.pose]");
@@ -168,7 +168,7 @@ Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment&
         return aligned_rig(text, rig.string(), rig.parent_path(), alignment);
       })
       .and_then([&](const std::string& text) -> Result<> {
-        // Files that the rig names count from its new folder now.
+        // Paths in the rig are now relative to its new folder.
         const auto there = parse_rig(text, out.string(), out.parent_path());
         if (!there) return tl::unexpected(there.error());
         return hal::write_file(out, text, hal::FileAccess::Folder);

@@ -8,14 +8,14 @@
 
 namespace orbwatch::app {
 
-/// The text of a rig file with what was found out; comments, order and everything else stay. `name`
-/// and `folder` as for parse_rig(). Error: a rig that is refused before or after, no such camera, a
-/// camera that states a changed table inline.
+/// The text of a rig file with the results of an alignment; comments, order and everything else are
+/// kept. `name` and `folder` as for parse_rig(). Error: a rig that is refused before or after, no
+/// such camera, a camera that states a changed table inline.
 Result<std::string> aligned_rig(const std::string& text, const std::string& name,
                                 const std::filesystem::path& folder, const RigAlignment& alignment);
 
-/// The same for a file, written to `out`, which may be the same one. Error: also files that the rig
-/// names and that are not there from `out`, and as hal::write_file().
+/// Writes the changed file to `out`, which may be the same one. Further errors: files that the rig
+/// names and that do not exist relative to `out`, and those of hal::write_file().
 Result<> write_aligned_rig(const std::filesystem::path& rig, const RigAlignment& alignment,
                            const std::filesystem::path& out);
 

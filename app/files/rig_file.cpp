@@ -9,7 +9,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Builds the scene part by part, so that the message has the line of the part that is wrong.
+/// Builds the scene part by part, so that the message has the line of the wrong part.
 void build_scene(const Located<SceneSettings>& settings, optics::Rig& rig, Finding& finding) {
   rig.scene = settings;
   if (const auto room = optics::SceneProxy::make(rig.scene, rig.ball); !room) {
@@ -24,7 +24,8 @@ void build_scene(const Located<SceneSettings>& settings, optics::Rig& rig, Findi
   }
 }
 
-/// Of a camera with pictures of that size. Errors: as parse_calibration and set_distortion.
+/// Intrinsics of a camera with pictures of that size. Errors: as parse_calibration and
+/// set_distortion.
 Result<optics::Intrinsics> intrinsics(const IntrinsicsSettings& settings, int width, int height,
                                       TextFiles& files) {
   if (settings.file) return read_calibration(*settings.file, files);

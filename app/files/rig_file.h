@@ -9,17 +9,17 @@
 
 namespace orbwatch::app {
 
-/// Reads and checks a rig file: every camera's projection can be made. Its keys stand in
-/// rig_settings.h. Relative paths in it count from the file's folder. The error says file, line,
-/// key, what is wrong and what is allowed.
+/// Reads and checks a rig file: every camera's projection can be made. Its keys are declared in
+/// rig_settings.h. Relative paths in it are based on the file's folder. The error states file,
+/// line, key, reason and the allowed values.
 Result<optics::Rig> load_rig(const std::filesystem::path& file, TextFiles& files);
 Result<optics::Rig> load_rig(const std::filesystem::path& file);
 
-/// The same for text that stands in for a file named `name`, with paths relative to `folder`.
+/// Parses text in place of a file named `name`, with paths relative to `folder`.
 Result<optics::Rig> parse_rig(const std::string& text, const std::string& name,
                               const std::filesystem::path& folder);
 
-/// The manual of all keys in Markdown, generated from the same declaration that the loader checks.
+/// Manual of all keys in Markdown, generated from the declaration that the loader checks.
 std::string rig_manual();
 
 }  // namespace orbwatch::app

@@ -12,7 +12,7 @@
 #include "proc/optics/rotation.h"
 #include "proc/settings/settings.h"
 
-/// A rig file as it stands, and its keys; rig_file.h makes an optics::Rig of it.
+/// Contents of a rig file, and its keys; rig_file.h converts it to an optics::Rig.
 namespace orbwatch::app {
 
 struct ObstacleSettings : optics::Box {
@@ -33,7 +33,8 @@ struct IntrinsicsSettings {
   std::vector<double> coefficients;
 };
 
-/// The ball in a camera's picture and how that camera stands to the reference.
+/// Outline of the ball in a camera's picture, and the camera's orientation relative to the
+/// reference.
 struct OutlineSettings {
   std::array<double, 2> centre{};
   std::optional<double> radius;
@@ -57,14 +58,14 @@ struct RigSettings {
   std::vector<Located<RigCameraSettings>> cameras;
 };
 
-/// The limb that the settings give in one form or the other.
+/// The limb, from either form of the settings.
 inline optics::Outline outline(const OutlineSettings& settings) {
   const double radius = settings.radius.value_or(0);
   const auto radii = settings.radii.value_or(std::array{radius, radius});
   return {{settings.centre[0], settings.centre[1]}, radii[0], radii[1], settings.angle};
 }
 
-/// The registration that the settings give in one form or the other; none is the identity.
+/// The registration, from either form of the settings; none is the identity.
 inline optics::Mat3 registration(const OutlineSettings& settings) {
   if (settings.rotation_matrix) return *settings.rotation_matrix;
   const auto [yaw, pitch, roll] = settings.rotation.value_or(std::array<double, 3>{});

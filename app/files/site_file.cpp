@@ -15,7 +15,8 @@ std::filesystem::path kept_in(const std::filesystem::path& folder) {
   return folder / "last-good.json";
 }
 
-/// In a file of its own: what is accepted later counts with a configuration that ran before, too.
+/// Kept in a file of its own: alignments accepted later also apply to a configuration that ran
+/// before.
 std::filesystem::path calibration_kept_in(const std::filesystem::path& folder) {
   return folder / "last-good-calibration.json";
 }
@@ -23,13 +24,13 @@ std::filesystem::path calibration_kept_in(const std::filesystem::path& folder) {
 Result<> keep(const std::filesystem::path& file, const FileTexts& texts) {
   nlohmann::json json = nlohmann::json::object();
   for (const auto& [path, text] : texts) json[path.string()] = text;
-  // Comments may have any bytes.
+  // Comments may contain any bytes.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
   return hal::write_file(file, json.dump(1, ' ', false, kReplace) + "\n", hal::FileAccess::Owner);
 }
 
 Result<FileTexts> read_kept(const std::filesystem::path& file, const std::string& if_absent) {
-  std::error_code none;  // read_regular_file() says what is wrong
+  std::error_code none;  // read_regular_file() reports the error
   if (!std::filesystem::exists(file, none) && !none) return fail(file.string() + ": " + if_absent);
   const auto text = hal::read_regular_file(file, kMostTexts);
   if (!text) return tl::unexpected(text.error());
@@ -52,7 +53,7 @@ std::filesystem::path site_file(const std::filesystem::path& given) {
 }
 
 Result<> keep_last_good(const std::filesystem::path& folder, const Resolved& site) {
-  std::error_code none;  // write_file() says what is wrong with the folder
+  std::error_code none;  // write_file() reports an error of the folder
   std::filesystem::create_directories(folder, none);
   return keep(calibration_kept_in(folder), site.calibration).and_then([&] {
     return keep(kept_in(folder), site.texts);

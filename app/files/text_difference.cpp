@@ -8,7 +8,8 @@
 namespace orbwatch::app {
 namespace {
 
-/// Of lines that are compared; longer texts have no difference worth reading.
+/// Limit for the pairs of lines that are compared; the difference of longer texts would not be
+/// readable.
 constexpr std::size_t kMostPairs = 4'000'000;
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -28,7 +29,7 @@ std::string text_difference(const std::string& before, const std::string& after,
   if (rows * columns > kMostPairs) {
     return name + "\n" + std::to_string(rows) + " lines become " + std::to_string(columns) + "\n";
   }
-  // Lengths of the longest common sequence of what is left from (i, j) on.
+  // Lengths of the longest common sequence of the remainders from (i, j) on.
   std::vector<std::size_t> common((rows + 1) * (columns + 1), 0);
   const auto at = [&](std::size_t i, std::size_t j) -> std::size_t& {
     return common[i * (columns + 1) + j];

@@ -4,8 +4,8 @@
 
 namespace orbwatch::app {
 
-/// The lines that differ between two texts, with "-" and "+" in front, below a line with `name`;
-/// empty if none does. Lines that both have, in a longest common sequence, are left out.
+/// The lines that differ between two texts, prefixed by "-" and "+", after a line with `name`;
+/// empty if none does. Lines of a longest common sequence are omitted.
 std::string text_difference(const std::string& before, const std::string& after,
                             const std::string& name);
 

@@ -14,26 +14,26 @@ namespace orbwatch::app {
 /// Texts by the path of their file.
 using FileTexts = std::map<std::filesystem::path, std::string>;
 
-/// Bytes of a file that holds all texts of a configuration: site, rig, lenses and recipes, of which
-/// each has 1 MiB at most.
+/// Limit in bytes for a file with all texts of a configuration: site, rig, lenses and recipes, each
+/// at most 1 MiB.
 inline constexpr std::size_t kMostTexts = std::size_t{64} << 20;
 
-/// Reads hand-written files, at most 1 MiB each, and keeps a CRC-32 of all that was read, in order.
+/// Reads hand-written files, at most 1 MiB each, and keeps a CRC-32 of all texts read, in order.
 class TextFiles {
  public:
-  /// A file that is among `instead` is not read: that is its text.
+  /// A file in `instead` is not read; its text there is used.
   explicit TextFiles(FileTexts instead = {}) : instead_(std::move(instead)) {}
 
-  /// `kind` names for the error what the file must be, as in "a TOML file". Errors: as
+  /// `kind` is the required kind of the file for the error, such as "a TOML file". Errors: as
   /// hal::read_regular_file().
   Result<std::string> read(const std::filesystem::path& file, const std::string& kind);
 
-  /// A text that stands in for a file.
+  /// Adds a text in place of a file.
   void add(const std::string& text);
 
   std::uint32_t checksum() const { return checksum_; }
 
-  /// What was read.
+  /// Texts that were read.
   const FileTexts& texts() const { return texts_; }
   const FileTexts& instead() const { return instead_; }
 

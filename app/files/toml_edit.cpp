@@ -7,7 +7,7 @@ namespace {
 
 std::size_t line_of_header(const toml::table& table) { return table.source().begin.line; }
 
-/// The lines of the headers of a table and of those within it; inline tables have none.
+/// Collects the lines of the headers of a table and of its nested tables; inline tables have none.
 void collect_headers(const toml::table& table, std::vector<std::size_t>& lines) {
   for (const auto& [key, node] : table) {
     if (const toml::table* inner = node.as_table(); inner && !inner->is_inline()) {
@@ -86,7 +86,7 @@ void TomlEdit::append(const toml::table& table, const std::string& lines) {
   add_lines(end_of(table), lines);
 }
 
-/// With ends as the text's first line has one.
+/// Adds lines with the line ends of the text's first line.
 void TomlEdit::add_lines(std::size_t at, const std::string& lines) {
   const std::size_t end = text_.find('\n');
   const bool has_return = end != std::string::npos && end > 0 && text_[end - 1] == '\r';
@@ -125,8 +125,8 @@ std::size_t TomlEdit::line_begin(std::size_t line) const {
   return line <= lines_.size() ? lines_[line - 1] : text_.size();
 }
 
-/// Behind the last value of the lines [first_line, end_line): comments and blank lines before the
-/// next header belong to that.
+/// Offset after the last value of the lines [first_line, end_line): comments and blank lines before
+/// the next header belong to that header.
 std::size_t TomlEdit::end_of_values(std::size_t first_line, std::size_t end_line) const {
   std::size_t end = std::min(end_line, lines_.size());
   while (end > first_line + 1 && is_comment_or_blank(std::string_view(text_).substr(
@@ -136,7 +136,7 @@ std::size_t TomlEdit::end_of_values(std::size_t first_line, std::size_t end_line
   return line_begin(end);
 }
 
-/// The line of the first header behind `line`, or the one behind the text.
+/// Line of the first header after `line`, or the one after the text.
 std::size_t TomlEdit::next_header(std::size_t line) const {
   const auto next = std::ranges::upper_bound(headers_, line);
   return next == headers_.end() ? lines_.size() : *next;

@@ -11,40 +11,40 @@
 
 namespace orbwatch::app {
 
-/// Changes values of a hand-written TOML text; comments, order, blank lines and ends of lines stay.
-/// Every change refers to the text as it was given: none sees another. Thread-bound.
+/// Changes values of a hand-written TOML text; comments, order, blank lines and line ends are kept.
+/// Every change refers to the original text, independent of the others. Thread-bound.
 class TomlEdit {
  public:
-  /// Error: no TOML; `name` is the file's, for the message.
+  /// Error: not TOML; `name` is the file's, for the message.
   static Result<TomlEdit> make(const std::string& text, const std::string& name);
 
-  // A copy of a toml::table does not know where in the text it stood.
+  // Move only: a copy of a toml::table loses its positions in the text.
   TomlEdit(TomlEdit&&) = default;
   TomlEdit& operator=(TomlEdit&&) = default;
 
-  /// The text's tables, which name the places of changes.
+  /// Tables of the text, which identify the places of changes.
   const toml::table& root() const { return root_; }
 
-  /// What stands in the text for a value.
+  /// Notation of a value in the text.
   std::string_view text_of(const toml::node& value) const;
 
-  /// Puts `text`, in TOML's notation, in the place of a value.
+  /// Replaces a value by `text`, in TOML's notation.
   void replace(const toml::node& value, const std::string& text);
 
-  /// Gives `key` of `table`, a table with a header of its own, a value in TOML's notation: in place
-  /// of the old one, else in a line at the table's end.
+  /// Sets `key` of `table`, a table with a header of its own, to a value in TOML's notation:
+  /// replaces the old one, or adds a line at the table's end.
   void set(const toml::table& table, std::string_view key, const std::string& value);
 
   /// Removes a value with its line, or a table with its header and all its values; comments before
-  /// the next header stay. Nothing happens without such a key.
+  /// the next header are kept. Does nothing without such a key.
   void remove(const toml::table& table, std::string_view key);
 
-  /// Removes a table that has a header of its own, with the tables within it; comments before the
-  /// next header stay.
+  /// Removes a table that has a header of its own, with its nested tables; comments before the next
+  /// header are kept.
   void remove(const toml::table& table);
 
-  /// Adds lines, which end with "\n" here, at the end of `table` and the tables within it: a new
-  /// table, say.
+  /// Adds lines, which end with "
+  /// " here, at the end of `table` and its nested tables, for example a new table.
   void append(const toml::table& table, const std::string& lines);
 
   /// The changed text.
@@ -66,10 +66,10 @@ class TomlEdit {
   std::size_t next_header(std::size_t line) const;
   std::size_t end_of(const toml::table& table) const;
 
-  std::string text_;  ///< with an end of its last line
-  bool lacks_end_;    ///< that was not there
+  std::string text_;  ///< text with an end of its last line
+  bool lacks_end_;    ///< the original text had no end of its last line
   toml::table root_;
-  std::vector<std::size_t> lines_;    ///< where each begins; line 1 is the first
+  std::vector<std::size_t> lines_;    ///< start of each line; line 1 is the first
   std::vector<std::size_t> headers_;  ///< lines of headers, ascending
   std::vector<Change> changes_;
 };

@@ -10,12 +10,12 @@ namespace orbwatch::app {
 namespace {
 
 /// Reads the structure of a TOML text, without its values. A text that is not valid TOML may be
-/// read otherwise behind its first mistake, where the library stops.
+/// read differently after its first error, where the library stops.
 class DepthScan {
  public:
   explicit DepthScan(std::string_view text) : text_(text) {}
 
-  /// The line, from 1, in which the text is nested too deeply; nullopt when it nowhere is.
+  /// Line, from 1, in which the text is nested too deeply; nullopt if there is none.
   std::optional<int> line_too_deep() {
     while (at_ < text_.size()) {
       read_next();
@@ -73,8 +73,8 @@ class DepthScan {
     key_ = dots_ = 0;
   }
 
-  /// One of either kind; three quotes begin and end one of several lines, which may have two more
-  /// at its end.
+  /// Skips a string of either kind; three quotes begin and end one of several lines, which may have
+  /// two more at its end.
   void skip_string(char quote) {
     const bool is_long = text_.substr(at_, 3) == std::string(3, quote);
     at_ += is_long ? 3 : 1;
@@ -89,7 +89,7 @@ class DepthScan {
         at_ += quotes;
         if (quotes >= 3) return;
       } else if (c == '\n' && !is_long) {
-        return;  // a mistake, at which the library stops
+        return;  // an error, at which the library stops
       } else {
         if (c == '\n') ++line_;
         ++at_;
@@ -101,10 +101,10 @@ class DepthScan {
   std::string_view text_;
   std::size_t at_ = 0;
   int line_ = 1;
-  int dots_ = 0;           // since the last delimiter
-  int key_ = 0;            // dots of the key whose value follows
-  int outer_ = 0;          // the sum of open_
-  std::vector<int> open_;  // what each open brace or bracket adds
+  int dots_ = 0;           // dots since the last delimiter
+  int key_ = 0;            // dots in the key whose value follows
+  int outer_ = 0;          // sum of open_
+  std::vector<int> open_;  // depth added by each open brace or bracket
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
-// Without NDEBUG, toml++ 3.3 would end the program where a table's name begins with a wrong
-// character; it refuses the text a few lines later anyway.
+// Without NDEBUG, toml++ 3.3 would end the program if a table's name begins with a wrong character;
+// it refuses the text a few lines later anyway.
 #define TOML_ASSERT(expression) static_assert(true)
 #include <toml++/toml.h>
 
@@ -9,12 +9,12 @@
 
 namespace orbwatch::app {
 
-/// Most dots, braces and brackets around a value: its depth in the tree of tables, which the
-/// library builds and destroys by recursion and limits in brackets only.
+/// Largest number of dots, braces and brackets around a value: its depth in the tree of tables,
+/// which the library builds and destroys by recursion and limits only for brackets.
 inline constexpr int kDeepestToml = 64;
 
-/// The tables of a text from outside. `name` is its file's, for messages. Throws toml::parse_error:
-/// the text is not valid TOML, or it is nested deeper than kDeepestToml. Reentrant.
+/// Tables of a text from outside. `name` is its file's, for messages. Throws toml::parse_error: the
+/// text is not valid TOML, or it is nested deeper than kDeepestToml. Reentrant.
 toml::table parse_toml(const std::string& text, const std::string& name = {});
 
 }  // namespace orbwatch::app

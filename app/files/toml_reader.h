@@ -20,8 +20,8 @@
 
 namespace orbwatch::app {
 
-/// The visitor that loads: reads one table of a TOML file into a settings struct. Checks types,
-/// ranges and words, and refuses keys that visit() does not name. Thread-bound.
+/// Visitor that loads: reads one table of a TOML file into a settings struct. Checks types, ranges
+/// and words, and refuses keys that visit() does not name. Thread-bound.
 class TomlReader {
  public:
   /// `path`: the table's name in messages, empty at the top.
@@ -50,26 +50,26 @@ class TomlReader {
     refuse_other_case(key, when);
   }
 
-  /// A string, a path, a file, a reference, true or false, or a list of strings.
+  /// Reads a string, a path, a file, a reference, a boolean, or a list of strings.
   template <class T>
   void optional(const char* key, T& value, const char* /*text*/) {
     if (const toml::node* node = find(key)) read(*node, name(key), value);
   }
 
-  /// A number or a list of numbers in a range.
+  /// Reads a number or a list of numbers in a range.
   template <class T>
   void optional(const char* key, T& value, const Range& range, const char* /*text*/) {
     if (const toml::node* node = find(key)) read(*node, name(key), value, range);
   }
 
-  /// A duration as a number of `Period`s.
+  /// Reads a duration as a number of `Period`s.
   template <class T, class Period>
   void optional(const char* key, T& value, const DurationRange<Period>& allowed,
                 const char* /*text*/) {
     if (const toml::node* node = find(key)) read(*node, name(key), value, allowed);
   }
 
-  /// A word that stands for something.
+  /// Reads a word that represents a value.
   template <class T, std::size_t N>
   void optional(const char* key, T& value, const std::array<Word<T>, N>& words,
                 const char* /*text*/) {
@@ -84,7 +84,7 @@ class TomlReader {
                     describe(*node) + " is not allowed; use one of: " + joined(words));
   }
 
-  /// A word that stands for itself.
+  /// Reads a word that is the value itself.
   template <std::size_t N>
   void optional(const char* key, std::string& value, const std::array<std::string_view, N>& words,
                 const char* text) {
@@ -115,8 +115,8 @@ class TomlReader {
     }
   }
 
-  /// A word, and the table of that name with the settings of its alternative. The tables of the
-  /// other alternatives may stay in the file; they are checked, too.
+  /// Reads a word, and the table of that name with the settings of its alternative. The tables of
+  /// the other alternatives may stay in the file; they are checked, too.
   template <class... Alternatives>
   void one_of(const char* key, std::variant<Alternatives...>& value, const char* text) {
     constexpr std::array<std::string_view, sizeof...(Alternatives)> kNames{Alternatives::kName...};
@@ -134,12 +134,13 @@ class TomlReader {
     (read_alternative(std::type_identity<Alternatives>{}), ...);
   }
 
-  /// A rule between keys; the message stands at `key` if it is there, else at the table.
+  /// Checks a rule between keys; the message refers to the line of `key`, or to the table without
+  /// that key.
   void require(bool truth, const char* key, const std::string& message);
 
   void line(int& number) const { number = line_of(table_); }
 
-  /// Called last: refuses keys that nobody asked for.
+  /// Call last: refuses keys that were not read.
   void refuse_unknown_keys();
 
  private:
@@ -153,7 +154,7 @@ class TomlReader {
     reader.refuse_unknown_keys();
   }
 
-  /// Refuses a key that is only for the case `when`.
+  /// Refuses a key that is valid only in the case `when`.
   void refuse_other_case(const char* key, const char* when);
 
   std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }

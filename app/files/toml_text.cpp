@@ -6,7 +6,7 @@ namespace orbwatch::app {
 
 std::string toml_number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value == 0 ? 0 : value);  // no -0
+  std::snprintf(text, sizeof text, "%.10g", value == 0 ? 0 : value);  // avoids -0
   return text;
 }
 

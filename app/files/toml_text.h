@@ -13,14 +13,14 @@ namespace orbwatch::app {
 std::string toml_number(double value);
 std::string toml_list(std::initializer_list<double> values);
 std::string toml_vector(const optics::Vec3& vector);
-/// By rows, on lines of their own.
+/// Matrix by rows, on lines of their own.
 std::string toml_matrix(const optics::Mat3& matrix);
-/// Quoted; control characters and quotes are escaped.
+/// Quoted string; control characters and quotes are escaped.
 std::string toml_string(const std::string& text);
 
-/// A key with its value.
+/// Line with a key and its value.
 std::string toml_line(const char* key, const std::string& value);
-/// The values of a limb, and of a pose, as a rig and a calibration state them.
+/// Values of a limb, and of a pose, in the notation of a rig and a calibration.
 std::string toml_outline(const optics::Outline& outline);
 std::string toml_pose(const optics::Pose& pose);
 

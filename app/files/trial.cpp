@@ -19,11 +19,11 @@ fs::path running_in(const fs::path& folder) { return folder / "trial-running.jso
 fs::path confirmed_in(const fs::path& folder) { return folder / "trial-confirmed.json"; }
 fs::path report_in(const fs::path& folder) { return folder / "trial-report.json"; }
 
-/// Parses a file; `parse` may throw what the JSON library throws. Nullopt: no such file.
+/// Parses a file; `parse` may throw the exceptions of the JSON library. Nullopt: no such file.
 template <class Parsed>
 Result<std::optional<Parsed>> read_json(const fs::path& file,
                                         Parsed (*parse)(const nlohmann::json&)) {
-  std::error_code none;  // read_regular_file() says what is wrong
+  std::error_code none;  // read_regular_file() reports the error
   if (!fs::exists(file, none) && !none) return std::nullopt;
   const auto text = hal::read_regular_file(file, kMostTexts);
   if (!text) return tl::unexpected(text.error());
@@ -34,7 +34,8 @@ Result<std::optional<Parsed>> read_json(const fs::path& file,
   }
 }
 
-/// Error: a file that the confirmation would overwrite is not what the trial was made of.
+/// Error: a file that the confirmation would overwrite differs from the one that the trial was
+/// based on.
 Result<> check_unchanged(const Trial& trial) {
   for (const auto& [path, checksum] : trial.based_on) {
     const FileVersion now = version_of(path);
@@ -54,7 +55,7 @@ Trial trial_of(const nlohmann::json& json) {
   for (const auto& [path, kept] : json.at("files").items()) {
     trial.texts[path] = kept.get<std::string>();
   }
-  // Absent in a trial that an older version requested.
+  // This key is absent in a trial that an older version requested.
   const auto based_on = json.find("based_on");
   if (based_on == json.end()) return trial;
   for (const auto& [path, checksum] : based_on->items()) {
@@ -84,7 +85,7 @@ Result<> request_trial(const fs::path& folder, const Trial& trial) {
                             {"seconds", trial.seconds},
                             {"files", files},
                             {"based_on", based_on}};
-  std::error_code none;  // of a request before
+  std::error_code none;  // belongs to a previous request
   fs::remove(report_in(folder), none);
   try {
     return hal::write_file(requested_in(folder), json.dump(1) + "\n", hal::FileAccess::Owner);
@@ -112,7 +113,7 @@ Result<std::optional<Trial>> take_trial(const fs::path& folder) {
   fs::rename(requested_in(folder), running_in(folder), error);
   if (error == std::errc::no_such_file_or_directory) return std::nullopt;
   if (error) return fail(requested_in(folder).string() + ": " + error.message());
-  // A trial that resets the board would be requested again at each boot.
+  // Without the sync, a trial that resets the board would be requested again at each boot.
   if (auto taken = hal::sync_folder(folder); !taken) return tl::unexpected(taken.error());
   return running_trial(folder);
 }
@@ -191,7 +192,7 @@ bool end_trial(const fs::path& folder) {
 
 Result<> cancel_trial(const fs::path& folder) {
   std::error_code none;
-  // In this order: the daemon may take the requested one in between.
+  // This order is required: the daemon may take the requested one in between.
   const bool was_requested = fs::remove(requested_in(folder), none);
   if (end_trial(folder) || was_requested) return {};
   return fail("no configuration waits for its confirmation");
