@@ -56,7 +56,7 @@ Result<> check_pool(const MachineSettings& s) {
   if (!(pool.radius_swing >= 0 && pool.radius_swing < 1)) {
     return refuse("the pool's radius swing must be from 0 to below 1");
   }
-  // Nearer to the melting point the profile, fixed by its molten radius, would become endless.
+  // Closer to the melting point the profile, fixed by its molten radius, would become unbounded.
   constexpr double kLeastSuperheat = 50;
   if (!(pool.peak - std::abs(pool.peak_swing) >= pool.melting_point + kLeastSuperheat) ||
       !(pool.melting_point > s.workpiece_temperature)) {
@@ -72,7 +72,7 @@ Result<> check_sparks(const SparkSettings& sparks) {
       !valid(sparks.temperature)) {
     return refuse("the sparks' ranges must be above 0 and in rising order");
   }
-  // One spark is born in each interval of 1 / rate; a lifetime touches up to two more of them.
+  // One spark starts in each interval of 1 / rate; a lifetime overlaps up to two more of them.
   if (!(sparks.rate >= 0) ||
       !(sparks.rate * sparks.lifetime.hi + 2 <= static_cast<double>(kMaxSparks))) {
     return refuse("the sparks' rate times their lifetime must be from 0 to " +

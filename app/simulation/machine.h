@@ -13,26 +13,26 @@
 
 namespace orbwatch::app::simulation {
 
-/// Sparks that can be in the air at once.
+/// Largest number of sparks in the air at the same time.
 inline constexpr std::size_t kMaxSparks = 64;
 
-/// A value is drawn evenly from lo to hi.
+/// Interval for uniform random values from lo to hi.
 struct Interval {
   double lo = 0;
   double hi = 0;
 };
 
-/// The molten pool on the workpiece's top: it runs on a circle, its size and heat vary slowly.
+/// Molten pool on the workpiece's top: it runs on a circle, its size and heat vary slowly.
 struct PoolSettings {
   double path_x = -110;         ///< mm, centre of the circle
   double path_y = -50;          ///< mm
   double path_radius = 40;      ///< mm
   double lap_time = 12;         ///< s for one round, counter-clockwise seen from above
   double radius = 10;           ///< mm, mean molten radius
-  double radius_swing = 0.25;   ///< share of the radius by which it varies, with a period of 7 s
+  double radius_swing = 0.25;   ///< variation as a share of the radius, with a period of 7 s
   double peak = 2000;           ///< degC in the centre, mean
-  double peak_swing = 150;      ///< degC by which the peak varies, with a period of 11 s
-  double melting_point = 1400;  ///< degC, where molten ends
+  double peak_swing = 150;      ///< variation of the peak in degC, with a period of 11 s
+  double melting_point = 1400;  ///< degC at the edge of the molten area
 };
 
 /// Drops of metal that leave the pool and fly ballistically.
@@ -45,7 +45,7 @@ struct SparkSettings {
   double end_temperature = 1250;     ///< degC at the end of its lifetime, reached linearly
 };
 
-/// The processing head above the pool: a cone with its tip down, and a column up to the ceiling.
+/// Processing head above the pool: a cone with its tip down, and a column up to the ceiling.
 struct NozzleSettings {
   double standoff = 15;       ///< mm between pool and tip
   double tip_radius = 5;      ///< mm
@@ -54,8 +54,8 @@ struct NozzleSettings {
   double temperature = 70;    ///< degC
 };
 
-/// A laser-cladding machine with a mirror ball. Machine frame: right-handed, X right, Y forward, Z
-/// up, mm; the operator stands at the front, the side of lower Y.
+/// Laser-cladding machine with a mirror ball. Machine frame: right-handed, X right, Y forward, Z
+/// up, mm; the operator is at the front, the side of lower Y.
 struct MachineSettings {
   Sphere ball{{120, 60, 430}, 50};  ///< reflects everything, without loss
   Box enclosure{{-600, -500, 0}, {600, 500, 800}};
@@ -65,16 +65,16 @@ struct MachineSettings {
   PoolSettings pool;
   SparkSettings sparks;
   NozzleSettings nozzle;
-  std::uint64_t seed = 1;  ///< of everything random: same seed, same sparks and same noise
-  /// A folder with a file for each simulated device that is connected, named as the camera or the
-  /// line; empty: all are.
+  std::uint64_t seed = 1;  ///< random seed: the same seed gives the same sparks and the same noise
+  /// Folder with a file for each connected simulated device, named like the camera or the line;
+  /// empty: all are connected.
   std::filesystem::path connected;
 };
 
-/// Whether a simulated device is connected now. Reentrant.
+/// True while a simulated device is connected. Reentrant.
 bool is_connected(const MachineSettings& machine, const std::string& device);
 
-/// What a site's file states of it.
+/// Visits the keys in a site's file.
 template <class Visitor>
 void visit(Visitor& v, MachineSettings& machine) {
   v.optional("seed", machine.seed, Range::between(0, 2147483647), "Of sparks and noise");
@@ -92,14 +92,14 @@ void visit(Visitor& v, MachineSettings& machine) {
 /// One machine and its clock, shared by all cameras that look into it. Immutable, reentrant.
 class Machine {
  public:
-  /// The machine whose process time is 0 at `epoch`. Errors: a body outside the enclosure or in
-  /// another, a value out of range, too many sparks.
+  /// Makes the machine whose process time is 0 at `epoch`. Errors: a body outside the enclosure or
+  /// in another, a value out of range, too many sparks.
   static Result<std::shared_ptr<const Machine>> make(const MachineSettings& settings,
                                                      hal::TimePoint epoch);
 
   const MachineSettings& settings() const { return settings_; }
 
-  /// The moment on the process' own clock, s: the argument of process_at().
+  /// Moment on the process' own clock, s: the argument of process_at().
   double process_time(hal::TimePoint moment) const {
     return std::chrono::duration<double>(moment - epoch_).count();
   }

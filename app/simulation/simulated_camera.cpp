@@ -127,7 +127,7 @@ std::optional<hal::TimePoint> SimulatedCamera::take_trigger() {
   return std::exchange(trigger_, std::nullopt);
 }
 
-/// Whether exposure `n` fails; then it was reported.
+/// True if exposure `n` fails; it was then reported.
 bool SimulatedCamera::is_missed(std::uint64_t n, hal::TimePoint moment) {
   if (is_connected(machine_->settings(), info().id)) {
     return fails(script_, {.sequence = n, .exposure_start = moment});
@@ -151,7 +151,7 @@ void SimulatedCamera::run(const std::stop_token&) {
   const hal::TimePoint start = hal::Clock::now();
   const auto moment = [&](std::uint64_t n) { return moment_of(n, start, format_.frame_rate); };
   for (std::uint64_t n = 0; wait_until(moment(n)); ++n) {
-    // Also when late, so that a fault script is always shown completely.
+    // This is checked also when late, so that a fault script is always shown completely.
     if (is_missed(n, moment(n))) continue;
     if (hal::Clock::now() < moment(n + 1)) expose(n, moment(n));
   }

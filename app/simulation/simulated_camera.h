@@ -18,7 +18,7 @@
 
 namespace orbwatch::app::simulation {
 
-/// A camera in front of a simulated machine. Exposure n is at start + n / rate on the steady clock
+/// Camera in front of a simulated machine. Exposure n is at start + n / rate on the steady clock
 /// and shows the process at exactly that moment, exposure_start in the metadata; cameras that share
 /// a Machine show one process at any rates. An exposure is lost, a gap in the sequence, when
 /// rendering is late by a period or all buffers are lent. During a scripted fault exposures are
@@ -30,10 +30,10 @@ class SimulatedCamera : public hal::Camera {
   SimulatedCamera(std::shared_ptr<const Machine> machine, SimulatedCameraSettings settings);
   ~SimulatedCamera() override;
 
-  /// The camera's pose. After configure() only.
+  /// Pose of the camera. Call only after configure().
   const Pinhole& pinhole() const { return pinhole_; }
 
-  /// Errors: not in TriggerMode, the exposure before is not rendered yet.
+  /// Errors: not in TriggerMode, the previous exposure is not rendered yet.
   Result<> trigger() override;
 
  protected:
@@ -63,7 +63,7 @@ class SimulatedCamera : public hal::Camera {
   std::optional<hal::FramePool> pool_;
   std::atomic<bool> trigger_mode_ = false;
   std::mutex trigger_mutex_;
-  std::optional<hal::TimePoint> trigger_;  ///< not rendered yet
+  std::optional<hal::TimePoint> trigger_;  ///< moment that is not rendered yet
 };
 
 }  // namespace orbwatch::app::simulation

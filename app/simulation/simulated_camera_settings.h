@@ -19,11 +19,11 @@ namespace orbwatch::app::simulation {
 class Machine;
 
 enum class CameraKind : std::uint8_t {
-  Colour,   ///< Rgb: each pixel the mean light of four points in it
-  Thermal,  ///< Y16, radiometric: each pixel the temperature at its centre
+  Colour,   ///< Rgb: each pixel is the mean light of four points in it
+  Thermal,  ///< Y16, radiometric: each pixel is the temperature at its centre
 };
 
-/// One camera on the machine. It points at the ball's centre, upright (picture's up nearest to +Z).
+/// Camera on the machine. It points at the ball's centre, upright (picture's up nearest to +Z).
 struct SimulatedCameraSettings {
   static constexpr std::string_view kName = "simulated";
   static constexpr hal::BackEndFacts kFacts{.origin = hal::CameraOrigin::Process,
@@ -31,11 +31,13 @@ struct SimulatedCameraSettings {
 
   std::string name{};  ///< becomes CameraInfo::id; also part of the noise's seed
   CameraKind kind = CameraKind::Colour;
-  Vec3 position{160, -430, 480};  ///< mm, machine frame; outside the enclosure walls are windows
-  double horizontal_fov = 13;     ///< degrees from picture edge to picture edge
-  int width = 1000;               ///< pixels, unless configure() asks for another size
+  Vec3 position{
+      160, -430,
+      480};  ///< machine frame, mm; for a position outside the enclosure walls are windows
+  double horizontal_fov = 13;  ///< degrees from picture edge to picture edge
+  int width = 1000;            ///< pixels, unless configure() requests another size
   int height = 1000;
-  double frame_rate = 15;          ///< per second, unless configure() asks for another rate
+  double frame_rate = 15;          ///< per second, unless configure() requests another rate
   double noise_sigma = 1;          ///< counts, Gaussian; 0: none
   double kelvin_per_count = 0.04;  ///< thermal only: see kelvin_of_counts()
   std::vector<hal::ScriptedFault> faults{};
@@ -49,7 +51,7 @@ struct SimulatedCameraSettings {
 inline constexpr std::array kCameraKinds{Word{"colour", CameraKind::Colour},
                                          Word{"thermal", CameraKind::Thermal}};
 
-/// All but what the context of a camera states.
+/// Visits all settings except those from the camera's context.
 template <class Visitor>
 void visit(Visitor& v, SimulatedCameraSettings& settings) {
   v.required("kind", settings.kind, kCameraKinds, "8-bit RGB, or 16-bit radiometric");
@@ -60,7 +62,7 @@ void visit(Visitor& v, SimulatedCameraSettings& settings) {
   v.optional("noise", settings.noise_sigma, Range::between(0, 1000), "Standard deviation, counts");
 }
 
-/// What a simulated camera is made with besides: the machine that all of them look into.
+/// Context for making a simulated camera, with the machine that all of them share.
 struct SimulationContext : hal::CameraContext {
   std::shared_ptr<const Machine> machine;
 };

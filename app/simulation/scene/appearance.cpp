@@ -14,10 +14,10 @@ namespace {
 constexpr double kPlate = 100;        // mm
 constexpr double kJoint = 5;          // mm
 constexpr double kLetterHeight = 90;  // mm
-constexpr double kNameHeight = 0.36;  // of the wall, above its middle
+constexpr double kNameHeight = 0.36;  // height of the name above the middle, as a share of the wall
 constexpr Appearance kOutside{{0.005, 0.005, 0.005}, 20};
 
-/// A wall as seen from the front; `right` and `up` in the machine frame.
+/// Wall seen from the front; `right` and `up` in the machine frame.
 struct Wall {
   std::string_view name;
   Vec3 right;
@@ -26,7 +26,7 @@ struct Wall {
   double temperature;  // degC
 };
 
-// In the order of Surface.
+// Walls in the order of Surface.
 constexpr std::array kWalls{
     Wall{"LEFT", {0, 1, 0}, {0, 0, 1}, {0.62, 0.26, 0.22}, 22},
     Wall{"RIGHT", {0, -1, 0}, {0, 0, 1}, {0.22, 0.50, 0.26}, 25},
@@ -36,7 +36,7 @@ constexpr std::array kWalls{
     Wall{"TOP", {1, 0, 0}, {0, -1, 0}, {0.34, 0.34, 0.33}, 32},
 };
 
-/// Even light from all sides, and a lamp in the ceiling's middle.
+/// Light from all sides, and from a lamp in the ceiling's middle.
 double illumination(const MachineSettings& settings, const Vec3& point, const Vec3& normal) {
   constexpr double kAmbient = 0.30;
   constexpr double kLamp = 0.55;
@@ -51,12 +51,12 @@ double illumination(const MachineSettings& settings, const Vec3& point, const Ve
   return kAmbient + 2 * kLamp * cosine * falloff;
 }
 
-/// Whether `along` lies within half of `width` of a multiple of `spacing`.
+/// True if `along` lies within half of `width` of a multiple of `spacing`.
 bool near_multiple(double along, double spacing, double width) {
   return std::abs(along - spacing * std::round(along / spacing)) < width / 2;
 }
 
-/// From 0 to 1, one number for each plate of each wall.
+/// Shade from 0 to 1, one number for each plate of each wall.
 double plate_shade(Surface surface, double right, double up) {
   const auto column = static_cast<std::int64_t>(std::floor(right / kPlate));
   const auto row = static_cast<std::int64_t>(std::floor(up / kPlate));
@@ -124,7 +124,7 @@ Appearance appearance_of(const MachineSettings& settings, const Ray& ray, const 
 Light nozzle_light(const MachineSettings& settings, const Vec3& point, const Vec3& normal,
                    bool cone) {
   const Light albedo = cone ? Light{0.60, 0.32, 0.16} : Light{0.34, 0.35, 0.38};
-  // Straight below the lamp the head would look flat without light from the side.
+  // Light from the side: without it the head, straight below the lamp, would look flat.
   constexpr Vec3 kSide{0.6, -0.8, 0};
   const double side = std::max(0.0, dot(normal, kSide));
   return albedo * (illumination(settings, point, normal) + 0.4 * side);

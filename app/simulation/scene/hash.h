@@ -14,7 +14,7 @@ constexpr std::uint64_t mix(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
-/// A uniform random number in [0, 1) for an index of a stream.
+/// Uniform random number in [0, 1) for an index of a stream.
 constexpr double uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t channel) {
   return static_cast<double>(mix(mix(mix(seed) ^ index) ^ channel) >> 11) * 0x1p-53;
 }

@@ -16,7 +16,7 @@ struct Glyph {
   std::array<std::string_view, kRows> rows;
 };
 
-// The letters of the walls' names.
+// Glyphs for the letters of the walls' names.
 constexpr std::array kGlyphs{
     Glyph{'A', {".###.", "#...#", "#...#", "#####", "#...#", "#...#", "#...#"}},
     Glyph{'B', {"####.", "#...#", "#...#", "####.", "#...#", "#...#", "####."}},

@@ -4,7 +4,7 @@
 
 namespace orbwatch::app::simulation {
 
-/// Whether the point (right, up) is on a letter of `text`, painted in capitals of `height` and
+/// True if the point (right, up) is on a letter of `text`, painted in capitals of `height` and
 /// centred in the origin. Lengths in one unit. Reentrant.
 bool on_ink(std::string_view text, double height, double right, double up);
 

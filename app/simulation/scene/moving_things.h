@@ -12,7 +12,7 @@
 
 namespace orbwatch::app::simulation {
 
-/// The moving objects that some rays may hit; they miss all others.
+/// Moving objects that some rays may hit; the rays miss all others.
 struct Candidates {
   bool nozzle = false;
   bool pool = false;
@@ -30,7 +30,7 @@ struct SightCandidates {
   bool empty() const { return direct.empty() && mirrored.empty(); }
 };
 
-/// The moving object at the end of a line of sight.
+/// Moving object at the end of a line of sight.
 struct Encounter {
   enum class Kind : std::uint8_t { None, Nozzle, Spark, Pool };
   Kind kind = Kind::None;
@@ -38,19 +38,18 @@ struct Encounter {
   Vec3 point;              ///< mm, machine frame
 };
 
-/// The moving objects at one moment, for intersection with rays: nozzle and sparks are solid, the
-/// pool is heat on the workpiece's top. No allocation. Reentrant.
+/// Moving objects at one moment, for intersection with rays: nozzle and sparks are solid, the pool
+/// is heat on the workpiece's top. No allocation. Reentrant.
 class MovingThings {
  public:
   /// `settings` must outlive this object.
   MovingThings(const MachineSettings& settings, double seconds);
 
   Candidates everything() const;
-  /// Those `among` the candidates that rays of the bundle may hit.
+  /// Objects `among` the candidates that rays of the bundle may hit.
   Candidates meeting(const RayBundle& rays, const Candidates& among) const;
 
-  /// The moving object that is visible along `sight`: nearer than all other objects, moving or
-  /// static.
+  /// Moving object that is visible along `sight`: nearer than all other objects, moving or static.
   Encounter first_on(const Sight& sight, const SightCandidates& candidates) const;
 
   const Nozzle& nozzle() const { return nozzle_; }

@@ -6,14 +6,14 @@
 namespace orbwatch::app::simulation {
 namespace {
 
-/// A ray relative to the axis of revolution: horizontal parts, and height over the tip.
+/// Ray relative to the axis of revolution: horizontal parts, and height over the tip.
 struct AxialRay {
   double x, y, z;
   double dx, dy, dz;
 };
 
-/// The first distance at which the ray enters radius(z) = base + slope z between the heights z0 and
-/// z1: the smaller positive root of |horizontal|^2 = radius^2 in that interval.
+/// First distance at which the ray enters radius(z) = base + slope z between the heights z0 and z1:
+/// the smaller positive root of |horizontal|^2 = radius^2 in that interval.
 double lateral_entry(const AxialRay& ray, double base, double slope, double z0, double z1) {
   const double radius = base + slope * ray.z;
   const double growth = slope * ray.dz;

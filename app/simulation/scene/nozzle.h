@@ -8,14 +8,14 @@
 
 namespace orbwatch::app::simulation {
 
-/// The processing head at one moment: a solid of revolution about the vertical through its tip.
-/// Machine frame, mm. Reentrant.
+/// Processing head at one moment: a solid of revolution about the vertical through its tip. Machine
+/// frame, mm. Reentrant.
 class Nozzle {
  public:
   /// `ceiling`: height at which the column ends.
   Nozzle(const NozzleSettings& settings, const Vec3& tip, double ceiling);
 
-  /// The distance at which a ray from outside hits it first, or kNever.
+  /// Distance at which a ray from outside first hits it, or kNever.
   double entry(const Ray& ray) const;
 
   /// Outward unit normal at a point of its surface.
@@ -30,7 +30,7 @@ class Nozzle {
   Vec3 tip_;
   double tip_radius_;
   double slope_;        ///< radius per height of the cone
-  double cone_cosine_;  ///< of the angle between the cone's normal and the horizontal
+  double cone_cosine_;  ///< cosine of the angle between the cone's normal and the horizontal
   double cone_top_;
   double column_radius_;
   double ceiling_;

@@ -33,7 +33,7 @@ MeltPool pool_at(const MachineSettings& settings, double seconds) {
   return pool;
 }
 
-/// The start of one spark's flight; everything about it follows from its number.
+/// Start of one spark's flight; all its properties follow from its number.
 struct Launch {
   double moment = 0;  // s
   Vec3 position;
@@ -44,7 +44,7 @@ struct Launch {
   }
 };
 
-/// The properties of a spark that are drawn, each from a channel of its own.
+/// Random properties of a spark, each from a channel of its own.
 enum Channel : std::uint64_t { Birth, Upward, Azimuth, Speed, Lifetime, Radius, Temperature };
 
 double draw(const MachineSettings& settings, std::int64_t number, Channel channel, Interval range) {
@@ -63,13 +63,13 @@ Launch launch(const MachineSettings& settings, std::int64_t number) {
           Vec3{level * std::cos(azimuth), level * std::sin(azimuth), up} * speed};
 }
 
-/// The age at which the flight falls to `height`, which is not above its start.
+/// Age at which the flight falls to `height`, which is not above its start.
 double fall_to(const Launch& flight, double height) {
   const double v = flight.velocity.z;
   return (v + std::sqrt(v * v + 2 * kGravity * (flight.position.z - height))) / kGravity;
 }
 
-/// The age at which the flight rises to `height` above its start; kNever when it stays below.
+/// Age at which the flight rises to `height` above its start; kNever when it stays below.
 double rise_to(const Launch& flight, double height) {
   const double v = flight.velocity.z;
   const double discriminant = v * v - 2 * kGravity * (height - flight.position.z);

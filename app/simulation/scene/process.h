@@ -8,30 +8,30 @@
 
 namespace orbwatch::app::simulation {
 
-/// The molten pool at one moment, a disc on the workpiece's top. Its temperature over the distance
-/// r from the centre is a Gaussian through peak and melting point:
+/// Molten pool at one moment, a disc on the workpiece's top. Its temperature over the distance r
+/// from the centre is a Gaussian through peak and melting point:
 ///   T(r) = ambient + (peak - ambient) q^((r / radius)^2),
 ///   q = (melting_point - ambient) / (peak - ambient), so T(0) = peak, T(radius) = melting_point.
 struct MeltPool {
   Vec3 centre;               ///< mm, machine frame
-  double radius = 0;         ///< mm, of the molten area
+  double radius = 0;         ///< radius of the molten area, mm
   double peak = 0;           ///< degC
   double melting_point = 0;  ///< degC
-  double ambient = 0;        ///< degC of the workpiece far away
+  double ambient = 0;        ///< degC of the workpiece far from the pool
   double reach = 0;          ///< mm: beyond it T(r) - ambient is below 0.01 K and counts as 0
 
-  /// degC at `distance` mm from the centre, on the workpiece's top.
+  /// Temperature, degC, at `distance` mm from the centre, on the workpiece's top.
   double temperature_at(double distance) const;
 };
 
-/// One drop in flight.
+/// Drop in flight.
 struct Spark {
-  Vec3 position;           ///< mm, machine frame, of its centre
+  Vec3 position;           ///< centre in the machine frame, mm
   double radius = 0;       ///< mm
-  double temperature = 0;  ///< degC, all over
+  double temperature = 0;  ///< uniform temperature, degC
 };
 
-/// The moving parts of the machine at one moment.
+/// Moving parts of the machine at one moment.
 struct ProcessTruth {
   MeltPool pool;
   Vec3 nozzle_tip;  ///< mm, above the pool
@@ -42,9 +42,9 @@ struct ProcessTruth {
   void sparks() const&& = delete;  // the span would outlive its sparks
 };
 
-/// The process `seconds` after the machine's epoch: a pure function of its arguments. Settings are
-/// a Machine's, which has checked them. Sparks end on workpiece, table, floor or walls; nozzle and
-/// ball do not stop them. No allocation. Reentrant.
+/// State of the process `seconds` after the machine's epoch: a pure function of its arguments.
+/// Settings are a Machine's, which has checked them. Sparks end on workpiece, table, floor or
+/// walls; nozzle and ball do not stop them. No allocation. Reentrant.
 ProcessTruth process_at(const MachineSettings& settings, double seconds);
 
 }  // namespace orbwatch::app::simulation

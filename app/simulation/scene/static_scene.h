@@ -6,7 +6,7 @@
 
 namespace orbwatch::app::simulation {
 
-/// The surfaces of the static scene; left and right as seen by the operator at the front.
+/// Surfaces of the static scene; left and right from the operator's view at the front.
 enum class Surface : std::uint8_t {
   Left,
   Right,
@@ -16,27 +16,27 @@ enum class Surface : std::uint8_t {
   Ceiling,
   Table,
   Workpiece,
-  Outside,  ///< nothing: the ray of a camera outside misses the enclosure
+  Outside,  ///< no surface: the ray of a camera outside misses the enclosure
 };
 
-/// The first static surface that a ray hits, without the ball.
+/// First static surface that a ray hits, without the ball.
 struct StaticHit {
   double distance = kNever;  ///< mm
   Surface surface = Surface::Outside;
   Vec3 normal;  ///< unit length, towards the ray's side
 };
 
-/// Reentrant.
+/// Nearest surface along a ray. Reentrant.
 StaticHit nearest_static(const MachineSettings& settings, const Ray& ray);
 
-/// The distance to table or workpiece only, or kNever. Reentrant.
+/// Distance to table or workpiece only, or kNever. Reentrant.
 double obstacle_distance(const MachineSettings& settings, const Ray& ray);
 
-/// A line of sight: a ray and its reflection in the ball by plain vectors, without a ball model.
+/// Line of sight: a ray and its reflection in the ball by plain vectors, without a ball model.
 struct Sight {
   Ray direct;
   double ball_distance = kNever;  ///< mm along `direct`; kNever: it misses the ball
-  Ray mirrored;                   ///< from the ball on, if it is hit
+  Ray mirrored;                   ///< starts on the ball, if it is hit
 
   bool on_ball() const { return ball_distance < kNever; }
 };
@@ -52,13 +52,13 @@ inline Sight sight_along(const Ray& ray, const Sphere& ball) {
   return sight;
 }
 
-/// The end of a line of sight on the static scene.
+/// End of a line of sight on the static scene.
 struct StaticEnd {
-  Ray ray;  ///< the last part of the line of sight
+  Ray ray;  ///< last part of the line of sight
   StaticHit hit;
 };
 
-/// Reentrant.
+/// Follows a line of sight to the static scene. Reentrant.
 StaticEnd static_end(const MachineSettings& settings, const Sight& sight);
 
 }  // namespace orbwatch::app::simulation

@@ -11,10 +11,10 @@ namespace orbwatch::app::simulation {
 
 using optics::Vec3;
 
-/// The distance to an object that a ray misses.
+/// Distance to an object that a ray misses.
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// A half-line in the machine frame, mm. Everything in this file is reentrant.
+/// Half-line in the machine frame, mm. Everything in this file is reentrant.
 struct Ray {
   Vec3 origin;
   Vec3 direction;  ///< unit length
@@ -27,7 +27,7 @@ struct Sphere {
   double radius = 0;
 };
 
-/// Axis-aligned.
+/// Axis-aligned box.
 struct Box {
   Vec3 lo;
   Vec3 hi;
@@ -37,14 +37,14 @@ struct Box {
   }
 };
 
-/// The intersection of a ray with a face of a box.
+/// Intersection of a ray with a face of a box.
 struct FaceHit {
   double distance = kNever;
-  int axis = 0;  ///< of the face's normal: 0 X, 1 Y, 2 Z
+  int axis = 0;  ///< axis of the face's normal: 0 X, 1 Y, 2 Z
 };
 
-/// The distance at which a ray from outside enters the sphere; kNever when it misses, points away
-/// or starts inside.
+/// Distance at which a ray from outside enters the sphere; kNever when it misses, points away or
+/// starts inside.
 inline double entry(const Ray& ray, const Sphere& sphere) {
   const Vec3 from_centre = ray.origin - sphere.centre;
   const double b = dot(from_centre, ray.direction);
@@ -54,7 +54,7 @@ inline double entry(const Ray& ray, const Sphere& sphere) {
   return -b - std::sqrt(discriminant);
 }
 
-/// Where the ray enters and leaves a box, by the slab method.
+/// Entry and exit of a ray through a box, by the slab method.
 struct BoxPassage {
   FaceHit in{-kNever, 0};
   FaceHit out{kNever, 0};
@@ -80,14 +80,14 @@ inline BoxPassage passage(const Ray& ray, const Box& box) {
   return result;
 }
 
-/// Where a ray from outside enters a solid box.
+/// Entry of a ray from outside into a solid box.
 inline FaceHit entry(const Ray& ray, const Box& box) {
   const BoxPassage through = passage(ray, box);
   return through.misses() || through.in.distance < 0 ? FaceHit{} : through.in;
 }
 
-/// Where a ray hits the walls of a hollow box, which are visible from the inside only: a ray from
-/// outside passes the first wall like a window.
+/// Intersection of a ray with the walls of a hollow box, which are visible from the inside only: a
+/// ray from outside passes the first wall like a window.
 inline FaceHit exit(const Ray& ray, const Box& box) {
   const BoxPassage through = passage(ray, box);
   return through.misses() ? FaceHit{} : through.out;

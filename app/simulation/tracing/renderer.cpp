@@ -23,7 +23,7 @@ std::span<const optics::Vec2> points_of(CameraKind kind) {
 
 }  // namespace
 
-/// One picture in the making.
+/// Picture that is being rendered.
 struct Renderer::Moment {
   MovingThings things;
   std::byte* picture;

@@ -15,28 +15,28 @@
 
 namespace orbwatch::app::simulation {
 
-/// What turns light or temperature into samples.
+/// Conversion of light or temperature to samples.
 struct Sensor {
   CameraKind kind = CameraKind::Colour;
   double kelvin_per_count = 0.04;  ///< thermal: see kelvin_of_counts()
-  double kelvin_offset = 0;        ///< K, of a count of 0
+  double kelvin_offset = 0;        ///< temperature of a count of 0, K
 };
 
-/// Which pixels render() traces anew: those that may show something that moves, or all of them. The
-/// result is the same, bit for bit; Everything is the slow definition for tests.
+/// Pixels that render() traces anew: those that may show a moving object, or all of them. The
+/// result is the same, bit for bit; Everything is the slow reference for tests.
 enum class Redraw : std::uint8_t { WhatMoves, Everything };
 
-/// Pictures of the machine without noise. The static scene is traced once, in the constructor, on
-/// all cores (about a second for a megapixel); then a picture costs a copy and the pixels of moving
-/// objects. Immutable; reentrant.
+/// Renders pictures of the machine without noise. The static scene is traced once, in the
+/// constructor, on all cores (about a second for a megapixel); then a picture costs a copy and the
+/// pixels of moving objects. Immutable; reentrant.
 class Renderer {
  public:
   Renderer(std::shared_ptr<const Machine> machine, const Pinhole& camera, const Sensor& sensor);
 
   PixelFormat format() const;
 
-  /// The machine `seconds` after its epoch, as samples of format(), rows without padding, aligned
-  /// for them. `picture` must have size() bytes. No allocation.
+  /// Renders the machine `seconds` after its epoch, as samples of format(), rows without padding,
+  /// aligned for them. `picture` must have size() bytes. No allocation.
   void render(double seconds, std::byte* picture, Redraw redraw = Redraw::WhatMoves) const;
 
   std::size_t size() const { return at_rest_.size(); }
@@ -58,7 +58,7 @@ class Renderer {
   Sensor sensor_;
   Tone tone_;
   TileIndex tiles_;
-  std::vector<std::byte> at_rest_;  ///< the picture of the static scene
+  std::vector<std::byte> at_rest_;  ///< picture of the static scene
 };
 
 }  // namespace orbwatch::app::simulation

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kOffsets = std::size_t{1} << 18;
 
-/// A normal random number (Box-Muller transform).
+/// Normal random number (Box-Muller transform).
 double normal(std::uint64_t seed, std::uint64_t index) {
   const double radius = std::sqrt(-2 * std::log(1 - uniform(seed, index, 0)));
   return radius * std::cos(2 * std::numbers::pi * uniform(seed, index, 1));

@@ -10,7 +10,7 @@ namespace {
 constexpr int kBlock = 32;  // pixels
 constexpr int kTile = 8;    // pixels
 
-/// The squares of `size` that cover `whole`; those at its right and lower edge may be smaller.
+/// Squares of `size` that cover `whole`; those at its right and lower edge may be smaller.
 std::vector<Area> squares(const Area& whole, int size) {
   std::vector<Area> result;
   for (int top = whole.top; top < whole.bottom; top += size) {

@@ -8,7 +8,7 @@
 namespace orbwatch::app::simulation {
 namespace {
 
-constexpr std::size_t kEncodedSteps = 4096;  // fine enough for the curve's steepest part, 12.92
+constexpr std::size_t kEncodedSteps = 4096;  // sufficient for the curve's steepest part, 12.92
 constexpr int kHottest = 3000;               // degC, end of the table
 constexpr int kDarkBelow = 500;              // degC, the Draper point
 
