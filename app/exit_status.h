@@ -5,10 +5,10 @@
 
 namespace orbwatch::app {
 
-/// How `orbwatch` and `orbwatchd` end.
+/// Exit statuses of `orbwatch` and `orbwatchd`.
 enum class ExitStatus { Done = 0, Failed = 1, WrongUsage = 2 };
 
-/// What a status means, for help and manual pages.
+/// Meaning of a status, for help and manual pages.
 struct ExitStatusInfo {
   ExitStatus status;
   std::string_view of_orbwatch;

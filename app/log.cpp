@@ -47,7 +47,7 @@ void write_text(const LogRecord& record) {
   if (is_journal_on_stderr()) {
     line = "<" + std::to_string(static_cast<int>(record.level)) + ">";
   } else if (::isatty(STDERR_FILENO) != 0) {
-    line = "\r\x1b[K";  // a command may show how far it is, on a line that has no end yet
+    line = "\r\x1b[K";  // overwrites the progress of a command on an unfinished line
   }
   line += "orbwatch: ";
   line += record.text;

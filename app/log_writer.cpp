@@ -64,7 +64,7 @@ void LogWriter::write_soon(LogLevel level, std::initializer_list<std::string_vie
   thread_.wake();
 }
 
-/// Adds a line, with queue_ held. Null: there is no place, and it is dropped.
+/// Adds a line; call with queue_ held. Null: the queue is full, and the line is dropped.
 LogWriter::Waiting* LogWriter::add(LogLevel level, std::initializer_list<std::string_view> text,
                                    const LogFields& fields) {
   if (count_ == kMaxWaiting) {
@@ -86,7 +86,8 @@ void LogWriter::write_waiting() {
   }
 }
 
-/// The oldest line, or how many were dropped behind it. False: there is nothing.
+/// Writes the oldest line, or, without one, the number of dropped lines. False: there is nothing to
+/// write.
 bool LogWriter::write_next() {
   Waiting line;
   std::uint64_t dropped = 0;

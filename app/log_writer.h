@@ -17,18 +17,18 @@
 
 namespace orbwatch::app {
 
-/// Writes the log of the process while it lives, on a thread of its own and in the order in which
-/// it came. log_line() returns when its line is written, as long as somebody reads the log: a
-/// reader that does not, a pipe or a stalled journal, holds it up once for kLongestWait, and nobody
-/// any more until it reads on. Made before the threads that log, and outlives them.
+/// Writes the log of the process during its lifetime, on a thread of its own and in order.
+/// log_line() returns when its line is written, as long as a reader reads the log: a stalled
+/// reader, such as a pipe or the journal, delays one line by kLongestWait, and no further line
+/// until it reads again. Made before the threads that log, and outlives them.
 class LogWriter {
  public:
-  /// May wait and allocate; never called twice at once.
+  /// May wait and allocate; there are no concurrent calls.
   using Output = std::function<void(const LogRecord&)>;
 
-  /// Lines that may wait for the reader; more are dropped and counted.
+  /// Limit for lines that wait for the reader; further ones are dropped and counted.
   static constexpr std::size_t kMaxWaiting = 64;
-  /// Bytes of a line of the frame path; the rest is cut.
+  /// Bytes of a line from the frame path; the rest is cut.
   static constexpr std::size_t kMaxText = 512;
   /// Longest wait of log_line() for a reader that does not read.
   static constexpr std::chrono::seconds kLongestWait{1};
@@ -36,17 +36,17 @@ class LogWriter {
   explicit LogWriter(Output output);
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
-  /// Writes what waits; waits for the reader as long as it takes.
+  /// Writes the waiting lines; waits for the reader without a limit.
   ~LogWriter();
 
-  /// The one that lives, or null.
+  /// The existing writer, or null.
   static LogWriter* current();
 
   void write(const LogRecord& record);
   void write_soon(LogLevel level, std::initializer_list<std::string_view> text,
                   const LogFields& fields);
 
-  /// Returns when all that was logged before is written. False: not within `patience`.
+  /// Returns when all lines logged before are written. False: `patience` has passed.
   bool flush(std::chrono::milliseconds patience = std::chrono::hours(1));
 
  private:
@@ -64,7 +64,7 @@ class LogWriter {
   struct Waiting {
     LogLevel level = LogLevel::Info;
     Text<kMaxText> text{};
-    std::string rest{};  ///< of a line beyond kMaxText, by log_line()
+    std::string rest{};  ///< rest of a line beyond kMaxText, set by log_line()
     Text<64> camera{};
     Text<32> fault{};
     std::uint64_t trigger = 0;
@@ -78,14 +78,14 @@ class LogWriter {
   const Output output_;
   hal::PriorityMutex queue_;                  ///< held for a copy, never while output_ is called
   std::condition_variable_any progress_;      ///< a line was written
-  std::array<Waiting, kMaxWaiting> waiting_;  ///< a ring; under queue_, as all below
+  std::array<Waiting, kMaxWaiting> waiting_;  ///< a ring; guarded by queue_, like all members below
   std::size_t oldest_ = 0;
   std::size_t count_ = 0;
   std::uint64_t added_ = 0;    ///< lines since the start
-  std::uint64_t written_ = 0;  ///< those of them
+  std::uint64_t written_ = 0;  ///< lines written of these
   std::uint64_t dropped_ = 0;
   bool is_writing_ = false;
-  bool is_stalled_ = false;  ///< somebody waited in vain since a line was written
+  bool is_stalled_ = false;  ///< a wait timed out since a line was written
   hal::Thread thread_;
 };
 

@@ -12,8 +12,8 @@
 
 namespace orbwatch::app {
 
-/// The newest lines of this process's log, for those who cannot read the journal. Thread-safe;
-/// allocates, so never on the frame path: that is the LogWriter's thread.
+/// Newest lines of this process's log, for users without access to the journal. Thread-safe;
+/// allocates, so never on the frame path: the LogWriter's thread calls it.
 class RecentLog {
  public:
   static constexpr std::size_t kMostLines = 1000;
@@ -21,7 +21,7 @@ class RecentLog {
   static constexpr std::size_t kMostText = 1024;
 
   struct Line {
-    std::uint64_t number = 0;  ///< counts from 1
+    std::uint64_t number = 0;  ///< counted from 1
     std::chrono::system_clock::time_point time{};
     LogLevel level = LogLevel::Info;
     std::string text;
@@ -30,23 +30,23 @@ class RecentLog {
     std::uint64_t trigger = 0;
   };
 
-  /// What a reader wants of them.
+  /// Selection of a reader.
   struct Wanted {
     std::size_t most = kMostLines;
-    LogLevel least = LogLevel::Info;  ///< and what is more severe
-    std::uint64_t after = 0;          ///< number of the newest line that it has
+    LogLevel least = LogLevel::Info;  ///< least severe level
+    std::uint64_t after = 0;          ///< number of the newest line that the reader already has
   };
 
   void add(const LogRecord& record);
-  /// Of the newest line; 0: there is none yet.
+  /// Number of the newest line; 0: there is none yet.
   std::uint64_t newest_number() const;
-  /// The newest of them, oldest first.
+  /// The newest selected lines, oldest first.
   std::vector<Line> newest(const Wanted& wanted) const;
 
  private:
   mutable std::mutex mutex_;
-  std::deque<Line> lines_;    ///< under mutex_
-  std::uint64_t number_ = 0;  ///< of the newest; under mutex_
+  std::deque<Line> lines_;    ///< guarded by mutex_
+  std::uint64_t number_ = 0;  ///< number of the newest line; guarded by mutex_
 };
 
 }  // namespace orbwatch::app

@@ -6,10 +6,10 @@
 
 namespace orbwatch::app {
 
-/// By name: the program's, and those of each device library, those of modules, too.
+/// Versions by name: the program's, and those of all device libraries, including modules'.
 std::vector<std::pair<std::string, std::string>> versions(const std::string& program);
 
-/// "PROGRAM 1.2.3" and a line for each device library, those of modules, too.
+/// Text "PROGRAM 1.2.3" and a line for each device library, including modules'.
 std::string version_text(const std::string& program);
 
 }  // namespace orbwatch::app

@@ -20,7 +20,7 @@ using signals::kNotValid;
 
 constexpr double kMebibyte = 1024.0 * 1024.0;
 
-/// The larger valid value.
+/// The larger of two values, of which the first may be invalid.
 double larger(double a, double b) { return signals::is_valid(a) ? std::max(a, b) : b; }
 
 bool is_within(const HealthField& figure, double value) {
@@ -53,7 +53,7 @@ double processor_frequency(const fs::path& sys) {
   return fastest;
 }
 
-/// A line "key:   123 kB" of a file of lines, in MiB.
+/// Value of a line "key:   123 kB" in a file of lines, in MiB.
 double memory_line(const fs::path& file, std::string_view key) {
   std::istringstream lines(read_system_file(file).value_or(""));
   for (std::string line; std::getline(lines, line);) {
@@ -72,7 +72,7 @@ double open_descriptors(const fs::path& proc) {
     // The listing's own descriptor is closed by now.
     count += fs::exists(fs::symlink_status(descriptor, error)) ? 1 : 0;
   }
-  return count > 0 ? static_cast<double>(count) : kNotValid;  // none: not listable
+  return count > 0 ? static_cast<double>(count) : kNotValid;  // 0: not listable
 }
 
 void note_disk(const fs::path& folder, Health& health) {
@@ -107,8 +107,8 @@ Health BoardHealth::read() {
   return health;
 }
 
-/// The first line of /proc/stat: "cpu" and the ticks as user, nice, system, idle, iowait, irq,
-/// softirq and steal; the other columns are contained in the first two.
+/// Processor time from the first line of /proc/stat: "cpu" and the ticks as user, nice, system,
+/// idle, iowait, irq, softirq and steal; the other columns are included in the first two.
 std::optional<BoardHealth::ProcessorTime> BoardHealth::processor_time(const fs::path& proc) {
   const std::string text = read_system_file(proc / "stat").value_or("");
   std::istringstream line(text.substr(0, text.find('\n')));

@@ -9,7 +9,7 @@
 
 namespace orbwatch::app {
 
-/// Where the figures are read; tests use trees of their own.
+/// Sources of the figures; tests use trees of their own.
 struct HealthSources {
   std::filesystem::path sys = "/sys";
   std::filesystem::path proc = "/proc";
@@ -27,7 +27,7 @@ class BoardHealth {
   Health read();
 
  private:
-  /// In the kernel's ticks since power-on.
+  /// Ticks of the kernel since power-on.
   struct ProcessorTime {
     double idle = 0;
     double total = 0;
@@ -38,7 +38,7 @@ class BoardHealth {
 
   HealthSources sources_;
   ThrottlingMonitor throttling_;
-  std::optional<ProcessorTime> processor_time_;  ///< at the last reading
+  std::optional<ProcessorTime> processor_time_;  ///< value at the last reading
 };
 
 /// Sets the clock_ figures of `health` from adjtimex(), whose result is `state`, below 0 on

@@ -13,25 +13,25 @@
 
 namespace orbwatch::app {
 
-/// Reads the health on a shared thread: a slow board or disk does not delay the frame path. Thread
-/// rule: start and stop on the main thread, latest on any.
+/// Reads the health on a shared thread, so that a slow board or disk does not delay the frame path.
+/// Thread rule: start and stop on the main thread, latest on any.
 class HealthSampler {
  public:
   static constexpr hal::Clock::duration kPeriod = std::chrono::seconds(1);
-  /// Older figures are invalid.
+  /// Age above which figures are invalid.
   static constexpr hal::Clock::duration kLongestAge = std::chrono::seconds(5);
 
-  /// `read` is called on one of the `threads`, once at a time, as BoardHealth::read.
+  /// `read` is called on one of the `threads`, one call at a time, like BoardHealth::read.
   explicit HealthSampler(std::function<Health()> read, hal::Clock::duration period = kPeriod,
                          std::shared_ptr<hal::SharedThreads> threads = hal::SharedThreads::alone())
       : read_(std::move(read)), period_(period), work_(std::move(threads), [this] { sample(); }) {}
-  /// Reads for the first time at once, on its thread. Repeating it does nothing.
+  /// Starts the first reading at once, on its thread. Repeating it does nothing.
   void start();
-  /// Waits for a reading that is under way.
+  /// Waits for a running reading.
   void stop();
 
   /// The newest figures; none is valid before the first reading, or when it began more than
-  /// kLongestAge before `now`. The lock is held for no longer than a copy.
+  /// kLongestAge before `now`. The lock is held only for a copy.
   Health latest(hal::TimePoint now) const;
 
  private:
@@ -42,8 +42,8 @@ class HealthSampler {
   mutable hal::PriorityMutex mutex_;
   Health health_;
   hal::TimePoint read_at_;
-  bool is_running_ = false;  ///< the main thread's
-  hal::TimePoint due_;       ///< of the next reading; the work's
+  bool is_running_ = false;  ///< used by the main thread only
+  hal::TimePoint due_;       ///< moment of the next reading; used by the work only
   hal::SharedThreads::Work work_;
 };
 

@@ -10,22 +10,22 @@
 
 namespace orbwatch::app {
 
-/// The first `most` bytes of a file of procfs or sysfs, 16 KiB unless said; nullopt when it cannot
+/// The first `most` bytes of a file of procfs or sysfs, 16 KiB by default; nullopt when it cannot
 /// be read. Never blocks, for any kind of file. Reentrant.
 std::optional<std::string> read_system_file(const std::filesystem::path& file,
                                             std::size_t most = std::size_t{16} << 10);
 
-/// A text that is one number, with white space around it; else nullopt. Base 16 may begin with 0x.
-/// Reentrant.
+/// Parses a text that is one number, with white space around it; else nullopt. Base 16 may begin
+/// with 0x. Reentrant.
 std::optional<std::int64_t> to_integer(std::string_view text, int base = 10);
 
-/// The number in a file. Reentrant.
+/// Reads the number in a file. Reentrant.
 std::optional<std::int64_t> read_integer(const std::filesystem::path& file, int base = 10);
 
 /// The entries of a folder, in any order; empty when it cannot be listed. Reentrant.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder);
 
-/// The same, for names that begin with `prefix`.
+/// Entries whose names begin with `prefix`.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder,
                                            std::string_view prefix);
 

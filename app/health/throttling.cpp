@@ -16,7 +16,7 @@ struct Bits {
   unsigned before = 0;
 };
 
-/// The firmware's word: current causes in bits 0 to 3, past ones in 16 to 19.
+/// Bits of the firmware: current causes in bits 0 to 3, past ones in 16 to 19.
 std::optional<Bits> of_firmware(const fs::path& sys) {
   for (const fs::path& device : entries(sys / "bus/platform/devices")) {
     if (!device.native().ends_with(":firmware")) continue;
@@ -28,7 +28,7 @@ std::optional<Bits> of_firmware(const fs::path& sys) {
   return std::nullopt;
 }
 
-/// The supply monitor of the same chip, also in kernels without that word.
+/// Supply monitor of the same chip, also in kernels without that word.
 std::optional<Bits> of_supply_monitor(const fs::path& sys) {
   for (const fs::path& device : entries(sys / "class/hwmon")) {
     if (read_system_file(device / "name") != "rpi_volt\n") continue;
@@ -38,7 +38,7 @@ std::optional<Bits> of_supply_monitor(const fs::path& sys) {
   return std::nullopt;
 }
 
-/// A processor as a cooling device: its state is 0 at full speed.
+/// State of a processor as a cooling device: 0 at full speed.
 std::optional<Bits> of_cooling_devices(const fs::path& sys) {
   std::optional<Bits> bits;
   for (const fs::path& device : entries(sys / "class/thermal", "cooling_device")) {

@@ -13,16 +13,16 @@ namespace orbwatch::app {
 /// Thread-bound.
 class ThrottlingMonitor {
  public:
-  /// `sys`: where sysfs is mounted.
+  /// `sys` is the mount point of sysfs.
   explicit ThrottlingMonitor(std::filesystem::path sys) : sys_(std::move(sys)) {}
 
-  /// The bits; nullopt when the board has no source.
+  /// Reads the bits; nullopt when the board has no source.
   std::optional<std::uint8_t> read();
 
  private:
   std::filesystem::path sys_;
   unsigned since_power_on_ = 0;
-  std::optional<std::int64_t> events_;  ///< of the x86 counters, at the last reading
+  std::optional<std::int64_t> events_;  ///< x86 counters at the last reading
 };
 
 }  // namespace orbwatch::app

@@ -7,7 +7,7 @@
 
 namespace orbwatch::app {
 
-/// Every colour map: OpenCV's of these names, and plain grey.
+/// Names of all colour maps: OpenCV's, and plain grey.
 inline constexpr std::array<std::string_view, 5> kColourMapNames{"grey", "inferno", "turbo", "hot",
                                                                  "viridis"};
 

@@ -12,14 +12,14 @@
 namespace orbwatch::app {
 
 /// Encodes JPEG by libjpeg-turbo: one-channel pictures as grey, others as Y'CbCr 4:2:0, without a
-/// conversion if they are that (I420 in remap::kJfif). Keeps its memory from picture to picture.
-/// Thread-bound.
+/// conversion if they already have that format (I420 in remap::kJfif). Reuses its memory for each
+/// picture. Thread-bound.
 class JpegEncoder {
  public:
   JpegEncoder();
 
-  /// Returns the picture as JPEG, valid until the next call. `quality` is 1 to 100. Of 16 bit
-  /// luminance the upper 8 bits remain. Error: out of memory.
+  /// Returns the picture as JPEG, valid until the next call. `quality` is 1 to 100. The upper 8
+  /// bits of 16 bit luminance are kept. Error: out of memory.
   Result<std::span<std::uint8_t>> encode(const Picture& picture, int quality);
 
  private:
@@ -27,7 +27,7 @@ class JpegEncoder {
     void operator()(void* encoder) const;
   };
 
-  /// Returns what turbojpeg does: 0, or an error.
+  /// Returns the result of turbojpeg: 0, or an error.
   int compress(const Picture& picture, int quality, unsigned long& size);
 
   std::unique_ptr<void, Close> encoder_;

@@ -11,7 +11,7 @@ namespace orbwatch::app {
 /// Quality and rate of a stream of JPEG pictures.
 struct JpegSettings {
   int quality = 85;              ///< 1 to 100, the upper limit
-  std::size_t target_bytes = 0;  ///< of a picture; 0: no limit
+  std::size_t target_bytes = 0;  ///< bytes of a picture; 0: no limit
   double rate = 0;               ///< pictures per second at most; 0: all
 };
 
@@ -41,7 +41,7 @@ class JpegQuality {
     if (target_ == 0) return false;
     const double ratio = static_cast<double>(bytes) / static_cast<double>(target_);
     if (ratio > 1 && quality_ > kLeast && repeats_ < kMaxRepeats) {
-      // Around the usual qualities half the size takes 20 to 40 steps.
+      // Around the usual qualities, halving the size needs 20 to 40 steps.
       const int step = static_cast<int>(std::ceil(40 * std::log2(ratio)));
       quality_ = std::max(kLeast, quality_ - std::max(3, step));
       ++repeats_;
@@ -54,7 +54,7 @@ class JpegQuality {
 
  private:
   static constexpr int kMaxRepeats = 4;
-  /// Below this share of the target a picture leaves room for a better one.
+  /// Share of the target below which a picture permits a better quality.
   static constexpr double kRoom = 0.9;
 
   int best_;

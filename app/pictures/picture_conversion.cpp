@@ -19,11 +19,11 @@ const std::uint16_t* words(const Picture& picture, int y) {
   return reinterpret_cast<const std::uint16_t*>(row(picture, 0, y));
 }
 
-/// The samples of one row of a Y'CbCr picture.
+/// Samples of one row of a Y'CbCr picture.
 struct YuvRow {
   const Sample *y, *u, *v;
   int luma_step;
-  int chroma_step;  ///< to the pair of pixels after the next
+  int chroma_step;  ///< step to the next pair of pixels' chroma
 };
 
 YuvRow yuv_row(const Picture& picture, int y) {
@@ -70,7 +70,7 @@ void each_rgb(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, cons
   }
 }
 
-/// One row of luminance, 8 bit.
+/// Writes one row of luminance, 8 bit.
 void grey_row(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, Sample* out) {
   const PixelFormatInfo& facts = info(picture.format);
   if (picture.format == PixelFormat::Grey) {
@@ -90,7 +90,8 @@ void grey_row(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, Samp
 void colour_row(const Picture& picture, int y, const remap::YuvToRgb& to_rgb, bool blue_first,
                 Sample* out) {
   if (info(picture.format).colour == ColourModel::Luminance) {
-    // In the row's last third: spreading from the left never overwrites an unread one.
+    // The grey row is in the output's last third: expanding it from the left never overwrites an
+    // unread sample.
     Sample* grey = out + 2 * picture.width;
     grey_row(picture, y, to_rgb, grey);
     for (int x = 0; x < picture.width; ++x) std::memset(out + 3 * x, grey[x], 3);

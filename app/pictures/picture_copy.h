@@ -8,14 +8,14 @@
 
 namespace orbwatch::app {
 
-/// A camera's picture that owns its samples.
+/// Camera's picture that owns its samples.
 struct RecordedPicture {
   Picture picture;
   std::unique_ptr<std::byte[]> storage;
-  std::chrono::nanoseconds time{};  ///< of its exposure, on a clock that all cameras share
+  std::chrono::nanoseconds time{};  ///< time of its exposure, on a clock that all cameras share
 };
 
-/// Every plane of `picture`, rows without padding. Reentrant.
+/// Copies every plane of `picture`, rows without padding. Reentrant.
 RecordedPicture copied(const Picture& picture, std::chrono::nanoseconds time);
 
 }  // namespace orbwatch::app

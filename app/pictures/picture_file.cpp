@@ -21,7 +21,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-/// In OpenCV's order of channels.
+/// Converts to OpenCV's order of channels.
 cv::Mat to_bgr(const Picture& picture) {
   const cv::Mat rgb = align::first_plane(picture);
   if (rgb.channels() == 1) return rgb;

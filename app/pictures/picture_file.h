@@ -8,7 +8,7 @@
 
 namespace orbwatch::app {
 
-/// Checks by the name alone whether a picture of `format` can be written to `path`. Errors: not
+/// Checks only by the name whether a picture of `format` can be written to `path`. Errors: not
 /// .png, .jpg or .jpeg; 16 bit or transparency as JPEG.
 Result<> check_picture_name(const std::filesystem::path& path, PixelFormat format,
                             bool transparency);

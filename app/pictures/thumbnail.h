@@ -10,11 +10,12 @@ namespace orbwatch::app {
 /// A small picture of a large one. Thread-bound; reuses its memory.
 class Thumbnail {
  public:
-  /// Pixels.
+  /// Limit in pixels.
   static constexpr int kLongestSide = 160;
 
-  /// Rgb, or Grey of luminance, each pixel the mean of those that it stands for, neither side above
-  /// kLongestSide; valid until the next call. A picture that is small enough keeps its size.
+  /// Scales a picture to Rgb, or Grey for luminance, each pixel the mean of the pixels that it
+  /// covers, neither side above kLongestSide; valid until the next call. A picture that is small
+  /// enough keeps its size.
   Picture of(const Picture& picture);
 
  private:

@@ -1,6 +1,6 @@
 #include "app/service/journal.h"
 
-// The place that logs would be this file, whatever the line is about.
+// The source location would always be this file.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 #include <systemd/sd-journal.h>
 #include <unistd.h>
@@ -23,8 +23,8 @@ void add(std::vector<std::string>& fields, const char* name, std::string_view va
 void write_journal(const LogRecord& record) {
   std::vector<std::string> fields;
   add(fields, "MESSAGE", record.text);
-  // As systemd calls lines on stderr; the name of the process is another after it started itself
-  // again.
+  // Same identifier that systemd gives to lines on stderr; the process's name differs after it
+  // re-executed itself.
   add(fields, "SYSLOG_IDENTIFIER", program_invocation_short_name);
   add(fields, "PRIORITY", std::to_string(static_cast<int>(record.level)));
   add(fields, kCameraField, record.fields.camera);
@@ -41,7 +41,7 @@ void write_journal(const LogRecord& record) {
 }  // namespace
 
 LogWriter::Output log_output() {
-  // libsystemd drops without an error what it sends to a journal that is not there.
+  // libsystemd drops messages without an error if the journal is not running.
   const bool is_there = is_journal_on_stderr() && ::access(kSocket, F_OK) == 0;
   return is_there ? write_journal : write_text;
 }

@@ -9,9 +9,9 @@ inline constexpr const char* kCameraField = "ORBWATCH_CAMERA";
 inline constexpr const char* kFaultField = "ORBWATCH_FAULT";
 inline constexpr const char* kTriggerField = "ORBWATCH_TRIGGER";
 
-/// Where the log of this process goes: with its fields to the journal if stderr is connected to
-/// that, else as text to stderr, and what the journal does not accept, too. Not while the
-/// environment is changed.
+/// Output for the log of this process: with its fields to the journal if stderr is connected to it,
+/// else as text to stderr, which also receives the lines that the journal refuses. Must not be
+/// called while the environment is changed.
 LogWriter::Output log_output();
 
 }  // namespace orbwatch::app

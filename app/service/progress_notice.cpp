@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMessagesInPeriod = 4;
 
-/// Without a watchdog only changes of the state are sent.
+/// Pause between messages; without a watchdog only changes of the state are sent.
 hal::Clock::duration pause_of(std::chrono::microseconds period) {
   return period.count() > 0 ? period / kMessagesInPeriod : hal::Clock::duration::max();
 }

@@ -12,12 +12,12 @@
 namespace orbwatch::app {
 
 /// Forwards the pipeline's progress to the service manager: its first status makes the service
-/// ready, later ones feed the watchdog, four times in its period. Nothing else feeds it, and
-/// nothing does while nobody supervises the process, however well the pipeline works.
+/// ready, later ones feed the watchdog, four times in its period. Nothing else feeds it, and it is
+/// not fed while the process is unsupervised, even if the pipeline works.
 class ProgressNotice : public Sink {
  public:
-  /// `remark` follows the state in the service's status; empty: none. `is_supervised` is called by
-  /// the pipeline; null: always.
+  /// `remark` follows the state in the service's status; empty: none. The pipeline calls
+  /// `is_supervised`; null: always supervised.
   explicit ProgressNotice(std::string remark = {}, std::function<bool()> is_supervised = nullptr);
   ~ProgressNotice() override { stop(); }
 
@@ -32,13 +32,13 @@ class ProgressNotice : public Sink {
 
   const std::string remark_;
   const std::function<bool()> is_supervised_;
-  const hal::Clock::duration pause_;  ///< between two messages of the same state
-  // The pipeline's thread.
+  const hal::Clock::duration pause_;  ///< pause between two messages of the same state
+  // State that was sent last; used by the pipeline's thread only.
   std::optional<SystemState> state_;
   hal::TimePoint sent_{};
 
   hal::Mailbox<SystemState> progress_;
-  hal::Thread thread_;  ///< messages may wait for their reader
+  hal::Thread thread_;  ///< sends the messages, which may wait for their reader
 };
 
 }  // namespace orbwatch::app

@@ -13,12 +13,13 @@
 namespace orbwatch::app {
 namespace {
 
-/// As TimeoutStartSec of platform/service/orbwatch.service: compiling the views of a large site.
+/// Longest start, equal to TimeoutStartSec of platform/service/orbwatch.service: compiling the
+/// views of a large site.
 constexpr std::chrono::microseconds kLongestStart = std::chrono::minutes(3);
 
 std::string microseconds(std::chrono::microseconds time) { return std::to_string(time.count()); }
 
-/// CLOCK_MONOTONIC, as systemd requires it of RELOADING=1.
+/// Time of CLOCK_MONOTONIC, which systemd requires with RELOADING=1.
 std::string monotonic_now() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
