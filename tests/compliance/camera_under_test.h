@@ -12,7 +12,7 @@
 
 namespace orbwatch::tests {
 
-/// The suite's settings: see README.md.
+/// Settings of the suite: see README.md.
 struct ComplianceSettings {
   std::vector<app::CameraSettings> cameras;
   std::size_t most_frames = 89;
@@ -21,10 +21,10 @@ struct ComplianceSettings {
   std::string replug;
 };
 
-/// The camera that the suite is run on, one per process.
+/// Camera that the suite is run on, one per process.
 class CameraUnderTest {
  public:
-  /// Reads the file of settings. The error says file, line and key.
+  /// Reads the file of settings. The error states file, line and key.
   static Result<> load(const std::filesystem::path& file);
   static const CameraUnderTest& get();
 
@@ -35,14 +35,14 @@ class CameraUnderTest {
   std::unique_ptr<hal::Camera> make_another() const { return make(settings_.cameras.back()); }
   hal::StreamRequest another_request() const { return request(settings_.cameras.back()); }
 
-  /// `count`, or the most frames that a case may use with this camera.
+  /// Returns `count`, or the largest number of frames that a case may use with this camera.
   std::size_t limited(std::size_t count) const { return std::min(count, settings_.most_frames); }
 
-  /// Whether the sequence counts frames for which there was no buffer.
+  /// True if the sequence counts frames for which there was no buffer.
   bool counts_all() const { return settings_.counts_all; }
 
   bool can_be_unplugged() const { return is_scripted() || !settings_.unplug.empty(); }
-  /// A camera that is unplugged and replugged after its first frames.
+  /// Makes a camera that is unplugged and replugged after its first frames.
   std::unique_ptr<hal::Camera> make_unpluggable() const;
   void unplug() const;
   void replug() const;
@@ -52,7 +52,7 @@ class CameraUnderTest {
 
   static std::unique_ptr<hal::Camera> make(const app::CameraSettings& settings);
   static hal::StreamRequest request(const app::CameraSettings& settings);
-  /// Its faults are scripted by exposure number.
+  /// True if its faults are scripted by exposure number.
   bool is_scripted() const;
 
   static std::optional<CameraUnderTest> instance_;

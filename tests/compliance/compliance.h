@@ -9,7 +9,7 @@
 
 namespace orbwatch::tests {
 
-/// Each case has a configured camera.
+/// Fixture with a configured camera for each case.
 class Compliance : public testing::Test {
  protected:
   void SetUp() override { ASSERT_NO_FATAL_FAILURE(configure(*camera, subject.request(), format)); }

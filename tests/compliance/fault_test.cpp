@@ -55,7 +55,7 @@ TEST_F(Compliance, StopsWhileItIsUnpluggedAndItsFramesStayValid) {
   subject.replug();
 }
 
-/// The camera, and another one that must stream undisturbed.
+/// Fixture with the camera, and another one that must stream undisturbed.
 class TwoCameras : public Compliance {
  protected:
   void SetUp() override {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A consumer that keeps its frames.
+/// Consumer that keeps its frames.
 class Hoard {
  public:
   void add(const hal::Frame& frame) {
@@ -42,7 +42,7 @@ class Hoard {
 
 class HeldFrames : public Compliance {
  protected:
-  /// Long enough for a camera that still has a buffer to deliver.
+  /// Duration long enough for a camera that still has a buffer to deliver.
   hal::Clock::duration silence() const {
     const double periods = format.frame_rate > 0 ? 20 / format.frame_rate : 0;
     return std::max<hal::Clock::duration>(2s, std::chrono::duration_cast<hal::Clock::duration>(

@@ -8,7 +8,7 @@
 
 namespace orbwatch::tests {
 
-/// A held frame and a copy of its samples at arrival.
+/// Held frame and a copy of its samples at arrival.
 class KeptFrame {
  public:
   explicit KeptFrame(hal::Frame frame) : frame_(std::move(frame)), samples_(samples(*frame_)) {}
@@ -23,7 +23,7 @@ class KeptFrame {
     std::vector<std::byte> bytes;
     for (std::size_t n = 0; n < facts.plane_count(); ++n) {
       const auto& plane = picture.planes[n];
-      // A plane's row has this share of the first one's bytes, as in Picture::contiguous().
+      // A row of a plane has this share of the first plane's bytes, as in Picture::contiguous().
       const auto row = static_cast<std::ptrdiff_t>(
           (row_bytes(picture.format, picture.width) * facts.planes[n].samples >>
            facts.planes[n].shift_x) /

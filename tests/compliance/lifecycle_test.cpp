@@ -3,7 +3,7 @@
 
 #include "tests/compliance/compliance.h"
 
-/// configure, start and stop in every order.
+/// Calls of configure, start and stop in every order.
 namespace orbwatch::tests {
 namespace {
 

@@ -4,10 +4,10 @@
 
 #include "tests/compliance/camera_under_test.h"
 
-/// camera_compliance SETTINGS.toml [--gtest_...]
+/// Usage: camera_compliance SETTINGS.toml [--gtest_...]
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // asked for while building
+  if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // the build lists the tests
   if (argc != 2) {
     std::fputs("Usage: camera_compliance SETTINGS.toml; see tests/compliance/README.md\n", stderr);
     return 2;

@@ -28,7 +28,7 @@ TEST_F(Compliance, TwentyStreamsLeaveNoFileAndNoThread) {
     // Libraries may keep resources after their first use.
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
-  // Threads of libraries may close what they had a moment later.
+  // Threads of libraries may close their files a moment later.
   EXPECT_TRUE(comes_true([&] { return open_files() <= files_before; }))
       << open_files() << ", before " << files_before;
   EXPECT_TRUE(comes_true([&] { return threads() <= threads_before; }))
@@ -47,7 +47,7 @@ TEST_F(Compliance, TwentyCamerasLeaveNoFileAndNoThread) {
     }
     if (cycle == 1) files_before = open_files(), threads_before = threads();
   }
-  // Threads of libraries may close what they had a moment later.
+  // Threads of libraries may close their files a moment later.
   EXPECT_TRUE(comes_true([&] { return open_files() <= files_before; }))
       << open_files() << ", before " << files_before;
   EXPECT_TRUE(comes_true([&] { return threads() <= threads_before; }))

@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Ample, also in an emulated machine.
+/// Sufficient time, also in an emulated machine.
 constexpr auto kGuard = 120s;
 /// A sensor may have begun its first exposure before the start of the stream.
 constexpr auto kBeforeStart = 1s;
@@ -84,8 +84,8 @@ std::vector<hal::FaultReport> Witness::faults() const {
   return faults_;
 }
 
-/// With the lock held: callbacks come one at a time, on one thread that is not the owner's, between
-/// start and stop.
+/// Checks that callbacks come one at a time, on one thread that is not the owner's, between start
+/// and stop. Call with the lock held.
 void Witness::expect_callback_allowed() {
   EXPECT_FALSE(closed_) << "a callback outside of the stream";
   EXPECT_FALSE(inside_) << "two callbacks at a time";

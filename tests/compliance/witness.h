@@ -25,16 +25,16 @@ class Witness {
 
   /// Starts the camera with this receiver.
   void start(hal::Camera& camera);
-  /// Stops it; nothing may arrive from then on.
+  /// Stops it; no frame may arrive from then on.
   void stop(hal::Camera& camera);
-  /// The stream was ended otherwise; nothing may arrive from then on.
+  /// Records that the stream was ended otherwise; no frame may arrive from then on.
   void close();
 
-  /// Until `count` frames of this stream; fails the test after two minutes.
+  /// Waits for `count` frames of this stream; fails the test after two minutes.
   void wait_for_frames(std::size_t count);
-  /// Until more than `count` frames; false after `max_wait`.
+  /// Waits for more than `count` frames; false after `max_wait`.
   bool wait_for_more(std::size_t count, hal::Clock::duration max_wait);
-  /// Until a report after the first `seen` for which `holds`.
+  /// Waits for a report after the first `seen` for which `holds` is true.
   void wait_for_fault(std::size_t seen, const std::function<bool(hal::Fault)>& holds);
 
   std::vector<hal::FrameMetadata> frames() const;

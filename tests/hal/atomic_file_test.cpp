@@ -55,7 +55,7 @@ TEST(WriteFile, KeepsTheModeOfTheFile) {
   EXPECT_EQ(fs::status(file).permissions(), mode);
 }
 
-/// A folder that root has made for a service.
+/// Folder that root has made for a service.
 class FileOfTheService : public testing::TestWithParam<mode_t> {
  protected:
   void SetUp() override {
@@ -107,7 +107,7 @@ TEST_P(FileOfTheService, IsItsOwnAgainWhenRootReplacesIt) {
   struct stat about {};
   ASSERT_EQ(::stat(file.c_str(), &about), 0);
   EXPECT_EQ(about.st_uid, tests::kService);
-  // One that an earlier version left to root.
+  // Ownership that an earlier version left to root.
   ASSERT_EQ(::chown(file.c_str(), 0, 0), 0);
   ASSERT_TRUE(is_written(0, file, FileAccess::Folder));
   EXPECT_TRUE(is_read(tests::kService, file));
@@ -117,7 +117,7 @@ TEST_P(FileOfTheService, IsForItAloneWhereItMayHoldSecrets) {
   for (const uid_t user : {uid_t{0}, tests::kService}) {
     const fs::path file = folder / "state" / std::to_string(user);
     ASSERT_TRUE(is_written(user, file, FileAccess::Owner));
-    fs::permissions(file, fs::perms(0644));  // as an earlier version left it
+    fs::permissions(file, fs::perms(0644));  // mode that an earlier version left
     ASSERT_TRUE(is_written(user, file, FileAccess::Owner));
     EXPECT_TRUE(is_read(tests::kService, file)) << user;
     EXPECT_FALSE(is_read(tests::kMember, file)) << user;

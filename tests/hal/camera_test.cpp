@@ -12,7 +12,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// The smallest back-end: one grey pixel as fast as it is consumed.
+/// Smallest back-end: one grey pixel as fast as it is consumed.
 class CountingCamera : public Camera {
  public:
   CountingCamera() : Camera({"counting", "counter", "test"}) {}
@@ -158,8 +158,8 @@ TEST(Camera, ReportsAFaultOncePerChange) {
   EXPECT_EQ(faults[2], Fault::ReadError);
 }
 
-/// A camera that plays a script: '.' is an intact frame, 'f' a flawed and 'd' a damaged one, 'a'
-/// one without a stamp, 'u' that it is unplugged and '_' a second without frames.
+/// Camera that plays a script: '.' is an intact frame, 'f' a flawed and 'd' a damaged one, 'a' one
+/// without a stamp, 'u' an unplugged camera and '_' a second without frames.
 class PlayingCamera : public Camera {
  public:
   explicit PlayingCamera(std::string script)

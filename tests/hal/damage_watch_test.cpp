@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A camera at 30 frames per second, as the watch sees it.
+/// Frames of a camera at 30 frames per second for the watch.
 class DamageWatchTest : public testing::Test {
  protected:
   bool damaged(int count = 1) {

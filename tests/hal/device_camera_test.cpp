@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A device with one life per opening: it delivers frames, then fails or is silent.
+/// Device with one life per opening: it delivers frames, then fails or is silent.
 class BreakingCamera : public DeviceCamera {
  public:
   struct Life {
@@ -31,7 +31,7 @@ class BreakingCamera : public DeviceCamera {
       : DeviceCamera({"breaking", "", "test"}), lives_(std::move(lives)) {}
   ~BreakingCamera() override { stop(); }
 
-  int waits() const { return waits_; }  ///< begun
+  int waits() const { return waits_; }  ///< number of waits that began
   int interrupts() const {
     const std::lock_guard lock(mutex_);
     return interrupts_;
@@ -66,7 +66,7 @@ class BreakingCamera : public DeviceCamera {
   }
 
   bool may_be_silent() const override { return life_.may_be_silent; }
-  /// The only way out of a wait, as for a device that is polled.
+  /// Ends a wait; there is no other way, as for a device that is polled.
   void interrupt() override {
     const std::lock_guard lock(mutex_);
     ++interrupts_;
@@ -90,7 +90,7 @@ class BreakingCamera : public DeviceCamera {
   std::size_t captured_ = 0;
 };
 
-/// A camera's reports and frames.
+/// Reports and frames of a camera.
 class Reports {
  public:
   void start(Camera& camera) {

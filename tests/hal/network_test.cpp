@@ -41,7 +41,8 @@ TEST(Network, IsOneMachineOrAllWithItsPrefix) {
 TEST(Network, OfOneProtocolHoldsNobodyOfTheOther) {
   EXPECT_TRUE(contains("0.0.0.0/0", "255.255.255.255"));
   EXPECT_FALSE(contains("0.0.0.0/0", "fd00::1"));
-  // ::/0 is every address there is; a listener on :: sees IPv4 clients as ::ffff:a.b.c.d.
+  // The prefix ::/0 contains every address; a listener on :: reports IPv4 clients as
+  // ::ffff:a.b.c.d.
   EXPECT_TRUE(contains("::/0", "10.0.0.1"));
   EXPECT_TRUE(contains("10.0.0.0/8", "::ffff:10.1.2.3"));
 }

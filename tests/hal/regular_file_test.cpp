@@ -40,7 +40,7 @@ TEST_F(RegularFile, IsReadWhole) {
   }
 }
 
-/// Files of the kernel say that they have no bytes.
+/// The kernel states a size of 0 for its files.
 TEST_F(RegularFile, IsReadWithoutAStatedSize) {
   EXPECT_THAT(read_regular_file("/proc/self/status", kMost).value(), StartsWith("Name:"));
 }

@@ -15,7 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Stands in for /dev/dma_heap.
+/// Replaces /dev/dma_heap.
 class DmaHeaps : public testing::Test {
  protected:
   void add(const char* heap) const { std::ofstream(folder_.path() / heap) << heap; }

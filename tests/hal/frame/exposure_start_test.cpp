@@ -11,8 +11,8 @@ constexpr TimePoint kExposureStart(100s);
 constexpr auto kExposure = 8ms;
 constexpr StampSettings kSettings{.readout_time = 12ms, .offset = 700us};
 
-/// A frame whose exposure began at kExposureStart, stamped as the source says, and late by the
-/// offset.
+/// Metadata of a frame whose exposure began at kExposureStart, stamped as `source` states, and
+/// delayed by the offset.
 FrameMetadata stamped(StampSource source) {
   const bool after_exposure = source != StampSource::ExposureStart;
   const bool after_readout = after_exposure && source != StampSource::ReadoutStart;

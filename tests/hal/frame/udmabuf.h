@@ -14,7 +14,7 @@
 
 #include "hal/frame/frame_memory.h"
 
-/// Memory to import where the kernel has no dma-heaps, as Debian's.
+/// Memory to import on kernels without dma-heaps, such as Debian's.
 namespace orbwatch::hal {
 
 inline tl::unexpected<Error> failed_call(const char* call) {
@@ -31,7 +31,7 @@ inline Result<FileDescriptor> allocate_shared_memory(std::size_t bytes) {
   return file;
 }
 
-/// A real dma-buf of such memory.
+/// Allocates a real dma-buf of such memory.
 inline Result<DmaBuffer> allocate_udmabuf(std::size_t bytes) {
   const auto memory = allocate_shared_memory(bytes);
   if (!memory) return tl::unexpected(memory.error());
@@ -54,7 +54,7 @@ inline DmaBufferSource shared_memory() {
           }};
 }
 
-/// Has none.
+/// Source without memory.
 inline DmaBufferSource empty_source() {
   return {"empty", [](std::size_t) -> Result<DmaBuffer> { return fail("has no memory"); }};
 }

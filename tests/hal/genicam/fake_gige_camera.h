@@ -26,9 +26,9 @@
 
 namespace orbwatch::tests {
 
-/// The description of Aravis' fake camera and the features of a thermal one.
+/// Description of Aravis' fake camera and the features of a thermal one.
 inline std::string thermal_description() {
-  // Has the library linked whose resource it is.
+  // This call links the library that contains the resource.
   EXPECT_EQ(arv_get_major_version(), 0U);
   GBytes* const standard = g_resources_lookup_data("/org/aravis/arv-fake-camera.xml",
                                                    G_RESOURCE_LOOKUP_FLAGS_NONE, nullptr);
@@ -44,16 +44,16 @@ inline std::string thermal_description() {
 }
 
 /// Aravis' fake GigE Vision camera: a program that listens on an interface of the calling thread's
-/// network. There is one in a network.
+/// network. Each network has one.
 class FakeGigeCamera {
  public:
   static constexpr const char* kAddress = "127.0.0.1";
   static constexpr const char* kSerial = "FAKE7";
 
   struct Options {
-    double lost_per_thousand = 0;  ///< packets
+    double lost_per_thousand = 0;  ///< lost packets per thousand
     std::string interface = "lo";
-    std::string address = kAddress;  ///< of that interface
+    std::string address = kAddress;  ///< address of that interface
     bool is_thermal = false;         ///< has the features of thermal_description()
   };
 
@@ -75,7 +75,7 @@ class FakeGigeCamera {
         comes_true([this] { return hal::read_gige_identity(options_.address).has_value(); }));
   }
 
-  /// Starts it again after its interface has got another address.
+  /// Starts it again after its interface was given another address.
   void move_to(const std::string& address) {
     kill();
     options_.address = address;
@@ -88,8 +88,8 @@ class FakeGigeCamera {
   std::optional<Subprocess> program_;
 };
 
-/// Samples of the fake camera's frame `id` of 16 bits, as its source makes them of its factory
-/// settings (arvfakecamera.c, arv_fake_camera_diagonal_ramp).
+/// Samples of the fake camera's frame `id` of 16 bits, computed like its source does for its
+/// factory settings (arvfakecamera.c, arv_fake_camera_diagonal_ramp).
 inline std::uint16_t fake_sample_16(std::uint64_t id, int x, int y) {
   return static_cast<std::uint16_t>(
       (256 * static_cast<std::uint64_t>(x) + 256 * id + 256 * static_cast<std::uint64_t>(y)) %
@@ -100,8 +100,8 @@ inline std::uint8_t fake_sample_8(std::uint64_t id, int x, int y) {
       (static_cast<std::uint64_t>(x) + id + static_cast<std::uint64_t>(y)) % 255);
 }
 
-/// Receives a camera's frames and faults, and keeps what a test asks of each. Its end stops the
-/// camera, which outlives it.
+/// Receives a camera's frames and faults, and keeps the part of each frame that a test needs. Its
+/// end stops the camera, which outlives it.
 template <class Kept>
 class Receiver {
  public:
@@ -128,8 +128,8 @@ class Receiver {
   std::vector<hal::FaultReport> wait_for_faults(std::size_t count) {
     return wait(faults_, [count](const auto& list) { return list.size() >= count; });
   }
-  /// Waits until the camera delivers again after a fault, or several, beyond the first `seen`
-  /// reports; all reports.
+  /// Waits until the camera delivers again after one or more faults beyond the first `seen`
+  /// reports; returns all reports.
   std::vector<hal::FaultReport> wait_for_return(std::size_t seen) {
     return wait(faults_, [seen](const auto& list) {
       return list.size() > seen + 1 && list.back().fault == hal::Fault::None;

@@ -14,7 +14,7 @@
 #include "tests/hal/genicam/resending_proxy.h"
 #include "tests/support/share.h"
 
-/// On Aravis' fake camera, in a network of its own.
+/// Tests on Aravis' fake camera, in a network of its own.
 namespace orbwatch::hal {
 namespace {
 
@@ -30,7 +30,7 @@ class OnFakeCamera : public testing::Test {
  protected:
   void SetUp() override { ORBWATCH_REQUIRE_NETWORK_NAMESPACES(); }
 
-  /// Does `work` in a network with the fake camera.
+  /// Executes `work` in a network with the fake camera.
   void run(const std::function<void(FakeGigeCamera&)>& work, double lost_per_thousand = 0) {
     run_with({.lost_per_thousand = lost_per_thousand}, work);
   }
@@ -65,7 +65,7 @@ class OnFakeCamera : public testing::Test {
   std::optional<tests::NetworkNamespace> network_;
 };
 
-/// The number that the fake camera gave to a frame; nullopt when a sample is another than it sent.
+/// Number that the fake camera gave to a frame; nullopt when a sample differs from the sent one.
 std::optional<std::uint64_t> id_of(const Picture& picture) {
   const auto samples = picture.samples<std::uint16_t>();
   std::uint64_t id = 1;
@@ -82,8 +82,8 @@ struct Numbered {
   std::uint64_t sequence;
   std::optional<std::uint64_t> id;
 
-  /// Whether as many frames were sent since `first` as the sequence says. The ids wrap after 65535
-  /// to 1, which the fake camera's do soon.
+  /// True if as many frames were sent since `first` as the sequence states. The ids wrap after
+  /// 65535 to 1, which the fake camera's reach soon.
   bool follows(const Numbered& first) const {
     return (*first.id + sequence - first.sequence) % 65535 == *id % 65535;
   }
@@ -228,7 +228,7 @@ TEST_F(OnFakeCamera, AThermalCameraSaysTheScaleOfItsCountsAndHasLimitsForItsFeat
     receiver.wait_for(1);
     EXPECT_EQ(refusal(camera.set("IRFormat", 1)), "");
     EXPECT_THAT(refusal(camera.set("IRFormat", 2)), HasSubstr("it changes what a count means"));
-    // It comes back as Radiometric, and is set again.
+    // The camera reconnects as Radiometric, and is set again.
     fake.kill();
     receiver.wait_for_faults(1);
     fake.start();
@@ -281,7 +281,7 @@ TEST_F(OnFakeCamera, AndAColourCameraAreSynchronisedByTheirStampsAndTheSkewIsSai
     const auto colour = make_camera(
         TestPatternSettings{.name = "colour", .pixel_format = PixelFormat::Rgb}, CameraContext{});
     configure(*colour, {64, 48, kRate});
-    // Half a period: each frame has one partner, however the cameras stand to each other.
+    // Half a period: each frame has one partner, for any phase between the cameras.
     FrameSync sync(2, {.window = 20ms, .max_wait = 100ms});
     const auto start = [&sync](Camera& camera, std::size_t index) {
       EXPECT_TRUE(camera.start([&sync, index](Frame frame) { sync.put(index, std::move(frame)); },
@@ -305,7 +305,7 @@ TEST_F(OnFakeCamera, AndAColourCameraAreSynchronisedByTheirStampsAndTheSkewIsSai
   });
 }
 
-/// Every frame that the camera sent, by its number.
+/// Sequence numbers of all frames that the camera sent.
 class Witnessed {
  public:
   explicit Witnessed(Camera& camera) {
@@ -335,7 +335,7 @@ class LostPackets : public OnFakeCamera, public testing::WithParamInterface<doub
 
 TEST_P(LostPackets, CostTheirFramesWhichAreCountedAndNeverDelivered) {
   constexpr std::size_t kFrames = 200;
-  constexpr int kPackets = 30;  // of a frame, with its first and last one
+  constexpr int kPackets = 30;  // packets of a frame, including its first and last one
   run(
       [&](FakeGigeCamera&) {
         GenicamCamera camera(settings("Mono16"));
@@ -345,7 +345,7 @@ TEST_P(LostPackets, CostTheirFramesWhichAreCountedAndNeverDelivered) {
         receiver.start(camera);
         const auto sequences = witnessed.wait_for(kFrames);
         camera.stop();
-        // Where the machine is busy a frame may find no buffer; then its packets are counted.
+        // On a busy machine a frame may find no buffer; then its packets are counted.
         const std::uint64_t gaps = sequences.back() - sequences.front() + 1 - sequences.size();
         EXPECT_LE(gaps, camera.link_counts().underruns) << "a frame is neither there nor counted";
         const auto frames = receiver.wait_for(0);
@@ -422,7 +422,7 @@ TEST(OverACable, IsFoundBySerialNumberAndComesBackWhenItIsPluggedOrMoves) {
     Receiver<Numbered> receiver(numbered);
     receiver.start(camera);
     for (const Numbered& frame : receiver.wait_for(20)) EXPECT_TRUE(frame.id);
-    // Aravis takes five seconds to close a camera that does not answer.
+    // Aravis needs five seconds to close a camera that does not answer.
     if (!tests::acceptance_mode()) return;
     cable.pull();
     EXPECT_EQ(receiver.wait_for_faults(1)[0].fault, Fault::Unplugged);

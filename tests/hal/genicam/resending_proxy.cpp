@@ -17,12 +17,12 @@ constexpr std::uint32_t kReadRegisterAnswer = 0x81;
 constexpr std::uint32_t kWriteRegister = 0x82;
 constexpr std::uint32_t kWriteMemory = 0x86;
 constexpr std::uint32_t kCapabilities = 0x0934;
-constexpr std::uint32_t kResends = 4;  // of the capabilities
+constexpr std::uint32_t kResends = 4;  // bit of the capabilities
 constexpr std::uint32_t kStreamPort = 0x0d00;
 constexpr std::uint32_t kStreamAddress = 0x0d18;
 constexpr std::size_t kHeader = 8;
 
-/// The frames whose packets are kept.
+/// Frames whose packets are kept.
 constexpr std::uint16_t kFrames = 16;
 
 std::uint32_t take(std::span<const std::byte> bytes, std::size_t at, std::size_t size) {
@@ -68,7 +68,7 @@ ResendingProxy::ResendingProxy(const std::string& address, double lost_per_thous
   if (::connect(upstream_.get(), generic(camera), sizeof(camera)) != 0) {
     throw std::runtime_error("the proxy finds no camera");
   }
-  // The camera sends a frame in one go.
+  // The camera sends all packets of a frame at once.
   constexpr int kFrameBytes = 1 << 20;
   ::setsockopt(stream_.get(), SOL_SOCKET, SO_RCVBUFFORCE, &kFrameBytes, sizeof(kFrameBytes));
   sockaddr_in own{};
@@ -117,10 +117,11 @@ void ResendingProxy::on_request(Bytes packet, const sockaddr_in& client) {
   ::send(upstream_.get(), packet.data(), packet.size(), 0);
 }
 
-/// Where the client wants the stream is where the proxy sends it; the camera sends it to the proxy.
+/// Redirects the stream: the proxy sends it to the destination that the client sets, and the camera
+/// sends it to the proxy.
 void ResendingProxy::redirect(std::uint32_t address, Bytes value) {
   const std::uint32_t wanted = take(value, 0, 4);
-  if (wanted == 0) return;  // the stream's end
+  if (wanted == 0) return;  // end of the stream
   if (address == kStreamPort) {
     sink_.sin_port = htons(static_cast<std::uint16_t>(wanted));
     put(value, 0, (wanted & 0xffff0000U) | stream_port_);

@@ -18,24 +18,25 @@
 
 namespace orbwatch::tests {
 
-/// Stands in front of Aravis' fake camera, which listens on the loopback interface and sends no
-/// packet again: keeps the packets of its stream, loses some on their way, and sends them again on
+/// Proxy in front of Aravis' fake camera, which listens on the loopback interface and does not
+/// resend packets: keeps the packets of its stream, loses some on their way, and resends them on
 /// request (GigE Vision's PACKETRESEND), where they may be lost once more. Lives in the network of
 /// the thread that makes it.
 class ResendingProxy {
  public:
-  /// Listens at `address`; loses so many of a thousand packets.
+  /// Listens at `address`; loses `lost_per_thousand` of a thousand packets.
   ResendingProxy(const std::string& address, double lost_per_thousand);
   ResendingProxy(const ResendingProxy&) = delete;
   ResendingProxy& operator=(const ResendingProxy&) = delete;
   ~ResendingProxy();
 
-  int lost() const { return lost_; }    ///< packets, those that were asked for among them
-  int asked() const { return asked_; }  ///< for so many packets
+  int lost() const { return lost_; }    ///< lost packets, including resent ones
+  int asked() const { return asked_; }  ///< packets that the client requested again
 
  private:
   using Bytes = std::span<std::byte>;
-  using PacketId = std::pair<std::uint16_t, std::uint32_t>;  ///< of a frame, and in it
+  using PacketId =
+      std::pair<std::uint16_t, std::uint32_t>;  ///< number of a frame, and of a packet in it
 
   void serve();
   void on_request(Bytes packet, const sockaddr_in& client);
@@ -47,12 +48,12 @@ class ResendingProxy {
 
   std::bernoulli_distribution loses_;
   std::mt19937 random_{11};
-  hal::FileDescriptor control_;   ///< towards the client
-  hal::FileDescriptor upstream_;  ///< towards the camera
-  hal::FileDescriptor stream_;    ///< from the camera, and to the client
+  hal::FileDescriptor control_;   ///< socket to the client
+  hal::FileDescriptor upstream_;  ///< socket to the camera
+  hal::FileDescriptor stream_;    ///< socket from the camera, and to the client
   std::uint16_t stream_port_ = 0;
-  sockaddr_in client_{};  ///< that asked last
-  sockaddr_in sink_{};    ///< where the client wants the stream
+  sockaddr_in client_{};  ///< client that sent the last request
+  sockaddr_in sink_{};    ///< destination of the stream that the client set
   bool asked_capabilities_ = false;
   std::map<PacketId, std::vector<std::byte>> kept_;
   std::atomic<int> lost_ = 0;

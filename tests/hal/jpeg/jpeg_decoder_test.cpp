@@ -10,7 +10,7 @@
 namespace orbwatch::hal {
 namespace {
 
-constexpr int kGradientWidth = 53;  // odd: neither blocks nor pairs fit
+constexpr int kGradientWidth = 53;  // odd: not a multiple of blocks or pairs
 constexpr int kGradientHeight = 37;
 constexpr std::size_t kGradientPixels = std::size_t{kGradientWidth} * kGradientHeight;
 
@@ -41,7 +41,7 @@ std::vector<std::byte> gradient_jpeg(int flags = 0) {
   return jpeg;
 }
 
-/// JFIF's luminance of the pixels that were compressed.
+/// JFIF's luminance of the original pixels.
 double luminance(std::size_t pixel) {
   static const auto rgb = gradient();
   return 0.299 * rgb[3 * pixel] + 0.587 * rgb[3 * pixel + 1] + 0.114 * rgb[3 * pixel + 2];
@@ -52,7 +52,7 @@ struct GreyTarget {
   ImageView<std::uint8_t> view{pixels.data(), kGradientWidth, kGradientHeight, 1, kGradientWidth};
 };
 
-/// Cuts out one marker segment.
+/// Removes one marker segment.
 std::vector<std::byte> without_segment(const std::vector<std::byte>& jpeg, int marker) {
   std::vector<std::byte> kept(jpeg.begin(), jpeg.begin() + 2);
   std::size_t at = 2;

@@ -4,7 +4,7 @@
 
 namespace orbwatch::hal {
 
-/// Of a marker that has no segment, such as the one at a picture's end.
+/// Bytes of a marker without a segment, such as the one at a picture's end.
 inline constexpr std::size_t kMarkerBytes = 2;
 
 }  // namespace orbwatch::hal

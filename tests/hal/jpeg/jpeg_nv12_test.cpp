@@ -16,7 +16,7 @@ namespace {
 constexpr int kPlanarWidth = 72;
 constexpr int kPlanarHeight = 46;
 
-/// Y, U and V anywhere in the picture: smooth, so that any subsampling carries them.
+/// Y, U and V at any point of the picture: smooth, so that any subsampling preserves them.
 std::array<double, 3> truth(double x, double y) {
   return {40 + 2 * x + y, 220 - 2 * x, 30 + 3 * y};
 }
@@ -26,7 +26,7 @@ struct Plane {
   int width = 0;
 };
 
-/// A component with the detail of a subsampling: each sample the colour at its pixels' centre.
+/// Component with the detail of a subsampling: each sample is the colour at its pixels' centre.
 Plane plane(int component, int subsampling) {
   Plane made{{}, tjPlaneWidth(component, kPlanarWidth, subsampling)};
   const int height = tjPlaneHeight(component, kPlanarHeight, subsampling);
@@ -65,7 +65,7 @@ std::vector<std::byte> planar_jpeg(int subsampling, int flags = 0) {
   return jpeg;
 }
 
-/// Nv12 with rows that are longer than the picture.
+/// Nv12 picture with rows that are longer than the picture.
 struct Nv12Target {
   static constexpr std::ptrdiff_t kStride = kPlanarWidth + 10;
   std::vector<std::byte> memory =
@@ -87,7 +87,7 @@ TEST_P(JpegNv12, HasTheLuminanceAndTheChromaThatWereCompressed) {
   const auto done = decoder.decode_nv12(planar_jpeg(GetParam()), target.picture);
   ASSERT_TRUE(done) << done.error().message;
   const bool grey = GetParam() == TJSAMP_GRAY;
-  // A sample for 4 columns lies up to one column beside the pair's centre: 2 counts.
+  // A sample for 4 columns is up to one column beside the pair's centre: 2 counts.
   const double chroma_tolerance = GetParam() == TJSAMP_411 ? 4 : 2;
   for (int y = 0; y < kPlanarHeight; ++y) {
     EXPECT_EQ(target.sample(0, kPlanarWidth, y), 0xee) << "wrote behind row " << y;

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-// After <cstdio>.
+// Needs <cstdio> before it.
 #include <jpeglib.h>
 
 #include "hal/jpeg/jpeg_decoder.h"
 #include "tests/hal/jpeg/jpeg_marker.h"
 
-/// What of libjpeg's warnings is a fault of a picture.
+/// Faults of a picture among libjpeg's warnings.
 namespace orbwatch::hal {
 namespace {
 
@@ -23,7 +23,7 @@ constexpr int kCodedHeight = 40;
 
 using Bytes = std::vector<std::byte>;
 
-/// How a picture is compressed.
+/// Compression parameters of a picture.
 struct Coding {
   std::string name;
   bool progressive = false;
@@ -32,7 +32,7 @@ struct Coding {
   unsigned restart_rows = 0;   ///< rows of MCUs between restart markers
 };
 
-/// Without a pattern that repeats, so that any loss shows.
+/// A sample of a non-repeating pattern, so that any loss shows.
 std::uint8_t sample(int x, int y, int channel) {
   return static_cast<std::uint8_t>((x * x + 3 * y * y + 7 * x * y + 41 * channel) / 16);
 }
@@ -81,7 +81,7 @@ Bytes compress(const Coding& coding) {
   return jpeg;
 }
 
-/// The decoded picture; empty when it is refused.
+/// Result of decoding; an empty picture when it is refused.
 struct Decoded {
   explicit Decoded(JpegDecoder& decoder, std::span<const std::byte> jpeg)
       : memory(kCodedWidth * kCodedHeight * 3 / 2) {
@@ -98,7 +98,7 @@ struct Decoded {
   std::string error;
 };
 
-/// Where a marker begins, the last one of its kind.
+/// Offset of the last marker of a kind.
 std::ptrdiff_t last_marker(const Bytes& jpeg, int marker) {
   for (std::size_t at = jpeg.size() - 2;; --at) {
     if (jpeg[at] == std::byte{0xff} && std::to_integer<int>(jpeg[at + 1]) == marker) {
@@ -140,7 +140,7 @@ TEST_P(JpegCoding, MayHavePaddingBeforeItsEnd) {
   JpegDecoder decoder;
   const Decoded whole(decoder, jpeg);
   Bytes padded = jpeg;
-  // The first few of them are in the decoder's bit buffer, unnoticed.
+  // The first few of these bytes are in the decoder's bit buffer, unnoticed.
   padded.insert(padded.end() - kMarkerBytes, 16, std::byte{0});
   const Decoded decoded(decoder, padded);
   ASSERT_FALSE(decoded.is_refused()) << decoded.error;
@@ -163,7 +163,7 @@ TEST_P(JpegCoding, MayHaveOtherDataInPlaceOfItsEnd) {
     Bytes followed(jpeg.begin(), jpeg.end() - kMarkerBytes);
     followed.insert(followed.end(), other.begin(), other.end());
     const Decoded decoded(decoder, followed);
-    // An arithmetic-coded scan does not tell that it is whole.
+    // An arithmetic-coded scan does not reveal whether it is complete.
     ASSERT_EQ(decoded.is_refused(), GetParam().arithmetic) << decoded.error;
     EXPECT_EQ(decoder.check(followed).has_value(), !GetParam().arithmetic);
     if (GetParam().arithmetic) continue;

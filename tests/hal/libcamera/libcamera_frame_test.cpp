@@ -14,7 +14,7 @@ namespace {
 
 constexpr unsigned kPage = 4096;
 
-/// Memory by file descriptor, as software pipelines use.
+/// Allocates memory by file descriptor, like software pipelines do.
 libcamera::SharedFD make_memory(std::size_t bytes) {
   const int file = ::memfd_create("frame", MFD_CLOEXEC);
   EXPECT_EQ(::ftruncate(file, static_cast<off_t>(bytes)), 0);

@@ -7,7 +7,7 @@
 
 namespace orbwatch::hal {
 
-/// What a camera with a lens that focuses might offer.
+/// Controls that a camera with a focusing lens might offer.
 inline libcamera::ControlInfoMap offered_controls() {
   namespace controls = libcamera::controls;
   using libcamera::ControlInfo;

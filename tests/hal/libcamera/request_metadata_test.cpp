@@ -9,7 +9,7 @@ namespace {
 namespace controls = libcamera::controls;
 using namespace std::chrono_literals;
 
-/// A machine that ran for 100 s, after a sleep of an hour.
+/// Clocks of a machine that ran for 100 s, after a suspend of an hour.
 constexpr ClockReading kAfterSleep{TimePoint(100s), 3700s};
 constexpr ClockReading kNeverSlept{TimePoint(100s), 100s};
 

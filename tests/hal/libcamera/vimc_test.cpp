@@ -20,9 +20,9 @@
 #include "hal/libcamera/libcamera_camera.h"
 #include "tests/hal/frame/udmabuf.h"
 
-/// libcamera's whole way of a frame, through the kernel's virtual camera vimc. Run as root in a
+/// A frame's whole path through libcamera, with the kernel's virtual camera vimc. Run as root in a
 /// machine of its own (tests/hil): a case takes the driver away. No case needs more than 8 frames,
-/// as an emulated machine takes seconds for one.
+/// since an emulated machine needs seconds for one.
 namespace orbwatch::hal {
 namespace {
 
@@ -31,20 +31,20 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr const char* kCamera = "Sensor B";
-/// An emulated machine may be that slow; it says when a camera has stalled.
+/// An emulated machine may be that slow; the rate determines when a camera has stalled.
 constexpr StreamRequest kSmall{320, 240, 0.1};
-/// What the pipeline of vimc has, whatever it is asked for.
+/// Buffers of the vimc pipeline, for any request.
 constexpr std::size_t kVimcBuffers = 4;
-/// After it a test fails; nothing waits for so long otherwise.
+/// Limit after which a test fails; no wait normally takes so long.
 constexpr auto kMaxWait = 120s;
 
-/// The begin of the notice about it.
+/// Beginning of the notice about the number of buffers.
 std::string fewer_buffers() {
   return std::to_string(kVimcBuffers) + " buffers instead of " +
          std::to_string(kFreeRunningBuffers);
 }
 
-/// What a camera told, for a test that waits for it.
+/// Reports of a camera, for a test that waits for them.
 class Witness {
  public:
   Camera::OnFrame on_frame() {
@@ -62,7 +62,7 @@ class Witness {
     };
   }
 
-  /// The oldest frame that was not taken yet; null when none came.
+  /// Oldest frame that was not taken yet; null when none came.
   Frame frame() {
     std::unique_lock lock(mutex_);
     if (!told_.wait_for(lock, kMaxWait, [this] { return !frames_.empty(); })) return nullptr;
@@ -84,7 +84,7 @@ class Witness {
     return std::ranges::any_of(faults_, [](const auto& r) { return r.fault != Fault::None; });
   }
 
-  /// Forgets frames that were not taken.
+  /// Drops frames that were not taken.
   void forget() {
     const std::lock_guard lock(mutex_);
     frames_.clear();
@@ -137,7 +137,7 @@ TEST(Vimc, IsFoundByAPartOfItsName) {
               AllOf(HasSubstr("imx219"), HasSubstr("\"platform/vimc.0 Sensor B\"")));
 }
 
-/// The driver's test pattern: the eight bars of 75 % colours, white at the left.
+/// Test pattern of the driver: the eight bars of 75 % colours, white at the left.
 TEST(Vimc, GivesItsTestPatternInOrderOfBytes) {
   LibcameraCamera camera({.camera = kCamera});
   const auto format = camera.configure(kSmall);
@@ -291,7 +291,7 @@ TEST(Vimc, SetsControls) {
   ASSERT_TRUE(dark);
   const double mean = mean_of(dark->picture);
   ASSERT_TRUE(camera.set("Brightness", 0.5));
-  // Some frames were begun before.
+  // Some frames were begun before the change.
   bool brighter = false;
   for (int i = 0; i < 7 && !brighter; ++i) {
     const Frame frame = witness.frame();
@@ -302,7 +302,8 @@ TEST(Vimc, SetsControls) {
   camera.stop();
 }
 
-/// libcamera ends the process when a camera that is not on USB comes back, so nothing does here.
+/// libcamera ends the process when a camera that is not on USB reconnects, so the driver stays
+/// away.
 TEST(Vimc, IsLostWithItsDriverAndTheProgramLives) {
   LibcameraCamera camera({.camera = kCamera});
   ASSERT_TRUE(camera.configure({320, 240, 1}));

@@ -14,14 +14,14 @@ using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// A wire whose level is known at any time, and what a filter makes of its edges.
+/// Wire whose level is known at any time, and the edges that a filter returns for it.
 class Wire {
  public:
   explicit Wire(Clock::duration period) : filter(period, false) {}
 
   void change(double when, bool to) { edges.push_back({edge_to(to), at(when)}); }
 
-  /// Everything up to `end`, as a line thread that is never late does it.
+  /// Handles everything up to `end`, like a line thread that is never late.
   std::vector<EdgeEvent> run(double end) {
     std::vector<EdgeEvent> out;
     const auto keep = [&out](const std::optional<EdgeEvent>& edge) {
@@ -95,7 +95,7 @@ TEST(EdgeFilter, ALostLastEdgeIsFoundByTheLevel) {
     wire.change(20, false);
     wire.change(30, true);
     auto out = wire.run(31.5);
-    wire.level = false;  // and no edge says so
+    wire.level = false;  // without an edge that shows it
     const bool passed = out.size() == 3;
     EXPECT_EQ(passed, period.count() == 0);
     for (int i = 0; i < 2; ++i) {
@@ -137,7 +137,7 @@ TEST(EdgeFilter, AfterNumberedLossesTheDirectionIsRightAtOnce) {
   for (const unsigned lost : {1U, 2U, 7U, 40U}) {
     EdgeFilter filter(Clock::duration(0), false);
     filter.take({Edge::Rising, at(1)});
-    const bool level = lost % 2 == 1;  // to which the first edge after the lost ones leads
+    const bool level = lost % 2 == 1;  // level after the first edge that follows the lost ones
     EXPECT_EQ(filter.take({edge_to(level), at(2), lost}), (EdgeEvent{edge_to(level), at(2)}));
     EXPECT_EQ(filter.take({edge_to(!level), at(3)}), (EdgeEvent{edge_to(!level), at(3)}));
     EXPECT_EQ(filter.lost(), lost);
@@ -177,7 +177,7 @@ TEST(EdgeFilter, AReadingThatIsAheadOfItsEdgeIsOutnumbered) {
   EXPECT_EQ(filter.lost(), 0U);
 }
 
-/// What debounce means, from the whole wave at once: the levels that were kept for the period.
+/// Reference for debouncing, from the whole wave at once: the levels that were kept for the period.
 std::vector<EdgeEvent> kept_levels(const std::vector<EdgeEvent>& edges, Clock::duration period) {
   std::vector<EdgeEvent> kept;
   Edge last = Edge::Falling;

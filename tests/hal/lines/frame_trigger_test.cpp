@@ -245,8 +245,8 @@ TEST(SoftwareTrigger, ARefusalIsMissed) {
   EXPECT_EQ(trigger.counts().waiting, 0U);
 }
 
-/// A camera that is busy for `exposure` after each accepted edge, and delivers `transfer` later, in
-/// time order with random edges: what it accepted is the truth.
+/// The simulated camera is busy for `exposure` after each accepted edge, and delivers `transfer`
+/// later, in time order with random edges: the edges that it accepted are the reference.
 TEST(FrameTrigger, CountsExactlyOnRandomEdges) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);

@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// What happened on other threads; the tests wait for what they expect.
+/// Events of other threads; the tests wait for the expected ones.
 template <class T>
 class Log {
  public:

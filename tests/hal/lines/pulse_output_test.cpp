@@ -25,7 +25,7 @@ class PulseOutputTest : public testing::Test {
     output.run(at(now));
   }
 
-  /// As a line thread that is never late.
+  /// Runs the output like a line thread that is never late.
   void run_until(PulseOutput& output, double end) {
     while (output.due() <= at(end)) {
       const std::chrono::duration<double, std::milli> due = output.due() - at(0);
@@ -70,7 +70,7 @@ TEST_F(PulseOutputTest, ATrainStaysOnItsGrid) {
   run(*output, 100);
   run_until(*output, 104);
   run(*output, 105.5);  // late: the pulse is longer
-  run(*output, 117);    // late: it begins later and is as long as ever
+  run(*output, 117);    // late: it begins later and has its normal length
   run_until(*output, 125);
   EXPECT_THAT(records[1]->changes,
               ElementsAre(EdgeEvent{Edge::Rising, at(104)}, EdgeEvent{Edge::Falling, at(105.5)},
@@ -84,7 +84,7 @@ TEST_F(PulseOutputTest, PulsesThatCameTooLateAreCountedNotCrammed) {
   const auto output = make({.period = milliseconds(10), .width = milliseconds(1)});
   run(*output, 100);
   run(*output, 101);
-  run(*output, 137);  // those of 110 and 120 are gone, that of 130 comes late
+  run(*output, 137);  // the pulses at 110 and 120 are missed, that at 130 is late
   run_until(*output, 145);
   EXPECT_EQ(output->counts().pulses, 3U);
   EXPECT_EQ(output->counts().missed, 2U);

@@ -7,7 +7,7 @@
 
 namespace orbwatch::hal {
 
-/// An output that writes down what is set, with the tests' time.
+/// Output that records the levels set, with the tests' time.
 class RecordedOutput : public DigitalOutput {
  public:
   struct Record {

@@ -20,7 +20,7 @@ class WatchdogOutputTest : public testing::Test {
                                             [this] { ++rings; });
   }
 
-  /// Runs what is due until `end`, reporting good health every 50 ms up to `last_report`.
+  /// Runs due work until `end`, reporting good health every 50 ms up to `last_report`.
   void live(WatchdogOutput& output, double begin, double last_report, double end) {
     double next = begin;
     for (double now = begin; now <= end; now += 1) {

@@ -23,7 +23,7 @@ class WatchedInputTest : public testing::Test {
     return input;
   }
 
-  /// What is due within half a second after `now`.
+  /// Runs the work that is due within half a second after `now`.
   static void settle(WatchedInput& input, double now) {
     input.run(at(now));
     while (input.due() < at(now + 500)) input.run(input.due());
@@ -60,7 +60,7 @@ TEST_F(WatchedInputTest, WithoutDebounceALostEdgeIsMadeUpForOnABusyLine) {
   const auto input = open(Clock::duration(0));
   for (int i = 0; i < 17; ++i) lines.drive("IN", i % 2 == 0, at(i * 0.01));
   input->read(at(1));
-  for (int i = 0; i < 2; ++i) {  // inverted still: so many readings are wanted
+  for (int i = 0; i < 2; ++i) {  // still inverted: two more readings are needed
     lines.drive("IN", i % 2 == 1, at(2 + i));
     input->read(at(2 + i));
   }

@@ -6,7 +6,7 @@
 namespace orbwatch::hal {
 namespace {
 
-/// The module as it was built.
+/// Module from the build folder.
 TEST(LibcameraModule, LoadsIntoAProgramWithoutLibcamera) {
   const auto module = load_module(
       std::filesystem::path(ORBWATCH_BUILT_MODULES) / "camera-libcamera.so", "libcamera");

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
 
-/// A folder of modules, which ORBWATCH_MODULES names while it exists.
+/// Folder of modules that ORBWATCH_MODULES names during the fixture's lifetime.
 class ModuleCamera : public testing::Test {
  protected:
   ModuleCamera() { ::setenv("ORBWATCH_MODULES", folder_.path().c_str(), 1); }

@@ -1,2 +1,2 @@
-/// A shared object that has nothing to do with cameras.
+/// Shared object that is unrelated to cameras.
 extern "C" int orbwatch_something_else() { return 0; }

@@ -15,13 +15,13 @@ constexpr int kMosaicHeight = 22;
 
 struct Order {
   Mosaic mosaic;
-  std::string_view letters;  ///< of the pixels (0,0), (1,0), (0,1), (1,1)
+  std::string_view letters;  ///< colours of the pixels (0,0), (1,0), (0,1), (1,1)
 };
 
 class DemosaicOrder : public testing::TestWithParam<Order> {};
 
-/// Bilinear from its definition: the mean of the nearest samples of a colour, which are the pixel
-/// itself, two or four beside it, or four at its corners.
+/// Reference by the definition of bilinear: the mean of the nearest samples of a colour, which are
+/// the pixel itself, two or four beside it, or four at its corners.
 TEST_P(DemosaicOrder, IsBilinear) {
   std::mt19937 random(3);
   std::vector<std::uint8_t> samples(std::size_t{kMosaicWidth} * kMosaicHeight);

@@ -16,7 +16,7 @@ inline std::vector<std::byte> jpeg_of(const cv::Mat& image) {
   return {first, first + jpeg.size()};
 }
 
-/// 32x16, the left half bright, with segments behind its start.
+/// Picture of 32x16, the left half bright, with segments after its start.
 inline std::vector<std::byte> jpeg_with(const std::string& segments) {
   cv::Mat image(16, 32, CV_8UC1, cv::Scalar(0));
   image(cv::Rect(0, 0, 16, 16)).setTo(255);
@@ -32,7 +32,7 @@ inline std::string app1(const std::string& content) {
          content;
 }
 
-/// A TIFF header and one entry: 0x0112 Orientation, SHORT, count 1.
+/// TIFF header and one entry: 0x0112 Orientation, SHORT, count 1.
 inline std::string exif(char orientation) {
   return app1(std::string("Exif\0\0", 6) + std::string("MM\0\x2a\0\0\0\x08\0\x01", 10) +
               std::string("\x01\x12\0\x03\0\0\0\x01\0", 9) + orientation +

@@ -22,7 +22,8 @@ using tests::jpeg_of;
 using tests::jpeg_with;
 using tests::TemporaryFolder;
 
-/// Each sample of each channel differs from its neighbours; channels are B G R as OpenCV has them.
+/// Pattern in which each sample of each channel differs from its neighbours; channels are B G R as
+/// in OpenCV.
 cv::Mat pattern(int type) {
   cv::Mat image(9, 13, type);
   const int samples = image.cols * image.channels();
@@ -104,7 +105,7 @@ TEST(PictureDecoder, ReadsGreyAndColourJpeg) {
 
 const std::string kXmp = app1(std::string("http://ns.adobe.com/xap/1.0/\0<x/>", 33));
 
-/// Turned clockwise to be seen, so that the left half is on top.
+/// Checks that the picture was turned clockwise, so that the left half is on top.
 void expect_turned(const std::vector<std::byte>& jpeg, const std::string& what) {
   const auto decoded = decode_picture(jpeg, what);
   ASSERT_TRUE(decoded) << decoded.error().message;
@@ -130,7 +131,7 @@ TEST(PictureDecoder, HonoursExifOrientationInAnyApp1Segment) {
 }
 
 TEST(PictureDecoder, ShowsEachExifOrientationUpright) {
-  // Place of the stored picture's bright left half when it is seen.
+  // Place of the stored picture's bright left half in the upright picture.
   const std::array<std::string_view, 10> expected{"left", "left", "right",  "right",  "left",
                                                   "top",  "top",  "bottom", "bottom", "left"};
   for (std::size_t n = 0; n < expected.size(); ++n) {
@@ -149,7 +150,7 @@ TEST(PictureDecoder, ShowsEachExifOrientationUpright) {
 
 TEST(PictureDecoder, LeavesAPictureWithDamagedExifAsItLies) {
   std::string beyond = exif(6);
-  beyond[17] = '\x7f';  // of the directory's offset
+  beyond[17] = '\x7f';  // part of the directory's offset
   for (const std::string& segments : {app1("Exif"), app1(std::string("Exif\0\0", 6)),
                                       app1(std::string("Exif\0\0MM", 8)), beyond, kXmp}) {
     const auto decoded = decode_picture(jpeg_with(segments), "as it lies");
@@ -178,7 +179,7 @@ TEST(PictureDecoder, TakesAJpegWithOtherDataInPlaceOfItsEnd) {
   }
 }
 
-/// Decodes and returns the error; whatever the libraries print is a failure as well.
+/// Decodes and returns the error; any output of the libraries is a failure as well.
 std::string silent_error(std::span<const std::byte> file) {
   testing::internal::CaptureStderr();
   const auto decoded = decode_picture(file, "damaged");

@@ -26,7 +26,7 @@ inline void write_file(const std::filesystem::path& path, const std::vector<std:
   ASSERT_TRUE(stream.good()) << path;
 }
 
-/// Keeps the first part of a file, as a recorder does whose power was cut.
+/// Keeps the first part of a file, like a recorder after a power cut.
 inline void truncate_file(const std::filesystem::path& path, double part) {
   auto bytes = file_bytes(path);
   bytes.resize(static_cast<std::size_t>(static_cast<double>(bytes.size()) * part));

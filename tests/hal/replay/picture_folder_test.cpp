@@ -39,7 +39,7 @@ class PictureFolderTest : public testing::Test {
     pool_ = make_frame_pool(format.format, format.width, format.height);
   }
 
-  /// The grey value of a picture, or minus the number of the fault.
+  /// Grey value of a picture, or minus the number of the fault.
   int show(std::uint64_t number) {
     const auto buffer = pool_->acquire();
     const auto shown = recording_->show(number, *buffer, {});
@@ -92,7 +92,7 @@ TEST_F(PictureFolderTest, WithholdsWhatDoesNotFit) {
 }
 
 TEST_F(PictureFolderTest, DecodesALargeFolderWhileItPlays) {
-  // Two of 33 MiB are just above what is kept; a file that vanishes is then noticed.
+  // Two pictures of 33 MiB exceed the cache, so that a vanished file is noticed.
   const cv::Mat large(5889, 5889, CV_8UC1, cv::Scalar(10));
   ASSERT_TRUE(cv::imwrite((folder_ / "f1.png").string(), large));
   ASSERT_TRUE(cv::imwrite((folder_ / "f2.png").string(), large));

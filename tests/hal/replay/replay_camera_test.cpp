@@ -22,7 +22,7 @@ using tests::TemporaryFolder;
 
 constexpr auto kGuard = 60s;
 
-/// What a camera sent, seen from the test's thread.
+/// Frames that a camera sent, for the test's thread.
 class Listener {
  public:
   void start(Camera& camera) {
@@ -260,7 +260,7 @@ TEST(ReplayCamera, LosesFramesWhenAllAreHeldAndComesBack) {
   ASSERT_TRUE(camera.start(on_frame, [](const FaultReport&) {}));
   std::unique_lock lock(mutex);
   ASSERT_TRUE(changed.wait_for(lock, kGuard, [&] { return held.size() == kFreeRunningBuffers; }));
-  // Some exposures must pass by with no buffer to go to.
+  // Some exposures must pass without a free buffer.
   EXPECT_FALSE(
       changed.wait_until(lock, begin + 200ms, [&] { return held.size() > kFreeRunningBuffers; }));
   const std::uint64_t last_held = last;

@@ -11,7 +11,7 @@ inline constexpr int kVideoWidth = 64;
 inline constexpr int kVideoHeight = 48;
 inline constexpr double kVideoRate = 25.0;
 
-/// Picture k of a test video is red by 20 k + 10 and blue by 200; within the loss of MJPEG.
+/// Colours of picture k of a test video: red 20 k + 10 and blue 200, within the loss of MJPEG.
 inline int red_of(std::uint64_t picture) { return static_cast<int>(picture) * 20 + 10; }
 
 inline void write_video(const std::filesystem::path& path, int count) {

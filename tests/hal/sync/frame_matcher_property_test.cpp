@@ -8,8 +8,8 @@
 
 #include "hal/sync/frame_matcher.h"
 
-/// Random cameras against what every set must be, and against pairs found by looking at all frames
-/// at once. Time is a number here: nothing waits.
+/// Random cameras, checked against the rules for every set, and against pairs found by looking at
+/// all frames at once. Time is a number here: the test does not wait.
 namespace orbwatch::hal {
 namespace {
 
@@ -21,21 +21,21 @@ int between(std::mt19937_64& random, int least, int most) {
   return std::uniform_int_distribution<int>(least, most)(random);
 }
 
-/// What happens to a matcher from outside, in the order of `at`.
+/// Event for a matcher from outside, in the order of `at`.
 struct Event {
   TimePoint at;
   std::size_t camera = 0;
   std::optional<FrameMetadata> frame;  ///< none: a fault
 };
 
-/// One camera's life, all in microseconds.
+/// Behaviour of one camera, all times in microseconds.
 struct CameraPlan {
   int period = 0;
-  int jitter = 0;    ///< of each exposure start, up to
-  int latency = 0;   ///< from exposure start to arrival, least
-  int delay = 0;     ///< of the arrival, up to
-  double loss = 0;   ///< probability; never two in a row, after which it would be late
-  double fault = 0;  ///< probability, before a frame: a restart that counts from 0 again
+  int jitter = 0;    ///< largest jitter of an exposure start
+  int latency = 0;   ///< least time from exposure start to arrival
+  int delay = 0;     ///< largest additional delay of the arrival
+  double loss = 0;   ///< probability; never two in a row, since the camera would then be late
+  double fault = 0;  ///< probability before a frame: a restart that counts from 0 again
   bool triggered = false;
 };
 
@@ -99,7 +99,7 @@ class Play {
     }
   }
 
-  /// Nothing comes any more; `end`: of the taking.
+  /// Ends the events; sets are taken until `end`.
   void finish(std::size_t cameras, TimePoint end = TimePoint::max()) {
     take_until(end);
     for (std::size_t i = 0; i < cameras; ++i) matcher.clear(i, released_);
@@ -107,8 +107,8 @@ class Play {
   }
 
   FrameMatcher matcher;
-  std::vector<FrameSet> sets;  ///< with copies of the frames' metadata only
-  int most_alive = 0;          ///< frames in the matcher at one time
+  std::vector<FrameSet> sets;  ///< hold only copies of the frames' metadata
+  int most_alive = 0;          ///< largest number of frames in the matcher at one time
   int alive() const { return alive_; }
 
  private:
@@ -155,7 +155,8 @@ class Play {
   int alive_ = 0;
 };
 
-using Key = std::pair<std::size_t, TimePoint>;  ///< exposure starts of one camera all differ
+using Key = std::pair<std::size_t,
+                      TimePoint>;  ///< unique, because all exposure starts of one camera differ
 
 SyncSettings random_settings(std::mt19937_64& random) {
   SyncSettings settings;
@@ -183,7 +184,7 @@ std::vector<CameraPlan> random_cameras(std::mt19937_64& random) {
   return plans;
 }
 
-/// Every frame's way: put once, and in a set once at most unless it is said to be held.
+/// Checks that every frame is put once, and is in one set at most, unless it is marked as held.
 void expect_each_frame_once(const Play& play, const std::vector<Event>& events,
                             std::size_t cameras) {
   std::map<Key, int> fresh;
@@ -216,7 +217,7 @@ void expect_each_frame_once(const Play& play, const std::vector<Event>& events,
   }
 }
 
-/// What a set says of itself against its frames.
+/// Checks the data of a set against its frames.
 void expect_sound(const FrameSet& set, const SyncSettings& settings, std::size_t cameras) {
   TimePoint first = set.stamp, last = set.stamp;
   bool paced = false;
@@ -267,7 +268,7 @@ TEST(FrameMatcherProperties, NothingIsLostOrDoubledAndMemoryIsBounded) {
     EXPECT_EQ(play.alive(), 0);
     if (testing::Test::HasFailure()) return;
   }
-  // The worlds were not empty ones.
+  // The random cameras must have made sets.
   EXPECT_GT(sets, 10'000U);
   EXPECT_GT(matched, 3'000U);
   EXPECT_GT(held, 3'000U);
@@ -286,8 +287,8 @@ TEST(FrameMatcherProperties, LostFramesAreCountedExactly) {
   }
 }
 
-/// The one frame of a camera within the window of a moment, or its newest before it, among all that
-/// it ever sent.
+/// Reference: the one frame of a camera within the window of a moment, or its newest before it,
+/// among all frames that it ever sent.
 struct Reference {
   const std::vector<Event>& events;
   const SyncSettings& settings;
@@ -306,8 +307,8 @@ struct Reference {
   }
 };
 
-/// With a window of a fifth and a max_wait of half of the fastest period, every pair is unique and
-/// every partner arrives before max_wait is over.
+/// Cameras whose pairs are all unique and whose partners arrive before max_wait is over, because
+/// the window is a fifth and max_wait half of the fastest period.
 std::vector<CameraPlan> cameras_of_unique_pairs(int fastest, std::mt19937_64& random) {
   std::vector<CameraPlan> plans(static_cast<std::size_t>(between(random, 1, 4)));
   for (CameraPlan& plan : plans) {

@@ -22,7 +22,7 @@ Frame frame(std::uint64_t sequence, int exposed_ms,
   return buffer;
 }
 
-/// A matcher, and a clock in milliseconds that only moves by hand.
+/// Matcher, and a clock in milliseconds that only the test advances.
 class Matcher {
  public:
   explicit Matcher(std::size_t cameras, const SyncSettings& settings = {})
@@ -44,7 +44,7 @@ class Matcher {
   TimePoint now_ = kStart;
 };
 
-/// Sequence of a camera's frame in a set; -1: none.
+/// Sequence number of a camera's frame in a set; -1: none.
 int number(const FrameSet& set, std::size_t camera) {
   return set.frames[camera] ? static_cast<int>(set.frames[camera]->metadata.sequence) : -1;
 }
@@ -147,7 +147,7 @@ TEST(FrameMatcher, ASlowPacerGetsTheNearestFrameOfAFastCamera) {
   for (int n = 0; n < 20; ++n) {
     matcher.put(1, frame(static_cast<std::uint64_t>(n), 17 * n));
     if (n % 6 != 5) continue;
-    matcher.put(0, frame(static_cast<std::uint64_t>(n / 6), 17 * n - 20));  // it arrives late
+    matcher.put(0, frame(static_cast<std::uint64_t>(n / 6), 17 * n - 20));  // late arrival
     const auto set = matcher.take();
     ASSERT_TRUE(set);
     EXPECT_EQ(number(*set, 1), n - 1);
@@ -180,14 +180,14 @@ TEST(FrameMatcher, NewestWinsAndLostFramesAreCounted) {
   EXPECT_EQ(matcher.counts(0).frames, 3U);
   EXPECT_EQ(matcher.counts(0).superseded, 2U);
   EXPECT_EQ(matcher.counts(0).lost, 3U);
-  matcher.put(0, frame(0, 60));  // the camera was restarted
+  matcher.put(0, frame(0, 60));  // restart of the camera
   EXPECT_EQ(matcher.counts(0).lost, 3U);
 }
 
 TEST(FrameMatcher, AFastPacerIsNotHeldUpByAMaxWaitThatNeverEnds) {
   Matcher matcher(2, {.window = milliseconds(500), .max_wait = milliseconds(500)});
   int sets = 0;
-  for (int n = 0; n < 30; ++n) {  // nothing comes from the other camera, nor a fault
+  for (int n = 0; n < 30; ++n) {  // the other camera sends neither a frame nor a fault
     matcher.advance_to(10 * n);
     matcher.put(0, frame(static_cast<std::uint64_t>(n), 10 * n));
     sets += matcher.take() ? 1 : 0;
@@ -217,13 +217,13 @@ TEST(FrameMatcher, AnotherCameraPacesWhileTheFirstHasAFault) {
 
 TEST(FrameMatcher, AnotherCameraPacesWhileTheFirstIsSilent) {
   Matcher matcher(2);
-  for (int n = 0; n < 3; ++n) {  // both at 20 Hz
+  for (int n = 0; n < 3; ++n) {  // both cameras at 20 Hz
     matcher.advance_to(50 * n);
     matcher.put(0, frame(static_cast<std::uint64_t>(n), 50 * n));
     matcher.put(1, frame(static_cast<std::uint64_t>(n), 50 * n + 1));
     ASSERT_TRUE(matcher.take());
   }
-  // The first falls silent.
+  // The first camera becomes silent.
   matcher.advance_to(150);
   matcher.put(1, frame(3, 151));
   EXPECT_FALSE(matcher.take()) << "it may be coming";
@@ -237,7 +237,7 @@ TEST(FrameMatcher, AnotherCameraPacesWhileTheFirstIsSilent) {
   EXPECT_EQ(number(*set, 1), 5);
   EXPECT_EQ(number(*set, 0), -1) << "what is old is not shown as new";
   EXPECT_FALSE(set->matched);
-  // It comes back.
+  // The first camera delivers again.
   matcher.advance_to(300);
   matcher.put(0, frame(6, 300));
   matcher.put(1, frame(6, 301));

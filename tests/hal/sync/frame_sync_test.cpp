@@ -13,8 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 
 const TimePoint kProgramStart = Clock::now();
-constexpr std::chrono::seconds kGuard{
-    20};  ///< long enough that only a fault of the code reaches it
+constexpr std::chrono::seconds kGuard{20};  ///< reached only when the code is wrong
 
 Frame live_frame(std::uint64_t sequence, int exposed_ms) {
   auto buffer = std::make_shared<FrameBuffer>();
@@ -76,7 +75,7 @@ TEST(FrameSync, ATriggeredCamerasQueueFillsWhileAllOtherPlacesAreFull) {
   expose();
   const auto processed = sync.next(soon());
   ASSERT_TRUE(processed);
-  std::vector<Frame> others;  // an older one that is held, and those of readers and watch
+  std::vector<Frame> others;  // the held older frame, and those of readers and watch
   for (std::size_t n = 0; n < kHeldFrames + kFrameReaders + kWatchedFrames; ++n) {
     others.push_back(pool.acquire());
   }
@@ -88,8 +87,8 @@ TEST(FrameSync, ATriggeredCamerasQueueFillsWhileAllOtherPlacesAreFull) {
   EXPECT_EQ(pool.size() - pool.lent(), kArrivingFrames + kDeviceBuffers) << "the oldest came back";
 }
 
-// Four cameras' threads, faults and a consumer at once: buffers of real pools, all of which come
-// home.
+// Threads of four cameras, faults and a consumer at the same time: buffers of real pools, all of
+// which are returned.
 TEST(FrameSync, KeepsNoBufferAndCountsEachUnderFullLoad) {
   constexpr std::size_t kCameras = 4;
   constexpr std::uint64_t kFrames = 3000;

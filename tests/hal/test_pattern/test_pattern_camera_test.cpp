@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-/// The one of that number of a camera that paints them if `numbered`.
+/// Frame `number` of a camera that paints the numbers if `numbered`.
 Frame frame_of(PixelFormat format, std::uint64_t number = 0, bool numbered = false) {
   TestPatternCamera camera({.name = "test", .pixel_format = format, .numbered = numbered});
   const auto configured = camera.configure({.width = kWidth, .height = kHeight});

@@ -12,7 +12,7 @@ TEST(Doorbell, KeepsRingsUntilSomebodyWaits) {
   Doorbell bell;
   bell.ring();
   bell.ring();
-  bell.wait();  // both, or this never ends
+  bell.wait();  // without both rings this never ends
 }
 
 TEST(Doorbell, LosesNoRing) {

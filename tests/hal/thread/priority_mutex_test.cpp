@@ -18,14 +18,14 @@ namespace {
 
 constexpr int kPriority = 10;
 
-/// Priority by which the kernel schedules the thread now: -1 - priority while it is of real time,
-/// from 0 on else.
+/// Priority by which the kernel schedules the thread now: -1 - priority for a real-time thread,
+/// otherwise 0 or more.
 int kernel_priority(pid_t thread) {
   std::ifstream in("/proc/self/task/" + std::to_string(thread) + "/stat");
   std::string text{std::istreambuf_iterator<char>(in), {}};
   std::istringstream fields(text.substr(text.rfind(')') + 1));
   std::string field;
-  for (int i = 3; i <= 18; ++i) fields >> field;  // proc(5): the 18th is the priority
+  for (int i = 3; i <= 18; ++i) fields >> field;  // priority: the 18th in proc(5)
   return std::stoi(field);
 }
 

@@ -42,7 +42,7 @@ Scheduled scheduled(ThreadRole role) {
   return seen;
 }
 
-/// As an ordinary user's process.
+/// Gives up the privileges, so that the process is an ordinary user's.
 void drop_privileges() {
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3]{};
@@ -139,7 +139,7 @@ TEST(SchedulingDeathTest, SaysOnceWhatTheKernelRefusesAndWhatWouldAllowIt) {
 TEST(SchedulingDeathTest, LocksMemoryThatIsUsedWithoutALimit) {
   const auto lock = [] {
     const rlimit none{RLIM_INFINITY, RLIM_INFINITY};
-    if (::setrlimit(RLIMIT_MEMLOCK, &none) != 0) std::exit(0);  // only root may
+    if (::setrlimit(RLIMIT_MEMLOCK, &none) != 0) std::exit(0);  // needs root
     ThreadSettings settings = kNothing;
     settings.lock_memory = true;
     std::exit(schedule_threads(settings).memory_locked ? 0 : 1);

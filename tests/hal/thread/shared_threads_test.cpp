@@ -56,7 +56,7 @@ TEST(SharedThreads, AreSeveral) {
   SharedThreads::Work two(threads, [&] { both.arrive_and_wait(); });
   one.request();
   two.request();
-  both.wait();  // or one waits for the other for good
+  both.wait();  // otherwise one waits for the other forever
 }
 
 TEST(SharedThreads, CallABodyWhenItIsDue) {

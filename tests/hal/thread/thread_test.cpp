@@ -71,7 +71,7 @@ TEST(Thread, ItsDestructorStops) {
 
 TEST(Thread, KeepsAWakeUntilItWaits) {
   Thread thread;
-  thread.wake();  // not even started
+  thread.wake();  // before the start
   thread.wake();
   std::promise<bool> woken;
   thread.start("test", [&] { woken.set_value(thread.wait()); });

@@ -72,7 +72,7 @@ int list_size(const State& fake, v4l2_frmsizeenum& size) {
   return 0;
 }
 
-/// Behaves as drivers do: sets a size that it has, and keeps the current one for any other.
+/// Behaves like drivers: sets a size that it has, and keeps the current one for any other.
 int set_format(State& fake, v4l2_format& format, bool sets) {
   v4l2_pix_format& pix = format.fmt.pix;
   const std::pair wanted{pix.width, pix.height};
@@ -149,7 +149,7 @@ int answer(State& fake, int file, unsigned long code, void* argument) {
   }
 }
 
-/// A timer, so that poll() tells when the next frame is there.
+/// Uses a timer, so that poll() reports the next frame.
 int open_fake(State& fake) {
   constexpr itimerspec kPeriod{{0, 10'000'000}, {0, 10'000'000}};
   const int file = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);

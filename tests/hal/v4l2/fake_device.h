@@ -8,8 +8,8 @@
 
 namespace orbwatch::tests {
 
-/// A V4L2 device without a driver. A program that links this has its own open, close, ioctl and
-/// mmap, which answer for kFakeDevice and leave all else to the kernel: it offers one format of 16
+/// V4L2 device without a driver. A program that links this has its own open, close, ioctl and mmap,
+/// which answer for kFakeDevice and pass everything else to the kernel: it offers one format of 16
 /// bit per pixel in a few sizes, and delivers a frame every hundredth of a second.
 struct FakeDevice {
   std::uint32_t fourcc = 0;
@@ -20,7 +20,7 @@ struct FakeDevice {
 
 inline constexpr const char* kFakeDevice = "/dev/video-fake";
 
-/// Connects the device, in place of the one before. Only while no camera runs.
+/// Connects the device, in place of the previous one. Call only while no camera runs.
 void connect(const FakeDevice& device);
 
 }  // namespace orbwatch::tests

@@ -22,7 +22,7 @@ using testing::Not;
 using tests::FakeDevice;
 using tests::kFakeDevice;
 
-/// A picture of 0x80 as chroma above as many rows of words: each its place in the frame.
+/// Picture with 0x80 as chroma above as many rows of words; each word is its place in the frame.
 void draw_stacked(std::span<std::uint16_t> words, std::size_t width) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool is_picture = i < words.size() / 2;
@@ -30,7 +30,7 @@ void draw_stacked(std::span<std::uint16_t> words, std::size_t width) {
   }
 }
 
-/// Each word is its row.
+/// Draws words that contain their row.
 void draw_rows(std::span<std::uint16_t> words, std::size_t width) {
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint16_t>(i / width);
 }
@@ -47,7 +47,7 @@ V4l2Settings words(int frame_height, int first_row) {
           .is_radiometric = true};
 }
 
-/// The first and the last row's words of the next frame, as it has the size that was asked for.
+/// First and last row's words of the next frame in the requested size.
 std::pair<int, int> rows_of(const V4l2Settings& settings, int width, int height) {
   CameraRun run(settings);
   if (!run.start({.width = width, .height = height})) return {};

@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-/// A camera of 25 frames per second whose clock drifts and whose frames arrive late.
+/// Camera of 25 frames per second whose clock drifts and whose frames arrive late.
 class SimulatedCamera {
  public:
   static constexpr nanoseconds kPeriod = 40ms;
@@ -20,7 +20,7 @@ class SimulatedCamera {
 
   explicit SimulatedCamera(double drift) : drift_(drift) {}
 
-  /// Of frame `n`, on both clocks.
+  /// Start of frame `n`, on both clocks.
   TimePoint exposure(int n) const { return TimePoint(1000s) + n * kPeriod; }
   nanoseconds stamp(int n) const {
     const double elapsed = static_cast<double>(((n - set_at_) * kPeriod).count());
@@ -49,7 +49,7 @@ nanoseconds error_of(const DeviceClock& clock, const SimulatedCamera& camera, in
   return *clock.to_steady(camera.stamp(n)) - camera.exposure(n) - SimulatedCamera::kLeastDelay;
 }
 
-/// Frames [from, to); the largest error of the frames from `settled` on.
+/// Runs frames [from, to); returns the largest error of the frames from `settled` on.
 nanoseconds run(DeviceClock& clock, SimulatedCamera& camera, int from, int to, int settled) {
   nanoseconds largest{0};
   for (int n = from; n < to; ++n) {

@@ -13,8 +13,8 @@ TEST(GenicamFormat, NamesAndCodesAreDistinctAndTheCodeSaysHowLargeAPixelIs) {
   for (const GenicamFormat& format : kGenicamFormats) {
     EXPECT_TRUE(names.insert(format.name).second) << format.name;
     EXPECT_TRUE(codes.insert(format.code).second) << format.name;
-    // PFNC: bits per pixel, as sent, in bits 16 to 23. GigE Vision's "Packed" states 12 for 10,
-    // too.
+    // Bits 16 to 23 of a PFNC code are the bits per pixel on the wire. GigE Vision's "Packed"
+    // states 12 for 10, too.
     const std::size_t bits = format.code >> 16 & 0xff;
     EXPECT_EQ(sent_row_bytes(format, 16), 16 * bits / 8) << format.name;
     EXPECT_EQ(find_genicam_format(format.code), &format);

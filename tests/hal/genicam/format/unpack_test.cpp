@@ -25,11 +25,12 @@ std::vector<std::uint16_t> unpacked(SamplePacking packing, const std::vector<std
   return samples;
 }
 
-// Rows by hand from the figures of PFNC 2.4 (Mono10p, Mono12p, Mono14p, Mono10Packed,
+// Rows computed by hand from the figures of PFNC 2.4 (Mono10p, Mono12p, Mono14p, Mono10Packed,
 // Mono12Packed). Samples: their bits are all different, so that none can be in another's place.
 
 TEST(Unpack, TenBitsLowestFirst) {
-  // 0x155 = 01'0101'0101, 0x2aa = 10'1010'1010, 0x0f3 = 00'1111'0011, 0x30c = 11'0000'1100
+  // Samples in binary: 0x155 = 01'0101'0101, 0x2aa = 10'1010'1010, 0x0f3 = 00'1111'0011, 0x30c =
+  // 11'0000'1100
   EXPECT_THAT(unpacked(SamplePacking::Lsb10, bytes({0x55, 0xa9, 0x3a, 0x0f, 0xc3}), 4),
               ElementsAre(0x155, 0x2aa, 0x0f3, 0x30c));
 }
@@ -40,13 +41,14 @@ TEST(Unpack, TwelveBitsLowestFirst) {
 }
 
 TEST(Unpack, FourteenBitsLowestFirst) {
-  // 0x1234, 0x2bcd, 0x3fff, 0x0001
+  // Samples: 0x1234, 0x2bcd, 0x3fff, 0x0001
   EXPECT_THAT(unpacked(SamplePacking::Lsb14, bytes({0x34, 0x52, 0xf3, 0xfa, 0xff, 0x07, 0x00}), 4),
               ElementsAre(0x1234, 0x2bcd, 0x3fff, 0x0001));
 }
 
 TEST(Unpack, TenBitsOfGigeVision) {
-  // Upper 8 of the first; lower 2 of it in bits 0 and 1, of the second in 4 and 5; upper 8 of it.
+  // Upper 8 bits of the first sample; its lower 2 in bits 0 and 1, those of the second in 4 and 5;
+  // upper 8 bits of the second.
   EXPECT_THAT(unpacked(SamplePacking::Gev10, bytes({0x55, 0x21, 0xaa}), 2),
               ElementsAre(0x155, 0x2aa));
 }
@@ -56,7 +58,7 @@ TEST(Unpack, TwelveBitsOfGigeVision) {
               ElementsAre(0x123, 0x456));
 }
 
-/// Puts samples one bit after the other, as "lsb packed" is defined.
+/// Packs samples bit by bit, by the definition of "lsb packed".
 std::vector<std::byte> pack_bits(const std::vector<std::uint16_t>& samples, int bits) {
   std::vector<std::byte> row(samples.size() * static_cast<std::size_t>(bits) / 8);
   std::size_t at = 0;

@@ -47,7 +47,7 @@ TEST(ControlSettings, AreNotSentAgainAfterAStart) {
   EXPECT_TRUE(request.empty());
 }
 
-/// What a frame states.
+/// Metadata that a frame states.
 libcamera::ControlList stated(int exposure_time, float gain) {
   libcamera::ControlList metadata(controls::controls);
   metadata.set(controls::ExposureTime, exposure_time);

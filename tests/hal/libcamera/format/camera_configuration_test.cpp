@@ -41,7 +41,7 @@ TEST(PutFrameRate, FixesTheFrameDuration) {
   put_frame_rate(29.97, controls);
   const auto limits = controls.get(libcamera::controls::FrameDurationLimits);
   ASSERT_TRUE(limits);
-  EXPECT_EQ((*limits)[0], 33367);  // 1e6 / 29.97 = 33366.7 us
+  EXPECT_EQ((*limits)[0], 33367);  // us: 1e6 / 29.97 = 33366.7
   EXPECT_EQ((*limits)[1], 33367);
 }
 

@@ -22,7 +22,7 @@ TEST(LibcameraFormats, AreNamedAsLibcameraDoes) {
   EXPECT_EQ(find_format(libcamera::formats::SRGGB10), nullptr);
 }
 
-/// drm_fourcc.h: RGB888 is [23:0] R:G:B little endian, so B comes first in memory.
+/// In drm_fourcc.h RGB888 is [23:0] R:G:B little endian, so B comes first in memory.
 TEST(LibcameraFormats, OfColourAreNamedByTheWordNotByTheBytes) {
   EXPECT_EQ(find_format(libcamera::formats::RGB888)->format, PixelFormat::Bgr);
   EXPECT_EQ(find_format(libcamera::formats::BGR888)->format, PixelFormat::Rgb);

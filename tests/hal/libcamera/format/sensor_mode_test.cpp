@@ -30,7 +30,7 @@ TEST(SensorMode, IsSetByAnyOfItsParts) {
   EXPECT_EQ(to_text(SensorMode{1640, 1232, 10}), "1640x1232 10 bit");
 }
 
-/// A validated configuration as a pipeline might make it.
+/// Validated configuration that a pipeline might return.
 class FixedConfiguration : public libcamera::CameraConfiguration {
  public:
   Status validate() override { return Valid; }

@@ -32,7 +32,7 @@ class GpioInputs : public SimulatedChip {
   std::unique_ptr<WatchedInput> input;
   Heard<EdgeEvent> edges;
   Heard<LineFault> faults;
-  LineThread thread;  // ends before what it uses
+  LineThread thread;  // destroyed before the objects that it uses
 };
 
 TEST_F(GpioInputs, TheChipIsListedWithItsLines) {
@@ -65,8 +65,8 @@ TEST_F(GpioInputs, EdgesComeInOrderWithTheKernelsStamps) {
   EXPECT_EQ(edges.items().size(), 40U);
 }
 
-/// Without the filter: its reading of the level counts an edge as lost that a busy kernel delivers
-/// late.
+/// Runs without the filter, whose reading of the level counts an edge as lost that a busy kernel
+/// delivers late.
 TEST_F(GpioInputs, NoEdgeOfAPacedLineIsLost) {
   const auto line = lines.open_input({.address = {.name = "TRIGGER_IN"}});
   ASSERT_TRUE(line) << line.error().message;
@@ -97,13 +97,13 @@ TEST_F(GpioInputs, TriggersAreFramesAndMissed) {
   constexpr std::uint64_t kTriggers = 30;
   std::uint64_t frames = 0;
   for (std::uint64_t i = 1; i <= kTriggers; ++i) {
-    // Each edge once the one before was heard: the simulated chip keeps one.
+    // Each edge waits until the previous one was received: the simulated chip keeps one.
     pull(kInput, true);
     ASSERT_TRUE(edges.wait_for(2 * i - 1));
     pull(kInput, false);
     ASSERT_TRUE(edges.wait_for(2 * i));
     EXPECT_EQ(trigger.counts().triggers, i);
-    if (i % 3 != 0) continue;  // a camera for every third edge
+    if (i % 3 != 0) continue;  // triggers a camera for every third edge
     ++frames;
     EXPECT_EQ(trigger.claim(Clock::now())->id, i);
   }
@@ -116,8 +116,8 @@ TEST_F(GpioInputs, AGlitchStormIsOneEdge) {
   start(std::chrono::seconds(1));
   for (int i = 0; i < 301; ++i) pull(kInput, i % 2 == 0);
   ASSERT_TRUE(edges.wait_for(1));
-  for (int i = 0; i < 300; ++i) pull(kInput, i % 2 == 1);  // and back up: no change
-  for (int i = 0; i < 301; ++i) pull(kInput, i % 2 == 1);  // and down
+  for (int i = 0; i < 300; ++i) pull(kInput, i % 2 == 1);  // returns to the old level: no change
+  for (int i = 0; i < 301; ++i) pull(kInput, i % 2 == 1);  // ends at the other level
   ASSERT_TRUE(edges.wait_for(2));
   thread.stop();
   const auto heard = edges.items();
@@ -148,19 +148,20 @@ TEST_F(GpioInputs, AfterLostEdgesABusyLineHasTheRightLevel) {
     busy.read(Clock::now());
   };
   bool up = false;
-  for (const int overflow : {301, 302}) {  // with an odd number of them lost, and an even one
+  for (const int overflow : {301, 302}) {  // loses an odd, then an even number of edges
     for (int i = 0; i < overflow; ++i) pull(kInput, up = !up);
     read_one();
-    // Nobody calls run(), which reads the level of a line that is quiet.
+    // Without run(), the level of a quiet line is not read.
     for (int i = 0; i < 20; ++i) {
       const TimePoint before = Clock::now();
       pull(kInput, up = !up);
-      // Until this edge was heard: the simulated chip keeps one, and forgets without a trace.
+      // Repeats until this edge is received: the simulated chip keeps one, and drops others without
+      // a trace.
       do {
         read_one();
       } while (!HasFatalFailure() && (!last || last->stamp < before));
       ASSERT_FALSE(HasFatalFailure());
-      // So many edges may be inverted: readings that are ahead of their edges agree by accident.
+      // This many edges may be inverted: readings ahead of their edges agree by chance.
       if (i < 3 * EdgeFilter::kReadings) continue;
       EXPECT_EQ(last->edge, edge_to(up)) << "edge " << i << " after " << overflow;
     }
@@ -175,7 +176,7 @@ TEST_F(GpioInputs, AChipThatGoesIsAFaultAndComesBack) {
   ASSERT_TRUE(faults.wait_for(1));
   set_live(true);
   ASSERT_TRUE(comes_true([this] { return faults.items().back() == LineFault::None; }));
-  // The new chip's wire is low: that is heard, and so is what follows.
+  // The new chip's wire is low: this edge and the next ones are received.
   ASSERT_TRUE(edges.wait_for(2));
   pull(kInput, true);
   ASSERT_TRUE(edges.wait_for(3));

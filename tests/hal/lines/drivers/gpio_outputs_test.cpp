@@ -23,12 +23,12 @@ class GpioOutputs : public SimulatedChip {
     return std::move(*output);
   }
 
-  /// Whether the wire has the level within the time that emulation needs.
+  /// True if the wire reaches the level within the time that emulation needs.
   static bool becomes(unsigned line, bool high) {
     return comes_true([&] { return level(line) == high; });
   }
 
-  /// A process that drives the wire high; killed in the middle.
+  /// Starts a process that drives the wire high, and kills it while it does.
   void kill_while_high(unsigned line) {
     int pipe[2];
     ASSERT_EQ(::pipe(pipe), 0);

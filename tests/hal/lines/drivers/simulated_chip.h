@@ -15,7 +15,7 @@
 
 namespace orbwatch::hal {
 
-/// The kernel's simulated chip that the scenario made, from the outside of its wires. It has 8
+/// External side of the wires of the kernel's simulated chip, which the scenario made. It has 8
 /// lines and the label "orbwatch"; lines 2 and 3 are named TRIGGER_IN and TRIGGER_OUT.
 class SimulatedChip : public testing::Test {
  protected:
@@ -25,7 +25,7 @@ class SimulatedChip : public testing::Test {
     for (const unsigned line : {kInput, kOutput, kUnnamed}) pull(line, false);
   }
 
-  /// The chip's folder in configfs.
+  /// Folder of the chip in configfs.
   static std::string config() {
     const char* value = std::getenv("GPIO_SIM_CONFIG");
     EXPECT_TRUE(value) << "GPIO_SIM_CONFIG must be set, as tests/hil does";
@@ -36,13 +36,13 @@ class SimulatedChip : public testing::Test {
     std::ifstream(file) >> word;
     return word;
   }
-  /// Device and chip have other numbers each time the chip comes.
+  /// Path of a file of the chip; device and chip have new numbers each time the chip is made.
   static std::string file_of(unsigned line, const std::string& name) {
     return "/sys/devices/platform/" + first_word(config() + "/dev_name") + "/" +
            first_word(config() + "/bank/chip_name") + "/sim_gpio" + std::to_string(line) + "/" +
            name;
   }
-  /// Another device on the wire: an edge, if the line is an input and the level another.
+  /// Drives the wire like another device: an edge, if the line is an input and the level differs.
   static void pull(unsigned line, bool up) {
     std::ofstream file(file_of(line, "pull"));
     file << (up ? "pull-up" : "pull-down") << std::flush;
@@ -65,7 +65,7 @@ class SimulatedChip : public testing::Test {
 
 using tests::comes_true;
 
-/// What was heard on the line thread.
+/// Events received on the line thread.
 template <class T>
 class Heard {
  public:

@@ -33,7 +33,7 @@ TEST(FileDescriptor, ClosesWhatItOwnsOnce) {
     number = first.get();
     ASSERT_TRUE(is_open(number));
     FileDescriptor second(std::move(first));
-    EXPECT_FALSE(first.is_open());  // what a move leaves behind
+    EXPECT_FALSE(first.is_open());  // a moved-from descriptor is closed
     EXPECT_EQ(second.get(), number);
     EXPECT_TRUE(is_open(number));
   }

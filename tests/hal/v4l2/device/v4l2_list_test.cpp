@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class DeviceFolder : public testing::Test {
  protected:
-  /// Something that is named as a device's node but is none.
+  /// Makes a file that has the name of a device node but is not one.
   fs::path make_node(const std::string& name) {
     std::ofstream(folder_.path() / name) << "not a device";
     return folder_.path() / name;
@@ -54,8 +54,8 @@ TEST_F(DeviceFolder, SaysThatACameraIsNotThere) {
 }
 
 TEST_F(DeviceFolder, ListsOnlyNodesThatMayBeCamerasInTheirOrder) {
-  // Files are no devices, and another kind of thing than a camera; a broken link is one that is
-  // not there, which is worth a line.
+  // Regular files and devices of another kind are not cameras; a broken link is a missing camera,
+  // which is worth a line.
   make_node("video0");
   make_node("video");
   make_node("videos");

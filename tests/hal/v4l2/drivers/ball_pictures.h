@@ -13,8 +13,8 @@ namespace orbwatch::hal {
 inline constexpr int kBallWidth = 320;
 inline constexpr int kBallHeight = 240;
 
-/// The luminance that a mirror ball in a striped room shows at a pixel, 0..1, when the room is
-/// turned by `turn`: normals of a unit sphere reflect rays along -z.
+/// Luminance, 0..1, that a mirror ball in a striped room shows at a pixel, when the room is turned
+/// by `turn`: normals of a unit sphere reflect rays along -z.
 inline double ball_luminance(int x, int y, double turn) {
   const double u = (x - kBallWidth / 2.0) / 110.0;
   const double v = (y - kBallHeight / 2.0) / 110.0;
@@ -25,7 +25,7 @@ inline double ball_luminance(int x, int y, double turn) {
   return 0.5 + 0.4 * std::sin(3 * azimuth + turn) * std::cos(2 * nz * v);
 }
 
-/// Samples of `bytes` bytes, low byte first, of a picture of the ball that is turned as picture n.
+/// Samples of `bytes` bytes, low byte first, of a picture of the ball, turned for picture n.
 inline std::vector<std::byte> ball_samples(int n, int bytes, int columns, int rows) {
   std::vector<std::byte> samples;
   for (int y = 0; y < rows; ++y) {
@@ -39,7 +39,7 @@ inline std::vector<std::byte> ball_samples(int n, int bytes, int columns, int ro
   return samples;
 }
 
-/// The same in 8 bit as a JPEG picture with chroma that falls from left to right (4:2:0).
+/// JPEG picture of the ball in 8 bit, with chroma that falls from left to right (4:2:0).
 inline std::vector<std::byte> ball_jpeg(int n) {
   const auto luma = ball_samples(n, 1, kBallWidth, kBallHeight);
   std::vector<unsigned char> u;

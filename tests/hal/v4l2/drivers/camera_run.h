@@ -12,8 +12,8 @@
 
 namespace orbwatch::hal {
 
-/// A camera that runs, with all that it delivered and reported. Emulated machines are slow: waits
-/// end with what is waited for, or after minutes.
+/// Running camera, with all its frames and reports. Emulated machines are slow: a wait ends with
+/// the expected event, or after minutes.
 class CameraRun {
  public:
   using Controls = std::vector<std::pair<const char*, double>>;
@@ -48,7 +48,7 @@ class CameraRun {
   }
   const StreamFormat& format() const { return format_; }
 
-  /// The next frame that is delivered, or null when none comes.
+  /// Waits for the next frame; null when none comes.
   Frame next_frame() {
     std::unique_lock lock(mutex_);
     newest_ = nullptr;
@@ -56,7 +56,7 @@ class CameraRun {
     return newest_;
   }
 
-  /// Waits until a state is reported that was not waited for before; false when it is not.
+  /// Waits until a state is reported that no earlier call has returned; false when it is not.
   bool reports(Fault fault) {
     std::unique_lock lock(mutex_);
     const bool came = changed_.wait_for(lock, kMaxWait, [&] {
@@ -71,7 +71,7 @@ class CameraRun {
     return came;
   }
 
-  /// The newest.
+  /// Newest notice.
   std::string notice() {
     const std::lock_guard lock(mutex_);
     return notice_;
@@ -82,7 +82,7 @@ class CameraRun {
     return !reports_.empty();
   }
 
-  /// Lets go of the frame that it holds.
+  /// Releases the held frame.
   void release() {
     const std::lock_guard lock(mutex_);
     newest_ = nullptr;

@@ -20,12 +20,12 @@
 
 namespace orbwatch::hal {
 
-/// Writes pictures into v4l2loopback in turn, as another program would that plays a camera.
+/// Writes pictures into v4l2loopback in turn, like a program that plays a camera.
 class Feeder {
  public:
   using Pictures = std::vector<std::vector<std::byte>>;
 
-  /// Waits until the device takes the format: a reader may still have it. For the same reason the
+  /// Waits until the device accepts the format: a reader may still have it. For the same reason the
   /// device may refuse the first picture for a while.
   Feeder(const std::string& device, std::uint32_t fourcc, std::uint32_t width, std::uint32_t height,
          Pictures pictures)
@@ -75,7 +75,7 @@ class Feeder {
           }
         }
       }
-      // The camera's frame rate.
+      // Period of the camera's frame rate.
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   }

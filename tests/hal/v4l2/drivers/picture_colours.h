@@ -7,8 +7,8 @@
 
 namespace orbwatch::hal {
 
-/// R G B, or three times the luminance, of one pixel in 0..255: straight from the definitions of
-/// the formats, sharing no code with the product.
+/// R G B, or three times the luminance, of one pixel in 0..255: directly from the definitions of
+/// the formats, without code of the product.
 inline std::array<double, 3> colours_at(const Picture& picture, int x, int y) {
   const auto sample = [&](std::size_t plane, int column, int row) {
     const auto& p = picture.planes[plane];

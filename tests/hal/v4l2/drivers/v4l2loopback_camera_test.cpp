@@ -18,7 +18,7 @@ std::string loopback() {
   for (const CameraEntry& camera : list_v4l2_cameras()) {
     if (camera.model == "orbwatch") return camera.paths.back();
   }
-  // It is no camera before somebody feeds it; the scenario knows its node.
+  // The node is not a camera until a program feeds it; the scenario provides its path.
   const char* const path = std::getenv("ORBWATCH_V4L2LOOPBACK");
   return path ? path : "no v4l2loopback";
 }
@@ -26,7 +26,7 @@ std::string loopback() {
 struct Fed {
   const char* pixel_format;
   std::uint32_t fourcc;
-  int bytes;    ///< of a sample
+  int bytes;    ///< bytes of a sample
   int columns;  ///< samples of a row
   PixelFormat captured;
 };
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fed{"rggb8", V4L2_PIX_FMT_SRGGB8, 1, kBallWidth, PixelFormat::Grey}),
     [](const auto& fed) { return std::string(fed.param.pixel_format); });
 
-/// The largest difference of a captured picture's luminance and of its chroma to picture n.
+/// Largest differences of a captured picture's luminance and of its chroma to picture n.
 std::array<int, 2> differences(const Picture& picture, int n) {
   const auto luma = ball_samples(n, 1, kBallWidth, kBallHeight);
   const auto sample = [&](std::size_t plane, int column, int row) {
@@ -104,7 +104,7 @@ TEST_P(LoopbackJpeg, ShowsThePictureThatWasCompressed) {
     ASSERT_EQ(frame->picture.format, colour ? PixelFormat::Nv12 : PixelFormat::Grey);
     std::array<int, 2> least{255, 255};
     for (int fed = 0; fed < 3; ++fed) least = std::min(least, differences(frame->picture, fed));
-    EXPECT_LE(least[0], 16);  // at the ball's edge; another picture differs by 100
+    EXPECT_LE(least[0], 16);  // at the ball's edge; a different picture differs by 100
     EXPECT_LE(least[1], 4);
   }
 }

@@ -11,17 +11,17 @@
 #include "hal/v4l2/device/v4l2_list.h"
 #include "hal/v4l2/v4l2_settings.h"
 
-/// The camera of the kernel's driver vivid. These tests run in the machine that tests/hil makes.
+/// Camera of the kernel's driver vivid. These tests run in the machine that tests/hil makes.
 namespace orbwatch::hal {
 
-/// Where it is on its bus: the same again after its driver was unbound.
+/// Place on its bus: unchanged after its driver was unbound.
 inline constexpr const char* kVivid = "platform:vivid-000";
 
-/// What it is asked for where no other format, size or rate is tested.
+/// Request used unless another format, size or rate is tested.
 inline constexpr StreamRequest kVividRequest{.width = 320, .height = 180, .frame_rate = 60};
 inline V4l2Settings vivid_settings() { return {kVivid, "yuyv", true}; }
 
-/// A device of its own for what is not asked through the camera that is tested.
+/// Opens a separate descriptor for settings that the tested camera does not make.
 inline V4l2Device open_vivid() {
   return find_v4l2_device(kVivid).and_then(V4l2Device::open).value();
 }
@@ -32,7 +32,7 @@ inline void set_vivid(const char* control, double value) {
   ASSERT_TRUE(done) << done.error().message;
 }
 
-/// Takes the device from its driver ("unbind") or gives it back ("bind"), as plugging does.
+/// Takes the device from its driver ("unbind") or returns it ("bind"), like plugging does.
 inline void plug(const char* action) {
   std::ofstream file(std::string("/sys/bus/platform/drivers/vivid/") + action);
   file << "vivid.0" << std::flush;

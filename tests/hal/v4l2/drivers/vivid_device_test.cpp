@@ -7,7 +7,7 @@
 #include "tests/hal/v4l2/drivers/camera_run.h"
 #include "tests/hal/v4l2/drivers/vivid_device.h"
 
-/// What vivid tells of itself and of its frames.
+/// Properties that vivid reports of itself and of its frames.
 namespace orbwatch::hal {
 namespace {
 
@@ -84,8 +84,8 @@ TEST(VividControls, AreSetByAnySpellingAndRefusedOutsideTheirRange) {
 }
 
 TEST(VividFrames, AreNumberedAndStampedAndSayWhatTheStampTells) {
-  // Vivid's menu: 0 the end of the frame, 1 the start of its exposure. It says when the frame will
-  // end before it has; such a stamp is believed only when the frame is taken later than that.
+  // Menu of vivid: 0 the end of the frame, 1 the start of its exposure. It stamps the end of the
+  // frame in advance; such a stamp is plausible only when the frame is dequeued later than that.
   const std::array sources{AnyOf(StampSource::Arrival, StampSource::FrameEnd),
                            AnyOf(StampSource::ExposureStart, StampSource::ExposureStart)};
   for (const std::size_t menu : {0U, 1U}) {

@@ -6,8 +6,7 @@
 #include "tests/hal/v4l2/drivers/camera_run.h"
 #include "tests/hal/v4l2/drivers/vivid_device.h"
 
-/// What can go wrong with a camera, by vivid's means of injecting it: each is reported, and the
-/// camera comes back by itself.
+/// Faults of a camera, injected by vivid: each is reported, and the camera recovers by itself.
 namespace orbwatch::hal {
 namespace {
 
@@ -102,7 +101,7 @@ void PrintTo(const Holdings& held, std::ostream* out) {
   *out << held.files << " files, " << held.mappings << " mappings";
 }
 
-/// The first pixels of a frame.
+/// First pixels of a frame.
 std::vector<std::byte> first_row(const Frame& frame) {
   const std::byte* data = frame->picture.planes[0].data;
   return {data, data + frame->picture.planes[0].stride};
@@ -126,7 +125,7 @@ TEST(VividFaults, UnpluggingIsReportedAndNothingIsLeftBehindByManyReturns) {
       EXPECT_TRUE(run.reports(Fault::None));
       EXPECT_EQ(first_row(held), row) << "of a frame that is held while its camera is back";
       held.reset();
-      // The frame that is held now is of the new stream.
+      // The frame held now belongs to the new stream.
       ASSERT_TRUE(run.next_frame());
       if (n == 0) streaming = holdings();
       EXPECT_EQ(holdings(), streaming) << "return " << n;

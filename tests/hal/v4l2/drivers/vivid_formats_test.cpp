@@ -7,18 +7,18 @@
 #include "tests/hal/v4l2/drivers/picture_colours.h"
 #include "tests/hal/v4l2/drivers/vivid_device.h"
 
-/// Every format that vivid and orbwatch both know, through the camera, against the colour bars that
-/// vivid is known to paint.
+/// Every format that both vivid and orbwatch support, through the camera, checked against the
+/// colour bars that vivid paints.
 namespace orbwatch::hal {
 namespace {
 
 constexpr int kBars = 8;
 constexpr int kBarWidth = kVividRequest.width / kBars;
 
-/// The controls by which vivid paints bars of full colours and nothing else.
+/// Controls that make vivid paint only bars of full colours.
 const CameraRun::Controls kPlainBars{{"test_pattern", 1}, {"osd_text_mode", 2}};
 
-/// White, yellow, cyan, green, magenta, red, blue, black.
+/// Colours: white, yellow, cyan, green, magenta, red, blue, black.
 std::array<double, 3> bar_colour(int bar) {
   constexpr std::array kBits{7, 6, 3, 2, 5, 4, 1, 0};  // red 4, green 2, blue 1
   const int bits = kBits[static_cast<std::size_t>(bar)];
@@ -57,7 +57,7 @@ TEST(VividFormats, EveryInterfaceHasItsFormats) {
       "y10",    "y12",    "y16",    "y16_be", "xbgr32", "bgr32",  "abgr32", "rggb8",
       "grbg8",  "gbrg8",  "bggr8",  "rggb10", "grbg10", "gbrg10", "bggr10", "rggb12",
       "grbg12", "gbrg12", "bggr12", "rggb16", "grbg16", "gbrg16", "bggr16"};
-  // The scenario loads vivid with either interface and says which.
+  // The scenario loads vivid with either interface and sets this variable.
   if (std::getenv("ORBWATCH_VIVID_MULTI_PLANAR") != nullptr) {
     expected.insert(expected.end(), {"nv12m", "nv21m", "yuv420m"});
   }

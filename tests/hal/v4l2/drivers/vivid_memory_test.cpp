@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The last row, where vivid writes no text: bars of colours.
+/// Samples of the last row, where vivid writes no text: bars of colours.
 std::vector<std::byte> last_row(const FrameBuffer& frame) {
   const Picture::Plane& plane = frame.picture.planes[0];
   const std::byte* const row = plane.data + plane.stride * (frame.picture.height - 1);
@@ -72,7 +72,7 @@ TEST(VividMemory, IsSynchronisedByTheKernel) {
   ASSERT_TRUE(buffer);
   EXPECT_TRUE(buffer->begin_read());
   EXPECT_TRUE(buffer->end_read());
-  // Which it is not for memory that is no dma-buf.
+  // The call fails for memory that is not a dma-buf.
   dma_buf_sync sync{DMA_BUF_SYNC_READ | DMA_BUF_SYNC_START};
   EXPECT_EQ(::ioctl(buffer->descriptor(), DMA_BUF_IOCTL_SYNC, &sync), 0);
   sync.flags = DMA_BUF_SYNC_READ | DMA_BUF_SYNC_END;
@@ -91,7 +91,7 @@ TEST(VividMemory, IsTheNextWhereTheDriverRefusesTheFirst) {
   EXPECT_FALSE(run.has_reported());
 }
 
-// With the driver's option allocators=1.
+// Needs the driver's option allocators=1.
 TEST(VividContiguousMemory, IsTheDriversWhereNoOtherIsContiguous) {
   CameraRun run(vivid_settings(), {}, [] { return std::vector{udmabuf()}; });
   ASSERT_TRUE(run.start(kVividRequest));

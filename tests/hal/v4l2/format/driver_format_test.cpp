@@ -24,7 +24,7 @@ TEST(V4l2ColourSpace, IsWhatTheDriverSays) {
   EXPECT_EQ(limited.range, ColourRange::Limited);
 }
 
-/// Defaults of the V4L2 specification, "Colorspaces in detail".
+/// Defaults from the V4L2 specification, "Colorspaces in detail".
 TEST(V4l2ColourSpace, FollowsTheSpecificationWhereTheDriverIsSilent) {
   const struct {
     std::uint32_t colorspace;
@@ -64,7 +64,7 @@ void expect_plane(const DriverLayout& layout, std::size_t n, DriverLayout::Plane
   EXPECT_EQ(layout.planes[n].stride, plane.stride) << "plane " << n;
 }
 
-/// As the V4L2 documentation lays out NV12 and YUV420: chroma follows luma with its stride in
+/// Layouts of NV12 and YUV420 in the V4L2 documentation: chroma follows luma with its stride in
 /// proportion.
 TEST(DriverLayout, FollowsThePlanesOfOneStretch) {
   const auto nv12 = layout(V4L2_PIX_FMT_NV12, {704});

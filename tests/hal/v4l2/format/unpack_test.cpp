@@ -25,7 +25,7 @@ std::vector<std::uint16_t> unpacked(Packing packing, const std::vector<std::byte
   return samples;
 }
 
-/// Bits as the Linux documentation of V4L2_PIX_FMT_Y10P and of V4L2_PIX_FMT_Y12P draws them.
+/// Bits from the figures of V4L2_PIX_FMT_Y10P and V4L2_PIX_FMT_Y12P in the Linux documentation.
 TEST(Unpack, FollowsTheDocumentation) {
   EXPECT_THAT(unpacked(Packing::Mipi10, bytes({0xab, 0xcd, 0xef, 0x12, 0b11'10'01'00}), 4),
               ElementsAre(0b10'1010'1100, 0b11'0011'0101, 0b11'1011'1110, 0b00'0100'1011));
@@ -34,7 +34,8 @@ TEST(Unpack, FollowsTheDocumentation) {
               ElementsAre(0x1234, 0xff00));
 }
 
-/// Writes bit after bit of each group: the upper 8 of every sample, then the rest from the last on.
+/// Writes the bits of each group one by one: the upper 8 of every sample, then the rest, from the
+/// last sample on.
 std::vector<std::byte> packed(const std::vector<std::uint16_t>& samples, int bits) {
   const std::size_t group = bits == 10 ? 4 : 2;
   std::vector<std::byte> row;
