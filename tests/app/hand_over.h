@@ -4,7 +4,7 @@
 
 namespace orbwatch::app::tests {
 
-/// A view on its way to a sink as the pipeline does it: the sink is asked before.
+/// Passes a view to a sink like the pipeline: the sink is queried before.
 inline void hand_over(Sink& sink, const ViewPtr& view) {
   sink.needs(view->index, view->stamp);
   sink.accept(view);

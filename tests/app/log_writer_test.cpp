@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::SizeIs;
 
-/// A reader of the log that may stop reading.
+/// Reader of the log that may stop reading.
 class Reader {
  public:
   LogWriter::Output output() {
@@ -33,7 +33,7 @@ class Reader {
   void stop_reading() { set(false); }
   void go_on() { set(true); }
 
-  /// Returns when somebody waits for it with a line.
+  /// Returns when a writer waits for it with a line.
   void await_line() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return entered_ > lines_.size(); });

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kFence = "```";
 
-/// Single spaces, no comment, no space at the ends.
+/// Normalises a line: single spaces, no comment, no space at the ends.
 std::string tidy(const std::string& line) {
   std::string text = std::regex_replace(line, std::regex("(^|\\s)#.*"), "");
   text = std::regex_replace(text, std::regex("\\s+"), " ");
@@ -56,7 +56,7 @@ class Page {
   }
 
  private:
-  /// Of a line of the sentences.
+  /// End of a command within a line of the sentences.
   struct LineEnd {
     std::size_t offset;
     int number;

@@ -5,10 +5,10 @@
 
 namespace orbwatch::tests {
 
-/// A command line that a README tells its readers.
+/// Command line in a README.
 struct ReadmeCommand {
   std::string place;       ///< "README.md:48"
-  std::string text;        ///< without comment
+  std::string text;        ///< text without a comment
   bool is_inline = false;  ///< in a sentence, else a line of a block
 };
 

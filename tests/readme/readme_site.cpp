@@ -34,7 +34,7 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The photograph that the README's first command is about, in its full size.
+/// Writes the photograph of the README's first command in its full size.
 void write_photograph(const fs::path& folder) {
   const cv::Mat room = cv::imread((kSource / "tests/data/room.jpg").string());
   cv::Mat full;
@@ -56,7 +56,8 @@ std::string camera_text(const std::string& name, const MirroredRig& rig) {
   return out.str();
 }
 
-/// Cameras whose pictures show a ball and printed tags, and a folder of such pictures of A.
+/// Writes pictures of cameras that show a ball and printed tags, and a folder of such pictures of
+/// A.
 void write_cameras(const fs::path& folder) {
   std::mt19937_64 random(8);
   const TagScene scene = random_tag_scene(random, 320, 360, 800);
@@ -84,8 +85,8 @@ void write_cameras(const fs::path& folder) {
   write(folder / "tags.txt", tags.str());
 }
 
-/// The demo's simulated machine, with a state folder and a port of its own: as machine.toml, as a
-/// configuration FILE, and changed as machine/site.toml.
+/// Writes the demo's simulated machine, with a state folder and a port of its own: as machine.toml,
+/// as a configuration FILE, and changed as machine/site.toml.
 void write_machine(const fs::path& folder) {
   const fs::path shipped = kSource / "platform/config";
   std::string site = text_of(shipped / "demo.toml");

@@ -19,14 +19,14 @@
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
-/// The commands of the READMEs do what a reader expects of them: they run.
+/// The commands of the READMEs must run as documented.
 namespace orbwatch::tests {
 namespace {
 
 constexpr std::array kPages{"README.md", "platform/INSTALL.md", "platform/README.md", "app/cli/README.md",
                             "app/cli/GUIDE.md"};
 
-/// Run by this test, as they stand, and end with 0.
+/// Commands that this test runs unchanged, and that must end with 0.
 constexpr std::array<std::string_view, 14> kRun{
     "orbwatch project ball.jpg -o view.jpg --ball 2048,2048,1970 --alpha 346 --yaw 25 --h-fov 100 "
     "--size 1280x800",
@@ -44,7 +44,7 @@ constexpr std::array<std::string_view, 14> kRun{
     "orbwatch doctor",
     "orbwatchd --config FILE --check",
     "orbwatch state",
-    "orbwatch configure machine/site.toml",  // the service starts again for it
+    "orbwatch configure machine/site.toml",  // the service restarts for it
 };
 
 struct NotRun {
@@ -90,7 +90,7 @@ std::vector<std::string> words_of(const std::string& text) {
 
 bool is_ours(const std::string& program) { return program == "orbwatch" || program == "orbwatchd"; }
 
-/// The name of a command alone, as sentences mention it.
+/// True for the name of a command alone, as sentences mention it.
 bool is_mention(const ReadmeCommand& command) {
   const auto words = words_of(command.text);
   const std::size_t names = words.size() > 1 && words[1] == "describe" ? 3 : 2;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono;
 
-/// A self-made certificate, as it is read again.
+/// Self-signed certificate, after reading it back.
 Certificate certificate_for(const ValidityPeriod& validity) {
   const auto credential = make_credential("ball", CertificateUse::Serve, validity);
   EXPECT_TRUE(credential);

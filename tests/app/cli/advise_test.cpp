@@ -5,7 +5,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 
-/// `orbwatch advise` as a user runs it.
+/// Runs `orbwatch advise` like a user.
 namespace orbwatch::tests {
 namespace {
 

@@ -5,7 +5,7 @@
 #include "tests/app/cli/documented_json.h"
 #include "tests/app/files/machine_files.h"
 
-/// `orbwatch calibration` as a user runs it.
+/// Runs `orbwatch calibration` like a user.
 namespace orbwatch::tests {
 namespace {
 

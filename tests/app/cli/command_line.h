@@ -14,17 +14,17 @@
 
 namespace orbwatch::tests {
 
-/// What a user may get wrong.
+/// Mistake of a user.
 struct Mistake {
   std::string name;
-  std::vector<std::string> arguments;  ///< DIR/ stands for the test's folder
+  std::vector<std::string> arguments;  ///< DIR/ is replaced by the test's folder
   std::vector<std::string> says;       ///< parts of the message
 };
 
-/// `orbwatch` as a user runs it: the program, files in, files out.
+/// Runs `orbwatch` like a user: the program, files in, files out.
 class CommandLine : public testing::Test {
  protected:
-  /// Runs the program; returns its exit code and keeps what it said.
+  /// Runs the program; returns its exit code and keeps its output.
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), ORBWATCH_PROGRAM);
     Subprocess program(arguments, folder.path() / "said");
@@ -34,7 +34,7 @@ class CommandLine : public testing::Test {
     return code;
   }
 
-  /// One line that says why, and no file left behind.
+  /// Checks for one line with the reason, and that no file is left.
   void expect_refused(const std::string& command, const Mistake& mistake) {
     const auto before = folder.files();
     std::vector<std::string> arguments{command};

@@ -1,4 +1,4 @@
-/// `orbwatch state` and `orbwatch command` as a user runs them, against a running sink.
+/// Runs `orbwatch state` and `orbwatch command` like a user, against a running sink.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -104,7 +104,7 @@ TEST_F(Control, StateIsPrintedForPeopleAndForPrograms) {
 TEST_F(Control, TheStateIsDocumented) {
   sink.accept(app::tests::make_status());
   ASSERT_EQ(ask("state", {"--json"}), 0) << said;
-  nlohmann::json top;  // the figures within are those of the appliance
+  nlohmann::json top;  // the nested figures are those of the appliance
   const auto state = parsed(said);
   for (const auto& [key, value] : state.items()) top[key] = nullptr;
   EXPECT_GT(top.size(), 10U);

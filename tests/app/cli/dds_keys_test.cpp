@@ -2,7 +2,7 @@
 
 #include "tests/app/cli/command_line.h"
 
-/// `orbwatch dds-keys` as a user runs it.
+/// Runs `orbwatch dds-keys` like a user.
 namespace orbwatch::tests {
 namespace {
 

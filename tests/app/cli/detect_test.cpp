@@ -10,7 +10,7 @@
 #include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/detect/painted_ball.h"
 
-/// `orbwatch detect` as a user runs it.
+/// Runs `orbwatch detect` like a user.
 namespace orbwatch::tests {
 namespace {
 

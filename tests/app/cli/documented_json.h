@@ -8,7 +8,7 @@
 
 namespace orbwatch::tests {
 
-/// Every key of the document, at any depth, is a word of the help.
+/// Checks that every key of the document, at any depth, is a word of the help.
 inline void expect_documented(const nlohmann::json& json, const std::string& help) {
   for (const auto& [key, value] : json.items()) {
     if (json.is_object()) {
@@ -19,7 +19,7 @@ inline void expect_documented(const nlohmann::json& json, const std::string& hel
   }
 }
 
-/// The document in what a program printed; a failure when there is none.
+/// Parses the document that a program printed; a failure when there is none.
 inline nlohmann::json parsed(const std::string& text) {
   auto json = nlohmann::json::parse(text, nullptr, false);
   EXPECT_FALSE(json.is_discarded()) << text;

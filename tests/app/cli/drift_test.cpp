@@ -7,7 +7,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 
-/// `orbwatch drift` as a user runs it.
+/// Runs `orbwatch drift` like a user.
 namespace orbwatch::tests {
 namespace {
 
@@ -17,7 +17,7 @@ constexpr const char* kRig =
 
 class DriftCommand : public CommandLine {
  protected:
-  /// A blotched disc on a blotched ground, moved together.
+  /// Blotched disc on a blotched ground, moved together.
   static cv::Mat ball(double u, double v) {
     cv::Mat blots(80, 100, CV_32F), other(30, 40, CV_32F), ground, seen;
     cv::RNG(5).fill(blots, cv::RNG::UNIFORM, 30, 200);
@@ -33,7 +33,7 @@ class DriftCommand : public CommandLine {
     return out;
   }
 
-  /// A folder with 12 pictures, of which those from `jump` on are moved.
+  /// Writes a folder with 12 pictures; those from `jump` on are moved.
   std::string sequence(const std::string& name, int jump, double u, double v) {
     std::filesystem::create_directory(path(name));
     for (int n = 0; n < 12; ++n) {

@@ -10,7 +10,7 @@
 
 namespace orbwatch::tests {
 
-/// Whether Python's parser finds the same in both documents.
+/// Checks that Python's parser reads the same from both documents.
 inline void expect_equal_json(const std::string& text, const std::string& expected) {
   constexpr const char* kCompare = R"(
 import json, sys

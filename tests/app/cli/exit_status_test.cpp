@@ -12,7 +12,7 @@
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
-/// How the programs end, and that help and manual pages say so.
+/// Exit statuses of the programs, and their documentation in help and manual pages.
 namespace orbwatch::tests {
 namespace {
 
@@ -30,7 +30,7 @@ class ExitStatuses : public testing::Test {
     return static_cast<ExitStatus>(code);
   }
 
-  /// The first words of the lines in which the program's help names its commands.
+  /// First words of the lines in which the program's help names its commands.
   Words commands() {
     EXPECT_EQ(run({"help"}), ExitStatus::Done);
     static const std::regex kCommand("\n  ([a-z][a-z-]+) ");
@@ -41,7 +41,7 @@ class ExitStatuses : public testing::Test {
     return names;
   }
 
-  /// Without escapes.
+  /// Text of a manual page without escapes.
   static std::string page(const char* file) {
     std::ifstream in(std::filesystem::path(ORBWATCH_SOURCE_DIR) / file);
     std::ostringstream text;

@@ -10,10 +10,10 @@
 
 #include "proc/optics/vec.h"
 
-/// Cameras around a ball in a room of smooth colours far away, painted by plain vector reflection.
+/// Cameras around a ball in a distant room of smooth colours, painted by plain vector reflection.
 namespace orbwatch::tests {
 
-/// Exposure and white balance: what the camera delivers is (light - offset) / gain.
+/// Exposure and white balance: the camera delivers (light - offset) / gain.
 struct Exposure {
   double gain_red = 1;
   double gain_green = 1;
@@ -33,11 +33,11 @@ inline std::uint8_t srgb(double light) {
   return static_cast<std::uint8_t>(std::lround(255 * sample));
 }
 
-/// A camera on a horizontal circle around the ball, in the direction `yaw` from it, which looks
+/// Camera on a horizontal circle around the ball, in the direction `yaw` from it, which looks
 /// straight at the ball's centre.
 struct PaintedCamera {
   static constexpr double kDistance = 12;  ///< ball radii
-  static constexpr double kRadius = 50;    ///< of the ball, mm
+  static constexpr double kRadius = 50;    ///< radius of the ball, mm
   static constexpr int kSide = 300;        ///< px
   static constexpr double kLimb = 140;     ///< radius of the ball in the picture, px
   static constexpr optics::Vec3 kCentre{120, 60, 430};
@@ -54,7 +54,7 @@ struct PaintedCamera {
   optics::Vec3 right() const { return optics::cross(forward(), {0, 0, 1}); }
   optics::Vec3 forward() const { return -facing(); }
 
-  /// Where a pixel's ray goes after its reflection on the ball.
+  /// Direction of a pixel's ray after its reflection on the ball.
   std::optional<optics::Vec3> reflected(double u, double v) const {
     constexpr double kMiddle = (kSide - 1) / 2.0;
     const double x = (u - kMiddle) / focal_length(), y = (v - kMiddle) / focal_length();
@@ -68,7 +68,7 @@ struct PaintedCamera {
     return ray - normal * (2 * optics::dot(ray, normal));
   }
 
-  /// What the camera delivers, blue green red; the room behind the ball is black.
+  /// Picture that the camera delivers, blue green red; the room behind the ball is black.
   cv::Mat picture(const Exposure& exposure = {}) const {
     cv::Mat out(kSide, kSide, CV_8UC3, cv::Scalar::all(0));
     for (int v = 0; v < kSide; ++v) {
@@ -84,7 +84,7 @@ struct PaintedCamera {
     return out;
   }
 
-  /// Its table in a rig file.
+  /// Table of the camera in a rig file.
   std::string calibrated() const {
     const auto list = [](const optics::Vec3& v) {
       std::ostringstream text;
@@ -103,7 +103,7 @@ struct PaintedCamera {
   }
 };
 
-/// A rig file's table of the ball.
+/// Table of the ball in a rig file.
 inline std::string painted_ball() { return "[ball]\ncentre = [120, 60, 430]\nradius = 50\n"; }
 
 }  // namespace orbwatch::tests

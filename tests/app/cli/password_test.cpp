@@ -8,7 +8,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/files/machine_files.h"
 
-/// `orbwatch password` as an installer runs it, with the password on standard input.
+/// Runs `orbwatch password` like an installer, with the password on standard input.
 namespace orbwatch::tests {
 namespace {
 
@@ -83,7 +83,7 @@ TEST_F(Password, ShowsFingerprintAndCodeAsTheyAreAndChangesNothing) {
   EXPECT_THAT(show(), AllOf(HasSubstr("no certificate yet"), HasSubstr("no code")));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "state/certificate.pem"));
 
-  // As orbwatchd makes them.
+  // Code and certificate come from the functions that orbwatchd uses.
   const auto state = folder.path() / "state";
   const std::string code = app::web::keep_code(state).value();
   const auto now = *app::now_for(app::Dates::Checked);

@@ -11,7 +11,7 @@
 #include "tests/proc/align/place/mirrored_rig.h"
 #include "tests/proc/align/place/mirrored_tags.h"
 
-/// `orbwatch place` as a user runs it, on a machine that is simulated by plain vectors.
+/// Runs `orbwatch place` like a user, on a machine that is simulated by plain vectors.
 namespace orbwatch::tests {
 namespace {
 
@@ -107,7 +107,7 @@ TEST_F(Place, WritesTheRigAndKeepsWhatAPersonWrote) {
     const optics::Vec3 off = rig->cameras[c].pose->position - machine.cameras[c].pose.position;
     EXPECT_LT(norm(off), 0.05);
     EXPECT_FALSE(rig->cameras[c].outline);
-    // What the rig then says of a direction is what the mirror shows.
+    // The direction by the written rig must match the reflection.
     const auto ball = optics::ball_projection(*rig, rig->cameras[c]);
     ASSERT_TRUE(ball);
     const optics::Vec3 way = machine.points[0] - machine.centre;
@@ -123,8 +123,8 @@ TEST_F(Place, WritesTheRigAndKeepsWhatAPersonWrote) {
   EXPECT_NE(text.find("# with a calliper"), std::string::npos);
 }
 
-/// Where a view of that size, all around, shows the point, by the product's own projections: what
-/// they say of the rig is another test's; here a way there and back.
+/// Point in a view of that size, all around, by the product's own projections: their correctness is
+/// tested elsewhere; here they only convert there and back.
 optics::Vec2 seen_in_view(const optics::BallProjection& ball, const optics::Vec2& pixel) {
   optics::ViewSpec spec{optics::ViewKind::Equirectangular, {}, {}, {}, 1000, 500};
   return *optics::ViewProjection::make(spec)->pixel(*ball.direction(pixel));

@@ -12,7 +12,7 @@
 #include "tests/proc/align/detect/painted_ball.h"
 #include "tests/support/pseudo_terminal.h"
 
-/// What people see who wait, and programs do not.
+/// Progress is shown to users on a terminal, but not to programs.
 namespace orbwatch::tests {
 namespace {
 
@@ -105,7 +105,8 @@ class ProgressOf : public CommandLine {
     write("rig.toml", rig);
   }
 
-  /// What a terminal shows on standard error while the program runs; its output goes to a file.
+  /// Lines that a terminal shows on standard error while the program runs; its output goes to a
+  /// file.
   std::vector<std::string> seen_by_people(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), ORBWATCH_PROGRAM);
     std::vector<char*> argv;
@@ -127,7 +128,7 @@ class ProgressOf : public CommandLine {
     return lines;
   }
 
-  /// Shown to people, and gone; not written where the same command has no terminal.
+  /// Checks that progress is shown and erased on a terminal, and not written without one.
   void expect_progress(const std::vector<std::string>& arguments, const std::string& step) {
     const auto lines = seen_by_people(arguments);
     EXPECT_THAT(lines, Contains(StartsWith(step)));
@@ -166,7 +167,7 @@ TEST_F(ProgressOf, Register) {
 }
 
 TEST_F(ProgressOf, Place) {
-  // Whatever points these are: they are placed, or contradict each other.
+  // The points are arbitrary: they are placed, or contradict each other.
   const auto lines = seen_by_people({"place", "--rig", path("rig.toml"), "--camera", "A", "--point",
                                      "150,120=900,0,500", "--point", "250,160=-900,100,400",
                                      "--point", "200,220=100,800,-300"});

@@ -6,7 +6,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/painted_machine.h"
 
-/// `orbwatch project` with a rig: cameras that are chosen by name and merged.
+/// Runs `orbwatch project` with a rig: cameras that are selected by name and merged.
 namespace orbwatch::tests {
 namespace {
 
@@ -33,7 +33,7 @@ class ProjectRig : public CommandLine {
     EXPECT_EQ(run(arguments), 0) << said;
     return cv::imread(path("out.png"), cv::IMREAD_UNCHANGED);
   }
-  /// BGRA of the whole sphere.
+  /// Projects the whole sphere as BGRA.
   cv::Mat panorama(const std::vector<std::string>& cameras, std::vector<std::string> more = {}) {
     for (const std::string& name : cameras) {
       more.insert(more.end(), {"--camera", name + "=" + path(name + ".png")});
@@ -91,7 +91,7 @@ TEST_F(ProjectRig, ThreeCamerasAreMatchedToTheFirst) {
 }
 
 TEST_F(ProjectRig, ASayOfCamerasThatShareNothingIsGiven) {
-  // Both see the same part of the sphere, one of them sees nothing there but black.
+  // Both cameras cover the same part of the sphere, but one picture is black.
   write("back.png", cv::Mat(300, 300, CV_8UC3, cv::Scalar::all(0)));
   const cv::Mat out = panorama({"front", "back"});
   EXPECT_NE(said.find("back"), std::string::npos) << said;
@@ -162,13 +162,13 @@ TEST_F(ProjectRig, ABallViewIsTheFirstCamerasOwnPictureOfIt) {
                  "--view", "ball", "--size", "201x201", "--undefined", "transparent"});
   ASSERT_EQ(out.type(), CV_8UC4);
   EXPECT_EQ(out.at<cv::Vec4b>(0, 0)[3], 0) << "beside the ball";
-  // The middle is where the ball shows the camera itself; left and right are not mirrored.
+  // In the middle the ball reflects the camera itself; left and right are not mirrored.
   const cv::Mat in = kFront.picture();
   const auto at = [&](double share, const cv::Mat& picture, double radius) {
     const int middle = (picture.cols - 1) / 2;
     return middle + static_cast<int>(std::lround(share * radius));
   };
-  // Its limb stands somewhere along the middle row: the first and last pixel that is seen.
+  // The limb is somewhere along the middle row: the first and last visible pixel.
   int left = 0, right = 200;
   while (out.at<cv::Vec4b>(100, left)[3] == 0) ++left;
   while (out.at<cv::Vec4b>(100, right)[3] == 0) --right;

@@ -13,7 +13,7 @@
 #include "tests/support/reference_data.h"
 #include "tests/support/share.h"
 
-/// `orbwatch project` as a user runs it: the program, files in, files out.
+/// Runs `orbwatch project` like a user: the program, files in, files out.
 namespace orbwatch::tests {
 namespace {
 
@@ -23,7 +23,7 @@ using optics::ViewKind;
 const std::filesystem::path kOwnPhoto =
     std::filesystem::path(ORBWATCH_SOURCE_DIR) / "tests/data/room.jpg";
 
-/// A photograph and its ball as its own truth file states them.
+/// Photograph and its ball, as stated in its truth file.
 struct Photo {
   std::filesystem::path file;
   optics::Outline ball;
@@ -68,7 +68,7 @@ cv::Vec3d bilinear(const cv::Mat& in, const optics::Vec2& p) {
 
 struct Score {
   int compared = 0;
-  int off = 0;  ///< samples more than one grey level from the reference
+  int off = 0;  ///< samples that differ by more than one grey level from the reference
 };
 
 Score compare(const cv::Mat& mine, const Photo& photo, const cv::Mat& source, BallModel::Kind kind,
@@ -219,7 +219,7 @@ TEST_F(Project, DistanceAndAlphaAreTwoWordsForOneThing) {
             0);
 }
 
-// By the same filter in OpenCV, which rounds once.
+// The reference is the same filter in OpenCV, which rounds once.
 TEST_F(Project, ShowsColourSharpenedUnlessToldNotTo) {
   const cv::Mat photo = cv::imread(kOwnPhoto.string());
   cv::Mat mean, sharp;

@@ -10,7 +10,7 @@
 #include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/register/camera_pair.h"
 
-/// `orbwatch register` as a user runs it.
+/// Runs `orbwatch register` like a user.
 namespace orbwatch::tests {
 namespace {
 
@@ -52,7 +52,7 @@ std::string head(const std::string& name, const MirrorRoomPicture& seen) {
 
 class Register : public CommandLine {
  protected:
-  /// The cameras A and B of one room, and their rig.
+  /// Writes pictures of the cameras A and B of one room, and their rig.
   void write_room(bool pose_of_b) {
     pair_ = camera_pair(501, false);
     const MirrorRoomPicture &a = pair_.room.first, &b = pair_.room.second;
@@ -71,7 +71,7 @@ class Register : public CommandLine {
     write("rig.toml", text + (pose_of_b ? pose_of_seen(turned(b)) : outline_of_seen(b)));
   }
 
-  /// As if the camera stood elsewhere: turned about the ball, in the origin.
+  /// Simulates another position of the camera: turned about the ball, in the origin.
   static MirrorRoomPicture turned(MirrorRoomPicture seen) {
     const Mat3 turn = align::rotation_about({0.3, -0.2, 0.5});
     seen.axes = seen.axes * transposed(turn);

@@ -15,8 +15,8 @@
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
-/// The program on rendered pictures with truth: rig file, grid, kernel, PNG, scored by a script
-/// that is not ours.
+/// Runs the program on rendered pictures with truth: rig file, grid, kernel, PNG, scored by an
+/// independent script.
 namespace orbwatch::tests {
 namespace {
 
@@ -48,7 +48,7 @@ class Renders : public testing::Test {
   std::string said;
 };
 
-/// What one scene and camera scored, by the script's names.
+/// Scores of one scene and camera, by the script's names.
 class Scores {
  public:
   explicit Scores(const std::filesystem::path& report)
@@ -60,7 +60,7 @@ class Scores {
     return static_cast<double>(node);
   }
 
-  /// The table of the README of proc/optics, one line.
+  /// Prints one line of the table in the README of proc/optics.
   void print(const std::string& title) const {
     std::cout << "| " << title;
     for (const char* row : {"far A", "far B", "near A", "near B", "near50 A"}) {
@@ -83,8 +83,8 @@ class Scores {
 
 class RenderedViews : public Renders {
  protected:
-  /// Projects every view of every scene and camera that has truth, and has it scored. `rig` gives
-  /// a scene's rig file.
+  /// Projects every view of every scene and camera that has truth, and lets the script score it.
+  /// `rig` returns a scene's rig file.
   Scores score(const std::string& model,
                const std::function<std::string(const RenderedScene&)>& rig) {
     for (const char* name : {"far", "near", "near50"}) {
@@ -156,7 +156,7 @@ TEST_F(RenderedViews, ExactModelWithTheMachinesGeometry) {
   EXPECT_LE(scores.of("near C", "rmse_cold_k"), 2.95);
 }
 
-/// What the product is compared with. Only tests/acceptance/run runs these.
+/// Other models, for comparison with the product. Only tests/acceptance/run runs these.
 using OtherModels = RenderedViews;
 
 TEST_F(OtherModels, ExactModelWithoutTheMachinesGeometry) {
@@ -168,8 +168,8 @@ TEST_F(OtherModels, ExactModelWithoutTheMachinesGeometry) {
   EXPECT_GE(scores.of("near A", "median_deg"), 2) << "else the near scene shows no parallax";
 }
 
-// What the paper does, with the same outline, alpha and rotation, must reach what the paper's term
-// is known to reach on these pictures: the comparison is fair.
+// The paper's method, with the same outline, alpha and rotation, must reach its known error on
+// these pictures, so that the comparison is fair.
 TEST_F(OtherModels, PaperAndClassicalModel) {
   ORBWATCH_REQUIRE_FILE(score_script());
   const auto uncalibrated = [](const RenderedScene& scene) { return scene.uncalibrated_rig(); };
@@ -183,12 +183,12 @@ TEST_F(OtherModels, PaperAndClassicalModel) {
   EXPECT_LE(classical.of("far A", "psnr_db"), 13);
 }
 
-/// The panorama of the far scene by cameras A and B.
+/// Panorama of the far scene by cameras A and B.
 class TwoCameras : public Renders {
  protected:
   static constexpr int kWidth = 2048, kHeight = 1024;
 
-  /// BGRA; transparent where no camera sees.
+  /// Returns BGRA; transparent where no camera has coverage.
   cv::Mat panorama(const std::vector<std::string>& names) {
     const RenderedScene scene("far");
     const auto rig_file = folder / "far.toml", out = folder / "panorama.png";
@@ -205,7 +205,7 @@ class TwoCameras : public Renders {
     return cv::imread(out.string(), cv::IMREAD_UNCHANGED);
   }
 
-  /// Which camera has more pixels per degree: 0 A, 1 B.
+  /// Camera with more pixels per degree: 0 A, 1 B.
   cv::Mat sharper() {
     const auto rig = app::load_rig(folder / "far.toml").value();
     const auto a = optics::ball_projection(rig, rig.cameras[0]).value();
@@ -225,8 +225,8 @@ class TwoCameras : public Renders {
   }
 };
 
-/// How much larger a step the picture has than its truth, in levels: median over all neighbours
-/// that stand on different sides of a border in `side`.
+/// Excess of a step in the picture over its truth, in levels: median over all neighbours on
+/// different sides of a border in `side`.
 double seam_step(const cv::Mat& picture, const cv::Mat& truth, const cv::Mat& side) {
   std::vector<double> steps;
   const auto compare = [&](cv::Point p, cv::Point q) {

@@ -17,7 +17,7 @@
 #include "tests/support/reference_data.h"
 #include "tests/support/rendered_scene.h"
 
-/// `orbwatch setup` on recorded sequences of a rendered machine.
+/// Runs `orbwatch setup` on recorded sequences of a rendered machine.
 namespace orbwatch::tests {
 namespace {
 
@@ -58,7 +58,7 @@ Projections truth(const cv::FileStorage& file, bool table_known = true) {
           optics::ball_projection(rig, thermal).value()};
 }
 
-/// Degrees rms between where both cameras as set up see what they truly see, over all directions
+/// Degrees rms between the directions found for both cameras and the true ones, over all directions
 /// within 150 degrees of either camera.
 double thermal_on_colour(const Projections& found, const Projections& truth) {
   constexpr int kSteps = 60;
@@ -84,7 +84,7 @@ double thermal_on_colour(const Projections& found, const Projections& truth) {
 
 class SetupGate : public CommandLine {
  protected:
-  /// A calibration file, as ROS writes it.
+  /// Calibration file in ROS' format.
   std::string calibration(const std::string& name, const cv::FileNode& camera) {
     std::ostringstream text;
     text.precision(12);
@@ -97,8 +97,8 @@ class SetupGate : public CommandLine {
     return write(name + ".yaml", text.str());
   }
 
-  /// The machine's box, the ball's size, the lenses and the pose of the colour camera are known;
-  /// the table in the box, too, or not.
+  /// Runs setup with a known box of the machine, size of the ball, lenses and pose of the colour
+  /// camera; the table in the box is optional.
   int set_up(const cv::FileStorage& file, bool table_known) {
     const auto pictures = [](const char* sequence) {
       return (rendered_pictures() / sequence).string();
@@ -135,7 +135,7 @@ class SetupGate : public CommandLine {
     return error;
   }
 
-  /// The daemon measures with what was written, at a port that is free.
+  /// Checks that the daemon measures with the written files, at a free port.
   void expect_runs() {
     std::ifstream in(path("site/site.toml"));
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -175,7 +175,7 @@ TEST_F(SetupGate, ItsTableNeedNotBeKnown) {
   ORBWATCH_REQUIRE_FILE(rendered_pictures());
   const cv::FileStorage file = open_rendered_scene();
   ASSERT_EQ(set_up(file, false), 0) << said;
-  // What the parallax of a table that is not stated leaves where all else is right.
+  // Error from the parallax of a table that is not stated, if everything else is right.
   const double by_table = thermal_on_colour(truth(file, false), truth(file));
   std::printf("without a table, all else right: %.2f deg rms\n", by_table);
   RecordProperty("without a table, all else right, deg rms", std::to_string(by_table));

@@ -7,7 +7,7 @@
 #include "tests/app/cli/documented_json.h"
 #include "tests/proc/align/detect/painted_ball.h"
 
-/// `orbwatch setup` as an installer runs it, on recorded pictures.
+/// Runs `orbwatch setup` like an installer, on recorded pictures.
 namespace orbwatch::tests {
 namespace {
 
@@ -35,7 +35,7 @@ class Setup : public CommandLine {
     return rig.value_or(optics::Rig{});
   }
 
-  /// Has the daemon check the site, which must pass with these words.
+  /// Lets the daemon check the site, which must succeed with these words.
   void expect_runs(const std::string& words = "") {
     Subprocess daemon({ORBWATCHD_PROGRAM, "--config", path("site/site.toml"), "--check"},
                       folder.path() / "checked");
@@ -93,11 +93,11 @@ TEST_F(Setup, WithAPoseItKnowsWhereTheBallIs) {
   EXPECT_TRUE(rig.cameras[0].pose);
 }
 
-/// Two pictures that have nothing in common but the ball.
+/// The two pictures have only the ball in common.
 TEST_F(Setup, LeavesOutWhatItCouldNotRegister) {
   const std::string first = picture();
   cv::Mat other = align::painted_ball(align::kPaintedSize, kPaintedLimb);
-  cv::flip(other, other, 1);  // no turn of a camera makes a mirror image
+  cv::flip(other, other, 1);  // no rotation of a camera makes a mirror image
   other.convertTo(other, CV_16U, 20);
   const std::string thermal = write("thermal.png", other);
   EXPECT_EQ(set_up({"--camera", "grey=" + first, "--camera", "thermal=" + thermal}), 1) << said;

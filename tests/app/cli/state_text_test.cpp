@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNotValid = signals::kNotValid;
 
-/// Two regions of which one measures, an alarm, a camera and a view.
+/// State with two regions of which one measures, an alarm, a camera and a view.
 ReceivedState welding() {
   ReceivedState state;
   state.stamp =

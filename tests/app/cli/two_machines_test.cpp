@@ -8,8 +8,8 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/files/machine_files.h"
 
-/// Two machines on one board, and a shell whose state folder is that of the first one: as
-/// /var/lib/orbwatch is where nothing else is said.
+/// Two machines on one board, and a shell whose state folder is that of the first one, such as the
+/// default /var/lib/orbwatch.
 namespace orbwatch::tests {
 namespace {
 
@@ -28,7 +28,7 @@ class TwoMachines : public CommandLine {
   void TearDown() override { ::unsetenv("STATE_DIRECTORY"); }
 
   std::filesystem::path state() const { return folder.path() / "state"; }
-  /// In full, as it is recorded.
+  /// Full path, as recorded.
   std::string first() const {
     return std::filesystem::path(path("first.toml")).lexically_normal().string();
   }
@@ -60,7 +60,7 @@ TEST_F(TwoMachines, TheFirstIsReached) {
   EXPECT_EQ(run({"lines", "--safe", "--config", path("first.toml")}), 0) << said;
 }
 
-/// A copy of a site is tried out in any folder.
+/// A copy of a site may be tried out in any folder.
 TEST_F(TwoMachines, FilesOfTheSecondAreReadWithoutAState) {
   Subprocess check({ORBWATCHD_PROGRAM, "--config", path("second.toml"), "--check"},
                    folder.path() / "checked");

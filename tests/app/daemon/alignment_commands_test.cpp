@@ -19,7 +19,7 @@
 #include "tests/proc/align/detect/painted_ball.h"
 #include "tests/proc/align/place/mirrored_rig.h"
 
-/// Alignments as a PLC commands them, on a recording of a ball.
+/// Alignments commanded by a PLC, on a recording of a ball.
 namespace orbwatch::tests {
 namespace {
 
@@ -28,7 +28,7 @@ using app::CommandResult;
 using app::ProposalState;
 using app::WatchLevel;
 
-/// One camera; its outline is 3 px beside the ball.
+/// Rig with one camera; its outline is 3 px beside the ball.
 const std::string kRecordingRig = R"(
 [[camera]]
 name = "colour"
@@ -100,7 +100,7 @@ TEST_F(AlignmentCommands, AProposalCanBeDiscarded) {
   EXPECT_EQ(command(daemon, CommandCode::AcceptAlignment, {0}), CommandResult::NotPossible);
 }
 
-/// Done would be untrue: the restart that puts it in force is refused.
+/// The result Done would be wrong: the restart that applies the alignment is refused.
 TEST_F(AlignmentCommands, IsNotAcceptedWhileTheFilesAreWrong) {
   Subprocess daemon = start(site());
   ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > 2; })) << daemon.output();
@@ -153,7 +153,7 @@ TEST_F(AlignmentCommands, AnOutlineIsStatedByHandTakenBackAndReverted) {
   ASSERT_TRUE(says(daemon, "restored 1: turned by hand")) << daemon.output();
 }
 
-/// The rig file is edited while the daemon runs.
+/// Edits the rig file while the daemon runs.
 class AlignmentOfAnotherRig : public AlignmentCommands {
  protected:
   void propose(Subprocess& daemon) {
@@ -218,8 +218,8 @@ TEST_F(AlignmentOfAnotherRig, IsNotAcceptedWhileTheLastGoodConfigurationRuns) {
   EXPECT_EQ(accepted().size(), 1U) << "the one that counts";
 }
 
-/// A calibrated camera in front of the ball, which a tool with a lamp moves around. The rig has the
-/// ball's outline; where the camera stands is unknown.
+/// Calibrated camera in front of the ball, around which a tool moves a lamp. The rig has the ball's
+/// outline; the position of the camera is unknown.
 class PlacementCommands : public AlignmentCommands {
  protected:
   PlacementCommands() {
@@ -248,7 +248,7 @@ class PlacementCommands : public AlignmentCommands {
         << limb.centre.u << ", " << limb.centre.v << "]\nradii = [" << limb.rx << ", " << limb.ry
         << "]\nangle = " << limb.angle << "\n";
     show_lamp({});
-    // So many that the recording reads each one anew.
+    // Enough pictures that the recording reads each one anew.
     std::filesystem::create_directory(folder / "pictures");
     for (std::size_t n = 0; n <= hal::kKeptFolderBytes / (400 * 320); ++n) {
       std::filesystem::create_symlink(folder / "shown.png",
@@ -260,7 +260,7 @@ class PlacementCommands : public AlignmentCommands {
         rig.str(), kRecordingRecipe);
   }
 
-  /// Pictures with the lamp where that point is seen, and a brighter one that always hangs there.
+  /// Writes pictures with the lamp at the image of that point, and a brighter one at a fixed place.
   void show_lamp(const std::optional<optics::Vec3>& point) {
     cv::Mat picture = align::painted_ball({400, 320}, {limb.centre, limb.rx, limb.ry, limb.angle});
     picture = picture / 3;
@@ -269,7 +269,7 @@ class PlacementCommands : public AlignmentCommands {
       add_light(picture, seen_at(machine.cameras.front(), machine.centre, machine.radius, *point),
                 160, 1.5);
     }
-    // The daemon reads it at any moment.
+    // The daemon may read it at any moment.
     cv::imwrite((folder / "new.png").string(), picture);
     std::filesystem::rename(folder / "new.png", folder / "shown.png");
   }
@@ -289,7 +289,7 @@ class PlacementCommands : public AlignmentCommands {
     const auto scaled = [](double mm) { return static_cast<std::int32_t>(std::lround(mm * 1000)); };
     return {0, scaled(p.x), scaled(p.y), scaled(p.z)};
   }
-  /// Moves the lamp there and marks it; whether it was.
+  /// Moves the lamp there and marks it; returns whether the mark was accepted.
   bool mark(Subprocess& daemon, const optics::Vec3& point) {
     show_lamp(point);
     const auto frames = read("camera_0_frames");
@@ -324,7 +324,7 @@ TEST_F(PlacementCommands, ACameraIsPlacedByALampThatTheMachineMoves) {
   for (const optics::Vec3& point : machine.points) {
     ASSERT_TRUE(mark(daemon, point)) << daemon.output();
   }
-  // The lamp is off, and what stays is no point.
+  // The lamp is off, and the remaining light does not count as a point.
   show_lamp({});
   const auto frames = read("camera_0_frames");
   ASSERT_TRUE(eventually(daemon, [&] { return read("camera_0_frames") > frames + 2; }));
@@ -397,7 +397,7 @@ TEST_F(AlignmentCommands, ADriftIsAnAlarmAndBecomesTheAlignment) {
       return read("camera_0_alignment") == static_cast<int>(WatchLevel::Good);
     })) << daemon.output();
   }
-  show({{206.3, 161.7}, 115, 115, 0});  // while it is off
+  show({{206.3, 161.7}, 115, 115, 0});  // while the lamp is off
   Subprocess daemon = start(config);
   ASSERT_TRUE(eventually(daemon, [&] {
     return read("camera_0_alignment") == static_cast<int>(WatchLevel::Alarm);

@@ -7,7 +7,7 @@
 
 #include "tests/app/daemon/daemon_program.h"
 
-/// The programs where the module of a camera's back-end is not installed.
+/// Behaviour of the programs without the module of a camera's back-end.
 namespace orbwatch::tests {
 namespace {
 

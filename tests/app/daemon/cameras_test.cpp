@@ -6,7 +6,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Shows what is requested of it.
+/// Camera that shows the request it received.
 class RequestedCamera : public hal::Camera {
  public:
   RequestedCamera() : Camera({"requested", "requested", "test"}) {}
@@ -88,7 +88,7 @@ TEST(OpenCamera, CountsMayBeginAtAnyTemperature) {
   EXPECT_EQ(format->kelvin_offset, 273.15);
 }
 
-/// Asked for a stream of no stated size of a camera with this back-end.
+/// Request for a stream without a stated size from a camera with this back-end.
 hal::StreamRequest requested_of(BackEndSettings back_end) {
   Resolved site;
   site.site.cameras.emplace_back().back_end = std::move(back_end);

@@ -36,7 +36,7 @@ namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;
 
-/// The demonstration with a measured view of that size.
+/// Demonstration with a measured view of that size.
 Resolved site() {
   auto site = demo();
   ViewSettings& view = site.recipes.front().views[0];

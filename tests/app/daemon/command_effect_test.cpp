@@ -10,11 +10,11 @@
 #include "tests/app/pipeline/views/pointed_views.h"
 #include "tests/support/registers.h"
 
-/// From a PLC's command over Modbus to the picture that shows it.
+/// Measures from a PLC's command over Modbus to the picture that shows it.
 namespace orbwatch::app {
 namespace {
 
-/// Remembers which pointing the newest picture shows.
+/// Records the pointing of the newest picture.
 class NewestPointing : public Sink {
  public:
   Result<> start() override { return {}; }
@@ -25,7 +25,7 @@ class NewestPointing : public Sink {
     frame_set_ = status.frame_set;
     changed_.notify_all();
   }
-  /// That of the frame set with this number.
+  /// Pointing of the frame set with this number.
   std::uint64_t of(std::uint64_t frame_set) {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(
@@ -60,8 +60,8 @@ TEST(CommandToEffect, APointedViewIsInTheNextFrame) {
   ASSERT_TRUE(modbus.start());
   ASSERT_TRUE(pipeline.start({&newest, &modbus}));
 
-  // Frames come as fast as they can, so a machine that is busy elsewhere may show one before the
-  // view is compiled: a camera's period later it is.
+  // Frames come as fast as possible, so a busy machine may show one before the view is compiled: a
+  // camera's period later it is compiled.
   int in_the_next = 0;
   std::uint64_t frames = 0;
   constexpr int kCommands = 20;

@@ -8,7 +8,7 @@
 #include "tests/app/ports/web/http_client.h"
 #include "tests/support/notify_socket.h"
 
-/// The configuration of `orbwatchd`, changed over HTTP as with curl.
+/// Changes the configuration of `orbwatchd` over HTTP, like curl.
 namespace orbwatch::tests {
 namespace {
 
@@ -34,14 +34,14 @@ class ConfigurationOverHttp : public Daemon {
                    "Content-Type: application/json\r\n", body.dump());
   }
   json shown() const { return json::parse(request(web_port, "GET", "/api/v1/configuration").body); }
-  /// Of the installed recipe, with comments and another order.
+  /// Text of the installed recipe with added comments.
   std::string other_recipe() const {
     return "# by hand \xC3\xA9\r\n" + kSmallRecipe + "# the end, without a line's";
   }
   json of_recipe(const std::string& text, int seconds = 60) const {
     return {{"files", {{"recipe.toml", text}}}, {"seconds", seconds}};
   }
-  /// The new recipe runs, and the files are the old ones.
+  /// Starts a trial: the new recipe runs, and the files are unchanged.
   void begin_trial(int seconds) {
     manager.await("READY=1");
     old_checksum = read("system_configuration_checksum");
@@ -85,7 +85,7 @@ TEST_F(ConfigurationOverHttp, ShowsNoPrivateFile) {
     EXPECT_THAT(file["text"].get<std::string>(), HasSubstr("only its owner may read it"));
   }
   EXPECT_THAT(shown().dump(), Not(HasSubstr("hot_spot_threshold")));
-  // Neither in a trial of another file.
+  // A trial of another file must not change it either.
   const Answer tried =
       ask("try", {{"files", {{"rig.toml", kSmallRig + "# by hand\n"}}}, {"seconds", 60}});
   ASSERT_EQ(tried.status, 200) << tried.body;
@@ -94,7 +94,7 @@ TEST_F(ConfigurationOverHttp, ShowsNoPrivateFile) {
   EXPECT_THAT(contents(folder / "trial-running.json"), Not(HasSubstr("hot_spot_threshold")));
 }
 
-/// The role that a file needs is judged by its name.
+/// The required role of a file is determined by its name.
 TEST_F(ConfigurationOverHttp, KnowsAFileByOneNameOnly) {
   Subprocess daemon = start(config);
   manager.await("READY=1");
@@ -113,7 +113,7 @@ TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   fs::permissions(folder / "recipe.toml", fs::perms(0640));
   Subprocess daemon = start(config);
   begin_trial(3600);
-  json left;  // counted from where all has started, which READY may come before
+  json left;  // counted from the complete start, which READY may precede
   ASSERT_TRUE(eventually(daemon, [&] {
     left = shown()["trial"]["seconds_left"];
     return left.is_number();
@@ -134,7 +134,7 @@ TEST_F(ConfigurationOverHttp, IsConfirmedByteForByte) {
   EXPECT_EQ(read("system_configuration_checksum"), checksum) << daemon.output();
 }
 
-/// Two editors, and one at the board.
+/// Two editors, and one on the board.
 TEST_F(ConfigurationOverHttp, RemovesNobodysChange) {
   Subprocess daemon = start(config);
   begin_trial(3600);
@@ -179,7 +179,7 @@ TEST_F(ConfigurationOverHttp, GoesBackWhenAsked) {
   EXPECT_EQ(read("system_configuration_checksum"), old_checksum);
 }
 
-/// Files change together or not at all, also when the power is cut between them.
+/// Files change together or not at all, even if the power is cut between them.
 TEST_F(ConfigurationOverHttp, ThatWasConfirmedIsWrittenToTheEndAfterAPowerCut) {
   {
     Subprocess daemon = start(config);
@@ -217,7 +217,8 @@ TEST_F(ConfigurationOverHttp, RefusesWhatIsWrongWithFileLineAndKey) {
   EXPECT_FALSE(fs::exists(folder / "trial.json"));
 }
 
-/// A rig may name any file as a lens: a text in its place would show what it holds, and replace it.
+/// A rig may name any file as a lens: a text in its place would reveal its contents, and replace
+/// it.
 TEST_F(ConfigurationOverHttp, TellsNothingOfFilesThatItDoesNotName) {
   const std::string lens =
       "image_width: 200\nimage_height: 200\n"
@@ -244,7 +245,7 @@ TEST_F(ConfigurationOverHttp, TellsNothingOfFilesThatItDoesNotName) {
   EXPECT_EQ(contents(folder / "key.pem"), "the secret\n");
 }
 
-/// Limits and regions of a recipe become lines of its file; all else there stays.
+/// Limits and regions of a recipe become lines of its file; the rest of the file is kept.
 TEST_F(ConfigurationOverHttp, OfARecipeIsChangedWithinItsFile) {
   const std::string alarm =
       "[[region.alarm]]  # the weld\nsignal = \"hot_spot_pixels\"\nhigh_alarm = 400   # too hot\n";
@@ -275,7 +276,7 @@ TEST_F(ConfigurationOverHttp, OfARecipeIsChangedWithinItsFile) {
   EXPECT_EQ(contents(folder / "recipe.toml"), expected.replace(expected.find("= 400"), 5, "= 450"));
 }
 
-/// There would be nothing to go back to.
+/// There would be no configuration to return to.
 TEST_F(ConfigurationOverHttp, IsNotTriedOutWithoutAServicesFolder) {
   ::unsetenv("STATE_DIRECTORY");
   Subprocess daemon = start(config);

@@ -14,14 +14,15 @@
 #include "tests/support/sanitizers.h"
 #include "tests/support/service_user.h"
 
-/// A new configuration of a running `orbwatchd`, by `orbwatch configure`, and what its ends leave.
+/// New configuration of a running `orbwatchd`, by `orbwatch configure`, and the effects of its
+/// ends.
 namespace orbwatch::tests {
 namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A configuration under trial, on its way by `orbwatch configure`.
+/// Configuration under trial by `orbwatch configure`.
 class Configured : public Daemon {
  protected:
   Configured() : manager(folder / "notify", std::chrono::seconds(1)) {
@@ -49,7 +50,7 @@ class Configured : public Daemon {
     const int code = program.wait();
     return {code, program.output()};
   }
-  /// The new configuration runs, and the files are the old ones.
+  /// Starts a trial: the new configuration runs, and the files are unchanged.
   void begin_trial(const std::string& seconds) {
     manager.await("READY=1");
     old_checksum = read("system_configuration_checksum");
@@ -100,7 +101,7 @@ TEST_F(Configured, GoesBackAlthoughADriverHangs) {
   EXPECT_THAT(daemon.output(), HasSubstr("was not confirmed"));
 }
 
-/// A pipe that is full and that nobody reads: the log and the console go to it.
+/// Full pipe without a reader: the log and the console go to it.
 class Unread {
  public:
   explicit Unread(const fs::path& path) {
@@ -176,7 +177,7 @@ TEST_F(Configured, GoesBackWhenCancelled) {
   EXPECT_EQ(read("system_configuration_checksum"), old_checksum) << daemon.output();
 }
 
-/// The daemon looks for a request once a second, and whenever a signal comes.
+/// The daemon checks for a request once a second, and at each signal.
 TEST_F(Configured, EndsWhereATrialWasRequestedJustBefore) {
   Subprocess daemon = run();
   manager.await("READY=1");
@@ -241,7 +242,7 @@ TEST_F(Configured, RemovesWhatAPowerCutLeftHalfWritten) {
   EXPECT_TRUE(fs::exists(other));
 }
 
-/// No computer has these lines: the message shows which ones were tried.
+/// No computer has these lines: the message shows the attempted ones.
 class Outputs : public Configured {
  protected:
   Outputs() {
@@ -284,7 +285,7 @@ TEST_F(Outputs, AreMadeSafeAsTheyRanAfterTheFileWasEdited) {
   ::unsetenv("RUNTIME_DIRECTORY");
 }
 
-/// A folder that somebody else has prepared.
+/// The folder was prepared by another user.
 TEST_F(Configured, ReplacesNoPrivateFile) {
   const std::string lens = "[camera.intrinsics]\nfile = \"key.pem\"\n";
   const std::string key = "of the page\n";
@@ -305,12 +306,12 @@ TEST_F(Configured, ReplacesNoPrivateFile) {
   EXPECT_THAT(said, testing::Not(HasSubstr(key))) << "nor is it shown";
 }
 
-/// On a hardened board root's umask is 077.
+/// Root's umask on a hardened board is 077.
 TEST_F(Configured, IsReadByTheServiceWhateverRootsUmask) {
   ORBWATCH_WITHOUT_ROOT_SKIPPED();
   const fs::path program = folder / "orbwatchd";
   fs::copy_file(ORBWATCHD_PROGRAM, program);
-  std::ofstream(folder / "new/lamp.toml") << kSmallRecipe;  // a file that is new
+  std::ofstream(folder / "new/lamp.toml") << kSmallRecipe;  // a new file
   std::string site = contents(folder / "new/site.toml");
   site.replace(site.rfind("recipe.toml"), 11, "lamp.toml");
   std::ofstream(folder / "new/site.toml") << site;

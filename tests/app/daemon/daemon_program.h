@@ -22,10 +22,10 @@
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
-/// `orbwatchd` as it is installed: the program, its files, and a machine that is simulated.
+/// `orbwatchd` as installed: the program, its files, and a simulated machine.
 namespace orbwatch::tests {
 
-/// A port that nobody uses at this moment.
+/// Port that is free at this moment.
 inline int free_port() {
   const int s = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -38,7 +38,7 @@ inline int free_port() {
   return ntohs(address.sin_port);
 }
 
-/// Empty: there is no such file.
+/// Contents of a file; empty if it does not exist.
 inline std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -62,7 +62,7 @@ low = [-190, -130, 140]
 high = [-30, 30, 178]
 )";
 
-// Where the colour camera stands, and the thermal one, of which one knows limb and registration.
+// Poses: that of the colour camera, and limb and registration of the thermal one.
 inline const std::string kPlaces = R"([camera.pose]
 position = [208.6, -530.5, 489.0]
 rotation = [0.98893021, 0.1483814, 0, 0.014590408, -0.097241939, -0.99515382,
@@ -78,7 +78,7 @@ alpha = 343.571
 rotation = [-11.887, 11.639, 0]
 )";
 
-// The colour camera is calibrated.
+// Rig with a calibrated colour camera.
 inline const std::string kSmallRig = kMachine + R"(
 [[camera]]
 name = "colour"
@@ -142,7 +142,7 @@ class Daemon : public testing::Test {
     return false;
   }
   std::int64_t read(const std::string& name) const { return read_register(port, name); }
-  /// What the daemon answers to a command.
+  /// Sends a command and returns the daemon's answer.
   app::CommandResult command(Subprocess& daemon, app::CommandCode code,
                              const std::vector<std::int32_t>& arguments = {}) {
     write_command(port, static_cast<std::uint16_t>(code), arguments, ++sequence);
@@ -158,7 +158,7 @@ class Daemon : public testing::Test {
   std::string state_folder = "state";
   int port = free_port();
   int domain = 1 + getpid() % 100;
-  std::uint16_t sequence = 100;  ///< of the newest command
+  std::uint16_t sequence = 100;  ///< sequence number of the newest command
 };
 
 inline const std::string kSmallMachine = R"(

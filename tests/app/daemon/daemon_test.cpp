@@ -16,7 +16,7 @@
 #include "tests/support/reference_data.h"
 #include "tests/support/sanitizers.h"
 
-/// `orbwatchd` as it is installed: the program, a file, and clients of its own kind on the network.
+/// `orbwatchd` as installed: the program, a file, and independent clients on the network.
 namespace orbwatch::tests {
 namespace {
 
@@ -26,8 +26,8 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   const auto heartbeat = read("system_heartbeat");
   EXPECT_TRUE(eventually(daemon, [&] { return read("system_heartbeat") != heartbeat; }));
   EXPECT_EQ(read("system_state"), 1) << "running";
-  // The pool's truth: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
-  // from the ball at (120, 60, 430). Now and then a spark is larger.
+  // Truth of the pool: 2000 degC in the centre, on a circle of 40 mm around (-110, -50, 178), seen
+  // from the ball at (120, 60, 430). Occasionally a spark is larger.
   const auto is_near = [&](const char* name, double truth, double tolerance) {
     return std::abs(static_cast<double>(read(name)) / 100 - truth) <= tolerance;
   };
@@ -52,7 +52,8 @@ TEST_F(Daemon, ReportsOverModbusAndDdsAndEndsCleanly) {
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }
 
-/// Its first camera is triggered over a wire, by a line that has `pace` among its keys.
+/// Configuration whose first camera is triggered over a wire, by a line that has `pace` among its
+/// keys.
 std::string triggered_machine(const std::string& mode, const std::string& pace = "") {
   std::string text = small_machine();
   text.insert(text.find("frame_rate"),
@@ -72,7 +73,7 @@ line_name = "WIRE"
          "\n";
 }
 
-/// The names of a program's threads, as `ps -L` shows them.
+/// Names of a program's threads, as `ps -L` shows them.
 std::vector<std::string> thread_names(const Subprocess& program) {
   std::vector<std::string> names;
   const auto tasks = std::filesystem::path("/proc") / std::to_string(program.pid()) / "task";
@@ -87,14 +88,14 @@ TEST_F(Daemon, NamesItsThreads) {
   Subprocess daemon = start(write_config(triggered_machine("line", "rate = 10")));
   for (const char* name : {"cam colour", "cam thermal", "pipeline", "lines", "modbus",
                            "modbus commands", "background", "watch", "alignment", "dds", "log"}) {
-    // Interfaces begin one after the other.
+    // Interfaces start one after the other.
     EXPECT_TRUE(eventually(daemon, [&] {
       return std::ranges::count(thread_names(daemon), name) == 1;
     })) << name;
   }
 }
 
-/// Threads that libraries make: Cyclone DDS.
+/// True for threads that a library makes: Cyclone DDS.
 bool is_of_a_library(const std::string& name) {
   return name.starts_with("recv") || name.starts_with("dq.") ||
          std::ranges::count(std::array{"tev", "gc", "lease"}, name) > 0;
@@ -111,13 +112,13 @@ TEST_F(Daemon, HasAThreadForEachCameraWorkerAndInterfaceAndNineMore) {
   Subprocess daemon = start(write_config(site));
   ASSERT_TRUE(eventually(daemon, [&] { return read("system_frame_set") > 0; })) << daemon.output();
   EXPECT_EQ(read("view_count"), 4);
-  // A library's thread has the program's name until it has its own.
+  // A library's thread has the program's name until it sets its own.
   std::string own;
   EXPECT_TRUE(eventually(daemon, [&] {
     own.clear();
     std::ptrdiff_t count = 0;
     const auto names = thread_names(daemon);
-    if (std::ranges::count(names, "dds") == 0) return false;  // the last one
+    if (std::ranges::count(names, "dds") == 0) return false;  // the thread that starts last
     for (const std::string& name : names) {
       if (is_of_a_library(name)) continue;
       own += name + ", ";
@@ -209,7 +210,7 @@ TEST_F(Daemon, ReplaysARecordingAndMergesItsCameras) {
   const auto renders = reference_data() / "renders";
   ORBWATCH_REQUIRE_FILE(renders / "seq_spark");
   ORBWATCH_REQUIRE_FILE(renders / "seq_thermal");
-  // As in the recording's scene.json, but for the pixels, whose centres are at +0.5 there.
+  // Rig from the recording's scene.json, except the pixels, whose centres are at +0.5 there.
   const std::string rig = kMachine + R"(
 [[camera]]
 name = "colour"
@@ -285,7 +286,7 @@ hot_spot_threshold = 500
                      "--seconds", "60"},
                     folder.path() / "reader.log");
   EXPECT_EQ(reader.wait(), 0) << reader.output();
-  // scene.json's melt pool, seen from the ball's centre: yaw -122.9 to -113.7, pitch -48.2 to
+  // Melt pool of scene.json, seen from the ball's centre: yaw -122.9 to -113.7, pitch -48.2 to
   // -40.4. In a few of the frames a spark is larger than it.
   std::int64_t last_set = 0;
   std::vector<double> yaw, pitch;
@@ -372,7 +373,8 @@ TEST_F(Daemon, ACameraThatCannotBeUsedIsAFaultWithItsReason) {
 
 TEST_F(Daemon, ChecksAFileWithoutRunning) {
   const std::string recipe =
-      kSmallRecipe + "hot_spot_min_area = 6\nhot_spot_max_speed = 200\n";  // nothing is assumed
+      kSmallRecipe +
+      "hot_spot_min_area = 6\nhot_spot_max_speed = 200\n";  // so that no default is assumed
   Subprocess program(
       {ORBWATCHD_PROGRAM, "--check", "--config", write_config(small_machine(), kSmallRig, recipe)},
       folder.path() / "said");

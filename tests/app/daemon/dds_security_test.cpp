@@ -2,7 +2,7 @@
 
 #include "tests/app/daemon/daemon_program.h"
 
-/// `orbwatchd` whose DDS domain only holders of keys may join, from making the keys on.
+/// `orbwatchd` in a DDS domain that only holders of keys may join, starting with making the keys.
 namespace orbwatch::tests {
 namespace {
 
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 class SecureDaemon : public Daemon {
  protected:
-  /// Runs `orbwatch`; returns its exit code and keeps what it said.
+  /// Runs `orbwatch`; returns its exit code and keeps its output.
   int orbwatch(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), ORBWATCH_PROGRAM);
     Subprocess program(arguments, folder / "said");
@@ -19,7 +19,7 @@ class SecureDaemon : public Daemon {
     said = program.output();
     return code;
   }
-  /// The same for a command of DDS, with the keys of `name`, or none.
+  /// Runs a command of DDS with the keys of `name`, or none.
   int ask(std::vector<std::string> arguments, const std::string& name = "") {
     std::vector<std::string> options{"--domain", std::to_string(domain)};
     if (!name.empty()) {

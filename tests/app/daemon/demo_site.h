@@ -8,11 +8,11 @@
 
 namespace orbwatch::app {
 
-/// The shipped files.
+/// Folder of the shipped files.
 inline const std::filesystem::path kShippedFolder =
     std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
 
-/// The demonstration, from which each test makes its own.
+/// The demonstration, which each test modifies.
 inline Resolved demo() {
   auto site = resolve(kShippedFolder / "demo.toml");
   EXPECT_TRUE(site) << site.error().message;

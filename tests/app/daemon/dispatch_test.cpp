@@ -18,7 +18,7 @@ namespace {
 
 using std::chrono::seconds;
 
-/// A camera that exposes when it is triggered, too.
+/// Camera that can also be triggered to expose.
 class TriggeredCamera : public HandCamera {
  public:
   explicit TriggeredCamera(std::string name) : HandCamera(std::move(name), PixelFormat::Y16) {}
@@ -53,7 +53,7 @@ class ResultSink : public Sink {
 
 class Dispatch : public testing::Test {
  protected:
-  /// Cameras by their trigger modes; commands are the source of every trigger.
+  /// Starts cameras with these trigger modes; commands are the source of every trigger.
   void start(const std::vector<hal::TriggerMode>& modes) {
     LineSettings pulse;
     pulse.name = "pulse";
@@ -95,7 +95,7 @@ class Dispatch : public testing::Test {
             },
             [this] { ++restarts; }};
   }
-  /// A frame that becomes a set.
+  /// Exposes a frame that becomes a set.
   Status next_set(std::size_t camera = 0) {
     cameras[camera]->expose(40000);
     return sink.wait_for_set(++sets);
@@ -141,7 +141,7 @@ TEST_F(Dispatch, ATriggerMakesAResultOfTheNextSetOfAFreeCamera) {
 
 TEST_F(Dispatch, ATriggerAsksTheCameraThatIsTriggeredForItsFrame) {
   start({hal::TriggerMode::Software});
-  cameras[0]->expose(40000);  // nobody asked for this one: it is in no set
+  cameras[0]->expose(40000);  // not requested: it is in no set
   for (int n = 1; n <= 3; ++n) {
     ASSERT_EQ(command(CommandCode::Trigger), CommandResult::Done);
     wait_for_trigger(0, n);

@@ -27,7 +27,7 @@ using app::Fleet;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kAll = 20;
-/// One that stays, one that is killed, one whose plug is pulled.
+/// Smallest fleet: one appliance that stays, one that is killed, one that is disconnected.
 constexpr int kLeast = 3;
 constexpr int kPort = 8080;
 
@@ -66,7 +66,7 @@ height = 100
 camera = "colour"
 )";
 
-/// Who reads the domain, by a participant of its own on the present thread's computer.
+/// Reader of the domain, by a participant of its own on the present thread's computer.
 struct Reader {
   Reader() : participant(app::Participant::join(0).value()) {
     EXPECT_TRUE(reader.open(participant.entity()));
@@ -101,7 +101,7 @@ class FleetOfDaemons : public testing::Test {
           folder_ / (name + ".log"));
     });
   }
-  /// In seconds.
+  /// Waits for the condition; returns the time in seconds.
   double time_until(const std::function<bool()>& condition) const {
     const auto begin = Clock::now();
     while (!condition()) {
@@ -119,7 +119,7 @@ class FleetOfDaemons : public testing::Test {
     EXPECT_EQ(program.wait(), 0) << program.output();
     return program.output();
   }
-  /// What the page of the first appliance lists, there.
+  /// List on the page of the first appliance.
   std::string page() const {
     std::string body;
     lan_->computer(0).run([&] { body = app::web::tests::get(kPort, "/api/v1/appliances").body; });
@@ -130,7 +130,7 @@ class FleetOfDaemons : public testing::Test {
     for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
     return found;
   }
-  /// Of all daemons together, MiB.
+  /// Resident memory of all daemons together, MiB.
   int resident() const {
     long pages = 0;
     for (const auto& daemon : daemons_) {
@@ -140,7 +140,7 @@ class FleetOfDaemons : public testing::Test {
     }
     return static_cast<int>(pages * sysconf(_SC_PAGESIZE) >> 20);
   }
-  /// Recorded; limited only where nothing else runs.
+  /// Records a duration; checks the limit only if nothing else runs.
   static void expect_within(double limit, double seconds, const char* what) {
     RecordProperty(what, std::to_string(seconds) + " s");
     if (acceptance_mode()) {

@@ -12,7 +12,7 @@
 #include "tests/support/reference_data.h"
 #include "tests/support/share.h"
 
-/// orbwatchd with Aravis' fake GigE Vision camera, in a network of their own.
+/// Runs orbwatchd with Aravis' fake GigE Vision camera, in a network of their own.
 namespace orbwatch::tests {
 namespace {
 
@@ -27,7 +27,7 @@ alpha = 343.571
 )";
 }
 
-/// A site runs those of its cameras that it wants.
+/// Rig with more cameras than a site needs to run.
 const std::string kRig = kMachine + camera_of_rig("thermal") + camera_of_rig("colour");
 
 const std::string kRecipe = R"(
@@ -47,7 +47,7 @@ hot_spot_threshold = 100
 
 const std::string kStatedScale = "kelvin_per_count = 0.04\n";
 
-/// `keys` are those of the camera.
+/// Site with `keys` for the camera.
 std::string site(const std::string& keys, int frame_rate = 100) {
   return R"(
 [[camera]]
@@ -72,7 +72,7 @@ class GenicamDaemon : public Daemon {
 
   using Work = std::function<void(Subprocess&, FakeGigeCamera&)>;
 
-  /// Does `work` while a daemon measures what the camera sends.
+  /// Executes `work` while a daemon measures the camera's frames.
   void run(const std::string& keys, const Work& work) {
     run_with({}, site(kStatedScale + keys), work);
   }
@@ -97,7 +97,7 @@ class GenicamDaemon : public Daemon {
   }
 };
 
-/// `whole` rounds of what mostly waits, in acceptance mode, else `few`.
+/// Number of rounds, which mostly wait: `whole` in acceptance mode, else `few`.
 int whole_or(int whole, int few) { return acceptance_mode() ? share_of(whole) : few; }
 
 std::size_t open_files(const Subprocess& program) {
@@ -128,7 +128,7 @@ TEST_F(GenicamDaemon, MeasuresAgainAfterEachReturnOfTheCameraAndNothingGrows) {
       fake.start();
       ASSERT_TRUE(delivers(daemon)) << daemon.output();
       if (round > 0) continue;
-      // Libraries keep something after the first time.
+      // Libraries keep some files open after their first use.
       files = open_files(daemon);
       memory = resident(daemon);
     }
@@ -145,7 +145,7 @@ TEST_F(GenicamDaemon, MeasuresTemperaturesByTheScaleThatTheCameraSays) {
   run_with({.is_thermal = true}, site("radiometric = true\n") + linear,
            [&](Subprocess& daemon, FakeGigeCamera&) {
              ASSERT_TRUE(delivers(daemon)) << daemon.output();
-             // Counts go up to 65534, of 0.01 K each; the hot spot begins at 100 degC.
+             // Counts reach 65534, each 0.01 K; the hot spot begins at 100 degC.
              const auto peak = [this] { return read("region_0_hot_spot_peak_temperature"); };
              ASSERT_TRUE(eventually(daemon, [&] { return peak() >= 1000; })) << peak();
              EXPECT_LE(peak(), 3822);
@@ -167,7 +167,7 @@ pixel_format = "rgb"
 )";
   run_with({}, pair, [&](Subprocess& daemon, FakeGigeCamera&) {
     ASSERT_TRUE(delivers(daemon)) << daemon.output();
-    // A busy computer delivers late at times: counted anew from there.
+    // A busy computer sometimes delivers late: counting restarts from there.
     constexpr std::int64_t kSets = 50;
     auto sets = read("system_frame_set"), unmatched = read("system_unmatched");
     ASSERT_TRUE(eventually(daemon,
@@ -186,7 +186,7 @@ pixel_format = "rgb"
   });
 }
 
-/// A result, by the numbers that it has in every interface.
+/// Result with its numbers, which are equal in every interface.
 struct NumberedResult {
   std::int64_t result = 0;
   std::int64_t trigger = 0;
@@ -194,7 +194,7 @@ struct NumberedResult {
   bool operator==(const NumberedResult&) const = default;
 };
 
-/// What a reader of the process state over DDS sees of results, in the present thread's network.
+/// Results received by a reader of the process state over DDS, in the present thread's network.
 class ResultsOverDds {
  public:
   explicit ResultsOverDds(int domain) {
@@ -202,7 +202,7 @@ class ResultsOverDds {
     EXPECT_TRUE(opened) << opened.error().message;
   }
 
-  /// Takes the newest state, if one has come.
+  /// Takes the newest state, if one has arrived.
   void look() {
     const auto taken = reader_.next(std::chrono::milliseconds(0), [&](const auto& state) {
       const NumberedResult now{static_cast<std::int64_t>(state.result),
@@ -213,7 +213,7 @@ class ResultsOverDds {
     EXPECT_TRUE(taken) << taken.error().message;
   }
 
-  /// Each time that one of the numbers was another one.
+  /// Results at each change of one of the numbers.
   const std::vector<NumberedResult>& seen() const { return seen_; }
 
  private:
@@ -222,7 +222,7 @@ class ResultsOverDds {
 };
 
 TEST_F(GenicamDaemon, EachSoftwareTriggerGivesOneResultOverModbusAndDds) {
-  // The fake camera states 10 ms of exposure and does not take them before it sends.
+  // The fake camera states 10 ms of exposure but sends at once.
   run("trigger_mode = \"software\"\ntrigger_source = \"software\"\nstamp_offset_us = -10000\n",
       [&](Subprocess& daemon, FakeGigeCamera&) {
         ResultsOverDds dds(domain);
@@ -246,7 +246,7 @@ TEST_F(GenicamDaemon, EachSoftwareTriggerGivesOneResultOverModbusAndDds) {
           EXPECT_EQ(modbus.back().result, n);
           EXPECT_EQ(modbus.back().trigger, n);
         }
-        // A result too many would come now.
+        // A surplus result would arrive now.
         ASSERT_TRUE(wait_for(
             [&, last = read("system_heartbeat")] { return read("system_heartbeat") >= last + 5; }));
         EXPECT_EQ(dds.seen(), modbus);

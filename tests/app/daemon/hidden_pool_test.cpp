@@ -14,8 +14,8 @@
 #include "tests/support/pixel_of_point.h"
 #include "tests/support/share.h"
 
-/// What is reported while the nozzle hides the melt pool of the simulated machine for a part of
-/// each lap and sparks of the same temperature fly: scenes drawn at random.
+/// Reports while the nozzle hides the melt pool of the simulated machine for a part of each lap and
+/// sparks of the same temperature fly: random scenes.
 namespace orbwatch::app {
 namespace {
 
@@ -25,9 +25,9 @@ using simulation::MeltPool;
 using tests::ErrorDistribution;
 
 constexpr double kFrameRate = 30;
-constexpr double kThreshold = 1200;  // degC; sparks are hotter all their life
+constexpr double kThreshold = 1200;  // degC; sparks are always hotter
 
-/// A process whose nozzle is wide and low: it stands between pool and ball for about half a lap.
+/// Process with a wide and low nozzle: it is between pool and ball for about half a lap.
 class HiddenScene {
  public:
   explicit HiddenScene(std::mt19937& random) {
@@ -39,7 +39,7 @@ class HiddenScene {
     settings.pool.lap_time = draw(4, 8);
     settings.nozzle.standoff = draw(30, 50);
     settings.nozzle.cone_height = draw(40, 60);
-    // The ball's centre stands 41 to 50 degrees above the pool.
+    // The ball's centre is 41 to 50 degrees above the pool.
     settings.nozzle.column_radius =
         draw(0.95, 1.05) * (settings.nozzle.standoff + settings.nozzle.cone_height);
   }
@@ -59,7 +59,7 @@ class HiddenScene {
     return limited;
   }
 
-  /// Of the molten pool, as the camera sees it in the ball past the nozzle.
+  /// Share of the molten pool that the camera sees in the ball past the nozzle.
   double visible_share(double seconds) const {
     constexpr int kRings = 4, kSectors = 12;
     const simulation::ProcessTruth process = simulation::process_at(settings, seconds);
@@ -81,7 +81,7 @@ class HiddenScene {
     return visible / static_cast<double>(kRings * kSectors);
   }
 
-  /// The first moment at which all of the pool is in view, s: before it nothing is known.
+  /// First moment at which all of the pool is in view, s: before it there is no information.
   double comes_into_view() const {
     double seconds = 20;
     while (visible_share(seconds) < 1) seconds += 1 / kFrameRate;
@@ -95,8 +95,8 @@ class HiddenScene {
   optics::ViewSpec view{optics::ViewKind::Perspective, {-115, -35, 0}, 100, {}, 480, 360};
 };
 
-/// What was reported over many laps. Doubt: 100 % less the confidence, of those that are right to a
-/// radius and of the others.
+/// Reports over many laps. Doubt: 100 % minus the confidence, separately for reports that are right
+/// to a radius and for the others.
 struct Reports {
   explicit Reports(const std::string& prefix)
       : error(prefix + "error_mm"),

@@ -9,7 +9,7 @@
 
 namespace orbwatch::tests {
 
-/// The thread of a process by its name; 0: there is none.
+/// Thread of a process by its name; 0: there is none.
 inline pid_t thread_of(pid_t process, const std::string& name) {
   for (const auto& task :
        std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
@@ -20,8 +20,8 @@ inline pid_t thread_of(pid_t process, const std::string& name) {
   return 0;
 }
 
-/// Stops one thread of a child, as an endless wait in a driver would, and lets it go on with the
-/// object's end. All other threads run.
+/// Stops one thread of a child, like an endless wait in a driver, and continues it at the object's
+/// end. All other threads run.
 class HungThread {
  public:
   explicit HungThread(pid_t thread) : thread_(thread) {
@@ -35,7 +35,7 @@ class HungThread {
 
   bool is_hung() const { return is_hung_; }
 
-  /// Returns when something else has ended the thread, which waits for its tracer then.
+  /// Returns when another process has ended the thread, which waits for its tracer then.
   void await_end() const {
     int status = 0;
     while (::waitpid(thread_, &status, __WALL) == thread_ && WIFSTOPPED(status)) {

@@ -6,7 +6,7 @@
 
 #include "tests/app/daemon/daemon_program.h"
 
-/// Changes of the files of a configuration by a page, beside those of a person on the board.
+/// Changes of a configuration's files by a page, concurrent with those of a user on the board.
 namespace orbwatch::tests {
 namespace {
 

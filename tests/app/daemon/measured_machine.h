@@ -16,8 +16,8 @@ namespace orbwatch::app {
 inline constexpr double kKelvinPerCount = 0.04;
 inline double counts(double celsius) { return (celsius + 273.15) / kKelvinPerCount; }
 
-/// A thermal camera that looks at a ray-traced machine, its measurement view, and one region there:
-/// the product's own way from a frame to signals.
+/// Thermal camera that looks at a ray-traced machine, its measurement view, and one region there:
+/// the product's own path from a frame to signals.
 class MeasuredMachine {
  public:
   MeasuredMachine(const simulation::MachineSettings& settings, const simulation::Pinhole& pinhole,
@@ -32,8 +32,8 @@ class MeasuredMachine {
             signals::RegionMeter::make(view_.plan().projection, region_scene_of(settings), region)
                 .value()) {}
 
-  /// The signals of the machine's state `seconds` after its epoch. `spoil` may change the frame
-  /// before it is used: ImageView<uint16_t>.
+  /// Signals for the machine's state `seconds` after its epoch. `spoil` may change the frame before
+  /// it is used: ImageView<uint16_t>.
   template <class Spoil>
   signals::Signals measure(double seconds, const Spoil& spoil) {
     auto buffer = buffers_.acquire();

@@ -3,7 +3,7 @@
 #include "tests/app/daemon/daemon_program.h"
 #include "tests/support/reference_data.h"
 
-/// A PLC by pymodbus beside the running program.
+/// PLC by pymodbus beside the running program.
 namespace orbwatch::tests {
 namespace {
 
@@ -14,7 +14,7 @@ class DaemonPlc : public Daemon {
  protected:
   void SetUp() override { ORBWATCH_REQUIRE_FILE(kPymodbus); }
 
-  /// What a program of tests/app/ports/modbus says to this daemon.
+  /// Output of a program of tests/app/ports/modbus for this daemon.
   std::string run(const std::string& program, const std::vector<std::string>& arguments = {}) {
     std::vector<std::string> words{
         kPython, ORBWATCH_SOURCE_DIR "/tests/app/ports/modbus/" + program, std::to_string(port)};

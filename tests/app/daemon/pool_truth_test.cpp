@@ -14,8 +14,8 @@
 #include "tests/support/pixel_of_point.h"
 #include "tests/support/share.h"
 
-/// What is measured of the melt pool beside what the simulated machine knows, over scenes drawn at
-/// random: pool, ball, camera, view and region.
+/// Compares measurements of the melt pool with the simulated machine's truth, over random scenes:
+/// pool, ball, camera, view and region.
 namespace orbwatch::app {
 namespace {
 
@@ -27,7 +27,7 @@ using tests::ErrorDistribution;
 double longitude(const Vec3& d) { return optics::degrees(std::atan2(d.x, d.y)); }
 double latitude(const Vec3& d) { return optics::degrees(std::asin(d.z / optics::norm(d))); }
 
-/// The pool out to `radius` as the ball's centre sees it, by summing over rings of the disc.
+/// Pool out to `radius` from the view of the ball's centre, by summing over rings of the disc.
 struct SeenDisc {
   double solid_angle = 0;
   Vec3 direction;
@@ -63,7 +63,7 @@ struct SeenDisc {
   }
 };
 
-/// The mean rate at which points of the surface cool that were molten and no longer are.
+/// Mean cooling rate of surface points that were molten and no longer are.
 double cooling_rate(const MeltPool& before, const MeltPool& after, double passed) {
   const double step = before.radius / 200;
   double fall = 0, points = 0;
@@ -87,19 +87,19 @@ double radius_at(const MeltPool& pool, double celsius) {
                                  std::log(excess / (pool.melting_point - pool.ambient)));
 }
 
-/// A machine, a camera and a region, drawn at random, with the pool's radius over `pixels` pixels
-/// of the camera where it sees the pool worst.
+/// Random machine, camera and region, with the pool's radius over `pixels` pixels of the camera at
+/// its worst resolution.
 class Scene {
  public:
   Scene(std::mt19937& random, double pixels) : random_(random) {
     settings.seed = random_();
     settings.sparks.rate = 0;
-    settings.pool.radius = std::exp(draw(std::log(1.3), std::log(16)));  // with its swing 1 to 20
+    settings.pool.radius = std::exp(draw(std::log(1.3), std::log(16)));  // 1 to 20 with its swing
     settings.pool.path_x = draw(-125, -95);
     settings.pool.path_y = draw(-65, -35);
     settings.pool.path_radius = draw(2, 10);
     settings.pool.lap_time = draw(1, 6);
-    settings.pool.peak = draw(1700, 2150);  // with its swing below full scale, 2348
+    settings.pool.peak = draw(1700, 2150);  // below full scale, 2348, with its swing
     settings.nozzle.standoff = 70;          // hides no part of the largest pool
     settings.ball.centre = {draw(80, 160), draw(20, 100), draw(380, 480)};
     seconds = draw(0, 60);
@@ -117,7 +117,7 @@ class Scene {
     const double resolution =
         optics::resolution(projection_of(pinhole, region_scene_of(settings)), to_pool);
     pinhole.focal_length *= pixels / (narrow * resolution);
-    // The view's pixels are as fine as the camera's, or up to twice as fine.
+    // The view has the camera's resolution, or up to twice as much.
     const double per_degree = pixels / narrow * draw(1, 2);
     const double wide = optics::degrees(2 * std::sqrt(disc.axes.largest)) * 2.2;
     const int side = static_cast<int>(2 * wide * per_degree) + 8;
@@ -148,8 +148,8 @@ class Scene {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// A camera in the enclosure that looks at where the ball mirrors the pool, by reflection under
-  /// at most 55 degrees, past the nozzle's column.
+  /// Camera in the enclosure that looks at the reflection of the pool in the ball, by reflection
+  /// under at most 55 degrees, past the nozzle's column.
   simulation::Pinhole draw_camera(const MeltPool& pool, const Vec3& to_pool) {
     const simulation::Sphere& ball = settings.ball;
     std::normal_distribution<double> normal;
@@ -161,7 +161,7 @@ class Scene {
           optics::angle_between(d, to_pool) > optics::radians(110)) {
         continue;
       }
-      double clearance = HUGE_VAL;  // of the sight from the nozzle's axis
+      double clearance = HUGE_VAL;  // distance of the sight from the nozzle's axis
       for (double share = 0; share <= 1; share += 0.02) {
         const Vec3 p = position + (mirror - position) * share - pool.centre;
         clearance = std::min(clearance, std::hypot(p.x, p.y));
@@ -172,7 +172,7 @@ class Scene {
     }
   }
 
-  /// A hexagon of machine points around the pool and its plume.
+  /// Draws a hexagon of machine points around the pool and its plume.
   void draw_outline(const MeltPool& pool) {
     const double out = 1.3 * radius_at(pool, kPlume);
     const double turn = draw(0, 1);
@@ -240,7 +240,7 @@ struct PoolErrors {
     const Vec3 right = optics::normalized({d.y, -d.x, 0});
     const double up = optics::dot(disc.axes.axis, optics::cross(right, d));
     const double truth = optics::degrees(std::atan2(up, optics::dot(disc.axes.axis, right)));
-    if (disc.axes.largest < 1.2 * disc.axes.second) return;  // the noise of a round one
+    if (disc.axes.largest < 1.2 * disc.axes.second) return;  // noise dominates for a round one
     orientation.add(std::remainder(s.hot_spot_orientation - truth, 180));
   }
 
@@ -256,7 +256,7 @@ struct PoolErrors {
       direction, position, peak, mean, cooling;
 };
 
-/// The tolerances, for pools with a radius of at least four of the camera's pixels.
+/// Checks the tolerances, for pools with a radius of at least four of the camera's pixels.
 void expect_tolerances(const PoolErrors& errors) {
   constexpr double kRange = kKelvinPerCount * 65535;  // K
   EXPECT_LE(errors.area.max(), 3);

@@ -10,14 +10,14 @@
 #include "app/model/status.h"
 #include "tests/app/daemon/daemon_program.h"
 
-/// Recipes, results, snapshots and restarts as a PLC commands them.
+/// Recipes, results, snapshots and restarts commanded by a PLC.
 namespace orbwatch::tests {
 namespace {
 
 using app::CommandCode;
 using app::CommandResult;
 
-/// Measures the sparks of the whole view, in a view of another size.
+/// Recipe that measures the sparks of the whole view, in a view of another size.
 const std::string kSecondRecipe = R"(
 name = "all"
 [[view]]
@@ -52,7 +52,7 @@ class RecipeCommands : public Daemon {
   void write_second(const std::string& text) const {
     std::ofstream(folder / "second.toml") << text;
   }
-  /// A machine with both recipes.
+  /// Configuration of a machine with both recipes.
   std::string two_recipes(const std::string& first = kSmallRecipe,
                           const std::string& second = kSecondRecipe) const {
     write_second(second);
@@ -65,7 +65,7 @@ class RecipeCommands : public Daemon {
     return eventually(
         daemon, [&] { return read("system_recipe") == recipe && read("region_0_quality") != 0; });
   }
-  /// Whole pictures in a folder.
+  /// Names of the complete pictures in a folder.
   std::vector<std::string> pictures(const std::string& name) const {
     std::vector<std::string> found;
     if (!std::filesystem::exists(folder / name)) return found;
@@ -240,7 +240,7 @@ TEST_F(RecipeCommands, AKilledDaemonRepeatsNoCommandOfTheStandingBlock) {
   ASSERT_TRUE(measures(daemon, 1)) << daemon.output();
   EXPECT_EQ(read("acknowledged_sequence"), sequence) << "before the PLC writes";
   write_command(port, static_cast<std::uint16_t>(CommandCode::Stop), {}, sequence);
-  // A command of the queue behind it shows that it was looked at.
+  // A later command in the queue shows that this one was processed.
   EXPECT_EQ(command(daemon, CommandCode::SelectRecipe, {2}), CommandResult::Done);
   EXPECT_TRUE(measures(daemon, 2)) << "it was stopped again";
 }

@@ -9,14 +9,14 @@
 #include "tests/app/daemon/measured_machine.h"
 #include "tests/support/registers.h"
 
-/// From what the simulated machine does to what a PLC reads about it.
+/// Compares registers read by a PLC with the simulated machine.
 namespace orbwatch::app {
 namespace {
 
 using optics::Vec3;
 using simulation::MachineSettings;
 
-/// One machine, one region, and the server that tells about it.
+/// One machine, one region, and the server that reports it.
 class RegisterTruth : public testing::Test {
  protected:
   void SetUp() override {
@@ -30,7 +30,7 @@ class RegisterTruth : public testing::Test {
     ASSERT_TRUE(sink_->start());
   }
 
-  /// Measures `frames` frames, the last one at `seconds`, and tells the server.
+  /// Measures `frames` frames, the last one at `seconds`, and passes the status to the server.
   void measure(double seconds, int frames = 1) {
     signals::RegionSettings region;
     region.hot_spot_threshold = counts(settings_.pool.melting_point);

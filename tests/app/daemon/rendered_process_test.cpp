@@ -18,7 +18,7 @@
 #include "tests/support/rendered_scene.h"
 #include "tests/support/rendered_sequence.h"
 
-/// The process in reference pictures that are rendered by a program that is not ours.
+/// Process in reference pictures that are rendered by an independent program.
 namespace orbwatch::tests {
 namespace {
 
@@ -30,7 +30,7 @@ optics::ViewProjection process_view() {
       .value();
 }
 
-/// A sequence, remapped and measured frame by frame.
+/// Sequence that is remapped and measured frame by frame.
 class MeasuredSequence {
  public:
   MeasuredSequence(const RenderedSequence& sequence, PixelFormat format,
@@ -57,7 +57,7 @@ class MeasuredSequence {
                                     : meter_.measure(view.radiometric, view.validity, seconds);
   }
 
-  /// The brightest of the pixels around a place in the camera's picture.
+  /// Brightest pixel around a place in the camera's picture.
   double counts_at(const optics::Vec2& pixel) const {
     const cv::Rect around(static_cast<int>(std::lround(pixel.u)) - 1,
                           static_cast<int>(std::lround(pixel.v)) - 1, 3, 3);
@@ -91,12 +91,12 @@ Vec3 direction_of(const signals::Signals& s) {
   return {std::cos(pitch) * std::sin(yaw), std::cos(pitch) * std::cos(yaw), std::sin(pitch)};
 }
 
-/// Errors over a sequence. What hides the pool or touches it in a frame is told by the frame's own
-/// pixels and by scene.json, not by what is measured.
+/// Errors over a sequence. The frame's own pixels and scene.json, not the measurement, determine
+/// whether the pool is hidden or touched in a frame.
 struct Errors {
   ErrorDistribution alone{"direction_deg_pool_alone"};
   ErrorDistribution touched{"direction_deg_spark_beside_pool"};
-  int hidden = 0;  ///< frames whose pixel at the pool is cold: the nozzle stands before it
+  int hidden = 0;  ///< frames whose pixel at the pool is cold: the nozzle is in front of it
   std::set<int> sparks;
   double counted = 0;
 };
@@ -108,7 +108,7 @@ Errors measure_all(MeasuredSequence& measured, const RenderedSequence& sequence,
   for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
     const RenderedSequence::Frame& frame = sequence.frames()[i];
     const signals::Signals s = measured.measure(i);
-    errors.counted = s.spatter_rate;  // all the frames are one second
+    errors.counted = s.spatter_rate;  // the frames last one second
     const auto angle_to_pool = [&](const Vec3& direction) {
       return optics::degrees(optics::angle_between(direction, frame.melt - ball));
     };
@@ -143,12 +143,12 @@ TEST(RenderedProcess, ThermalCameraFindsThePool) {
   EXPECT_GE(errors.alone.size(), 6U);
   EXPECT_LE(errors.alone.max(), 0.3);
   EXPECT_LE(errors.touched.p50(), 0.6);
-  // The camera has a pixel per degree there: a spark is a pixel or two.
+  // The camera has a pixel per degree there: a spark covers a pixel or two.
   EXPECT_NEAR(errors.counted, static_cast<double>(errors.sparks.size()), 7);
 }
 
-/// Errors of the pool's place, mm, of a region without sparks' limits other than `limits`; nothing
-/// may be reported while the nozzle hides the pool.
+/// Errors of the pool's place, mm, for a region without limits on sparks other than `limits`; there
+/// must be no report while the nozzle hides the pool.
 ErrorDistribution errors_with(const RenderedSequence& sequence,
                               const signals::HotSpotLimits& limits) {
   signals::RegionSettings region;
@@ -197,7 +197,7 @@ TEST(RenderedProcess, ColourCameraFindsThePool) {
   signals::RegionSettings region;
   region.full_scale = 255;
   region.hot_spot_threshold = 235;
-  // The workpiece's top: walls have letters as bright as the pool.
+  // Corners of the workpiece's top: walls have letters as bright as the pool.
   for (const Vec3& corner :
        {Vec3{-190, -130, 178}, {-30, -130, 178}, {-30, 30, 178}, {-190, 30, 178}}) {
     region.outline.push_back(corner - sequence.scene().ball.centre);

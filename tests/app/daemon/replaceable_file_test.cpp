@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-/// Texts that clients send, and the files that they would replace.
+/// Texts from clients, and the files that they would replace.
 namespace orbwatch::app {
 namespace {
 
@@ -27,7 +27,7 @@ class ReplaceableFile : public testing::Test {
     fs::permissions(file, mode);
     return file;
   }
-  /// Empty: it may be replaced.
+  /// Returns the refusal; empty: the file may be replaced.
   std::string refusal(const fs::path& file, const std::vector<fs::path>& state) const {
     const auto allowed = check_replaceable(file, folder / "site.toml",
                                            {folder / "site.toml", folder / "rig.toml"}, state);

@@ -9,7 +9,7 @@
 #include "tests/support/journal_socket.h"
 #include "tests/support/notify_socket.h"
 
-/// `orbwatchd` as a service manager sees it.
+/// `orbwatchd` under a service manager.
 namespace orbwatch::tests {
 namespace {
 
@@ -53,7 +53,8 @@ TEST_F(Service, AHungPipelineIsNotFedByAnythingElse) {
   manager.await("WATCHDOG=1");
 }
 
-/// It ends trials and receives SIGTERM: without it nobody would notice a trial that has to end.
+/// The main thread ends trials and receives SIGTERM: while it hangs, a trial that has to end would
+/// run on unnoticed.
 TEST_F(Service, AHungMainThreadIsNotFedByThePipeline) {
   const NotifySocket manager(folder / "notify", kWatchdog);
   Subprocess daemon = start(write_config(small_machine()));
@@ -67,7 +68,7 @@ TEST_F(Service, AHungMainThreadIsNotFedByThePipeline) {
   manager.await("WATCHDOG=1");
 }
 
-/// A driver that does not answer; see appliance_thread.h.
+/// A driver does not answer; see appliance_thread.h.
 TEST_F(Service, EndsAlthoughADriverHangs) {
   const NotifySocket manager(folder / "notify", kWatchdog);
   Subprocess daemon = start(write_config(small_machine()));
@@ -81,8 +82,8 @@ TEST_F(Service, EndsAlthoughADriverHangs) {
   EXPECT_THAT(daemon.output(), HasSubstr("ends without waiting for what hangs"));
 }
 
-/// Darkness, a pulled cable, a camera that was never there: the pipeline has to prove itself then,
-/// too.
+/// Darkness, a disconnected cable, a camera that was never connected: the pipeline must report
+/// progress then, too.
 TEST_F(Service, FeedsWithoutACameraAndNotWhenThatHangs) {
   const std::string unplugged =
       "[[camera.fault]]\nfault = \"unplugged\"\nfrom = 3\nuntil = 1000000\n";
@@ -98,7 +99,7 @@ TEST_F(Service, FeedsWithoutACameraAndNotWhenThatHangs) {
   EXPECT_TRUE(manager.falls_silent(2 * kWatchdog, 10));
 }
 
-/// What the files said last is run, and every interface says so.
+/// The configuration that ran last is used, and every interface reports it.
 TEST_F(Service, AWrongConfigurationLeavesTheLastGoodOneRunning) {
   ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
   const NotifySocket manager(folder / "notify", kWatchdog);
@@ -123,7 +124,7 @@ TEST_F(Service, AWrongConfigurationLeavesTheLastGoodOneRunning) {
   ::unsetenv("STATE_DIRECTORY");
 }
 
-/// Its own restarts come unasked, in the middle of the machine's work.
+/// Restarts by the daemon itself come unexpectedly, in the middle of the machine's work.
 TEST_F(Service, ARestartOfItsOwnChangesNoRecipeAndStartsNothing) {
   using app::CommandCode;
   using app::CommandResult;
@@ -193,7 +194,7 @@ TEST_F(Service, TheJournalHasCameraAndFault) {
   });
 }
 
-/// Nobody is at the machine who could mend a file that a power cut or an editor has damaged.
+/// No user is at the machine who could repair a file damaged by a power cut or an editor.
 TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
   ::setenv("STATE_DIRECTORY", folder.path().c_str(), 1);
   const NotifySocket manager(folder / "notify", kWatchdog);
@@ -204,7 +205,7 @@ TEST_F(Service, ADamagedCalibrationLeavesTheLastGoodOneRunning) {
   entries[0].method = "by hand";
   entries[0].quality = "good";
   entries[0].rig = app::rig_checksum(folder / "rig.toml").value();
-  entries[0].alignment.cameras.push_back({.camera = "colour"});  // as the rig has it
+  entries[0].alignment.cameras.push_back({.camera = "colour"});  // unchanged from the rig
   const fs::path file = app::calibration_file(folder / state_folder);
   fs::create_directories(file.parent_path());
   ASSERT_TRUE(app::save_calibrations(file, entries));

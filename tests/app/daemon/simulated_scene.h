@@ -12,7 +12,7 @@ namespace orbwatch::app {
 
 inline optics::Box box(const simulation::Box& body) { return {body.lo, body.hi}; }
 
-/// What stands still in the machine, as a rig would state it.
+/// Static parts of the machine, as a rig would state them.
 inline optics::Scene scene_of(const simulation::MachineSettings& machine) {
   optics::Scene scene;
   scene.room = optics::Scene::Room::Box;
@@ -26,7 +26,7 @@ inline signals::RegionScene region_scene_of(const simulation::MachineSettings& m
   return {ball, optics::SceneProxy::make(scene_of(machine), ball).value()};
 }
 
-/// The camera as its calibration would state it, in a machine whose geometry is known.
+/// Camera as its calibration would state it, in a machine whose geometry is known.
 inline optics::BallProjection projection_of(const simulation::Pinhole& pinhole,
                                             const signals::RegionScene& scene) {
   const optics::Intrinsics intrinsics{

@@ -8,7 +8,7 @@
 #include "proc/optics/vec.h"
 #include "tests/app/daemon/measured_machine.h"
 
-/// Sparks as they are measured beside those that the simulated machine lets fly.
+/// Compares measured sparks with those of the simulated machine.
 namespace orbwatch::app {
 namespace {
 
@@ -16,7 +16,7 @@ using optics::Vec3;
 using simulation::MachineSettings;
 using simulation::Spark;
 
-/// The sparks that were in the air in any frame set, and how fast they went as the ball sees them.
+/// Sparks in the air in any frame set, and their speed from the ball's view.
 class SparkTruth {
  public:
   explicit SparkTruth(const MachineSettings& settings) : settings_(settings) {}
@@ -25,7 +25,7 @@ class SparkTruth {
     const simulation::ProcessTruth process = simulation::process_at(settings_, seconds);
     for (const Spark& spark : process.sparks()) {
       const Vec3 direction = optics::normalized(spark.position - settings_.ball.centre);
-      // A spark keeps its radius, which was drawn for it alone.
+      // A spark keeps its random radius, which identifies it.
       const auto [place, is_new] = flights_.try_emplace(spark.radius);
       Flight& flight = place->second;
       if (is_new) {
@@ -62,8 +62,8 @@ class SparkTruth {
 
 struct Case {
   double frame_rate;
-  double sparks;     // per second
-  double tolerance;  // of their count, percent
+  double sparks;     // sparks per second
+  double tolerance;  // tolerance of their count, percent
   friend void PrintTo(const Case& c, std::ostream* out) {
     *out << c.sparks << " sparks per second at " << c.frame_rate << " frames per second";
   }
@@ -115,8 +115,8 @@ TEST_P(SpatterTruth, EverySparkCountsOnceAndHasItsSpeed) {
   EXPECT_EQ(machine.meter().untracked_sparks(), 0U);
 }
 
-// At 15 frames per second sparks go up to 20 degrees from one to the next and are seen two to five
-// times: among many of them some are taken for others.
+// At 15 frames per second sparks move up to 20 degrees between frames and are seen two to five
+// times: among many of them some are confused with others.
 INSTANTIATE_TEST_SUITE_P(Cases, SpatterTruth,
                          testing::Values(Case{15, 10, 30}, Case{15, 60, 30}, Case{30, 10, 15},
                                          Case{30, 60, 15}, Case{60, 10, 15}, Case{60, 60, 15}));

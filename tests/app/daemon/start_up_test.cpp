@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// What can be missing.
+/// Parts that can be missing.
 enum Thing : std::size_t { CameraA, CameraB, Line, ModbusAddress, DdsInterface, Certificate };
 constexpr std::size_t kThings = 6;
 using Missing = std::bitset<kThings>;
@@ -48,7 +48,7 @@ class StartUp : public Daemon {
     make_keys("early", std::chrono::hours(24 * 20));
   }
 
-  /// Valid after `from`, counted from now.
+  /// Makes keys valid from `from`, relative to now.
   void make_keys(const std::string& name, std::chrono::hours from) const {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const auto made = app::make_keys({folder / name,
@@ -61,7 +61,7 @@ class StartUp : public Daemon {
     ASSERT_TRUE(made) << made.error().message;
   }
 
-  /// Everything but what is missing is there.
+  /// Starts with everything except the missing parts.
   void begin(const Missing& missing) {
     fs::remove_all(folder / "connected");
     fs::create_directory(folder / "connected");
@@ -124,7 +124,7 @@ class StartUp : public Daemon {
   std::int64_t reads(const std::string& name) const {
     return read_register(port, name, kModbusAddress);
   }
-  /// What the system says of itself over DDS, as JSON.
+  /// State of the system over DDS, as JSON.
   std::string state() const {
     Subprocess program(
         {ORBWATCH_PROGRAM, "state", "--json", "--timeout", "60", "--domain",
@@ -139,7 +139,7 @@ class StartUp : public Daemon {
     const bool dds = missing_[DdsInterface] || missing_[Certificate];
     return (missing_[ModbusAddress] ? 2 : 0) + (dds ? 4 : 0);
   }
-  /// 1: running, 2: degraded, 3: fault.
+  /// Expected state; 1: running, 2: degraded, 3: fault.
   std::int64_t state_expected() const {
     return missing_[CameraA] && missing_[CameraB]   ? 3
            : missing_[CameraA] || missing_[CameraB] ? 2
@@ -160,7 +160,7 @@ class StartUp : public Daemon {
     };
     return has("line_faults", lines_missing()) && has("interface_faults", interfaces_missing());
   }
-  /// On the interfaces that are there.
+  /// Checks the reports of the interfaces that are available.
   void expect_that_it_says_so(Subprocess& daemon) const {
     if (!missing_[ModbusAddress]) {
       EXPECT_TRUE(eventually(daemon, [this] { return says_so_over_modbus(); })) << missing_ << "\n"

@@ -10,8 +10,8 @@
 #include "tests/app/daemon/simulated_scene.h"
 #include "tests/app/simulation/camera_truth.h"
 
-/// What the product computes beside what the simulated machine knows: its pictures come from plain
-/// vector reflection and never saw a ball model.
+/// Compares the product's projections with the simulated machine's truth: its pictures come from
+/// plain vector reflection, without a ball model.
 namespace orbwatch::app {
 namespace {
 
@@ -58,7 +58,7 @@ TEST(Truth, TheShippedDemoFileDescribesItsSimulatedCameras) {
     EXPECT_NEAR(outline.centre.v, truth.outline.cy, 1e-3);
     EXPECT_NEAR(outline.rx, truth.outline.radius, 1e-3);
     EXPECT_NEAR(outline.ry, truth.outline.radius, 1e-3);
-    // What is far away stands where the truth says, so nothing is turned or mirrored.
+    // Distant objects are in the directions of the truth, so nothing is turned or mirrored.
     const auto far_truth = projection_of(truth);
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
@@ -106,7 +106,7 @@ TEST(Truth, TheExactModelIsPlainReflection) {
     ASSERT_TRUE(sight.on_ball());
     const auto direction = projection_of(truth).direction(pixel);
     ASSERT_TRUE(direction);
-    // Close to the limb rounding of the hit point counts most.
+    // Rounding of the hit point has the largest effect near the limb.
     EXPECT_LT(optics::degrees(optics::angle_between(*direction, sight.mirrored.direction)), 1e-5);
   }
 }

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 constexpr std::uint64_t kGigabyte = 1'000'000'000;
 constexpr int kLargest = 16384;
 
-/// Twelve of the largest views that the files may state.
+/// Site with twelve of the largest views that the files may state.
 Resolved large_site() {
   Resolved site = demo();
   site.recipes.clear();

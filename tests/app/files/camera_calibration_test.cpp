@@ -39,7 +39,7 @@ void expect_same(const Intrinsics& a, const Intrinsics& b) {
   EXPECT_EQ(a.coefficients, b.coefficients);
 }
 
-/// As ROS' camera_calibration documents it.
+/// Example from the documentation of ROS' camera_calibration.
 const std::string kRos = R"(image_width: 640
 image_height: 480
 camera_name: narrow_stereo
@@ -117,7 +117,7 @@ TEST(CameraCalibration, ReadsWhatRosWrites) {
 }
 
 TEST(CameraCalibration, ReadsWhatRosWritesInBlockStyle) {
-  // As the same data looks after other YAML writers.
+  // The same data in the style of other YAML writers.
   const std::string block =
       "image_height: 480\nimage_width: 640  # px\ncamera_name: 'narrow: stereo'\n"
       "distortion_model: rational_polynomial\n"
@@ -130,7 +130,7 @@ TEST(CameraCalibration, ReadsWhatRosWritesInBlockStyle) {
               {640, 480, 430, 431, 306.5, 227, Distortion::Pinhole, {1, 0, 0, 0, 0, 1, 0, -0.5}});
 }
 
-/// A file as OpenCV's calibration program writes it, through OpenCV itself.
+/// File of OpenCV's calibration program, written by OpenCV itself.
 std::string written_by_opencv(const cv::Mat& coefficients, bool fisheye) {
   cv::FileStorage file(
       "", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
@@ -150,7 +150,7 @@ std::string written_by_opencv(const cv::Mat& coefficients, bool fisheye) {
 
 TEST(CameraCalibration, ReadsWhatOpenCvWrites) {
   const cv::Mat five = (cv::Mat_<double>(5, 1) << -0.1, 0.02, 1e-3, 2e-3, 0.03);
-  // A rational model comes with room for thin prisms and a tilted sensor.
+  // A rational model has room for thin prisms and a tilted sensor.
   const cv::Mat fourteen =
       (cv::Mat_<double>(1, 14) << 0.1, 0.02, 1e-3, 2e-3, 0.03, 0.3, 0.01, 2e-3, 0, 0, 0, 0, 0, 0);
   const cv::Mat four = (cv::Mat_<double>(4, 1) << 0.1, -0.02, 1e-3, 2e-3);
@@ -297,7 +297,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& refusal) { return refusal.param.name; });
 
 TEST(CameraCalibration, SurvivesEveryTruncationAndFlippedBit) {
-  // Whatever is broken: a value or one line that says why not, never a crash.
+  // Any damage must give a value or one line with the reason, never a crash.
   const std::string opencv =
       calibration_text(calibrations()[2], "A", CalibrationFormat::OpenCv).value();
   std::mt19937 random(1);

@@ -322,7 +322,7 @@ TEST(Configuration, ShippedFilesAreValid) {
 }
 
 TEST(Configuration, SurvivesEveryTruncation) {
-  // Whatever is cut off: a value or one line that says why not, never a crash.
+  // Any truncation must give a value or one line with the reason, never a crash.
   std::ifstream in(kShipped / "demo.toml");
   std::stringstream whole;
   whole << in.rdbuf();

@@ -68,7 +68,7 @@ TEST_F(DrivenLines, NoneIsNotTheSameAsNotRecorded) {
   EXPECT_EQ(driven_lines(folder_.path()).value().has_value(), false);
 }
 
-/// After the board's start the kernel's driver decides on the wire.
+/// After the board's start the kernel's driver determines the level of the wire.
 TEST_F(DrivenLines, EndWithTheBoardsRun) {
   ASSERT_TRUE(record_driven_lines(folder_.path(), {line("ok", LineUse::ProcessOk)}));
   std::string other = text();

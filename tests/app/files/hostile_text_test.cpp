@@ -9,11 +9,11 @@
 #include "app/files/rig_file.h"
 #include "app/files/toml_edit.h"
 
-/// Texts that are made to end a process, before every parser of foreign files.
+/// Texts that are designed to end a process, for every parser of foreign files.
 namespace orbwatch::app {
 namespace {
 
-/// Largest body that HTTP takes by default, bytes.
+/// Largest body that HTTP accepts by default, bytes.
 constexpr std::size_t kSize = 65536;
 
 std::string repeated(std::string_view part, std::size_t size = kSize) {
@@ -24,7 +24,7 @@ std::string repeated(std::string_view part, std::size_t size = kSize) {
 
 struct Parser {
   std::string name;
-  /// The error's message; empty when the text was taken.
+  /// Returns the error's message; empty when the text was accepted.
   std::function<std::string(const std::string& text)> refusal;
 };
 
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(AllParsers, HostileText,
                                   std::get<1>(info.param).name;
                          });
 
-/// The limit is far from what people write, and is told with the line.
+/// The limit is far above hand-written texts, and the message names the line.
 TEST(TomlDepth, ATextIsRefusedOnlyAboveTheLimit) {
   const auto of = [](int dots) {
     std::string key = "a";

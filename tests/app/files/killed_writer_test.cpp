@@ -14,7 +14,7 @@
 #include "tests/app/files/machine_files.h"
 #include "tests/support/share.h"
 
-/// SIGKILL at any moment of a write: what is there then is the old or the new, and valid.
+/// SIGKILL at any moment of a write: the file is then the old or the new one, and valid.
 namespace orbwatch::app {
 namespace {
 
@@ -23,7 +23,7 @@ using std::chrono::microseconds;
 
 constexpr int kKills = 1000;
 
-/// Runs `work` again and again in a process of its own, and kills it after `time`.
+/// Runs `work` repeatedly in a process of its own, and kills it after `time`.
 void kill_amid(const std::function<bool()>& work, microseconds time) {
   int begun[2];
   ASSERT_EQ(::pipe(begun), 0);
@@ -47,7 +47,7 @@ void kill_amid(const std::function<bool()>& work, microseconds time) {
 
 class KilledWriter : public ConfigurationFile {
  protected:
-  /// Of one round of `work`, with the machine as busy as it is.
+  /// Duration of one round of `work` at the machine's present load.
   static microseconds time_of(const std::function<bool()>& work) {
     const auto begin = std::chrono::steady_clock::now();
     EXPECT_TRUE(work());
@@ -68,7 +68,7 @@ class KilledWriter : public ConfigurationFile {
   std::mt19937 random_{20261125};
 };
 
-/// Site and rig only fit each other: of both the camera's name changes.
+/// Site and rig only fit each other: the camera's name changes in both.
 TEST_F(KilledWriter, OfAConfigurationLeavesTheOldOrTheNewOne) {
   const fs::path site = folder / "site.toml", rig = folder / "rig.toml", state = folder / "state";
   fs::create_directory(state);
@@ -86,7 +86,7 @@ TEST_F(KilledWriter, OfAConfigurationLeavesTheOldOrTheNewOne) {
   };
   int amid = 0, ones = 0;
   kill_often(change, [&] {
-    const auto finished = finish_confirmed(state);  // as orbwatchd does when it starts
+    const auto finished = finish_confirmed(state);  // orbwatchd does this when it starts
     ASSERT_TRUE(finished) << finished.error().message;
     amid += *finished ? 1 : 0;
     end_trial(state);

@@ -7,7 +7,7 @@
 #include "tests/app/files/replaced.h"
 #include "tests/support/temporary_folder.h"
 
-/// The files of a small machine, which tests change.
+/// Files of a small machine, which tests change.
 namespace orbwatch::app {
 
 inline const std::string kRig = R"(
@@ -50,7 +50,7 @@ inline std::string replaced(const std::string& what, const std::string& with) {
   return replaced(what, with, kValid);
 }
 
-/// Files of a machine: the rig beside the configuration, and one that is broken.
+/// Files of a machine: the rig beside the configuration, and a broken one.
 class ConfigurationFile : public testing::Test {
  protected:
   ConfigurationFile() {

@@ -6,7 +6,7 @@
 #include "proc/optics/lens.h"
 #include "proc/optics/vec.h"
 
-/// proc/optics/lens against the library whose models it promises.
+/// Compares proc/optics/lens with the library whose models it implements.
 namespace orbwatch::optics {
 namespace {
 
@@ -33,7 +33,7 @@ void expect_pixels(const Lens& lens, const std::vector<cv::Vec3d>& points,
   int shown = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto pixel = lens.pixel({points[i][0], points[i][1], points[i][2]});
-    if (!pixel) continue;  // beyond the fold OpenCV goes on
+    if (!pixel) continue;  // beyond the fold OpenCV continues
     ++shown;
     EXPECT_NEAR(pixel->u, pixels[i][0], 1e-9 * (1 + std::abs(pixels[i][0])));
     EXPECT_NEAR(pixel->v, pixels[i][1], 1e-9 * (1 + std::abs(pixels[i][1])));
@@ -59,7 +59,7 @@ TEST(OpenCvLens, FisheyeIsFisheyeProjectPoints) {
   std::mt19937 random(2);
   for (const cv::Vec4d& k :
        {cv::Vec4d(), cv::Vec4d(-0.02, 0.004, -0.002, 3e-4), cv::Vec4d(0.05, -0.01, 0.002, -1e-4)}) {
-    // OpenCV's covers the half in front of the camera.
+    // OpenCV's model covers the half in front of the camera.
     const auto points = random_points(random, 89);
     std::vector<cv::Vec2d> pixels;
     cv::fisheye::projectPoints(points, pixels, cv::Vec3d(), cv::Vec3d(), kCamera, k);

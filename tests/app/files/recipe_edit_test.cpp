@@ -195,7 +195,7 @@ TEST(RecipeEdit, RefusesARecipeThatWouldBeWrong) {
   EXPECT_THAT(refusal({{kHigher}}, "name = "), HasSubstr("recipe.toml:1"));
 }
 
-/// Names become quoted texts, whatever is in them.
+/// Names become quoted texts, whatever they contain.
 TEST(RecipeEdit, RefusesNamesThatWouldBeMore) {
   for (const char* name : {"a\"\n[[control]]\n#", "a\nname = 1", "\xFF", "", "\\", "]]"}) {
     EXPECT_NE(refusal({{}, {{name, {{0, 0}, {1, 0}, {1, 1}}, {}, NewRegion{"process", 1}}}}),
@@ -209,7 +209,7 @@ TEST(RecipeEdit, RefusesNamesThatWouldBeMore) {
 }
 
 TEST(RecipeEdit, RefusesPlacesThatOnlyAPersonCanChange) {
-  // More corners in the place of some with a comment in between.
+  // More corners replace some with a comment in between.
   EXPECT_THAT(refusal({{}, {{"pool", {}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}}),
               HasSubstr("a comment between its corners"));
   const std::string line = recipe_with(
@@ -226,7 +226,7 @@ TEST(RecipeEdit, RefusesPlacesThatOnlyAPersonCanChange) {
               HasSubstr("recipe.toml"));
 }
 
-/// The lines of two texts, of which one differs.
+/// The lines of two texts that differ in one.
 std::pair<std::string, std::string> the_other_line(const std::string& before,
                                                    const std::string& after) {
   std::istringstream old_lines(before), new_lines(after);
@@ -243,7 +243,7 @@ std::pair<std::string, std::string> the_other_line(const std::string& before,
   return other;
 }
 
-/// Each limit of the shipped recipe, by something random.
+/// Sets each limit of the shipped recipe to a random value.
 TEST(RecipeEdit, ChangesOneLineOfTheShippedRecipe) {
   std::ostringstream read;
   read << std::ifstream(ORBWATCH_SOURCE_DIR "/platform/config/demo-recipe.toml").rdbuf();

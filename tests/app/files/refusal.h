@@ -9,14 +9,14 @@
 
 namespace orbwatch::app {
 
-/// A file with a fault, and what the message on it must contain.
+/// File with a fault, and the required contents of its message.
 struct Refusal {
   std::string name;
   std::string text;
   std::vector<std::string> says;
 };
 
-/// That the message is one line with all of that in it.
+/// Checks that the message is one line with all of the required parts.
 inline void expect_said(const Refusal& refusal, const Error& error) {
   EXPECT_EQ(error.message.find('\n'), std::string::npos) << "one line: " << error.message;
   for (const auto& part : refusal.says) {

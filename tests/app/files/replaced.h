@@ -6,7 +6,7 @@
 
 namespace orbwatch::app {
 
-/// The text, in which the first `what` became `with`.
+/// The text with the first `what` replaced by `with`.
 inline std::string replaced(const std::string& what, const std::string& with, std::string text) {
   const auto at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;

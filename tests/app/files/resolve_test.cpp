@@ -8,11 +8,11 @@
 #include "tests/app/files/machine_files.h"
 #include "tests/app/files/refusal.h"
 
-/// What a configuration says about recipes, and what they may not say to each other.
+/// References from a configuration to recipes, and contradictions between recipes.
 namespace orbwatch::app {
 namespace {
 
-/// A recipe that measures camera a in a view of its own, and what else it says.
+/// Recipe that measures camera a in a view of its own, with further text.
 std::string recipe(const std::string& view, const std::string& more = "",
                    const std::string& keys = "") {
   return "name = \"" + view + "\"\n" + keys + "[[view]]\nname = \"" + view +
@@ -23,7 +23,7 @@ std::string recipe(const std::string& view, const std::string& more = "",
 
 const std::string kExposure = "[[control]]\ncamera = \"a\"\nname = \"ExposureTime\"\nvalue = 800\n";
 
-/// Names recipes in files beside it.
+/// Configuration that names recipes in files beside it.
 std::string with_recipes(const std::vector<std::string>& files, std::string text = kValid) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     text +=
@@ -32,7 +32,7 @@ std::string with_recipes(const std::vector<std::string>& files, std::string text
   return text;
 }
 
-/// The recipes that refusals name.
+/// Fixture with the recipes that refusals name.
 class ConfigurationWithRecipes : public ConfigurationFile {
  protected:
   ConfigurationWithRecipes() {

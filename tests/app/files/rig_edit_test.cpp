@@ -116,7 +116,7 @@ TEST(RigEdit, MovesTheBall) {
 
 TEST(RigEdit, RefusesWhatItCannotChange) {
   EXPECT_FALSE(aligned({.camera = "C", .registration = kTurned}));
-  // A registration without an outline to belong to.
+  // This is a registration without an outline to belong to.
   EXPECT_FALSE(aligned({.camera = "A", .registration = kTurned}));
   EXPECT_FALSE(aligned_rig("[[camera]]\nname = 3\n", "rig.toml", ".", {}));
 }

@@ -43,7 +43,7 @@ class LastGood : public testing::Test {
   fs::path state_ = folder_ / "state";
 };
 
-/// It repeats texts that others may not be meant to read.
+/// It repeats texts that may be confidential.
 TEST_F(LastGood, IsForItsOwnerAlone) {
   ASSERT_TRUE(keep_last_good(state_, resolve(site_).value()));
   for (const char* name : {"last-good.json", "last-good-calibration.json"}) {
@@ -82,7 +82,7 @@ TEST_F(LastGood, SaysWhatIsMissing) {
               HasSubstr("last-good.json: cannot be read: is a pipe"));
 }
 
-/// Once damaged, accepted alignments are those that were kept; until then those that are there now.
+/// Accepted alignments are the present ones; if these are damaged, the kept ones.
 TEST_F(LastGood, HasTheAlignmentsOfNowUnlessTheyAreDamaged) {
   write("demo.toml", "state_folder = \"state\"\n" + text_of(site_));
   const auto good = resolve(site_);
@@ -118,7 +118,7 @@ TEST_F(LastGood, HasTheAlignmentsOfNowUnlessTheyAreDamaged) {
   EXPECT_EQ(method_in_force(), "") << "none was accepted then";
 }
 
-/// A pipe without a writer would be waited for.
+/// Opening a pipe without a writer would block.
 TEST_F(LastGood, NoFileOfAConfigurationIsAPipeAFolderOrTooLarge) {
   write("demo.toml", "state_folder = \"state\"\n" + text_of(site_));
   fs::create_directories(state_);

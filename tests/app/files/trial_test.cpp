@@ -14,11 +14,11 @@
 
 namespace {
 
-std::function<void(int)> on_fsync;  // before it is carried out
+std::function<void(int)> on_fsync;  // called before fsync is executed
 
 }  // namespace
 
-/// In the place of the C library's, for this program.
+/// Replaces the function of the C library in this program.
 extern "C" int fsync(int file) {
   if (on_fsync) on_fsync(file);
   return static_cast<int>(::syscall(SYS_fsync, file));
@@ -58,7 +58,7 @@ TEST_F(TrialFile, IsTakenOnceAndRunsUntilItsEnd) {
   EXPECT_EQ(running_trial(folder_.path()).value(), std::nullopt);
 }
 
-/// A trial that resets the board would otherwise be requested again at each boot.
+/// Without this, a trial that resets the board would be requested again at each boot.
 TEST_F(TrialFile, IsTakenForGoodBeforeItRuns) {
   ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
   int synced = 0;
@@ -89,7 +89,7 @@ TEST_F(TrialFile, IsCancelledBeforeItRunsAndWhileItRuns) {
   EXPECT_EQ(running_trial(folder_.path()).value(), std::nullopt);
 }
 
-/// Its texts may repeat a file that is not for everybody.
+/// Its texts may repeat a file that is not world-readable.
 TEST_F(TrialFile, IsForItsOwnerAlone) {
   ASSERT_TRUE(request_trial(folder_.path(), {"/etc/site.toml", {}, 30}));
   EXPECT_EQ(fs::status(requested_).permissions(), fs::perms(0600));
@@ -160,7 +160,7 @@ TEST_F(TrialFile, ThatIsNoUtf8IsRefused) {
   EXPECT_FALSE(is_trial_requested(folder_.path()));
 }
 
-/// A pipe without a writer would be waited for.
+/// Opening a pipe without a writer would block.
 TEST_F(TrialFile, IsNoPipeAndNoFolder) {
   ASSERT_EQ(::mkfifo(requested_.c_str(), 0600), 0);
   EXPECT_THAT(take_trial(folder_.path()).error().message, HasSubstr("cannot be read: is a pipe"));

@@ -19,7 +19,7 @@ namespace {
 using signals::is_valid;
 using tests::MadeUpTree;
 
-/// A small board in good health.
+/// Small board in good health.
 class BoardHealthTest : public testing::Test {
  protected:
   BoardHealthTest() {
@@ -108,7 +108,7 @@ TEST_F(BoardHealthTest, KnowsNothingWithoutItsSources) {
   }
 }
 
-/// Whatever the files hold, a figure is not valid or within its range.
+/// For any contents of the files, a figure is either not valid or within its range.
 TEST_F(BoardHealthTest, BelievesNothingThatCannotBe) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(tree.path())) {
@@ -160,7 +160,7 @@ TEST_F(BoardHealthTest, DiskIsThatOfItsFolder) {
   EXPECT_FALSE(is_valid(none.disk_free_share));
 }
 
-/// Asked for one by one.
+/// Counted one by one.
 int descriptors_of_this_process() {
   int count = 0;
   for (int number = 0; number < 4096; ++number) count += ::fcntl(number, F_GETFD) != -1 ? 1 : 0;

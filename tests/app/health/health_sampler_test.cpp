@@ -12,7 +12,7 @@ namespace {
 using signals::is_valid;
 using std::chrono::milliseconds;
 
-/// Gives 1, 2, 3 ... degrees, each when the test lets it.
+/// Board that returns 1, 2, 3 ... degrees, each when the test permits it.
 class SlowBoard {
  public:
   std::function<Health()> reader() {
@@ -25,10 +25,10 @@ class SlowBoard {
       return health;
     };
   }
-  /// Returns when the next reading has begun, so the one before has been handed over.
+  /// Returns when the next reading has begun, so the previous one was returned.
   void wait_until_asked() { asked_.acquire(); }
   void answer() { allowed_.release(); }
-  /// Lets every reading from now on.
+  /// Permits every reading from now on.
   void answer_always() {
     lasting_ = true;
     allowed_.release();

@@ -8,7 +8,7 @@
 
 namespace orbwatch::tests {
 
-/// Folders and files as the kernel would show them, in a temporary folder.
+/// Folders and files like the kernel's, in a temporary folder.
 class MadeUpTree {
  public:
   void write(const std::string& file, const std::string& text) {

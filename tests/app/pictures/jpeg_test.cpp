@@ -13,7 +13,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// A smooth picture with some detail, which JPEG keeps well.
+/// Smooth picture with some detail, which JPEG preserves well.
 cv::Mat scene(int width, int height, double detail = 20) {
   cv::Mat rgb(height, width, CV_8UC3);
   for (int y = 0; y < height; ++y) {
@@ -69,10 +69,10 @@ TEST(JpegEncoder, LuminanceStaysOneChannel) {
   }
 }
 
-/// The planes that JPEG has, as a view is made for it.
+/// Planes of JPEG's layout, as a view is rendered for it.
 struct Planar {
   explicit Planar(const cv::Mat& rgb) {
-    cv::cvtColor(rgb, samples, cv::COLOR_RGB2YUV_I420);  // of the limited range
+    cv::cvtColor(rgb, samples, cv::COLOR_RGB2YUV_I420);  // limited range
     picture = Picture::contiguous(PixelFormat::I420, rgb.cols, rgb.rows,
                                   reinterpret_cast<const std::byte*>(samples.data), rgb.cols);
     for (int y = 0; y < samples.rows; ++y) {
@@ -115,7 +115,7 @@ TEST(JpegEncoder, TakesOtherFormatsAndSizesOneAfterTheOther) {
   }
 }
 
-/// Makes one picture as a topic does; its size.
+/// Encodes one picture like a topic does; returns its size.
 std::size_t make(JpegEncoder& encoder, JpegQuality& quality, const Picture& source) {
   auto jpeg = encoder.encode(source, quality.current());
   while (jpeg && quality.adapt(jpeg->size())) jpeg = encoder.encode(source, quality.current());

@@ -16,7 +16,7 @@ constexpr int kWidth = 34;
 constexpr int kHeight = 18;
 constexpr int kPadding = 6;
 
-/// A picture of random samples with padded rows; those of Y'CbCr lie in the limited range, beyond
+/// Picture of random samples with padded rows; those of Y'CbCr are in the limited range, beyond
 /// which OpenCV clips earlier.
 struct Noise {
   explicit Noise(PixelFormat format, std::uint32_t seed = 1)

@@ -8,7 +8,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Black on the left, white on the right, as Nv12 of full range.
+/// Picture that is black on the left, white on the right, as Nv12 of full range.
 std::vector<std::byte> half_white(int width, int height) {
   std::vector<std::byte> bytes(static_cast<std::size_t>(width) * height * 3 / 2, std::byte{128});
   for (int y = 0; y < height; ++y) {

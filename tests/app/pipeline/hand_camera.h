@@ -18,7 +18,7 @@ namespace orbwatch::app {
 /// Width and height of a HandCamera's frames.
 inline constexpr int kHandCameraSize = 100;
 
-/// A camera that delivers a frame for each call of the test.
+/// Camera that delivers a frame for each call of the test.
 class HandCamera : public hal::Camera {
  public:
   HandCamera(std::string name, PixelFormat format)
@@ -27,12 +27,12 @@ class HandCamera : public hal::Camera {
         pool_(hal::make_frame_pool(format, kHandCameraSize, kHandCameraSize)) {}
   ~HandCamera() override { stop(); }
 
-  /// A frame with a bright square on darker ground, no part of which looks like another; delivered
+  /// Delivers a frame with a bright square on darker ground, no part of which looks like another,
   /// before it returns. `bright` is above 199.
   void expose(std::uint16_t bright, hal::TimePoint moment = hal::Clock::now()) {
     expose(bright, {.exposure_start = moment});
   }
-  /// The same with a frame's metadata as the device states them, but for its number.
+  /// Delivers such a frame with the device's metadata, except its number.
   void expose(std::uint16_t bright, const hal::FrameMetadata& stated) {
     act([this, bright, &stated] {
       auto buffer = pool_.acquire();
@@ -43,7 +43,7 @@ class HandCamera : public hal::Camera {
       deliver(buffer);
     });
   }
-  /// Scales what is not the square, from the next frame on.
+  /// Scales the pixels outside the square, from the next frame on.
   void set_gain(double gain) {
     act([this, gain] { gain_ = gain; });
   }

@@ -24,19 +24,19 @@ namespace {
 using hal::Clock;
 using std::chrono::seconds;
 
-/// A camera whose exposure time can be set and is the brightness of its pictures. As with a sensor,
-/// some exposures after it was set are still as before.
+/// Camera whose settable exposure time is the brightness of its pictures. Like with a sensor, some
+/// exposures after a setting still have the previous one.
 class SettableCamera : public HandCamera {
  public:
   explicit SettableCamera(std::size_t delay)
       : HandCamera("thermal", PixelFormat::Y16), delay_(delay) {}
 
-  /// Has at once what was set, as when a camera starts.
+  /// Applies settings at once, like at a camera's start.
   void take_on() {
     const std::lock_guard lock(mutex_);
     waiting_ = 0;
   }
-  /// A frame whose exposure begins now.
+  /// Delivers a frame whose exposure begins now.
   void expose_as_set() {
     std::uint16_t bright = 0;
     hal::TimePoint moment;
@@ -53,7 +53,7 @@ class SettableCamera : public HandCamera {
  private:
   Result<> do_set(std::string_view control, double value) override {
     if (control != "ExposureTime") return Camera::do_set(control, value);
-    std::this_thread::sleep_for(std::chrono::microseconds(200));  // its driver takes a while
+    std::this_thread::sleep_for(std::chrono::microseconds(200));  // delay of its driver
     const std::lock_guard lock(mutex_);
     set_ = static_cast<std::uint16_t>(value);
     waiting_ = delay_;
@@ -65,10 +65,10 @@ class SettableCamera : public HandCamera {
   std::mutex mutex_;
   std::uint16_t set_ = 0;
   std::uint16_t exposure_ = 0;
-  std::size_t waiting_ = 0;  ///< exposures that are not as it was set
+  std::size_t waiting_ = 0;  ///< exposures that do not have the new setting yet
 };
 
-/// Calls what examines, one at a time; the test waits for a status that it expects.
+/// Calls the examining function, one call at a time; the test waits for an expected status.
 class ExaminingSink : public Sink {
  public:
   Result<> start() override { return {}; }
@@ -106,12 +106,12 @@ class ExaminingSink : public Sink {
   Status status_;
 };
 
-constexpr std::size_t kSeen = 0;  ///< the display view; those of recipes follow
+constexpr std::size_t kSeen = 0;  ///< the display view; those of recipes come after it
 constexpr std::uint32_t kChecksum = 0xC0FFEE01;
 
 class MeasuredPipeline : public testing::Test {
  protected:
-  /// A recipe in a scale and with an exposure of its own.
+  /// Scale and exposure of each recipe.
   static double scale(std::uint16_t recipe) { return 0.05 - 0.01 * recipe; }
   static double exposure(std::uint16_t recipe) { return 31000 + 5000 * recipe; }
   static double celsius(std::uint16_t recipe) { return exposure(recipe) * scale(recipe) - 273.15; }
@@ -264,7 +264,7 @@ TEST_F(MeasuredPipeline, StartStopAndStateBelongTogetherInEveryStatus) {
     const bool measured = status.regions[0].quality != Quality::NotMeasured;
     if (status.frame_set == 0) return;
     const bool is_stopped = status.state == SystemState::Stopped;
-    // It runs without a measurement from a start on until a frame comes.
+    // From a start on it runs without a measurement until a frame arrives.
     torn += measured && (is_stopped || !status.process_active) ? 1U : 0U;
     torn += is_stopped && status.process_active ? 1U : 0U;
     ++(measured ? running : stopped);
@@ -274,7 +274,7 @@ TEST_F(MeasuredPipeline, StartStopAndStateBelongTogetherInEveryStatus) {
     const std::jthread commanding([this](const std::stop_token& stop) {
       for (int n = 0; !stop.stop_requested(); ++n) {
         n % 2 == 0 ? pipeline->stop_measuring() : pipeline->start_measuring();
-        std::this_thread::sleep_for(std::chrono::microseconds(n % 7 * 100));  // an operator's pace
+        std::this_thread::sleep_for(std::chrono::microseconds(n % 7 * 100));  // pace of an operator
       }
     });
     for (int n = 0; n < 100; ++n) next_frame();
@@ -306,7 +306,8 @@ TEST_F(MeasuredPipeline, EveryTriggeredFrameIsAResultThatASinkSeesOnce) {
 
 TEST_F(MeasuredPipeline, NoticesComeOnceAndInOrderBeforeTheStatusThatShowsThem) {
   RecipePlan watched = plan(1);
-  signals::AlarmLimits limits;  // of kSignals[0], whichever it is: only the present spot counts
+  signals::AlarmLimits
+      limits;  // for kSignals[0], regardless of its meaning: only the present spot counts
   limits.high_alarm = 0.5;
   limits.loss_delay.reset();
   watched.alarms = {limits};
@@ -396,7 +397,8 @@ TEST_F(MeasuredPipeline, WhatOperatorsPointNeverChangesAMeasurement) {
 
 TEST_F(MeasuredPipeline, OtherColoursOfAMeasuredViewLeaveWhatItMeasures) {
   UntouchedVector<std::uint16_t> words;
-  std::map<double, std::vector<std::uint8_t>> shown;  // of the hot spot, by where the colours end
+  std::map<double, std::vector<std::uint8_t>>
+      shown;  // pictures of the hot spot, by the end of the colours
   std::uint64_t changed = 0;
   sink.on_view = [&](const View& view) {
     if (view.index == kSeen) return;

@@ -23,11 +23,11 @@ namespace {
 
 thread_local std::size_t allocations = 0;
 thread_local std::size_t releases = 0;
-std::atomic<std::ptrdiff_t> blocks = 0;  // of all threads, not released yet
+std::atomic<std::ptrdiff_t> blocks = 0;  // all threads' blocks, not released yet
 
 }  // namespace
 
-// Every allocation of this program, and its release, is counted on the thread that makes it.
+// Counts every allocation of this program, and its release, on the thread that makes it.
 void* operator new(std::size_t size) {
   ++allocations;
   ++blocks;
@@ -73,7 +73,7 @@ TEST(FramePath, DoesNotAllocate) {
   hal::FrameSync sync(2, {std::chrono::seconds(1), std::chrono::seconds(1)});
   RecipePlan measured = recipe_plan(plan(), 20000, 0.04);
   signals::AlarmLimits limits;
-  limits.high_alarm = 0.5;  // of hot_spot_present: passed all the time
+  limits.high_alarm = 0.5;  // for hot_spot_present: always exceeded
   measured.alarms.push_back(limits);
   const auto recipe = compiled(std::move(measured));
   ViewBuffers buffers = buffers_for(recipe->plan().views[0], {1, 0});

@@ -61,12 +61,12 @@ class RecordingSink : public Sink {
     const std::lock_guard lock(mutex_);
     needs_[view] = needs;
   }
-  /// Of a view's newest picture.
+  /// Format of a view's newest picture.
   std::optional<PixelFormat> format(std::size_t view) {
     const std::lock_guard lock(mutex_);
     return formats_[view];
   }
-  /// The mean sample of a view's newest picture.
+  /// Mean sample of a view's newest picture.
   double brightness(std::size_t view) {
     const std::lock_guard lock(mutex_);
     return brightness_[view];
@@ -239,7 +239,7 @@ TEST_F(PipelineTest, AFrameOfAnotherSizeIsAFaultNotACrash) {
       [](const Status& s) { return s.cameras[0].fault == hal::Fault::None && s.frame_set > 0; });
 }
 
-/// Both views are of one size: one is rendered, two of each are kept, and one more.
+/// Both views have one size: one is rendered, two of each are kept, and one more.
 TEST_F(PipelineTest, ASinkThatHoldsMoreThanItSaidLosesViewsButNotTheMeasurement) {
   sink.hold_views();
   start();
@@ -274,7 +274,7 @@ TEST_F(PipelineTest, ACameraWithoutAStatedRateHasThatOfItsFrames) {
   plan.deadline = {};
   for (hal::StreamFormat& format : plan.formats) format.frame_rate = 0;
   start();
-  // One set follows the other, so that processing takes most of the period.
+  // The sets follow each other so closely that processing takes most of the period.
   const auto end = hal::Clock::now() + std::chrono::seconds(60);
   Status status;
   for (std::uint64_t n = 1; status.load < 0.2 && hal::Clock::now() < end; ++n) {
@@ -317,7 +317,7 @@ TEST_F(PipelineTest, AFrameStampedAtItsEndBelongsToTheTriggerThatBeganIt) {
   const auto begin = hal::Clock::now();
   trigger->on_edge({hal::Edge::Rising, begin});
   for (std::uint64_t part = 1; part <= 5; ++part) {
-    // The next part's edge comes before this one's frame is there.
+    // The next part's edge comes before this one's frame has arrived.
     const auto edge = begin + (part - 1) * kPeriod;
     trigger->on_edge({hal::Edge::Rising, edge + kPeriod});
     cameras[0]->expose(40000, {.exposure_start = edge + kExposure + kReadout,
@@ -429,7 +429,7 @@ TEST_F(PipelineTest, ACameraOfAnotherFormatThanExpectedIsSeenOnceItsViewsAreComp
   };
   auto real = compile();
   const auto seen = view("seen", 0, {1});
-  // The files say nothing of its format, so 8 bits are expected; it delivers 16.
+  // The files do not state its format, so 8 bits are expected; it delivers 16.
   plan.formats[0].format = PixelFormat::Grey;
   plan.recipes[0] = compiled(recipe_plan(view("measured", 1, {0, 1}), 100, 0));
   plan.absent[0] = true;

@@ -16,16 +16,16 @@
 namespace orbwatch::app {
 namespace {
 
-/// What a sink saw of one view.
+/// View that a sink received.
 struct Shown {
   std::size_t view = 0;
   std::string name;
   std::uint64_t frame_set = 0;
   std::uint64_t pointing = 0;
-  std::vector<std::uint8_t> bytes;  ///< of picture and validity
+  std::vector<std::uint8_t> bytes;  ///< bytes of picture and validity
 };
 
-/// Keeps the newest of each view and of the status; the test waits for what it expects.
+/// Keeps the newest of each view and of the status; the test waits for the expected one.
 class WatchingSink : public Sink {
  public:
   Result<> start() override { return {}; }
@@ -65,7 +65,7 @@ class WatchingSink : public Sink {
     return newest_[view];
   }
 
-  /// Called for each view, one at a time; set before the pipeline starts.
+  /// Called for each view, one call at a time; set before the pipeline starts.
   std::function<void(const Shown&)> on_view;
 
  private:
@@ -75,7 +75,7 @@ class WatchingSink : public Sink {
   Status status_;
 };
 
-/// A pipeline with one camera, two views to point and one that is measured.
+/// Pipeline with one camera, two views to point and one that is measured.
 class PointedStage {
  public:
   explicit PointedStage(const Pointing& left = kHome,
@@ -96,7 +96,7 @@ class PointedStage {
 
   void start() { ASSERT_TRUE(pipeline->start({&sink})); }
 
-  /// Exposes a frame and waits until its views were handed over.
+  /// Exposes a frame and waits until its views were passed to the sink.
   void next_frame() {
     camera->expose(200);
     sink.wait_for_set(++frames_);
@@ -119,7 +119,7 @@ class PointedStage {
   std::uint64_t frames_ = 0;
 };
 
-/// The first frame of a pipeline that was started with this pointing.
+/// First frame of a pipeline that was started with this pointing.
 Shown started_with(const Pointing& left, std::size_t view = kLeft,
                    optics::ViewKind kind = optics::ViewKind::Perspective) {
   PointedStage stage(left, kind);
@@ -164,7 +164,7 @@ TEST(PointedPipeline, KeepsTheKindOfTheView) {
             started_with(aside, kLeft, optics::ViewKind::Equirectangular).bytes);
 }
 
-/// Where a view may look, and what it shows then.
+/// Direction of a view, and its expected picture.
 struct Place {
   Pointing pointing;
   std::vector<std::uint8_t> bytes;
@@ -180,9 +180,9 @@ std::vector<Place> random_places(std::size_t count, std::mt19937& random) {
   return places;
 }
 
-/// Checks each frame of one view as it comes.
+/// Checks each frame of one view on arrival.
 struct Audit {
-  std::vector<const Place*> requests;  ///< by number; 0: where it looks at first
+  std::vector<const Place*> requests;  ///< index: number; 0: the initial direction
   std::uint64_t frames = 0, changes = 0, lost = 0, wrong = 0, backwards = 0, last = 0;
 
   void check(const Shown& shown) {
@@ -195,7 +195,7 @@ struct Audit {
 };
 
 TEST(PointedPipeline, EveryFrameDuringAThousandRequestsShowsOneOfThemWhole) {
-  constexpr std::size_t kRequests = 500;  // of each of two views
+  constexpr std::size_t kRequests = 500;  // requests for each of two views
   std::mt19937 random(4);
   const std::vector<Place> places = random_places(16, random);
   const Place home{kHome, started_with(kHome).bytes};

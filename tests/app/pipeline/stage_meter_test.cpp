@@ -14,7 +14,7 @@ const StageStatus& of(const Status& status, Stage stage) {
   return status.stages[static_cast<std::size_t>(stage)];
 }
 
-/// Far more than the calls between take.
+/// Time far above the calls in between.
 constexpr milliseconds kHelped{5000};
 
 TEST(StageMeter, AddsWhatOthersDidToTheStage) {

@@ -16,7 +16,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Waits until a thread sleeps: it holds no lock then that others take.
+/// Waits until a thread sleeps: it then holds no lock that others need.
 void wait_until_asleep(pid_t thread) {
   const std::string path = "/proc/self/task/" + std::to_string(thread) + "/stat";
   const auto state = [&path] {
@@ -28,8 +28,8 @@ void wait_until_asleep(pid_t thread) {
   while (state() != 'S') std::this_thread::yield();
 }
 
-/// Keeps a thread from running, as a kernel with more urgent threads would: in a signal handler,
-/// until it is destroyed.
+/// Keeps a thread from running, like a kernel with more urgent threads: in a signal handler, until
+/// it is destroyed.
 class Descheduled {
  public:
   explicit Descheduled(pid_t thread) {
@@ -64,11 +64,11 @@ class Descheduled {
   static inline int held[2], released[2];
 };
 
-/// The thread of a pool's only worker.
+/// Thread of a pool's only worker.
 pid_t thread_of_worker(WorkerPool& pool) {
   const pid_t own = gettid();
   std::atomic<pid_t> other{0};
-  std::barrier both(2);  // each does one
+  std::barrier both(2);  // each thread does one band
   auto work = [&](int) {
     if (gettid() != own) other = gettid();
     both.arrive_and_wait();
@@ -95,7 +95,7 @@ TEST(WorkerPool, DoesNotWaitForAWorkerThatDoesNotRun) {
   for (int round = 0; round < 3; ++round) {
     std::array<int, 5> done{};
     auto work = [&](int band) { ++done[static_cast<std::size_t>(band)]; };
-    pool.run(static_cast<int>(done.size()), work);  // or this never ends
+    pool.run(static_cast<int>(done.size()), work);  // otherwise this never ends
     for (const int times : done) ASSERT_EQ(times, 1);
   }
 }

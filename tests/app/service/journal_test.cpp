@@ -13,8 +13,8 @@ namespace {
 
 using tests::JournalSocket;
 
-/// Stderr as a service's: connected to the journal, as the environment says. What is written to it
-/// as text is kept.
+/// Stderr of a service: connected to the journal, as the environment states. Text written to it is
+/// kept.
 class ServiceStderr {
  public:
   ServiceStderr() {
@@ -97,15 +97,15 @@ TEST(Journal, ThatIsNotThereGetsTextWithTheLevel) {
 
 TEST(Journal, ThatEndedGetsTextWithTheLevel) {
   ORBWATCH_WITHOUT_A_JOURNAL([] {
-    { const JournalSocket journal; }  // its file stays
+    { const JournalSocket journal; }  // its file remains
     ServiceStderr service;
     log_output()(kRecord);
     EXPECT_EQ(service.text(), "<4>orbwatch: colour: no frames\n");
   });
 }
 
-/// As `systemd-run --pty` and shells started by a service: the variable is inherited, stderr is
-/// another.
+/// Situation under `systemd-run --pty` and in shells started by a service: the variable is
+/// inherited, stderr is another.
 TEST(Journal, IsNotUsedWhenStderrIsAnother) {
   ORBWATCH_WITHOUT_A_JOURNAL([] {
     const JournalSocket journal;

@@ -38,7 +38,7 @@ TEST(ServiceManager, MayNotReadWithoutHarm) {
 
 TEST(ProgressNotice, TheFirstStatusIsReadinessAndTheNextFeedsTheWatchdog) {
   const tests::TemporaryFolder folder;
-  // No pause between two messages: every status feeds.
+  // There is no pause between two messages: every status feeds.
   const NotifySocket manager(folder / "notify", milliseconds(0));
   ::setenv("WATCHDOG_USEC", "1", 1);
   ProgressNotice notice("the last good configuration runs");

@@ -14,14 +14,14 @@ struct BallOutline {
   double radius = 0;
 };
 
-/// What a rig should say of a simulated camera that looks at the ball's centre; exact, from
-/// geometry alone, without the product's optics.
+/// Rig of a simulated camera that looks at the ball's centre; exact, from geometry alone, without
+/// the product's optics.
 struct CameraTruth {
   BallOutline outline;
   double alpha = 0;  ///< degrees, the reflected field of view: 360 - 2 asin(ball radius / distance)
 
-  /// v_machine = rotation v_camera, where v_camera is a direction in the frame of a photo with no
-  /// calibration (the camera sits on +Y of the ball and looks along -Y, up is +Z).
+  /// Rotation in v_machine = rotation v_camera, where v_camera is a direction in the frame of a
+  /// photo with no calibration (the camera is on +Y of the ball and looks along -Y, up is +Z).
   optics::Mat3 rotation;
 };
 

@@ -59,7 +59,7 @@ TEST(CameraTruth, RotationTakesUncalibratedDirectionsIntoTheMachine) {
     const Vec3 position = kBall.centre + random.direction() * 400;
     const Pinhole camera = look_at(position, kBall.centre, 20, 640, 480);
     const Mat3 rotation = truth_of(camera, kBall).rotation;
-    // Uncalibrated: +Y is where the camera stands, -X its right, +Z its up.
+    // Frame without a calibration: +Y points to the camera, -X to its right, +Z up.
     EXPECT_NEAR(norm(rotation * Vec3{0, 1, 0} - normalized(position - kBall.centre)), 0, 1e-9);
     EXPECT_NEAR(norm(rotation * Vec3{-1, 0, 0} - camera.rotation.row0), 0, 1e-9);
     EXPECT_NEAR(norm(rotation * Vec3{0, 0, 1} + camera.rotation.row1), 0, 1e-9);

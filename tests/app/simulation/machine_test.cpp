@@ -19,7 +19,7 @@ TEST(Machine, CountsProcessTimeFromItsEpoch) {
 }
 
 struct Refusal {
-  const char* word;  // that the message must hold
+  const char* word;  // required in the message
   std::function<void(MachineSettings&)> spoil;
 };
 

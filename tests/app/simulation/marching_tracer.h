@@ -8,9 +8,9 @@
 
 namespace orbwatch::app::simulation {
 
-/// What a sight ends on, found by another method than the product's: it walks along the ray in
-/// steps that no body is nearer than (sphere tracing of distance bounds), and where it arrives at
-/// the ball it turns by reflection. Slow, and knows no intersection formula.
+/// End of a sight, found by a method other than the product's: it walks along the ray in steps
+/// shorter than the distance of any body (sphere tracing of distance bounds), and at the ball it
+/// turns by reflection. Slow, and without intersection formulas.
 class MarchingTracer {
  public:
   enum class Body : std::uint8_t { Wall, Table, Workpiece, Ball, Nozzle, Spark };
@@ -46,7 +46,8 @@ class MarchingTracer {
     return end;
   }
 
-  /// degC where a trace ended; walls and table are not known here, they count as 0.
+  /// Temperature, degC, at the end of a trace; walls and table are not modelled here and count as
+  /// 0.
   double temperature(const End& end) const {
     constexpr double kOnTop = 1e-6;
     switch (end.body) {

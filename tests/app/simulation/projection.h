@@ -5,11 +5,11 @@
 
 namespace orbwatch::app::simulation {
 
-/// What a machine is by default.
+/// Machine with default settings.
 inline const MachineSettings kMachine;
 inline const Sphere kBall = kMachine.ball;
 
-/// The pixel that shows a point, straight and not by the ball.
+/// Pixel that shows a point directly, not by the ball.
 inline optics::Vec2 project(const Pinhole& camera, const Vec3& point) {
   const Vec3 c = camera.rotation * (point - camera.position);
   return {camera.focal_length * c.x / c.z + camera.cx(),

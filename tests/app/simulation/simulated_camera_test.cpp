@@ -14,7 +14,7 @@ namespace {
 
 using hal::Fault;
 
-/// Keeps what a camera says and waits for it.
+/// Keeps the frames and faults of a camera and waits for them.
 class Audience {
  public:
   struct Shot {
@@ -22,7 +22,7 @@ class Audience {
     std::vector<std::byte> picture;
   };
 
-  /// `hold`: keeps the buffers, as a consumer would that never lets go.
+  /// `hold`: keeps the buffers, like a consumer that never releases them.
   explicit Audience(bool hold = false) : hold_(hold) {}
 
   Result<> start(hal::Camera& camera) {
@@ -239,7 +239,7 @@ TEST(SimulatedCamera, ExposesAtItsRateOnTheSteadyClock) {
 }
 
 TEST(SimulatedCamera, LosesExposuresWhileAllBuffersAreLent) {
-  // The fault is how a camera that has no buffer left shows that its exposures go on.
+  // The fault is the only signal that a camera without a free buffer continues its exposures.
   constexpr std::uint64_t kSignal = 60;
   SimulatedCameraSettings settings = small();
   settings.faults = {{Fault::ReadError, kSignal, kSignal + 1}};
@@ -277,7 +277,7 @@ TEST(SimulatedCamera, PlaysItsFaultScriptAndRecovers) {
   for (const auto& shot : audience.shots) {
     EXPECT_EQ(script.at(shot.metadata.sequence), Fault::None) << shot.metadata.sequence;
   }
-  // Each fault once, and "delivers again" between them unless no frame came between.
+  // Each fault is reported once, and "delivers again" between them unless no frame came between.
   std::vector<Fault> faults = audience.faults();
   ASSERT_FALSE(faults.empty());
   EXPECT_EQ(faults.back(), Fault::None);
@@ -306,7 +306,7 @@ TEST(SimulatedCamera, CountsFromZeroAgainAfterARestart) {
   EXPECT_EQ(audience.shots.front().picture.size(), 32U * 32 * 3);
 }
 
-/// The noise in each frame by its sequence: picture minus what it would be without noise.
+/// Noise in each frame by its sequence: picture minus the picture without noise.
 std::vector<std::pair<std::uint64_t, std::vector<int>>> noise_of(
     const std::shared_ptr<const Machine>& shared, const std::string& name) {
   SimulatedCameraSettings settings = small(CameraKind::Thermal);

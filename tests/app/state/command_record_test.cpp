@@ -130,7 +130,8 @@ TEST_F(CommandRecordTest, ADamagedOneIsAsIfUnknownUntilThePlcWasSeen) {
   const auto file = folder_ / "commands";
   tests::set_bytes(file, std::string(SlotFile::kFileSize, 'x'));
   EXPECT_EQ(carry_out(*open(), {1, 20}), CommandResult::NotCarriedOut);
-  // Over another restart, too: that the file is whole again says nothing about the PLC.
+  // A damaged record counts as unknown after another restart, too: the intact new file does not
+  // prove that the PLC was seen.
   const auto record = open();
   EXPECT_TRUE(record->is_kept());
   EXPECT_EQ(carry_out(*record, {kPlcClient, 7}), CommandResult::NotCarriedOut);

@@ -11,7 +11,7 @@
 
 namespace orbwatch::app::tests {
 
-/// While it lives, this process can write nothing to any file beyond `bytes`, as on a full disk.
+/// Limits this process, during its lifetime, to `bytes` in any file, like a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes = 0) {

@@ -71,7 +71,7 @@ TEST(PrivateFile, ALinkOrAFolderIsRefused) {
   std::filesystem::create_directory(folder / "folder");
   EXPECT_FALSE(read_private(folder / "link"));
   EXPECT_FALSE(read_private(folder / "folder"));
-  // Written, it takes the link's place and leaves the target.
+  // Writing replaces the link and keeps the target.
   ASSERT_TRUE(write_private(folder / "link", "other"));
   EXPECT_EQ(read_private(folder / "target").value(), "text");
   EXPECT_EQ(read_private(folder / "link").value(), "other");

@@ -16,7 +16,7 @@ using tests::bytes_of;
 using tests::FullDisk;
 using tests::set_bytes;
 
-/// Differs from every other in most of its bytes.
+/// Content that differs from every other in most of its bytes.
 SlotFile::Content content(std::uint8_t number) {
   SlotFile::Content made{};
   for (std::size_t i = 0; i < made.size(); ++i) {
@@ -99,7 +99,7 @@ TEST_F(SlotFileTest, ACutFileIsDamagedAndNotNew) {
 TEST_F(SlotFileTest, TellsTheVersionThatItDoesNotRead) {
   ASSERT_TRUE(open()->write(content(1)));
   std::string bytes = bytes_of(file_);
-  bytes[8] = 2;  // of the first slot, which the first write went to or not
+  bytes[8] = 2;  // part of the first slot, which the first write may have used
   bytes[SlotFile::kSlotSize + 8] = 2;
   set_bytes(file_, bytes);
   const auto other = open();
@@ -132,7 +132,7 @@ TEST_F(SlotFileTest, BelongsToOneProcess) {
 }
 
 TEST_F(SlotFileTest, NeedsAFolderThatItMayWriteTo) {
-  // Nobody may write there, not even root.
+  // No user can write there, not even root.
   const auto read_only = SlotFile::open("/proc/orbwatch/value");
   ASSERT_FALSE(read_only);
   EXPECT_THAT(read_only.error().message, HasSubstr("/proc/orbwatch: cannot be opened"));
@@ -156,7 +156,7 @@ TEST_F(SlotFileTest, AFailedWriteLosesNothing) {
     const auto file = open();
     ASSERT_TRUE(file->write(content(1)));
     {
-      // Of the slots only the first is written, and that in part.
+      // Only the first slot is written, and only in part.
       const FullDisk full(1000);
       EXPECT_FALSE(file->write(content(2)));
       EXPECT_FALSE(file->write(content(3)));

@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A board's /var/lib, and the shell of a user, which has no STATE_DIRECTORY.
+/// A board's /var/lib, and the shell of a user, without STATE_DIRECTORY.
 class StateFolder : public testing::Test {
  protected:
   StateFolder() { ::unsetenv("STATE_DIRECTORY"); }
   ~StateFolder() override { ::unsetenv("STATE_DIRECTORY"); }
 
-  /// Records it as orbwatchd does when it starts.
+  /// Records the folder like orbwatchd at its start.
   void runs_with(const std::string& folder, const fs::path& configuration) const {
     EXPECT_TRUE(record_owner(lib() / folder, configuration));
   }

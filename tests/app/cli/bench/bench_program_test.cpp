@@ -8,7 +8,7 @@
 #include "tests/app/cli/documented_json.h"
 #include "tests/app/daemon/daemon_program.h"
 
-/// `orbwatch bench` as its users call it.
+/// Runs `orbwatch bench` like a user.
 namespace orbwatch::tests {
 namespace {
 

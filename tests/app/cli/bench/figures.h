@@ -5,8 +5,8 @@
 
 namespace orbwatch::app {
 
-/// 30 frame sets per second for ten seconds on 4 cores: the pipeline's thread is busy for half of
-/// the period, all cores for a quarter.
+/// Figures of 30 frame sets per second for ten seconds on 4 cores: the pipeline's thread is busy
+/// for half of the period, all cores for a quarter.
 inline BenchFigures some_figures() {
   constexpr double kPeriod = 1000.0 / 30;  // ms
   BenchFigures figures;

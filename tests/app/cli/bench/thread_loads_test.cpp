@@ -21,7 +21,8 @@ TEST(ThreadLoads, AreReadAsTheKernelWritesThem) {
   std::ofstream(task / "comm") << "odd) (name\n";
   std::ofstream(task / "stat")
       << "712 (odd) (name) S 1 712 712 0 -1 4194560 9 0 0 0 150 50 0 0 20 0 1 0 99\n";
-  std::filesystem::create_directories(folder.path() / "self/task/9");  // it has just ended
+  std::filesystem::create_directories(folder.path() /
+                                      "self/task/9");  // a thread that has just ended
   const auto threads = thread_loads(folder.path());
   ASSERT_EQ(threads.size(), 1U);
   EXPECT_EQ(threads[0].id, 712);
@@ -41,7 +42,7 @@ TEST(ThreadLoads, ShowTheThreadsOfThisProcess) {
     const auto threads = thread_loads();
     return std::ranges::find(threads, "bench test", &ThreadLoad::name) != threads.end();
   };
-  while (!is_there()) {  // it names itself
+  while (!is_there()) {  // the thread names itself
   }
   thread.stop();
   EXPECT_FALSE(is_there());

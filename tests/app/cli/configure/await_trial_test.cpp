@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr TrialPatience kLong{milliseconds(60'000), milliseconds(60'000)};
 
-/// A trial was requested; the test is the daemon.
+/// Fixture with a requested trial; the test is the daemon.
 class AwaitTrial : public testing::Test {
  protected:
   AwaitTrial() {
@@ -23,7 +23,7 @@ class AwaitTrial : public testing::Test {
     EXPECT_TRUE(request_trial(folder.path(), {"/etc/site.toml", {}, 60}));
   }
 
-  /// Empty: it runs.
+  /// Returns the refusal; empty: the trial runs.
   std::string refusal(const TrialPatience& patience) const {
     const auto awaited = await_trial(folder.path(), patience);
     return awaited ? "" : awaited.error().message;

@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Two rows of two pixels, each row followed by a byte of padding that must not show up.
+/// Picture of two rows of two pixels, each row followed by a byte of padding that must not appear.
 ReceivedImage two_by_two(const ImageEncoding& encoding, const Bytes& bytes) {
   return {encoding, 2, 2, bytes.size() / 2, bytes.data(), false};
 }

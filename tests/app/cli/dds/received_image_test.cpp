@@ -10,7 +10,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// A message that owns what it points at.
+/// Message that owns its data.
 struct OwnedImage {
   std::string encoding = "rgb8";
   std::vector<std::uint8_t> bytes;

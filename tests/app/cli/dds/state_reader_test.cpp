@@ -1,4 +1,4 @@
-// The process state from the sink to whoever reads it, field by field over a real DDS network.
+// Transfers the process state from the sink to a reader, field by field over a real DDS network.
 #include "app/cli/dds/received_state.h"
 
 #include <gmock/gmock.h>
@@ -109,7 +109,7 @@ TEST_F(StateReaderTest, AnEmptyStateIsOne) {
   });
 }
 
-/// A process state with one component of one figure, whose parts a test may spoil.
+/// Process state with one component of one figure, whose parts a test may invalidate.
 struct SmallState {
   std::string kind = "camera", name = "front", figure_name = "frames", unit = "1/s", text = "some";
   std::vector<FigureMessage> figures{1};
@@ -141,7 +141,7 @@ struct StateDamage {
   const char* message;
 };
 
-/// Each state that is invalid, and its refusal.
+/// Invalid states, each with its refusal.
 std::vector<StateDamage> damages() {
   return {
       {"system state", [](auto& s) { s.system_state = 5; }, "system state 5 is unknown"},

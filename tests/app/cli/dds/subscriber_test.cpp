@@ -57,7 +57,7 @@ class SharedText : public std::streambuf {
   std::string text_;
 };
 
-/// subscribe() on a thread of its own, on the readers' side of the network.
+/// Runs subscribe() on a thread of its own, on the readers' side of the network.
 class Subscriber {
  public:
   explicit Subscriber(SubscribeOptions options) {
@@ -84,7 +84,7 @@ class Subscriber {
   std::future<Result<std::vector<TopicReport>>> result_;
 };
 
-/// An image message of 4 x 3 grey pixels, unless the test spoils it.
+/// Image message of 4 x 3 grey pixels, unless the test invalidates it.
 struct SmallImage {
   std::string frame_id = "front";
   std::string encoding = "mono8";

@@ -9,7 +9,7 @@
 #include "tests/support/subprocess.h"
 #include "tests/support/temporary_folder.h"
 
-/// The manual page and the completion are made from what the commands declare.
+/// Manual page and completion are generated from the declarations of the commands.
 namespace orbwatch::tests {
 namespace {
 
@@ -31,7 +31,7 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What bash offers behind these words, of which the last one is begun.
+/// Completions that bash offers for these words, the last of which is incomplete.
 std::string offered(const std::string& words) {
   return output_of({"/bin/bash", "-c",
                     "source " + (kFolder / "orbwatch.bash").string() + "; COMP_WORDS=(" + words +

@@ -7,7 +7,7 @@
 #include "tests/app/cli/documented_json.h"
 #include "tests/app/cli/painted_machine.h"
 
-/// `orbwatch describe` as a user runs it.
+/// Runs `orbwatch describe` like a user.
 namespace orbwatch::tests {
 namespace {
 
@@ -45,8 +45,8 @@ class Describe : public CommandLine {
   }
 };
 
-/// Pixels per degree where the ball shows the camera itself: there the reflected ray turns by
-/// 2 d - 1 times what the camera's ray turns by.
+/// Pixels per degree at the point where the ball reflects the camera itself: there the reflected
+/// ray turns by 2 d - 1 times the turn of the camera's ray.
 double best_resolution() {
   return PaintedCamera::focal_length() / (2 * PaintedCamera::kDistance - 1) * std::numbers::pi /
          180;

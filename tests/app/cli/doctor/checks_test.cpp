@@ -9,7 +9,7 @@
 
 #include "hal/lines/simulated_lines.h"
 
-/// Each check on facts of a board where all is well, with one of them changed.
+/// Runs each check on facts of a fault-free board with one of them changed.
 namespace orbwatch::app::doctor {
 namespace {
 
@@ -47,13 +47,13 @@ class Checks : public testing::Test {
     facts.watchdog = {true, "active", 14};
   }
 
-  /// The only line.
+  /// Returns the only line.
   static Diagnosis one(const Diagnoses& found) {
     EXPECT_EQ(found.size(), 1U);
     return found.empty() ? Diagnosis{} : found.front();
   }
 
-  /// The worst line, and that all that are not ok have a remedy.
+  /// Returns the worst line; checks that all lines that are not ok have a remedy.
   static Diagnosis worst_of(const Diagnoses& found) {
     EXPECT_FALSE(found.empty());
     for (const Diagnosis& diagnosis : found) {

@@ -4,13 +4,13 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 
-/// `orbwatch doctor` as an installer runs it, on whatever machine this is.
+/// Runs `orbwatch doctor` like an installer, on the machine of the test.
 namespace orbwatch::tests {
 namespace {
 
 class Doctor : public CommandLine {
  protected:
-  /// The shipped demo, which needs no device, no port and no network.
+  /// Path of the shipped demo, which needs no device, no port and no network.
   std::string demo() {
     const auto shipped = std::filesystem::path(ORBWATCH_SOURCE_DIR) / "platform/config";
     for (const char* name : {"demo-rig.toml", "demo-recipe.toml"}) {

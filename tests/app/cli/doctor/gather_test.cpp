@@ -16,7 +16,7 @@
 #include "hal/thread/file_descriptor.h"
 #include "tests/app/health/made_up_tree.h"
 
-/// Facts of a made-up board: a folder with its /proc, /sys and /dev.
+/// Gathers facts of a synthetic board: a folder with its /proc, /sys and /dev.
 namespace orbwatch::app::doctor {
 namespace {
 
@@ -68,7 +68,7 @@ class Gather : public testing::Test {
     tree.write(folder + "status", "Name:\tx\nCapEff:\t0000000000000400\n");
   }
 
-  /// The facts for a site with one camera of this back-end.
+  /// Facts for a site with one camera of this back-end.
   Facts of(const std::string& camera, const std::string& rest = "") {
     tree.write("site/rig.toml", kRig);
     tree.write(
@@ -187,7 +187,7 @@ TEST_F(Gather, GenicamCamerasByAnyOfTheirNames) {
   };
   hal::CameraEntry camera = named("Maker-Thermal-24512", "Thermal");
   camera.paths = {"24512", "192.168.7.20", "left"};
-  // orbwatchd has it.
+  // This is the state while orbwatchd controls it.
   camera.problem = "is under the control of another host or program";
   module_cameras = std::vector{camera};
   for (const char* name : {"Maker-Thermal-24512", "24512", "192.168.7.20", "left"}) {
@@ -318,7 +318,7 @@ TEST_F(Gather, FoldersByTheNearestOneThatIsThere) {
   EXPECT_FALSE(facts.folders[1].read_only);
 }
 
-/// A program of the made-up board.
+/// Writes a program of the synthetic board.
 void write_program(MadeUpTree& tree, const std::string& name, const std::string& script) {
   tree.write(name, "#!/bin/sh\n" + script + "\n");
   ASSERT_EQ(::chmod((tree / name).c_str(), 0700), 0);
@@ -352,7 +352,7 @@ TEST(TimeSpan, IsAsSystemdPrintsIt) {
   }
 }
 
-/// Whatever the files contain and are, a diagnosis comes out, and its JSON is right.
+/// Any contents and kinds of files must give a diagnosis with valid JSON.
 TEST_F(Gather, BearsHostileContents) {
   write_program(tree, "usr/bin/systemctl", "head -c 3000 /dev/urandom");
   write_program(tree, "usr/sbin/nft", "head -c 3000 /dev/urandom");
@@ -386,7 +386,7 @@ TEST_F(Gather, BearsHostileContents) {
   }
 }
 
-/// Pipes that nobody writes to, loops of links, folders in place of files.
+/// Pipes without a writer, loops of links, folders in place of files.
 TEST_F(Gather, WaitsForNoFileThatNeverEnds) {
   with_libcamera();
   const auto replace = [&](const std::string& name) {

@@ -41,7 +41,7 @@ TEST(ProgramOutput, TooMuchIsNone) {
   EXPECT_FALSE(shell("printf 123456", {.bytes = 5}));
 }
 
-/// Waits for the end of a process that is nobody's child here; false: it lives on.
+/// Waits for the end of a process that is not a child; false: it still runs.
 bool ends(pid_t process) {
   const hal::FileDescriptor descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
   if (!descriptor.is_open()) return errno == ESRCH;
@@ -49,7 +49,7 @@ bool ends(pid_t process) {
   return ::poll(&end, 1, 60000) == 1;
 }
 
-/// The script's wait would outlast the test by far.
+/// The script's wait is much longer than the test.
 TEST(ProgramOutput, TooLateIsNoneAndKilledWithWhatItStarted) {
   const tests::TemporaryFolder folder;
   for (const std::string closing : {"", "exec >&-; "}) {

@@ -1,4 +1,4 @@
-/// Keys and documents, judged by the program of OpenSSL.
+/// Checks keys and documents with the program of OpenSSL.
 #include "app/cli/keys/keystore.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using tests::keystore_request;
 using tests::make_keystore;
 using tests::this_second;
 
-/// Every file below a folder with its content.
+/// Contents of every file below a folder.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -78,7 +78,7 @@ TEST_F(KeystoreTest, CertificatesAreThoseOfTheirKeysAndAuthorities) {
   }
   EXPECT_NE(tests::text_of_file(enclave("appliance").key),
             tests::text_of_file(enclave("subscriber").key));
-  // The other authority issues no identities.
+  // The other authority does not issue identities.
   EXPECT_NE(openssl_.run({"verify", "-CAfile", enclave("subscriber").permissions_ca,
                           enclave("subscriber").certificate}),
             0);
@@ -94,7 +94,7 @@ TEST_F(KeystoreTest, DocumentsAreSignedByTheAuthorityForThem) {
       auto arguments = verify;
       arguments.insert(arguments.end(), {files.permissions_ca, "-out", folder_ / "text"});
       EXPECT_EQ(openssl_.run(arguments), 0) << openssl_.said;
-      // S/MIME writes lines as mail does.
+      // S/MIME ends lines with CR LF, like mail.
       std::string text = tests::text_of_file(folder_ / "text");
       std::erase(text, '\r');
       EXPECT_EQ(text, tests::text_of_file(fs::path(document).replace_extension(".xml")));
@@ -115,7 +115,7 @@ TEST_F(KeystoreTest, NoParticipantCanSignItsOwnPermissions) {
             0)
       << openssl_.said;
   for (const fs::path& authority : {files.permissions_ca, files.identity_ca}) {
-    // As Cyclone DDS 0.10.2 verifies, a chain of certificates being as good as the authority.
+    // Verifies like Cyclone DDS 0.10.2, which accepts a chain of certificates like the authority.
     EXPECT_NE(openssl_.run(
                   {"smime", "-verify", "-text", "-in", folder_ / "forged", "-CAfile", authority}),
               0)
@@ -201,7 +201,7 @@ TEST_F(KeystoreTest, SubscribersAreAddedByTheSameAuthorities) {
               0)
         << openssl_.said;
     EXPECT_TRUE(check_enclave(files, 1, this_second()));
-    // Not longer than the authority itself.
+    // The certificate must not be valid for longer than the authority itself.
     const auto ends = validity_of(*read_certificate(files.certificate))->until;
     EXPECT_EQ(ends, validity_of(*read_certificate(files.identity_ca))->until);
     std::erase_if(after, [&](const auto& entry) {

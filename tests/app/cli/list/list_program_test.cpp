@@ -3,7 +3,7 @@
 #include "tests/app/cli/command_line.h"
 #include "tests/app/cli/documented_json.h"
 
-/// `orbwatch list` as a user runs it, on whatever machine this is.
+/// Runs `orbwatch list` like a user, on the machine of the test.
 namespace orbwatch::tests {
 namespace {
 

@@ -67,7 +67,7 @@ TEST(ListJson, IsValidWhateverDevicesSayOfThemselves) {
   camera.id =
       "quote \" backslash \\ newline \n escape \x1b nul " + std::string(1, '\0') + " delete \x7f";
   camera.model = "gr\xc3\xbc\xc3\x9f \xe2\x82\xac \xf0\x9f\x93\xb7";  // two, three and four bytes
-  // Cut off, overlong, a surrogate, beyond Unicode, no beginning.
+  // Invalid UTF-8: truncated, overlong, a surrogate, beyond Unicode, without a first byte.
   camera.driver = "\xc3|\xc0\xaf|\xed\xa0\x80|\xf5\x80\x80\x80|\x80|\xe2\x82";
   camera.modes = {{"", "", {std::nan(""), std::numeric_limits<double>::infinity(), 0.1}}};
   camera.controls = {{"wide", -0x1p63, 0.25, 0, 0, "", {}}};

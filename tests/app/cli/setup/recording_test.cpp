@@ -71,7 +71,7 @@ TEST_F(Recording, KeepsWhatEveryCameraDelivers) {
   const auto records = record(cameras, 24, std::chrono::seconds(30));
   ASSERT_EQ(records.size(), 3U);
   ASSERT_TRUE(records[0]) << records[0].error().message;
-  // A picture may be skipped on a busy computer, never shown as another.
+  // A picture may be skipped on a busy computer, but never replaced by another.
   ASSERT_FALSE(records[0]->pictures.empty());
   for (const RecordedPicture& recorded : records[0]->pictures) {
     const auto number = recorded.time / milliseconds(5);

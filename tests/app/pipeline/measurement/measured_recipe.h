@@ -8,8 +8,8 @@
 
 namespace orbwatch::app {
 
-/// A recipe with one view, the first source of which is measured, and one region: all of it. No
-/// geometry of the machine is known.
+/// Recipe with one view, the first source of which is measured, and one region that covers all of
+/// it. The geometry of the machine is unknown.
 inline RecipePlan recipe_plan(ViewPlan view, double hot_spot_threshold, double kelvin_per_count = 0,
                               std::uint16_t number = 1) {
   signals::RegionSettings region;

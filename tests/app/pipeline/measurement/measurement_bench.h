@@ -20,7 +20,7 @@ namespace orbwatch::app {
 
 inline constexpr std::uint16_t kBright = 40000;
 
-/// Two recipes measure the same picture in scales of their own, so that a value identifies its
+/// Scale of each recipe; the recipes measure the same picture, so that a value identifies its
 /// recipe.
 inline double scale(std::uint16_t recipe) { return recipe == 1 ? 0.04 : 0.02; }
 inline double celsius(std::uint16_t recipe, std::uint16_t bright = kBright) {
@@ -37,7 +37,7 @@ inline std::size_t signal(std::string_view name) {
       signals::kSignals.begin());
 }
 
-/// An alarm above this temperature, which stands at once.
+/// Alarm above this temperature, without a delay.
 inline signals::AlarmLimits hotter_than(double celsius) {
   signals::AlarmLimits limits;
   limits.signal = signal("hot_spot_peak_temperature");
@@ -66,13 +66,13 @@ class MeasurementTest : public testing::Test {
 
   CommandResult select(std::size_t recipe) { return measurement->select_recipe(recipe); }
 
-  /// A set of a frame that is exposed at that moment.
+  /// Processes a set of a frame that is exposed at that moment.
   Status expose(std::optional<std::uint64_t> trigger = {}, hal::TimePoint stamp = hal::Clock::now(),
                 std::uint16_t bright = kBright) {
     camera.expose(bright, stamp);
     return process(stamp, trigger);
   }
-  /// A set with the frame that is there, exposed earlier.
+  /// Processes a set with the existing frame, exposed earlier.
   Status process(hal::TimePoint stamp, std::optional<std::uint64_t> trigger = {},
                  bool held = false) {
     hal::FrameSet set;
@@ -108,7 +108,7 @@ class MeasurementTest : public testing::Test {
     return status;
   }
 
-  /// What was measured belongs to the recipe of the status.
+  /// True if the measurement belongs to the recipe of the status.
   static bool is_measured(const Status& status, std::uint16_t bright = kBright) {
     if (status.regions[0].quality == Quality::NotMeasured) {
       EXPECT_FALSE(signals::is_valid(status.regions[0].signals.hot_spot_peak_temperature));

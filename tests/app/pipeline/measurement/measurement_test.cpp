@@ -63,20 +63,20 @@ TEST_F(MeasurementTest, RefusesARecipeThatIsNotThere) {
   EXPECT_EQ(expose().recipe, 1);
 }
 
-/// The recipe of each set by the moments of the commands, as a plain reference.
+/// Reference: the recipe of each set by the moments of the commands.
 class Requests {
  public:
   void add(std::uint16_t recipe, TimePoint before, TimePoint after) {
     requests_.push_back({recipe, before, after});
   }
-  /// It may belong to either of two.
+  /// True if the set may belong to either of two recipes.
   bool is_doubtful(TimePoint stamp) const {
     return std::ranges::any_of(requests_, [stamp](const Request& request) {
       return stamp >= request.before && stamp <= request.after;
     });
   }
   std::uint16_t current() const { return requests_[current_].recipe; }
-  /// The recipe of the set that comes next; nothing: none.
+  /// Recipe of the next set; nullopt: none.
   std::optional<std::uint16_t> of(TimePoint stamp) {
     const std::size_t newest = requests_.size() - 1;
     if (stamp > requests_[newest].after) current_ = newest;
@@ -104,7 +104,7 @@ TEST_F(MeasurementTest, NoStatusMixesTwoRecipesInAnyOrderOfEvents) {
     for (int step = 0; step < 200; ++step) {
       const TimePoint now = Clock::now();
       steps.push_back(now - std::chrono::nanoseconds(1));
-      // Half of the sets come late, by some of the steps before.
+      // Half of the sets come late, by some of the previous steps.
       const std::size_t late = random() % 2 * (random() % std::min<std::size_t>(steps.size(), 6));
       const TimePoint stamp = late == 0 ? now : steps[steps.size() - late];
       const auto event = random() % 4;
@@ -154,7 +154,7 @@ TEST_F(MeasurementTest, AHeldFrameOfOtherSettingsIsNotMeasured) {
   ASSERT_EQ(select(2), CommandResult::Done);
   const auto end = Clock::now() + seconds(30);
   Status status;
-  do {  // the pacing camera goes on, this one delivers nothing new
+  do {  // the pacing camera continues, this one delivers no new frame
     status = process(Clock::now());
   } while (status.recipe != 2 && Clock::now() < end);
   EXPECT_EQ(status.recipe, 2);

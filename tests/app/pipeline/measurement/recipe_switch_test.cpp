@@ -20,14 +20,14 @@ using std::chrono::hours;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-/// Cameras that take on settings when the test lets them.
+/// Cameras that apply settings when the test permits it.
 class HandCameras {
  public:
   RecipeSwitch::Apply apply() {
     return [this](std::size_t recipe) { return set(recipe); };
   }
 
-  /// Waits until the next settings were asked for, which are kept waiting; returns their recipe.
+  /// Waits for the next request of settings, which stays pending; returns its recipe.
   std::size_t wait_for_request() {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, seconds(30), [this] { return asked_.has_value(); }));
@@ -36,7 +36,7 @@ class HandCameras {
   void accept() { answer(true); }
   void refuse() { answer(false); }
 
-  /// All that was asked for, in order.
+  /// All requests, in order.
   std::vector<std::size_t> log() {
     const std::lock_guard lock(mutex_);
     return log_;
@@ -71,7 +71,7 @@ class HandCameras {
   std::optional<bool> answer_;
 };
 
-/// Frames come one after the other, not in a busy loop that would keep the mutex for itself.
+/// Paces the frames: a busy loop would keep the mutex for itself.
 void next_frame() { std::this_thread::sleep_for(std::chrono::microseconds(50)); }
 
 std::optional<std::size_t> recipe_of(RecipeSwitch& recipes, TimePoint stamp = Clock::now()) {
@@ -79,7 +79,7 @@ std::optional<std::size_t> recipe_of(RecipeSwitch& recipes, TimePoint stamp = Cl
   return selection ? std::optional(selection->recipe) : std::nullopt;
 }
 
-/// The selection of the present, as soon as there is one.
+/// Present selection, as soon as there is one.
 RecipeSwitch::Selection settled(RecipeSwitch& recipes) {
   const auto end = Clock::now() + seconds(30);
   std::optional<RecipeSwitch::Selection> selection;
@@ -185,7 +185,7 @@ TEST(RecipeSwitch, ARefusalThatANewerRequestOvertookIsNotReported) {
   cameras.wait_for_request();
   recipes.request(2);
   cameras.refuse();
-  cameras.accept();  // back to 0
+  cameras.accept();  // returns to 0
   EXPECT_EQ(cameras.wait_for_request(), 2U);
   EXPECT_FALSE(recipes.has_failed());
   cameras.refuse();
@@ -248,7 +248,7 @@ TEST(RecipeSwitch, WithoutCamerasToSetARecipeCountsFromItsRequestOn) {
   recipes.stop();
 }
 
-/// What cameras were set to and which selections were returned, to be compared afterwards.
+/// Settings of the cameras and returned selections, for a later comparison.
 struct Setting {
   std::size_t recipe;
   bool done;
@@ -260,10 +260,10 @@ struct Returned {
 };
 struct Request {
   std::size_t recipe;
-  TimePoint begin, end;  ///< it was made in between
+  TimePoint begin, end;  ///< the setting was made in between
 };
 
-/// What the cameras were set to at a moment; nothing while they were being set.
+/// Setting of the cameras at a moment; nullopt while they were being set.
 std::optional<std::size_t> setting_at(const std::vector<Setting>& settings, TimePoint moment) {
   std::size_t recipe = 0;
   for (const Setting& setting : settings) {
@@ -276,8 +276,8 @@ std::optional<std::size_t> setting_at(const std::vector<Setting>& settings, Time
 
 constexpr std::size_t kRefused = 3;  ///< the recipe whose settings cameras refuse
 
-/// Whether a recipe may be that of the newest request made until a moment, or was left by a
-/// refusal.
+/// True if a recipe may be that of the newest request made until a moment, or may be in force again
+/// after a refusal.
 bool is_wanted(const std::vector<Request>& requests, std::size_t recipe, TimePoint moment) {
   for (auto request = requests.rbegin(); request != requests.rend(); ++request) {
     if (request->begin > moment) continue;

@@ -43,7 +43,7 @@ double room(const optics::Vec3& d) {
   return 0.25 + 0.15 * std::sin(5 * d.x) * std::cos(4 * d.y) + 0.08 * std::sin(7 * d.z + d.x);
 }
 
-/// What a camera that takes `gain` of the light sees of the room in the ball.
+/// Picture of the room in the ball by a camera with a `gain` for the light.
 hal::Frame exposed(const ViewSource& source, double gain) {
   auto buffer = hal::make_frame_pool(PixelFormat::Rgb, kRoomSide, kRoomSide, 1).acquire();
   for (int y = 0; y < kRoomSide; ++y) {
@@ -62,7 +62,7 @@ hal::Frame exposed(const ViewSource& source, double gain) {
 
 class ExposureMatchTest : public testing::Test {
  protected:
-  /// Hands over sets a second apart until so many were compared and taken over.
+  /// Passes sets a second apart until this number of comparisons was applied.
   void follow(ExposureMatch& match, std::uint64_t comparisons) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (match.comparisons() < comparisons) {
@@ -134,7 +134,7 @@ TEST_F(ExposureMatchTest, FollowsSlowly) {
       match.table(1)->apply<std::uint8_t>({pixel.data(), 1, 1, 3, 3}, PixelFormat::Rgb);
     return pixel[1];
   };
-  // A set of before may still be at work.
+  // An earlier set may still be in progress.
   follow(match, match.comparisons() + 2);
   const int early = brightened();
   follow(match, match.comparisons() + 12);

@@ -24,7 +24,7 @@ hal::Frame plain(const hal::StreamFormat& format, int value) {
   return buffer;
 }
 
-/// Uses of so many mip levels.
+/// Uses of this number of mip levels.
 PictureUses halved(int first, int second) {
   PictureUses uses;
   uses[0].mip_levels = first;
@@ -104,7 +104,7 @@ hal::Frame noisy(const hal::StreamFormat& format) {
   return buffer;
 }
 
-/// The bytes of a level, whose planes lie one behind the other.
+/// Bytes of a level, whose planes are adjacent.
 std::vector<std::byte> bytes_of(const Picture& level) {
   const auto row = static_cast<std::size_t>(row_bytes(level.format, level.width));
   const std::byte* first = level.planes[0].data;
@@ -134,7 +134,7 @@ TEST(FramePyramids, AreThoseOfThePictureInOnePieceHoweverTheyAreShared) {
   }
 }
 
-/// A colour camera's frame and what is made of it. A new frame has noise of its own.
+/// Frame of a colour camera and the pyramid made from it. A new frame has noise of its own.
 class SharpenedFrames : public testing::Test {
  protected:
   static constexpr int kWidth = 96, kHeight = 80;
@@ -153,7 +153,7 @@ class SharpenedFrames : public testing::Test {
     set.frames[0] = std::move(buffer);
   }
 
-  /// Compares an area of the luminance with the frame's, sharpened that much.
+  /// Compares an area of the luminance with the frame's, sharpened by `sharpness`.
   void expect_sharpened(const FramePyramids& pyramids, double sharpness,
                         const remap::SourceArea& area) {
     remap::SharpenedPicture whole(PixelFormat::Nv12, kWidth, kHeight, sharpness);
@@ -205,7 +205,7 @@ TEST_F(SharpenedFrames, AreExtendedByTheAreaThatIsMissing) {
   next_frame();
   pyramids.build(set, sharpened(0.8, measured), workers);
   expect_sharpened(pyramids, 0.8, measured);
-  // What was sharpened already is not sharpened again.
+  // An area that is sharpened already is not sharpened again.
   const auto plane = pyramids.pictures(0, 0, 0.8).front().planes[0];
   auto* const known = const_cast<std::byte*>(plane.data) + 25 * plane.stride + 25;
   const std::byte before = *known;

@@ -14,7 +14,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Without a pipeline: the test exchanges renderers itself. The right view is large: its
+/// Fixture without a pipeline: the test exchanges renderers itself. The right view is large: its
 /// compilation takes long, the left one's does not.
 class PanTiltZoomTest : public testing::Test {
  protected:
@@ -69,7 +69,7 @@ TEST_F(PanTiltZoomTest, CountsWhatWasCompiledForNothingToo) {
   do {
     number = point(kLeft);
   } while (pan_tilt_zoom.superseded(kLeft) == number - 1);
-  // The request before the last is being compiled now, or was, and no exchange takes it over.
+  // The request before the last is or was being compiled, and no exchange applies it.
   wait_until([&] { return pan_tilt_zoom.superseded(kLeft) == number - 1; });
   exchange_until(kLeft, number);
   EXPECT_EQ(pan_tilt_zoom.superseded(kLeft), number - 1);

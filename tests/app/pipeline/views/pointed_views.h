@@ -10,12 +10,12 @@
 
 namespace orbwatch::app {
 
-// Two views to point, and one that is measured.
+// Indices of two views to point, and one that is measured.
 inline constexpr std::size_t kLeft = 0, kRight = 1, kMeasured = 2;
 inline constexpr std::array kNames{"left", "right", "measured"};
 inline constexpr Pointing kHome{{}, 100, std::nullopt};
 
-/// A ball that fills a HandCamera's frame.
+/// Ball that fills a HandCamera's frame.
 inline optics::BallProjection ball() {
   return optics::BallProjection::make(
              optics::BallModel::make(optics::BallModel::Kind::Exact, 350).value(),
@@ -23,7 +23,7 @@ inline optics::BallProjection ball() {
       .value();
 }
 
-/// A small view of what a grey HandCamera sees, as camera 0.
+/// Small view of a grey HandCamera's picture, as camera 0.
 inline ViewPlan view_plan(std::size_t index, optics::ViewKind kind, const Pointing& pointing) {
   const auto projection = optics::ViewProjection::make(
                               {kind, pointing.orientation, pointing.h_fov, pointing.v_fov, 48, 32})

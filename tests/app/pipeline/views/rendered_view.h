@@ -10,7 +10,7 @@
 
 namespace orbwatch::app {
 
-/// By camera, of those that the view has as sources.
+/// Formats by camera, for the view's sources.
 inline std::vector<hal::StreamFormat> source_formats(const ViewPlan& plan) {
   std::vector<hal::StreamFormat> formats;
   for (const ViewSource& source : plan.sources) {
@@ -20,27 +20,27 @@ inline std::vector<hal::StreamFormat> source_formats(const ViewPlan& plan) {
   return formats;
 }
 
-/// A view of a plan, in memory of its own.
+/// View of a plan, in memory of its own.
 inline View make_view(const ViewPlan& plan) {
   View view = make_view(plan.projection.width(), plan.projection.height());
   set_plan(view, plan);
   return view;
 }
 
-/// Buffers for one view, beside which readers keep `kept`.
+/// Buffers for one view, with `kept` for its readers.
 inline ViewBuffers buffers_for(const ViewPlan& plan, const KeptViews& kept = {}) {
   const ViewBuffers::Views view(&plan, 1);
   return plan.measured ? ViewBuffers({}, {view}, kept) : ViewBuffers(view, {}, kept);
 }
 
-/// What a renderer samples.
+/// Pictures that a renderer samples.
 inline PictureUses use_of(const ViewRenderer& renderer) {
   PictureUses uses;
   renderer.add_use(uses);
   return uses;
 }
 
-/// A view rendered from frame sets as the pipeline does it, into one buffer.
+/// View rendered from frame sets like in the pipeline, into one buffer.
 class RenderedView {
  public:
   explicit RenderedView(ViewPlan plan)

@@ -9,7 +9,7 @@
 
 namespace orbwatch::app {
 
-/// A view of what a 16-bit HandCamera sees, whose ball fills the frame.
+/// View of a 16-bit HandCamera's picture, whose ball fills the frame.
 inline ViewPlan thermal_view(std::size_t index, std::string name, std::size_t camera = 0) {
   const auto projection =
       optics::ViewProjection::make({optics::ViewKind::Perspective, {}, 120, {}, 96, 64}).value();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMeasuredSource = 0;
 
-/// Of 96x64 pixels unless stated.
+/// View of 96x64 pixels unless stated.
 ViewPlan view(std::size_t index, bool is_measured = false, int width = 96, int height = 64) {
   ViewPlan plan = thermal_view(index, "view_" + std::to_string(index));
   optics::ViewSpec spec = plan.projection.spec();
@@ -88,7 +88,7 @@ TEST(ViewBuffers, HaveOneThatNoSinkGetsForEachMeasuredView) {
   EXPECT_NE(shared->bytes.data(), one->bytes.data());
 }
 
-/// A camera that comes late delivers another depth than was guessed.
+/// A camera that connects late delivers another depth than the assumed one.
 TEST(ViewBuffers, FitTheViewWhateverItsCameraDelivers) {
   std::vector<ViewPlan> recipe{view(0, true)};
   ViewBuffers buffers({}, {recipe}, {});
@@ -101,7 +101,7 @@ TEST(ViewBuffers, FitTheViewWhateverItsCameraDelivers) {
   EXPECT_TRUE(buffer->radiometric.empty());
 }
 
-/// Pages of the memory that the kernel has behind it.
+/// Share of the memory's pages that the kernel has allocated.
 double resident_share(const void* memory, std::size_t bytes) {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
   const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
@@ -113,7 +113,7 @@ double resident_share(const void* memory, std::size_t bytes) {
 }
 
 TEST(ViewBuffers, TakeNoMemoryBeforeTheyAreUsed) {
-  constexpr int kWidth = 6144, kHeight = 4096;  // more than malloc gives back from its heap
+  constexpr int kWidth = 6144, kHeight = 4096;  // above the size that malloc returns from its heap
   const View view = make_view(kWidth, kHeight);
   EXPECT_LT(resident_share(view.bytes.data(), view.bytes.size()), 0.1);
   EXPECT_LT(resident_share(view.words.data(), 2 * view.words.size()), 0.1);

@@ -25,7 +25,7 @@ class ViewChannelTest : public testing::Test {
     pyramids.build(set, {}, workers);
     return channel.render(set, pyramids, *buffers, workers);
   }
-  /// Until the readers, who may keep two, hold every one.
+  /// Publishes until the readers, who may keep two, hold every one.
   std::vector<ViewPtr> hold_all(ViewChannel& channel) {
     std::vector<ViewPtr> held;
     for (int n = 0; n < 3; ++n) {
@@ -116,7 +116,7 @@ TEST_F(ViewChannelTest, AMeasuredViewHasThemIfItsCameraCountsTemperature) {
   EXPECT_EQ(view->counts.data, view->radiometric.data);
 }
 
-/// Recipes of views of one size follow each other.
+/// Recipes with views of one size follow each other.
 TEST_F(ViewChannelTest, AChannelKeepsNothingOfWhatWasTaken) {
   plan.measured = 0;
   buffers.emplace(buffers_for(plan));

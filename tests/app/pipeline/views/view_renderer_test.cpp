@@ -18,7 +18,7 @@ using optics::ViewProjection;
 
 constexpr int kPlainSide = 200;
 
-/// A camera whose registration turns it `yaw` degrees around the ball.
+/// Camera whose registration turns it `yaw` degrees around the ball.
 ViewSource source(std::size_t camera, PixelFormat format, double yaw, double weight = 1) {
   const auto ball = BallProjection::make(BallModel::make(BallModel::Kind::Exact, 340).value(),
                                          {{99.5, 99.5}, 95, 95, 0}, optics::rotation({yaw, 0, 0}));
@@ -40,7 +40,7 @@ ViewPlan panorama(std::vector<ViewSource> sources, Combine combine = Combine::Mi
           std::nullopt};
 }
 
-/// A picture of one colour, or of one count for 16 bit.
+/// Picture of one colour, or of one count for 16 bit.
 hal::Frame plain(PixelFormat format, std::uint16_t value) {
   auto buffer = hal::make_frame_pool(format, kPlainSide, kPlainSide, 1).acquire();
   const std::size_t samples =
@@ -248,7 +248,7 @@ hal::Frame noise(PixelFormat format) {
   return frame;
 }
 
-/// A panorama of one camera, sharpened that much, from noise.
+/// Panorama of one camera from noise, sharpened by the fixture's amount.
 class SharpenedView : public ViewRendererTest, public testing::WithParamInterface<PixelFormat> {
  protected:
   struct Bytes {

@@ -31,7 +31,7 @@ TEST(Lettering, ReadsFromLeftToRightAndUpright) {
   EXPECT_FALSE(on_ink("LF", 7, -5, 3.6));
 }
 
-/// A wall, and where one stands to face it.
+/// Wall, and a point that faces it.
 struct Face {
   Surface surface;
   const char* name;
@@ -64,12 +64,12 @@ TEST(Appearance, WallsBearTheirNamesUnmirroredForThoseWhoFaceThem) {
         const Appearance look = seen(camera, camera.cx() + camera.focal_length * right / distance,
                                      camera.cy() - camera.focal_length * up / distance, &surface);
         ASSERT_EQ(surface, face.surface);
-        // Names are white, plates coloured, joints dark.
+        // Expected colours: names are white, plates coloured, joints dark.
         const Light& light = look.light;
         const double least = std::min({light.x, light.y, light.z});
         const double most = std::max({light.x, light.y, light.z});
         const bool white = least > 0.97 * most && most > 0.2;
-        // 0.36 of the height of 800 mm above the middle.
+        // Names are centred at 0.36 of the height of 800 mm above the middle.
         ASSERT_EQ(white, on_ink(face.name, 90, right, up - 288)) << face.name;
         ink += white ? 1 : 0;
       }

@@ -53,7 +53,7 @@ TEST(MeltPool, CoolsFromPeakOverMeltingPointToAmbient) {
   EXPECT_NEAR((log_excess(0) - log_excess(10)) / (log_excess(0) - log_excess(5)), 4, 1e-9);
 }
 
-/// The spark of this radius, which is drawn once per spark and serves as its name.
+/// Finds a spark by its radius, which is random and identifies it.
 const Spark* find(const ProcessTruth& truth, double radius) {
   for (const Spark& spark : truth.sparks()) {
     if (spark.radius == radius) return &spark;

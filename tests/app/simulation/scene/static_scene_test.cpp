@@ -51,7 +51,7 @@ bool free_space(const Vec3& p) {
          !kMachine.workpiece.contains(p);
 }
 
-/// Distance of a point from the plane of the surface it is said to be on.
+/// Distance of a point from the plane of its reported surface.
 double distance_from(Surface surface, const Vec3& p, const Vec3& normal) {
   const auto of_body = [&](const Box& body) {
     const Vec3 face{normal.x > 0 ? body.hi.x : body.lo.x, normal.y > 0 ? body.hi.y : body.lo.y,
@@ -113,7 +113,7 @@ TEST(StaticScene, WallsAreWindowsFromOutside) {
 }
 
 TEST(StaticScene, ATableHidesTheBall) {
-  // From below the table straight to the ball.
+  // The ray leads from below the table straight to the ball.
   const Vec3 eye{120, 60, 50};
   const Sight sight = sight_along({eye, {0, 0, 1}}, kMachine.ball);
   ASSERT_TRUE(sight.on_ball());

@@ -11,7 +11,7 @@ namespace {
 
 const Box kSpace{{-500, -500, -500}, {500, 500, 500}};
 
-/// Some rays that start near one point and lead into similar directions, or into any.
+/// Rays that start near one point and have similar directions, or any.
 std::vector<Ray> some_rays(RandomGeometry& random) {
   const Vec3 origin = random.point(kSpace);
   const Vec3 axis = random.direction();
@@ -31,7 +31,7 @@ TEST(RayBundle, NeverMissesABodyThatOneOfItsRaysMeets) {
     const std::vector<Ray> rays = some_rays(random);
     const RayBundle bundle(rays);
     for (const Ray& ray : rays) {
-      // A body that the ray just touches, on any side of it: the hardest to keep.
+      // The body just touches the ray, on any side of it: the hardest to detect.
       const double radius = random.number(0.1, 60);
       const Vec3 aside = optics::normalized(cross(ray.direction, random.direction()));
       const Vec3 centre = ray.at(random.number(0, 600)) + aside * (radius * 0.999);

@@ -14,7 +14,7 @@ std::shared_ptr<const Machine> machine(const MachineSettings& settings = {}) {
   return Machine::make(settings, {}).value();
 }
 
-/// Where cameras of the tests stand, and how wide they see.
+/// Position and field of view of the tests' cameras.
 struct Stand {
   const char* name;
   Vec3 position;
@@ -60,12 +60,12 @@ TEST(Renderer, RedrawsExactlyWhatChanged) {
 
 using Body = MarchingTracer::Body;
 
-/// How pictures of the product and of the other tracer agree.
+/// Agreement of the pictures of the product and of the other tracer.
 struct Comparison {
   int pixels = 0;
   int different = 0;
   std::array<int, 6> direct{};    ///< pixels by Body
-  std::array<int, 6> mirrored{};  ///< likewise, seen in the ball
+  std::array<int, 6> mirrored{};  ///< pixels by Body, seen in the ball
 };
 
 void compare(const MachineSettings& settings, const Stand& stand, double seconds,
@@ -94,7 +94,7 @@ TEST(Renderer, ThermalPixelsHaveTheTemperatureThatAnotherTracerFinds) {
   settings.sparks.radius = {5, 9};
   Comparison result;
   for (const Stand& stand : kStands) {
-    if (!settings.enclosure.contains(stand.position)) continue;  // the other tracer needs it
+    if (!settings.enclosure.contains(stand.position)) continue;  // required by the other tracer
     for (const double t : {3.3, 8.1}) compare(settings, stand, t, result);
   }
   // The two may differ where a ray grazes an edge and rounding decides.
@@ -106,7 +106,8 @@ TEST(Renderer, ThermalPixelsHaveTheTemperatureThatAnotherTracerFinds) {
   }
 }
 
-/// Where the mirrored sight through a pixel meets the height of the workpiece's top: plain algebra.
+/// Intersection of the mirrored sight through a pixel with the height of the workpiece's top: plain
+/// algebra.
 Vec3 mirrored_on_workpiece(const MachineSettings& settings, const Pinhole& camera, double u,
                            double v) {
   const Vec3 direction = camera.ray_through(u, v).direction;
@@ -133,7 +134,7 @@ TEST(Renderer, HottestThermalPixelShowsThePoolsCentre) {
     const auto v = static_cast<double>(row);
     const MeltPool pool = process_at(settings, t).pool;
     const Vec3 shown = mirrored_on_workpiece(settings, camera, u, v);
-    // The footprint of the pixel: as far as its corners reach.
+    // The footprint of the pixel is the extent of its corners.
     double footprint = 0;
     for (const double du : {-0.5, 0.5}) {
       for (const double dv : {-0.5, 0.5}) {
@@ -158,7 +159,7 @@ TEST(Renderer, ThermalSamplesSaturate) {
 }
 
 TEST(Renderer, TheBallFillsItsOutline) {
-  // With a speck instead of the ball the camera sees the wall behind it: what differs is the ball.
+  // A speck instead of the ball exposes the wall behind it: the pixels that differ are the ball.
   constexpr int kSide = 400;
   MachineSettings speck;
   speck.ball.radius = 1e-3;

@@ -26,7 +26,7 @@ TEST(SensorNoise, HasItsSigmaAndNoOffset) {
   }
   const double count = kRows * 1000.0;
   EXPECT_NEAR(sum / count, 0, 0.03);
-  // Rounding to whole counts adds the variance of an even distribution.
+  // Rounding to whole counts adds the variance of a uniform distribution.
   EXPECT_NEAR(std::sqrt(squares / count), std::sqrt(1.5 * 1.5 + 1.0 / 12), 0.03);
 }
 
