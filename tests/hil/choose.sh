@@ -4,10 +4,10 @@ here=tests/hil
 scenarios=$here/scenarios
 all=() rare=() chosen=() left_out=()
 
-# header SCENARIO KEY: the words of KEY in the scenario's first lines.
+# header SCENARIO KEY: prints the words of KEY in the scenario's first lines.
 header() { sed -n "1,6s/^# $2: //p" "$scenarios/$1" | xargs; }
 
-# draw COUNT SEED: so many of the lines, the same ones for the same seed.
+# draw COUNT SEED: prints COUNT of the lines, the same ones for the same seed.
 draw() {
   local line
   while read -r line; do
@@ -15,10 +15,10 @@ draw() {
   done | sort | head -n "$1" | cut -d ' ' -f 4-
 }
 
-# lines WORD...: one a line, none for no words.
+# lines WORD...: prints one word per line, nothing for no words.
 lines() { (($# == 0)) || printf '%s\n' "$@"; }
 
-# Sets all, SCENARIO@MACHINE of each, and rare, those of them that run with --all-machines only.
+# Sets all to SCENARIO@MACHINE of each, and rare to those that run with --all-machines only.
 find_all() {
   local file scenario folder machines
   for file in "$scenarios"/*; do
@@ -36,7 +36,7 @@ find_all() {
   done
 }
 
-# find_named NAME...: sets chosen to these.
+# find_named NAME...: sets chosen to the named ones.
 find_named() {
   local name run found
   for name in "$@"; do
@@ -51,7 +51,7 @@ find_named() {
   done
 }
 
-# find_part PART: adds the scenarios that have it to chosen.
+# find_part PART: adds the scenarios that have the part to chosen.
 find_part() {
   local file
   for file in "$scenarios"/*; do
@@ -60,8 +60,8 @@ find_part() {
   ((${#chosen[@]})) || { echo "run: no part \"$1\"; there are:" "$here"/parts/* >&2; return 2; }
 }
 
-# choose ordinary|drawn|every BASE SEED: sets chosen, and left_out to "SCENARIO@MACHINE without DRIVER" of
-# those that must fail without their driver. Prints what does not run.
+# choose ordinary|drawn|every BASE SEED: sets chosen, and left_out to "SCENARIO@MACHINE without
+# DRIVER" of those that must fail without their driver. Prints the scenarios that do not run.
 choose() {
   local run driver ordinary passed_over
   mapfile -t ordinary < <(lines "${all[@]}" | grep -vxFf <(lines "${rare[@]}"))
@@ -81,13 +81,13 @@ choose() {
   echo "not run: ${passed_over[*]}; $here/run --all-machines runs all"
 }
 
-# What every scenario depends on.
+# Files that every scenario depends on.
 everything=("$here" platform/build-deb platform/debian platform/install_packages tests/support/cached
             tests/support/checks.sh tests/support/debian_apt tests/support/debian_root
             tests/support/modbus.sh tests/support/unpack_package)
 
-# choose_changed BASE SEED RUN...: sets chosen to those of which something has changed since BASE, and two
-# of the others; with ORBWATCH_SINCE (tests/support/drawn.sh) since that, and none of the others.
+# choose_changed BASE SEED RUN...: sets chosen to those with changes since BASE, and two of the
+# others; with ORBWATCH_SINCE (tests/support/drawn.sh) to those with changes since then only.
 choose_changed() {
   local base=${ORBWATCH_SINCE:-$1} seed=$2 run folders others=()
   shift 2
@@ -105,7 +105,7 @@ choose_changed() {
   chosen+=("${others[@]}")
 }
 
-# vimc and vivid take longest: they begin first, so that neither runs alone at the end.
+# Sorts vimc and vivid first, which take longest, so that neither runs alone at the end.
 longest_first() {
   awk '/^(vimc|vivid)@[^ ]*$/ {print; next} {later[++n] = $0}
     END {for (i = 1; i <= n; ++i) print later[i]}'

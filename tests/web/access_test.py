@@ -20,13 +20,13 @@ NEXT_PASSWORD = "a forgotten one replaced"
 
 
 class Access(PageCase):
-    """In order: each case goes on with the users of the one before."""
+    """Cases in order: each one uses the users of the previous one."""
 
     def expect_live(self):
         eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
 
     def session(self):
-        """What the interface says about the browser's own session."""
+        """The interface's report of the browser's own session."""
         return self.browser.execute_async_script(
             "fetch('/api/v1/session').then((a) => a.json()).then(arguments[0])")
 
@@ -48,7 +48,7 @@ class Access(PageCase):
             "document.querySelector(`[aria-label='${arguments[0]}']`).click()", label)
 
     def status_of(self, path, headers=None):
-        """Of a request without any session."""
+        """Status of a request without any session."""
         request = urllib.request.Request(self.appliance.address + path, headers=headers or {})
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:
@@ -79,7 +79,8 @@ class Access(PageCase):
                              self.session().items())
         self.assertEqual(self.users(), {"admin": "administrator"})
         self.assertEqual(self.status_of("api/v1/status"), 401)
-        # The stream of before everybody had to log in may be refused before the log-in is there.
+        # A stream from before the log-in was required may be refused before the log-in page is
+        # shown.
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "api/v1/live" not in entry["message"]], [])
 
@@ -123,7 +124,7 @@ class Access(PageCase):
             [ROOT / "build/release/app/orbwatch", "password",
              "--config", self.appliance.folder / "demo.toml"],
             input=NEXT_PASSWORD + "\n", encoding="utf-8", check=True, capture_output=True)
-        # The session of whoever knew the old one ends, with its stream.
+        # The session with the old password ends, and its stream with it.
         eventually("the form", lambda: self.access_fields("password"))
         self.fill_access(user="admin", password=PASSWORD)
         eventually("the old one is refused",

@@ -20,12 +20,12 @@ from misaligned_machine import MisalignedMachine, degrees_between, rotation_of, 
 from page_case import PageCase
 
 READY, REFUSED = 2, 3  # states of a proposal
-CLICK_PX = 5  # below that a drag may be taken for a click
+CLICK_PX = 5  # px; a shorter drag may count as a click
 VIEW_SIDE = 480  # px
 
 
 def direction_of(yaw, pitch):
-    """Unit vector, of degrees."""
+    """Unit vector, from degrees."""
     yaw, pitch = numpy.radians([yaw, pitch])
     return numpy.array([numpy.sin(yaw) * numpy.cos(pitch), numpy.cos(yaw) * numpy.cos(pitch),
                         numpy.sin(pitch)])
@@ -46,7 +46,7 @@ class AlignCase(PageCase):
             "return document.querySelector('#align .ball canvas').dataset.number"))
 
     def answer(self, path, body=None):
-        """Of a request as curl sends it."""
+        """Answer to a request without a browser, like curl's."""
         request = urllib.request.Request(
             self.appliance.address + path, data=None if body is None else json.dumps(body).encode(),
             headers={"Content-Type": "application/json"})
@@ -54,7 +54,7 @@ class AlignCase(PageCase):
             return answer.read()
 
     def camera(self, name="colour"):
-        """What the interface says of its alignment; None while the daemon does not answer."""
+        """State of its alignment from the interface; None while the daemon does not answer."""
         try:
             cameras = json.loads(self.answer("api/v1/alignment"))["cameras"]
         except OSError:
@@ -65,7 +65,7 @@ class AlignCase(PageCase):
         return (self.camera(name) or {}).get("proposed")
 
     def found(self, name="colour"):
-        """What is proposed, once it is; fails with the reason when it was refused."""
+        """Waits for a proposal and returns it; fails with the reason when it was refused."""
         def answered():
             camera = self.camera(name) or {}
             self.assertNotEqual(camera.get("state"), REFUSED, camera.get("refusal"))
@@ -77,14 +77,14 @@ class AlignCase(PageCase):
         return tomllib.loads(file.read_text(encoding="utf-8"))["entry"] if file.exists() else []
 
     def press(self, label):
-        """A button of the page, once it can be pressed."""
+        """Presses a button of the page, once it is enabled."""
         def button():
             return self.browser.find_elements(
                 By.XPATH, f"//*[@id='align']//button[text()='{label}' and not(@disabled)]")
         eventually(f"{label} can be pressed", button)[0].click()
 
     def accept(self, name="colour"):
-        """Until the daemon has restarted with it."""
+        """Accepts the proposal; returns once the daemon has restarted with it."""
         count = len(self.calibrations())
         self.press("Accept")
         eventually("it is written", lambda: len(self.calibrations()) == count + 1)
@@ -94,7 +94,7 @@ class AlignCase(PageCase):
         return entry
 
     def pointer_at(self, u, v, width=1000, height=1000):
-        """Moves there in the picture, to a pixel of the screen."""
+        """Moves to a place in the picture, to a pixel of the screen."""
         picture = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg")
         self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
         scale = picture.size["width"] / width
@@ -122,7 +122,7 @@ class Fingers(AlignCase):
         self.open()
         picture = self.browser.find_element(By.CSS_SELECTOR, "#align .ball svg")
         self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
-        # Away from handles and edges, which a finger drags.
+        # The places are away from handles and edges, which a finger drags.
         allowed = self.browser.execute_script(
             "return getComputedStyle(arguments[0]).touchAction", picture)
         self.assertIn(allowed, ("manipulation", "pan-x pan-y pinch-zoom"))
@@ -134,7 +134,7 @@ class Outline(AlignCase):
             self.answer("api/v1/command/discard_alignment", {"camera": 0})
 
     def expect_outline(self, shown, truth, share):
-        """Centre and radii within that share of the radius."""
+        """Checks that centre and radii agree within that share of the radius."""
         for key in ("u", "v"):
             self.assertLess(abs(shown[key] - truth[key]), share * truth["rx"], key)
         self.assertLess(abs((shown["rx"] + shown["ry"] - truth["rx"] - truth["ry"]) / 2),
@@ -194,7 +194,7 @@ class Outline(AlignCase):
         self.assertEqual(entry["method"], "outline by hand")
         numpy.testing.assert_allclose(
             entry["outline"]["centre"], [proposed["outline"]["u"], proposed["outline"]["v"]])
-        # And back to what counted before, which is the rig file's.
+        # Returns to the previous alignment, which is the rig file's.
         self.press("Back to the alignment before")
         eventually("it is written", lambda: len(self.calibrations()) == 2)
         eventually("the rig file counts",
@@ -216,7 +216,7 @@ class Register(AlignCase):
         eventually("a comparison", self.number)
         blend, board = self.compared("blend"), self.compared("checkerboard")
         self.assertGreater(numpy.std(board), 10)
-        # Fields are by turns one and the other camera's: half of them differ from the mixture alike.
+        # Fields alternate between the cameras: half of them differ equally from the mixture.
         self.assertGreater(numpy.mean(numpy.abs(board - blend)), 5)
         before = rotation_of(self.camera("thermal")["in_force"]["rotation"])
         shown = self.number()
@@ -234,7 +234,8 @@ class Register(AlignCase):
         self.expect_no_complaint()
 
     def test_what_is_5_percent_and_10_degrees_wrong_becomes_right(self):
-        """Finds both balls and how the second camera stands; the gates are those of the methods."""
+        """Finds both balls and the second camera's orientation; the limits are those of the
+        methods."""
         self.open("colour")
         for name, share in (("colour", 0.0015), ("thermal", 0.01)):
             Select(self.browser.find_element(By.CSS_SELECTOR, "#align [name=camera]")
@@ -266,12 +267,13 @@ class Register(AlignCase):
         self.browser.keep_picture("align-phone")
 
     def registration_error(self):
-        """Of what is in force, degrees."""
+        """Error of the alignment in force, degrees."""
         return degrees_between(rotation_of(self.camera("thermal")["in_force"]["rotation"]),
                                self.appliance.truth["thermal"][1])
 
     def expect_outline(self, entry, truth, share):
-        """Centre and radius within that share of the radius, as calibration.toml has them."""
+        """Checks that centre and radius in calibration.toml agree within that share of the
+        radius."""
         radii = entry.get("radii", [entry.get("radius")] * 2)
         self.assertLess(abs(entry["centre"][0] - truth["u"]), share * truth["rx"])
         self.assertLess(abs(entry["centre"][1] - truth["v"]), share * truth["rx"])
@@ -279,12 +281,12 @@ class Register(AlignCase):
 
 
 class Place(AlignCase):
-    # Corners of enclosure and workpiece; the ball shows them well apart.
+    # Corners of enclosure and workpiece, well apart in the ball.
     POINTS = [(-600, -500, 0), (600, -500, 0), (-600, -500, 800), (600, -500, 800),
               (-190, -130, 178), (-30, -130, 178), (250, -200, 140)]
 
     def pixels(self):
-        """Where the colour camera's ball shows the points."""
+        """Pixels at which the colour camera's ball shows the points."""
         rig = self.appliance.rig
         return [seen_at(rig["camera"][0], rig["ball"], point) for point in self.POINTS]
 
@@ -292,7 +294,7 @@ class Place(AlignCase):
         self.open("colour")
         self.press("Find the ball")
         self.found()
-        # The rotation that is placed must come from the points alone.
+        # The placed rotation must follow from the points alone.
         self.answer("api/v1/command/turn_camera", {"camera": 0, "yaw": 10, "pitch": 5, "roll": -7})
         pixels = self.pixels()
         for count, (point, (u, v)) in enumerate(zip(self.POINTS, pixels), start=1):
@@ -326,7 +328,8 @@ class Place(AlignCase):
 
 class Edges(AlignCase):
     def test_an_edge_that_is_dragged_onto_the_machine_s_turns_the_camera(self):
-        """By turns at two corners, until nothing is left to be dragged on the screen."""
+        """Drags at two corners alternately, until the error is too small to be dragged on the
+        screen."""
         self.open("colour")
         self.press("Find the ball")
         self.found()
@@ -356,7 +359,7 @@ class Edges(AlignCase):
         self.expect_no_complaint()
 
     def test_an_edge_that_is_dragged_in_a_view_turns_the_camera(self):
-        """At corners behind the camera, on the left and on the right of it."""
+        """Uses corners behind the camera, on its left and right."""
         self.open("colour")
         self.press("Find the ball")
         self.found()
@@ -388,7 +391,7 @@ class Edges(AlignCase):
         self.expect_no_complaint()
 
     def look_at(self, direction):
-        """Turns the page's view a little beside it, until that and the edges are shown."""
+        """Turns the page's view close to it, until it and the edges are shown."""
         yaw = round(numpy.degrees(numpy.arctan2(direction[0], direction[1]))) // 5 * 5
         pitch = round(numpy.degrees(numpy.arcsin(direction[2] / numpy.linalg.norm(direction)))) // 5 * 5
         wanted = {"yaw": yaw, "pitch": pitch}
@@ -406,7 +409,7 @@ class Edges(AlignCase):
             numpy.hypot(*(numpy.array(end) + 0.5 - corner)) < 1 for end in ends()))
 
     def in_view(self, direction):
-        """From the middle of the page's view, px."""
+        """Position relative to the middle of the page's view, px."""
         forward = direction_of(self.view["yaw"], self.view["pitch"])
         right = direction_of(self.view["yaw"] + 90, 0)
         focal = VIEW_SIDE / 2 / numpy.tan(numpy.radians(80) / 2)
@@ -414,7 +417,7 @@ class Edges(AlignCase):
             [direction @ right, -direction @ numpy.cross(right, forward)])
 
     def corner_near(self, pixel):
-        """The end of an edge, as it is drawn, that is next to a pixel."""
+        """The drawn end of an edge that is nearest to a pixel."""
         ends = [end for edge in self.proposed()["edges"]
                 for end in (edge["pixels"][0], edge["pixels"][-1])]
         return min(ends, key=lambda end: numpy.hypot(*numpy.subtract(end, pixel)))
@@ -422,7 +425,7 @@ class Edges(AlignCase):
 
 class Judge(AlignCase):
     def pixels(self, model):
-        """Of the canvas of a model; None before it is drawn."""
+        """Pixels of the canvas of a model; None before it is drawn."""
         return self.browser.pixels(f'#models canvas[aria-label="{model}"][data-number]')
 
     def served(self, **query):
@@ -441,7 +444,8 @@ class Judge(AlignCase):
         self.expect_no_complaint()
 
     def test_the_exact_model_shows_the_room_where_it_is_and_the_paper_s_does_not(self):
-        """By the edge between ceiling and front wall, in views of a camera that found its ball."""
+        """Uses the edge between ceiling and front wall, in views of a camera that found its
+        ball."""
         self.answer("api/v1/command/detect_ball", {"camera": 0})
         self.found()
         self.answer("api/v1/command/accept_alignment", {"camera": 0})
@@ -450,7 +454,7 @@ class Judge(AlignCase):
         self.assertGreater(self.edge_error("paper"), 8)
 
     def edge_error(self, model):
-        """How far the edge is from where it belongs, median, px."""
+        """Median distance of the edge from its true place, px."""
         side, yaw, pitch, h_fov = 800, 180, 20, 90
         view = self.served(camera="colour", model=model, yaw=yaw, pitch=pitch, h_fov=h_fov,
                            width=side, height=side)

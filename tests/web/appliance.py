@@ -12,11 +12,12 @@ import time
 import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PATIENCE_S = 60  # a machine that is busy; nothing waits for so long otherwise
+PATIENCE_S = 60  # limit on a busy machine; no wait normally takes so long
 
 
 def eventually(what, condition):
-    """What `condition` gives as soon as that is true in Python's sense; polls a real program."""
+    """Returns the result of `condition` as soon as it is true in Python's sense; polls a real
+    program."""
     give_up = time.monotonic() + PATIENCE_S
     while not (value := condition()):
         if time.monotonic() > give_up:
@@ -39,7 +40,7 @@ class Appliance:
         self.port = free_port()
         for file in (ROOT / "platform/config").glob("demo*.toml"):
             shutil.copy(file, self.folder)
-        # The page instead of the ports that other daemons on this computer may have.
+        # The page replaces the ports that other daemons on this computer may have.
         site = (self.folder / "demo.toml").read_text(encoding="utf-8")
         site = site.replace("[modbus]\nport = 1502", f"[web]\nenabled = true\nport = {self.port}")
         assert "[web]" in site, "the demo's site file has changed"
@@ -48,11 +49,12 @@ class Appliance:
         self.daemon = None
 
     def environment(self):
-        """Of the daemon, besides the test's own."""
+        """Environment of the daemon, in addition to the test's own."""
         return {}
 
     def start(self, is_up=None):
-        """Until `is_up`, by default runs(), which needs no log-in as long as there are no users."""
+        """Waits until `is_up`, by default runs(), which needs no log-in as long as there are no
+        users."""
         log = open(self.folder / "log", "ab")
         self.daemon = subprocess.Popen(
             [ROOT / "build/release/app/orbwatchd", "--config", self.folder / "demo.toml"],
@@ -61,7 +63,7 @@ class Appliance:
         eventually("the daemon runs", is_up or self.runs)
 
     def says(self, condition):
-        """Whether it is so; False as long as the daemon does not answer."""
+        """Returns the condition; False as long as the daemon does not answer."""
         if self.daemon.poll() is not None:
             raise AssertionError((self.folder / "log").read_text(encoding="utf-8"))
         try:

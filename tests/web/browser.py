@@ -12,7 +12,7 @@ from selenium.webdriver.chrome.service import Service
 
 PICTURES = pathlib.Path(__file__).resolve().parents[2] / "build/web"
 AXE = PICTURES / "node_modules/axe-core/axe.min.js"
-# As a container's root; and nothing of its own over the network.
+# Options for root in a container, without network access of the browser itself.
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
              "--disable-quic", "--no-first-run", "--disable-background-networking",
              "--disable-component-update", "--disable-sync", "--window-size=1280,900",
@@ -34,7 +34,7 @@ class Browser(webdriver.Chrome):
         self.profile.cleanup()
 
     def complaints(self):
-        """What the console says since the last call, without what was only noted."""
+        """Messages of the console since the last call, without mere notes."""
         return [entry for entry in self.get_log("browser") if entry["level"] != "INFO"]
 
     def text(self, selector):
@@ -42,7 +42,7 @@ class Browser(webdriver.Chrome):
             "return document.querySelector(arguments[0])?.textContent ?? ''", selector)
 
     def picture_numbers(self):
-        """By view: the number of the picture that its canvas shows; 0: none."""
+        """For each view the number of the picture on its canvas; 0: none."""
         return self.execute_script("""
             const numbers = {};
             for (const figure of document.querySelectorAll('#tiles figure:not([hidden])')) {
@@ -68,19 +68,19 @@ class Browser(webdriver.Chrome):
             return [mean, Math.sqrt(squares / count - mean * mean)];""", view)
 
     def show_in(self, scheme):
-        """"light" or "dark"."""
+        """Emulates a colour scheme, light or dark."""
         self.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "features": [{"name": "prefers-color-scheme", "value": scheme}]})
 
     def look_for_barriers(self):
-        """Before barriers(), which the policy of pages that were opened already would forbid. Skips
-        the test when axe-core is missing, but for acceptance."""
+        """Prepares barriers(), before a page is opened whose policy would forbid it. Skips the test
+        when axe-core is missing, except for acceptance."""
         if not AXE.exists() and not os.environ.get("ORBWATCH_ACCEPTANCE"):
             raise unittest.SkipTest("skipped, missing: axe-core, which npm installs")
         self.execute_cdp_cmd("Page.setBypassCSP", {"enabled": True})
 
     def pixels(self, selector):
-        """The pixels of a canvas, as one number each; None where there is no such canvas."""
+        """The pixels of a canvas, as one number each; None if there is no such canvas."""
         return self.execute_script("""
             const canvas = document.querySelector(arguments[0]);
             if (!canvas) return null;
@@ -97,7 +97,7 @@ class Browser(webdriver.Chrome):
             {"x": x, "y": y, "id": finger} for finger, (x, y) in enumerate(points)]})
 
     def middle_of(self, shown):
-        """Of an element, where fingers find it."""
+        """Centre of an element, for fingers."""
         return self.execute_script("""
             const box = arguments[0].getBoundingClientRect();
             return [box.x + box.width / 2, box.y + box.height / 2];""", shown)
@@ -114,14 +114,14 @@ class Browser(webdriver.Chrome):
         self.touch("touchEnd", [])
 
     def pinch(self, shown):
-        """Two fingers twice as far apart."""
+        """Moves two fingers twice as far apart."""
         x, y = self.middle_of(shown)
         for kind, distance in [("touchStart", 50), ("touchMove", 75), ("touchMove", 100)]:
             self.touch(kind, [(x - distance, y), (x + distance, y)])
         self.touch("touchEnd", [])
 
     def barriers(self):
-        """What axe-core finds serious."""
+        """Serious findings of axe-core."""
         self.execute_script(AXE.read_text(encoding="utf-8"))
         return self.execute_async_script("""
             axe.run().then((result) => arguments[0](result.violations

@@ -16,7 +16,8 @@ COMMENT = "# by hand: é, in its place\r\n"
 
 
 class Configured(Appliance):
-    """A service, which can go back; its recipe has a comment and ends of lines of its own."""
+    """Service that can return to its configuration; its recipe has a comment and line ends of its
+    own."""
 
     def __init__(self):
         super().__init__()
@@ -61,7 +62,7 @@ class ConfigurationPage(PageCase):
         button.click()
 
     def type_into(self, name, old, new):
-        """As somebody who types, but at once."""
+        """Types a text like a user, but at once."""
         self.browser.execute_script("""
             const area = [...document.querySelectorAll('#configuration textarea')]
               .find((one) => one.getAttribute('aria-label') === arguments[0]);
@@ -89,7 +90,7 @@ class ConfigurationPage(PageCase):
         eventually("the page says what is wrong and where",
                    lambda: "demo-recipe.toml:" in self.said())
         self.browser.keep_picture("configuration-wrong")
-        # That the check was answered with 409 is what the browser complains about.
+        # The browser complains about the 409 that answered the check.
         self.assertEqual([one for one in self.browser.complaints() if "409" not in one["message"]],
                          [])
         self.assertIsNone(self.appliance.configuration()["trial"])

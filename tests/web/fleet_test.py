@@ -64,7 +64,7 @@ DDS = ('<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="lo"/></
 
 
 class Cell(Appliance):
-    """A light one: a picture a second that costs nothing."""
+    """Appliance with little load: one picture a second without processor time."""
 
     def __init__(self, name):
         super().__init__()

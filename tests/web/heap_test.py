@@ -1,4 +1,4 @@
-"""Twelve views in one page for long: as many connections as for one, and nothing that grows.
+"""Twelve views in one page for long: as many connections as for one, and no growth.
 
 Folders: app/ports/web/streams app/ports/web/page/files/appliance app/ports/web/page/files/live
 """
@@ -12,12 +12,12 @@ from appliance import Appliance, eventually
 from page_case import PageCase
 
 VIEWS = 12
-# An hour with ORBWATCH_SHARE=1, as the long gates of the other tests; else two minutes.
+# An hour with ORBWATCH_SHARE=1, like the long gates of the other tests; else two minutes.
 SECONDS = 3600 if os.environ.get("ORBWATCH_SHARE") == "1" else 120
-PAUSE_S = 10  # between two looks at the memory
-SHARE = 0.25  # of the time: until caches are full
-BROWSER_MAY_GROW = 1_000_000  # bytes, of some 3 MB that the page holds
-DAEMON_MAY_GROW = 4_000_000  # bytes, of some 150 MB
+PAUSE_S = 10  # between two readings of the memory
+SHARE = 0.25  # share of the time until caches are full
+BROWSER_MAY_GROW = 1_000_000  # bytes, the page has some 3 MB
+DAEMON_MAY_GROW = 4_000_000  # bytes, the daemon has some 150 MB
 
 
 class TwelveViews(Appliance):
@@ -41,7 +41,7 @@ class Heap(PageCase):
         return TwelveViews()
 
     def used(self):
-        """Bytes that the page holds, without what is garbage."""
+        """Bytes that the page holds, without garbage."""
         self.browser.execute_cdp_cmd("HeapProfiler.collectGarbage", {})
         return self.browser.execute_cdp_cmd("Runtime.getHeapUsage", {})["usedSize"]
 
@@ -55,7 +55,7 @@ class Heap(PageCase):
         page, daemon = [], []
         end = time.monotonic() + SECONDS
         while time.monotonic() < end:
-            time.sleep(PAUSE_S)  # what is tested is time that passes
+            time.sleep(PAUSE_S)  # the test measures over time
             page.append(self.used())
             daemon.append(self.appliance.resident())
         first = max(1, round(SHARE * len(page)))

@@ -25,16 +25,16 @@ from selenium.webdriver.support.select import Select
 from appliance import PATIENCE_S, Appliance, eventually
 from page_case import PageCase
 
-BALL = (120, 60, 430)  # of demo-rig.toml, mm
+BALL = (120, 60, 430)  # position in demo-rig.toml, mm
 TABLE_TOP = 140
-TABLE_DEGC = (35, 42)  # of the simulated machine: 40, its slots 37, and noise
-# Of "heat" in demo.toml.
+TABLE_DEGC = (35, 42)  # table of the simulated machine: 40, its slots 37, and noise
+# View "heat" in demo.toml.
 YAW, PITCH, H_FOV, WIDTH, HEIGHT = -115, -40, 80, 320, 240
-ON_THE_TABLE = (-220, 60, TABLE_TOP)  # beside work piece and nozzle
+ON_THE_TABLE = (-220, 60, TABLE_TOP)  # beside workpiece and nozzle
 
 
 def pixel_of(point):
-    """Where "heat" shows a point of the machine."""
+    """Pixel at which "heat" shows a point of the machine."""
     x, y, z = (a - b for a, b in zip(point, BALL))
     a, b = math.radians(YAW), math.radians(PITCH)
     right = x * math.cos(a) - y * math.sin(a)
@@ -46,7 +46,7 @@ def pixel_of(point):
 
 
 class MixingAppliance(Appliance):
-    """With a view of both cameras to look at, `both`, besides the demo's."""
+    """Adds a view of both cameras, `both`, to the demo's."""
 
     def __init__(self):
         super().__init__()
@@ -93,7 +93,8 @@ class Live(PageCase):
         return canvas
 
     def reading(self, view):
-        """What the tile says of a pixel, and of which: {text, u, v, number}, or nothing yet."""
+        """Reading of a pixel on the tile, with its place: {text, u, v, number}, or null without
+        one."""
         return self.browser.execute_script("""
             const { textContent: text, dataset } = arguments[0].querySelector('.reading');
             return dataset.number ? { text, ...dataset } : null;""", self.tile(view))
@@ -103,7 +104,8 @@ class Live(PageCase):
             return json.load(answer)
 
     def read_with_the_interface(self, view):
-        """What the page says of a pixel, and the interface of the same one of the same picture."""
+        """Reading on the page, and the interface's values for the same pixel of the same
+        picture."""
         def both():
             said = self.reading(view)
             if not said:
@@ -113,12 +115,12 @@ class Live(PageCase):
             try:
                 return said, self.get(f"api/v1/live/pixel?{query}")
             except urllib.error.HTTPError as error:
-                self.assertEqual(error.code, 410)  # the picture is older than those that are kept
+                self.assertEqual(error.code, 410)  # the picture is older than the kept ones
                 return None
         return eventually("the same picture is read by page and interface", both)
 
     def expect_the_table(self, said, known):
-        """By the geometry of the machine alone."""
+        """Checks a reading by the geometry of the machine alone."""
         u, v = pixel_of(known["point"])
         self.assertAlmostEqual(u, float(said["u"]), delta=0.01)
         self.assertAlmostEqual(v, float(said["v"]), delta=0.01)
@@ -147,7 +149,7 @@ class Live(PageCase):
         for shown in (f"yaw {known['yaw']:.2f}°", f"pitch {known['pitch']:.2f}°",
                       f"{known['temperature']:.1f} °C", f"{known['distance']:.0f} mm"):
             self.assertIn(shown, said["text"])
-        # It goes on with the picture.
+        # The text follows the picture.
         eventually("a newer picture is read",
                    lambda: int(self.reading("heat")["number"]) > int(said["number"]))
         self.browser.keep_picture("pointing")
@@ -180,7 +182,7 @@ class Live(PageCase):
         eventually(f"{view} looks to {yaw:.2f}, {pitch:.2f}, {h_fov:.2f} wide", aims)
 
     def command(self, name, **arguments):
-        """Status and answer."""
+        """Returns status and answer."""
         request = urllib.request.Request(
             f"{self.appliance.address}api/v1/command/{name}", json.dumps(arguments).encode(),
             {"Content-Type": "application/json"})
@@ -197,7 +199,7 @@ class Live(PageCase):
         ActionChains(self.browser).drag_and_drop_by_offset(canvas, 60, 30).perform()
         yaw, pitch = YAW - 60 * degrees, PITCH + 30 * degrees
         self.expect_aim("heat", yaw, pitch, H_FOV)
-        # Clicked, it has the wheel; without that the page scrolls.
+        # After a click the tile handles the wheel; otherwise the page scrolls.
         ActionChains(self.browser).scroll_from_origin(
             ScrollOrigin.from_element(canvas), 0, -200).perform()
         h_fov = H_FOV * math.exp(-200 * 0.0015)
@@ -236,7 +238,7 @@ class Live(PageCase):
         self.assertEqual(self.browser.complaints(), [])
 
     def mean_of(self, view):
-        """Of what is seen."""
+        """Mean level of the visible picture."""
         place = self.view(view)["index"] + 1
         return statistics.mean(self.browser.pixels(f"#tiles figure:nth-child({place}) canvas"))
 
@@ -263,7 +265,7 @@ class Live(PageCase):
         self.assertEqual(self.browser.complaints(), [])
 
     def recolour(self, view, colour_map, first, last):
-        """By hand; what the page says why not."""
+        """Recolours a view with the controls of its tile."""
         tile = self.tile(view)
         self.browser.execute_script(
             "arguments[0].querySelector('.colours').open = true;"
@@ -274,7 +276,7 @@ class Live(PageCase):
                                                        Keys.ENTER)
 
     def colours(self, view):
-        """Of its only one-channel camera."""
+        """Colours of its only one-channel camera."""
         return next(filter(None, self.view(view)["aim"]["colours"]))
 
     def test_colours_change_with_their_legend(self):
@@ -286,12 +288,12 @@ class Live(PageCase):
         eventually("the legend says so",
                    lambda: self.legend("heat") == "thermal 900 °C1000 °C")
         self.assertLess(self.mean_of("heat"), bright - 50)
-        # A measured view's, too, of which only the picture changes.
+        # A measured view can be recoloured, too; only its picture changes.
         self.recolour("process", "viridis", 30, 800)
         eventually("it is changed", lambda: self.colours("process") == {
             "colour_map": "viridis", "range": [30, 800]})
         self.browser.keep_picture("colours")
-        # What cannot be is refused with a sentence, and the picture stays as it is.
+        # An impossible value is refused with a sentence, and the picture is unchanged.
         self.recolour("heat", "grey", 900, 800)
         eventually("it is refused", lambda: "first is 900; it must be below last, which is 800" in
                    self.tile("heat").find_element(By.CSS_SELECTOR, "[role=alert]").text)
@@ -321,12 +323,12 @@ class Live(PageCase):
             self.tile("heat").find_element(By.XPATH, ".//button[text()='Snapshot']").click()
             file = eventually("the file is there", lambda: next(
                 pathlib.Path(folder).glob("heat-*.jpg"), None))
-            picture = cv2.imread(str(file))  # it has this name once it is whole
+            picture = cv2.imread(str(file))  # it has this name once it is complete
         self.assertEqual(picture.shape[1], WIDTH)
         self.assertGreater(picture.shape[0], HEIGHT)
         # The ramp below the picture goes from turbo's dark blue over green to its dark red.
         ramp = picture[-13].astype(int)
-        ramp -= numpy.median(ramp, axis=1, keepdims=True).astype(int)  # grey, as text is, is 0
+        ramp -= numpy.median(ramp, axis=1, keepdims=True).astype(int)  # 0 for grey, such as text
         blue, green, red = (ramp[:, channel].argmax() for channel in range(3))
         self.assertTrue(blue < green < red, (blue, green, red))
         self.assertEqual(self.browser.complaints(), [])

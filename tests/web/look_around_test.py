@@ -26,7 +26,7 @@ NEAR_BLIND_CONE_DEG = 6
 
 
 class LookingAround(PageCase):
-    QUALITY = 100  # what JPEG loses is not the drawing's
+    QUALITY = 100  # without losses by JPEG
     ARGUMENTS = WITH_WEBGL
 
     @classmethod
@@ -77,7 +77,7 @@ class LookingAround(PageCase):
                 control.dispatchEvent(new Event('change'));""", name, value)
 
     def gaze(self):
-        """Yaw, pitch and field of view of what the canvas shows, once it follows no more."""
+        """Yaw, pitch and field of view of the canvas, once it is at rest."""
         self.browser.execute_async_script(
             "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
         return [float(self.canvas.get_dom_attribute(f"data-{name}"))
@@ -94,7 +94,7 @@ class LookingAround(PageCase):
         return cv2.imdecode(jpeg, cv2.IMREAD_GRAYSCALE)
 
     def beyond_blind_cone(self):
-        """How far each pixel is from camera A's blind cone, degrees; below 0 within."""
+        """Distance of each pixel from camera A's blind cone, degrees; below 0 within."""
         head = json.loads(self.get("api/v1/sphere?view=ball").split(b"\n", 1)[0])
         away = self.appliance.angle_from([-x for x in head["facing"]], *self.gaze())
         return away - self.appliance.blind_half_angle
@@ -105,8 +105,8 @@ class WebGl(LookingAround):
         ActionChains(self.browser).drag_and_drop_by_offset(self.canvas, x, y).perform()
 
     def expect_alike(self, view, where, least):
-        """The appliance's view shows what the canvas does; its picture may be of before the command
-        that pointed it, so that it is asked for again."""
+        """Waits until the appliance's view shows the same as the canvas; its picture may precede
+        the command that pointed it, so it is requested again."""
         shares = []
 
         def is_alike():
@@ -135,7 +135,7 @@ class WebGl(LookingAround):
                 self.point("turned", *gaze)
                 self.expect_alike("turned", where, 0.99)
         self.browser.keep_picture("look")
-        # A canvas that is read slows its processor down, which only this test does.
+        # Reading a canvas slows its processor down, which only this test does.
         self.assertEqual([entry for entry in self.browser.complaints()
                           if "GPU stall due to ReadPixels" not in entry["message"]], [])
 
@@ -172,7 +172,7 @@ class WebGl(LookingAround):
             self.choose(**{mark: False})
             self.gaze()
             self.assertLess(numpy.mean(cv2.absdiff(self.drawn(), plain) > 2), 0.001)
-        # Away from where the camera sees best.
+        # The view is away from the camera's best resolution.
         self.drag(440, 0), self.drag(440, 0), self.drag(440, 0), self.drag(440, 0)
         self.gaze()
         unmarked, beyond = self.drawn(), self.beyond_blind_cone()

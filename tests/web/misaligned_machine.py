@@ -1,5 +1,5 @@
-"""A daemon with the simulated machine whose rig file is wrong: every ball 5 % too large and beside
-its place, the thermal camera turned by 10 degrees. What is right is computed here by plain
+"""A daemon with the simulated machine whose rig file is wrong: every ball 5 % too large and
+displaced, the thermal camera turned by 10 degrees. The true values are computed here by plain
 vectors, from the poses that the demo's rig file states."""
 
 import tomllib
@@ -9,12 +9,12 @@ import numpy
 from appliance import Appliance
 
 TOO_LARGE = 1.05
-BESIDE = 0.05  # of the radius, to the right and down
+BESIDE = 0.05  # share of the radius, to the right and down
 TURNED_DEG = 10
 
 
 def outline_of(camera, ball):
-    """The limb of the ball as a pinhole camera sees it: centre, radii, angle in degrees."""
+    """Limb of the ball for a pinhole camera: centre, radii, angle in degrees."""
     lens = camera["intrinsics"]
     to_pixels = numpy.array([[lens["fx"], 0, lens["cx"]], [0, lens["fy"], lens["cy"]], [0, 0, 1]])
     rotation = numpy.reshape(camera["pose"]["rotation"], (3, 3))
@@ -35,7 +35,7 @@ def outline_of(camera, ball):
 
 
 def seen_at(camera, ball, point):
-    """The pixel at which the ball shows a point: where light is reflected, both angles to the
+    """Pixel at which the ball shows a point: at the point of reflection, both angles to the
     sphere's normal are the same."""
     eye = numpy.array(camera["pose"]["position"]) - ball["centre"]
     point = numpy.array(point) - ball["centre"]
@@ -44,7 +44,8 @@ def seen_at(camera, ball, point):
     across /= numpy.linalg.norm(across)
 
     def excess(a):
-        """By how much the way to the camera leans away from the normal more than that to the point."""
+        """Excess of the angle between the normal and the camera over that between the normal and
+        the point."""
         normal = numpy.cos(a) * forward + numpy.sin(a) * across
         along = -numpy.sin(a) * forward + numpy.cos(a) * across
         to_eye, to_point = (end - ball["radius"] * normal for end in (eye, point))
@@ -62,7 +63,8 @@ def seen_at(camera, ball, point):
 
 
 def registration_of(camera):
-    """From the camera's own axes, X = -right, Y = -forward, Z = -down, to the machine's."""
+    """Rotation from the camera's own axes, X = -right, Y = -forward, Z = -down, to the
+    machine's."""
     right, down, forward = numpy.reshape(camera["pose"]["rotation"], (3, 3))
     return numpy.column_stack([-right, -forward, -down])
 
@@ -87,12 +89,12 @@ def rotation_of(angles):
 
 
 def degrees_between(a, b):
-    """The angle of the turn that leads from one rotation to the other."""
+    """Angle of the rotation that leads from one rotation to the other."""
     return numpy.degrees(numpy.arccos(numpy.clip((numpy.trace(a @ b.T) - 1) / 2, -1, 1)))
 
 
 def turned(rotation, degrees):
-    """About an axis that is none of the machine's."""
+    """Rotation about an axis that is not one of the machine's."""
     axis = numpy.array([0.48, 0.6, 0.64])
     cross = numpy.cross(numpy.eye(3), axis)
     a = numpy.radians(degrees)
@@ -100,7 +102,7 @@ def turned(rotation, degrees):
 
 
 class MisalignedMachine(Appliance):
-    """`truth`: by camera its outline and its registration."""
+    """`truth`: outline and registration of each camera."""
 
     def __init__(self):
         super().__init__()

@@ -9,7 +9,7 @@ from browser import Browser
 
 
 class PageCase(unittest.TestCase):
-    ARGUMENTS = []  # of the browser
+    ARGUMENTS = []  # arguments of the browser
 
     @classmethod
     def make_appliance(cls):
@@ -37,7 +37,7 @@ class PageCase(unittest.TestCase):
         self.browser.find_element(By.CSS_SELECTOR, "#access form button").click()
 
     def expect_no_barriers(self, show):
-        """In light and in dark. `show` brings the page to what is judged."""
+        """Checks in light and in dark. `show` brings the page to the state to be checked."""
         self.browser.look_for_barriers()
         for scheme in ("light", "dark"):
             with self.subTest(scheme=scheme):

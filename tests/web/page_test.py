@@ -1,4 +1,4 @@
-"""What a person does with the page, against a running daemon.
+"""Actions of a user on the page, against a running daemon.
 
 Folders: app/ports/web/page/files app/ports/web/status app/ports/web/history
 """
@@ -38,9 +38,10 @@ class Page(PageCase):
             mean, deviation = self.browser.brightness(view)
             self.assertGreater(mean, 20, view)
             self.assertGreater(deviation, 10, f"{view} is one colour")
-        # Another choice of views begins another stream; the former one ends.
+        # Another selection of views begins another stream; the former one ends.
         eventually("one stream is open", lambda: self.appliance.status()["web"]["streams"] == 1)
-        # The page's own, and the one that asks. Those that loaded its files end when they are idle.
+        # The page's own connection, and the one of this query. Those that loaded its files end when
+        # they are idle.
         eventually("two connections are left",
                    lambda: self.appliance.status()["web"]["connections"] <= 2)
         self.browser.keep_picture("live")
@@ -69,8 +70,8 @@ class Page(PageCase):
             return json.load(answer)
 
     def charted_before_it_was_opened(self):
-        """Seconds that the strip of a region shows from before the page was loaded; None: it shows
-        nothing. Above and below the strip there are words."""
+        """Seconds before the loading of the page that the strip of a region shows; None: it is
+        empty. There are words above and below the strip."""
         return self.browser.execute_script("""
             const canvas = document.querySelector('[data-region] canvas');
             if (!canvas?.width) return null;
@@ -161,7 +162,7 @@ class Page(PageCase):
         self.expect_pictures(VIEWS)
 
     def sends_no_pictures(self):
-        """While the pipeline goes on."""
+        """True if no picture is sent while the pipeline continues."""
         before = self.appliance.status()
         eventually("more frame sets", lambda: self.appliance.status()["system"]["frame_set"]
                    > before["system"]["frame_set"] + 15)

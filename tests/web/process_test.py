@@ -33,7 +33,7 @@ class RecipeOnThePage(PageCase):
             " && document.querySelector('#regions canvas').dataset.number"))
 
     def recipe(self):
-        """What the interface says of the recipe in force."""
+        """Recipe in force, from the interface."""
         with urllib.request.urlopen(self.appliance.address + "api/v1/recipe",
                                     timeout=PATIENCE_S) as answer:
             return json.load(answer)
@@ -53,7 +53,7 @@ class RecipeOnThePage(PageCase):
         return self.browser.text("#recipe [role=status]")
 
     def drag_a_limit(self):
-        """That of the width's high warning, upwards; what it is then, as the page has it."""
+        """Drags the high warning of the width upwards; returns its new value on the page."""
         Select(self.find("[data-region=pool] [name=signal]")).select_by_visible_text("hot_spot_width")
         eventually("its lines", lambda: self.browser.find_elements(
             By.CSS_SELECTOR, "[data-limit='1 high_warning'] .grip[y1]"))
@@ -95,7 +95,7 @@ class RecipeOnThePage(PageCase):
         return float(self.find(f"[data-region=pool] .limits [name={limit}]").get_property("value"))
 
     def move_a_corner(self):
-        """The pool's first one, by keys; how the others stand."""
+        """Moves the pool's first corner by keys."""
         Select(self.find("#regions [name=region]")).select_by_value("pool")
         corner = self.find("#regions [data-corner='0']")
         corner.send_keys(Keys.SHIFT + Keys.ARROW_LEFT)
@@ -115,13 +115,14 @@ class RecipeOnThePage(PageCase):
             "return document.querySelector(\"#regions [data-corner='0']\").getAttribute('cx') < 200"))
 
     def corners(self):
-        """Of the region that is being changed, in pixels of its view."""
+        """Corners of the region that is being changed, in pixels of its view."""
         return self.browser.execute_script("""
             return [...document.querySelectorAll('#regions [data-corner]')]
               .map((corner) => ['cx', 'cy'].map((name) => Number(corner.getAttribute(name))));""")
 
     def shape_the_region(self):
-        """A corner more by a finger, which pulls it out of the upper edge; one by keys, and away."""
+        """Adds a corner by a finger, which pulls it out of the upper edge; adds one by keys and
+        removes it."""
         before = self.corners()
         self.browser.drag_by_finger(self.find("#regions [data-edge='0']"), 0, -20)
         eventually("a corner more", lambda: len(self.corners()) == len(before) + 1)
@@ -143,7 +144,7 @@ class RecipeOnThePage(PageCase):
         self.assertIn("Region surroundings is deleted", self.browser.text("#regions [role=status]"))
 
     def difference(self):
-        """Lines of the file that are no more, and those that are new."""
+        """Removed and added lines of the file."""
         lines = [text.decode().splitlines(keepends=True)
                  for text in (self.before, self.appliance.recipe.read_bytes())]
         changes = list(difflib.ndiff(*lines))
@@ -185,12 +186,12 @@ class RecipeOnThePage(PageCase):
         self.assertEqual(len(kept["region"][0]["alarm"]), 2)
         self.assertEqual(sorted(kept["region"][1]), ["hot_spot_threshold", "name", "points", "view"])
         self.assertEqual(len(kept["region"][1]["points"]), 4)
-        # Ten pixels to the left, where the view shows the work piece's top or the room beside it.
+        # Ten pixels to the left, where the view shows the workpiece's top or the room beside it.
         moved = self.region("pool")["corners"]
         self.assertAlmostEqual(moved[0]["pixel"][0], pool["corners"][0]["pixel"][0] - 10, delta=0.01)
         self.assertAlmostEqual(moved[0]["pixel"][1], pool["corners"][0]["pixel"][1], delta=0.01)
         self.assertEqual(moved[1:], pool["corners"][1:])
-        # That the appliance restarts is what the browser complains about.
+        # The browser complains about the restart of the appliance.
         self.assertEqual([one for one in self.browser.complaints() if "ERR_" not in one["message"]], [])
 
 

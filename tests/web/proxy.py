@@ -1,5 +1,5 @@
-"""Debian's nginx as a reverse proxy that ends TLS and shows an appliance below a path, as
-app/ports/web/PROXIES.md configures it."""
+"""Debian's nginx as a reverse proxy that ends TLS and shows an appliance below a path, configured
+by the example of app/ports/web/PROXIES.md."""
 
 import contextlib
 import re
@@ -10,9 +10,9 @@ import subprocess
 from appliance import PATIENCE_S, ROOT, Appliance, eventually, free_port
 
 PATH = "/cell4/orbwatch/"
-CLIENT = "127.0.0.5"  # no proxy
+CLIENT = "127.0.0.5"  # not a proxy
 PAGE = ROOT / "app/ports/web/PROXIES.md"
-# Of nginx as a whole, by whoever runs the tests; files in the one folder.
+# Main configuration of nginx, for the account that runs the tests; files in one folder.
 MAIN = """
 daemon off;
 pid {folder}/pid;
@@ -37,7 +37,8 @@ def documented(language):
 
 
 def replaced(text, *changes):
-    """Each change must apply: the example would not be what runs."""
+    """Applies each change; a missing one would mean that the example differs from the tested
+    text."""
     for before, after in changes:
         assert before in text, f"{PAGE}: {before} is not there any more"
         text = text.replace(before, after)

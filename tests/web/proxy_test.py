@@ -20,9 +20,9 @@ JPEG_BEGINS = b"\xff\xd8\xff"
 
 
 class Proxy(PageCase):
-    """In order: each case goes on with what the one before left."""
+    """Cases in order: each one continues after the previous one."""
 
-    # As if the plant's own authority had signed the certificate.
+    # Replaces a certificate signed by the plant's own authority.
     ARGUMENTS = ["--ignore-certificate-errors", "--host-resolver-rules=MAP plant.example 127.0.0.1"]
 
     @classmethod
@@ -35,7 +35,7 @@ class Proxy(PageCase):
         eventually("pictures", lambda: any(self.browser.picture_numbers().values()))
 
     def asked(self, path, body=None):
-        """What the interface answers to the page's own scripts."""
+        """The interface's answer to the page's own scripts."""
         return self.browser.execute_async_script("""
             const [path, body, done] = arguments;
             const post = { method: 'POST', body, headers:
@@ -44,7 +44,7 @@ class Proxy(PageCase):
             path, body and json.dumps(body))
 
     def requested_outside_the_path(self):
-        """Of everything that the page has loaded."""
+        """Addresses outside the path that the page has loaded."""
         return self.browser.execute_script("""
             return performance.getEntriesByType('resource').map(({ name }) => name)
               .filter((name) => !new URL(name).pathname.startsWith(arguments[0]));""", PATH)
@@ -88,7 +88,7 @@ class Proxy(PageCase):
                                     wrong) as (head, _):
             self.assertIn("401", head[0])
         newest = self.asked("api/v1/audit")["entries"][-1]
-        # An address of the board that a proxy names is none of its own programs.
+        # An address of the board, named by a proxy, does not belong to one of its own programs.
         self.assertEqual((newest["from"], newest["result"]), (f"{CLIENT} (by proxy)", "refused"))
         described = self.asked("api/v1/openapi.json")
         self.assertEqual(self.browser.execute_script(

@@ -21,7 +21,8 @@ PASSWORD = "correct horse battery"
 
 
 def own_address():
-    """One of this computer that is not of loopback, which a browser here then comes from, too."""
+    """An address of this computer outside of loopback, from which a browser here then connects,
+    too."""
     said = subprocess.run(["ip", "-json", "-4", "address", "show", "scope", "global"],
                           check=True, capture_output=True, encoding="utf-8").stdout
     addresses = [address["local"] for link in json.loads(said) for address in link["addr_info"]]
@@ -34,7 +35,7 @@ def own_address():
 
 
 class RemoteAppliance(Appliance):
-    """Serves the one address, and there HTTPS only."""
+    """Serves only this address, and only HTTPS on it."""
 
     def __init__(self):
         super().__init__()
@@ -53,7 +54,7 @@ class RemoteAppliance(Appliance):
 
     def is_healthy(self):
         def answers():
-            # Who answers is shown by the fingerprint, below.
+            # The fingerprint below identifies the server.
             context = ssl._create_unverified_context()  # pylint: disable=protected-access
             with urllib.request.urlopen(self.address + "healthz", timeout=PATIENCE_S,
                                         context=context):
@@ -61,7 +62,7 @@ class RemoteAppliance(Appliance):
         return self.says(answers)
 
     def shown(self):
-        """What `orbwatch password --show` prints."""
+        """Output of `orbwatch password --show`."""
         return subprocess.run(
             [ROOT / "build/release/app/orbwatch", "password", "--show",
              "--config", self.folder / "demo.toml"],
@@ -72,9 +73,9 @@ class RemoteAppliance(Appliance):
 
 
 class Remote(PageCase):
-    """In order: each case goes on with what the one before left."""
+    """Cases in order: each one continues after the previous one."""
 
-    # As if somebody had compared the fingerprint, and had let the browser go on.
+    # Replaces a user who has compared the fingerprint and told the browser to continue.
     ARGUMENTS = ["--ignore-certificate-errors"]
 
     @classmethod

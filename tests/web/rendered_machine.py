@@ -10,7 +10,7 @@ from appliance import ROOT, Appliance, free_port
 
 PICTURES = ROOT / "../shared/data/renders"
 KELVIN_PER_COUNT = 0.04
-MARGIN = 1.02  # of a ball's view around the limb
+MARGIN = 1.02  # radius of a ball's view, relative to the limb
 
 
 def numbers(values):
@@ -18,7 +18,8 @@ def numbers(values):
 
 
 def rig_of(scene, machine, cameras):
-    """The pictures' pixels have their centres at +0.5, the product's at integers."""
+    """Shifts by half a pixel: the pictures' pixels have their centres at +0.5, the product's at
+    integers."""
     lines = ["[ball]", f"centre = {numbers(scene['ball']['centre'])}",
              f"radius = {machine['ball_radius']}", "[scene]", 'room = "box"',
              f"low = {numbers(scene['box']['lo'])}", f"high = {numbers(scene['box']['hi'])}",
@@ -35,9 +36,9 @@ def rig_of(scene, machine, cameras):
 
 
 class RenderedMachine(Appliance):
-    """Camera A in colour and C, thermal, of the machine of real size. Views: `ball` and `heat` as
-    the cameras show the ball, pixel by pixel; `turned` of A, and `both` of A and, where that is
-    blind, of C."""
+    """Camera A in colour and C, thermal, of the machine of real size. Views: `ball` and `heat` show
+    the ball pixel by pixel like the cameras; `turned` of A, and `both` of A and, in its blind cone,
+    of C."""
 
     WIDTH, HEIGHT = 900, 520
 
@@ -61,7 +62,7 @@ class RenderedMachine(Appliance):
             return f'kind = "ball"\nwidth = {side(cameras[name])}\nheight = {side(cameras[name])}\n'
 
         thermal = '[[view.source]]\ncamera = "C"\nrange = [15, 60]\n'
-        # Sharpening would enlarge what JPEG loses of the ball's picture.
+        # Sharpening would amplify the JPEG losses of the ball's picture.
         colour = '[[view.source]]\ncamera = "A"\nsharpness = 0\n'
         perspective = f"width = {self.WIDTH}\nheight = {self.HEIGHT}\n"
         text = f'''state_folder = "state"
@@ -91,7 +92,7 @@ source = "{(PICTURES / camera["image"]).resolve()}"
         return text
 
     def angle_from(self, axis, yaw, pitch, h_fov):
-        """Of each pixel's direction from the vector `axis`, degrees."""
+        """Angle of each pixel's direction from the vector `axis`, degrees."""
         a, b = numpy.radians([yaw, pitch])
         right = numpy.array([numpy.cos(a), -numpy.sin(a), 0])
         forward = numpy.array([numpy.sin(a) * numpy.cos(b), numpy.cos(a) * numpy.cos(b),

@@ -17,7 +17,7 @@ from page_case import PageCase
 
 
 class WithPlc(Appliance):
-    """With Modbus on a port of its own."""
+    """Appliance with Modbus on a port of its own."""
 
     def __init__(self):
         super().__init__()
@@ -32,7 +32,7 @@ class WithPlc(Appliance):
             return json.load(answer)
 
     def metrics(self):
-        """Values by metric, with its label."""
+        """Values of a metric by its label."""
         with urllib.request.urlopen(f"{self.address}metrics", timeout=60) as answer:
             lines = answer.read().decode().splitlines()
         samples = [line.rsplit(" ", 1) for line in lines if not line.startswith("#")]
@@ -85,7 +85,7 @@ class SystemPage(PageCase):
 
     def test_interfaces_show_registers_clients_and_topics(self):
         with socket.create_connection(("127.0.0.1", self.appliance.modbus_port), timeout=60) as plc:
-            # Read input register 0 of unit 1.
+            # Reads input register 0 of unit 1.
             plc.sendall(struct.pack(">HHHBBHH", 1, 0, 6, 1, 4, 0, 1))
             self.assertEqual(len(plc.recv(260)), 11)
             self.open("interfaces")
@@ -132,7 +132,7 @@ class SystemPage(PageCase):
                 self.assertRegex(figure, r"^([0-9.]+|–)$")
         share = self.browser.text("#stages p span")
         self.assertRegex(share, r"^[0-9]+ %$")
-        # Of other seconds, so nearly the same.
+        # The two are from different seconds, so they are only nearly the same.
         self.assertLess(abs(float(share[:-2]) / 100 - status["system"]["load"]), 0.5)
         self.browser.keep_picture("stages")
         self.assertEqual(self.browser.complaints(), [])

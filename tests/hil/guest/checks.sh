@@ -1,5 +1,5 @@
-# The words that scenarios are written in. Every check is a test of its own: passed, FAILED, one
-# line of /results/checks each; what it printed is in the log.
+# Commands for writing scenarios. Every check is a test of its own: passed or FAILED, one line of
+# /results/checks each; its output is in the log.
 # shellcheck shell=bash
 
 # shellcheck source=../../support/checks.sh
@@ -7,7 +7,7 @@
 
 report() { echo "$1 $2" >>/results/checks; }
 
-# load DRIVER [PARAMETER=VALUE...]: loads a driver and lets udev finish with what it brought.
+# load DRIVER [PARAMETER=VALUE...]: loads a driver and waits until udev has handled its devices.
 loaded_drivers=/run/loaded_drivers
 load() {
   modprobe "$@" || return
@@ -15,7 +15,7 @@ load() {
   ! command -v udevadm >/dev/null || udevadm settle --timeout=60
 }
 
-# video_device NAME: the first video node of the driver or card whose name contains NAME.
+# video_device NAME: prints the first video node of the driver or card whose name contains NAME.
 video_device() {
   local folder
   for folder in /sys/class/video4linux/video*; do
@@ -25,8 +25,9 @@ video_device() {
   return 1
 }
 
-# on_host PROGRAM [ARGUMENT...]: runs a program of the folder host on the computer that emulates this
-# machine and is its only neighbour in the network; prints what it prints and returns its exit code.
+# on_host PROGRAM [ARGUMENT...]: runs a program of the folder host on the computer that emulates
+# this machine and is its only neighbour in the network; prints its output and returns its exit
+# code.
 on_host() {
   local channel line code=1
   exec {channel}<>/dev/virtio-ports/host || return

@@ -1,8 +1,8 @@
-# What scenarios that run orbwatchd have in common: it is configured by /tmp/site.toml and read by
-# clients of other people.
+# Functions of scenarios that run orbwatchd: it is configured by /tmp/site.toml and read by
+# independent clients.
 # shellcheck shell=bash
 
-# One machine without a network: no multicast, everybody is found at home.
+# Settings of one machine without a network: no multicast, all participants are local.
 export CYCLONEDDS_URI='<General><Interfaces><NetworkInterface name="lo" multicast="false"/>
   </Interfaces></General><Discovery><ParticipantIndex>auto</ParticipantIndex>
   <Peers><Peer address="127.0.0.1"/></Peers></Discovery>'
@@ -13,7 +13,7 @@ modbus_port=1502 modbus_address=127.0.0.1
 
 answers_or_has_ended() { answers || ! kill -0 "$daemon" 2>/dev/null; }
 
-# Sets daemon to its process.
+# Starts orbwatchd; sets daemon to its process.
 daemon_starts() {
   /build/app/orbwatchd --config /tmp/site.toml >/tmp/daemon.log 2>&1 &
   # shellcheck disable=SC2034

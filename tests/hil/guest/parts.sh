@@ -1,9 +1,10 @@
-# Scenarios of several parts: each part has the machine to itself, whatever became of the one before.
+# Functions of scenarios with several parts: each part has the machine to itself, even after a
+# failed part.
 # shellcheck shell=bash
 
-# part NAME: runs the checks of parts/NAME as a process of its own, then ends what it left running,
-# unloads the drivers that it loaded and empties /tmp. /results/parts gets a line: "passed" or
-# "FAILED", and the name.
+# part NAME: runs the checks of parts/NAME as a process of its own, then ends its remaining
+# processes, unloads the drivers that it loaded and empties /tmp. /results/parts gets a line:
+# "passed" or "FAILED", and the name.
 part() {
   local group verdict=passed
   [[ -z ${only_part:-} || $only_part == "$1" ]] || return 0
@@ -28,7 +29,7 @@ clean_up() {
   find /tmp -mindepth 1 -delete
 }
 
-# end_processes GROUP: all of a process group; one that is stopped goes on, to end.
+# end_processes GROUP: ends a process group; a stopped process is continued, so that it can end.
 end_processes() {
   has_ended "$1" && return
   kill -TERM -- "-$1" && kill -CONT -- "-$1"
@@ -37,7 +38,7 @@ end_processes() {
 
 has_ended() { ! kill -0 -- "-$1" 2>/dev/null; }
 
-# unload DRIVER: once nobody has its device open, such as udev.
+# unload DRIVER: unloads it once no program, such as udev, has its device open.
 unload() {
   [[ $1 != gpio-sim ]] || remove_chips || return
   wait_for 60 modprobe -r "$1"

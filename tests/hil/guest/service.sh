@@ -1,4 +1,4 @@
-# What scenarios of the installed service have in common.
+# Functions of scenarios with the installed service.
 # shellcheck shell=bash
 
 export DEBIAN_FRONTEND=noninteractive
@@ -9,20 +9,21 @@ camera=/dev/video40 width=320 height=256 bytes=$((320 * 256 * 2))
 # shellcheck source=../../support/modbus.sh
 . /orbwatch/tests/support/modbus.sh
 
-# property NAME: what systemd says of the service.
+# property NAME: prints a property of the service from systemd.
 property() { systemctl show --property "$1" --value orbwatch; }
 
-# say_what_happened: for a check that fails; returns 1.
+# say_what_happened: prints the log for a check that fails; returns 1.
 say_what_happened() {
   systemctl status --no-pager --lines 0 orbwatch
   journalctl --unit orbwatch --no-pager --lines 40
   return 1
 }
 
-# works: the service is active and makes frame sets.
+# works: succeeds when the service is active and makes frame sets.
 works() { systemctl --quiet is-active orbwatch && is_past system_frame_set 2; }
 
-# comes_back COMMAND...: the command ends the service, which is started again and works.
+# comes_back COMMAND...: runs the command, which ends the service; it must be started again and
+# work.
 comes_back() {
   local restarts
   restarts=$(property NRestarts)
@@ -32,7 +33,7 @@ comes_back() {
 
 is_started_again() { (($(property NRestarts) > $1)); }
 
-# install FOLDER [OPTION...]: has apt install the package in the folder.
+# install FOLDER [OPTION...]: installs the package in the folder with apt.
 install() {
   local folder=$1
   shift
@@ -41,10 +42,10 @@ install() {
 
 connect_network() { ip address add "$machine_address/24" dev eth0 && ip link set eth0 up; }
 
-# host_reads NAME: the value of an input register, read over the network by the computer beside it.
+# host_reads NAME: prints the value of an input register, read over the network by the host.
 host_reads() { on_host register "$machine_address" "$modbus_port" "$1"; }
 
-# Whoever plays the camera writes a picture again and again; sets feeder.
+# Starts a camera: a feeder writes a picture repeatedly; sets feeder to its process.
 make_camera() {
   load v4l2loopback devices=1 video_nr=40 card_label=orbwatch exclusive_caps=0 || return
   head -c "$bytes" /dev/urandom >/tmp/picture
@@ -57,10 +58,10 @@ make_camera() {
   wait_for 60 eval "v4l2-ctl -d $camera --get-fmt-video | grep -q 'Width/Height.*: $width/$height'"
 }
 
-# When nobody uses it.
+# Removes the camera once no program uses it.
 remove_camera() { kill "$feeder" && wait_for 60 modprobe -r v4l2loopback; }
 
-# The machine of an installer: one camera.
+# Writes the site of an installer: one camera.
 make_site() {
   cat >/etc/orbwatch/rig.toml <<RIG
 [[camera]]

@@ -1,5 +1,5 @@
-# Sourced by prepare and build: steps that make in the folder $cache what the machines "$@" need and is
-# not there yet. Logs are in $results, times in $stages. Another run waits until this one is through.
+# Sourced by prepare and build: steps that make missing parts of the machines "$@" in the folder
+# $cache. Logs are in $results, times in $stages. Another run waits for the end of this one.
 # shellcheck shell=bash
 : "${cache:?}" "${results:?}" "${stages:?}"
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -7,11 +7,11 @@ project=$(cd "$here/../../.." && pwd)
 support=$project/tests/support
 # shellcheck source=../../support/stages.sh
 . "$support/stages.sh"
-# The scripts that unpack packages: what they make is made again when they change.
+# Scripts that unpack packages: their results are made again when they change.
 # shellcheck disable=SC2034
 unpacking=("$support/debian_apt" "$support/unpack_package")
 
-# step NAME COMMAND...: quietly, unless it fails.
+# step NAME COMMAND...: runs a command and prints its output only if it fails.
 step() {
   local name=$1
   shift
@@ -24,7 +24,7 @@ step() {
   echo "$name (${wall:?} s)"
 }
 
-# for_machine NAME...: whether one of these is wanted.
+# for_machine NAME...: succeeds if one of these machines is requested.
 for_machine() {
   local name
   for name in "$@"; do [[ " ${machines[*]} " != *" $name "* ]] || return 0; done

@@ -1,4 +1,4 @@
-# Sourced by run: one file brings all that a minimal system needs.
+# Sourced by run: one file contains everything that a minimal system needs.
 # shellcheck shell=bash disable=SC2154
 
 test_bundle() {

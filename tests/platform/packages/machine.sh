@@ -1,18 +1,18 @@
-# Sourced: a Debian system with systemd in a container, and the words to test it with.
+# Sourced: functions to test a Debian system with systemd in a container.
 # shellcheck shell=bash disable=SC2154
 
 # shellcheck source=../../support/checks.sh
 . "$source/tests/support/checks.sh"
-# Read by modbus.sh, where they are words of a command.
+# Used by modbus.sh as words of a command.
 # shellcheck disable=SC2034
 modbus_port=1502 modbus_address=127.0.0.1
 # shellcheck source=../../support/modbus.sh
 . "$source/tests/support/modbus.sh"
 
-# Seconds that are waited for anything. Nothing is measured by it: what took how long is printed.
+# Limit of every wait, s. It measures nothing: durations are printed.
 patience=180
 
-# say TEXT: for the reader; what else is printed is for the log.
+# say TEXT: prints for the reader; all other output goes to the log.
 say() { echo "$*" >&3; }
 
 report() {
@@ -23,7 +23,7 @@ report() {
   } 2>&1 | sed 's/^/  /' >&3
 }
 
-# boot ROOT: starts the system of ROOT, without a network and with what it writes kept apart, and sets
+# boot ROOT: starts the system of ROOT, without a network and with its writes kept apart, and sets
 # leader to its first process. /packages in it is the folder $packages.
 boot() {
   machine=$work/machine
@@ -42,7 +42,8 @@ boot() {
   wait_for "$patience" is_up || { cat "$work/console"; inside systemctl --no-pager --failed; return 1; }
 }
 
-# The first process of the system's own numbering, not the one that starts it and ends.
+# Checks for the first process in the system's own numbering, not for the one that starts it and
+# ends.
 has_a_first_process() {
   local process
   leader=""
@@ -52,10 +53,10 @@ has_a_first_process() {
   [[ -n $leader ]]
 }
 
-# What of Debian's own cannot start in a container is not what is tested.
+# Debian's own services that cannot start in a container do not matter here.
 is_up() { [[ $(inside systemctl is-system-running 2>/dev/null) =~ ^(running|degraded)$ ]]; }
 
-# halt: ends the system and forgets what it wrote.
+# halt: ends the system and drops its writes.
 halt() {
   if [[ -n ${leader:-} ]]; then
     inside systemctl --no-block poweroff && wait_for "$patience" container_has_ended || kill -KILL "$leader"
@@ -68,16 +69,16 @@ halt() {
 
 container_has_ended() { ! kill -0 "$container" 2>/dev/null; }
 
-# inside COMMAND...: as root in the system.
+# inside COMMAND...: runs a command as root in the system.
 inside() {
   nsenter --target "$leader" --all --wdns=/ -- /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin \
     LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"
 }
 
-# as_service COMMAND...: in the system, as the service's user.
+# as_service COMMAND...: runs a command in the system, as the service's user.
 as_service() { inside setpriv --reuid orbwatch --regid orbwatch --init-groups "$@"; }
 
-# property NAME [UNIT]: what systemd says of the service.
+# property NAME [UNIT]: prints a property of the service from systemd.
 property() { inside systemctl show --value --property="$1" "${2:-orbwatch.service}"; }
 
 has() { [[ $(property "$1") == "$2" ]]; }
@@ -86,17 +87,17 @@ reads_another() { local value; value=$(register "$1"); [[ -n $value && $value !=
 
 measures() { is_past system_frame_set 0; }
 
-# says TEXT: whether the service has written it to the journal.
+# says TEXT: succeeds if the service has written it to the journal.
 says() { inside journalctl --no-pager --unit orbwatch.service | grep -F -- "$1"; }
 
 # seconds_since NANOSECONDS
 seconds_since() { awk -v a="$1" -v b="$(date +%s%N)" 'BEGIN {printf "%.1f s", (b - a) / 1e9}'; }
 
-# files: all that a package may leave, without what every package's installation changes.
+# files: lists all that a package may leave, without the changes of every package's installation.
 files() {
   inside find / -xdev \( -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /tmp \
     -o -path /packages -o -path /var/log -o -path /var/cache -o -path /var/lib/dpkg -o -path /var/lib/apt \
     -o -path /var/lib/systemd \) -prune -o -print | sort
-  # The group gpio stays: others may use it.
+  # The group gpio remains, since other programs may use it.
   inside sed '/^gpio:x:[0-9]*:$/d' /etc/passwd /etc/group
 }

@@ -1,5 +1,5 @@
-# Sourced by run: the package installed, its service, what a second package adds, and their end. What
-# seems unused is read by machine.sh.
+# Sourced by run: the installed package, its service, the effects of a second package, and their
+# removal. Variables that seem unused are read by machine.sh.
 # shellcheck shell=bash disable=SC2154,SC2034
 
 test_service() {
@@ -36,13 +36,13 @@ test_programs() {
   inside systemctl start orbwatch.service
 }
 
-# In the service's view of the files.
+# Writes in the service's view of the files.
 writes_configuration() {
   inside nsenter --mount --target "$(property MainPID)" -- setpriv --reuid orbwatch --regid orbwatch --init-groups \
     sh -c 'cp /etc/orbwatch/site.toml /etc/orbwatch/tried && rm /etc/orbwatch/tried'
 }
 
-# Its exit status depends on the board.
+# The exit status depends on the board.
 doctor_speaks() {
   inside orbwatch doctor --json >"$work/doctor.json" || (($? == 1))
   python3 -c 'import json, sys
@@ -50,7 +50,7 @@ report = json.load(open(sys.argv[1]))
 assert len(report["checks"]) > 5 and report["worst"] in ("ok", "warning", "fault"), report' "$work/doctor.json"
 }
 
-# Its exit status depends on what else this computer does.
+# The exit status depends on the computer's other load.
 bench_speaks() {
   as_service orbwatch bench --config /etc/orbwatch/site.toml --simulated --seconds 2 --json \
     >"$work/bench.json" || (($? == 1))
@@ -69,10 +69,10 @@ test_start() {
   say "       resident: $(awk '/^VmRSS/ {printf "%.0f MB", $2 / 1000}' "/proc/$(process)/status")"
 }
 
-# process: its number outside of the system, of several machines all.
+# process: prints its number outside of the system; of several machines all.
 process() { pgrep --ns "$leader" --nslist pid --exact orbwatchd; }
 
-# came_back BEFORE: a new process measures, and the outputs were made safe in between.
+# came_back BEFORE: succeeds when a new process measures, and the outputs were made safe in between.
 came_back() { (($(property NRestarts) > $1)) && [[ $(property ActiveState) == active ]] && measures; }
 
 outputs_were_made_safe() { property ExecStopPost | grep -F 'orbwatch lines --safe' | grep -F 'status=0/0'; }
@@ -113,7 +113,7 @@ test_wrong_configuration() {
 
 status_says() { property StatusText | grep -F -- "$1"; }
 
-# By root, for the service's user.
+# Configures as root, for the service's user.
 test_configured() {
   local before
   before=$(register system_configuration_checksum)
@@ -156,7 +156,7 @@ end_second_machine() {
   inside rm -r /etc/orbwatch/second /var/lib/orbwatch-second
 }
 
-# What is said for the second machine in root's shell, which knows no state folder.
+# Reports for the second machine in root's shell, which has no state folder.
 test_second_configured() {
   local first second site=/etc/orbwatch/second/site.toml
   first=$(register system_configuration_checksum) second=$(of_second register system_configuration_checksum)

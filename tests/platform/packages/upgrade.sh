@@ -1,4 +1,4 @@
-# Sourced by run: what an upgrade keeps, and what a downgrade says.
+# Sourced by run: state kept by an upgrade, and the refusal of a downgrade.
 # shellcheck shell=bash disable=SC2154
 
 test_upgrade() {
@@ -10,7 +10,7 @@ test_upgrade() {
   check "and a second machine" begin_second_machine
   files_of_state before
   inside sh -c 'cd /etc && find orbwatch -type f -exec sha256sum {} + | sort' >"$work/configuration-before"
-  # As unattended-upgrades does: no answer, no option of dpkg.
+  # Runs like unattended-upgrades: no answer, no option of dpkg.
   check "apt upgrades to $version, and asks nothing" inside sh -c \
     "apt-get install -y /packages/orbwatch_*_$architecture.deb </dev/null"
   check "it is configured" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
@@ -30,7 +30,7 @@ test_upgrade() {
   check "and is installed" test "$(inside dpkg-query -W -f '${db:Status-Abbrev}${Version}' orbwatch)" = "ii $version"
 }
 
-# A process of a replaced program has one that is deleted.
+# The executable of a process is deleted once its program was replaced.
 programs_are_there() {
   local each programs=0
   for each in $(process); do
@@ -60,10 +60,10 @@ CALIBRATION
 
 files_of_state() { inside sh -c 'cd /var/lib/orbwatch && sha256sum calibration.toml commands' >"$work/state-$1"; }
 
-# What an older version wrote, and this one does not read.
+# Files of an older version, which this one does not read.
 test_older_files() {
   inside systemctl stop orbwatch.service
-  # Behind the eight letters of each slot of 8 KiB is the version.
+  # The version follows the eight letters of each slot of 8 KiB.
   inside sh -c 'for slot in 0 1; do
     printf "\\0" | dd of=/var/lib/orbwatch/commands bs=1 seek=$((slot * 8192 + 8)) conv=notrunc status=none
   done'
