@@ -47,7 +47,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Gives a file that root has made to its intended owner. False: errno has the reason.
+/// Transfers a file that root has made to its intended owner. False: errno has the reason.
 bool give_away(const FileDescriptor& file, const struct stat& owner) {
   struct stat made {};
   if (::fstat(file.get(), &made) != 0) return false;

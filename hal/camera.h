@@ -111,7 +111,7 @@ class Camera {
 
   /// Called for each frame before it is forwarded, on the camera's thread: may complete the
   /// metadata; false withholds the frame, which then counts as never exposed. Also called for each
-  /// frame that is withheld already, as FrameStatus says. Set while stopped.
+  /// frame that is withheld already; see FrameStatus. Set while stopped.
   void set_gate(Gate gate) { gate_ = std::move(gate); }
 
   /// Facts about the time stamps from the site. Set while stopped.
@@ -145,8 +145,8 @@ class Camera {
     return role() == ThreadRole::Capture ? thread_.cpu_time() : std::chrono::nanoseconds(0);
   }
 
-  /// Sets a control by name in its own unit. FrameMetadata::controls_as_of tells when it is in
-  /// effect. Error: no such control, or out of range.
+  /// Sets a control by name in its own unit. FrameMetadata::controls_as_of states from
+  /// when it is in effect. Error: no such control, or out of range.
   Result<> set(std::string_view control, double value);
 
   /// Scale of the configured camera with its present controls; nullopt: the camera does not state

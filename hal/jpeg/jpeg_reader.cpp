@@ -48,7 +48,7 @@ void JpegReader::on_message(j_common_ptr picture, int level) {
     case JWRN_EXTRANEOUS_DATA:
       reader.has_padding_ = true;
       return;
-    case JWRN_JPEG_EOF:  // finish() knows whether more than the end marker is missing
+    case JWRN_JPEG_EOF:  // finish() determines whether more than the end marker is missing
       reader.broke_off_ = true;
       return;
     default:
