@@ -15,8 +15,8 @@ namespace {
 /// Format assumed for cameras that state none and are not connected: the most common one.
 constexpr PixelFormat kAssumed = PixelFormat::Nv12;
 
-/// What the camera itself says; nullopt: it is not there. A simulated one needs no question, and
-/// would draw its machine first.
+/// Format that the camera itself states; nullopt: it is not connected. A simulated one is not
+/// queried, since it would draw its machine first.
 std::optional<hal::StreamFormat> asked_format(const Resolved& site, std::size_t index) {
   const CameraSettings& settings = site.site.cameras[index];
   if (std::holds_alternative<simulation::SimulatedCameraSettings>(settings.back_end)) return {};

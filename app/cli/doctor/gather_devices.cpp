@@ -30,7 +30,7 @@ std::vector<Heap> heaps(const Sources& sources) {
   return found;
 }
 
-/// Searches the camera that settings of a back-end name.
+/// Finds a camera by the criterion of its back-end.
 class Search {
  public:
   Search(const Sources& sources, std::string name) : sources_(sources), name_(std::move(name)) {}
