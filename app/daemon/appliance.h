@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/alignment/alignment_desk.h"
 #include "app/daemon/attempts.h"
 #include "app/daemon/dispatch.h"
 #include "app/daemon/interfaces.h"
@@ -17,7 +18,6 @@
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/state/command_record.h"
-#include "app/watch/alignment_desk.h"
 #include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
 

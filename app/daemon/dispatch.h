@@ -1,11 +1,11 @@
 #pragma once
 
+#include "app/alignment/alignment_desk.h"
 #include "app/model/command.h"
 #include "app/model/restart.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
 #include "app/ports/snapshot/snapshot_sink.h"
-#include "app/watch/alignment_desk.h"
 #include "app/watch/camera_watch.h"
 
 namespace orbwatch::app {

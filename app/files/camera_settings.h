@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "app/model/watch_settings.h"
 #include "app/pipeline/views/view_settings.h"
 #include "app/ports/lines/line_settings.h"
 #include "app/simulation/simulated_camera_settings.h"
-#include "app/watch/watch_settings.h"
 #include "hal/back_end.h"
 #include "hal/camera.h"
 #include "hal/fault.h"

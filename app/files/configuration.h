@@ -9,6 +9,7 @@
 
 #include "app/files/camera_settings.h"
 #include "app/files/finding.h"
+#include "app/model/place_settings.h"
 #include "app/pipeline/measurement/recipe.h"
 #include "app/pipeline/pipeline_settings.h"
 #include "app/pipeline/views/view_settings.h"
@@ -19,7 +20,6 @@
 #include "app/ports/snapshot/snapshot_sink.h"
 #include "app/ports/web/web_settings.h"
 #include "app/simulation/machine.h"
-#include "app/watch/place_settings.h"
 #include "hal/thread/thread_settings.h"
 #include "proc/settings/settings.h"
 

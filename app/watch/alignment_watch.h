@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/model/status.h"
-#include "app/watch/watch_settings.h"
+#include "app/model/watch_settings.h"
 #include "hal/clock.h"
 #include "proc/align/drift/drift_monitor.h"
 #include "proc/image/picture.h"

@@ -1,6 +1,6 @@
 """Alignment on the page, against a running daemon whose rig file is wrong.
 
-Folders: app/ports/web/align app/ports/web/page/files/align app/watch proc/align
+Folders: app/ports/web/align app/ports/web/page/files/align app/alignment app/watch proc/align
 """
 
 import json

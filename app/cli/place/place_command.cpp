@@ -1,10 +1,10 @@
+#include "app/alignment/placed_alignment.h"
 #include "app/cli/command.h"
 #include "app/cli/place/place_options.h"
 #include "app/cli/place/place_request.h"
 #include "app/cli/place/place_text.h"
 #include "app/files/rig_edit.h"
 #include "app/files/rig_file.h"
-#include "app/watch/placed_alignment.h"
 
 namespace orbwatch::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <sstream>
 
+#include "app/alignment/placed_alignment.h"
 #include "app/cli/options/camera_options.h"
-#include "app/watch/placed_alignment.h"
 #include "hal/replay/picture_decoder.h"
 #include "proc/align/detect/ball_detector.h"
 #include "proc/optics/view_projection.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "app/watch/alignment_pictures.h"
+#include "app/alignment/alignment_pictures.h"
 #include "hal/frame/frame_pool.h"
-#include "tests/app/watch/rig_with_pose.h"
+#include "tests/app/alignment/rig_with_pose.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orbwatch::app {

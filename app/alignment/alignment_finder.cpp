@@ -1,12 +1,12 @@
-#include "app/watch/alignment_finder.h"
+#include "app/alignment/alignment_finder.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "app/alignment/drift_correction.h"
+#include "app/alignment/placed_alignment.h"
 #include "app/log.h"
-#include "app/watch/drift_correction.h"
-#include "app/watch/placed_alignment.h"
 #include "proc/align/detect/ball_detector.h"
 #include "proc/align/register/camera_registration.h"
 #include "proc/settings/settings.h"

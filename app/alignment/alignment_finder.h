@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/alignment/point_marks.h"
 #include "app/files/resolve.h"
 #include "app/model/alignment.h"
 #include "app/watch/camera_watch.h"
-#include "app/watch/point_marks.h"
 
 namespace orbwatch::app {
 

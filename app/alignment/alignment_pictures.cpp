@@ -1,9 +1,9 @@
-#include "app/watch/alignment_pictures.h"
+#include "app/alignment/alignment_pictures.h"
 
 #include <string>
 #include <utility>
 
-#include "app/watch/alignment_jpeg.h"
+#include "app/alignment/alignment_jpeg.h"
 #include "hal/fault.h"
 
 namespace orbwatch::app {

@@ -1,4 +1,4 @@
-#include "app/watch/point_marks.h"
+#include "app/alignment/point_marks.h"
 
 #include <algorithm>
 #include <sstream>

@@ -5,7 +5,7 @@
 
 #include "app/files/calibration_file.h"
 #include "proc/align/register/registration.h"
-#include "tests/app/watch/rig_with_pose.h"
+#include "tests/app/alignment/rig_with_pose.h"
 #include "tests/support/temporary_folder.h"
 
 /// A camera with a pose that is registered while it runs is kept by outline and registration: the

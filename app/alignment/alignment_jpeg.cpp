@@ -1,4 +1,4 @@
-#include "app/watch/alignment_jpeg.h"
+#include "app/alignment/alignment_jpeg.h"
 
 #include <algorithm>
 #include <cmath>

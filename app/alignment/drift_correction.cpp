@@ -1,4 +1,4 @@
-#include "app/watch/drift_correction.h"
+#include "app/alignment/drift_correction.h"
 
 #include "proc/align/register/registration.h"
 

@@ -1,4 +1,4 @@
-#include "app/watch/accepted_alignments.h"
+#include "app/alignment/accepted_alignments.h"
 
 #include <algorithm>
 #include <utility>

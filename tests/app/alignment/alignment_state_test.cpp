@@ -1,4 +1,4 @@
-#include "app/watch/alignment_state.h"
+#include "app/alignment/alignment_state.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "proc/align/register/registration.h"
-#include "tests/app/watch/rig_with_pose.h"
+#include "tests/app/alignment/rig_with_pose.h"
 
 namespace orbwatch::app {
 namespace {

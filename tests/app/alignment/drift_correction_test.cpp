@@ -1,4 +1,4 @@
-#include "app/watch/drift_correction.h"
+#include "app/alignment/drift_correction.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "app/files/rig_alignment.h"
 #include "proc/align/register/registration.h"
-#include "tests/app/watch/rig_with_pose.h"
+#include "tests/app/alignment/rig_with_pose.h"
 
 namespace orbwatch::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/watch/alignment_state.h"
+#include "app/alignment/alignment_state.h"
 
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "app/watch/accepted_alignments.h"
+#include "app/alignment/accepted_alignments.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "app/alignment/accepted_alignments.h"
+#include "app/alignment/alignment_finder.h"
+#include "app/alignment/alignment_pictures.h"
 #include "app/files/resolve.h"
 #include "app/model/alignment.h"
 #include "app/model/command.h"
-#include "app/watch/accepted_alignments.h"
-#include "app/watch/alignment_finder.h"
-#include "app/watch/alignment_pictures.h"
 #include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
 

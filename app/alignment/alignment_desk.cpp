@@ -1,11 +1,11 @@
-#include "app/watch/alignment_desk.h"
+#include "app/alignment/alignment_desk.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "app/alignment/alignment_state.h"
+#include "app/alignment/drift_correction.h"
 #include "app/log.h"
-#include "app/watch/alignment_state.h"
-#include "app/watch/drift_correction.h"
 #include "proc/align/register/registration.h"
 
 namespace orbwatch::app {

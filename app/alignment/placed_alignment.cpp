@@ -1,4 +1,4 @@
-#include "app/watch/placed_alignment.h"
+#include "app/alignment/placed_alignment.h"
 
 #include <cmath>
 #include <sstream>
