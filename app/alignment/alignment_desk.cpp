@@ -24,14 +24,15 @@ CalibrationEntry entry_of(const AlignmentProposal& proposal) {
 
 }  // namespace
 
-AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch,
-                             std::function<void()> restart, AcceptanceCheck check_acceptance)
+AlignmentDesk::AlignmentDesk(const AlignedSite& site, WatchedCameras& watch,
+                             AcceptedAlignments& accepted, std::function<void()> restart,
+                             AcceptanceCheck check_acceptance)
     : site_(site),
       watch_(watch),
+      accepted_(accepted),
       restart_(std::move(restart)),
       check_acceptance_(std::move(check_acceptance)),
       finder_(site, watch),
-      accepted_(site),
       pictures_(watch),
       work_(thread_, [this] { work(); }),
       correction_(thread_, [this] { correct_lasting_drifts(); }) {
@@ -41,10 +42,10 @@ AlignmentDesk::AlignmentDesk(const Resolved& site, CameraWatch& watch,
 AlignmentDesk::~AlignmentDesk() { stop(); }
 
 void AlignmentDesk::start() {
-  const auto corrects = [](const CameraSettings& camera) {
+  const auto corrects = [](const AlignedCamera& camera) {
     return camera.watch.enabled && camera.watch.correct;
   };
-  if (std::ranges::any_of(site_.site.cameras, corrects)) correction_.request();
+  if (std::ranges::any_of(site_.cameras, corrects)) correction_.request();
 }
 
 void AlignmentDesk::stop() {
@@ -98,7 +99,7 @@ CommandResult AlignmentDesk::pick(std::size_t camera, const optics::Vec2& pixel)
 
 CommandResult AlignmentDesk::place(std::size_t camera) {
   const bool is_possible =
-      watch_.is_watched(camera) && (point_counts_[camera] > 0 || !site_.site.place.tags.empty());
+      watch_.is_watched(camera) && (point_counts_[camera] > 0 || !site_.place.tags.empty());
   return begin(camera, is_possible, [this, camera](const optics::Rig& rig) {
     return finder_.place(rig, camera).map(found);
   });
@@ -163,7 +164,7 @@ Result<optics::Rig> AlignmentDesk::proposed_rig(std::size_t camera) const {
 
 Result<optics::BallProjection> AlignmentDesk::proposed_ball(std::size_t camera) const {
   return proposed_rig(camera).and_then([&](const optics::Rig& rig) {
-    return optics::ball_projection(rig, rig.cameras[site_.rig_cameras[camera]]);
+    return optics::ball_projection(rig, site_.camera_of(rig, camera));
   });
 }
 
@@ -234,7 +235,7 @@ Result<AlignmentProposal> AlignmentDesk::stated(std::size_t camera, const std::s
                                                 const Change& change) const {
   auto rig = proposed_rig(camera);
   if (!rig) return tl::unexpected(rig.error());
-  const auto seen = align::by_outline(*rig, rig->cameras[site_.rig_cameras[camera]]);
+  const auto seen = align::by_outline(*rig, site_.camera_of(*rig, camera));
   if (!seen) return tl::unexpected(seen.error());
   CameraAlignment alignment{
       .camera = seen->name, .outline = seen->outline, .registration = known_registration(*seen)};
@@ -334,8 +335,8 @@ CommandResult AlignmentDesk::put_in_force(std::size_t camera, const CalibrationE
 
 void AlignmentDesk::correct_lasting_drifts() {
   const auto now = hal::Clock::now();
-  for (std::size_t i = 0; i < site_.site.cameras.size(); ++i) {
-    if (site_.site.cameras[i].watch.correct) correct_lasting_drift(i, now);
+  for (std::size_t i = 0; i < site_.cameras.size(); ++i) {
+    if (site_.cameras[i].watch.correct) correct_lasting_drift(i, now);
   }
   correction_.request(now + std::chrono::seconds(1));
 }
@@ -382,7 +383,7 @@ AlignmentReport AlignmentDesk::report(std::size_t camera) const {
   AlignmentReport report;
   if (!has(camera)) return report;
   const auto state_of = [&](const optics::Rig& rig) {
-    const auto state = alignment_state(rig, rig.cameras[site_.rig_cameras[camera]]);
+    const auto state = alignment_state(rig, site_.camera_of(rig, camera));
     return state ? std::optional(*state) : std::nullopt;
   };
   std::optional<optics::Rig> proposed;
@@ -436,7 +437,7 @@ Result<> AlignmentDesk::request(const AlignmentPicture& picture, OnPicture on_pi
     if (!proposed) return tl::unexpected(proposed.error());
     rig = std::move(*proposed);
   }
-  optics::RigCamera camera = rig.cameras[site_.rig_cameras[picture.camera]];
+  optics::RigCamera camera = site_.camera_of(rig, picture.camera);
   if (picture.model) camera.model = *picture.model;
   return optics::ball_projection(rig, camera).and_then([&](const optics::BallProjection& ball) {
     return pictures_.request(picture, ball, std::move(on_picture), std::move(is_wanted));

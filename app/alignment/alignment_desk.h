@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "app/alignment/accepted_alignments.h"
+#include "app/alignment/aligned_site.h"
 #include "app/alignment/alignment_finder.h"
 #include "app/alignment/alignment_pictures.h"
-#include "app/files/resolve.h"
+#include "app/alignment/watched_cameras.h"
+#include "app/model/accepted_alignments.h"
 #include "app/model/alignment.h"
 #include "app/model/command.h"
-#include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -39,9 +39,9 @@ class AlignmentDesk : public AlignmentSource {
   /// Older steps are forgotten.
   static constexpr std::size_t kMostSteps = 200;
 
-  /// `watch` outlives it. `restart` requests it and returns.
-  AlignmentDesk(const Resolved& site, CameraWatch& watch, std::function<void()> restart,
-                AcceptanceCheck check_acceptance);
+  /// The first three outlive it. `restart` requests it and returns.
+  AlignmentDesk(const AlignedSite& site, WatchedCameras& watch, AcceptedAlignments& accepted,
+                std::function<void()> restart, AcceptanceCheck check_acceptance);
   ~AlignmentDesk() override;
 
   // Commands. ArgumentOutOfRange: no such camera; Busy: another one is being found;
@@ -111,8 +111,8 @@ class AlignmentDesk : public AlignmentSource {
     std::optional<optics::Vec2> picked;
   };
 
-  bool has(std::size_t camera) const { return camera < site_.site.cameras.size(); }
-  const std::string& name(std::size_t camera) const { return site_.site.cameras[camera].name; }
+  bool has(std::size_t camera) const { return camera < site_.cameras.size(); }
+  const std::string& name(std::size_t camera) const { return site_.cameras[camera].name; }
 
   CommandResult begin(std::size_t camera, bool is_possible, Task task);
   void work();
@@ -132,12 +132,12 @@ class AlignmentDesk : public AlignmentSource {
   void show_steps(std::size_t camera);
   void forget_proposal(std::size_t camera);
 
-  const Resolved& site_;
-  CameraWatch& watch_;
+  const AlignedSite& site_;
+  WatchedCameras& watch_;
+  AcceptedAlignments& accepted_;  ///< of whoever has set busy_
   const std::function<void()> restart_;
   const AcceptanceCheck check_acceptance_;
   AlignmentFinder finder_;
-  AcceptedAlignments accepted_;  ///< of whoever has set busy_
   AlignmentPictures pictures_;
   std::array<std::atomic<ProposalState>, kMaxCameras> states_{};
   std::array<std::atomic<double>, kMaxCameras> direction_sigmas_{};  ///< of the proposals

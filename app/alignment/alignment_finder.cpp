@@ -52,7 +52,7 @@ Result<AlignmentProposal> AlignmentFinder::detect(const optics::Rig& rig,
   if (!ball->is_confident()) {
     return fail("the ball was not found for sure, " + confidence + ": " + ball->reason);
   }
-  return with_outline(rig, camera_of(rig, camera), ball->outline)
+  return with_outline(rig, site_.camera_of(rig, camera), ball->outline)
       .map([&](const CameraAlignment& alignment) {
         return AlignmentProposal{alignment, "detect", confidence};
       });
@@ -73,9 +73,9 @@ Result<AlignmentProposal> AlignmentFinder::register_by(
     const std::vector<RecordedPicture>& of_camera) const {
   const auto simultaneous = together(of_first, of_camera);
   if (simultaneous.camera.empty()) return fail("the cameras took no pictures at the same moment");
-  const auto reference = optics::ball_projection(rig, camera_of(rig, 0));
+  const auto reference = optics::ball_projection(rig, site_.camera_of(rig, 0));
   if (!reference) return tl::unexpected(reference.error());
-  const auto turnable = align::by_outline(rig, camera_of(rig, camera));
+  const auto turnable = align::by_outline(rig, site_.camera_of(rig, camera));
   if (!turnable) return tl::unexpected(turnable.error());
   const align::SoughtCamera sought{simultaneous.camera.front(), rig, *turnable};
   const auto found = align::register_camera(simultaneous, *reference, sought,
@@ -94,18 +94,19 @@ Result<AlignmentProposal> AlignmentFinder::correct(const optics::Rig& rig,
                                                    std::size_t camera) const {
   const auto drift = watch_.drift(camera);
   if (!drift) return fail("no picture was seen yet");
-  return corrected(rig, camera_of(rig, camera), *drift).map([&](const CameraAlignment& alignment) {
-    return AlignmentProposal{alignment, "drift",
-                             two_digits("moved by %.2f deg rms", drift->direction_error) +
-                                 two_digits(", sigma %.2f deg", drift->direction_sigma),
-                             drift->direction_sigma};
-  });
+  return corrected(rig, site_.camera_of(rig, camera), *drift)
+      .map([&](const CameraAlignment& alignment) {
+        return AlignmentProposal{alignment, "drift",
+                                 two_digits("moved by %.2f deg rms", drift->direction_error) +
+                                     two_digits(", sigma %.2f deg", drift->direction_sigma),
+                                 drift->direction_sigma};
+      });
 }
 
 Result<> AlignmentFinder::mark(const optics::Rig& rig, std::size_t camera,
                                const optics::Vec3& point,
                                const std::optional<optics::Vec2>& pixel) {
-  const auto seen = align::by_outline(rig, camera_of(rig, camera));
+  const auto seen = align::by_outline(rig, site_.camera_of(rig, camera));
   if (!seen) return tl::unexpected(seen.error());
   Result<> added;
   if (pixel) {
@@ -161,15 +162,15 @@ void AlignmentFinder::show(std::size_t camera, const align::PlaceRequest& reques
 
 Result<align::PlaceRequest> AlignmentFinder::place_request(const optics::Rig& rig,
                                                            std::size_t camera) const {
-  const PlaceSettings& settings = site_.site.place;
+  const PlaceSettings& settings = site_.place;
   align::PlaceRequest request;
   request.centre = {align::BallCentre::Knowledge::Known, rig.ball.centre, 0};
   request.ball_radius = rig.ball.radius;
   request.sigma_px = settings.sigma_px;
   request.sigma_mm = settings.sigma_mm;
-  auto unplaced = unplaced_camera(camera_of(rig, camera), false);
+  auto unplaced = unplaced_camera(site_.camera_of(rig, camera), false);
   if (!unplaced) return tl::unexpected(unplaced.error());
-  const auto seen = align::by_outline(rig, camera_of(rig, camera));
+  const auto seen = align::by_outline(rig, site_.camera_of(rig, camera));
   if (!seen) return tl::unexpected(seen.error());
   unplaced->outline = *seen->outline;
   unplaced->outline_sigma = settings.outline_sigma;
@@ -195,7 +196,7 @@ Result<AlignmentProposal> AlignmentFinder::place(const optics::Rig& rig, std::si
   const auto placement = align::place(*request);
   if (!placement) return tl::unexpected(placement.error());
   show(camera, *request, &*placement);
-  log_camera(LogLevel::Info, camera_of(rig, camera).name,
+  log_camera(LogLevel::Info, site_.camera_of(rig, camera).name,
              "marked minus shown: " + residuals_text(*request, *placement, 0));
   return rig_alignment(*request, *placement).map([&](const RigAlignment& alignment) {
     const align::PlacedCamera& found = placement->cameras.front();

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/alignment/aligned_site.h"
 #include "app/alignment/point_marks.h"
-#include "app/files/resolve.h"
+#include "app/alignment/watched_cameras.h"
 #include "app/model/alignment.h"
-#include "app/watch/camera_watch.h"
 
 namespace orbwatch::app {
 
@@ -27,7 +27,7 @@ struct AlignmentProposal {
 class AlignmentFinder {
  public:
   /// Both outlive it.
-  AlignmentFinder(const Resolved& site, CameraWatch& watch) : site_(site), watch_(watch) {}
+  AlignmentFinder(const AlignedSite& site, WatchedCameras& watch) : site_(site), watch_(watch) {}
 
   /// By the ball in the picture.
   Result<AlignmentProposal> detect(const optics::Rig& rig, std::size_t camera) const;
@@ -47,9 +47,6 @@ class AlignmentFinder {
   std::vector<PlacedPoint> points(std::size_t camera) const;
 
  private:
-  const optics::RigCamera& camera_of(const optics::Rig& rig, std::size_t camera) const {
-    return rig.cameras[site_.rig_cameras[camera]];
-  }
   Result<AlignmentProposal> register_by(const optics::Rig& rig, std::size_t camera,
                                         const std::vector<RecordedPicture>& of_first,
                                         const std::vector<RecordedPicture>& of_camera) const;
@@ -57,8 +54,8 @@ class AlignmentFinder {
   void show(std::size_t camera, const align::PlaceRequest& request,
             const align::Placement* placement);
 
-  const Resolved& site_;
-  CameraWatch& watch_;
+  const AlignedSite& site_;
+  WatchedCameras& watch_;
   std::array<PointMarks, kMaxCameras> points_;
   mutable std::mutex mutex_;
   std::array<std::vector<PlacedPoint>, kMaxCameras> shown_;  ///< under mutex_

@@ -8,7 +8,7 @@
 
 namespace orbwatch::app {
 
-AlignmentPictures::AlignmentPictures(CameraWatch& watch)
+AlignmentPictures::AlignmentPictures(WatchedCameras& watch)
     : watch_(watch), work_(watch.threads(), [this] { make(); }) {}
 
 Result<> AlignmentPictures::request(const AlignmentPicture& picture,

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <vector>
 
+#include "app/alignment/watched_cameras.h"
 #include "app/model/alignment.h"
-#include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -21,7 +21,7 @@ class AlignmentPictures {
   static constexpr std::size_t kMostWaiting = 16;
 
   /// `watch` outlives it.
-  explicit AlignmentPictures(CameraWatch& watch);
+  explicit AlignmentPictures(WatchedCameras& watch);
 
   /// As AlignmentSource::request(), through `ball`.
   Result<> request(const AlignmentPicture& picture, const optics::BallProjection& ball,
@@ -49,7 +49,7 @@ class AlignmentPictures {
   void take(std::size_t camera, RecordedPicture picture);
   void make();
 
-  CameraWatch& watch_;
+  WatchedCameras& watch_;
   std::mutex mutex_;
   std::array<Queue, kMaxCameras> queues_;  ///< by camera; under mutex_
   std::deque<Taken> taken_;                ///< under mutex_

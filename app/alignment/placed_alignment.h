@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/files/rig_alignment.h"
+#include "app/model/rig_alignment.h"
 #include "proc/align/place/placement.h"
 #include "proc/image/result.h"
 #include "proc/optics/rig.h"

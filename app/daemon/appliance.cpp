@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "app/daemon/aligned_site.h"
 #include "app/daemon/cameras.h"
 #include "app/health/board_health.h"
 #include "app/log.h"
@@ -36,6 +37,8 @@ std::shared_ptr<Lines> open_lines(const Configuration& site) {
 
 Appliance::Appliance(const Resolved& site)
     : site_(site),
+      aligned_(aligned_site(site)),
+      accepted_(site),
       record_(std::make_shared<CommandRecord>(site.site.state_folder)),
       background_(std::make_shared<hal::SharedThreads>(
           hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
@@ -67,8 +70,9 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   if (!plan) return tl::unexpected(plan.error());
   plan->background = all.background_;
   // It must not delay the pictures that somebody waits for.
-  all.watch_.emplace(site, hal::SharedThreads::alone("watch"));
-  all.alignment_.emplace(site, *all.watch_, restart.request, std::move(check_acceptance));
+  all.watch_.emplace(all.aligned_, site.site.state_folder, hal::SharedThreads::alone("watch"));
+  all.alignment_.emplace(all.aligned_, *all.watch_, all.accepted_, restart.request,
+                         std::move(check_acceptance));
   all.interfaces_.emplace(
       site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
       all.record_, all.background_, all.snapshots(), &*all.alignment_, std::move(program));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/alignment/alignment_desk.h"
+#include "app/daemon/alignment_record.h"
 #include "app/daemon/attempts.h"
 #include "app/daemon/dispatch.h"
 #include "app/daemon/interfaces.h"
@@ -63,6 +64,8 @@ class Appliance {
   SnapshotSink* snapshots() { return snapshots_ ? &*snapshots_ : nullptr; }
 
   const Resolved& site_;
+  const AlignedSite aligned_;
+  AlignmentRecord accepted_;
   const std::shared_ptr<CommandRecord> record_;
   const std::shared_ptr<hal::SharedThreads> background_;
   HealthSampler health_;

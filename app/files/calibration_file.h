@@ -5,28 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/files/rig_alignment.h"
 #include "app/files/text_file.h"
+#include "app/model/accepted_alignments.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
-
-/// Accepted alignment, and its origin.
-struct CalibrationEntry {
-  int number = 0;    ///< counts entries from 1
-  std::string time;  ///< UTC, in the format of utc_text()
-  std::string method;
-  std::string quality;
-  /// Checksum of the rig file and its lenses that the alignment was made for: it corrects no other.
-  /// See rig_checksum().
-  std::uint32_t rig = 0;
-  RigAlignment alignment;  ///< alignment of one camera; none: as stated in the rig file
-};
-
-/// The only camera of an entry. Reentrant.
-inline const CameraAlignment& camera_of(const CalibrationEntry& entry) {
-  return entry.alignment.cameras.front();
-}
 
 /// Number of entries that are kept; older ones are dropped.
 inline constexpr std::size_t kMaxCalibrations = 100;

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/files/rig_alignment.h"
+#include "app/model/rig_alignment.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {

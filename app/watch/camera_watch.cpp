@@ -51,34 +51,34 @@ void CameraWatch::Watched::serve_readers() {
   for (const auto& reader : served) reader(copied(frame->picture, stamp.time_since_epoch()));
 }
 
-CameraWatch::CameraWatch(const Resolved& site, const std::shared_ptr<hal::SharedThreads>& threads)
+CameraWatch::CameraWatch(const AlignedSite& site, const std::filesystem::path& folder,
+                         const std::shared_ptr<hal::SharedThreads>& threads)
     : threads_(threads) {
-  const auto& folder = site.site.state_folder;
-  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    const CameraSettings& settings = site.site.cameras[i];
+  for (std::size_t i = 0; i < site.cameras.size(); ++i) {
     cameras_.emplace_back();
     is_registered_.push_back(site.rig_camera(i).is_registered);
-    if (!settings.watch.enabled) continue;
-    auto watched = make(settings, site, i, folder, threads);
+    if (!site.cameras[i].watch.enabled) continue;
+    auto watched = make(site, i, folder);
     if (watched) {
       cameras_.back() = std::move(*watched);
     } else {
-      log_camera(LogLevel::Warning, settings.name, "is not watched: " + watched.error().message);
+      log_camera(LogLevel::Warning, site.cameras[i].name,
+                 "is not watched: " + watched.error().message);
     }
   }
 }
 
 Result<std::unique_ptr<CameraWatch::Watched>> CameraWatch::make(
-    const CameraSettings& settings, const Resolved& site, std::size_t camera,
-    const std::filesystem::path& folder, const std::shared_ptr<hal::SharedThreads>& threads) {
-  const auto subject = align::drift_subject(site.rig, site.rig_camera(camera));
+    const AlignedSite& site, std::size_t camera, const std::filesystem::path& folder) {
+  const auto& [name, in_rig, settings] = site.cameras[camera];
+  const auto subject = align::drift_subject(site.rig, site.rig.cameras[in_rig]);
   if (!subject) return tl::unexpected(subject.error());
-  auto alignment = AlignmentWatch::make(settings.name, *subject, settings.watch, folder);
+  auto alignment = AlignmentWatch::make(name, *subject, settings, folder);
   if (!alignment) return tl::unexpected(alignment.error());
-  auto ball = BallWatch::make(settings.name, subject->width, subject->height, subject->outline,
-                              settings.watch, folder);
+  auto ball =
+      BallWatch::make(name, subject->width, subject->height, subject->outline, settings, folder);
   if (!ball) return tl::unexpected(ball.error());
-  return std::make_unique<Watched>(std::move(*alignment), std::move(*ball), records_, threads);
+  return std::make_unique<Watched>(std::move(*alignment), std::move(*ball), records_, threads_);
 }
 
 CameraWatch::~CameraWatch() {

@@ -4,16 +4,17 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
-#include "app/files/resolve.h"
+#include "app/alignment/aligned_site.h"
+#include "app/alignment/watched_cameras.h"
 #include "app/model/sink.h"
 #include "app/model/status.h"
-#include "app/pictures/picture_copy.h"
 #include "app/watch/alignment_watch.h"
 #include "app/watch/ball_watch.h"
 #include "hal/fault.h"
@@ -25,11 +26,12 @@ namespace orbwatch::app {
 
 /// Watches the cameras of a site beside the frame path, each on a shared thread: a picture that
 /// comes while the one before is being looked at is not looked at.
-/// Thread rule: as a Sink; cancel_records, figures, fault, drift, ask and record on any thread.
-class CameraWatch : public Sink {
+/// Thread rule: as a Sink and as WatchedCameras; figures on any thread.
+class CameraWatch : public Sink, public WatchedCameras {
  public:
-  /// Cameras that cannot be watched are named in the log.
-  CameraWatch(const Resolved& site, const std::shared_ptr<hal::SharedThreads>& threads);
+  /// Cameras that cannot be watched are named in the log. `folder`: of what must outlast a restart.
+  CameraWatch(const AlignedSite& site, const std::filesystem::path& folder,
+              const std::shared_ptr<hal::SharedThreads>& threads);
   ~CameraWatch() override;
 
   Result<> start() override { return {}; }
@@ -43,36 +45,21 @@ class CameraWatch : public Sink {
   /// What the newest pictures said, by camera.
   std::array<CameraWatchStatus, kMaxCameras> figures() const;
 
-  bool is_watched(std::size_t camera) const {
+  bool is_watched(std::size_t camera) const override {
     return camera < cameras_.size() && cameras_[camera] != nullptr;
   }
 
-  /// Fault of a camera, by the newest status.
-  hal::Fault fault(std::size_t camera) const { return faults_[camera]; }
-
-  /// The newest drift of a camera that is watched and was seen.
-  std::optional<align::DriftState> drift(std::size_t camera) const;
-
-  /// Has the next picture of a watched camera copied for `reader`, which is called once, on a
-  /// shared thread, and must return soon. Never called after stop().
-  void ask(std::size_t camera, std::function<void(RecordedPicture)> reader);
-
-  /// Those that watch.
-  std::vector<bool> is_registered_;  ///< by camera
-  const std::shared_ptr<hal::SharedThreads>& threads() const { return threads_; }
+  hal::Fault fault(std::size_t camera) const override { return faults_[camera]; }
+  std::optional<align::DriftState> drift(std::size_t camera) const override;
+  void ask(std::size_t camera, std::function<void(RecordedPicture)> reader) override;
+  Result<std::vector<std::vector<RecordedPicture>>> record(const std::vector<std::size_t>& cameras,
+                                                           std::size_t count,
+                                                           std::chrono::seconds patience) override;
+  void cancel_records() override;
+  const std::shared_ptr<hal::SharedThreads>& threads() const override { return threads_; }
 
   /// The ball was cleaned: its figure counts from what is seen now. For a camera that is watched.
   void learn_clean_ball(std::size_t camera) { cameras_[camera]->cleaned = true; }
-
-  /// Waits for the next pictures of watched cameras, at most `count` of each; fewer when `patience`
-  /// ends. All are of frame sets that have a new picture of each of these cameras, and those of one
-  /// set have the same time. For one caller at a time. Error: one of them delivers none, or it was
-  /// cancelled.
-  Result<std::vector<std::vector<RecordedPicture>>> record(const std::vector<std::size_t>& cameras,
-                                                           std::size_t count,
-                                                           std::chrono::seconds patience);
-  /// Ends record(), now and in the future.
-  void cancel_records();
 
  private:
   /// Pictures for whoever waits for them.
@@ -109,13 +96,13 @@ class CameraWatch : public Sink {
   };
 
   bool can_record(const hal::FrameSet& set) const;
-  Result<std::unique_ptr<Watched>> make(const CameraSettings& settings, const Resolved& site,
-                                        std::size_t camera, const std::filesystem::path& folder,
-                                        const std::shared_ptr<hal::SharedThreads>& threads);
+  Result<std::unique_ptr<Watched>> make(const AlignedSite& site, std::size_t camera,
+                                        const std::filesystem::path& folder);
 
   const std::shared_ptr<hal::SharedThreads> threads_;
   std::array<std::atomic<hal::Fault>, kMaxCameras> faults_{};
   Records records_;
+  std::vector<bool> is_registered_;                ///< by camera
   std::vector<std::unique_ptr<Watched>> cameras_;  ///< null: not watched
 };
 

@@ -1,15 +1,32 @@
 #include "app/watch/kept_file.h"
 
+#include <zlib.h>
+
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <system_error>
 
-#include "app/files/text_file.h"
-#include "app/files/toml_text.h"
 #include "app/pictures/picture_file.h"
 
 namespace orbwatch::app {
 namespace {
+
+/// CRC-32 of the outline's numbers as a TOML list with 10 digits: earlier versions' files stay
+/// valid.
+std::uint32_t checksum(const optics::Outline& outline) {
+  std::string text;
+  for (const double value :
+       {outline.centre.u, outline.centre.v, outline.rx, outline.ry, outline.angle}) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.10g", text.empty() ? "[" : ", ",
+                  value == 0 ? 0 : value);  // no -0
+    text += number;
+  }
+  text += "]";
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
 
 /// The folder, without the files of other alignments of the camera; as far as that is possible.
 void make_room(const std::filesystem::path& kept) {
@@ -29,11 +46,8 @@ void make_room(const std::filesystem::path& kept) {
 
 std::filesystem::path kept_file(const std::filesystem::path& folder, const std::string& what,
                                 const std::string& camera, const optics::Outline& outline) {
-  TextFiles alignment;
-  alignment.add(
-      toml_list({outline.centre.u, outline.centre.v, outline.rx, outline.ry, outline.angle}));
   char number[16];
-  std::snprintf(number, sizeof number, "%08x", alignment.checksum());
+  std::snprintf(number, sizeof number, "%08x", checksum(outline));
   return folder / (what + "-" + camera + "-" + number + ".png");
 }
 

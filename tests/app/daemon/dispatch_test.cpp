@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "app/daemon/alignment_record.h"
 #include "tests/app/pipeline/hand_camera.h"
 #include "tests/app/pipeline/measurement/measured_recipe.h"
 #include "tests/app/pipeline/views/thermal_view.h"
@@ -125,8 +126,10 @@ class Dispatch : public testing::Test {
   int restarts = 0;
   bool may_restart = true;
   const Resolved site{};  // without cameras
-  CameraWatch watch{site, hal::SharedThreads::alone()};
-  AlignmentDesk alignment{site, watch, [this] { ++restarts; },
+  const AlignedSite aligned{};
+  AlignmentRecord accepted{site};
+  CameraWatch watch{aligned, folder.path(), hal::SharedThreads::alone()};
+  AlignmentDesk alignment{aligned, watch, accepted, [this] { ++restarts; },
                           [](const auto&) { return Result<>(); }};
 };
 

@@ -1,4 +1,4 @@
-#include "app/alignment/accepted_alignments.h"
+#include "app/daemon/alignment_record.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,11 +20,11 @@ CalibrationEntry rig_files(const std::string& camera) {
 
 }  // namespace
 
-AcceptedAlignments::AcceptedAlignments(const Resolved& site)
+AlignmentRecord::AlignmentRecord(const Resolved& site)
     : site_(site), file_(calibration_file(site.site.state_folder)) {}
 
 /// Keeps a damaged file aside; then the alignments that run.
-Result<std::vector<CalibrationEntry>> AcceptedAlignments::load_or_mend() {
+Result<std::vector<CalibrationEntry>> AlignmentRecord::load_or_mend() {
   TextFiles files;
   const auto entries = load_calibrations(file_, files);
   if (entries) return entries;
@@ -35,7 +35,7 @@ Result<std::vector<CalibrationEntry>> AcceptedAlignments::load_or_mend() {
   });
 }
 
-Result<int> AcceptedAlignments::add(CalibrationEntry entry) {
+Result<int> AlignmentRecord::add(CalibrationEntry entry) {
   entry.rig = site_.rig_checksum;
   int number = 0;
   const auto add_to_file = [&]() -> Result<> {
@@ -48,8 +48,7 @@ Result<int> AcceptedAlignments::add(CalibrationEntry entry) {
   return with_lock(file_, add_to_file).map([&] { return number; });
 }
 
-Result<std::optional<CalibrationEntry>> AcceptedAlignments::before(
-    const std::string& camera) const {
+Result<std::optional<CalibrationEntry>> AlignmentRecord::before(const std::string& camera) const {
   TextFiles files;
   auto entries = load_calibrations(file_, files);
   if (!entries) return tl::unexpected(entries.error());
@@ -65,7 +64,7 @@ Result<std::optional<CalibrationEntry>> AcceptedAlignments::before(
   return before;
 }
 
-bool AcceptedAlignments::is_young(const std::string& camera, std::chrono::minutes age) const {
+bool AlignmentRecord::is_young(const std::string& camera, std::chrono::minutes age) const {
   TextFiles files;
   const auto entries = load_calibrations(file_, files);
   const auto oldest = utc_text(std::chrono::system_clock::now() - age);

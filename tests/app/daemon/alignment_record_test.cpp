@@ -1,4 +1,4 @@
-#include "app/alignment/accepted_alignments.h"
+#include "app/daemon/alignment_record.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -44,7 +44,7 @@ class Accepted : public ConfigurationFile {
 
 TEST_F(Accepted, AreForTheRigThatRunsWhateverItsFileSays) {
   const Resolved running = read();
-  AcceptedAlignments accepted(running);
+  AlignmentRecord accepted(running);
   ASSERT_TRUE(accepted.add(outline_of(31)));
   std::ofstream(folder / "rig.toml") << kRig << "# edited\n";
   ASSERT_TRUE(accepted.add(outline_of(32)));
@@ -62,7 +62,7 @@ TEST_F(Accepted, AreNotLostWhereOthersChangeThemAtTheSameTime) {
   std::vector<std::thread> writers;
   for (int n = 0; n < kWriters; ++n) {
     writers.emplace_back([&] {
-      AcceptedAlignments accepted(running);
+      AlignmentRecord accepted(running);
       for (int k = 0; k < kEach; ++k) EXPECT_TRUE(accepted.add(outline_of(31)));
     });
   }
@@ -76,14 +76,14 @@ TEST_F(Accepted, AreNotLostWhereOthersChangeThemAtTheSameTime) {
 TEST_F(Accepted, AreKeptAsideWhereTheServiceMayNotReadThem) {
   ORBWATCH_WITHOUT_ROOT_SKIPPED();
   const Resolved running = read();
-  ASSERT_TRUE(AcceptedAlignments(running).add(outline_of(31)));
+  ASSERT_TRUE(AlignmentRecord(running).add(outline_of(31)));
   const Resolved with_it = read();
   orbwatch::tests::give_to_service(folder.path());
   orbwatch::tests::give_to_service(folder / "state");
   fs::permissions(file, fs::perms(0600));  // root's
   fs::remove(file.string() + ".lock");
   EXPECT_EQ(orbwatch::tests::as_service(
-                0027, [&] { return AcceptedAlignments(with_it).add(outline_of(32)).has_value(); }),
+                0027, [&] { return AlignmentRecord(with_it).add(outline_of(32)).has_value(); }),
             true);
   const auto all = entries();
   ASSERT_EQ(all.size(), 2U);

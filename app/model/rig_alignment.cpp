@@ -1,4 +1,4 @@
-#include "app/files/rig_alignment.h"
+#include "app/model/rig_alignment.h"
 
 #include <algorithm>
 

@@ -1,0 +1,81 @@
+#include "app/alignment/alignment_pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "tests/app/watch/two_watched_cameras.h"
+
+namespace orbwatch::app {
+namespace {
+
+/// One that is unplugged beside one that delivers.
+class AlignmentPicturesTest : public tests::TwoWatchedCameras {
+ protected:
+  AlignmentPicturesTest() : pictures(*watch) {}
+  ~AlignmentPicturesTest() override {
+    watch->stop();
+    pictures.stop();
+  }
+
+  Result<> ask(
+      std::size_t camera, AlignmentSource::IsWanted is_wanted = [] { return true; }) {
+    const auto ball = optics::ball_projection(site.rig, site.rig.cameras[camera]);
+    return pictures.request(
+        {camera, {}, false, {}}, ball.value(), [this](const Result<std::string>&) { ++made; },
+        std::move(is_wanted));
+  }
+  void show(std::size_t camera) {
+    hal::FrameSet set;
+    set.stamp = stamp += std::chrono::milliseconds(40);
+    set.frames[camera] = frame();
+    watch->accept_frames(set);
+  }
+
+  std::atomic<std::size_t> made{0};
+  AlignmentPictures pictures;
+};
+
+TEST_F(AlignmentPicturesTest, OfASilentCameraTakeNoPlaceOfAnothers) {
+  for (std::size_t i = 0; i < AlignmentPictures::kMostWaiting; ++i) ASSERT_TRUE(ask(1));
+  EXPECT_FALSE(ask(1)) << "a camera has so many";
+  for (std::size_t i = 0; i < 3; ++i) ASSERT_TRUE(ask(0));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (made < 3 && std::chrono::steady_clock::now() < give_up) show(0);
+  EXPECT_EQ(made, 3U);
+}
+
+TEST_F(AlignmentPicturesTest, ThatNobodyWaitsForAnyMoreAreDropped) {
+  std::atomic<bool> is_wanted = true;
+  for (std::size_t i = 0; i < AlignmentPictures::kMostWaiting; ++i) {
+    ASSERT_TRUE(ask(1, [&] { return is_wanted.load(); }));
+  }
+  is_wanted = false;  // their requests were answered by the deadline
+  EXPECT_TRUE(ask(1));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (made < 1 && std::chrono::steady_clock::now() < give_up) show(1);
+  EXPECT_TRUE(ask(1));
+  while (made < 2 && std::chrono::steady_clock::now() < give_up) show(1);
+  EXPECT_EQ(made, 2U) << "none of the sixteen";
+}
+
+TEST_F(AlignmentPicturesTest, OfACameraWithAFaultAreRefusedAtOnce) {
+  Status status;
+  status.camera_count = kCameras;
+  status.cameras[1].fault = hal::Fault::Unplugged;
+  watch->accept(status);
+  EXPECT_TRUE(ask(0));
+  const auto refused = ask(1);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "there is no picture: camera is not connected, or cannot be opened");
+  status.cameras[1].fault = hal::Fault::None;
+  watch->accept(status);
+  EXPECT_TRUE(ask(1));
+}
+
+}  // namespace
+}  // namespace orbwatch::app
