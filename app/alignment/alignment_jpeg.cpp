@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "app/pictures/colour_maps.h"
 #include "app/pictures/jpeg_encoder.h"
 #include "app/pictures/picture_conversion.h"
-#include "app/pipeline/views/view_renderer.h"
+#include "app/pipeline/views/still_view.h"
 
 namespace orbwatch::app {
 namespace {
@@ -19,27 +18,8 @@ constexpr int kQuality = 90;
 /// Share of the pixels that may be black or white; a lamp or a melt pool takes no more.
 constexpr double kClipped = 0.005;
 
-/// A picture of one plane with samples of its own.
-struct OwnPicture {
-  std::vector<std::byte> bytes;
-  Picture picture;
-
-  OwnPicture(PixelFormat format, int width, int height)
-      : bytes(packed_bytes(format, width, height)) {
-    picture = target(format, width, height);
-  }
-  OwnPicture(OwnPicture&&) = default;
-  OwnPicture(const OwnPicture&) = delete;  // `picture` points into its own memory
-  MutablePicture target(PixelFormat format, int width, int height) {
-    return MutablePicture::contiguous(format, width, height, bytes.data(),
-                                      row_bytes(format, width));
-  }
-};
-
 /// The upper and lower ends of what is there.
-std::pair<double, double> range_of(const ImageView<const std::uint16_t>& samples) {
-  std::vector<std::uint16_t> sorted(samples.data,
-                                    samples.data + std::ptrdiff_t(samples.width) * samples.height);
+std::pair<double, double> range_of(std::vector<std::uint16_t> sorted) {
   const auto clipped = static_cast<std::ptrdiff_t>(kClipped * static_cast<double>(sorted.size()));
   std::ranges::nth_element(sorted, sorted.begin() + clipped);
   const double low = sorted[static_cast<std::size_t>(clipped)];
@@ -48,15 +28,16 @@ std::pair<double, double> range_of(const ImageView<const std::uint16_t>& samples
   return {low, std::max(high, low + 1)};
 }
 
-OwnPicture stretched(const Picture& picture) {
-  OwnPicture counts(PixelFormat::Y16, picture.width, picture.height);
-  convert(picture, PixelFormat::Y16, counts.bytes.data());
-  const auto samples = counts.picture.samples<std::uint16_t>();
-  const auto [low, high] = range_of(samples);
-  OwnPicture grey(PixelFormat::Grey, picture.width, picture.height);
-  for (std::size_t n = 0; n < grey.bytes.size(); ++n) {
-    const double share = (samples.data[n] - low) / (high - low);
-    grey.bytes[n] = static_cast<std::byte>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+/// 8 bit samples, row by row.
+std::vector<std::uint8_t> stretched(const Picture& picture) {
+  const std::ptrdiff_t pixels = std::ptrdiff_t(picture.width) * picture.height;
+  std::vector<std::uint16_t> counts(static_cast<std::size_t>(pixels));
+  convert(picture, PixelFormat::Y16, reinterpret_cast<std::byte*>(counts.data()));
+  const auto [low, high] = range_of(counts);
+  std::vector<std::uint8_t> grey(counts.size());
+  for (std::size_t n = 0; n < grey.size(); ++n) {
+    const double share = (counts[n] - low) / (high - low);
+    grey[n] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
   }
   return grey;
 }
@@ -68,38 +49,6 @@ Result<std::string> encoded(const Picture& picture) {
   });
 }
 
-OwnPicture rendered(const Picture& picture, const optics::BallProjection& ball,
-                    optics::ViewProjection view) {
-  const bool is_grey = picture.format == PixelFormat::Grey;
-  const PixelFormat format = is_grey ? PixelFormat::Grey : PixelFormat::Rgb;
-  const auto frame = std::make_shared<hal::FrameBuffer>();
-  frame->picture = picture;
-  const hal::StreamFormat source{picture.format, picture.colour_space, picture.width,
-                                 picture.height, 0};
-  const remap::ColourMap unused(colour_map_table("grey"), 0, 255);
-  OwnPicture shown(format, view.width(), view.height());
-  std::vector<std::uint8_t> validity(static_cast<std::size_t>(view.width()) * view.height());
-  const std::vector<hal::StreamFormat> formats{source};
-  ViewPlan plan{0,  "alignment", std::move(view), {{0, source, ball, 1, unused, 0}}, Combine::Mix,
-                {}, std::nullopt};
-  hal::FrameSet set;
-  set.frames[0] = frame;
-  WorkerPool workers(0);
-  const ViewRenderer renderer(std::move(plan));
-  PictureUses uses;
-  renderer.add_use(uses);
-  FramePyramids pyramids(formats, uses);
-  pyramids.build(set, uses, workers);
-  const int width = shown.picture.width, height = shown.picture.height;
-  renderer.render(pyramids,
-                  {shown.target(format, width, height),
-                   {validity.data(), width, height, 1, width},
-                   {},
-                   is_grey},
-                  workers);
-  return shown;
-}
-
 Result<std::string> shown(const Picture& picture, const optics::BallProjection& ball,
                           const std::optional<optics::ViewSpec>& view) {
   if (!view) return encoded(picture);
@@ -107,8 +56,11 @@ Result<std::string> shown(const Picture& picture, const optics::BallProjection& 
     return fail("pictures of format " + std::string(info(picture.format).name) +
                 " are not turned into views");
   }
+  const bool is_grey = picture.format == PixelFormat::Grey;
   return optics::ViewProjection::make(*view, ball).and_then([&](optics::ViewProjection projection) {
-    return encoded(rendered(picture, ball, std::move(projection)).picture);
+    const StillPlan plan{std::move(projection), is_grey ? PixelFormat::Grey : PixelFormat::Rgb};
+    const StillSource source{picture, ball};
+    return encoded(render_once(plan, {&source, 1}).picture);
   });
 }
 
@@ -118,7 +70,10 @@ Result<std::string> alignment_jpeg(const Picture& picture, const optics::BallPro
                                    const std::optional<optics::ViewSpec>& view) {
   const PixelFormatInfo& facts = info(picture.format);
   if (facts.colour == ColourModel::Luminance && facts.bits > 8) {
-    return shown(stretched(picture).picture, ball, view);
+    std::vector<std::uint8_t> grey = stretched(picture);
+    const ImageView<std::uint8_t> samples{grey.data(), picture.width, picture.height, 1,
+                                          picture.width};
+    return shown(picture_of(PixelFormat::Grey, samples), ball, view);
   }
   return shown(picture, ball, view);
 }

@@ -1,7 +1,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,9 +11,8 @@
 #include "app/cli/options/view_options.h"
 #include "app/cli/progress.h"
 #include "app/files/camera_calibration.h"
-#include "app/pictures/colour_maps.h"
 #include "app/pictures/picture_file.h"
-#include "app/pipeline/views/view_renderer.h"
+#include "app/pipeline/views/still_view.h"
 #include "app/pipeline/views/view_settings.h"
 #include "hal/replay/picture_decoder.h"
 
@@ -142,53 +140,16 @@ void report(const std::vector<remap::PhotometricMatch>& matches,
   }
 }
 
-/// The cameras' pictures merged by resolution, as orbwatchd does it. Owns its pixels; cannot be
-/// copied, since `picture` points at them.
-struct MergedView {
-  MergedView(PixelFormat format, int width, int height)
-      : pixels(static_cast<std::size_t>(row_bytes(format, width)) * height),
-        validity(static_cast<std::size_t>(width) * height),
-        picture(MutablePicture::contiguous(format, width, height, pixels.data(),
-                                           row_bytes(format, width))) {}
-  MergedView(const MergedView&) = delete;
-  MergedView& operator=(const MergedView&) = delete;
-
-  ImageView<std::uint8_t> validity_plane() {
-    return {validity.data(), picture.width, picture.height, 1, picture.width};
-  }
-
-  std::vector<std::byte> pixels;
-  std::vector<std::uint8_t> validity;  ///< one Validity per pixel
-  MutablePicture picture;
-};
-
-/// Returns how the cameras' exposures were matched, nothing where they were not.
-std::vector<remap::PhotometricMatch> merge(const ProjectOptions& o,
-                                           const optics::ViewProjection& projection,
-                                           const std::vector<ChosenCamera>& cameras,
-                                           const std::vector<hal::DecodedPicture>& pictures,
-                                           MergedView& merged) {
-  const remap::ColourMap unused(colour_map_table("grey"), 0, 255);  // the picture keeps its format
-  ViewPlan plan{0, "view", projection, {}, Combine::Sharpest, o.interpolation, std::nullopt};
-  std::vector<hal::StreamFormat> formats;
-  hal::FrameSet set;
+/// The cameras' pictures merged by resolution, as orbwatchd does it.
+StillView merged(const ProjectOptions& o, const optics::ViewProjection& projection,
+                 const std::vector<ChosenCamera>& cameras,
+                 const std::vector<hal::DecodedPicture>& pictures) {
+  std::vector<StillSource> sources;
   for (std::size_t n = 0; n < cameras.size(); ++n) {
-    const auto frame = std::make_shared<hal::FrameBuffer>();
-    frame->picture = pictures[n].picture;
-    formats.push_back({frame->picture.format, {}, frame->picture.width, frame->picture.height, 0});
-    plan.sources.push_back({n, formats.back(), cameras[n].ball, 1, unused, o.sharpness});
-    set.frames[n] = frame;
+    sources.push_back({pictures[n].picture, cameras[n].ball, o.sharpness});
   }
-  WorkerPool workers(0);
-  ViewRenderer renderer(std::move(plan));
-  PictureUses uses;
-  renderer.add_use(uses);
-  FramePyramids pyramids(formats, uses);
-  pyramids.build(set, uses, workers);
-  std::vector<remap::PhotometricMatch> matches;
-  if (o.match && cameras.size() > 1) matches = renderer.match_photometry(pyramids);
-  renderer.render(pyramids, {merged.picture, merged.validity_plane(), {}, true}, workers);
-  return matches;
+  const PixelFormat format = pictures.front().picture.format;
+  return render_once({projection, format, Combine::Sharpest, o.interpolation, o.match}, sources);
 }
 
 Result<> write_camera_info(const ProjectOptions& o, const optics::ViewProjection& view) {
@@ -211,14 +172,13 @@ Result<> project(const ProjectOptions& o, const std::vector<std::string>& alone)
   const PixelFormat format = pictures->front().picture.format;
   if (auto named = check_picture_name(o.output, format, o.transparent); !named) return named;
 
-  MergedView merged(format, view->width(), view->height());
   progress.begin("making the view");
-  const auto matches = merge(o, *view, *cameras, *pictures, merged);
+  StillView still = merged(o, *view, *cameras, *pictures);
   progress.erase();
-  report(matches, *cameras);
+  report(still.matches, *cameras);
   if (auto written = write_camera_info(o, *view); !written) return written;
-  return write_picture(o.output, merged.picture,
-                       o.transparent ? merged.validity_plane() : ImageView<std::uint8_t>{});
+  return write_picture(o.output, still.picture,
+                       o.transparent ? still.validity_plane() : ImageView<std::uint8_t>{});
 }
 
 }  // namespace
