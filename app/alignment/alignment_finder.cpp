@@ -1,13 +1,13 @@
 #include "app/alignment/alignment_finder.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "app/alignment/drift_correction.h"
-#include "app/alignment/placed_alignment.h"
+#include "app/alignment/figure_text.h"
+#include "app/alignment/found_outline.h"
+#include "app/alignment/placement.h"
 #include "app/log.h"
-#include "proc/align/detect/ball_detector.h"
 #include "proc/align/register/camera_registration.h"
 #include "proc/settings/settings.h"
 
@@ -20,12 +20,6 @@ constexpr std::size_t kPicturesOfLight = 8;
 /// At a registration: one second's sparks may tell too little, the next are others.
 constexpr int kAttempts = 3;
 constexpr std::chrono::seconds kPatience{10};
-
-std::string two_digits(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// The pictures that were taken at the same moments.
 align::SimultaneousPictures together(const std::vector<RecordedPicture>& reference,
@@ -46,15 +40,11 @@ Result<AlignmentProposal> AlignmentFinder::detect(const optics::Rig& rig,
                                                   std::size_t camera) const {
   const auto pictures = watch_.record({camera}, 1, kPatience);
   if (!pictures) return tl::unexpected(pictures.error());
-  const auto ball = align::detect_ball((*pictures)[0].front().picture);
+  const auto ball = found_outline((*pictures)[0].front().picture);
   if (!ball) return tl::unexpected(ball.error());
-  const std::string confidence = two_digits("confidence %.2f", ball->confidence);
-  if (!ball->is_confident()) {
-    return fail("the ball was not found for sure, " + confidence + ": " + ball->reason);
-  }
   return with_outline(rig, site_.camera_of(rig, camera), ball->outline)
       .map([&](const CameraAlignment& alignment) {
-        return AlignmentProposal{alignment, "detect", confidence};
+        return AlignmentProposal{alignment, "detect", figure_text("confidence", ball->confidence)};
       });
 }
 
@@ -86,7 +76,7 @@ Result<AlignmentProposal> AlignmentFinder::register_by(
   return AlignmentProposal{
       {.camera = turnable->name, .outline = best.outline, .registration = best.rotation},
       "register by " + std::string(word_for(align::kRegistrationMethods, found->method)),
-      two_digits("residual %.2f deg rms", best.residual) + two_digits(", sigma %.2f deg", sigma),
+      figure_text("residual", best.residual, "deg rms") + ", " + figure_text("sigma", sigma, "deg"),
       sigma};
 }
 
@@ -97,8 +87,8 @@ Result<AlignmentProposal> AlignmentFinder::correct(const optics::Rig& rig,
   return corrected(rig, site_.camera_of(rig, camera), *drift)
       .map([&](const CameraAlignment& alignment) {
         return AlignmentProposal{alignment, "drift",
-                                 two_digits("moved by %.2f deg rms", drift->direction_error) +
-                                     two_digits(", sigma %.2f deg", drift->direction_sigma),
+                                 figure_text("moved by", drift->direction_error, "deg rms") + ", " +
+                                     figure_text("sigma", drift->direction_sigma, "deg"),
                                  drift->direction_sigma};
       });
 }
@@ -202,8 +192,8 @@ Result<AlignmentProposal> AlignmentFinder::place(const optics::Rig& rig, std::si
     const align::PlacedCamera& found = placement->cameras.front();
     return AlignmentProposal{alignment.cameras.front(),
                              "place by " + std::to_string(found.marks.size()) + " points",
-                             two_digits("residual %.2f px rms", rms_residual(found)) +
-                                 two_digits(", sigma %.2f deg", found.direction_sigma),
+                             figure_text("residual", rms_residual(found), "px rms") + ", " +
+                                 figure_text("sigma", found.direction_sigma, "deg"),
                              found.direction_sigma};
   });
 }

@@ -3,23 +3,15 @@
 #include <array>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "app/alignment/aligned_site.h"
+#include "app/alignment/alignment_proposal.h"
 #include "app/alignment/point_marks.h"
 #include "app/alignment/watched_cameras.h"
 #include "app/model/alignment.h"
 
 namespace orbwatch::app {
-
-/// An alignment of one camera that was found or stated, and how.
-struct AlignmentProposal {
-  CameraAlignment alignment;
-  std::string method;
-  std::string quality;                          ///< what is known of its errors
-  double direction_sigma = signals::kNotValid;  ///< degrees
-};
 
 /// Finds alignments of a running site's cameras by their next pictures, which takes seconds. `rig`
 /// is what counts until then: it says what an alignment keeps. Every camera is watched.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/alignment/found_outline.h"
 #include "proc/optics/vec.h"
 
 namespace orbwatch::app {
@@ -26,7 +27,7 @@ std::string detect_text(const DetectedBall& ball) {
       << o.centre.v << " px, radii " << o.rx << ", " << o.ry << " px, angle " << o.angle
       << " deg\nconfidence  " << ball.detection.confidence;
   if (!ball.detection.is_confident()) {
-    out << ": not sure, " << ball.detection.reason << ".\n            Look at the picture of "
+    out << ": " << doubt_text(ball.detection) << ".\n            Look at the picture of "
         << "--overlay before you use it";
   }
   out << "\n";

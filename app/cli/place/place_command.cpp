@@ -1,4 +1,4 @@
-#include "app/alignment/placed_alignment.h"
+#include "app/alignment/placement.h"
 #include "app/cli/command.h"
 #include "app/cli/place/place_options.h"
 #include "app/cli/place/place_request.h"

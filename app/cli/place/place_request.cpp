@@ -4,10 +4,10 @@
 #include <optional>
 #include <sstream>
 
-#include "app/alignment/placed_alignment.h"
+#include "app/alignment/found_outline.h"
+#include "app/alignment/placement.h"
 #include "app/cli/options/camera_options.h"
 #include "hal/replay/picture_decoder.h"
-#include "proc/align/detect/ball_detector.h"
 #include "proc/optics/view_projection.h"
 
 namespace orbwatch::app {
@@ -35,12 +35,9 @@ Result<optics::Outline> outline_of(const PlaceCameraOptions& options,
     return fail("camera " + camera.name +
                 " has no outline in the rig; give --image, a picture in which the ball is found");
   }
-  const std::string file = options.image.string();
-  const auto ball = align::detect_ball(*picture);
-  if (!ball) return fail(file + ": " + ball.error().message);
-  if (ball->is_confident()) return ball->outline;
-  return fail(file + ": the ball is not found for certain: " + ball->reason +
-              "; look at `orbwatch detect --overlay`, and write the outline into the rig");
+  const auto ball = found_outline(*picture);
+  if (!ball) return fail(options.image.string() + ": " + ball.error().message);
+  return ball->outline;
 }
 
 /// Marks points where the camera's picture has what the view shows: by the way that the view was

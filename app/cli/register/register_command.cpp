@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/alignment/found_outline.h"
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/options.h"
@@ -9,7 +10,6 @@
 #include "app/cli/register/register_text.h"
 #include "app/files/rig_edit.h"
 #include "app/files/rig_file.h"
-#include "proc/align/detect/ball_detector.h"
 #include "proc/align/register/camera_registration.h"
 
 namespace orbwatch::app {
@@ -59,8 +59,6 @@ struct RegisterOptions {
   bool refine_outline = false;
 };
 
-constexpr double kOutlineSigma = 0.02;  // of a detected outline, shares of the radius
-
 std::vector<Option> declare(RegisterOptions& o) {
   return {
       {"rig", 0, "FILE", "with both cameras, the ball and the scene", text_option(o.rig)},
@@ -87,11 +85,9 @@ Result<> check_size(const optics::RigCamera& camera, const NamedPictures& named)
 
 /// The outline as the picture shows it.
 Result<optics::Outline> detected(const NamedPictures& named) {
-  const auto ball = align::detect_ball(named.pictures.front().picture);
+  const auto ball = found_outline(named.pictures.front().picture);
   if (!ball) return fail("camera " + named.name + ": " + ball.error().message);
-  if (ball->is_confident()) return ball->outline;
-  return fail("camera " + named.name + ": the ball is not found for sure, " + ball->reason +
-              "; look at it by orbwatch detect --overlay, and state the outline in the rig");
+  return ball->outline;
 }
 
 Result<align::SoughtCamera> sought_camera(const RegisterOptions& o, const optics::Rig& rig,
@@ -101,7 +97,7 @@ Result<align::SoughtCamera> sought_camera(const RegisterOptions& o, const optics
   if (auto same = check_size(*stated, named); !same) return tl::unexpected(same.error());
   const auto camera = align::by_outline(rig, *stated);
   if (!camera) return tl::unexpected(camera.error());
-  const double sigma = o.detect || o.refine_outline ? kOutlineSigma : 0;
+  const double sigma = o.detect || o.refine_outline ? kFoundOutlineSigma : 0;
   align::SoughtCamera sought{named.pictures.front().picture, rig, *camera, sigma};
   if (!o.detect) return sought;
   return detected(named).map([&](const optics::Outline& outline) {

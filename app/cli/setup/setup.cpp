@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/alignment/found_outline.h"
 #include "app/cli/setup/site_files.h"
 #include "proc/align/obstacle/standing_box.h"
 #include "proc/align/register/camera_registration.h"
@@ -20,16 +21,14 @@ constexpr double kContradiction = 0.5;
 /// The name of an obstacle that nobody has stated.
 constexpr const char* kFoundBox = "found_box";
 
-/// The surest of a few pictures of a record.
+/// The ball in a few pictures of a record.
 Result<align::BallDetection> detect(const CameraRecord& record) {
   const std::size_t last = record.pictures.size() - 1;
-  auto best = align::detect_ball(record.pictures[0].picture);
+  std::vector<Picture> few{record.pictures.front().picture};
   for (const std::size_t n : {last / 2, last}) {
-    if (n == 0 || (best && best->is_confident())) continue;
-    const auto other = align::detect_ball(record.pictures[n].picture);
-    if (other && (!best || other->confidence > best->confidence)) best = other;
+    if (n > 0) few.push_back(record.pictures[n].picture);
   }
-  return best;
+  return surest_ball(few);
 }
 
 std::string in_rig(const std::filesystem::path& folder) { return (folder / kRigFile).string(); }
@@ -47,8 +46,8 @@ Result<> detect_balls(Setup& setup, const std::filesystem::path& folder, Progres
     }
     camera.ball = *ball;
     if (!ball->is_confident()) {
-      setup.missing.push_back("whether " + camera.name + "'s outline is right: " + ball->reason +
-                              ". Look at " + (folder / (camera.name + ".png")).string());
+      setup.missing.push_back(camera.name + ": " + doubt_text(*ball) + ". Look at " +
+                              (folder / (camera.name + ".png")).string());
     }
     seeing.push_back(std::move(camera));
   }

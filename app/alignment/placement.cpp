@@ -1,4 +1,4 @@
-#include "app/alignment/placed_alignment.h"
+#include "app/alignment/placement.h"
 
 #include <cmath>
 #include <sstream>

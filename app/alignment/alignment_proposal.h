@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "app/model/rig_alignment.h"
+#include "proc/signals/signals.h"
+
+namespace orbwatch::app {
+
+/// An alignment of one camera that was found or stated, and how.
+struct AlignmentProposal {
+  CameraAlignment alignment;
+  std::string method;
+  std::string quality;                          ///< what is known of its errors
+  double direction_sigma = signals::kNotValid;  ///< degrees
+};
+
+}  // namespace orbwatch::app
