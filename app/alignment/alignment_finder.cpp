@@ -1,15 +1,15 @@
 #include "app/alignment/alignment_finder.h"
 
-#include <algorithm>
+#include <chrono>
+#include <string>
 #include <utility>
 
 #include "app/alignment/drift_correction.h"
 #include "app/alignment/figure_text.h"
 #include "app/alignment/found_outline.h"
 #include "app/alignment/placement.h"
+#include "app/alignment/registration.h"
 #include "app/log.h"
-#include "proc/align/register/camera_registration.h"
-#include "proc/settings/settings.h"
 
 namespace orbwatch::app {
 namespace {
@@ -20,19 +20,6 @@ constexpr std::size_t kPicturesOfLight = 8;
 /// At a registration: one second's sparks may tell too little, the next are others.
 constexpr int kAttempts = 3;
 constexpr std::chrono::seconds kPatience{10};
-
-/// The pictures that were taken at the same moments.
-align::SimultaneousPictures together(const std::vector<RecordedPicture>& reference,
-                                     const std::vector<RecordedPicture>& camera) {
-  align::SimultaneousPictures pictures;
-  for (const RecordedPicture& one : reference) {
-    const auto other = std::ranges::find(camera, one.time, &RecordedPicture::time);
-    if (other == camera.end()) continue;
-    pictures.reference.push_back(one.picture);
-    pictures.camera.push_back(other->picture);
-  }
-  return pictures;
-}
 
 }  // namespace
 
@@ -61,23 +48,12 @@ Result<AlignmentProposal> AlignmentFinder::register_to_first(const optics::Rig& 
 Result<AlignmentProposal> AlignmentFinder::register_by(
     const optics::Rig& rig, std::size_t camera, const std::vector<RecordedPicture>& of_first,
     const std::vector<RecordedPicture>& of_camera) const {
-  const auto simultaneous = together(of_first, of_camera);
-  if (simultaneous.camera.empty()) return fail("the cameras took no pictures at the same moment");
-  const auto reference = optics::ball_projection(rig, site_.camera_of(rig, 0));
-  if (!reference) return tl::unexpected(reference.error());
-  const auto turnable = align::by_outline(rig, site_.camera_of(rig, camera));
-  if (!turnable) return tl::unexpected(turnable.error());
-  const align::SoughtCamera sought{simultaneous.camera.front(), rig, *turnable};
-  const auto found = align::register_camera(simultaneous, *reference, sought,
-                                            align::RegistrationMethod::Auto, [](const auto&) {});
-  if (!found) return tl::unexpected(found.error());
-  const align::Registration& best = found->registration;
-  const double sigma = std::ranges::max(align::sigmas(best));
-  return AlignmentProposal{
-      {.camera = turnable->name, .outline = best.outline, .registration = best.rotation},
-      "register by " + std::string(word_for(align::kRegistrationMethods, found->method)),
-      figure_text("residual", best.residual, "deg rms") + ", " + figure_text("sigma", sigma, "deg"),
-      sigma};
+  // Pictures of one frame set have its time.
+  const auto pictures = simultaneous(of_first, of_camera, std::chrono::nanoseconds(0));
+  if (!pictures) return tl::unexpected(pictures.error());
+  return register_camera(rig, site_.camera_of(rig, 0), site_.camera_of(rig, camera), *pictures, {},
+                         [](const auto&) {})
+      .map([](const FoundRegistration& found) { return found.proposal; });
 }
 
 Result<AlignmentProposal> AlignmentFinder::correct(const optics::Rig& rig,

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "app/alignment/found_outline.h"
+#include "app/alignment/registration.h"
 #include "app/cli/command.h"
 #include "app/cli/options/camera_options.h"
 #include "app/cli/options/options.h"
@@ -10,7 +11,6 @@
 #include "app/cli/register/register_text.h"
 #include "app/files/rig_edit.h"
 #include "app/files/rig_file.h"
-#include "proc/align/register/camera_registration.h"
 
 namespace orbwatch::app {
 namespace {
@@ -83,45 +83,21 @@ Result<> check_size(const optics::RigCamera& camera, const NamedPictures& named)
               exif_note(named.pictures.front()));
 }
 
-/// The outline as the picture shows it.
-Result<optics::Outline> detected(const NamedPictures& named) {
-  const auto ball = found_outline(named.pictures.front().picture);
-  if (!ball) return fail("camera " + named.name + ": " + ball.error().message);
-  return ball->outline;
-}
-
-Result<align::SoughtCamera> sought_camera(const RegisterOptions& o, const optics::Rig& rig,
-                                          const NamedPictures& named) {
-  const auto stated = find_camera(rig, named.name);
-  if (!stated) return tl::unexpected(stated.error());
-  if (auto same = check_size(*stated, named); !same) return tl::unexpected(same.error());
-  const auto camera = align::by_outline(rig, *stated);
-  if (!camera) return tl::unexpected(camera.error());
-  const double sigma = o.detect || o.refine_outline ? kFoundOutlineSigma : 0;
-  align::SoughtCamera sought{named.pictures.front().picture, rig, *camera, sigma};
-  if (!o.detect) return sought;
-  return detected(named).map([&](const optics::Outline& outline) {
-    sought.camera.outline = outline;
-    return sought;
+/// A camera of the rig whose pictures are of the rig's size.
+Result<optics::RigCamera> camera_of(const optics::Rig& rig, const NamedPictures& named) {
+  return find_camera(rig, named.name).and_then([&](const optics::RigCamera& camera) {
+    return check_size(camera, named).map([&] { return camera; });
   });
 }
 
-/// What the rig file is to say: the pose, turned about the ball, where it states one.
-Result<CameraAlignment> alignment(const optics::Rig& rig, const std::string& name,
-                                  const align::SoughtCamera& sought,
-                                  const align::Registration& found) {
-  CameraAlignment aligned{.camera = name};
-  const auto stated = find_camera(rig, name);
-  if (!stated) return tl::unexpected(stated.error());
-  if (!stated->pose) {
-    aligned.outline = found.outline;
-    aligned.registration = found.rotation;
-    return aligned;
-  }
-  return align::pose_of(sought, found).map([&](const optics::Pose& pose) {
-    aligned.pose = pose;
-    return aligned;
-  });
+Result<RegistrationSettings> settings_for(const RegisterOptions& o, const NamedPictures& sought) {
+  RegistrationSettings settings{.method = o.method};
+  if (o.detect || o.refine_outline) settings.outline_sigma = kFoundOutlineSigma;
+  if (!o.detect) return settings;
+  const auto ball = found_outline(sought.pictures.front().picture);
+  if (!ball) return fail("camera " + sought.name + ": " + ball.error().message);
+  settings.outline = ball->outline;
+  return settings;
 }
 
 Result<std::string> register_cameras(const RegisterOptions& o, const std::string& first,
@@ -134,26 +110,22 @@ Result<std::string> register_cameras(const RegisterOptions& o, const std::string
   const auto b = read_named_pictures(second);
   if (!b) return tl::unexpected(b.error());
   if (a->name == b->name) return usage_error("camera " + a->name + " is given twice");
-  const auto reference = find_camera(*rig, a->name);
+  const auto reference = camera_of(*rig, *a);
   if (!reference) return tl::unexpected(reference.error());
-  if (auto same = check_size(*reference, *a); !same) return tl::unexpected(same.error());
-  const auto ball = optics::ball_projection(*rig, *reference);
-  if (!ball) return tl::unexpected(ball.error());
-  const auto sought = sought_camera(o, *rig, *b);
+  const auto sought = camera_of(*rig, *b);
   if (!sought) return tl::unexpected(sought.error());
+  const auto settings = settings_for(o, *b);
+  if (!settings) return tl::unexpected(settings.error());
   Progress progress;
-  const auto found =
-      align::register_camera({a->views(), b->views()}, *ball, *sought, o.method,
-                             [&](const std::string& doing) { progress.begin(doing); });
+  const auto found = register_camera(*rig, *reference, *sought, {a->views(), b->views()}, *settings,
+                                     [&](const std::string& doing) { progress.begin(doing); });
   progress.erase();
   if (!found) return fail(b->name + " on " + a->name + ": " + found.error().message);
   if (!o.out.empty()) {
-    const auto aligned = alignment(*rig, b->name, *sought, found->registration);
-    if (!aligned) return tl::unexpected(aligned.error());
-    const auto written = write_aligned_rig(o.rig, {.cameras = {*aligned}}, o.out);
+    const auto written = write_aligned_rig(o.rig, {.cameras = {found->proposal.alignment}}, o.out);
     if (!written) return tl::unexpected(written.error());
   }
-  const RegisteredCamera registered{a->name, b->name, *found};
+  const RegisteredCamera registered{a->name, b->name, found->found};
   return o.json ? register_json(registered) : register_text(registered);
 }
 

@@ -1,6 +1,5 @@
 #include "app/cli/setup/recording.h"
 
-#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -93,25 +92,6 @@ std::vector<Result<CameraRecord>> record(std::span<const std::unique_ptr<hal::Ca
     }
   }
   return records;
-}
-
-std::vector<std::pair<std::size_t, std::size_t>> simultaneous(const CameraRecord& a,
-                                                              const CameraRecord& b) {
-  const double slower = std::min(a.format.frame_rate, b.format.frame_rate);
-  const std::chrono::nanoseconds window = hal::period_of(slower) / 2;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  std::size_t next = 0;
-  for (std::size_t n = 0; n < a.pictures.size() && next < b.pictures.size(); ++n) {
-    const auto apart = [&](std::size_t m) {
-      return std::chrono::abs(b.pictures[m].time - a.pictures[n].time);
-    };
-    std::size_t nearest = next;
-    while (nearest + 1 < b.pictures.size() && apart(nearest + 1) <= apart(nearest)) ++nearest;
-    if (apart(nearest) > window) continue;
-    pairs.emplace_back(n, nearest);
-    next = nearest + 1;
-  }
-  return pairs;
 }
 
 }  // namespace orbwatch::app

@@ -24,9 +24,4 @@ struct CameraRecord {
 std::vector<Result<CameraRecord>> record(std::span<const std::unique_ptr<hal::Camera>> cameras,
                                          std::size_t count, std::chrono::seconds patience);
 
-/// The pictures of two cameras that were taken at the same moment, to half of the slower one's
-/// period, as places in their records; each at most once, ascending.
-std::vector<std::pair<std::size_t, std::size_t>> simultaneous(const CameraRecord& a,
-                                                              const CameraRecord& b);
-
 }  // namespace orbwatch::app

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/alignment/found_outline.h"
+#include "app/alignment/registration.h"
 #include "app/cli/setup/site_files.h"
 #include "proc/align/obstacle/standing_box.h"
-#include "proc/align/register/camera_registration.h"
 #include "proc/optics/lens.h"
 
 namespace orbwatch::app {
@@ -119,28 +119,25 @@ optics::RigCamera rig_camera(const SetupCamera& camera, double ball_radius) {
   return rig;
 }
 
-align::SimultaneousPictures together(const CameraRecord& reference, const CameraRecord& camera) {
-  align::SimultaneousPictures pictures;
-  for (const auto& [n, m] : simultaneous(reference, camera)) {
-    pictures.reference.push_back(reference.pictures[n].picture);
-    pictures.camera.push_back(camera.pictures[m].picture);
-  }
-  return pictures;
+/// The pictures of the first camera and another one that are no further apart than half of the
+/// slower one's period.
+Result<align::SimultaneousPictures> together(const Setup& setup, std::size_t camera) {
+  const CameraRecord& first = setup.cameras.front().record;
+  const CameraRecord& other = setup.cameras[camera].record;
+  const double slower = std::min(first.format.frame_rate, other.format.frame_rate);
+  return simultaneous(first.pictures, other.pictures, hal::period_of(slower) / 2);
 }
 
 /// How a camera stands to the first one.
 Result<optics::Mat3> registration(const Setup& setup, std::size_t camera, Progress& progress) {
   const optics::Rig rig = rig_of(setup);
-  const auto reference = optics::ball_projection(rig, rig.cameras.front());
-  if (!reference) return tl::unexpected(reference.error());
-  const auto pictures = together(setup.cameras.front().record, setup.cameras[camera].record);
-  if (pictures.camera.empty()) return fail("no pictures of the same moment");
-  const align::SoughtCamera sought{pictures.camera.front(), rig, rig.cameras[camera]};
-  return align::register_camera(pictures, *reference, sought, align::RegistrationMethod::Auto,
-                                [&](const std::string& doing) {
-                                  progress.begin(setup.cameras[camera].name + ": " + doing);
-                                })
-      .map([](const align::CameraRegistration& found) { return found.registration.rotation; });
+  const auto pictures = together(setup, camera);
+  if (!pictures) return tl::unexpected(pictures.error());
+  const auto report = [&](const std::string& doing) {
+    progress.begin(setup.cameras[camera].name + ": " + doing);
+  };
+  return register_camera(rig, rig.cameras.front(), rig.cameras[camera], *pictures, {}, report)
+      .map([](const FoundRegistration& found) { return found.found.registration.rotation; });
 }
 
 void register_cameras(Setup& setup, const std::filesystem::path& folder, Progress& progress) {
@@ -166,12 +163,12 @@ void register_cameras(Setup& setup, const std::filesystem::path& folder, Progres
 /// The box that the first camera and another one prove.
 std::optional<optics::Box> found_box(const Setup& setup, std::size_t camera) {
   const optics::Rig rig = rig_of(setup);
-  const auto pictures = together(setup.cameras.front().record, setup.cameras[camera].record);
+  const auto pictures = together(setup, camera);
   const auto first = optics::ball_projection(rig, rig.cameras.front());
   const auto second = optics::ball_projection(rig, rig.cameras[camera]);
-  if (pictures.camera.empty() || !first || !second) return std::nullopt;
-  const auto found = align::find_standing_box({pictures.reference.front(), *first},
-                                              {pictures.camera.front(), *second}, rig.scene);
+  if (!pictures || !first || !second) return std::nullopt;
+  const auto found = align::find_standing_box({pictures->reference.front(), *first},
+                                              {pictures->camera.front(), *second}, rig.scene);
   if (!found) return std::nullopt;  // what is stated stands
   return found->box;
 }

@@ -8,19 +8,19 @@
 #include "tests/app/alignment/rig_with_pose.h"
 #include "tests/support/temporary_folder.h"
 
-/// A camera with a pose that is registered while it runs is kept by outline and registration: the
-/// same place, also from the file of accepted alignments.
+/// A camera with a pose that a person turns or whose outline is found is kept by outline and
+/// registration: the same place, also from the file of accepted alignments.
 namespace orbwatch::app {
 namespace {
 
-/// The rig after its camera was registered as it stands, accepted, and read again.
+/// The rig after its camera was stated as it stands, accepted, and read again.
 optics::Rig registered(const optics::Rig& rig) {
   const orbwatch::tests::TemporaryFolder folder;
   const auto turnable = align::by_outline(rig, rig.cameras.front());
   EXPECT_TRUE(turnable) << turnable.error().message;
   std::vector<CalibrationEntry> entries;
   CalibrationEntry entry;
-  entry.method = "register by light";
+  entry.method = "turned by hand";
   entry.alignment.cameras.push_back({.camera = turnable->name,
                                      .outline = turnable->outline,
                                      .registration = turnable->registration});

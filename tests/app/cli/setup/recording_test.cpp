@@ -12,36 +12,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-CameraRecord taken_at(double frame_rate, const std::vector<int>& milliseconds_of) {
-  CameraRecord record;
-  record.format.frame_rate = frame_rate;
-  for (const int time : milliseconds_of) {
-    record.pictures.emplace_back().time = milliseconds(time);
-  }
-  return record;
-}
-
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
-TEST(Simultaneous, PairsWhatWasTakenTogether) {
-  const CameraRecord a = taken_at(50, {0, 20, 40, 60}), b = taken_at(50, {3, 22, 61});
-  EXPECT_EQ(simultaneous(a, b), (Pairs{{0, 0}, {1, 1}, {3, 2}}));
-  EXPECT_EQ(simultaneous(b, a), (Pairs{{0, 0}, {1, 1}, {2, 3}}));
-}
-
-TEST(Simultaneous, UsesEachPictureOnce) {
-  const CameraRecord fast = taken_at(100, {0, 10, 20, 30, 40}), slow = taken_at(25, {0, 40});
-  for (const auto& pairs : {simultaneous(fast, slow), simultaneous(slow, fast)}) {
-    ASSERT_EQ(pairs.size(), 2U);
-    EXPECT_NE(pairs[0].first, pairs[1].first);
-    EXPECT_NE(pairs[0].second, pairs[1].second);
-  }
-}
-
-TEST(Simultaneous, IsNothingOfWhatWasTakenAtOtherTimes) {
-  EXPECT_TRUE(simultaneous(taken_at(50, {0, 20}), taken_at(50, {500, 520})).empty());
-}
-
 class Recording : public testing::Test {
  protected:
   std::unique_ptr<hal::Camera> camera(const std::string& source) {
