@@ -85,12 +85,11 @@ Result<> AlignmentFinder::mark(const optics::Rig& rig, std::size_t camera,
     added = points_[camera].add(point, pictures, *seen->outline);
   }
   if (!added) return added;
-  align::PlaceRequest request;
-  align::UnplacedCamera marked;
-  marked.outline = *seen->outline;
-  if (added = points_[camera].mark(marked, request); !added) return added;
-  request.cameras.push_back(std::move(marked));
-  show(camera, request, nullptr);
+  const auto marked = points_[camera].points(*seen->outline);
+  if (!marked) return tl::unexpected(marked.error());
+  std::vector<PlacedPoint> shown;
+  for (const auto& [at, known] : *marked) shown.push_back({known, at});
+  show(camera, std::move(shown));
   log_camera(
       LogLevel::Info, seen->name,
       "a point is marked, of " + std::to_string(points_[camera].size()) + " for place_camera");
@@ -108,60 +107,43 @@ std::vector<PlacedPoint> AlignmentFinder::points(std::size_t camera) const {
   return shown_[camera];
 }
 
-/// `placement`: null: there is none yet.
-void AlignmentFinder::show(std::size_t camera, const align::PlaceRequest& request,
-                           const align::Placement* placement) {
-  const std::vector<align::PointMark>& marks = request.cameras.front().marks;
-  std::vector<PlacedPoint> shown;
-  for (std::size_t m = 0; m < marks.size(); ++m) {
-    PlacedPoint point{request.points[marks[m].point], marks[m].pixel};
-    if (placement) {
-      const align::PlacedMark& placed = placement->cameras.front().marks[m];
-      point.residual = placed.residual;
-      point.is_outlier = placed.is_outlier;
-    }
-    shown.push_back(point);
-  }
+void AlignmentFinder::show(std::size_t camera, std::vector<PlacedPoint> points) {
   const std::lock_guard lock(mutex_);
-  shown_[camera] = std::move(shown);
+  shown_[camera] = std::move(points);
 }
 
-Result<align::PlaceRequest> AlignmentFinder::place_request(const optics::Rig& rig,
-                                                           std::size_t camera) const {
+Result<align::PlaceRequest> AlignmentFinder::request_for(const optics::Rig& rig,
+                                                         std::size_t camera) const {
   const PlaceSettings& settings = site_.place;
-  align::PlaceRequest request;
-  request.centre = {align::BallCentre::Knowledge::Known, rig.ball.centre, 0};
-  request.ball_radius = rig.ball.radius;
-  request.sigma_px = settings.sigma_px;
-  request.sigma_mm = settings.sigma_mm;
   auto unplaced = unplaced_camera(site_.camera_of(rig, camera), false);
   if (!unplaced) return tl::unexpected(unplaced.error());
   const auto seen = align::by_outline(rig, site_.camera_of(rig, camera));
   if (!seen) return tl::unexpected(seen.error());
   unplaced->outline = *seen->outline;
   unplaced->outline_sigma = settings.outline_sigma;
-  if (const auto marked = points_[camera].mark(*unplaced, request); !marked) {
-    return tl::unexpected(marked.error());
+  const auto points = points_[camera].points(*seen->outline);
+  if (!points) return tl::unexpected(points.error());
+  std::vector<std::vector<RecordedPicture>> recorded;
+  std::vector<align::PrintedTag> tags;
+  for (const TagSettings& tag : settings.tags) tags.push_back(tag.tag());
+  if (!tags.empty()) {
+    auto pictures = watch_.record({camera}, 1, kPatience);
+    if (!pictures) return tl::unexpected(pictures.error());
+    recorded = std::move(*pictures);
   }
-  if (!settings.tags.empty()) {
-    const auto recorded = watch_.record({camera}, 1, kPatience);
-    if (!recorded) return tl::unexpected(recorded.error());
-    std::vector<align::PrintedTag> tags;
-    for (const TagSettings& tag : settings.tags) tags.push_back(tag.tag());
-    const auto shown =
-        align::mark_tags(recorded->front().front().picture, tags, *unplaced, request);
-    if (!shown) return tl::unexpected(shown.error());
-  }
-  request.cameras.push_back(std::move(*unplaced));
-  return request;
+  auto request = place_request(rig, settings, align::BallCentre::Knowledge::Known);
+  const Picture* const picture = recorded.empty() ? nullptr : &recorded[0].front().picture;
+  return add_camera(request, std::move(*unplaced), *points, picture, tags).map([&] {
+    return std::move(request);
+  });
 }
 
 Result<AlignmentProposal> AlignmentFinder::place(const optics::Rig& rig, std::size_t camera) {
-  const auto request = place_request(rig, camera);
+  const auto request = request_for(rig, camera);
   if (!request) return tl::unexpected(request.error());
   const auto placement = align::place(*request);
   if (!placement) return tl::unexpected(placement.error());
-  show(camera, *request, &*placement);
+  show(camera, placed_points(*request, *placement, 0));
   log_camera(LogLevel::Info, site_.camera_of(rig, camera).name,
              "marked minus shown: " + residuals_text(*request, *placement, 0));
   return rig_alignment(*request, *placement).map([&](const RigAlignment& alignment) {

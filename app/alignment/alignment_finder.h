@@ -42,9 +42,8 @@ class AlignmentFinder {
   Result<AlignmentProposal> register_by(const optics::Rig& rig, std::size_t camera,
                                         const std::vector<RecordedPicture>& of_first,
                                         const std::vector<RecordedPicture>& of_camera) const;
-  Result<align::PlaceRequest> place_request(const optics::Rig& rig, std::size_t camera) const;
-  void show(std::size_t camera, const align::PlaceRequest& request,
-            const align::Placement* placement);
+  Result<align::PlaceRequest> request_for(const optics::Rig& rig, std::size_t camera) const;
+  void show(std::size_t camera, std::vector<PlacedPoint> points);
 
   const AlignedSite& site_;
   WatchedCameras& watch_;

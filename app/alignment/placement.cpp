@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace orbwatch::app {
 namespace {
@@ -34,6 +35,30 @@ Result<align::UnplacedCamera> unplaced_camera(const optics::RigCamera& camera, b
   out.lens.height = camera.height;
   out.window = camera.window;
   return out;
+}
+
+align::PlaceRequest place_request(const optics::Rig& rig, const PlacePrecision& precision,
+                                  align::BallCentre::Knowledge centre, double centre_sigma) {
+  align::PlaceRequest request;
+  request.centre = {centre, rig.ball.centre, centre_sigma};
+  request.ball_radius = rig.ball.radius;
+  request.sigma_px = precision.sigma_px;
+  request.sigma_mm = precision.sigma_mm;
+  return request;
+}
+
+Result<> add_camera(align::PlaceRequest& request, align::UnplacedCamera camera,
+                    std::span<const KnownPoint> points, const Picture* picture,
+                    std::span<const align::PrintedTag> tags) {
+  for (const auto& [pixel, point] : points) {
+    camera.marks.push_back({align::add_point(request, point), pixel});
+  }
+  if (picture && !tags.empty()) {
+    const auto shown = align::mark_tags(*picture, tags, camera, request);
+    if (!shown) return tl::unexpected(shown.error());
+  }
+  request.cameras.push_back(std::move(camera));
+  return {};
 }
 
 Result<RigAlignment> rig_alignment(const align::PlaceRequest& request,
@@ -73,6 +98,18 @@ double rms_residual(const align::PlacedCamera& camera) {
     ++count;
   }
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+}
+
+std::vector<PlacedPoint> placed_points(const align::PlaceRequest& request,
+                                       const align::Placement& placement, std::size_t camera) {
+  const std::vector<align::PointMark>& marks = request.cameras[camera].marks;
+  const std::vector<align::PlacedMark>& placed = placement.cameras[camera].marks;
+  std::vector<PlacedPoint> points;
+  for (std::size_t m = 0; m < marks.size(); ++m) {
+    points.push_back(
+        {request.points[marks[m].point], marks[m].pixel, placed[m].residual, placed[m].is_outlier});
+  }
+  return points;
 }
 
 std::string residuals_text(const align::PlaceRequest& request, const align::Placement& placement,

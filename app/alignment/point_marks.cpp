@@ -63,13 +63,14 @@ Result<> PointMarks::add(const optics::Vec3& point, std::span<const Picture> pic
   return {};
 }
 
-Result<> PointMarks::mark(align::UnplacedCamera& camera, align::PlaceRequest& request) const {
+Result<std::vector<KnownPoint>> PointMarks::points(const optics::Outline& outline) const {
+  std::vector<KnownPoint> points;
   for (std::size_t n = 0; n < points_.size(); ++n) {
-    const auto pixel = place_of(points_, n, camera.outline);
+    const auto pixel = place_of(points_, n, outline);
     if (!pixel) return tl::unexpected(pixel.error());
-    camera.marks.push_back({align::add_point(request, points_[n].point), *pixel});
+    points.push_back({*pixel, points_[n].point});
   }
-  return {};
+  return points;
 }
 
 }  // namespace orbwatch::app

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "proc/align/place/placement.h"
+#include "app/alignment/placement.h"
 #include "proc/align/place/small_lights.h"
 #include "proc/image/picture.h"
 #include "proc/image/result.h"
@@ -31,9 +31,9 @@ class PointMarks {
   void clear() { points_.clear(); }
   std::size_t size() const { return points_.size(); }
 
-  /// Marks the points in a camera that is to be placed; it has its outline. Error: one at which no
-  /// light of its own is seen.
-  Result<> mark(align::UnplacedCamera& camera, align::PlaceRequest& request) const;
+  /// The points, and where the picture shows them; of a camera with that outline. Error: one at
+  /// which no light of its own is seen.
+  Result<std::vector<KnownPoint>> points(const optics::Outline& outline) const;
 
  private:
   struct SeenPoint {

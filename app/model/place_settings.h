@@ -17,11 +17,15 @@ struct TagSettings {
   align::PrintedTag tag() const { return {id, align::tag_corners(size, centre, right, down)}; }
 };
 
-/// What the command place_camera goes by, beside the points that were marked by command.
-struct PlaceSettings {
-  double sigma_px = 1;
-  double sigma_mm = 1;
-  double outline_sigma = 1;
+/// How exactly known what cameras are placed by is, one sigma.
+struct PlacePrecision {
+  double sigma_px = 1;       ///< of points as pictures show them
+  double sigma_mm = 1;       ///< of points' coordinates
+  double outline_sigma = 1;  ///< of the ball's outline, px
+};
+
+/// The command place_camera's settings, beside the points that were marked by command.
+struct PlaceSettings : PlacePrecision {
   std::vector<Located<TagSettings>> tags;
 };
 

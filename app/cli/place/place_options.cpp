@@ -8,13 +8,13 @@ namespace orbwatch::app {
 namespace {
 
 /// `text` as U,V=X,Y,Z.
-Result<PointOption> parse_point(const std::string& name, const std::string& text) {
+Result<KnownPoint> parse_point(const std::string& name, const std::string& text) {
   const std::size_t equals = text.find('=');
   const auto pixel = parse_numbers(name, text.substr(0, equals));
   const auto point =
       parse_numbers(name, equals == std::string::npos ? "" : text.substr(equals + 1));
   if (pixel && point && pixel->size() == 2 && point->size() == 3) {
-    return PointOption{{(*pixel)[0], (*pixel)[1]}, {(*point)[0], (*point)[1], (*point)[2]}};
+    return KnownPoint{{(*pixel)[0], (*pixel)[1]}, {(*point)[0], (*point)[1], (*point)[2]}};
   }
   return fail("--" + name + " is \"" + text +
               "\"; it must be U,V=X,Y,Z: a pixel and the point that it shows, in mm");
@@ -68,13 +68,13 @@ Result<> set_focal(PlaceCameraOptions& camera, const std::string& value) {
 }
 
 Result<> add_point(PlaceCameraOptions& camera, const std::string& value) {
-  return parse_point("point", value).map([&](const PointOption& point) {
+  return parse_point("point", value).map([&](const KnownPoint& point) {
     camera.points.push_back(point);
   });
 }
 
 Result<> add_view_point(PlaceCameraOptions& camera, const std::string& value) {
-  return parse_point("view-point", value).map([&](const PointOption& point) {
+  return parse_point("view-point", value).map([&](const KnownPoint& point) {
     camera.view_points.push_back(point);
   });
 }
@@ -115,11 +115,11 @@ std::vector<Option> place_options(PlaceOptions& o) {
        "known: the rig's is right (default); unknown; or the\nrig's was measured this exactly, mm",
        [&o](const std::string& value) { return set_centre(o, value); }},
       {"sigma-px", 0, "PX", "how exactly points are marked (default 1)",
-       number_option("sigma-px", o.sigma_px)},
+       number_option("sigma-px", o.precision.sigma_px)},
       {"sigma-mm", 0, "MM", "how exactly points are known (default 1)",
-       number_option("sigma-mm", o.sigma_mm)},
+       number_option("sigma-mm", o.precision.sigma_mm)},
       {"outline-sigma", 0, "PX", "how exactly the ball's outline is known (default 1)",
-       number_option("outline-sigma", o.outline_sigma)},
+       number_option("outline-sigma", o.precision.outline_sigma)},
       {"json", 0, "", "for programs", flag_option(o.json)},
       {"output", 'o', "RIG", "rig file to write, with what was found; may be the same\none",
        text_option(o.output)},

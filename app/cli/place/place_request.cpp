@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "app/alignment/found_outline.h"
 #include "app/alignment/placement.h"
@@ -40,16 +42,17 @@ Result<optics::Outline> outline_of(const PlaceCameraOptions& options,
   return ball->outline;
 }
 
-/// Marks points where the camera's picture has what the view shows: by the way that the view was
-/// made, whether the rig is right or not.
-Result<> mark_in_view(const PlaceOptions& o, const PlaceCameraOptions& options,
-                      const optics::Rig& rig, const optics::RigCamera& known,
-                      align::UnplacedCamera& camera, PlaceRequest& request) {
+/// Adds the pixels at which the camera's picture has what the view shows: by the way that the view
+/// was made, whether the rig is right or not.
+Result<> add_view_points(const PlaceOptions& o, const PlaceCameraOptions& options,
+                         const optics::Rig& rig, const optics::RigCamera& known,
+                         std::vector<KnownPoint>& points) {
+  if (options.view_points.empty()) return {};
   const auto ball = optics::ball_projection(rig, known);
   if (!ball) return tl::unexpected(ball.error());
   const auto view = optics::ViewProjection::make(o.view, *ball);
   if (!view) return tl::unexpected(view.error());
-  for (const PointOption& point : options.view_points) {
+  for (const KnownPoint& point : options.view_points) {
     const auto [u, v] = point.pixel;
     const bool is_inside =
         u >= -0.5 && v >= -0.5 && u < view->width() - 0.5 && v < view->height() - 0.5;
@@ -61,43 +64,35 @@ Result<> mark_in_view(const PlaceOptions& o, const PlaceCameraOptions& options,
            << view->height() << " pixels shows nothing of it at (" << u << ", " << v << ")";
       return fail(text.str());
     }
-    camera.marks.push_back({align::add_point(request, point.point), *pixel});
+    points.push_back({*pixel, point.point});
   }
   return {};
 }
 
-Result<align::UnplacedCamera> unplaced(const PlaceOptions& o, const PlaceCameraOptions& options,
-                                       const optics::Rig& rig, const optics::RigCamera& camera,
-                                       PlaceRequest& request, Progress& progress) {
-  auto begun = unplaced_camera(camera, options.focal_unknown);
-  if (!begun) return tl::unexpected(begun.error());
-  align::UnplacedCamera out = std::move(*begun);
-  std::optional<hal::DecodedPicture> picture;
+Result<> add_camera(const PlaceOptions& o, const PlaceCameraOptions& options,
+                    const optics::Rig& rig, PlaceRequest& request, Progress& progress) {
+  const auto camera = find_camera(rig, options.name);
+  if (!camera) return tl::unexpected(camera.error());
+  auto unplaced = unplaced_camera(*camera, options.focal_unknown);
+  if (!unplaced) return tl::unexpected(unplaced.error());
+  std::optional<hal::DecodedPicture> decoded;
   if (!options.image.empty()) {
-    auto read = picture_of(options.image, camera);
+    auto read = picture_of(options.image, *camera);
     if (!read) return tl::unexpected(read.error());
-    picture = std::move(*read);
+    decoded = std::move(*read);
     progress.begin("looking for the ball in " + options.image.filename().string());
   }
-  const auto outline = outline_of(options, camera, picture ? &picture->picture : nullptr);
+  const Picture* const picture = decoded ? &decoded->picture : nullptr;
+  const auto outline = outline_of(options, *camera, picture);
   if (!outline) return tl::unexpected(outline.error());
-  out.outline = *outline;
-  out.outline_sigma = o.outline_sigma;
-  for (const PointOption& point : options.points) {
-    out.marks.push_back({align::add_point(request, point.point), point.pixel});
-  }
-  if (!options.view_points.empty()) {
-    if (auto marked = mark_in_view(o, options, rig, camera, out, request); !marked) {
-      return tl::unexpected(marked.error());
-    }
-  }
+  unplaced->outline = *outline;
+  unplaced->outline_sigma = o.precision.outline_sigma;
+  std::vector<KnownPoint> points = options.points;
+  if (auto added = add_view_points(o, options, rig, *camera, points); !added) return added;
   if (picture && !o.tags.empty()) {
     progress.begin("looking for tags in " + options.image.filename().string());
-    if (auto marked = align::mark_tags(picture->picture, o.tags, out, request); !marked) {
-      return tl::unexpected(marked.error());
-    }
   }
-  return out;
+  return add_camera(request, std::move(*unplaced), points, picture, o.tags);
 }
 
 }  // namespace
@@ -108,17 +103,11 @@ Result<PlaceRequest> place_request(const PlaceOptions& o, const optics::Rig& rig
   if (!o.tags.empty() && std::ranges::none_of(o.cameras, has_image)) {
     return usage_error("tags are found in pictures: give --image after its --camera");
   }
-  PlaceRequest request;
-  request.centre = {o.centre, rig.ball.centre, o.centre_sigma};
-  request.ball_radius = rig.ball.radius;
-  request.sigma_px = o.sigma_px;
-  request.sigma_mm = o.sigma_mm;
+  auto request = place_request(rig, o.precision, o.centre, o.centre_sigma);
   for (const PlaceCameraOptions& options : o.cameras) {
-    const auto camera = find_camera(rig, options.name);
-    if (!camera) return tl::unexpected(camera.error());
-    auto out = unplaced(o, options, rig, *camera, request, progress);
-    if (!out) return tl::unexpected(out.error());
-    request.cameras.push_back(std::move(*out));
+    if (auto added = add_camera(o, options, rig, request, progress); !added) {
+      return tl::unexpected(added.error());
+    }
   }
   return request;
 }
