@@ -3,91 +3,19 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
-/// Who may include whom: the folders of the architecture, read from the sources themselves.
+#include "tests/architecture/include_rules.h"
+
+/// Who may include whom, read from the sources themselves.
 namespace orbwatch::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Rule {
-  std::string folder;                ///< files below it ...
-  std::vector<std::string> allowed;  ///< ... include our headers in these folders or files only,
-  std::vector<std::string> foreign;  ///< and libraries whose headers start like this
-};
-
-/// A port sees the model and its own folder, never another port.
-std::vector<std::string> port(const std::string& folder) {
-  return {"proc",         "hal",       "app/model",        "app/log.h", "app/recent_log.h",
-          "app/pictures", "app/state", "app/certificates", folder};
-}
-
-// The most specific rule counts. The standard library and the C library are allowed everywhere.
-const std::vector<Rule> kRules{
-    {"proc/image", {"proc/image"}, {"tl/expected"}},
-    {"proc/settings", {"proc/settings"}, {}},
-    {"proc/optics", {"proc/image", "proc/settings", "proc/optics"}, {"tl/expected"}},
-    {"proc/remap", {"proc/image", "proc/settings", "proc/optics", "proc/remap"}, {"tl/expected"}},
-    {"proc/signals",
-     {"proc/image", "proc/settings", "proc/optics", "proc/signals"},
-     {"tl/expected", "opencv2/"}},
-    {"proc/align",
-     {"proc/image", "proc/settings", "proc/optics", "proc/align"},
-     {"tl/expected", "opencv2/", "ceres/", "Eigen/"}},
-    {"hal", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "gpiod", "linux/"}},
-    {"hal/genicam",
-     {"proc/image", "proc/settings", "hal"},
-     {"tl/expected", "arv.h", "arpa/", "netinet/"}},
-    {"hal/jpeg", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "jpeglib", "jerror"}},
-    {"hal/libcamera",
-     {"proc/image", "proc/settings", "hal"},
-     {"tl/expected", "libcamera/", "linux/"}},
-    {"hal/replay", {"proc/image", "proc/settings", "hal"}, {"tl/expected", "opencv2/"}},
-    {"hal/mosaic", {"proc/image", "hal/mosaic"}, {"tl/expected", "opencv2/"}},
-    {"app",
-     {"proc", "hal", "app"},
-     {"opencv2/", "toml++/", "yaml-cpp/", "dds/", "modbus/", "tl/expected"}},
-    {"app/model", {"proc", "hal", "app/model"}, {"tl/expected", "nlohmann/"}},
-    {"app/files", {"proc", "hal", "app"}, {"nlohmann/", "toml++/", "yaml-cpp/", "tl/expected"}},
-    {"app/ports/console", port("app/ports/console"), {"tl/expected"}},
-    {"app/ports/lines", port("app/ports/lines"), {"tl/expected"}},
-    {"app/ports/snapshot", port("app/ports/snapshot"), {"tl/expected"}},
-    {"app/cli", {"proc", "hal", "app"}, {"nlohmann/", "opencv2/", "dds/", "tl/expected"}},
-    {"app/ports/dds", port("app/ports/dds"), {"dds/", "tl/expected"}},
-    {"app/ports/dds/generated", {"app/ports/dds/generated", "dds"}, {}},
-    {"app/ports/dds/security",
-     {"proc/image", "hal", "app/certificates", "app/ports/dds"},
-     {"dds/", "openssl/", "tl/expected"}},
-    {"app/ports/web", port("app/ports/web"), {"nlohmann/", "tl/expected"}},
-    {"app/ports/web/access", port("app/ports/web"), {"nlohmann/", "sodium.h", "tl/expected"}},
-    {"app/ports/web/http",
-     {"proc/image", "proc/settings", "hal", "app/ports/web/http", "app/ports/web/web_settings.h"},
-     {"microhttpd.h", "nlohmann/", "tl/expected"}},
-    {"app/ports/web/status", port("app/ports/web"), {"nlohmann/", "prometheus/", "tl/expected"}},
-    {"app/certificates", {"proc/image", "hal", "app/certificates"}, {"openssl/", "tl/expected"}},
-    {"app/pictures", {"proc", "hal", "app/pictures"}, {"opencv2/", "turbojpeg", "tl/expected"}},
-    {"app/ports/modbus", port("app/ports/modbus"), {"modbus/", "tl/expected"}},
-    {"app/ports/modbus/map",
-     {"proc", "hal", "app/model", "app/ports/modbus/map", "app/ports/modbus/modbus_settings.h",
-      "app/state"},
-     {"tl/expected"}},
-    {"app/ports/modbus/server",
-     {"proc", "hal", "app/ports/modbus/map", "app/ports/modbus/server",
-      "app/ports/modbus/modbus_settings.h"},
-     {"modbus/", "tl/expected"}},
-    {"app/pipeline",
-     {"proc", "hal", "app/model", "app/pipeline", "app/pictures", "app/log.h"},
-     {"tl/expected"}},
-    {"app/simulation", {"proc", "hal", "app/simulation"}, {"tl/expected"}},
-    {"app/service",
-     {"proc", "hal", "app/model", "app/service", "app/log.h", "app/log_writer.h"},
-     {"systemd/", "tl/expected"}},
-    {"app/state", {"proc", "hal", "app/model", "app/log.h", "app/state"}, {"tl/expected"}},
-    {"app/health", {"proc", "hal", "app/model", "app/health", "app/log.h"}, {"tl/expected"}},
-};
 
 bool is_below(const std::string& path, const std::string& folder) {
   return path.starts_with(folder + "/");
@@ -166,6 +94,66 @@ TEST(IncludeDirections, FollowTheArchitecture) {
     const bool standard = !include.quoted && is_standard(include.header);
     EXPECT_TRUE(good || standard || generated) << include.file << " includes " << include.header;
   }
+}
+
+/// Folders below app: its rooms, and each port.
+std::set<std::string> rooms() {
+  std::set<std::string> found;
+  for (const std::string top : {"app", "app/ports"}) {
+    for (const auto& entry : fs::directory_iterator(fs::path(ORBWATCH_SOURCE_DIR) / top)) {
+      if (entry.is_directory()) found.insert(top + "/" + entry.path().filename().string());
+    }
+  }
+  found.erase("app/ports");
+  return found;
+}
+
+TEST(IncludeDirections, KnowEveryRoom) {
+  EXPECT_GT(rooms().size(), 15U);
+  for (const std::string& room : rooms()) {
+    EXPECT_TRUE(std::ranges::any_of(kRules, [&](const Rule& rule) { return rule.folder == room; }))
+        << room << " has no rule of its own in include_rules.h";
+  }
+  for (const Rule& rule : kRules) {
+    EXPECT_TRUE(fs::is_directory(fs::path(ORBWATCH_SOURCE_DIR) / rule.folder)) << rule.folder;
+  }
+}
+
+/// The other rooms of app that a rule allows, as app/README.md lists them: "model, log, pictures".
+std::string may_use(const Rule& rule) {
+  std::string text;
+  std::set<std::string> listed;
+  for (const std::string& allowed : rule.allowed) {
+    if (allowed == "app") return "everything";
+    if (!is_below(allowed, "app") || allowed == rule.folder) continue;
+    std::string name = allowed.substr(4);
+    if (name.ends_with(".h")) name.resize(name.size() - 2);
+    if (name == "log_writer" || name == "recent_log") name = "log";
+    if (!listed.insert(name).second) continue;
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text.empty() ? "itself" : text;
+}
+
+/// The last column of the table of rooms in app/README.md, by folder.
+std::map<std::string, std::string> documented_uses() {
+  static const std::regex kRow(R"rx(^\| `([a-z]+)/` \| .* \| ([^|]+) \|$)rx");
+  std::map<std::string, std::string> uses;
+  std::ifstream in(fs::path(ORBWATCH_SOURCE_DIR) / "app/README.md");
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, kRow)) uses["app/" + match[1].str()] = match[2];
+  }
+  return uses;
+}
+
+TEST(IncludeDirections, AreThoseOfTheReadme) {
+  std::map<std::string, std::string> expected{
+      {"app/ports", may_use({"app/ports", port("app/ports"), {}})}};
+  for (const Rule& rule : kRules) {
+    if (fs::path(rule.folder).parent_path() == "app") expected[rule.folder] = may_use(rule);
+  }
+  EXPECT_EQ(documented_uses(), expected) << "the last column of app/README.md is stale";
 }
 
 TEST(IncludeDirections, TheSimulationSeesNoBallModel) {
