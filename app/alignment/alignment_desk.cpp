@@ -154,7 +154,7 @@ void AlignmentDesk::work() {
   log_camera(finding ? LogLevel::Info : LogLevel::Warning, name(camera), said);
 }
 
-/// As it would be if the camera's proposal were accepted.
+/// The rig that an acceptance of the camera's proposal would put in force.
 Result<optics::Rig> AlignmentDesk::proposed_rig(std::size_t camera) const {
   optics::Rig rig = site_.rig;
   const std::vector<AlignmentProposal>& steps = desks_[camera].steps;

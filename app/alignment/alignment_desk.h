@@ -104,7 +104,7 @@ class AlignmentDesk : public AlignmentSource {
   using Change =
       std::function<void(optics::Outline& outline, std::optional<optics::Mat3>& registration)>;
 
-  /// What is proposed for one camera, under mutex_.
+  /// Proposals for one camera, under mutex_.
   struct Desk {
     std::vector<AlignmentProposal> steps;  ///< the last one counts
     std::string refusal;
@@ -134,15 +134,15 @@ class AlignmentDesk : public AlignmentSource {
 
   const AlignedSite& site_;
   WatchedCameras& watch_;
-  AcceptedAlignments& accepted_;  ///< of whoever has set busy_
+  AcceptedAlignments& accepted_;  ///< used by the caller that has set busy_
   const std::function<void()> restart_;
   const AcceptanceCheck check_acceptance_;
   AlignmentFinder finder_;
   AlignmentPictures pictures_;
   std::array<std::atomic<ProposalState>, kMaxCameras> states_{};
-  std::array<std::atomic<double>, kMaxCameras> direction_sigmas_{};  ///< of the proposals
+  std::array<std::atomic<double>, kMaxCameras> direction_sigmas_{};  ///< proposals'; degrees
   std::array<std::atomic<std::size_t>, kMaxCameras> point_counts_{};
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::array<Desk, kMaxCameras> desks_;
   std::optional<std::size_t> busy_;  ///< the camera that is worked for
   Task task_;

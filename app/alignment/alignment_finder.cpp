@@ -14,10 +14,10 @@
 namespace orbwatch::app {
 namespace {
 
-/// Of both cameras, to register by: enough of a process' light at any usual rate.
+/// Pictures of each camera for a registration: enough of a process' light at any usual rate.
 constexpr std::size_t kPictures = 24;
 constexpr std::size_t kPicturesOfLight = 8;
-/// At a registration: one second's sparks may tell too little, the next are others.
+/// Attempts to register: the sparks of one second may be too few.
 constexpr int kAttempts = 3;
 constexpr std::chrono::seconds kPatience{10};
 

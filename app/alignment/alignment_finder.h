@@ -14,28 +14,28 @@
 namespace orbwatch::app {
 
 /// Finds alignments of a running site's cameras by their next pictures, which takes seconds. `rig`
-/// is what counts until then: it says what an alignment keeps. Every camera is watched.
+/// is the one in force or proposed: an alignment keeps the rest of it. Every camera is watched.
 /// Thread rule: one caller at a time; points() on any thread.
 class AlignmentFinder {
  public:
   /// Both outlive it.
   AlignmentFinder(const AlignedSite& site, WatchedCameras& watch) : site_(site), watch_(watch) {}
 
-  /// By the ball in the picture.
+  /// Alignment by the ball in the picture.
   Result<AlignmentProposal> detect(const optics::Rig& rig, std::size_t camera) const;
-  /// By what it and the first camera see; what refuses it is tried again with the next pictures.
+  /// Registration to the first camera; one that is refused is tried again with the next pictures.
   Result<AlignmentProposal> register_to_first(const optics::Rig& rig, std::size_t camera) const;
-  /// By its drift.
+  /// Alignment that the drift asks for.
   Result<AlignmentProposal> correct(const optics::Rig& rig, std::size_t camera) const;
 
   /// Adds a point where the ball shows the tool's light now, or at `pixel`.
   Result<> mark(const optics::Rig& rig, std::size_t camera, const optics::Vec3& point,
                 const std::optional<optics::Vec2>& pixel);
   void forget_points(std::size_t camera);
-  /// By its points and the site's tags.
+  /// Placement by the camera's points and the site's tags.
   Result<AlignmentProposal> place(const optics::Rig& rig, std::size_t camera);
 
-  /// Those that were marked, and what the newest placement said of them.
+  /// Marked points, with their residuals in the newest placement.
   std::vector<PlacedPoint> points(std::size_t camera) const;
 
  private:

@@ -23,7 +23,7 @@ class AlignmentPictures {
   /// `watch` outlives it.
   explicit AlignmentPictures(WatchedCameras& watch);
 
-  /// As AlignmentSource::request(), through `ball`.
+  /// Requests a picture as AlignmentSource::request() does, through `ball`.
   Result<> request(const AlignmentPicture& picture, const optics::BallProjection& ball,
                    AlignmentSource::OnPicture on_picture, AlignmentSource::IsWanted is_wanted);
   /// Waits for the picture under way and makes no other.
@@ -51,7 +51,7 @@ class AlignmentPictures {
 
   WatchedCameras& watch_;
   std::mutex mutex_;
-  std::array<Queue, kMaxCameras> queues_;  ///< by camera; under mutex_
+  std::array<Queue, kMaxCameras> queues_;  ///< one per camera; under mutex_
   std::deque<Taken> taken_;                ///< under mutex_
   hal::SharedThreads::Work work_;
 };

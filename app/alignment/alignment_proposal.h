@@ -11,7 +11,7 @@ namespace orbwatch::app {
 struct AlignmentProposal {
   CameraAlignment alignment;
   std::string method;
-  std::string quality;                          ///< what is known of its errors
+  std::string quality;                          ///< known errors, for people
   double direction_sigma = signals::kNotValid;  ///< degrees
 };
 

@@ -6,8 +6,8 @@
 
 namespace orbwatch::app {
 
-/// Where one of the rig's cameras stands and where its picture shows ball and scene; without how
-/// that was found. Reentrant. Error: those of align::by_outline.
+/// Place of one of the rig's cameras, and of ball and scene in its picture; without the method by
+/// which it was found. Reentrant. Error: those of align::by_outline.
 Result<CameraAlignmentState> alignment_state(const optics::Rig& rig,
                                              const optics::RigCamera& camera);
 

@@ -37,7 +37,7 @@ Result<> add_camera(align::PlaceRequest& request, align::UnplacedCamera camera,
                     std::span<const KnownPoint> points, const Picture* picture,
                     std::span<const align::PrintedTag> tags);
 
-/// What a placement says of the rig. Reentrant. Error: one with points that were left out.
+/// Alignment of the rig by a placement. Reentrant. Error: points that contradict the others.
 Result<RigAlignment> rig_alignment(const align::PlaceRequest& request,
                                    const align::Placement& placement);
 

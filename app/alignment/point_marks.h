@@ -12,9 +12,9 @@
 
 namespace orbwatch::app {
 
-/// Points to place one camera by, one after the other: somebody says where the picture shows them,
-/// or the machine moves a light to known coordinates; of all the lights that the ball shows it is
-/// the one that has moved. Thread-bound.
+/// Points to place one camera by, one after the other: a user states the pixel, or the machine
+/// moves a light to known coordinates; it is the one that has moved among the lights that the ball
+/// shows. Thread-bound.
 class PointMarks {
  public:
   static constexpr std::size_t kMost = 64;
@@ -39,7 +39,7 @@ class PointMarks {
   struct SeenPoint {
     optics::Vec3 point;
     std::vector<align::SmallLight> lights;
-    std::optional<optics::Vec2> pixel;  ///< where somebody has seen it, without lights
+    std::optional<optics::Vec2> pixel;  ///< stated by a user, without lights
   };
   std::vector<SeenPoint> others(const optics::Vec3& point) const;
   static Result<optics::Vec2> place_of(std::span<const SeenPoint> points, std::size_t index,

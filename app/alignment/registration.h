@@ -23,7 +23,7 @@ Result<align::SimultaneousPictures> simultaneous(std::span<const RecordedPicture
 struct RegistrationSettings {
   align::RegistrationMethod method = align::RegistrationMethod::Auto;
   std::optional<optics::Outline> outline{};  ///< in place of the rig's
-  double outline_sigma = 0;                  ///< as align::SoughtCamera::outline_sigma
+  double outline_sigma = 0;                  ///< see align::SoughtCamera::outline_sigma
 };
 
 /// A camera's registration, and the alignment that it amounts to.

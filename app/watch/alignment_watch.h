@@ -14,7 +14,7 @@
 namespace orbwatch::app {
 
 /// Watches whether one camera still sees the ball where it was aligned. The first good picture
-/// after an alignment is kept as a file: what moves while the appliance is off is seen, too.
+/// after an alignment is kept as a file: a motion while the appliance is off is detected, too.
 /// Thread-bound.
 class AlignmentWatch {
  public:
@@ -27,7 +27,7 @@ class AlignmentWatch {
   /// Sets the figures of the alignment. Logs when the level changes.
   void observe(const Picture& picture, hal::TimePoint stamp, CameraWatchStatus& figures);
 
-  /// What the newest picture said.
+  /// The drift by the newest picture.
   const align::DriftState& drift() const { return drift_; }
 
  private:

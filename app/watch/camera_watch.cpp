@@ -104,7 +104,7 @@ bool CameraWatch::Watched::can_look(const hal::FrameSet& set, std::size_t camera
   return set.frames[camera] && !set.held[camera] && !looking.load(std::memory_order_acquire);
 }
 
-/// Whether all cameras that are recorded can look at it. On a busy computer each would skip others'
+/// True: all cameras that are recorded can look at it. On a busy computer each would skip others'
 /// pictures, and few would be of the same moment.
 bool CameraWatch::can_record(const hal::FrameSet& set) const {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {

@@ -26,7 +26,7 @@ namespace orbwatch::app {
 
 /// Watches the cameras of a site beside the frame path, each on a shared thread: a picture that
 /// comes while the one before is being looked at is not looked at.
-/// Thread rule: as a Sink and as WatchedCameras; figures on any thread.
+/// Thread rule: that of Sink and that of WatchedCameras; figures on any thread.
 class CameraWatch : public Sink, public WatchedCameras {
  public:
   /// Cameras that cannot be watched are named in the log. `folder`: of what must outlast a restart.
@@ -42,7 +42,7 @@ class CameraWatch : public Sink, public WatchedCameras {
   void accept(const ViewPtr& /*view*/) override {}
   void accept(const Status& status) override;
 
-  /// What the newest pictures said, by camera.
+  /// Figures of the newest pictures, by camera.
   std::array<CameraWatchStatus, kMaxCameras> figures() const;
 
   bool is_watched(std::size_t camera) const override {
@@ -62,9 +62,9 @@ class CameraWatch : public Sink, public WatchedCameras {
   void learn_clean_ball(std::size_t camera) { cameras_[camera]->cleaned = true; }
 
  private:
-  /// Pictures for whoever waits for them.
+  /// Pictures for callers of record().
   struct Records {
-    std::mutex mutex;  ///< of what follows and of the cameras' records
+    std::mutex mutex;  ///< guards the members below and the cameras' records
     std::condition_variable added;
     bool is_cancelled = false;
   };
@@ -82,10 +82,10 @@ class CameraWatch : public Sink, public WatchedCameras {
     AlignmentWatch alignment;
     BallWatch ball;
     hal::Frame frame;
-    hal::TimePoint stamp;  ///< of its frame set
+    hal::TimePoint stamp;  ///< its frame set's
     std::atomic<bool> looking{false};
     std::atomic<bool> cleaned{false};
-    mutable hal::PriorityMutex mutex;  ///< of these two, held only while they are copied
+    mutable hal::PriorityMutex mutex;  ///< guards these two, held only while they are copied
     CameraWatchStatus figures;
     std::optional<align::DriftState> drift;
     std::vector<std::function<void(RecordedPicture)>> readers;  ///< under `mutex`, too
@@ -102,7 +102,7 @@ class CameraWatch : public Sink, public WatchedCameras {
   const std::shared_ptr<hal::SharedThreads> threads_;
   std::array<std::atomic<hal::Fault>, kMaxCameras> faults_{};
   Records records_;
-  std::vector<bool> is_registered_;                ///< by camera
+  std::vector<bool> is_registered_;                ///< one per camera
   std::vector<std::unique_ptr<Watched>> cameras_;  ///< null: not watched
 };
 

@@ -8,7 +8,7 @@
 
 namespace orbwatch::app {
 
-/// What is known of a ball in a picture.
+/// A ball in a picture.
 struct DetectedBall {
   int width = 0;  ///< px, of the picture
   int height = 0;

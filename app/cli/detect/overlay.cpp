@@ -11,7 +11,7 @@ namespace orbwatch::app {
 namespace {
 
 const cv::Scalar kColour(0, 255, 0);
-constexpr int kShift = 4;  // of OpenCV's fixed-point coordinates
+constexpr int kShift = 4;  // fraction bits of OpenCV's coordinates
 
 cv::Mat as_rgb(const Picture& picture) {
   const bool is_rgb = picture.format == PixelFormat::Rgb || picture.format == PixelFormat::Rgb16;

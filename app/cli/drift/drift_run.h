@@ -18,11 +18,11 @@ struct DriftSequence {
   std::filesystem::path reference;  ///< on which the alignment was made; empty: the first pictures
 };
 
-/// What became of an alignment over a sequence.
+/// An alignment watched over a sequence.
 struct DriftRun {
   std::size_t frames = 0;
   std::size_t measured = 0;
-  /// Why the others were not, and how many.
+  /// Number of the others, by reason.
   std::map<std::string, std::size_t> not_measured;
   /// Numbers from 0; with its file's name.
   struct Event {
@@ -31,7 +31,7 @@ struct DriftRun {
   };
   std::optional<Event> first_warning;  ///< or alarm
   std::optional<Event> first_alarm;
-  align::DriftState last;  ///< of the last picture; its motion of the last that was measured
+  align::DriftState last;  ///< at the last picture; its motion at the last one that was measured
 };
 
 /// Watches the whole sequence: every JPEG and PNG of the folder, in natural order of their names.

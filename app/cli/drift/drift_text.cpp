@@ -12,7 +12,7 @@ namespace {
 
 using optics::Outline;
 
-/// How the ball's picture moved, pixels.
+/// Motion of the ball's picture, pixels.
 struct Shift {
   Shift(const align::PictureMotion& motion, const Outline& stored)
       : u(motion.u),

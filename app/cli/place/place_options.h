@@ -11,7 +11,7 @@
 
 namespace orbwatch::app {
 
-/// What was given of one camera.
+/// One camera's options.
 struct PlaceCameraOptions {
   std::string name;             ///< in the rig
   std::filesystem::path image;  ///< in which ball and tags are to be found; may be empty

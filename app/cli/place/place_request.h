@@ -7,10 +7,10 @@
 
 namespace orbwatch::app {
 
-/// What is to be solved: the options, with the ball, the lenses and the outlines of the rig, and
-/// the tags, and outlines that it lacks, as pictures show them. Points with the same coordinates
-/// are one point. Error: unknown cameras, no lens, no outline, pictures that cannot be read, are of
-/// another size or show no ball for sure.
+/// The request to be solved: the options, with the ball, the lenses and the outlines of the rig,
+/// and the tags, and outlines that it lacks, as pictures show them. Points with the same
+/// coordinates are one point. Error: unknown cameras, no lens, no outline, pictures that cannot be
+/// read, are of another size or show no ball for sure.
 Result<align::PlaceRequest> place_request(const PlaceOptions& options, const optics::Rig& rig,
                                           Progress& progress);
 

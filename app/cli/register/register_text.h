@@ -6,7 +6,7 @@
 
 namespace orbwatch::app {
 
-/// Two cameras of a rig, and how the second one stands to the first.
+/// Two cameras of a rig, and the second one's registration to the first.
 struct RegisteredCamera {
   std::string reference;
   std::string camera;

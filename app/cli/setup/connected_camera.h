@@ -8,7 +8,7 @@
 
 namespace orbwatch::app {
 
-/// Where a camera's pictures come from, and its name, if that is known.
+/// Source of a camera's pictures, and its name, if that is known.
 struct CameraSource {
   std::string name;
   BackEndSettings back_end;

@@ -8,7 +8,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// What a camera delivers until there is enough. Callbacks come on the camera's thread.
+/// Records a camera until there are enough pictures. Callbacks come on the camera's thread.
 class Recorder {
  public:
   Recorder(hal::Camera& camera, std::size_t count) : camera_(camera), count_(count) {}
@@ -66,7 +66,7 @@ class Recorder {
 
   hal::Camera& camera_;
   const std::size_t count_;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable changed_;
   CameraRecord record_;
   std::string fault_;

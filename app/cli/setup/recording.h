@@ -12,8 +12,8 @@
 
 namespace orbwatch::app {
 
-/// What a camera delivered. The pictures' time is, of a replayed recording, since its first one,
-/// else on the steady clock.
+/// Pictures that a camera delivered. Their time is on the steady clock, that of a replayed
+/// recording since its first picture.
 struct CameraRecord {
   hal::StreamFormat format;
   std::vector<RecordedPicture> pictures;  ///< at least one

@@ -56,7 +56,7 @@ Result<> detect_balls(Setup& setup, const std::filesystem::path& folder, Progres
   return fail("no camera shows a ball: " + setup.missing.front());
 }
 
-/// Where the ball is, by a camera whose place is known.
+/// The ball's centre, by a camera whose place is known.
 Result<optics::Vec3> ball_centre(const SetupCamera& camera, double ball_radius) {
   if (!camera.lens) {
     return fail(camera.name + ": a pose needs the lens; give --calibration " + camera.name +
@@ -128,7 +128,7 @@ Result<align::SimultaneousPictures> together(const Setup& setup, std::size_t cam
   return simultaneous(first.pictures, other.pictures, hal::period_of(slower) / 2);
 }
 
-/// How a camera stands to the first one.
+/// The registration of a camera to the first one.
 Result<optics::Mat3> registration(const Setup& setup, std::size_t camera, Progress& progress) {
   const optics::Rig rig = rig_of(setup);
   const auto pictures = together(setup, camera);
@@ -169,7 +169,7 @@ std::optional<optics::Box> found_box(const Setup& setup, std::size_t camera) {
   if (!pictures || !first || !second) return std::nullopt;
   const auto found = align::find_standing_box({pictures->reference.front(), *first},
                                               {pictures->camera.front(), *second}, rig.scene);
-  if (!found) return std::nullopt;  // what is stated stands
+  if (!found) return std::nullopt;  // the stated scene stands
   return found->box;
 }
 

@@ -37,7 +37,7 @@ struct NamedBox {
   std::string remark;  ///< for people; empty: as stated
 };
 
-/// A site in the making: what is known, what was found out, and what is still missing.
+/// A site in the making: stated facts, found ones, and missing ones.
 struct Setup {
   double ball_radius = 0;  ///< mm
   std::optional<optics::Vec3> ball_centre;
@@ -55,7 +55,7 @@ bool is_placed(const Setup& setup, const SetupCamera& camera);
 /// Names of the cameras that are not placed, then of those without a ball.
 std::vector<std::string> left_out(const Setup& setup);
 
-/// What a camera without lens and distance is taken to have, ball radii.
+/// Assumed distance of a camera without lens and distance, ball radii.
 inline constexpr double kAssumedDistance = 12;
 
 /// The rig as far as it is known.

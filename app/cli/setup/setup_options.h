@@ -23,10 +23,10 @@ struct SetupOptions {
 /// The options; they write into `options`, which outlives them.
 std::vector<Option> setup_options(SetupOptions& options);
 
-/// What the options say of ball and machine. Error: a missing or impossible value.
+/// Reads the options about ball and machine. Error: a missing or impossible value.
 Result<> read_machine(const SetupOptions& options, Setup& setup);
 
-/// What the options say of the cameras of `setup`, which have their names and records. Error: also
+/// Reads the options about the cameras of `setup`, which have their names and records. Error: also
 /// an option for no camera.
 Result<> read_cameras(const SetupOptions& options, Setup& setup);
 

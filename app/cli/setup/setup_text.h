@@ -7,7 +7,7 @@
 
 namespace orbwatch::app {
 
-/// What was found out for a site and what is missing, for people. Both reentrant.
+/// Found and missing facts of a site, for people. Both reentrant.
 std::string setup_text(const Setup& setup, const std::filesystem::path& site);
 
 /// The same as one JSON document.

@@ -147,7 +147,7 @@ Result<> write_site(const Setup& setup, const std::filesystem::path& folder) {
       .and_then([&] { return hal::write_file(folder / kSiteFile, site_text(setup), kAccess); });
 }
 
-/// Whether the daemon would run it.
+/// Checks that the daemon would run it.
 Result<> check_written(const std::filesystem::path& folder) {
   return resolve(folder / kSiteFile).and_then([](const Resolved& site) {
     return check_site(site, Dates::Ignored);

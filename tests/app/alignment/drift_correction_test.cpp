@@ -34,7 +34,7 @@ optics::Vec2 pixel(const optics::Rig& rig) {
   return pixel.value_or(optics::Vec2{});
 }
 
-/// What the rig's camera sees after it was turned, and that drift.
+/// The rig after its camera was turned, and that drift.
 struct Turned {
   optics::Rig rig = drifting_rig();
   align::DriftState drift;

@@ -78,7 +78,7 @@ class RegisteredAlignment : public testing::Test {
     registration.rotation = optics::rotation({3, -2, 1}) * sought.camera.registration;
   }
 
-  /// Where the rig's camera shows a direction, after `alignment`.
+  /// The pixel that shows a direction after `alignment`.
   std::optional<optics::Vec2> shown(const CameraAlignment& alignment) const {
     optics::Rig aligned = rig;
     EXPECT_TRUE(apply({.cameras = {alignment}}, aligned));

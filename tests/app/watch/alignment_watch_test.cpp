@@ -43,7 +43,7 @@ class AlignmentWatchTest : public testing::Test {
     return std::move(*made);
   }
 
-  /// What a watch says after a second of a picture at 10 per second.
+  /// The figures after a second of a picture at 10 per second.
   CameraWatchStatus after_a_second(AlignmentWatch& watch, const cv::Mat& pixels) {
     CameraWatchStatus figures;
     for (int n = 0; n < 10; ++n) {
