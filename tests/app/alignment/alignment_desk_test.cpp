@@ -1,0 +1,124 @@
+#include "app/alignment/alignment_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/alignment/found_outline.h"
+#include "tests/app/alignment/rig_with_pose.h"
+#include "tests/support/picture_of_mat.h"
+
+namespace orbwatch::app {
+namespace {
+
+using orbwatch::tests::picture_of_mat;
+
+/// Watched cameras that deliver one picture again and again.
+class OnePicture : public WatchedCameras {
+ public:
+  explicit OnePicture(cv::Mat picture) : picture_(std::move(picture)) {}
+
+  bool is_watched(std::size_t /*camera*/) const override { return true; }
+  hal::Fault fault(std::size_t /*camera*/) const override { return hal::Fault::None; }
+  std::optional<align::DriftState> drift(std::size_t /*camera*/) const override { return {}; }
+  void ask(std::size_t /*camera*/, std::function<void(RecordedPicture)> reader) override {
+    reader(copied(picture_of_mat(picture_), {}));
+  }
+  Result<std::vector<std::vector<RecordedPicture>>> record(
+      const std::vector<std::size_t>& cameras, std::size_t count,
+      std::chrono::seconds /*patience*/) override {
+    std::vector<std::vector<RecordedPicture>> records(cameras.size());
+    for (auto& record : records) {
+      for (std::size_t n = 0; n < count; ++n) {
+        record.push_back(copied(picture_of_mat(picture_), std::chrono::seconds(n)));
+      }
+    }
+    return records;
+  }
+  void cancel_records() override {}
+  const std::shared_ptr<hal::SharedThreads>& threads() const override { return threads_; }
+
+ private:
+  cv::Mat picture_;
+  const std::shared_ptr<hal::SharedThreads> threads_ = hal::SharedThreads::alone();
+};
+
+class KeptEntries : public AcceptedAlignments {
+ public:
+  Result<int> add(CalibrationEntry entry) override {
+    entries.push_back(std::move(entry));
+    return static_cast<int>(entries.size());
+  }
+  Result<std::optional<CalibrationEntry>> before(const std::string& /*camera*/) const override {
+    return std::optional<CalibrationEntry>();
+  }
+  bool is_young(const std::string& /*camera*/, std::chrono::minutes /*age*/) const override {
+    return false;
+  }
+
+  std::vector<CalibrationEntry> entries;
+};
+
+cv::Mat noise_of(int height, int width) {
+  cv::Mat noise(height, width, CV_8U);
+  cv::theRNG().state = 5;
+  cv::randn(noise, 120, 30);
+  return noise;
+}
+
+class AlignmentDeskTest : public testing::Test {
+ protected:
+  AlignmentDeskTest() {
+    site.rig = tests::rig_with_pose({100, -540, 440});
+    site.cameras.push_back({"a", 0, {}});
+    desk.emplace(
+        site, watch, accepted, [this] { ++restarts; }, [](const auto&) { return Result<>(); });
+  }
+
+  AlignmentReport report_after_work() {
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    AlignmentReport report = desk->report(0);
+    while (report.state == ProposalState::Working && std::chrono::steady_clock::now() < give_up) {
+      std::this_thread::yield();
+      report = desk->report(0);
+    }
+    return report;
+  }
+
+  const cv::Mat noise = noise_of(300, 400);
+  OnePicture watch{noise};
+  KeptEntries accepted;
+  AlignedSite site;
+  int restarts = 0;
+  std::optional<AlignmentDesk> desk;
+};
+
+TEST_F(AlignmentDeskTest, RefusesAnUnsureBallInTheWordingOfEveryCommand) {
+  ASSERT_EQ(desk->detect(0), CommandResult::Done);
+  const AlignmentReport report = report_after_work();
+  EXPECT_EQ(report.state, ProposalState::Refused);
+  const auto found = found_outline(picture_of_mat(noise));
+  ASSERT_FALSE(found);
+  EXPECT_EQ(report.refusal, found.error().message);
+  EXPECT_EQ(desk->accept(0), CommandResult::NotPossible);
+  EXPECT_TRUE(accepted.entries.empty());
+}
+
+TEST_F(AlignmentDeskTest, PutsAStatedAlignmentInForceByTheRecordAndARestart) {
+  ASSERT_TRUE(desk->report(0).in_force);
+  const optics::Vec2 centre = desk->report(0).in_force->outline.centre;
+  ASSERT_EQ(desk->move_outline(0, {centre.u + 3, centre.v}), CommandResult::Done);
+  ASSERT_EQ(desk->accept(0), CommandResult::Done);
+  ASSERT_EQ(accepted.entries.size(), 1U);
+  EXPECT_EQ(accepted.entries[0].method, "outline by hand");
+  EXPECT_EQ(camera_of(accepted.entries[0]).camera, "a");
+  EXPECT_NEAR(camera_of(accepted.entries[0]).outline->centre.u, centre.u + 3, 1e-9);
+  EXPECT_EQ(restarts, 1);
+  EXPECT_FALSE(desk->report(0).proposed);
+}
+
+}  // namespace
+}  // namespace orbwatch::app
