@@ -19,7 +19,7 @@ struct CalibrationEntry {
   /// Checksum of the rig file and its lenses that the alignment is for: it corrects no other. See
   /// rig_checksum().
   std::uint32_t rig = 0;
-  RigAlignment alignment;  ///< of one camera; none: as the rig file has it
+  RigAlignment alignment;  ///< one camera's; without members: the rig file counts
 };
 
 /// The one camera of an entry. Reentrant.

@@ -17,11 +17,11 @@ struct TagSettings {
   align::PrintedTag tag() const { return {id, align::tag_corners(size, centre, right, down)}; }
 };
 
-/// How exactly known what cameras are placed by is, one sigma.
+/// Standard deviations of the facts that cameras are placed by.
 struct PlacePrecision {
-  double sigma_px = 1;       ///< of points as pictures show them
-  double sigma_mm = 1;       ///< of points' coordinates
-  double outline_sigma = 1;  ///< of the ball's outline, px
+  double sigma_px = 1;       ///< points as marked in a picture
+  double sigma_mm = 1;       ///< points' coordinates
+  double outline_sigma = 1;  ///< the ball's outline, px
 };
 
 /// The command place_camera's settings, beside the points that were marked by command.
@@ -33,7 +33,8 @@ inline constexpr std::size_t kMaxTags = 64;
 
 template <class Visitor>
 void visit(Visitor& v, TagSettings& tag) {
-  v.required("id", tag.id, Range::between(0, align::kTagIds - 1), "Of the family 36h11");
+  v.required("id", tag.id, Range::between(0, align::kTagIds - 1),
+             "Number of the tag in the family 36h11");
   v.required("size", tag.size, Range::above(0, 100000), "Side of its black border, mm");
   v.required("centre", tag.centre, kAnyNumber, "mm, machine frame");
   v.required("right", tag.right, kAnyNumber,
@@ -45,11 +46,11 @@ void visit(Visitor& v, TagSettings& tag) {
 template <class Visitor>
 void visit(Visitor& v, PlaceSettings& place) {
   v.optional("sigma_px", place.sigma_px, Range::above(0, 1000),
-             "How exactly points are seen in the picture, one sigma, px");
+             "Standard deviation of points as marked in the picture, px");
   v.optional("sigma_mm", place.sigma_mm, Range::between(0, 1000),
-             "How exactly their coordinates are known, one sigma, mm");
+             "Standard deviation of their coordinates, mm");
   v.optional("outline_sigma", place.outline_sigma, Range::above(0, 1000),
-             "How exactly the outline of the ball that is in force is known, one sigma, px");
+             "Standard deviation of the ball's outline that is in force, px");
   v.tables("tag", place.tags, 0, kMaxTags, "Printed AprilTags that the ball shows");
   for (std::size_t i = 0; i < place.tags.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

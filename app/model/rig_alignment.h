@@ -9,7 +9,7 @@
 
 namespace orbwatch::app {
 
-/// Result of an alignment for a camera of a rig; other values are kept.
+/// An alignment of one camera of a rig; members without a value stay as they are in the rig.
 struct CameraAlignment {
   std::string camera;
   std::optional<optics::Outline> outline{};
@@ -19,7 +19,7 @@ struct CameraAlignment {
   std::optional<optics::Intrinsics> intrinsics{};
 };
 
-/// Result of an alignment for a rig.
+/// An alignment of a rig.
 struct RigAlignment {
   std::optional<optics::Vec3> ball_centre{};  ///< machine frame, mm
   std::vector<CameraAlignment> cameras{};

@@ -5,13 +5,13 @@
 
 namespace orbwatch::app {
 
-/// From where on a figure warns and alarms; 0: it does not.
+/// Values from which a figure warns and alarms; 0: never.
 struct WatchLimits {
   double warning = 0;
   double alarm = 0;
 };
 
-/// What is watched of a camera, and its limits.
+/// Watching of a camera, and its limits.
 struct WatchSettings {
   bool enabled = true;
   align::DriftLimits drift;
