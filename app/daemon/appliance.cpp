@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "app/daemon/aligned_site.h"
+#include "app/daemon/assumptions.h"
+#include "app/daemon/build.h"
 #include "app/daemon/cameras.h"
+#include "app/daemon/site_plan.h"
 #include "app/health/board_health.h"
 #include "app/log.h"
 #include "hal/thread/scheduling.h"
@@ -66,15 +69,21 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   for (const std::string& refusal : grants.refusals) log_line(LogLevel::Warning, refusal);
   std::unique_ptr<Appliance> made(new Appliance(site));
   Appliance& all = *made;
-  auto plan = open_cameras(site, *all.lines_);
+  auto opened = open_cameras(site);
+  if (!opened) return tl::unexpected(opened.error());
+  const auto planned = SitePlan::make(site, opened->formats);
+  if (!planned) return tl::unexpected(planned.error());
+  auto plan = build(site, *planned);
   if (!plan) return tl::unexpected(plan.error());
+  add_cameras(*plan, std::move(*opened), site, *all.lines_);
   plan->background = all.background_;
   // It must not delay the pictures that somebody waits for.
   all.watch_.emplace(all.aligned_, site.site.state_folder, hal::SharedThreads::alone("watch"));
   all.alignment_.emplace(all.aligned_, *all.watch_, all.accepted_, restart.request,
                          std::move(check_acceptance));
+  all.assumptions_ = app::assumptions(site, *planned);
   all.interfaces_.emplace(
-      site, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
+      site, *planned, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
       all.record_, all.background_, all.snapshots(), &*all.alignment_, std::move(program));
   plan->surroundings = [&all, grants](hal::TimePoint now) {
     return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/alignment/alignment_desk.h"
@@ -51,6 +52,9 @@ class Appliance {
   /// thread.
   void report_refused_configuration() { configuration_refused_ = true; }
 
+  /// See assumptions(), for what the cameras delivered at the start.
+  const std::vector<std::string>& assumptions() const { return assumptions_; }
+
   /// What is missing, to be tried again by the owner when it is due.
   Attempts& attempts() { return attempts_; }
 
@@ -71,6 +75,7 @@ class Appliance {
   HealthSampler health_;
   std::optional<Pipeline> pipeline_;  ///< outlives the lines, which trigger its cameras
   const std::shared_ptr<Lines> lines_;
+  std::vector<std::string> assumptions_;
   std::vector<hal::Camera*> cameras_;  ///< the pipeline's
   CameraSet absent_;
   std::optional<SnapshotSink> snapshots_;

@@ -4,7 +4,6 @@
 #include <thread>
 #include <utility>
 
-#include "app/daemon/build.h"
 #include "app/daemon/configuration_choice.h"
 #include "app/daemon/installed_configuration.h"
 #include "app/daemon/interfaces.h"
@@ -68,7 +67,7 @@ Result<> ApplianceThread::run() {
     publish(nullptr);
     return started;
   }
-  for (const std::string& line : assumptions(chosen->site)) log_line(LogLevel::Info, line);
+  for (const std::string& line : (*appliance)->assumptions()) log_line(LogLevel::Info, line);
   keep(*chosen);
   restarts.begin_run();
   if (chosen->trial) files->set_trial_end(restarts.trial_end());

@@ -133,27 +133,28 @@ hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Reso
   return *format;
 }
 
-Result<PipelinePlan> open_cameras(const Resolved& site, Lines& lines) {
-  auto cameras = make_cameras(site);
-  if (!cameras) return tl::unexpected(cameras.error());
-  CameraSet absent;
-  std::vector<hal::StreamFormat> formats;
-  for (std::size_t i = 0; i < cameras->size(); ++i) {
-    const auto format = open_camera(*(*cameras)[i], site, i);
-    absent[i] = !format;
-    formats.push_back(format.value_or(expected_format(site, i)));
-  }
-  auto plan = build(site, std::move(formats));
-  if (!plan) return plan;
-  for (std::size_t i = 0; i < cameras->size(); ++i) {
+Result<OpenedCameras> open_cameras(const Resolved& site) {
+  return make_cameras(site).map([&](std::vector<std::unique_ptr<hal::Camera>> cameras) {
+    OpenedCameras opened;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const auto format = open_camera(*cameras[i], site, i);
+      opened.absent[i] = !format;
+      opened.formats.push_back(format.value_or(expected_format(site, i)));
+    }
+    opened.cameras = std::move(cameras);
+    return opened;
+  });
+}
+
+void add_cameras(PipelinePlan& plan, OpenedCameras opened, const Resolved& site, Lines& lines) {
+  for (std::size_t i = 0; i < opened.cameras.size(); ++i) {
     const CameraSettings& settings = site.site.cameras[i];
-    plan->triggers.push_back(
-        lines.trigger(settings.trigger, settings.trigger_source, *(*cameras)[i]));
+    plan.triggers.push_back(
+        lines.trigger(settings.trigger, settings.trigger_source, *opened.cameras[i]));
   }
-  plan->cameras = std::move(*cameras);
-  plan->absent = absent;
-  plan->process_inputs = lines.process_inputs();
-  return plan;
+  plan.cameras = std::move(opened.cameras);
+  plan.absent = opened.absent;
+  plan.process_inputs = lines.process_inputs();
 }
 
 hal::DeviceResult<> take_up(const Resolved& site, std::size_t index, hal::Camera& camera,

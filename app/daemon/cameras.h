@@ -26,9 +26,18 @@ Result<std::vector<std::unique_ptr<hal::Camera>>> make_cameras(const Resolved& s
 hal::DeviceResult<hal::StreamFormat> open_camera(hal::Camera& camera, const Resolved& site,
                                                  std::size_t index);
 
-/// Makes and opens the site's cameras, joins them with their trigger `lines`, and plans the
-/// pipeline for what they deliver. A camera that cannot be opened is absent. Error: the files.
-Result<PipelinePlan> open_cameras(const Resolved& site, Lines& lines);
+/// The cameras of a site as they are at the start.
+struct OpenedCameras {
+  std::vector<std::unique_ptr<hal::Camera>> cameras;  ///< in the site's order
+  std::vector<hal::StreamFormat> formats;  ///< what they deliver; the expected one of an absent one
+  CameraSet absent;                        ///< those that could not be opened
+};
+
+/// Makes and opens the site's cameras. Error: the files.
+Result<OpenedCameras> open_cameras(const Resolved& site);
+
+/// Gives the pipeline its cameras, joined with their trigger `lines`, and its process inputs.
+void add_cameras(PipelinePlan& plan, OpenedCameras opened, const Resolved& site, Lines& lines);
 
 /// Opens an absent camera and has the pipeline take it up; compiles its views first where it
 /// delivers another format than was expected. On the main thread. The error is also the camera's

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "app/daemon/build.h"
+#include "app/daemon/site_check.h"
 #include "app/daemon/view_memory.h"
 #include "app/files/site_file.h"
 #include "app/log.h"

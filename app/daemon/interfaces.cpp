@@ -6,42 +6,13 @@
 #include <string_view>
 #include <utility>
 
-#include "app/daemon/build.h"
+#include "app/daemon/published.h"
 #include "app/model/fleet.h"
 
 namespace orbwatch::app {
 namespace {
 
-/// As PublishedView has it. Null for other views; what the rig makes impossible, build() refuses.
-std::shared_ptr<const optics::ViewProjection> ball_of(const Resolved& site,
-                                                      const ViewSettings& view) {
-  if (view.kind != optics::ViewKind::Ball) return nullptr;
-  const SourceSettings& source = view.sources.front();
-  const auto ball = optics::ball_projection(site.rig, site.rig_camera(source.camera.index));
-  if (!ball) return nullptr;
-  auto projection = optics::ViewProjection::make(view.spec(), *ball);
-  if (!projection) return nullptr;
-  return std::make_shared<const optics::ViewProjection>(std::move(*projection));
-}
-
-PublishedSource published(const Resolved& site, const SourceSettings& source) {
-  const CameraSettings& camera = site.site.cameras[source.camera.index];
-  return {camera.name, source.colour_map, range_of(source), camera.radiometry.is_radiometric()};
-}
-
-/// As a measured view.
-PublishedView published(const Resolved& site, const ViewSettings& view) {
-  PublishedView published_view;
-  published_view.encoding = view.encoding;
-  published_view.spec = view.spec();
-  published_view.ball = ball_of(site, view);
-  for (const SourceSettings& source : view.sources) {
-    published_view.sources.push_back(published(site, source));
-  }
-  return published_view;
-}
-
-SinkContext make_context(const Resolved& site, CommandHandler handler,
+SinkContext make_context(const Resolved& site, const SitePlan& plan, CommandHandler handler,
                          std::shared_ptr<CommandRecord> record,
                          std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
                          Program program) {
@@ -53,25 +24,11 @@ SinkContext make_context(const Resolved& site, CommandHandler handler,
   context.state_folder = site.site.state_folder;
   context.alignment = alignment;
   context.program = std::move(program);
-  // Files that make an impossible scene or recipe were refused by build().
-  context.recipes = measured_recipes(site).value_or(std::vector<MeasuredRecipe>());
-  context.ball = site.rig.ball;
-  context.scene =
-      optics::SceneProxy::make(site.rig.scene, site.rig.ball).value_or(optics::SceneProxy());
-  context.views.resize(site.names.views.size());
-  for (const ViewSettings& view : site.site.views) {
-    PublishedView& display = context.views[view.index];
-    display = published(site, view);
-    display.measured = false;
-    display.is_own_picture = view.kind == optics::ViewKind::Ball && view.sources.size() == 1;
-    display.mixes = view.combine != Combine::Switch && view.sources.size() > 1;
-  }
-  for (const Recipe& recipe : site.recipes) {
-    for (const ViewSettings& view : recipe.views) context.views[view.index] = published(site, view);
-  }
-  for (std::size_t i = 0; i < site.site.cameras.size(); ++i) {
-    context.cameras.push_back({site.site.cameras[i].encoding, site.rig_camera(i).intrinsics});
-  }
+  context.recipes = measured_recipes(site, plan);
+  context.ball = plan.scene.ball;
+  context.scene = plan.scene.proxy;
+  context.views = published_views(site, plan);
+  context.cameras = published_cameras(site);
   return context;
 }
 
@@ -100,11 +57,11 @@ std::string commanders_text(const SinkSettings& sinks) {
   return "takes commands " + (text.empty() ? "from nobody" : text);
 }
 
-Interfaces::Interfaces(const Resolved& site, CommandHandler handler,
+Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandHandler handler,
                        std::shared_ptr<CommandRecord> record,
                        std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
                        AlignmentSource* alignment, Program program) {
-  SinkContext context = make_context(site, std::move(handler), std::move(record),
+  SinkContext context = make_context(site, plan, std::move(handler), std::move(record),
                                      std::move(background), alignment, std::move(program));
   context.tables = [this] { return tables(); };
   context.metrics = [this] { return metrics(); };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/daemon/attempts.h"
+#include "app/daemon/site_plan.h"
 #include "app/files/resolve.h"
 #include "app/model/command.h"
 #include "app/model/program.h"
@@ -41,9 +42,9 @@ class Interfaces {
  public:
   /// Makes the enabled ones. `handler` carries commands out, noted in `record`; `background`
   /// encodes; `snapshots` and `alignment` are the caller's and outlive this; null: none.
-  Interfaces(const Resolved& site, CommandHandler handler, std::shared_ptr<CommandRecord> record,
-             std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
-             AlignmentSource* alignment = nullptr, Program program = {});
+  Interfaces(const Resolved& site, const SitePlan& plan, CommandHandler handler,
+             std::shared_ptr<CommandRecord> record, std::shared_ptr<hal::SharedThreads> background,
+             SnapshotSink* snapshots, AlignmentSource* alignment = nullptr, Program program = {});
 
   /// Starts them, with those that cannot be opened among the `attempts`.
   void start(Attempts& attempts, hal::TimePoint now);

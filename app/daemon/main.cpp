@@ -13,8 +13,9 @@
 #include <string>
 #include <utility>
 
-#include "app/daemon/build.h"
+#include "app/daemon/assumptions.h"
 #include "app/daemon/interfaces.h"
+#include "app/daemon/site_check.h"
 #include "app/daemon/supervision.h"
 #include "app/exit_status.h"
 #include "app/files/resolve.h"
@@ -78,8 +79,8 @@ std::optional<Arguments> parse(int argc, char** argv, ExitStatus& status) {
 Result<> check(const std::filesystem::path& file) {
   const auto site = resolve(file);
   if (!site) return tl::unexpected(site.error());
-  return check_site(*site, Dates::Checked).map([&] {
-    for (const std::string& line : assumptions(*site)) log_line(LogLevel::Info, line);
+  return checked_plan(*site, Dates::Checked).map([&](const SitePlan& plan) {
+    for (const std::string& line : assumptions(*site, plan)) log_line(LogLevel::Info, line);
     log_line(LogLevel::Info, commanders_text(site->site.sinks));
   });
 }

@@ -1,7 +1,7 @@
 #include "app/daemon/new_configuration.h"
 
-#include "app/daemon/build.h"
 #include "app/daemon/replaceable_file.h"
+#include "app/daemon/site_check.h"
 #include "app/files/resolve.h"
 #include "app/files/text_difference.h"
 

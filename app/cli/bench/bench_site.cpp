@@ -6,8 +6,8 @@
 #include <utility>
 #include <variant>
 
-#include "app/daemon/build.h"
 #include "app/daemon/cameras.h"
+#include "app/daemon/site_plan.h"
 
 namespace orbwatch::app {
 namespace {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "app/cli/doctor/program_output.h"
-#include "app/daemon/build.h"
+#include "app/daemon/site_check.h"
 #include "app/files/resolve.h"
 #include "app/health/board_health.h"
 #include "app/health/system_file.h"

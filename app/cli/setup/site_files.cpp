@@ -4,7 +4,7 @@
 
 #include "app/cli/detect/overlay.h"
 #include "app/cli/staged_folder.h"
-#include "app/daemon/build.h"
+#include "app/daemon/site_check.h"
 #include "app/files/camera_calibration.h"
 #include "app/files/resolve.h"
 #include "app/files/toml_text.h"

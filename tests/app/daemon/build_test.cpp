@@ -15,10 +15,6 @@
 namespace orbwatch::app {
 namespace {
 
-constexpr std::size_t kThermalCamera = 1;
-
-Recipe& first(Resolved& site) { return site.recipes.front(); }
-
 std::vector<hal::StreamFormat> formats(const Resolved& site) {
   std::vector<hal::StreamFormat> formats;
   for (const CameraSettings& camera : site.site.cameras) {
@@ -30,6 +26,12 @@ std::vector<hal::StreamFormat> formats(const Resolved& site) {
                        camera.radiometry.kelvin_per_count});
   }
   return formats;
+}
+
+Result<PipelinePlan> built(const Resolved& site) {
+  return SitePlan::make(site, formats(site)).and_then([&](const SitePlan& plan) {
+    return build(site, plan);
+  });
 }
 
 /// A set with a picture of the thermal camera, in which every pixel differs from its neighbours.
@@ -50,7 +52,7 @@ hal::FrameSet noisy_set(const hal::StreamFormat& format) {
 
 std::vector<RegionStatus> measured(const Resolved& site) {
   const auto streams = formats(site);
-  auto plan = build(site, streams);
+  auto plan = built(site);
   EXPECT_TRUE(plan) << plan.error().message;
   if (!plan) return {};
   CompiledRecipe& recipe = *plan->recipes.front();
@@ -136,7 +138,7 @@ TEST(Build, AlarmsOnWhatNeverHasAValueAreRefused) {
     alarm.high_alarm = 1;
     region.alarms = {{alarm}};
     spoil(site, region);
-    const auto plan = build(site, formats(site));
+    const auto plan = built(site);
     return plan ? "none" : plan.error().message;
   };
   const auto expect = [&](const std::string& signal, const std::string& what, auto spoil) {
@@ -153,29 +155,6 @@ TEST(Build, AlarmsOnWhatNeverHasAValueAreRefused) {
   EXPECT_EQ(refusal("hot_spot_pixels", [](auto&, auto&) {}), "none");
 }
 
-TEST(Build, LimitsOfHotSpotsAreAssumedWhereTheRecipeStatesNone) {
-  Resolved site = demo();
-  RegionOfInterest& region = first(site).regions.front();
-  region.hot_spot_min_area.reset();
-  region.hot_spot_max_speed.reset();
-  auto said = assumptions(site);
-  ASSERT_FALSE(said.empty());
-  EXPECT_THAT(said.front(),
-              testing::HasSubstr("region " + region.name + ": assumes hot_spot_min_area = "));
-  EXPECT_THAT(said.front(), testing::HasSubstr("hot_spot_max_speed = 200.0 mm/s"));
-  const std::size_t all = said.size();
-  region.hot_spot_min_area = 60;
-  said = assumptions(site);
-  EXPECT_THAT(said.front(), testing::HasSubstr("assumes hot_spot_max_speed"));
-  region.hot_spot_max_speed = 1000;
-  EXPECT_EQ(assumptions(site).size(), all - 1) << "all is stated";
-  site.rig.scene = {};
-  region.hot_spot_min_area.reset();
-  region.hot_spot_max_speed.reset();
-  for (RegionOfInterest& any : first(site).regions) any.alarms.clear();
-  EXPECT_TRUE(assumptions(site).empty()) << "no surface is known";
-}
-
 TEST(Build, ARegionBehindTheBallIsRefused) {
   Resolved site = demo();
   MeasuredViewSettings& view = first(site).views[0];
@@ -184,7 +163,7 @@ TEST(Build, ARegionBehindTheBallIsRefused) {
   view.h_fov = 6;
   first(site).regions[0].points.clear();
   const auto refusal = [&] {
-    const auto plan = build(site, formats(site));
+    const auto plan = built(site);
     return plan ? "none" : plan.error().message;
   };
   EXPECT_THAT(refusal(), testing::HasSubstr("that the measured camera sees"));
@@ -205,7 +184,7 @@ TEST(Build, EachHasItsNumberItsViewsAndItsControls) {
   site.site.recipes.back().number = 7;
   const auto resolved = resolve_references(site, "site.toml");
   ASSERT_TRUE(resolved) << resolved.error().message;
-  const auto plan = build(site, formats(site));
+  const auto plan = built(site);
   ASSERT_TRUE(plan) << plan.error().message;
   ASSERT_EQ(plan->recipes.size(), 2U);
   const RecipePlan& one = plan->recipes[0]->plan();
@@ -233,83 +212,9 @@ TEST(Build, TheProcessInputIsCountedAmongTheProcessInputs) {
   first(site).process_active = ActiveSource::Input;
   first(site).process_input.name = "laser";
   ASSERT_TRUE(resolve_references(site, "site.toml"));
-  const auto plan = build(site, formats(site));
+  const auto plan = built(site);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->recipes[0]->plan().process_input, 1U);
-}
-
-TEST(Check, WhatIsShippedCanRunAndTheReferenceMachine) {
-  for (const char* file : {"demo.toml", "usb-camera.toml", "gige-camera.toml",
-                           "../../tests/bench/reference/site.toml"}) {
-    const auto checked = resolve(kShippedFolder / file).and_then([](const Resolved& site) {
-      return check_site(site, Dates::Checked);
-    });
-    EXPECT_TRUE(checked) << checked.error().message;
-  }
-}
-
-/// What a change makes of the demonstration.
-template <class Change>
-std::string refusal(const Change& change) {
-  Resolved site = demo();
-  change(site);
-  const auto checked = check_site(site, Dates::Checked);
-  return checked ? "none" : checked.error().message;
-}
-
-TEST(Check, FindsRegionsOutsideOfTheirView) {
-  const std::string said = refusal([](Resolved& site) {
-    first(site).regions[0].points.clear();
-    first(site).regions[0].directions = {{60, 40}, {70, 40}, {60, 50}};
-  });
-  EXPECT_NE(said.find("demo-recipe.toml: region pool: "), std::string::npos) << said;
-  EXPECT_NE(said.find("no pixel"), std::string::npos) << said;
-}
-
-TEST(Check, FindsThresholdsThatNothingReaches) {
-  const auto hotter_than_the_scale = [](Resolved& site) {
-    first(site).regions[0].hot_spot_threshold = 9000;
-  };
-  EXPECT_THAT(refusal(hotter_than_the_scale),
-              testing::HasSubstr("region pool: hot_spot_threshold is 9000.0 degC; the camera's "
-                                 "counts end at "));
-  const auto above_full_scale = [](Resolved& site) {
-    site.site.cameras[kThermalCamera].radiometry.kelvin_per_count = 0;
-    for (RegionOfInterest& region : first(site).regions) region.alarms.clear();
-    first(site).regions[1].spatter_threshold.reset();
-    first(site).regions[0].plume_threshold.reset();
-    first(site).regions[0].hot_spot_threshold = 101;
-    first(site).regions[1].hot_spot_threshold = 99;
-  };
-  EXPECT_THAT(refusal(above_full_scale),
-              testing::HasSubstr("region pool: hot_spot_threshold is 101.0; it must be above 0 and "
-                                 "at most 100 percent"));
-  EXPECT_EQ(refusal([&](Resolved& site) {
-              above_full_scale(site);
-              first(site).regions[0].hot_spot_threshold = 99;
-            }),
-            "none");
-}
-
-TEST(Check, FindsModbusAndThePageOnOnePort) {
-  const auto on = [](int port, std::optional<int> https, const char* page, const char* plc) {
-    return refusal([=](Resolved& site) {
-      auto& web = std::get<WebSettings>(site.site.sinks);
-      auto& modbus = std::get<ModbusSettings>(site.site.sinks);
-      web.enabled = modbus.enabled = true;
-      web.port = port;
-      web.https_port = https;
-      web.address = page;
-      modbus.port = 1502;
-      modbus.address = plc;
-    });
-  };
-  EXPECT_EQ(on(8080, 8443, "0.0.0.0", "0.0.0.0"), "none");
-  EXPECT_NE(on(1502, {}, "127.0.0.1", "0.0.0.0").find("[web] port and [modbus] port are both 1502"),
-            std::string::npos);
-  EXPECT_NE(on(8080, 1502, "10.0.0.5", "::").find("[web] https_port"), std::string::npos);
-  EXPECT_EQ(on(1502, 8443, "127.0.0.1", "10.0.0.5"), "none") << "two networks";
-  EXPECT_EQ(on(8080, 1502, "10.0.0.5", "10.1.0.5"), "none");
 }
 
 /// The demo's site, of whose cameras nobody knows where one looks.
@@ -330,19 +235,12 @@ TEST(Build, AnUnregisteredCameraIsLeftOutOfMergedViews) {
   merged.sources.push_back(merged.sources.front());
   merged.sources.back().camera.index = 0;
   site.site.views = {{alone}, {merged}};
-  const auto plan = build(site, formats(site));
+  const auto plan = built(site);
   ASSERT_TRUE(plan) << plan.error().message;
   ASSERT_EQ(plan->views[0].sources.size(), 1U);
   EXPECT_EQ(plan->views[0].sources[0].camera, kThermalCamera) << "as it is";
   ASSERT_EQ(plan->views[1].sources.size(), 1U);
   EXPECT_EQ(plan->views[1].sources[0].camera, 0U);
-}
-
-TEST(Build, AnUnregisteredCameraDoesNotMeasure) {
-  const auto measuring = check_site(with_unregistered(kThermalCamera), Dates::Ignored);
-  ASSERT_FALSE(measuring);
-  EXPECT_THAT(measuring.error().message, testing::AllOf(testing::HasSubstr("is not registered"),
-                                                        testing::HasSubstr("orbwatch register")));
 }
 
 /// Another camera of a measured view is left out, and the one that measures is found again.
@@ -351,7 +249,7 @@ TEST(Build, AnUnregisteredCameraIsLeftOutOfMeasuredViews) {
   for (MeasuredViewSettings& view : first(site).views) {
     ASSERT_EQ(view.sources[view.measured.index].camera.index, kThermalCamera);
   }
-  const auto plan = build(site, formats(site));
+  const auto plan = built(site);
   ASSERT_TRUE(plan) << plan.error().message;
   for (const ViewPlan& view : plan->recipes.front()->plan().views) {
     ASSERT_EQ(view.sources.size(), 1U);

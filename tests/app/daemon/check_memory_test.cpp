@@ -9,6 +9,7 @@
 #include <new>
 
 #include "app/daemon/build.h"
+#include "app/daemon/site_check.h"
 #include "tests/app/daemon/demo_site.h"
 
 namespace {
@@ -58,9 +59,9 @@ TEST(CheckSite, NeedsNoMemoryOfARun) {
   const std::size_t check = most_used_by([&] { EXPECT_TRUE(check_site(checked, Dates::Checked)); });
   EXPECT_LT(check, kPixels) << "nothing of a view's size";
   const std::size_t built = most_used_by([&] {
-    std::vector<hal::StreamFormat> formats{expected_format(checked, 0),
-                                           expected_format(checked, 1)};
-    EXPECT_TRUE(build(checked, std::move(formats)));
+    const auto plan = SitePlan::make(checked, expected_formats(checked));
+    ASSERT_TRUE(plan);
+    EXPECT_TRUE(build(checked, *plan));
   });
   EXPECT_GT(built, 10 * check) << "what a run needs is counted";
 }

@@ -19,4 +19,9 @@ inline Resolved demo() {
   return site.value_or(Resolved{});
 }
 
+/// Its camera that measures.
+inline constexpr std::size_t kThermalCamera = 1;
+
+inline Recipe& first(Resolved& site) { return site.recipes.front(); }
+
 }  // namespace orbwatch::app

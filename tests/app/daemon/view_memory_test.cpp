@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/daemon/build.h"
+#include "app/daemon/site_check.h"
 #include "tests/app/daemon/demo_site.h"
 
 namespace orbwatch::app {

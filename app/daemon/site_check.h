@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/certificates/dates.h"
+#include "app/daemon/site_plan.h"
+#include "app/files/resolve.h"
+#include "proc/image/result.h"
+
+namespace orbwatch::app {
+
+/// Error: Modbus and the page would listen on one port.
+Result<> check_ports(const Resolved& site);
+
+/// Checks the keys for DDS, and certificate and key of the page, as far as files are named.
+Result<> check_keys(const Resolved& site, Dates dates);
+
+/// Plans the site for the formats that are expected, and checks what build() would refuse, ports
+/// and keys. Opens no camera and no line; compiles no view and allocates no picture, so that it may
+/// run beside the site.
+Result<SitePlan> checked_plan(const Resolved& site, Dates dates);
+
+/// The same for callers that need no plan.
+Result<> check_site(const Resolved& site, Dates dates);
+
+}  // namespace orbwatch::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "app/files/resolve.h"
+#include "app/pipeline/measurement/recipe_plan.h"
+#include "app/pipeline/views/view_plan.h"
+#include "hal/camera.h"
+#include "proc/image/result.h"
+#include "proc/optics/view_projection.h"
+#include "proc/signals/region.h"
+
+namespace orbwatch::app {
+
+/// The format of a camera that is not open yet, as far as the files state it; limits in percent fit
+/// any depth. Reentrant.
+hal::StreamFormat expected_format(const Resolved& site, std::size_t camera);
+
+/// The same by camera.
+std::vector<hal::StreamFormat> expected_formats(const Resolved& site);
+
+/// Views and recipes of a site as objects, for cameras of given formats. It is made once, and read
+/// by the pipeline, the interfaces and the checks. No view is compiled and no picture allocated.
+struct SitePlan {
+  signals::RegionScene scene;              ///< the ball and the surfaces around it
+  std::vector<hal::StreamFormat> formats;  ///< by camera
+  std::vector<ViewPlan> views;             ///< display views, by index
+  /// By place in `views`: where a view of kind Ball shows the room, seen from the ball's centre;
+  /// null for other kinds.
+  std::vector<std::shared_ptr<const optics::ViewProjection>> balls;
+  std::vector<RecipePlan> recipes;  ///< by place in Resolved::recipes
+
+  /// Errors: the scene; what keeps files from running together although each is right by itself,
+  /// with the name of the view, or of the recipe's file and the region. Reentrant.
+  static Result<SitePlan> make(const Resolved& site, std::vector<hal::StreamFormat> formats);
+};
+
+/// Names the file of the recipe at that place in front of an error.
+Error in_recipe(const Resolved& site, std::size_t recipe, const Error& error);
+
+}  // namespace orbwatch::app
