@@ -82,9 +82,11 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   all.alignment_.emplace(all.aligned_, *all.watch_, all.accepted_, restart.request,
                          std::move(check_acceptance));
   all.assumptions_ = app::assumptions(site, *planned);
-  all.interfaces_.emplace(
-      site, *planned, [&all](const Command& command) { return dispatch(command, *all.receivers_); },
-      all.record_, all.background_, all.snapshots(), &*all.alignment_, std::move(program));
+  const auto carry_out = [&all](const Command& command) {
+    return dispatch(command, *all.receivers_);
+  };
+  all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.background_,
+                          all.snapshots(), &*all.alignment_, std::move(program));
   plan->surroundings = [&all, grants](hal::TimePoint now) {
     return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),
                         grants.realtime,           grants.memory_locked, all.watched(),

@@ -7,29 +7,33 @@
 #include <utility>
 
 #include "app/daemon/published.h"
+#include "app/model/appliance_notice.h"
 #include "app/model/fleet.h"
+#include "app/ports/web/web_context.h"
 
 namespace orbwatch::app {
 namespace {
 
-SinkContext make_context(const Resolved& site, const SitePlan& plan, CommandHandler handler,
-                         std::shared_ptr<CommandRecord> record,
-                         std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
+/// What sinks are made with; each takes those that its make_sink() names.
+using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vector<PublishedCamera>,
+                             CommandPath, std::shared_ptr<hal::SharedThreads>,
+                             std::shared_ptr<Fleet>, ApplianceIdentity, PageContext>;
+
+/// Null: the settings do not enable it.
+template <class Settings, class... Parts>
+std::unique_ptr<Sink> made(std::unique_ptr<Sink> (*make)(const Settings&, const Parts&...),
+                           const Settings& settings, const SinkParts& parts) {
+  return make(settings, std::get<Parts>(parts)...);
+}
+
+PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSource* alignment,
                          Program program) {
-  SinkContext context;
-  context.names = site.names;
-  context.handler = std::move(handler);
-  context.record = std::move(record);
-  context.background = std::move(background);
-  context.state_folder = site.site.state_folder;
-  context.alignment = alignment;
-  context.program = std::move(program);
-  context.recipes = measured_recipes(site, plan);
-  context.ball = plan.scene.ball;
-  context.scene = plan.scene.proxy;
-  context.views = published_views(site, plan);
-  context.cameras = published_cameras(site);
-  return context;
+  return {.ball = plan.scene.ball,
+          .scene = plan.scene.proxy,
+          .recipes = measured_recipes(site, plan),
+          .alignment = alignment,
+          .state_folder = site.site.state_folder,
+          .program = std::move(program)};
 }
 
 /// Who is heard over DDS, for the page.
@@ -57,20 +61,30 @@ std::string commanders_text(const SinkSettings& sinks) {
   return "takes commands " + (text.empty() ? "from nobody" : text);
 }
 
-Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandHandler handler,
-                       std::shared_ptr<CommandRecord> record,
+Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
                        std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
                        AlignmentSource* alignment, Program program) {
-  SinkContext context = make_context(site, plan, std::move(handler), std::move(record),
-                                     std::move(background), alignment, std::move(program));
-  context.tables = [this] { return tables(); };
-  context.metrics = [this] { return metrics(); };
-  context.page = page_of(std::get<WebSettings>(site.site.sinks));
-  context.fleet = make_fleet(site.site.sinks);
+  const SinkSettings& sinks = site.site.sinks;
+  ApplianceIdentity identity;
+  identity.version = version_of(program);
+  identity.page = page_of(std::get<WebSettings>(sinks));
+  PageContext page = page_context(site, plan, alignment, std::move(program));
+  page.tables = [this] { return tables(); };
+  page.metrics = [this] { return metrics(); };
+  const SinkParts parts{site.names,
+                        published_views(site, plan),
+                        published_cameras(site),
+                        std::move(commands),
+                        std::move(background),
+                        make_fleet(sinks),
+                        std::move(identity),
+                        std::move(page)};
   std::size_t next = 0;
   std::apply(
-      [&](const auto&... settings) { ((made_[next++] = make_sink(settings, context)), ...); },
-      site.site.sinks);
+      [&]<class... Settings>(const Settings&... settings) {
+        ((made_[next++] = made<Settings>(make_sink, settings, parts)), ...);
+      },
+      sinks);
   for (std::size_t i = 0; i < kMade; ++i) all_[i < kSnapshotBit ? i : i + 1] = made_[i].get();
   all_[kSnapshotBit] = snapshots;
 }

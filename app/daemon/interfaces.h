@@ -14,13 +14,15 @@
 #include "app/daemon/attempts.h"
 #include "app/daemon/site_plan.h"
 #include "app/files/resolve.h"
-#include "app/model/command.h"
+#include "app/model/command_path.h"
 #include "app/model/program.h"
 #include "app/model/sink.h"
 #include "app/ports/snapshot/snapshot_sink.h"
-#include "app/state/command_record.h"
+#include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
+
+class AlignmentSource;
 
 /// Who may command this appliance, in one line. Reentrant.
 std::string commanders_text(const SinkSettings& sinks);
@@ -40,11 +42,11 @@ inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<S
 /// tried again while the others work. Thread rule: one owner, apart from faults().
 class Interfaces {
  public:
-  /// Makes the enabled ones. `handler` carries commands out, noted in `record`; `background`
-  /// encodes; `snapshots` and `alignment` are the caller's and outlive this; null: none.
-  Interfaces(const Resolved& site, const SitePlan& plan, CommandHandler handler,
-             std::shared_ptr<CommandRecord> record, std::shared_ptr<hal::SharedThreads> background,
-             SnapshotSink* snapshots, AlignmentSource* alignment = nullptr, Program program = {});
+  /// Makes the enabled ones. `commands` go to the appliance; `background` encodes; `snapshots` and
+  /// `alignment` are the caller's and outlive this; null: none.
+  Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
+             std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
+             AlignmentSource* alignment = nullptr, Program program = {});
 
   /// Starts them, with those that cannot be opened among the `attempts`.
   void start(Attempts& attempts, hal::TimePoint now);

@@ -5,7 +5,7 @@
 #include "app/daemon/site_plan.h"
 #include "app/files/resolve.h"
 #include "app/model/measured_recipe.h"
-#include "app/model/sink.h"
+#include "app/model/published.h"
 
 namespace orbwatch::app {
 

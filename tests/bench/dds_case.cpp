@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/app/ports/dds/offering_sink.h"
+
 namespace orbwatch::bench {
 
 namespace {
@@ -75,7 +77,8 @@ std::vector<DdsCase> dds_cases() {
 
 CaseFigures measure(const DdsCase& one, std::chrono::seconds duration) {
   const ShippedNetwork network(one.network);
-  app::DdsSink sink(settings_for(one.pictures), app::tests::make_names(), nullptr);
+  app::DdsSink sink =
+      app::tests::sink_offering(settings_for(one.pictures), {}, cameras_for(one.pictures));
   network.start(sink);
   const std::string topic = topic_of(one.pictures);
   const auto pace = paced(one.pictures, sink);

@@ -79,9 +79,13 @@ class PacedFrames final : public Pace {
 app::DdsSettings settings_for(Pictures pictures) {
   app::DdsSettings settings{.domain = app::tests::kDomain};
   settings.prefix = kPrefix;
-  if (pictures == Pictures::Camera) settings.cameras[kCamera].encoding = PixelFormat::Grey;
   if (pictures == Pictures::Jpeg) settings.jpeg.target_bytes = kJpegBytes;
   return settings;
+}
+
+std::vector<app::PublishedCamera> cameras_for(Pictures pictures) {
+  if (pictures != Pictures::Camera) return {};
+  return {{.encoding = PixelFormat::Grey}};
 }
 
 std::string topic_of(Pictures pictures) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/ports/dds/dds_sink.h"
 #include "tests/app/ports/dds/fastdds/pace.h"
@@ -17,6 +18,9 @@ enum class Pictures {
 };
 
 app::DdsSettings settings_for(Pictures pictures);
+
+/// Offered to the sink's readers in the encoding that such pictures go out in.
+std::vector<app::PublishedCamera> cameras_for(Pictures pictures);
 
 /// The topic of sensor_msgs/Image, or of CompressedImage.
 std::string topic_of(Pictures pictures);

@@ -82,7 +82,7 @@ Seen watched(const orbwatch::tests::Abuse* abuse, int seconds) {
   settings.max_connections_per_address = 300;
   settings.max_streams = 200;
   const orbwatch::tests::TemporaryFolder folder;
-  SinkContext context = web::tests::make_context();
+  WebContext context = web::tests::make_context();
   context.state_folder = folder.path();
   const std::string header = web::tests::add_users(folder.path());
   auto sink = std::make_unique<WebSink>(settings, context);

@@ -106,9 +106,9 @@ void ConsoleSink::stop() {
   print("at the end, ", hal::Clock::now());
 }
 
-std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const SinkContext& context) {
+std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const StatusNames& names) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<ConsoleSink>(settings, context.names, STDOUT_FILENO);
+  return std::make_unique<ConsoleSink>(settings, names, STDOUT_FILENO);
 }
 
 }  // namespace orbwatch::app

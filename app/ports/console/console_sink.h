@@ -76,6 +76,6 @@ class ConsoleSink final : public Sink {
 /// Nobody commands by it.
 inline std::string commanders(const ConsoleSettings& /*settings*/) { return {}; }
 
-std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const SinkContext& context);
+std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const StatusNames& names);
 
 }  // namespace orbwatch::app

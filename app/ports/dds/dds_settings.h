@@ -2,21 +2,26 @@
 
 #include <array>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/model/appliance_notice.h"
+#include "app/model/command_path.h"
+#include "app/model/published.h"
 #include "app/model/sink.h"
+#include "app/model/status_report.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/dds/ros/ros_node.h"
 #include "app/ports/dds/security/participant_security.h"
-#include "proc/image/pixel_format.h"
+#include "hal/thread/shared_threads.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
+
+class Fleet;
 
 /// Where and how to publish.
 struct DdsSettings {
@@ -34,9 +39,6 @@ struct DdsSettings {
   /// says.
   std::filesystem::path profile{};
   RosGeneration ros = RosGeneration::Iron;
-  /// By name; what is not in them is published as a default one.
-  std::map<std::string, PublishedView> views{};
-  std::map<std::string, PublishedCamera> cameras{};
 };
 
 inline bool takes_commands(const DdsSettings& dds) {
@@ -77,6 +79,13 @@ void visit(Visitor& v, DdsSettings& dds) {
 /// Who may command over DDS, in words; empty: nobody. Reentrant.
 std::string commanders(const DdsSettings& settings);
 
-std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context);
+/// `identity` is completed by name and prefix. `views` and `cameras` by place in `names`.
+std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& names,
+                                const std::vector<PublishedView>& views,
+                                const std::vector<PublishedCamera>& cameras,
+                                const CommandPath& commands,
+                                const std::shared_ptr<hal::SharedThreads>& background,
+                                const ApplianceIdentity& identity,
+                                const std::shared_ptr<Fleet>& fleet);
 
 }  // namespace orbwatch::app

@@ -27,7 +27,8 @@ std::string reachable(const std::set<std::string>& addresses) {
 DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
                  Addresses addresses, std::shared_ptr<CommandRecord> record,
                  const std::shared_ptr<hal::SharedThreads>& threads, ApplianceIdentity identity,
-                 std::shared_ptr<Fleet> fleet)
+                 std::shared_ptr<Fleet> fleet, std::vector<PublishedView> views,
+                 std::vector<PublishedCamera> cameras)
     : settings_(std::move(settings)),
       names_(std::move(names)),
       threads_(threads),
@@ -40,11 +41,14 @@ DdsSink::DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler
       takes_commands_(takes_commands(settings_) && handler),
       record_(std::move(record)),
       commands_(settings_.prefix, std::move(handler), *record_, [this] { thread_.wake(); }) {
-  for (const auto& name : names_.views) {
-    views_.push_back(std::make_unique<ViewTopics>(settings_, name, threads));
+  views.resize(names_.views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views_.push_back(std::make_unique<ViewTopics>(settings_, names_.views[i], views[i], threads));
   }
-  for (const auto& name : names_.cameras) {
-    cameras_.push_back(std::make_unique<CameraTopics>(settings_, name, threads));
+  cameras.resize(names_.cameras.size());
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    cameras_.push_back(
+        std::make_unique<CameraTopics>(settings_, names_.cameras[i], cameras[i], threads));
   }
 }
 
@@ -331,20 +335,20 @@ std::string commanders(const DdsSettings& settings) {
                                  : "everybody in domain " + std::to_string(settings.domain));
 }
 
-std::unique_ptr<Sink> make_sink(DdsSettings settings, const SinkContext& context) {
+std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& names,
+                                const std::vector<PublishedView>& views,
+                                const std::vector<PublishedCamera>& cameras,
+                                const CommandPath& commands,
+                                const std::shared_ptr<hal::SharedThreads>& background,
+                                const ApplianceIdentity& identity,
+                                const std::shared_ptr<Fleet>& fleet) {
   if (!settings.enabled) return nullptr;
-  const StatusNames& names = context.names;
-  for (std::size_t i = 0; i < names.views.size(); ++i) {
-    settings.views[names.views[i]] = context.views[i];
-  }
-  for (std::size_t i = 0; i < names.cameras.size(); ++i) {
-    settings.cameras[names.cameras[i]] = context.cameras[i];
-  }
-  ApplianceIdentity identity{settings.name, version_of(context.program), settings.prefix,
-                             context.page};
-  return std::make_unique<DdsSink>(std::move(settings), names, context.handler, network_addresses,
-                                   context.record, context.background, std::move(identity),
-                                   context.fleet);
+  ApplianceIdentity own = identity;
+  own.name = settings.name;
+  own.prefix = settings.prefix;
+  return std::make_unique<DdsSink>(settings, names, commands.handler, network_addresses,
+                                   commands.record, background, std::move(own), fleet, views,
+                                   cameras);
 }
 
 }  // namespace orbwatch::app

@@ -44,12 +44,14 @@ class DdsSink final : public Sink {
   /// `names` in the order of View::index and of FrameSet::frames; the name of a view or camera is a
   /// topic part and the frame_id of its images. `handler` carries commands out, on a thread of the
   /// sink; without one there is no command topic. `addresses` are checked once a second.
-  /// `identity` and `fleet` as FleetMember.
+  /// `identity` and `fleet` as FleetMember. `views` and `cameras` by place in `names`; those that
+  /// are missing are published as default ones.
   DdsSink(DdsSettings settings, StatusNames names, CommandHandler handler,
           Addresses addresses = network_addresses,
           std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>(),
           const std::shared_ptr<hal::SharedThreads>& threads = hal::SharedThreads::alone(),
-          ApplianceIdentity identity = {}, std::shared_ptr<Fleet> fleet = nullptr);
+          ApplianceIdentity identity = {}, std::shared_ptr<Fleet> fleet = nullptr,
+          std::vector<PublishedView> views = {}, std::vector<PublishedCamera> cameras = {});
   ~DdsSink() override;
 
   /// Starts the sink's thread. Does nothing when disabled or running. Errors: a domain or name that

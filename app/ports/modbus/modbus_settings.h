@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/model/command_path.h"
 #include "app/model/sink.h"
 #include "app/ports/modbus/server/access_list.h"
 #include "hal/network.h"
@@ -116,6 +117,6 @@ void visit(Visitor& v, ModbusSettings& modbus) {
 /// Who may command over Modbus, in words; empty: nobody. Reentrant.
 std::string commanders(const ModbusSettings& settings);
 
-std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context);
+std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands);
 
 }  // namespace orbwatch::app

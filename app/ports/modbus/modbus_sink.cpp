@@ -231,9 +231,9 @@ std::string commanders(const ModbusSettings& settings) {
   return text;
 }
 
-std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const SinkContext& context) {
+std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<ModbusSink>(settings, context.handler, context.record);
+  return std::make_unique<ModbusSink>(settings, commands.handler, commands.record);
 }
 
 }  // namespace orbwatch::app

@@ -8,14 +8,21 @@
 #include <string_view>
 #include <vector>
 
+#include "app/model/command_path.h"
+#include "app/model/published.h"
 #include "app/model/sink.h"
+#include "app/model/status_report.h"
 #include "app/pictures/jpeg_quality.h"
 #include "app/ports/web/http/address.h"
 #include "hal/host.h"
 #include "hal/network.h"
+#include "hal/thread/shared_threads.h"
 #include "proc/settings/settings.h"
 
 namespace orbwatch::app {
+
+class Fleet;
+struct PageContext;
 
 /// The [web] part of the site file.
 struct WebSettings {
@@ -140,6 +147,10 @@ inline std::string commanders(const WebSettings& settings) {
   return where + ", by role once there are users";
 }
 
-std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context);
+std::unique_ptr<Sink> make_sink(const WebSettings& settings, const StatusNames& names,
+                                const std::vector<PublishedView>& views,
+                                const CommandPath& commands,
+                                const std::shared_ptr<hal::SharedThreads>& background,
+                                const std::shared_ptr<Fleet>& fleet, const PageContext& page);
 
 }  // namespace orbwatch::app

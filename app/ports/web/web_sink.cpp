@@ -64,14 +64,14 @@ std::vector<web::Route> page_routes() {
 
 }  // namespace
 
-WebSink::WebSink(WebSettings settings, const SinkContext& context)
+WebSink::WebSink(WebSettings settings, const WebContext& context)
     : settings_(std::move(settings)),
       names_(context.names),
       threads_(context.background),
       list_(context),
       pixels_(context),
       asked_(names_.views.size()),
-      commands_(context.handler, context.record),
+      commands_(context.commands.handler, context.commands.record),
       look_around_(context.names, context.views, context.background),
       align_(context.names.cameras, context.alignment),
       recipe_(context.recipes, {context.ball, context.scene},
@@ -390,9 +390,14 @@ void WebSink::start_stream(const ExchangePtr& exchange, web::Credentials credent
   exchange->answer(std::move(response));
 }
 
-std::unique_ptr<Sink> make_sink(const WebSettings& settings, const SinkContext& context) {
+std::unique_ptr<Sink> make_sink(const WebSettings& settings, const StatusNames& names,
+                                const std::vector<PublishedView>& views,
+                                const CommandPath& commands,
+                                const std::shared_ptr<hal::SharedThreads>& background,
+                                const std::shared_ptr<Fleet>& fleet, const PageContext& page) {
   if (!settings.enabled) return nullptr;
-  return std::make_unique<WebSink>(settings, context);
+  return std::make_unique<WebSink>(settings,
+                                   WebContext{page, names, views, commands, background, fleet});
 }
 
 }  // namespace orbwatch::app

@@ -25,6 +25,7 @@
 #include "app/ports/web/streams/mjpeg_stream.h"
 #include "app/ports/web/streams/view_encoder.h"
 #include "app/ports/web/views/view_list.h"
+#include "app/ports/web/web_context.h"
 #include "app/ports/web/web_settings.h"
 #include "hal/thread/priority_mutex.h"
 #include "hal/thread/thread.h"
@@ -37,7 +38,7 @@ namespace orbwatch::app {
 /// any thread.
 class WebSink final : public Sink {
  public:
-  WebSink(WebSettings settings, const SinkContext& context);
+  WebSink(WebSettings settings, const WebContext& context);
   ~WebSink() override;
 
   /// Does nothing when disabled or running. Errors: as Listeners::open(); it may be repeated.

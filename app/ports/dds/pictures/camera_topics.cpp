@@ -3,21 +3,14 @@
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {
-namespace {
 
-PublishedCamera published_camera(const DdsSettings& settings, const std::string& camera) {
-  const auto found = settings.cameras.find(camera);
-  return found == settings.cameras.end() ? PublishedCamera{} : found->second;
-}
-
-}  // namespace
-
-CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& camera,
+CameraTopics::CameraTopics(const DdsSettings& settings, const std::string& name,
+                           const PublishedCamera& camera,
                            const std::shared_ptr<hal::SharedThreads>& threads)
-    : name_(camera),
-      camera_(published_camera(settings, camera)),
-      ball_(ball_topic(settings.prefix, camera), camera_.encoding, settings.jpeg, threads) {
-  if (camera_.lens) info_.emplace(ball_topic(settings.prefix, camera));
+    : name_(name),
+      camera_(camera),
+      ball_(ball_topic(settings.prefix, name), camera.encoding, settings.jpeg, threads) {
+  if (camera_.lens) info_.emplace(ball_topic(settings.prefix, name));
 }
 
 Result<> CameraTopics::open(const Entity& participant) {

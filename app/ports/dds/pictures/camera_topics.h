@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/published.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/pictures/info_topic.h"
 #include "app/ports/dds/pictures/picture_topic.h"
@@ -18,7 +19,7 @@ namespace orbwatch::app {
 /// Thread rule: as ViewTopics.
 class CameraTopics {
  public:
-  CameraTopics(const DdsSettings& settings, const std::string& camera,
+  CameraTopics(const DdsSettings& settings, const std::string& name, const PublishedCamera& camera,
                const std::shared_ptr<hal::SharedThreads>& threads);
 
   Result<> open(const Entity& participant);

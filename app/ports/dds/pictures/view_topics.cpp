@@ -3,28 +3,20 @@
 #include "app/ports/dds/topics/topic_names.h"
 
 namespace orbwatch::app {
-namespace {
 
-PublishedView published(const DdsSettings& settings, const std::string& view) {
-  const auto found = settings.views.find(view);
-  return found == settings.views.end() ? PublishedView{} : found->second;
-}
-
-}  // namespace
-
-ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& view,
+ViewTopics::ViewTopics(const DdsSettings& settings, const std::string& name,
+                       const PublishedView& view,
                        const std::shared_ptr<hal::SharedThreads>& threads)
-    : name_(view),
-      picture_(image_topic(settings.prefix, view), published(settings, view).encoding,
-               settings.jpeg, threads) {
-  const bool is_perspective = published(settings, view).spec.kind == optics::ViewKind::Perspective;
-  if (is_perspective) info_.emplace(image_topic(settings.prefix, view));
-  if (published(settings, view).measured) {
-    measured_.emplace(radiometric_topic(settings.prefix, view),
+    : name_(name),
+      picture_(image_topic(settings.prefix, name), view.encoding, settings.jpeg, threads) {
+  const bool is_perspective = view.spec.kind == optics::ViewKind::Perspective;
+  if (is_perspective) info_.emplace(image_topic(settings.prefix, name));
+  if (view.measured) {
+    measured_.emplace(radiometric_topic(settings.prefix, name),
                       std::make_unique<RawPictureWriter>(PixelFormat::Grey), threads);
   }
   if (is_perspective && measured_) {
-    measured_info_.emplace(radiometric_topic(settings.prefix, view));
+    measured_info_.emplace(radiometric_topic(settings.prefix, name));
   }
 }
 

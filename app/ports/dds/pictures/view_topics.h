@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/published.h"
 #include "app/model/view.h"
 #include "app/ports/dds/dds_settings.h"
 #include "app/ports/dds/pictures/info_topic.h"
@@ -16,7 +17,7 @@ namespace orbwatch::app {
 /// one owner; report by any.
 class ViewTopics {
  public:
-  ViewTopics(const DdsSettings& settings, const std::string& view,
+  ViewTopics(const DdsSettings& settings, const std::string& name, const PublishedView& view,
              const std::shared_ptr<hal::SharedThreads>& threads);
 
   Result<> open(const Entity& participant);

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/sink.h"
+#include "app/model/published.h"
+#include "app/model/status_report.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/routes.h"
 #include "hal/thread/shared_threads.h"

@@ -28,7 +28,7 @@ Result<optics::ViewProjection> projection_of(const View& view, const PublishedVi
 
 }  // namespace
 
-PixelRoute::PixelRoute(const SinkContext& context)
+PixelRoute::PixelRoute(const WebContext& context)
     : names_(context.names.views),
       views_(context.views),
       ball_(context.ball),

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "app/model/sink.h"
+#include "app/model/view.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/streams/recent_views.h"
+#include "app/ports/web/web_context.h"
 
 namespace orbwatch::app::web {
 
@@ -17,7 +18,7 @@ namespace orbwatch::app::web {
 /// pictures are kept from then on: without a number the next one answers. Thread-safe.
 class PixelRoute {
  public:
-  explicit PixelRoute(const SinkContext& context);
+  explicit PixelRoute(const WebContext& context);
 
   Route route();
 

@@ -60,7 +60,7 @@ Json json_of(const std::string& name, std::size_t index, const PublishedView& vi
 
 }  // namespace
 
-ViewList::ViewList(const SinkContext& context)
+ViewList::ViewList(const WebContext& context)
     : names_(context.names.views), views_(context.views), aims_(names_.size()) {}
 
 Route ViewList::route() {

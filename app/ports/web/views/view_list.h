@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "app/model/sink.h"
+#include "app/model/command.h"
+#include "app/model/view.h"
 #include "app/ports/web/http/exchange.h"
 #include "app/ports/web/routes.h"
 #include "app/ports/web/views/aim.h"
+#include "app/ports/web/web_context.h"
 
 namespace orbwatch::app::web {
 
@@ -17,7 +19,7 @@ namespace orbwatch::app::web {
 /// route on any.
 class ViewList {
  public:
-  explicit ViewList(const SinkContext& context);
+  explicit ViewList(const WebContext& context);
 
   Route route();
 

@@ -13,6 +13,7 @@
 #include "app/ports/dds/topics/topic_names.h"
 #include "hal/frame/frame_pool.h"
 #include "tests/app/hand_over.h"
+#include "tests/app/ports/dds/offering_sink.h"
 #include "tests/app/ports/dds/sink_topics.h"
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
@@ -84,10 +85,11 @@ TEST(CameraInfoTopics, EachImageTopicOfAPerspectiveViewHasItsCameraInfoBesideIt)
 TEST(CameraInfoTopics, ACameraWithAKnownLensHasItsCameraInfoBesideItsPicture) {
   const tests::DdsNetwork network;
   ASSERT_TRUE(network.valid());
-  DdsSettings with_lens = settings();
-  with_lens.cameras["thermal"].lens = optics::Intrinsics{
+  constexpr std::size_t kThermal = 1;
+  std::vector<PublishedCamera> cameras(2);
+  cameras[kThermal].lens = optics::Intrinsics{
       64, 48, 100, 100, 31, 23, optics::Distortion::Fisheye, {0.1, -0.02, 1e-3, 2e-3}};
-  DdsSink sink(with_lens, tests::make_names(), nullptr);
+  DdsSink sink = tests::sink_offering(settings(), {}, cameras);
   ASSERT_TRUE(sink.start());
   const std::vector<std::byte> samples(64 * 48 * 3 / 2, std::byte{128});
   const auto frame = std::make_shared<hal::FrameBuffer>();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tests/app/hand_over.h"
+#include "tests/app/ports/dds/offering_sink.h"
 #include "tests/app/ports/dds/sink_topics.h"
 #include "tests/app/ports/dds/test_status.h"
 #include "tests/app/ports/dds/test_views.h"
@@ -25,10 +26,10 @@ class DdsSinkSettingsTest : public testing::Test {
 };
 
 TEST_F(DdsSinkSettingsTest, EncodingIsThatOfTheView) {
-  DdsSettings chosen = settings();
-  chosen.views["front"].encoding = PixelFormat::Bgr;
-  chosen.views["wide"].encoding = PixelFormat::Grey;
-  DdsSink sink(chosen, tests::make_names(), nullptr);
+  std::vector<PublishedView> views(2);
+  views[kFront].encoding = PixelFormat::Bgr;
+  views[kWide].encoding = PixelFormat::Grey;
+  DdsSink sink = tests::sink_offering(settings(), views);
   ASSERT_TRUE(sink.start());
   const ImageReader front("rt/orbwatch/front/image_raw"), wide("rt/orbwatch/wide/image_raw");
   const auto front_view = make_view(kFront, "front", 1, kWidth, kHeight);

@@ -21,11 +21,11 @@ namespace orbwatch::app::web::tests {
 using app::tests::hand_over;
 using app::tests::make_view;
 
-inline SinkContext make_context() {
-  SinkContext context;
+inline WebContext make_context() {
+  WebContext context;
   context.names = app::tests::make_names();
   context.views.resize(context.names.views.size());
-  context.record = std::make_shared<CommandRecord>();
+  context.commands.record = std::make_shared<CommandRecord>();
   context.background = hal::SharedThreads::alone();
   return context;
 }
@@ -40,9 +40,9 @@ inline WebSettings on_a_free_port(WebSettings settings = {}) {
 class Served : public testing::Test {
  protected:
   void start(const WebSettings& settings = {}) {
-    SinkContext context = make_context();
+    WebContext context = make_context();
     context.state_folder = state_folder;
-    context.handler = handler;
+    context.commands.handler = handler;
     context.program = program;
     context.tables = tables;
     context.metrics = metrics;

@@ -10,6 +10,7 @@
 #include "tests/app/ports/dds/fastdds/paced_views.h"
 #include "tests/app/ports/dds/fastdds/reader_program.h"
 #include "tests/app/ports/dds/fastdds/shipped_network.h"
+#include "tests/app/ports/dds/offering_sink.h"
 
 /// The other ways in which a picture may go, pixel by pixel.
 namespace orbwatch::app {
@@ -47,8 +48,7 @@ class EncodingOnTheWire : public testing::Test {
   /// The first sample of a topic to which `view` goes; its data in data_.
   cv::FileStorage sent_and_read(PixelFormat encoding, const std::string& topic,
                                 const std::string& type) {
-    DdsSink sink({.domain = tests::kDomain, .views = {{"front", {.encoding = encoding}}}},
-                 tests::make_names(), nullptr);
+    DdsSink sink = tests::sink_offering({.domain = tests::kDomain}, {{.encoding = encoding}});
     network_->start(sink);
     tests::PacedViews views(sink, {view_});
     const std::string file = folder_ / "data";

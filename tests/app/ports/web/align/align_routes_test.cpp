@@ -64,7 +64,7 @@ class Source : public AlignmentSource {
 class ServedAlignment : public Served {
  protected:
   void SetUp() override {
-    SinkContext context = make_context();
+    WebContext context = make_context();
     context.alignment = &source;
     names = context.names.cameras;
     sink = std::make_unique<WebSink>(on_a_free_port(), context);

@@ -23,9 +23,9 @@ class Commands : public Served {
   void SetUp() override {
     WebSettings settings = on_a_free_port();
     settings.request_timeout = timeout;
-    SinkContext context = make_context();
-    context.record = record;
-    context.handler = [this](const Command& command) { return handle(command); };
+    WebContext context = make_context();
+    context.commands.record = record;
+    context.commands.handler = [this](const Command& command) { return handle(command); };
     sink = std::make_unique<WebSink>(settings, context);
     ASSERT_TRUE(sink->start());
   }
@@ -193,9 +193,9 @@ TEST(CommandNumbers, GoOnAfterARestart) {
   const orbwatch::tests::TemporaryFolder folder;
   for (std::uint64_t run = 1; run <= 3; ++run) {
     const auto record = std::make_shared<CommandRecord>(folder.path());
-    SinkContext context = make_context();
-    context.record = record;
-    context.handler = [](const Command&) { return CommandResult::Done; };
+    WebContext context = make_context();
+    context.commands.record = record;
+    context.commands.handler = [](const Command&) { return CommandResult::Done; };
     WebSink sink(on_a_free_port(), context);
     ASSERT_TRUE(sink.start());
     EXPECT_EQ(request(sink.port(), "POST", "/api/v1/command/start", kJsonHeader, "{}").status, 200);

@@ -23,7 +23,7 @@ class ServedSphere : public Served {
   void start_with(const BallProjection& ball) {
     view = std::make_shared<const ViewProjection>(
         ViewProjection::make({optics::ViewKind::Ball, {}, {}, {}, 640, 480}, ball).value());
-    SinkContext context = make_context();
+    WebContext context = make_context();
     context.state_folder = state_folder;
     context.views[0].measured = context.views[1].measured = false;
     context.views[0].spec = view->spec();

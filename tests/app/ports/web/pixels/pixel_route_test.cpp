@@ -24,7 +24,7 @@ constexpr int kBlindColumn = 3, kUncountedColumn = 5;
 class ServedPixels : public Served {
  protected:
   void SetUp() override {
-    SinkContext context = make_context();
+    WebContext context = make_context();
     context.ball = {{10, 20, 30}, 5};
     optics::Scene scene;
     scene.room = optics::Scene::Room::Box;

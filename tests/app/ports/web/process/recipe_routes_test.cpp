@@ -45,7 +45,7 @@ MeasuredRecipe make_recipe(const optics::Ball& ball) {
 class ServedRecipe : public Served {
  protected:
   void SetUp() override {
-    SinkContext context = make_context();
+    WebContext context = make_context();
     context.ball = {{10, 20, 30}, 5};
     optics::Scene room;
     room.room = optics::Scene::Room::Box;

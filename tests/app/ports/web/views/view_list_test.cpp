@@ -15,7 +15,7 @@ using nlohmann::json;
 class ServedViews : public Served {
  protected:
   void SetUp() override {
-    SinkContext context = make_context();
+    WebContext context = make_context();
     PublishedView& front = context.views[0];
     front.measured = false;
     front.mixes = true;

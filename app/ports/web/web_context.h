@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "app/model/command_path.h"
+#include "app/model/interface_metric.h"
+#include "app/model/interface_table.h"
+#include "app/model/measured_recipe.h"
+#include "app/model/program.h"
+#include "app/model/published.h"
+#include "app/model/status_report.h"
+#include "hal/thread/shared_threads.h"
+#include "proc/optics/scene_proxy.h"
+
+namespace orbwatch::app {
+
+class AlignmentSource;
+class Fleet;
+
+/// What the page shows and no other interface.
+struct PageContext {
+  optics::Ball ball;                     ///< machine frame, mm
+  optics::SceneProxy scene;              ///< around it
+  std::vector<MeasuredRecipe> recipes;   ///< what is measured
+  AlignmentSource* alignment = nullptr;  ///< outlives the sink's run; null: none
+  std::filesystem::path state_folder;    ///< of what must outlast a restart; empty: no users
+  Program program;                       ///< around the appliance
+  /// What all sinks show of themselves, on any thread while they run; empty: nothing.
+  std::function<std::vector<InterfaceTable>()> tables = nullptr;
+  /// And what all count, under the same rule.
+  std::function<std::vector<InterfaceMetric>()> metrics = nullptr;
+};
+
+/// What the page is made with, besides its settings.
+struct WebContext : PageContext {
+  StatusNames names;
+  std::vector<PublishedView> views;  ///< by place in names.views
+  CommandPath commands;
+  std::shared_ptr<hal::SharedThreads> background;  ///< for encoders
+  std::shared_ptr<Fleet> fleet = nullptr;          ///< who is heard over DDS; null: nobody
+};
+
+}  // namespace orbwatch::app
