@@ -1,6 +1,7 @@
 #include "app/daemon/appliance.h"
 
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "app/daemon/aligned_site.h"
@@ -20,7 +21,8 @@ namespace {
 std::function<Health()> health_of(const Configuration& configuration,
                                   std::shared_ptr<const CommandRecord> record) {
   HealthSources sources;
-  if (configuration.snapshot) sources.disk = configuration.snapshot->folder;
+  const auto& snapshot = std::get<SnapshotSettings>(configuration.sinks);
+  if (!snapshot.folder.empty()) sources.disk = snapshot.folder;
   return [record = std::move(record), board = std::make_shared<BoardHealth>(sources)] {
     Health read = board->read();
     read.commands_recorded = record->is_kept() ? 1 : 0;
@@ -47,9 +49,7 @@ Appliance::Appliance(const Resolved& site)
           hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
           static_cast<std::size_t>(site.site.threads.background))),
       health_(health_of(site.site, record_), HealthSampler::kPeriod, background_),
-      lines_(open_lines(site.site)) {
-  if (site.site.snapshot) snapshots_.emplace(*site.site.snapshot);
-}
+      lines_(open_lines(site.site)) {}
 
 Appliance::~Appliance() {
   if (pipeline_) pipeline_->stop();
@@ -86,7 +86,7 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
     return dispatch(command, *all.receivers_);
   };
   all.interfaces_.emplace(site, *planned, CommandPath{carry_out, all.record_}, all.background_,
-                          all.snapshots(), &*all.alignment_, std::move(program));
+                          &*all.alignment_, std::move(program));
   plan->surroundings = [&all, grants](hal::TimePoint now) {
     return Surroundings{all.health_.latest(now),   all.lines_->faults(), all.interfaces_->faults(),
                         grants.realtime,           grants.memory_locked, all.watched(),
@@ -95,7 +95,8 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   all.absent_ = plan->absent;
   for (const auto& camera : plan->cameras) all.cameras_.push_back(camera.get());
   all.pipeline_.emplace(std::move(*plan));
-  all.receivers_.emplace(Receivers{*all.pipeline_, *all.lines_, all.snapshots(), *all.watch_,
+  all.receivers_.emplace(Receivers{*all.pipeline_, *all.lines_,
+                                   all.interfaces_->find<SnapshotSink>(), *all.watch_,
                                    *all.alignment_, std::move(restart)});
   return made;
 }

@@ -18,7 +18,6 @@
 #include "app/model/restart.h"
 #include "app/pipeline/pipeline.h"
 #include "app/ports/lines/lines.h"
-#include "app/ports/snapshot/snapshot_sink.h"
 #include "app/state/command_record.h"
 #include "app/watch/camera_watch.h"
 #include "hal/thread/shared_threads.h"
@@ -65,7 +64,6 @@ class Appliance {
   explicit Appliance(const Resolved& site);
   std::array<CameraWatchStatus, kMaxCameras> watched() const;
   void restore(const Selection& selection);
-  SnapshotSink* snapshots() { return snapshots_ ? &*snapshots_ : nullptr; }
 
   const Resolved& site_;
   const AlignedSite aligned_;
@@ -78,7 +76,6 @@ class Appliance {
   std::vector<std::string> assumptions_;
   std::vector<hal::Camera*> cameras_;  ///< the pipeline's
   CameraSet absent_;
-  std::optional<SnapshotSink> snapshots_;
   std::optional<CameraWatch> watch_;
   std::optional<AlignmentDesk> alignment_;
   std::optional<Receivers> receivers_;

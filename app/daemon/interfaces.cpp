@@ -23,6 +23,10 @@ using SinkParts = std::tuple<StatusNames, std::vector<PublishedView>, std::vecto
 template <class Settings, class... Parts>
 std::unique_ptr<Sink> made(std::unique_ptr<Sink> (*make)(const Settings&, const Parts&...),
                            const Settings& settings, const SinkParts& parts) {
+  constexpr bool kTakesCommands = (std::is_same_v<Parts, CommandPath> || ...);
+  static_assert(
+      !kTakesCommands || requires { commanders(settings); },
+      "an interface that takes commands needs commanders()");
   return make(settings, std::get<Parts>(parts)...);
 }
 
@@ -57,13 +61,15 @@ std::string commanders_text(const SinkSettings& sinks) {
   const auto add = [&text](const std::string& commanders) {
     if (!commanders.empty()) text += (text.empty() ? "" : "; ") + commanders;
   };
-  std::apply([&add](const auto&... settings) { (add(commanders(settings)), ...); }, sinks);
+  for_each_sink(sinks, [&add](const auto& settings) {
+    if constexpr (requires { commanders(settings); }) add(commanders(settings));
+  });
   return "takes commands " + (text.empty() ? "from nobody" : text);
 }
 
 Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
-                       std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
-                       AlignmentSource* alignment, Program program) {
+                       std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment,
+                       Program program) {
   const SinkSettings& sinks = site.site.sinks;
   ApplianceIdentity identity;
   identity.version = version_of(program);
@@ -80,13 +86,9 @@ Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath c
                         std::move(identity),
                         std::move(page)};
   std::size_t next = 0;
-  std::apply(
-      [&]<class... Settings>(const Settings&... settings) {
-        ((made_[next++] = made<Settings>(make_sink, settings, parts)), ...);
-      },
-      sinks);
-  for (std::size_t i = 0; i < kMade; ++i) all_[i < kSnapshotBit ? i : i + 1] = made_[i].get();
-  all_[kSnapshotBit] = snapshots;
+  for_each_sink(sinks, [&]<class Settings>(const Settings& settings) {
+    all_[next++] = made<Settings>(make_sink, settings, parts);
+  });
 }
 
 void Interfaces::start(Attempts& attempts, hal::TimePoint now) {
@@ -105,7 +107,9 @@ void Interfaces::stop() {
 
 std::vector<Sink*> Interfaces::sinks() const {
   std::vector<Sink*> sinks;
-  std::ranges::copy_if(all_, std::back_inserter(sinks), [](const Sink* sink) { return sink; });
+  for (const auto& sink : all_) {
+    if (sink) sinks.push_back(sink.get());
+  }
   return sinks;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -17,7 +16,6 @@
 #include "app/model/command_path.h"
 #include "app/model/program.h"
 #include "app/model/sink.h"
-#include "app/ports/snapshot/snapshot_sink.h"
 #include "hal/thread/shared_threads.h"
 
 namespace orbwatch::app {
@@ -27,26 +25,29 @@ class AlignmentSource;
 /// Who may command this appliance, in one line. Reentrant.
 std::string commanders_text(const SinkSettings& sinks);
 
-/// The bit of snapshots in Interfaces::faults(); sinks behind it in the list have one more than
-/// their place there.
-inline constexpr std::size_t kSnapshotBit = 3;
-
 /// By bit of Interfaces::faults().
 inline constexpr auto kInterfaceNames = []<class... Settings>(const std::tuple<Settings...>*) {
-  std::array names{Settings::kName..., std::string_view("snapshots")};
-  std::rotate(names.begin() + kSnapshotBit, names.end() - 1, names.end());
-  return names;
+  return std::array{Settings::kName...};
 }(static_cast<const SinkSettings*>(nullptr));
 
 /// The interfaces of a site to the outside, each started by itself: one that cannot be opened is
 /// tried again while the others work. Thread rule: one owner, apart from faults().
 class Interfaces {
  public:
-  /// Makes the enabled ones. `commands` go to the appliance; `background` encodes; `snapshots` and
-  /// `alignment` are the caller's and outlive this; null: none.
+  /// Makes the enabled ones. `commands` go to the appliance; `background` encodes; `alignment` is
+  /// the caller's and outlives this; null: none.
   Interfaces(const Resolved& site, const SitePlan& plan, CommandPath commands,
-             std::shared_ptr<hal::SharedThreads> background, SnapshotSink* snapshots,
-             AlignmentSource* alignment = nullptr, Program program = {});
+             std::shared_ptr<hal::SharedThreads> background, AlignmentSource* alignment = nullptr,
+             Program program = {});
+
+  /// The interface of this type; null: it is not enabled.
+  template <class Wanted>
+  Wanted* find() const {
+    for (const auto& sink : all_) {
+      if (auto* const found = dynamic_cast<Wanted*>(sink.get())) return found;
+    }
+    return nullptr;
+  }
 
   /// Starts them, with those that cannot be opened among the `attempts`.
   void start(Attempts& attempts, hal::TimePoint now);
@@ -63,11 +64,9 @@ class Interfaces {
   std::uint32_t faults() const;
 
  private:
-  static constexpr std::size_t kMade = std::tuple_size_v<SinkSettings>;
-
-  std::array<std::unique_ptr<Sink>, kMade> made_;  ///< null: not enabled
-  std::array<Sink*, kMade + 1> all_{};             ///< by bit of faults()
-  std::atomic<std::uint32_t> started_{0};          ///< bit n: all_[n]
+  /// By bit of faults(); null: not enabled.
+  std::array<std::unique_ptr<Sink>, kInterfaceNames.size()> all_;
+  std::atomic<std::uint32_t> started_{0};  ///< bit n: all_[n]
 };
 
 }  // namespace orbwatch::app

@@ -27,11 +27,18 @@ namespace orbwatch::app {
 
 /// The list of sinks, one per line. A settings struct has the name and the meaning of its table as
 /// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
-/// if it is not enabled, and commanders() lists the clients that may command through it.
-using SinkSettings = std::tuple<ConsoleSettings,  //
-                                ModbusSettings,   //
-                                DdsSettings,      //
+/// if it is not enabled, and commanders() of one that takes commands lists the clients that may command through it.
+using SinkSettings = std::tuple<ConsoleSettings,   //
+                                ModbusSettings,    //
+                                DdsSettings,       //
+                                SnapshotSettings,  //
                                 WebSettings>;
+
+/// Calls `use` with the settings of each sink, in the order of the list.
+template <class Use>
+void for_each_sink(const SinkSettings& sinks, Use&& use) {
+  std::apply([&use](const auto&... settings) { (use(settings), ...); }, sinks);
+}
 
 /// File of a recipe, and the number that selects it.
 struct RecipeFile {
@@ -50,7 +57,6 @@ struct Configuration {
   std::vector<Located<ViewSettings>> views;
   std::vector<Located<RecipeFile>> recipes;  ///< the first recipe is measured from the start
   PlaceSettings place;
-  std::optional<SnapshotSettings> snapshot;
   /// Folder of state that survives a restart. Empty when read: the file names none; see
   /// state_folder().
   std::filesystem::path state_folder;
@@ -85,7 +91,6 @@ void visit(Visitor& v, Configuration& configuration) {
   v.table("place", configuration.place,
           "For the command place_camera. The ball's centre is taken as the rig has it, the outline "
           "as it is in force; `orbwatch place` finds the centre, too");
-  v.table("snapshot", configuration.snapshot, "Pictures on command");
   std::apply(
       [&v]<class... Sinks>(Sinks&... sinks) {
         (v.table(Sinks::kName.data(), sinks, Sinks::kText.data()), ...);

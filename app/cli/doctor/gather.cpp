@@ -8,6 +8,7 @@
 #include <charconv>
 #include <limits>
 #include <system_error>
+#include <tuple>
 
 #include "app/cli/doctor/program_output.h"
 #include "app/daemon/site_check.h"
@@ -75,8 +76,9 @@ void gather_folders(const Sources& sources, Facts& facts) {
   } else {
     facts.folders.push_back({.use = "state", .path = {}, .error = state.error().message});
   }
-  if (facts.site->snapshot) {
-    facts.folders.push_back(folder_facts(sources, "snapshots", facts.site->snapshot->folder));
+  const fs::path& snapshots = std::get<SnapshotSettings>(facts.site->sinks).folder;
+  if (!snapshots.empty()) {
+    facts.folders.push_back(folder_facts(sources, "snapshots", snapshots));
   }
 }
 

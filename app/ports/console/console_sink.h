@@ -73,9 +73,6 @@ class ConsoleSink final : public Sink {
   hal::Thread thread_;
 };
 
-/// Nobody commands by it.
-inline std::string commanders(const ConsoleSettings& /*settings*/) { return {}; }
-
 std::unique_ptr<Sink> make_sink(const ConsoleSettings& settings, const StatusNames& names);
 
 }  // namespace orbwatch::app

@@ -236,4 +236,9 @@ Result<> SnapshotSink::remove_oldest(const std::string& newest) {
   return {};
 }
 
+std::unique_ptr<Sink> make_sink(const SnapshotSettings& settings) {
+  if (settings.folder.empty()) return nullptr;
+  return std::make_unique<SnapshotSink>(settings);
+}
+
 }  // namespace orbwatch::app

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/model/command.h"
@@ -18,8 +20,10 @@
 namespace orbwatch::app {
 
 struct SnapshotSettings {
-  std::filesystem::path folder;
-  int keep = 100;  ///< snapshots on the disk
+  static constexpr std::string_view kName = "snapshot", kText = "Pictures on command";
+
+  std::filesystem::path folder;  ///< empty: there are no snapshots
+  int keep = 100;                ///< snapshots on the disk
 };
 
 template <class Visitor>
@@ -79,5 +83,8 @@ class SnapshotSink final : public Sink {
   std::atomic<std::uint64_t> written_{0};
   hal::Thread thread_;
 };
+
+/// Null without a folder.
+std::unique_ptr<Sink> make_sink(const SnapshotSettings& settings);
 
 }  // namespace orbwatch::app

@@ -114,14 +114,18 @@ TEST_F(ConfigurationWithRecipes, HasSnapshotsAndRadiometry) {
                                 "ball_reflectivity = 0.8\n[camera.replay]") +
                        "[snapshot]\nfolder = \"pictures\"\n");
   ASSERT_TRUE(c) << c.error().message;
-  ASSERT_TRUE(c->site.snapshot);
-  EXPECT_EQ(c->site.snapshot->folder, folder / "pictures");
-  EXPECT_EQ(c->site.snapshot->keep, 100);
+  const auto& snapshot = std::get<SnapshotSettings>(c->site.sinks);
+  EXPECT_EQ(snapshot.folder, folder / "pictures");
+  EXPECT_EQ(snapshot.keep, 100);
   const signals::RadiometrySettings& radiometry = c->site.cameras[0].radiometry;
   EXPECT_EQ(radiometry.wavelength, 4);
   EXPECT_EQ(radiometry.reflectivity, 0.8);
   EXPECT_EQ(radiometry.ball_temperature, 20);
-  EXPECT_FALSE(parse(kValid)->site.snapshot);
+  EXPECT_TRUE(std::get<SnapshotSettings>(parse(kValid)->site.sinks).folder.empty());
+  const auto no_folder = parse(kValid + "[snapshot]\nkeep = 5\n");
+  ASSERT_FALSE(no_folder);
+  EXPECT_NE(no_folder.error().message.find("snapshot.folder: is missing"), std::string::npos)
+      << no_folder.error().message;
 }
 
 TEST_F(ConfigurationWithRecipes, TheChecksumChangesWithEachOfTheFilesAndOnlyThen) {
