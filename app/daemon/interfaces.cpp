@@ -40,18 +40,23 @@ PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSo
           .program = std::move(program)};
 }
 
-/// Who is heard over DDS, for the page.
-std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
-  const bool is_wanted =
-      std::get<DdsSettings>(sinks).enabled && std::get<WebSettings>(sinks).enabled;
-  return is_wanted ? std::make_shared<Fleet>() : nullptr;
+/// Where other computers reach the appliance's page.
+PageAddress page_of(const SinkSettings& sinks) {
+  PageAddress page;
+  for_each_sink(sinks, [&page](const auto& settings) {
+    if constexpr (requires { page_address(settings); }) page = page_address(settings);
+  });
+  return page;
 }
 
-/// Where other computers reach the page.
-PageAddress page_of(const WebSettings& web) {
-  const auto port = https_port_of(web);
-  if (!web.enabled || !port || web::is_loopback(web.address)) return {};
-  return {web.address, static_cast<std::uint16_t>(*port)};
+/// Null: there is nobody to receive from, or nobody to show it to.
+std::shared_ptr<Fleet> make_fleet(const SinkSettings& sinks) {
+  bool is_filled = false, is_shown = false;
+  for_each_sink(sinks, [&](const auto& settings) {
+    if constexpr (requires { fills_fleet(settings); }) is_filled |= fills_fleet(settings);
+    if constexpr (requires { shows_fleet(settings); }) is_shown |= shows_fleet(settings);
+  });
+  return is_filled && is_shown ? std::make_shared<Fleet>() : nullptr;
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ Interfaces::Interfaces(const Resolved& site, const SitePlan& plan, CommandPath c
   const SinkSettings& sinks = site.site.sinks;
   ApplianceIdentity identity;
   identity.version = version_of(program);
-  identity.page = page_of(std::get<WebSettings>(sinks));
+  identity.page = page_of(sinks);
   PageContext page = page_context(site, plan, alignment, std::move(program));
   page.tables = [this] { return tables(); };
   page.metrics = [this] { return metrics(); };

@@ -3,41 +3,69 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <tuple>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/daemon/view_memory.h"
 #include "app/pipeline/measurement/compiled_recipe.h"
-#include "app/ports/dds/security/participant_security.h"
-#include "app/ports/web/tls/server_certificate.h"
 #include "hal/host.h"
 #include "hal/thread/scheduling.h"
 
 namespace orbwatch::app {
 
+namespace {
+
+/// A port and the interface that listens on it.
+struct NamedPort : ListeningPort {
+  std::string_view interface;
+};
+
+/// Those that are stated, of all interfaces.
+std::vector<NamedPort> ports_of(const SinkSettings& sinks) {
+  std::vector<NamedPort> ports;
+  for_each_sink(sinks, [&ports]<class Settings>(const Settings& settings) {
+    if constexpr (requires { listening_ports(settings); }) {
+      for (ListeningPort& port : listening_ports(settings)) {
+        if (port.port != 0) ports.push_back({std::move(port), Settings::kName});
+      }
+    }
+  });
+  return ports;
+}
+
+bool meet(const NamedPort& a, const NamedPort& b) {
+  return a.interface != b.interface && a.port == b.port &&
+         (a.address == b.address || hal::is_unspecified(a.address) ||
+          hal::is_unspecified(b.address));
+}
+
+std::string text_of(const NamedPort& port) {
+  return "[" + std::string(port.interface) + "] " + std::string(port.key);
+}
+
+}  // namespace
+
 Result<> check_keys(const Resolved& site, Dates dates) {
-  const auto& dds = std::get<DdsSettings>(site.site.sinks);
-  const auto& web = std::get<WebSettings>(site.site.sinks);
-  const Result<> checked =
-      dds.enabled && dds.security ? check_security(*dds.security, dds.domain, dates) : Result<>();
-  if (!checked || !web.enabled || web.certificate.empty()) return checked;
-  return web::named_certificate(web, now_for(dates)).map([](const auto&) {});
+  Result<> checked;
+  for_each_sink(site.site.sinks, [&](const auto& settings) {
+    if constexpr (requires { check_keys(settings, dates); }) {
+      if (checked) checked = check_keys(settings, dates);
+    }
+  });
+  return checked;
 }
 
 Result<> check_ports(const Resolved& site) {
-  const auto& modbus = std::get<ModbusSettings>(site.site.sinks);
-  const auto& web = std::get<WebSettings>(site.site.sinks);
-  if (!modbus.enabled || !web.enabled || modbus.port == 0) return {};
-  const auto meets = [&modbus](const std::string& address) {
-    return address == modbus.address || hal::is_unspecified(address) ||
-           hal::is_unspecified(modbus.address);
-  };
-  const bool is_http =
-      web.port == modbus.port && std::ranges::any_of(http_addresses_of(web), meets);
-  const bool is_https = https_port_of(web) == modbus.port && meets(web.address);
-  if (!is_http && !is_https) return {};
-  return fail(std::string("[web] ") + (is_http ? "port" : "https_port") +
-              " and [modbus] port are both " + std::to_string(modbus.port) +
-              "; give each a port of its own");
+  const auto ports = ports_of(site.site.sinks);
+  for (auto later = ports.begin(); later != ports.end(); ++later) {
+    const auto earlier = std::find_if(ports.begin(), later,
+                                      [&](const NamedPort& other) { return meet(other, *later); });
+    if (earlier == later) continue;
+    return fail(text_of(*later) + " and " + text_of(*earlier) + " are both " +
+                std::to_string(later->port) + "; give each a port of its own");
+  }
+  return {};
 }
 
 Result<SitePlan> checked_plan(const Resolved& site, Dates dates) {

@@ -7,10 +7,10 @@
 
 namespace orbwatch::app {
 
-/// Error: Modbus and the page would listen on one port.
+/// Error: two interfaces would listen on one port.
 Result<> check_ports(const Resolved& site);
 
-/// Checks the keys for DDS, and certificate and key of the page, as far as files are named.
+/// Checks keys and certificates of the enabled interfaces, as far as files are named.
 Result<> check_keys(const Resolved& site, Dates dates);
 
 /// Plans the site for the formats that are expected, and checks what build() would refuse, ports

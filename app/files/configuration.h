@@ -27,7 +27,13 @@ namespace orbwatch::app {
 
 /// The list of sinks, one per line. A settings struct has the name and the meaning of its table as
 /// kName and kText and its keys in visit(); make_sink() beside it makes the sink, or returns null
-/// if it is not enabled, and commanders() of one that takes commands lists the clients that may command through it.
+/// if it is not enabled. Its parameters name what the sink is made with, see SinkParts in
+/// app/daemon/interfaces.cpp. Beside it stand, for a sink that
+/// - takes commands: commanders(), the clients that may command through it;
+/// - has keys or certificates: check_keys();
+/// - listens on TCP ports: listening_ports();
+/// - serves a page: page_address();
+/// - receives from other appliances, or shows them: fills_fleet(), shows_fleet().
 using SinkSettings = std::tuple<ConsoleSettings,   //
                                 ModbusSettings,    //
                                 DdsSettings,       //

@@ -79,6 +79,16 @@ void visit(Visitor& v, DdsSettings& dds) {
 /// Who may command over DDS, in words; empty: nobody. Reentrant.
 std::string commanders(const DdsSettings& settings);
 
+/// True: it receives the notices of the domain's appliances.
+inline bool fills_fleet(const DdsSettings& settings) { return settings.enabled; }
+
+/// Checks the keys of an enabled participant, if there are any. Error: as check_security().
+/// Reentrant.
+inline Result<> check_keys(const DdsSettings& settings, Dates dates) {
+  if (!settings.enabled || !settings.security) return {};
+  return check_security(*settings.security, settings.domain, dates);
+}
+
 /// `identity` is completed by name and prefix. `views` and `cameras` by place in `names`.
 std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& names,
                                 const std::vector<PublishedView>& views,

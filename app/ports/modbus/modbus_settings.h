@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/model/command_path.h"
+#include "app/model/listening_port.h"
 #include "app/model/sink.h"
 #include "app/ports/modbus/server/access_list.h"
 #include "hal/network.h"
@@ -116,6 +117,12 @@ void visit(Visitor& v, ModbusSettings& modbus) {
 
 /// Who may command over Modbus, in words; empty: nobody. Reentrant.
 std::string commanders(const ModbusSettings& settings);
+
+/// The ports of an enabled server.
+inline std::vector<ListeningPort> listening_ports(const ModbusSettings& settings) {
+  if (!settings.enabled) return {};
+  return {{"port", settings.address, settings.port}};
+}
 
 std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands);
 

@@ -8,7 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "app/certificates/dates.h"
+#include "app/model/appliance_notice.h"
 #include "app/model/command_path.h"
+#include "app/model/listening_port.h"
 #include "app/model/published.h"
 #include "app/model/sink.h"
 #include "app/model/status_report.h"
@@ -146,6 +149,33 @@ inline std::string commanders(const WebSettings& settings) {
   }
   return where + ", by role once there are users";
 }
+
+/// The page for other computers; without an address: it is off, or for its own computer only.
+inline PageAddress page_address(const WebSettings& settings) {
+  const auto port = https_port_of(settings);
+  if (!settings.enabled || !port || web::is_loopback(settings.address)) return {};
+  return {settings.address, static_cast<std::uint16_t>(*port)};
+}
+
+/// The ports of an enabled server.
+inline std::vector<ListeningPort> listening_ports(const WebSettings& settings) {
+  std::vector<ListeningPort> ports;
+  if (!settings.enabled) return ports;
+  for (const std::string& address : http_addresses_of(settings)) {
+    ports.push_back({"port", address, settings.port});
+  }
+  if (const auto https = https_port_of(settings)) {
+    ports.push_back({"https_port", settings.address, *https});
+  }
+  return ports;
+}
+
+/// True: it shows the appliances of the DDS domain.
+inline bool shows_fleet(const WebSettings& settings) { return settings.enabled; }
+
+/// Checks certificate and key of an enabled server, as far as they are named. Error: as
+/// web::named_certificate(). Reentrant.
+Result<> check_keys(const WebSettings& settings, Dates dates);
 
 std::unique_ptr<Sink> make_sink(const WebSettings& settings, const StatusNames& names,
                                 const std::vector<PublishedView>& views,

@@ -140,3 +140,12 @@ std::string certificate_text(const ServerCertificate& certificate) {
 }
 
 }  // namespace orbwatch::app::web
+
+namespace orbwatch::app {
+
+Result<> check_keys(const WebSettings& settings, Dates dates) {
+  if (!settings.enabled || settings.certificate.empty()) return {};
+  return web::named_certificate(settings, now_for(dates)).map([](const auto&) {});
+}
+
+}  // namespace orbwatch::app

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace orbwatch::app {
+
+/// A TCP port that an interface listens on.
+struct ListeningPort {
+  std::string_view key;  ///< that states it, in the interface's table
+  std::string address;   ///< numeric; 0.0.0.0 or ::, all of the computer's
+  int port = 0;          ///< 0: any free one
+};
+
+}  // namespace orbwatch::app
