@@ -21,7 +21,7 @@ CalibrationEntry rig_files(const std::string& camera) {
 }  // namespace
 
 AlignmentRecord::AlignmentRecord(const Resolved& site)
-    : site_(site), file_(calibration_file(site.site.state_folder)) {}
+    : site_(site), file_(calibration_file(site.state_folder)) {}
 
 /// Keeps a damaged file aside; then the alignments that run.
 Result<std::vector<CalibrationEntry>> AlignmentRecord::load_or_mend() {

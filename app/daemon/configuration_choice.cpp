@@ -114,10 +114,10 @@ Result<Chosen> choose(const std::filesystem::path& file) {
   const auto folder = service_folder();
   if (folder) take_over(*folder, file);
   auto chosen = choose_texts(folder, file);
-  if (!chosen || !chosen->site.site.state_folder.empty()) return chosen;
+  if (!chosen || !chosen->site.state_folder.empty()) return chosen;
   auto settled = folder ? Result<std::filesystem::path>(*folder) : state_folder({}, file);
   if (!settled) return tl::unexpected(settled.error());
-  chosen->site.site.state_folder = std::move(*settled);
+  chosen->site.state_folder = std::move(*settled);
   return chosen;
 }
 

@@ -36,7 +36,7 @@ PageContext page_context(const Resolved& site, const SitePlan& plan, AlignmentSo
           .scene = plan.scene.proxy,
           .recipes = measured_recipes(site, plan),
           .alignment = alignment,
-          .state_folder = site.site.state_folder,
+          .state_folder = site.state_folder,
           .program = std::move(program)};
 }
 

@@ -16,7 +16,7 @@ namespace orbwatch::app {
 namespace fs = std::filesystem;
 
 void remove_leftovers(const Resolved& site) {
-  std::set<fs::path> folders{site.site.state_folder};
+  std::set<fs::path> folders{site.state_folder};
   if (const auto service = service_folder()) folders.insert(*service);
   for (const auto& [file, text] : site.texts) folders.insert(file.parent_path());
   for (const fs::path& folder : folders) {

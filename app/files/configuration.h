@@ -63,9 +63,7 @@ struct Configuration {
   std::vector<Located<ViewSettings>> views;
   std::vector<Located<RecipeFile>> recipes;  ///< the first recipe is measured from the start
   PlaceSettings place;
-  /// Folder of state that survives a restart. Empty when read: the file names none; see
-  /// state_folder().
-  std::filesystem::path state_folder;
+  std::filesystem::path state_folder;  ///< empty: the file names none; see Resolved::state_folder
   SinkSettings sinks;
 };
 

@@ -232,18 +232,13 @@ class Resolver {
   PictureUses sharpened_;  ///< sharpenings of all views
 };
 
-/// Leaves it empty if it belongs to another machine; the files of this one are still valid.
-void settle_state_folder(Configuration& site, const std::filesystem::path& file) {
-  site.state_folder = state_folder(site.state_folder, file).value_or(std::filesystem::path());
-}
-
 /// Replaces the rig file's alignments by those accepted for this rig.
 Result<> calibrate(Resolved& resolved, TextFiles& files) {
   // The texts that were read are used: the files may have changed since.
   const auto rig = rig_checksum(resolved.site.rig.path, files.texts());
   if (!rig) return tl::unexpected(rig.error());
   resolved.rig_checksum = *rig;
-  const auto file = calibration_file(resolved.site.state_folder);
+  const auto file = calibration_file(resolved.state_folder);
   const auto entries = load_calibrations(file, files);
   if (!entries) return tl::unexpected(entries.error());
   resolved.alignments = in_force(*entries, *rig);
@@ -271,8 +266,11 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   }
   if (finding.message) return fail(*finding.message);
   resolved.rig = std::move(*rig);
-  settle_state_folder(resolved.site, folder / std::filesystem::path(name).filename());
-  const bool has_state = !resolved.site.state_folder.empty();
+  // Empty where it is another machine's: files of this one by themselves are right.
+  resolved.state_folder =
+      state_folder(resolved.site.state_folder, folder / std::filesystem::path(name).filename())
+          .value_or(std::filesystem::path());
+  const bool has_state = !resolved.state_folder.empty();
   if (has_state) {
     if (auto done = calibrate(resolved, files); !done) return tl::unexpected(done.error());
   }
@@ -280,7 +278,7 @@ Result<Resolved> resolve_with(TextFiles& files, const std::string& text, const s
   resolved.checksum = files.checksum();
   resolved.texts = files.texts();
   if (!has_state) return resolved;
-  const auto calibration = calibration_file(resolved.site.state_folder);
+  const auto calibration = calibration_file(resolved.state_folder);
   resolved.calibration[calibration] = resolved.texts[calibration];
   resolved.texts.erase(calibration);
   return resolved;

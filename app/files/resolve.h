@@ -19,9 +19,10 @@ namespace orbwatch::app {
 /// All files of a site, read together and checked against each other: every reference has its
 /// index.
 struct Resolved {
-  /// The configuration file, with the state folder that follows from it and the environment; an
-  /// empty one belongs to another configuration, and alignments are not applied.
-  Configuration site;
+  Configuration site;  ///< the configuration file
+  /// Folder of state that survives a restart, from the configuration file and the environment, see
+  /// state_folder(). Empty: it belongs to another configuration, and alignments are not applied.
+  std::filesystem::path state_folder;
   optics::Rig rig;  ///< rig with the alignments in force
   std::vector<CalibrationEntry> alignments;
   std::vector<std::size_t> rig_cameras;  ///< index in the rig for each camera

@@ -93,12 +93,12 @@ class TemporaryState {
     std::string name =
         (std::filesystem::temp_directory_path(error_) / "orbwatch-bench-XXXXXX").string();
     if (!error_ && ::mkdtemp(name.data()) == nullptr) error_.assign(errno, std::generic_category());
-    if (!error_) site_.site.state_folder = name;
+    if (!error_) site_.state_folder = name;
   }
   TemporaryState(const TemporaryState&) = delete;
   TemporaryState& operator=(const TemporaryState&) = delete;
   ~TemporaryState() {
-    if (!error_) std::filesystem::remove_all(site_.site.state_folder, error_);
+    if (!error_) std::filesystem::remove_all(site_.state_folder, error_);
   }
   const std::error_code& error() const { return error_; }
   const Resolved& site() const { return site_; }

@@ -75,7 +75,7 @@ Result<> check_places(const FileTexts& texts, const fs::path& config, const fs::
   std::vector<fs::path> state{folder};
   std::set<fs::path> named{config};
   if (const auto present = resolve(config)) {
-    if (!present->site.state_folder.empty()) state.push_back(present->site.state_folder);
+    if (!present->state_folder.empty()) state.push_back(present->state_folder);
     for (const auto& [path, text] : present->texts) named.insert(path);
   }
   for (const auto& [path, text] : texts) {
