@@ -8,8 +8,11 @@
 #include <bit>
 #include <cerrno>
 #include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "hal/atomic_file.h"
 
 namespace orbwatch::app {
 namespace {
@@ -17,6 +20,9 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "a file moves between our targets");
 
 constexpr std::array<char, 8> kMagic{'o', 'r', 'b', 's', 't', 'a', 't', 'e'};
+
+constexpr const char* kNeed =
+    "; orbwatchd needs a state_folder that it may write to, with 16 KiB free";
 
 std::uint32_t checksum_of(std::uint64_t number, const SlotFile::Content& content) {
   const auto crc = crc32_z(0, reinterpret_cast<const Bytef*>(&number), sizeof number);
@@ -75,20 +81,14 @@ Result<> SlotFile::lock() {
               ": is used by another orbwatchd; give each a state_folder of its own");
 }
 
-/// Under another name first: a file that exists is whole, or was damaged later.
-Result<> SlotFile::create() {
-  const std::filesystem::path unfinished = path_.string() + ".new";
-  file_ = hal::FileDescriptor(
-      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640));
-  if (!file_.is_open()) return tl::unexpected(error("be created"));
+/// A file that exists is whole, or was damaged later.
+Result<> SlotFile::create() const {
   const Slot slot{{kMagic, kVersion, checksum_of(0, {}), 0}, {}};
-  const auto bytes = std::as_bytes(std::span(&slot, 1));
-  const bool is_created = write_all(file_.get(), bytes, 0) &&
-                          write_all(file_.get(), bytes, kSlotSize) && ::fsync(file_.get()) == 0 &&
-                          ::rename(unfinished.c_str(), path_.c_str()) == 0 &&
-                          ::fsync(folder_.get()) == 0;
-  if (!is_created) return tl::unexpected(error("be created"));
-  return {};
+  const std::array slots{slot, slot};
+  const std::string_view bytes(reinterpret_cast<const char*>(slots.data()), sizeof slots);
+  return hal::write_file(path_, bytes, hal::FileAccess::Folder).map_error([](const Error& error) {
+    return Error{error.message + kNeed};
+  });
 }
 
 Result<> SlotFile::load() {
@@ -135,7 +135,7 @@ Result<> SlotFile::write(const Content& content) {
 
 Error SlotFile::error(const std::string& what) const {
   return {path_.string() + ": cannot " + what + ": " + std::system_category().message(errno) +
-          "; orbwatchd needs a state_folder that it may write to, with 16 KiB free"};
+          kNeed};
 }
 
 }  // namespace orbwatch::app

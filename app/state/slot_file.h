@@ -53,7 +53,7 @@ class SlotFile {
   explicit SlotFile(std::filesystem::path path) : path_(std::move(path)) {}
 
   Result<> lock();
-  Result<> create();
+  Result<> create() const;
   Result<> load();
   Error error(const std::string& what) const;
 

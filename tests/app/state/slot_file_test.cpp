@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "tests/app/state/damaged_disk.h"
@@ -138,7 +139,7 @@ TEST_F(SlotFileTest, NeedsAFolderThatItMayWriteTo) {
   EXPECT_THAT(read_only.error().message, HasSubstr("/proc/orbwatch: cannot be opened"));
   const auto no_file = SlotFile::open("/proc/value");
   ASSERT_FALSE(no_file);
-  EXPECT_THAT(no_file.error().message, HasSubstr("/proc/value: cannot be created"));
+  EXPECT_THAT(no_file.error().message, HasSubstr("/proc/value: cannot be written"));
   set_bytes(folder_ / "file", "");
   EXPECT_FALSE(SlotFile::open(folder_ / "file/value"));
 }
@@ -146,8 +147,9 @@ TEST_F(SlotFileTest, NeedsAFolderThatItMayWriteTo) {
 TEST_F(SlotFileTest, OnAFullDiskItIsNotBegunAndLaterIs) {
   {
     const FullDisk full(SlotFile::kSlotSize + 1);
-    EXPECT_THAT(refusal(), HasSubstr("cannot be created: File too large"));
+    EXPECT_THAT(refusal(), HasSubstr("cannot be written: File too large"));
   }
+  EXPECT_TRUE(std::filesystem::is_empty(file_.parent_path())) << "nothing is left of it";
   EXPECT_EQ(open()->content(), SlotFile::Content{}) << "what was begun is not taken for damaged";
 }
 
