@@ -25,7 +25,7 @@ PublishedView published(const Resolved& site, const ViewSettings& view) {
 PublishedView published_display(const Resolved& site, const ViewSettings& view) {
   PublishedView display = published(site, view);
   display.measured = false;
-  display.is_own_picture = view.kind == optics::ViewKind::Ball && view.sources.size() == 1;
+  display.is_own_picture = is_own_picture(view);
   display.mixes = view.combine != Combine::Switch && view.sources.size() > 1;
   return display;
 }

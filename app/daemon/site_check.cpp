@@ -16,35 +16,29 @@ namespace orbwatch::app {
 
 namespace {
 
-/// A port and the interface that listens on it.
-struct NamedPort : ListeningPort {
-  std::string_view interface;
-};
-
-/// Those that are stated, of all interfaces.
-std::vector<NamedPort> ports_of(const SinkSettings& sinks) {
-  std::vector<NamedPort> ports;
-  for_each_sink(sinks, [&ports]<class Settings>(const Settings& settings) {
-    if constexpr (requires { listening_ports(settings); }) {
-      for (ListeningPort& port : listening_ports(settings)) {
-        if (port.port != 0) ports.push_back({std::move(port), Settings::kName});
-      }
-    }
-  });
-  return ports;
-}
-
-bool meet(const NamedPort& a, const NamedPort& b) {
+bool meet(const ListeningPort& a, const ListeningPort& b) {
   return a.interface != b.interface && a.port == b.port &&
          (a.address == b.address || hal::is_unspecified(a.address) ||
           hal::is_unspecified(b.address));
 }
 
-std::string text_of(const NamedPort& port) {
+std::string text_of(const ListeningPort& port) {
   return "[" + std::string(port.interface) + "] " + std::string(port.key);
 }
 
 }  // namespace
+
+std::vector<ListeningPort> listening_ports(const SinkSettings& sinks) {
+  std::vector<ListeningPort> ports;
+  for_each_sink(sinks, [&ports](const auto& settings) {
+    if constexpr (requires { listening_ports(settings); }) {
+      for (ListeningPort& port : listening_ports(settings)) {
+        if (port.port != 0) ports.push_back(std::move(port));
+      }
+    }
+  });
+  return ports;
+}
 
 Result<> check_keys(const Resolved& site, Dates dates) {
   Result<> checked;
@@ -57,10 +51,10 @@ Result<> check_keys(const Resolved& site, Dates dates) {
 }
 
 Result<> check_ports(const Resolved& site) {
-  const auto ports = ports_of(site.site.sinks);
+  const auto ports = listening_ports(site.site.sinks);
   for (auto later = ports.begin(); later != ports.end(); ++later) {
-    const auto earlier = std::find_if(ports.begin(), later,
-                                      [&](const NamedPort& other) { return meet(other, *later); });
+    const auto earlier = std::find_if(
+        ports.begin(), later, [&](const ListeningPort& other) { return meet(other, *later); });
     if (earlier == later) continue;
     return fail(text_of(*later) + " and " + text_of(*earlier) + " are both " +
                 std::to_string(later->port) + "; give each a port of its own");

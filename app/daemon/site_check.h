@@ -1,11 +1,17 @@
 #pragma once
 
+#include <vector>
+
 #include "app/certificates/dates.h"
 #include "app/daemon/site_plan.h"
 #include "app/files/resolve.h"
+#include "app/model/listening_port.h"
 #include "proc/image/result.h"
 
 namespace orbwatch::app {
+
+/// The TCP ports of all enabled interfaces, without those that are any free one. Reentrant.
+std::vector<ListeningPort> listening_ports(const SinkSettings& sinks);
 
 /// Error: two interfaces would listen on one port.
 Result<> check_ports(const Resolved& site);

@@ -44,10 +44,10 @@ class Planner {
   Result<> add_display_view(const ViewSettings& view) {
     auto planned = plan_view(view, site_.rig);
     if (!planned) return tl::unexpected(planned.error());
-    const bool is_ball = view.kind == optics::ViewKind::Ball;
-    plan_.balls.push_back(
-        is_ball ? std::make_shared<const optics::ViewProjection>(planned->projection) : nullptr);
-    if (is_ball && view.sources.size() == 1) {
+    plan_.balls.push_back(view.kind == optics::ViewKind::Ball
+                              ? std::make_shared<const optics::ViewProjection>(planned->projection)
+                              : nullptr);
+    if (is_own_picture(view)) {
       optics::Rig rig = site_.rig;
       rig.scene = {};
       planned = plan_view(view, rig);

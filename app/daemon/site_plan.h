@@ -37,6 +37,11 @@ struct SitePlan {
   static Result<SitePlan> make(const Resolved& site, std::vector<hal::StreamFormat> formats);
 };
 
+/// True: a display view that shows the ball as one camera alone sees it.
+inline bool is_own_picture(const ViewSettings& view) {
+  return view.kind == optics::ViewKind::Ball && view.sources.size() == 1;
+}
+
 /// Names the file of the recipe at that place in front of an error.
 Error in_recipe(const Resolved& site, std::size_t recipe, const Error& error);
 

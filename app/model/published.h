@@ -25,7 +25,7 @@ struct PublishedView {
   PixelFormat encoding = PixelFormat::Rgb;  ///< or Bgr or Grey
   bool measured = true;                     ///< it has a plane that is measured
   optics::ViewSpec spec{};                  ///< as configured
-  /// Of kind Ball: where its first camera's picture of the ball shows the room; else null.
+  /// Of kind Ball: where the picture of the first camera that it shows has the room; else null.
   std::shared_ptr<const optics::ViewProjection> ball = nullptr;
   bool is_own_picture = false;  ///< a display view of kind Ball, of one camera
   bool mixes = false;           ///< a display view whose sources are blended by weight

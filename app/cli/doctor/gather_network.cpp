@@ -7,6 +7,7 @@
 
 #include "app/cli/doctor/gather.h"
 #include "app/cli/doctor/program_output.h"
+#include "app/daemon/site_check.h"
 #include "app/health/system_file.h"
 #include "app/ports/web/http/address.h"
 #include "hal/thread/file_descriptor.h"
@@ -54,29 +55,18 @@ bool has_one_of(const fs::path& process, const std::set<std::string>& sockets) {
   });
 }
 
-void add_port(const Sources& sources, const std::string& key, const std::string& address, int port,
-              Facts& facts) {
-  if (port == 0) return;
-  const fs::path proc = sources.at("/proc");
-  PortFacts found{.key = key, .address = address, .port = port};
-  found.error = bind_error(address, port);
-  if (found.error == EADDRINUSE) found.holder = listener_on(proc, port);
-  found.service_runs = facts.limits.of_service;
-  facts.ports.push_back(std::move(found));
-}
-
 void gather_ports(const Sources& sources, Facts& facts) {
-  const auto& modbus = std::get<ModbusSettings>(facts.site->sinks);
-  if (modbus.enabled) {
-    add_port(sources, "modbus", modbus.address, modbus.port, facts);
-    if (modbus.serial && !sources.has(modbus.serial->device)) {
-      facts.missing_serial_line = modbus.serial->device;
-    }
+  for (const ListeningPort& port : listening_ports(facts.site->sinks)) {
+    PortFacts found{.key = std::string(port.interface), .address = port.address, .port = port.port};
+    found.error = bind_error(port.address, port.port);
+    if (found.error == EADDRINUSE) found.holder = listener_on(sources.at("/proc"), port.port);
+    found.service_runs = facts.limits.of_service;
+    facts.ports.push_back(std::move(found));
   }
-  const auto& web = std::get<WebSettings>(facts.site->sinks);
-  if (!web.enabled) return;
-  add_port(sources, "web", web.address, web.port, facts);
-  if (const auto https = https_port_of(web)) add_port(sources, "web", web.address, *https, facts);
+  const auto& modbus = std::get<ModbusSettings>(facts.site->sinks);
+  if (modbus.enabled && modbus.serial && !sources.has(modbus.serial->device)) {
+    facts.missing_serial_line = modbus.serial->device;
+  }
 }
 
 }  // namespace

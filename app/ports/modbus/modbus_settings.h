@@ -121,7 +121,7 @@ std::string commanders(const ModbusSettings& settings);
 /// The ports of an enabled server.
 inline std::vector<ListeningPort> listening_ports(const ModbusSettings& settings) {
   if (!settings.enabled) return {};
-  return {{"port", settings.address, settings.port}};
+  return {{ModbusSettings::kName, "port", settings.address, settings.port}};
 }
 
 std::unique_ptr<Sink> make_sink(const ModbusSettings& settings, const CommandPath& commands);

@@ -162,10 +162,10 @@ inline std::vector<ListeningPort> listening_ports(const WebSettings& settings) {
   std::vector<ListeningPort> ports;
   if (!settings.enabled) return ports;
   for (const std::string& address : http_addresses_of(settings)) {
-    ports.push_back({"port", address, settings.port});
+    ports.push_back({WebSettings::kName, "port", address, settings.port});
   }
   if (const auto https = https_port_of(settings)) {
-    ports.push_back({"https_port", settings.address, *https});
+    ports.push_back({WebSettings::kName, "https_port", settings.address, *https});
   }
   return ports;
 }

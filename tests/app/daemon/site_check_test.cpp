@@ -86,6 +86,26 @@ TEST(SiteCheck, FindsModbusAndThePageOnOnePort) {
   EXPECT_EQ(on(8080, 1502, "10.0.0.5", "10.1.0.5"), "none");
 }
 
+TEST(ListeningPorts, AreThoseOfAllEnabledInterfaces) {
+  SinkSettings sinks;
+  auto& web = std::get<WebSettings>(sinks);
+  web.enabled = true;
+  web.address = "10.0.0.5";
+  std::string said;
+  for (const ListeningPort& port : listening_ports(sinks)) {
+    said += std::string(port.interface) + "." + std::string(port.key) + " " + port.address + ":" +
+            std::to_string(port.port) + "\n";
+  }
+  EXPECT_EQ(said,
+            "modbus.port 0.0.0.0:1502\n"
+            "web.port 10.0.0.5:8080\n"
+            "web.port 127.0.0.1:8080\n"
+            "web.https_port 10.0.0.5:8443\n");
+  std::get<ModbusSettings>(sinks).port = 0;
+  web.enabled = false;
+  EXPECT_TRUE(listening_ports(sinks).empty()) << "any free port";
+}
+
 TEST(SiteCheck, AnUnregisteredCameraDoesNotMeasure) {
   Resolved site = demo();
   site.rig.cameras[site.rig_cameras[kThermalCamera]].is_registered = false;
