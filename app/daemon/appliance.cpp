@@ -44,7 +44,7 @@ Appliance::Appliance(const Resolved& site)
     : site_(site),
       aligned_(aligned_site(site)),
       accepted_(site),
-      record_(std::make_shared<CommandRecord>(site.site.state_folder)),
+      record_(std::make_shared<CommandRecord>(site.state_folder)),
       background_(std::make_shared<hal::SharedThreads>(
           hal::SharedThreads::kBackgroundName, hal::ThreadRole::Background,
           static_cast<std::size_t>(site.site.threads.background))),
@@ -78,7 +78,7 @@ Result<std::unique_ptr<Appliance>> Appliance::make(const Resolved& site, Restart
   add_cameras(*plan, std::move(*opened), site, *all.lines_);
   plan->background = all.background_;
   // It must not delay the pictures that somebody waits for.
-  all.watch_.emplace(all.aligned_, site.site.state_folder, hal::SharedThreads::alone("watch"));
+  all.watch_.emplace(all.aligned_, site.state_folder, hal::SharedThreads::alone("watch"));
   all.alignment_.emplace(all.aligned_, *all.watch_, all.accepted_, restart.request,
                          std::move(check_acceptance));
   all.assumptions_ = app::assumptions(site, *planned);
