@@ -109,9 +109,9 @@ inline constexpr auto kFaultWords = [] {
 
 template <class Visitor>
 void visit(Visitor& v, ScriptedFault& fault) {
-  v.required("fault", fault.fault, kFaultWords, "What fails");
+  v.required("fault", fault.fault, kFaultWords, "Fault that is simulated");
   v.required("from", fault.from, Range::between(0, 1e15), "First frame that fails");
-  v.required("until", fault.until, Range::between(0, 1e15), "First frame that works again");
+  v.required("until", fault.until, Range::between(0, 1e15), "First frame without the fault");
 }
 
 /// Faults by exposure number; the first match counts.

@@ -173,14 +173,14 @@ Result<std::string> to_pem(const Key& key) {
 Result<Certificate> certificate_from_pem(std::string_view pem) {
   const Bio in = read_bio(pem);
   Certificate certificate(in ? PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr) : nullptr);
-  if (!certificate) return tl::unexpected(openssl_error("is no certificate in PEM"));
+  if (!certificate) return tl::unexpected(openssl_error("is not a certificate in PEM"));
   return certificate;
 }
 
 Result<Key> key_from_pem(std::string_view pem) {
   const Bio in = read_bio(pem);
   Key key(in ? PEM_read_bio_PrivateKey(in.get(), nullptr, no_password, nullptr) : nullptr);
-  if (!key) return tl::unexpected(openssl_error("is no private key in PEM without a password"));
+  if (!key) return tl::unexpected(openssl_error("is not a private key in PEM without a password"));
   return key;
 }
 

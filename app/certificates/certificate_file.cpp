@@ -16,11 +16,11 @@ std::string day(std::chrono::sys_seconds time) { return date_text(time, "%Y-%m-%
 Result<> check_dates(const fs::path& file, const ValidityPeriod& validity, const Now& now) {
   if (!now) return {};
   if (now >= validity.until) {
-    return fail(file.string() + ": expired on " + day(validity.until) + "; it must be made anew");
+    return fail(file.string() + ": expired on " + day(validity.until) + "; it must be renewed");
   }
   if (now < validity.from) {
     return fail(file.string() + ": is valid from " + day(validity.from) +
-                " on; is this computer's clock right? It says " + day(*now));
+                " on; check this computer's clock, which reads " + day(*now));
   }
   return {};
 }
@@ -40,7 +40,7 @@ Result<Key> read_key(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
       (status.st_mode & S_IROTH) != 0) {
-    return fail(file.string() + ": may be read by everybody, so it is no secret; chmod it to 0600");
+    return fail(file.string() + ": is world-readable; set its mode to 0600 by chmod");
   }
   return hal::read_regular_file(file).and_then(
       [&](const std::string& pem) { return of_file(file, key_from_pem(pem)); });

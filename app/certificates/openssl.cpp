@@ -19,7 +19,7 @@ std::string text_of(const Bio& bio) {
 Error openssl_error(std::string_view what) {
   const char* reason = ERR_reason_error_string(ERR_peek_last_error());
   ERR_clear_error();
-  return {std::string(what) + ": " + (reason ? reason : "OpenSSL gives no reason")};
+  return {std::string(what) + ": " + (reason ? reason : "OpenSSL states no reason")};
 }
 
 }  // namespace orbwatch::app

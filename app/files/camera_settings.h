@@ -108,74 +108,74 @@ inline constexpr std::array kTriggerActivations{
 
 template <class Visitor>
 void visit(Visitor& v, ControlSettings& control) {
-  v.required(
-      "name", control.name,
-      "GenICam's, for v4l2, libcamera and genicam: ExposureTime (us), Gain, and ExposureAuto "
-      "and BalanceWhiteAuto (0 off, 1 on), for v4l2 and genicam GainAuto and TriggerMode, "
-      "too; or the camera's own, as `orbwatch list` shows it");
+  v.required("name", control.name,
+             "GenICam name, for v4l2, libcamera and genicam: ExposureTime (us), Gain, ExposureAuto "
+             "and BalanceWhiteAuto (0 off, 1 on); for v4l2 and genicam also GainAuto and "
+             "TriggerMode; or the camera's own name, as `orbwatch list` shows it");
   v.required("value", control.value, kAnyNumber,
-             "In the camera's units; for a menu, the entry's number");
+             "Value in the camera's units; for a menu, the number of the entry");
 }
 
 template <class Visitor>
 void visit_trigger(Visitor& v, CameraSettings& camera) {
-  v.optional("trigger_mode", camera.trigger.mode, kTriggerModes,
-             "off: every frame counts; software: each edge asks the camera for a frame, of a "
-             "camera with the controls TriggerMode and TriggerSoftware or a simulated one; line: "
-             "the frame that begins after an edge counts, of a camera that receives the edge or "
-             "runs freely");
+  v.optional(
+      "trigger_mode", camera.trigger.mode, kTriggerModes,
+      "off: every frame is used; software: each edge requests a frame, from a camera with the "
+      "controls TriggerMode and TriggerSoftware or a simulated one; line: the first frame that "
+      "begins after an edge is used, from a camera that receives the edge or runs freely");
   v.optional("trigger_source", camera.trigger_source,
-             "Name of the line, whose use is trigger_in; or software: only the command trigger "
-             "does");
+             "Name of a line with use trigger_in; or software: only the command trigger triggers");
   v.optional("trigger_activation", camera.trigger.activation, kTriggerActivations,
-             "Which of its edges are triggers");
+             "Edges of the line that trigger");
   v.optional("trigger_delay_us", camera.trigger.delay, Microseconds{Range::between(0, 1e7)},
-             "From the edge to the exposure, us");
+             "Delay from the edge to the exposure, us");
   const bool triggered = camera.trigger.mode != hal::TriggerMode::Off;
   v.require(triggered != camera.trigger_source.empty(), "trigger_mode",
-            "a triggered camera needs trigger_source, and only that");
+            "a triggered camera needs trigger_source, and only a triggered camera may set it");
 }
 
 template <class Visitor>
 void visit(Visitor& v, CameraSettings& camera) {
-  v.required("name", camera.name, "Its name in the rig; views and messages use it too");
-  v.one_of("back_end", camera.back_end, "Where its frames come from");
-  v.optional("width", camera.stream.width, kSide,
-             "Picture width, px, as in the rig; else the camera's own, of v4l2 the rig's");
-  v.optional("height", camera.stream.height, kSide,
-             "Picture height, px, as in the rig; else the camera's own, of v4l2 the rig's");
+  v.required("name", camera.name, "Camera's name in the rig, also used by views and messages");
+  v.one_of("back_end", camera.back_end, "Source of the camera's frames");
+  v.optional(
+      "width", camera.stream.width, kSide,
+      "Picture width, px, equal to the rig's; default: the camera's own, for v4l2 the rig's");
+  v.optional(
+      "height", camera.stream.height, kSide,
+      "Picture height, px, equal to the rig's; default: the camera's own, for v4l2 the rig's");
   v.optional("frame_rate", camera.stream.frame_rate, Range::between(0.01, hal::kMaxFrameRate),
-             "Frames per second; else the camera's own");
-  v.optional("kelvin_per_count", camera.radiometry.kelvin_per_count, Range::above(0, 10),
-             "Radiometric scale of a 16-bit thermal camera, which must be the one that the camera "
-             "says, if it does; else it is none");
+             "Frames per second; default: the camera's own");
+  v.optional(
+      "kelvin_per_count", camera.radiometry.kelvin_per_count, Range::above(0, 10),
+      "Radiometric scale of a 16-bit thermal camera, K per count; must equal the scale that the "
+      "camera reports, if it reports one. Without the key the camera is not radiometric");
   v.optional("kelvin_offset", camera.radiometry.kelvin_offset, Range::above(-1000, 1000),
-             "Temperature of its count 0, K: T[K] = kelvin_per_count * count + kelvin_offset; "
-             "273.15 where counts begin at 0 degC");
+             "Temperature at count 0, K: T[K] = kelvin_per_count * count + kelvin_offset; 273.15 "
+             "if count 0 is 0 degC");
   v.require(camera.radiometry.kelvin_offset == 0 || camera.radiometry.kelvin_per_count > 0,
             "kelvin_offset", "needs kelvin_per_count");
-  v.optional(
-      "radiometric", camera.radiometry.says_scale,
-      "It is a thermal camera, genicam, that says kelvin_per_count itself, which need not be "
-      "stated then");
+  v.optional("radiometric", camera.radiometry.says_scale,
+             "The camera is a genicam thermal camera that reports its scale; kelvin_per_count may "
+             "then be omitted");
   v.table("radiometry", camera.radiometry,
-          "Of a radiometric camera: makes true temperatures of apparent ones");
+          "Correction of apparent to true temperatures, for radiometric cameras");
   v.optional("sync", camera.sync, kSyncPolicies,
-             "In a set without a frame of it within the window: hold its last one, which is not "
-             "measured again, or nearest, which leaves it out");
+             "When the camera has no frame in the window: `hold` reuses its last one unmeasured, "
+             "`nearest` omits the camera");
   visit_trigger(v, camera);
-  v.optional(
-      "readout_time_us", camera.stamps.readout_time, Microseconds{Range::between(0, 1e6)},
-      "From the first row to the last, of the sensor's data sheet, us: for cameras that stamp "
-      "the end of a frame, as most V4L2 drivers but USB's do");
+  v.optional("readout_time_us", camera.stamps.readout_time, Microseconds{Range::between(0, 1e6)},
+             "Sensor readout time from the first row to the last, from its data sheet, us; for "
+             "cameras that stamp the end of a frame, as most V4L2 drivers except USB do");
   v.optional("stamp_offset_us", camera.stamps.offset, Microseconds{Range::between(-1e6, 1e6)},
-             "How much later its time stamps are than they should be, as measured, us");
-  v.optional("encoding", camera.encoding, kEncodings,
-             "Of its own pictures over DDS; 16-bit ones go out as mono16");
-  v.table("watch", camera.watch, "Whether it still sees the ball where it was aligned");
+             "Measured timestamp latency, us; subtracted from the camera's time stamps");
+  v.optional(
+      "encoding", camera.encoding, kEncodings,
+      "Encoding of the camera's own pictures over DDS; 16-bit pictures are published as mono16");
+  v.table("watch", camera.watch, "Supervision of alignment, focus and cleanliness");
   v.tables("control", camera.controls, 0, 64,
-           "Settings of the camera, applied in this order, for v4l2, libcamera and genicam");
-  v.tables("fault", camera.faults, 0, 100, "Faults to show, for simulated and replay");
+           "Camera controls, applied in this order, for v4l2, libcamera and genicam");
+  v.tables("fault", camera.faults, 0, 100, "Scripted faults, for simulated and replay");
   if (const auto* const v4l2 = std::get_if<hal::V4l2Settings>(&camera.back_end)) {
     v.require(v4l2->frame_height == 0 ||
                   v4l2->first_row + std::max(camera.stream.height, 1) <= v4l2->frame_height,

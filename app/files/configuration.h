@@ -68,32 +68,33 @@ struct Configuration {
 
 template <class Visitor>
 void visit(Visitor& v, RecipeFile& recipe) {
-  v.required("number", recipe.number, Range::between(1, 65535), "For the command select_recipe");
-  v.required("file", recipe.file, "What is measured; see [RECIPE.md](RECIPE.md)");
+  v.required("number", recipe.number, Range::between(1, 65535),
+             "Number that the command select_recipe passes");
+  v.required("file", recipe.file, "Recipe file; see [RECIPE.md](RECIPE.md)");
 }
 
 template <class Visitor>
 void visit(Visitor& v, Configuration& configuration) {
   v.required("rig", configuration.rig,
-             "Where cameras, ball and machine stand; see [RIG.md](RIG.md)");
-  v.optional(
-      "state_folder", configuration.state_folder,
-      "Folder of what must outlast a restart: commands, users, alignments; default: systemd's "
-      "STATE_DIRECTORY, else /var/lib/orbwatch-NAME for /etc/orbwatch/NAME/site.toml, "
-      "/var/lib/orbwatch for any other file");
+             "Rig file with the geometry of cameras, ball and machine; see [RIG.md](RIG.md)");
+  v.optional("state_folder", configuration.state_folder,
+             "Folder for state that must survive a restart: command record, users, accepted "
+             "alignments; default: systemd's STATE_DIRECTORY, else /var/lib/orbwatch-NAME for "
+             "/etc/orbwatch/NAME/site.toml, /var/lib/orbwatch for any other file");
   v.table("pipeline", configuration.pipeline, "Frame budget and workers");
-  v.table("threads", configuration.threads, "How the kernel treats the frame path");
-  v.table("simulation", configuration.simulation, "The machine that simulated cameras look into");
+  v.table("threads", configuration.threads, "Scheduling and memory of the frame path");
+  v.table("simulation", configuration.simulation, "Simulated machine that simulated cameras see");
   v.tables("camera", configuration.cameras, 1, kMaxCameras,
            "Cameras; the first without a fault sets the pace");
   v.tables("line", configuration.lines, 0, 32, "Digital inputs and outputs");
   v.tables("view", configuration.views, 0, kMaxViews,
-           "Display views: virtual cameras in the ball's centre, which can be pointed");
+           "Display views: virtual cameras in the ball's centre that commands can point");
   v.tables("recipe", configuration.recipes, 0, kMaxRecipes,
-           "What is measured; the first one from the start");
-  v.table("place", configuration.place,
-          "For the command place_camera. The ball's centre is taken as the rig has it, the outline "
-          "as it is in force; `orbwatch place` finds the centre, too");
+           "Recipes; the first one is selected at start");
+  v.table(
+      "place", configuration.place,
+      "Accuracies and tags for the command place_camera. The ball's centre is taken from the rig, "
+      "the outline from the alignment in force; `orbwatch place` estimates the centre, too");
   std::apply(
       [&v]<class... Sinks>(Sinks&... sinks) {
         (v.table(Sinks::kName.data(), sinks, Sinks::kText.data()), ...);

@@ -30,11 +30,12 @@ template <class Visitor>
 void visit(Visitor& v, DrivenLine& line) {
   hal::OutputSettings& output = line.output;
   v.required("name", line.name, "Name in the configuration");
-  v.optional("line_name", output.address.name, "As in the configuration");
-  v.optional("chip", output.address.chip, "As in the configuration");
-  v.optional("offset", output.address.offset, Range::between(0, 65535), "As in the configuration");
-  v.required("active_low", output.active_low, "As in the configuration");
-  v.required("bias", output.bias, kLineBiases, "As in the configuration");
+  v.optional("line_name", output.address.name, "Same as in the configuration");
+  v.optional("chip", output.address.chip, "Same as in the configuration");
+  v.optional("offset", output.address.offset, Range::between(0, 65535),
+             "Same as in the configuration");
+  v.required("active_low", output.active_low, "Same as in the configuration");
+  v.required("bias", output.bias, kLineBiases, "Same as in the configuration");
 }
 
 template <class Visitor>

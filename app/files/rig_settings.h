@@ -81,42 +81,45 @@ inline constexpr std::size_t kMaxObstacles = 16;
 
 template <class Visitor>
 void visit(Visitor& v, optics::Ball& ball) {
-  v.required("centre", ball.centre, kAnyNumber, "mm, machine frame");
-  v.required("radius", ball.radius, Range::above(0), "mm");
+  v.required("centre", ball.centre, kAnyNumber, "Centre of the ball, machine frame, mm");
+  v.required("radius", ball.radius, Range::above(0), "Radius of the ball, mm");
 }
 
 template <class Visitor>
 void visit(Visitor& v, ObstacleSettings& obstacle) {
-  v.required("name", obstacle.name, "For messages");
-  v.required("low", obstacle.low, kAnyNumber, "Its corner with the lowest x, y, z, mm");
-  v.required("high", obstacle.high, kAnyNumber, "Its corner with the highest x, y, z, mm");
+  v.required("name", obstacle.name, "Name for messages");
+  v.required("low", obstacle.low, kAnyNumber, "Corner with the lowest x, y, z, mm");
+  v.required("high", obstacle.high, kAnyNumber, "Corner with the highest x, y, z, mm");
 }
 
 template <class Visitor>
 void visit(Visitor& v, SceneSettings& scene) {
   using Room = optics::Scene::Room;
   v.optional("room", scene.room, kRooms,
-             "What encloses the ball; none: all but the obstacles is far away");
+             "Surface that encloses the ball; none: everything but the obstacles is far away");
   const bool sphere = scene.room == Room::Sphere, plane = scene.room == Room::Plane,
              box = scene.room == Room::Box;
-  v.required_if(sphere, "room sphere", "centre", scene.centre, kAnyNumber, "mm");
-  v.required_if(sphere, "room sphere", "radius", scene.radius, Range::above(0), "mm");
-  v.required_if(plane, "room plane", "point", scene.point, kAnyNumber, "Any point of it, mm");
+  v.required_if(sphere, "room sphere", "centre", scene.centre, kAnyNumber,
+                "Centre of the sphere, mm");
+  v.required_if(sphere, "room sphere", "radius", scene.radius, Range::above(0),
+                "Radius of the sphere, mm");
+  v.required_if(plane, "room plane", "point", scene.point, kAnyNumber,
+                "Any point on the plane, mm");
   v.required_if(plane, "room plane", "normal", scene.normal, kAnyNumber,
-                "Across it, any length, either side");
+                "Normal of the plane, any length, either side");
   v.required_if(box, "room box", "low", scene.walls.low, kAnyNumber,
-                "Its corner with the lowest x, y, z, mm");
+                "Corner with the lowest x, y, z, mm");
   v.required_if(box, "room box", "high", scene.walls.high, kAnyNumber,
-                "Its corner with the highest x, y, z, mm");
+                "Corner with the highest x, y, z, mm");
   v.tables("obstacle", scene.named_obstacles, 0, kMaxObstacles,
            "Boxes within the room that hide what is behind them: table, spindle");
 }
 
 template <class Visitor>
 void visit(Visitor& v, IntrinsicsSettings& lens) {
-  v.optional("file", lens.file,
-             "Calibration that OpenCV or ROS' camera_calibration wrote, YAML; instead of the keys "
-             "below");
+  v.optional(
+      "file", lens.file,
+      "Calibration file of OpenCV or ROS' camera_calibration, YAML; instead of the keys below");
   const bool here = !lens.file;
   const char* const when = "intrinsics without file";
   v.required_if(here, when, "fx", lens.fx, Range::above(0), "Focal length, px");
@@ -126,42 +129,46 @@ void visit(Visitor& v, IntrinsicsSettings& lens) {
   v.required_if(here, when, "cy", lens.cy, kAnyNumber,
                 "Principal point, px, pixel centres at integers");
   v.optional_if(here, when, "distortion", lens.distortion, kDistortionModels,
-                "In ROS' names; equidistant is OpenCV's fisheye");
-  v.optional_if(here, when, "coefficients", lens.coefficients, kAnyNumber,
-                "In OpenCV's order: plumb_bob k1 k2 p1 p2 [k3], rational_polynomial k1 k2 p1 p2 k3 "
-                "k4 k5 k6, equidistant k1 k2 k3 k4; others must be 0");
+                "Distortion model by its ROS name; equidistant is OpenCV's fisheye");
+  v.optional_if(
+      here, when, "coefficients", lens.coefficients, kAnyNumber,
+      "Distortion coefficients in OpenCV's order: plumb_bob k1 k2 p1 p2 [k3], rational_polynomial "
+      "k1 k2 p1 p2 k3 k4 k5 k6, equidistant k1 k2 k3 k4; further ones must be 0");
 }
 
 template <class Visitor>
 void visit(Visitor& v, OutlineSettings& outline) {
   v.required("centre", outline.centre, kAnyNumber, "Ball's centre in the picture, px: [u, v]");
-  v.optional("radius", outline.radius, Range::above(0), "Radius of its limb, px; for a circle");
-  v.optional("radii", outline.radii, Range::above(0), "Semi-axes of its limb, px; for an ellipse");
-  v.optional("angle", outline.angle, kAnyNumber, "Of the first semi-axis, deg, from u towards v");
+  v.optional("radius", outline.radius, Range::above(0),
+             "Radius of the ball's limb, px; for a circle");
+  v.optional("radii", outline.radii, Range::above(0),
+             "Semi-axes of the ball's limb, px; for an ellipse");
+  v.optional("angle", outline.angle, kAnyNumber,
+             "Angle of the first semi-axis, deg, from u towards v");
   v.optional("alpha", outline.alpha, Range::above(180, 360),
              "Reflected field of view, deg: 360 minus the ball's apparent diameter");
   v.optional("distance", outline.distance, Range::above(1),
-             "Camera to ball's centre, ball radii; instead of alpha");
+             "Distance from the camera to the ball's centre, ball radii; instead of alpha");
   v.optional("rotation", outline.rotation, kAnyNumber,
              "Registration to the reference, deg: [yaw, pitch, roll]");
   v.optional("rotation_matrix", outline.rotation_matrix, kAnyNumber,
-             "The same as 3x3 matrix by rows: v_reference = R v_camera");
+             "Registration as a 3x3 matrix by rows: v_reference = R v_camera; instead of rotation");
   v.optional("registered", outline.registered,
-             "false: the registration is not known yet, and the camera is left out of merged and "
-             "measured views until it is registered");
+             "false: the registration is unknown, and merged and measured views omit the camera "
+             "until it is registered");
   v.require(outline.registered || (!outline.rotation && !outline.rotation_matrix), "registered",
-            "a camera with a rotation is registered; leave out one of them");
+            "a camera with a rotation is registered; remove registered = false or the rotation");
   v.require(outline.radius.has_value() != outline.radii.has_value(), "radius",
-            "give either radius or radii");
+            "set either radius or radii");
   v.require(!outline.rotation || !outline.rotation_matrix, "rotation_matrix",
-            "give either rotation or rotation_matrix");
+            "set either rotation or rotation_matrix");
   const auto rotation = optics::checked_rotation(registration(outline));
   v.require(rotation.has_value(), "rotation_matrix", rotation ? "" : rotation.error().message);
 }
 
 template <class Visitor>
 void visit(Visitor& v, optics::Pose& pose) {
-  v.required("position", pose.position, kAnyNumber, "Of the camera, mm, machine frame");
+  v.required("position", pose.position, kAnyNumber, "Position of the camera, machine frame, mm");
   v.required("rotation", pose.rotation, kAnyNumber,
              "3x3 matrix by rows: the camera's right, down and forward in the machine frame");
   const auto rotation = optics::checked_rotation(pose.rotation);
@@ -171,38 +178,38 @@ void visit(Visitor& v, optics::Pose& pose) {
 template <class Visitor>
 void visit(Visitor& v, optics::Window& window) {
   v.required("normal", window.normal, kAnyNumber,
-             "Across the glass, machine frame, any length, either side");
-  v.required("thickness", window.thickness, Range::between(0, 1000), "mm");
-  v.optional("index", window.index, Range::between(1, 5), "Of refraction");
+             "Normal of the glass, machine frame, any length, either side");
+  v.required("thickness", window.thickness, Range::between(0, 1000), "Thickness of the glass, mm");
+  v.optional("index", window.index, Range::between(1, 5), "Refractive index");
   const auto good = optics::check_window(window);
   v.require(good.has_value(), "normal", good ? "" : good.error().message);
 }
 
 template <class Visitor>
 void visit(Visitor& v, RigCameraSettings& camera) {
-  v.required("name", camera.name, "For commands and messages");
-  v.required("width", camera.width, Range::between(1, kMaxSide), "Of its pictures, px");
-  v.required("height", camera.height, Range::between(1, kMaxSide), "Of its pictures, px");
+  v.required("name", camera.name, "Camera name, used by commands and messages");
+  v.required("width", camera.width, Range::between(1, kMaxSide), "Picture width, px");
+  v.required("height", camera.height, Range::between(1, kMaxSide), "Picture height, px");
   v.optional("model", camera.model, optics::kBallModels, "Projection");
-  v.table("intrinsics", camera.lens, "Its lens, when it is calibrated");
-  v.table("pose", camera.pose, "Where it stands; needs intrinsics");
-  v.table(
-      "outline", camera.limb,
-      "Instead of a pose: the ball as the camera sees it. With intrinsics, the ball's direction "
-      "and distance follow from the limb, and rotation turns the camera's own axes (X = -right, "
-      "Y = -forward, Z = -down) into the machine frame. Without, one of alpha and distance is "
-      "needed (the classical model takes none), and the camera is taken to look straight at "
-      "the ball");
+  v.table("intrinsics", camera.lens, "Calibrated lens");
+  v.table("pose", camera.pose, "Measured position and orientation; needs intrinsics");
+  v.table("outline", camera.limb,
+          "The ball's outline in the camera's picture, instead of a pose. With intrinsics, the "
+          "ball's direction and distance follow from the limb, and rotation turns the camera's own "
+          "axes (X = -right, Y = -forward, Z = -down) into the machine frame. Without intrinsics, "
+          "one of alpha and distance is needed (the classical model needs neither), and the camera "
+          "is assumed to look straight at the ball");
   v.table("window", camera.window, "A flat glass between camera and ball; needs intrinsics");
 }
 
 template <class Visitor>
 void visit(Visitor& v, RigSettings& rig) {
-  v.table("ball", rig.ball,
-          "The mirror ball. Without: in the origin with radius 1, so that lengths count in ball "
-          "radii");
+  v.table(
+      "ball", rig.ball,
+      "The mirror ball. Default: at the origin with radius 1, so that lengths are in ball radii");
   v.table("scene", rig.scene,
-          "What the ball shows, as far as it is known. Without: everything is far away");
+          "Surroundings that the ball reflects, as far as they are known. Default: everything is "
+          "far away");
   v.tables("camera", rig.cameras, 1, kMaxRigCameras, "Cameras that look at the ball");
 }
 

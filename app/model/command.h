@@ -51,11 +51,11 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
 /// append and never renumber. The role is the least that may give it where people log in. Limits of
 /// an argument that depend on the configuration are the handler's.
 #define ORBWATCH_COMMANDS(X)                                                                       \
-  X(SelectView, 1, "select_view", Operator, "Shows this view on the topic of the selected view",   \
-    kViewArgument)                                                                                 \
-  X(Pulse, 2, "pulse", Integrator, "One pulse on this line",                                       \
+  X(SelectView, 1, "select_view", Operator,                                                        \
+    "Publishes this view on the topic of the selected view", kViewArgument)                        \
+  X(Pulse, 2, "pulse", Integrator, "Emits one pulse on this line",                                 \
     ArgumentInfo{"line", "", 1, 0, kAnyIndex, "index of the trigger_out line, from 0"})            \
-  X(Start, 3, "start", Operator, "Starts measuring again", kNoArgument)                            \
+  X(Start, 3, "start", Operator, "Resumes measuring", kNoArgument)                                 \
   X(Stop, 4, "stop", Operator, "Stops measuring; views are still published", kNoArgument)          \
   X(SelectRecipe, 5, "select_recipe", Operator,                                                    \
     "Measures by this recipe from the next frame set on",                                          \
@@ -66,7 +66,7 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
     ArgumentInfo{"h_fov", "deg", 0.01, 0, 360, "horizontal field of view; 0 keeps it"})            \
   X(MixSources, 7, "mix_sources", Operator, "Changes a camera's weight in a display view",         \
     kViewArgument, kSourceArgument,                                                                \
-    ArgumentInfo{"weight", "", 0.001, 0.001, 1000, "its share where several cameras see"})         \
+    ArgumentInfo{"weight", "", 0.001, 0.001, 1000, "weight where several cameras overlap"})        \
   X(Trigger, 8, "trigger", Operator,                                                               \
     "Measures the next frame set as a result, like an edge of the trigger line", kNoArgument)      \
   X(AcknowledgeAlarm, 9, "acknowledge_alarm", Operator, "Acknowledges one alarm or all",           \
@@ -76,62 +76,64 @@ inline constexpr double kLeastValue = -1000, kMostValue = 10000;
   X(SetProcessActive, 11, "set_process_active", Operator,                                          \
     "Sets whether the process is active, for a recipe with process_active = \"command\"",          \
     ArgumentInfo{"active", "", 1, 0, 1, "1: active"})                                              \
-  X(Restart, 12, "restart", Integrator,                                                            \
-    "Shuts orbwatchd down and starts it again with its files read anew", kNoArgument)              \
+  X(Restart, 12, "restart", Integrator, "Restarts orbwatchd, which reads its files again",         \
+    kNoArgument)                                                                                   \
   X(DetectBall, 13, "detect_ball", Integrator,                                                     \
-    "Finds the ball in a camera's next picture: a proposal", kCameraArgument)                      \
+    "Proposes the ball's outline found in a camera's next picture", kCameraArgument)               \
   X(RegisterCamera, 14, "register_camera", Integrator,                                             \
-    "Finds how a camera stands to the first one, by what both see: a proposal", kCameraArgument)   \
+    "Proposes a camera's orientation relative to the first one, from what both see",               \
+    kCameraArgument)                                                                               \
   X(CorrectAlignment, 15, "correct_alignment", Integrator,                                         \
-    "Proposes an alignment that a camera's drift asks for", kCameraArgument)                       \
+    "Proposes an alignment that corrects a camera's drift", kCameraArgument)                       \
   X(AcceptAlignment, 16, "accept_alignment", Integrator,                                           \
     "Puts the proposed alignment of a camera in force, with a restart", kCameraArgument)           \
   X(DiscardAlignment, 17, "discard_alignment", Integrator,                                         \
-    "Forgets the proposed alignment of a camera", kCameraArgument)                                 \
+    "Discards the proposed alignment of a camera", kCameraArgument)                                \
   X(LearnCleanBall, 18, "learn_clean_ball", Operator,                                              \
-    "The ball was cleaned: what a camera sees of it from now on is clean", kCameraArgument)        \
+    "Learns the ball as clean from a camera's next pictures, after cleaning", kCameraArgument)     \
   X(MarkPoint, 19, "mark_point", Integrator,                                                       \
-    "The tool's light is at these coordinates, machine frame: its place in a camera's picture "    \
-    "is a point for place_camera, until the next restart",                                         \
+    "Marks the tool's light at these coordinates, machine frame: its place in a camera's picture " \
+    "becomes a point for place_camera, until the next restart",                                    \
     kCameraArgument,                                                                               \
     ArgumentInfo{"x", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "to the right"},               \
     ArgumentInfo{"y", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "forward"},                    \
     ArgumentInfo{"z", "mm", 0.001, -kMaxCoordinate, kMaxCoordinate, "up"})                         \
-  X(ForgetPoints, 20, "forget_points", Integrator,                                                 \
-    "Forgets the points that were marked for a camera", kCameraArgument)                           \
-  X(PlaceCamera, 21, "place_camera", Integrator,                                                   \
-    "Finds where a camera stands, by its marked points and the site's tags: a proposal",           \
+  X(ForgetPoints, 20, "forget_points", Integrator, "Discards the points marked for a camera",      \
     kCameraArgument)                                                                               \
+  X(PlaceCamera, 21, "place_camera", Integrator,                                                   \
+    "Proposes a camera's position, from its marked points and the site's tags", kCameraArgument)   \
   X(MoveOutline, 22, "move_outline", Integrator,                                                   \
-    "The ball's outline has its centre here in a camera's picture: a proposal", kCameraArgument,   \
+    "Proposes this centre of the ball's outline in a camera's picture", kCameraArgument,           \
     pixel_argument("u", "to the right, pixel centres at integers"), pixel_argument("v", "down"))   \
   X(ShapeOutline, 23, "shape_outline", Integrator,                                                 \
-    "The ball's outline has these semi-axes in a camera's picture: a proposal", kCameraArgument,   \
-    radius_argument("rx", "the first semi-axis"), radius_argument("ry", "the one across it"),      \
-    ArgumentInfo{"angle", "deg", 0.01, -180, 180, "of the first one, from u towards v"})           \
+    "Proposes these semi-axes of the ball's outline in a camera's picture", kCameraArgument,       \
+    radius_argument("rx", "the first semi-axis"),                                                  \
+    radius_argument("ry", "the second semi-axis, perpendicular to the first"),                     \
+    ArgumentInfo{"angle", "deg", 0.01, -180, 180,                                                  \
+                 "angle of the first semi-axis, from u towards v"})                                \
   X(TurnCamera, 24, "turn_camera", Integrator,                                                     \
-    "Turns what a camera shows about the ball, in the machine frame: a proposal", kCameraArgument, \
-    ArgumentInfo{"yaw", "deg", 0.001, -180, 180, "about Z, from +Y towards +X"},                   \
+    "Proposes this rotation of a camera's directions about the ball, in the machine frame",        \
+    kCameraArgument, ArgumentInfo{"yaw", "deg", 0.001, -180, 180, "about Z, from +Y towards +X"},  \
     ArgumentInfo{"pitch", "deg", 0.001, -90, 90, "about X, up positive"},                          \
-    ArgumentInfo{"roll", "deg", 0.001, -180, 180, "about Y, the right side dips"})                 \
+    ArgumentInfo{"roll", "deg", 0.001, -180, 180, "about Y, positive lowers the right side"})      \
   X(UndoAlignment, 25, "undo_alignment", Integrator,                                               \
-    "Takes the last change of a camera's proposed alignment back", kCameraArgument)                \
+    "Undoes the last change of a camera's proposed alignment", kCameraArgument)                    \
   X(RevertAlignment, 26, "revert_alignment", Integrator,                                           \
-    "Puts the alignment of a camera in force that counted before the present one, with a "         \
-    "restart; again: the present one",                                                             \
+    "Puts a camera's previous alignment in force, with a restart; repeated, it restores the "      \
+    "present one",                                                                                 \
     kCameraArgument)                                                                               \
   X(PickPixel, 27, "pick_pixel", Integrator,                                                       \
-    "A camera's picture shows a known point here: the next mark_point says which, instead of "     \
-    "the tool's light",                                                                            \
+    "Picks a pixel of a camera that shows a known point; the next mark_point states its "          \
+    "coordinates, instead of the tool's light",                                                    \
     kCameraArgument, pixel_argument("u", "to the right, pixel centres at integers"),               \
     pixel_argument("v", "down"))                                                                   \
   X(SetColourMap, 28, "set_colour_map", Operator,                                                  \
-    "Shows a one-channel camera in other colours in a view; what is measured stays as it is",      \
+    "Changes the colour map of a one-channel camera in a view; measurements are unaffected",       \
     kViewArgument, kSourceArgument,                                                                \
     ArgumentInfo{"colour_map", "", 1, 0, 4, "0 grey, 1 inferno, 2 turbo, 3 hot, 4 viridis"})       \
   X(SetColourRange, 29, "set_colour_range", Operator,                                              \
-    "Spreads a one-channel camera's colours in a view over these values; what is measured stays "  \
-    "as it is",                                                                                    \
+    "Sets the values of the first and last colour of a one-channel camera in a view; "             \
+    "measurements are unaffected",                                                                 \
     kViewArgument, kSourceArgument,                                                                \
     ArgumentInfo{"first", "", 0.1, kLeastValue, kMostValue - 1,                                    \
                  "value of the first colour: degC of a radiometric camera, else percent of full "  \

@@ -45,7 +45,7 @@ Condition condition_of(const SystemStatus& system) {
   }
   if (system.configuration_refused) {
     if (condition.severity == Severity::None) condition.severity = Severity::Warning;
-    condition.text += "; the configuration is wrong, the last good one runs: see the log";
+    condition.text += "; the configuration is invalid, the last good one runs: see the log";
   }
   if (system.line_faults != 0 || system.interface_faults != 0) {
     if (condition.severity == Severity::None) condition.severity = Severity::Warning;

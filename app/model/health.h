@@ -18,15 +18,16 @@ namespace orbwatch::app {
   X(processor_load, "%", 0.1, 0, 100, "Share of all processors' time since the last sample")      \
   X(processor_frequency, "MHz", 1, 0, 100000, "Present clock of the fastest processor")           \
   X(memory_available, "MiB", 1, 0, 1e9, "Memory that programs can get without swapping")          \
-  X(disk_free, "MiB", 1, 0, 2e9, "Free for orbwatch on the disk that it records to")              \
-  X(disk_free_share, "%", 0.1, 0, 100, "The same, of the file system's size")                     \
+  X(disk_free, "MiB", 1, 0, 2e9, "Space available to orbwatch on the disk that it records to")    \
+  X(disk_free_share, "%", 0.1, 0, 100, "Free share of the file system that it records to")        \
   X(clock_synchronised, "", 1, 0, 1, "1: the system's clock follows a time server")               \
-  X(clock_estimated_error, "ms", 0.001, 0, 1e6, "Error of the system's clock as its server says") \
+  X(clock_estimated_error, "ms", 0.001, 0, 1e6,                                                   \
+    "Estimated error of the system's clock, reported by its time service")                        \
   X(clock_maximum_error, "ms", 0.001, 0, 1e6, "Bound of that error; grows until the next answer") \
-  X(resident_memory, "MiB", 0.1, 0, 1e8, "Memory that orbwatch itself holds")                     \
+  X(resident_memory, "MiB", 0.1, 0, 1e8, "Resident memory of orbwatch itself")                    \
   X(open_descriptors, "", 1, 0, 1e9, "Files, devices and connections that orbwatch has open")     \
   X(commands_recorded, "", 1, 0, 1,                                                               \
-    "1: each command is noted on the disk first, so that no restart repeats it")
+    "1: each command is recorded on the disk first, so that no restart repeats it")
 
 /// Causes of throttling, the low bits of Health::throttling. The bits are those of the Raspberry
 /// Pi's firmware (vcgencmd get_throttled). The PLC reads the numbers: append, never renumber.

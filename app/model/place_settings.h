@@ -34,24 +34,25 @@ inline constexpr std::size_t kMaxTags = 64;
 template <class Visitor>
 void visit(Visitor& v, TagSettings& tag) {
   v.required("id", tag.id, Range::between(0, align::kTagIds - 1),
-             "Number of the tag in the family 36h11");
-  v.required("size", tag.size, Range::above(0, 100000), "Side of its black border, mm");
-  v.required("centre", tag.centre, kAnyNumber, "mm, machine frame");
+             "Id in the AprilTag family 36h11");
+  v.required("size", tag.size, Range::above(0, 100000), "Edge length of the black border, mm");
+  v.required("centre", tag.centre, kAnyNumber, "Centre of the tag, machine frame, mm");
   v.required("right", tag.right, kAnyNumber,
-             "Direction to its right as one reads it, machine frame, any length");
-  v.required("down", tag.down, kAnyNumber, "Direction to its lower side, likewise");
+             "Direction to the tag's right as it is read, machine frame, any length");
+  v.required("down", tag.down, kAnyNumber,
+             "Direction to the tag's lower side, machine frame, any length");
   v.require(align::is_square(tag.tag().corners), "down", "must be at right angles to right");
 }
 
 template <class Visitor>
 void visit(Visitor& v, PlaceSettings& place) {
   v.optional("sigma_px", place.sigma_px, Range::above(0, 1000),
-             "Standard deviation of points as marked in the picture, px");
+             "Accuracy of points in the picture, one sigma, px");
   v.optional("sigma_mm", place.sigma_mm, Range::between(0, 1000),
-             "Standard deviation of their coordinates, mm");
+             "Accuracy of the points' coordinates, one sigma, mm");
   v.optional("outline_sigma", place.outline_sigma, Range::above(0, 1000),
-             "Standard deviation of the ball's outline that is in force, px");
-  v.tables("tag", place.tags, 0, kMaxTags, "Printed AprilTags that the ball shows");
+             "Accuracy of the ball's outline in force, one sigma, px");
+  v.tables("tag", place.tags, 0, kMaxTags, "Printed AprilTags that are visible in the ball");
   for (std::size_t i = 0; i < place.tags.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       v.require(place.tags[i].id != place.tags[k].id, "tag",

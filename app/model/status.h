@@ -38,7 +38,7 @@ constexpr std::string_view operator_text(SystemState state) {
     case SystemState::Running:
       return "running: every camera delivers";
     case SystemState::Degraded:
-      return "degraded: some camera has a fault or is late; what the others see is measured";
+      return "degraded: a camera has a fault or is late; the others are measured";
     case SystemState::Fault:
       return "fault: no camera delivers, or the pipeline is silent";
     case SystemState::Stopped:
@@ -90,7 +90,7 @@ constexpr std::string_view operator_text(Stage stage) {
     case Stage::Capture:
       return "capture: the cameras' threads, where JPEG is decoded";
     case Stage::Halving:
-      return "halving: pictures made smaller for views that do not need all of their pixels, and "
+      return "halving: pictures reduced for views that do not need all of their pixels, and "
              "sharpened";
     case Stage::Views:
       return "views: remapped, merged and coloured";
@@ -120,47 +120,49 @@ constexpr std::string_view operator_text(SignalNumber number) {
   return index < signals::kSignals.size() ? signals::kSignals[index].name : std::string_view{};
 }
 
-#define ORBWATCH_SYSTEM_FIGURES(FIELD, AGE)                                                      \
-  FIELD(SystemState, state, kCode, "State of the appliance")                                     \
-  FIELD(std::uint64_t, heartbeat, kCount,                                                        \
-        "Advances with the pipeline, at least ten times a second")                               \
-  FIELD(std::uint64_t, frame_set, kCount,                                                        \
-        "Number of the newest frame set, which the signals belong to; 0: none yet")              \
-  AGE(stamp, "Since the exposure start of that frame set")                                       \
-  FIELD(std::uint64_t, trigger, kCount, "Number of the trigger that began it; 0: none did")      \
-  FIELD(std::uint64_t, result, kCount,                                                           \
-        "Number of the newest result, the measurement of a triggered frame set; 0: none yet")    \
-  FIELD(std::uint16_t, recipe, kCode, "Number of the recipe that everything was measured with")  \
-  FIELD(std::uint32_t, configuration_checksum, kCount,                                           \
-        "CRC-32 of the files of configuration, rig and recipes")                                 \
-  FIELD(bool, recipe_refused, kFlag,                                                             \
-        "A camera refused the settings of the recipe selected last; the one before is measured") \
-  FIELD(bool, process_active, kFlag,                                                             \
-        "The process runs; while it does not, alarms that depend on it are suppressed")          \
-  FIELD(std::uint32_t, process_inputs, kCount,                                                   \
-        "Bit n: process input n of the configuration is active")                                 \
-  FIELD(std::uint16_t, selected_view, kCode, "Index of the selected view, from 0")               \
-  FIELD(std::uint64_t, overruns, kCount, "Frame sets that took longer than their deadline")      \
-  FIELD(std::uint64_t, unmatched, kCount,                                                        \
-        "Frame sets in which a camera had no frame within the window")                           \
-  FIELD(double, skew_ms, kLatency,                                                               \
-        "Largest between the exposure starts of a frame set, of the last full second")           \
-  FIELD(double, load, kShare,                                                                    \
-        "Share of its deadline that the slowest frame set of the last second took")              \
-  FIELD(std::uint32_t, process_inputs_known, kCount,                                             \
-        "Bit n: process input n is read; else its line has a fault, and it counts as inactive")  \
-  FIELD(std::uint32_t, line_faults, kCount,                                                      \
-        "Bit n: line n of the configuration is not there, or has a fault")                       \
-  FIELD(std::uint32_t, interface_faults, kCount,                                                 \
-        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshot, 4 web")   \
-  FIELD(double, busy_ms, kProcessorTime,                                                         \
-        "Processor time of the pipeline's own thread for the newest frame set, which takes no "  \
-        "less")                                                                                  \
-  FIELD(bool, realtime, kFlag,                                                                   \
-        "The frame path has real-time priorities: other programs do not delay it")               \
-  FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")            \
-  FIELD(bool, configuration_refused, kFlag,                                                      \
-        "The files of the configuration are wrong: the last good one runs, the log says why")
+#define ORBWATCH_SYSTEM_FIGURES(FIELD, AGE)                                                        \
+  FIELD(SystemState, state, kCode, "State of the appliance")                                       \
+  FIELD(std::uint64_t, heartbeat, kCount,                                                          \
+        "Advances with the pipeline, at least ten times a second")                                 \
+  FIELD(std::uint64_t, frame_set, kCount,                                                          \
+        "Number of the newest frame set, which the signals belong to; 0: none yet")                \
+  AGE(stamp, "Time since the exposure start of that frame set")                                    \
+  FIELD(std::uint64_t, trigger, kCount, "Number of the trigger that began it; 0: not triggered")   \
+  FIELD(std::uint64_t, result, kCount,                                                             \
+        "Number of the newest result, the measurement of a triggered frame set; 0: none yet")      \
+  FIELD(std::uint16_t, recipe, kCode, "Number of the recipe that everything was measured with")    \
+  FIELD(std::uint32_t, configuration_checksum, kCount,                                             \
+        "CRC-32 of the files of configuration, rig and recipes")                                   \
+  FIELD(bool, recipe_refused, kFlag,                                                               \
+        "A camera refused the settings of the recipe selected last; the one before is measured")   \
+  FIELD(bool, process_active, kFlag,                                                               \
+        "The process runs; while it does not, alarms that depend on it are suppressed")            \
+  FIELD(std::uint32_t, process_inputs, kCount,                                                     \
+        "Bit n: process input n of the configuration is active")                                   \
+  FIELD(std::uint16_t, selected_view, kCode, "Index of the selected view, from 0")                 \
+  FIELD(std::uint64_t, overruns, kCount, "Frame sets that took longer than their deadline")        \
+  FIELD(std::uint64_t, unmatched, kCount,                                                          \
+        "Frame sets in which a camera had no frame within the window")                             \
+  FIELD(double, skew_ms, kLatency,                                                                 \
+        "Largest skew between the exposure starts of a frame set, over the last full second")      \
+  FIELD(double, load, kShare,                                                                      \
+        "Share of its deadline that the slowest frame set of the last second took")                \
+  FIELD(std::uint32_t, process_inputs_known, kCount,                                               \
+        "Bit n: process input n is read; otherwise its line has a fault, and the input counts as " \
+        "inactive")                                                                                \
+  FIELD(std::uint32_t, line_faults, kCount,                                                        \
+        "Bit n: line n of the configuration is missing or has a fault")                            \
+  FIELD(std::uint32_t, interface_faults, kCount,                                                   \
+        "Bit n: an interface cannot be opened: 0 console, 1 Modbus, 2 DDS, 3 snapshots, 4 web")    \
+  FIELD(double, busy_ms, kProcessorTime,                                                           \
+        "Processor time of the pipeline's own thread for the newest frame set; a lower bound of "  \
+        "its duration")                                                                            \
+  FIELD(bool, realtime, kFlag,                                                                     \
+        "The frame path has real-time priorities: other programs do not delay it")                 \
+  FIELD(bool, memory_locked, kFlag, "No page of memory that was used is swapped out")              \
+  FIELD(bool, configuration_refused, kFlag,                                                        \
+        "The configuration files are invalid: the last good configuration runs, the log has the "  \
+        "reason")
 
 inline constexpr Quantity kShare{"", 0.001, 0, 1000};
 inline constexpr Quantity kProcessorTime{"ms", 0.001, 0, 100000};
@@ -232,30 +234,31 @@ constexpr std::string_view operator_text(ProposalState state) {
     case ProposalState::None:
       return "nothing is proposed";
     case ProposalState::Working:
-      return "an alignment or a point is being found";
+      return "an alignment or a point is being computed";
     case ProposalState::Ready:
       return "an alignment is proposed: accept or discard it";
     case ProposalState::Refused:
-      return "none was found; the log says why";
+      return "none was found; the log has the reason";
   }
   return {};
 }
 
 #define ORBWATCH_WATCH_FIGURES(FIELD)                                                              \
-  FIELD(AlignmentLevel, alignment, kCode, "Whether the camera sees the ball where it was aligned") \
+  FIELD(AlignmentLevel, alignment, kCode,                                                          \
+        "State of the alignment: the ball's position compared with that of the alignment")         \
   FIELD(double, drift_error, kAngle,                                                               \
         "Error of the directions that views show, rms, since it was aligned")                      \
-  FIELD(double, drift_shift, kPercent, "Shift of the ball's picture, of its radius")               \
-  FIELD(WatchLevel, focus, kCode, "Whether what the ball reflects is sharp")                       \
-  FIELD(double, blur, kBlur, "Of what the ball reflects: sigma of a Gaussian, the pixel included") \
-  FIELD(WatchLevel, cleanliness, kCode, "Whether the ball is clean")                               \
+  FIELD(double, drift_shift, kPercent, "Shift of the ball's picture, relative to its radius")      \
+  FIELD(WatchLevel, focus, kCode, "Sharpness of the reflection in the ball")                       \
+  FIELD(double, blur, kBlur,                                                                       \
+        "Blur of the reflection in the ball: sigma of a Gaussian, pixel size included")            \
+  FIELD(WatchLevel, cleanliness, kCode, "Cleanliness of the ball")                                 \
   FIELD(double, contamination, kPercent,                                                           \
-        "Share of the ball's picture under spots and scratches that were not there when it was "   \
-        "learnt")                                                                                  \
-  FIELD(ProposalState, proposal, kCode, "Of the alignment that was asked for last")                \
+        "Share of the ball's picture under spots and scratches that appeared after it was learnt") \
+  FIELD(ProposalState, proposal, kCode, "State of the alignment requested last")                   \
   FIELD(double, proposal_error, kAngle,                                                            \
-        "One sigma of the directions of the proposed alignment, as far as its residuals show it; " \
-        "not valid without one, and for detect_ball")                                              \
+        "One sigma of the directions of the proposed alignment, estimated from its residuals; "    \
+        "not valid without a proposal, and for detect_ball")                                       \
   FIELD(std::uint64_t, marked_points, kCount,                                                      \
         "Points that mark_point added for place_camera since the start")
 
@@ -276,33 +279,35 @@ struct CameraWatchStatus {
   ORBWATCH_WATCH_FIGURES(ORBWATCH_WATCH_MEMBER)
 };
 
-#define ORBWATCH_CAMERA_FIGURES(FIELD, AGE)                                                      \
-  FIELD(hal::Fault, fault, kCode, "Fault of the camera")                                         \
-  FIELD(double, frames_per_second, kRate, "Over the last full second")                           \
-  FIELD(double, latency_p50_ms, kLatency,                                                        \
-        "Exposure start to arrival, median of the last full second")                             \
-  FIELD(double, latency_p99_ms, kLatency, "Exposure start to arrival, 99 of 100 are faster")     \
-  AGE(last_frame, "Since the arrival of its newest good frame")                                  \
-  FIELD(std::uint64_t, frames, kCount, "Frames delivered since start")                           \
-  FIELD(std::uint64_t, lost, kCount, "Frames missing in the camera's sequence")                  \
-  FIELD(std::uint64_t, dropped, kCount,                                                          \
-        "Frames not used: a newer one was there, the queue was full, or the camera had a fault") \
-  FIELD(std::uint64_t, unmatched, kCount,                                                        \
-        "Frames delivered while the pacing camera had none of that moment")                      \
-  FIELD(std::uint64_t, triggers, kCount, "Edges of its trigger line since start")                \
-  FIELD(std::uint64_t, missed, kCount,                                                           \
-        "Triggers without a frame: faster than the camera, its fault, or the frame was damaged") \
-  FIELD(std::uint64_t, damaged, kCount,                                                          \
-        "Damaged frames, which are lost; 5 of the last 20 are a fault")                          \
-  FIELD(std::uint64_t, flawed, kCount,                                                           \
+#define ORBWATCH_CAMERA_FIGURES(FIELD, AGE)                                                        \
+  FIELD(hal::Fault, fault, kCode, "Fault of the camera")                                           \
+  FIELD(double, frames_per_second, kRate, "Frame rate over the last full second")                  \
+  FIELD(double, latency_p50_ms, kLatency,                                                          \
+        "Exposure start to arrival, median of the last full second")                               \
+  FIELD(double, latency_p99_ms, kLatency, "Exposure start to arrival, 99 of 100 are faster")       \
+  AGE(last_frame, "Time since the arrival of the newest good frame")                               \
+  FIELD(std::uint64_t, frames, kCount, "Frames delivered since start")                             \
+  FIELD(std::uint64_t, lost, kCount, "Frames missing in the camera's sequence")                    \
+  FIELD(                                                                                           \
+      std::uint64_t, dropped, kCount,                                                              \
+      "Frames not used: superseded by a newer one, the queue was full, or the camera had a fault") \
+  FIELD(std::uint64_t, unmatched, kCount,                                                          \
+        "Frames delivered without a simultaneous frame of the pacing camera")                      \
+  FIELD(std::uint64_t, triggers, kCount, "Edges of the camera's trigger line since start")         \
+  FIELD(std::uint64_t, missed, kCount,                                                             \
+        "Triggers without a frame: faster than the camera, during its fault, or the frame was "    \
+        "damaged")                                                                                 \
+  FIELD(std::uint64_t, damaged, kCount,                                                            \
+        "Damaged frames, which are discarded; 5 of the last 20 are a fault")                       \
+  FIELD(std::uint64_t, flawed, kCount,                                                             \
         "Frames used although their JPEG data has padding before a marker, or no end marker")
 
-#define ORBWATCH_LINK_FIGURES(FIELD)                                                 \
-  FIELD(std::uint64_t, missing_packets, kCount,                                      \
-        "Packets of a GigE Vision camera that never came; their frames are damaged") \
-  FIELD(std::uint64_t, resent_packets, kCount,                                       \
-        "Packets of a GigE Vision camera that came when they were asked for again")  \
-  FIELD(std::uint64_t, underruns, kCount,                                            \
+#define ORBWATCH_LINK_FIGURES(FIELD)                                                    \
+  FIELD(std::uint64_t, missing_packets, kCount,                                         \
+        "Packets of a GigE Vision camera that never arrived; their frames are damaged") \
+  FIELD(std::uint64_t, resent_packets, kCount,                                          \
+        "Packets of a GigE Vision camera that arrived after a resend request")          \
+  FIELD(std::uint64_t, underruns, kCount,                                               \
         "Packets of a GigE Vision camera, or frames of a USB3 Vision one, without a buffer")
 
 /// One camera.
@@ -316,8 +321,8 @@ struct CameraStatus : CameraWatchStatus {
   FIELD(std::uint64_t, skipped, kCount,                                                        \
         "Frame sets without this view: display slowed down, or no buffer")                     \
   FIELD(std::uint64_t, superseded, kCount,                                                     \
-        "Requests to point it that a newer one replaced before the next frame set")            \
-  FIELD(double, frames_per_second, kRate, "Over the last full second")                         \
+        "Pointing requests that a newer one replaced before the next frame set")               \
+  FIELD(double, frames_per_second, kRate, "Frame rate over the last full second")              \
   FIELD(double, latency_p50_ms, kLatency,                                                      \
         "Exposure start to hand-over to the sinks, median of the last full second")            \
   FIELD(double, latency_p99_ms, kLatency, "Exposure start to hand-over, 99 of 100 are faster") \
@@ -335,22 +340,23 @@ struct RegionStatus {
   signals::Signals signals;
 };
 
-#define ORBWATCH_STAGE_FIGURES(FIELD)                                                   \
-  FIELD(double, cpu_ms, kProcessorTime,                                                 \
-        "Processor time for the newest frame set, of all threads together")             \
-  FIELD(double, cpu_p50_ms, kProcessorTime, "The same, median of the last full second") \
-  FIELD(double, cpu_p99_ms, kProcessorTime, "The same, 99 of 100 took less")
+#define ORBWATCH_STAGE_FIGURES(FIELD)                                       \
+  FIELD(double, cpu_ms, kProcessorTime,                                     \
+        "Processor time for the newest frame set, of all threads together") \
+  FIELD(double, cpu_p50_ms, kProcessorTime,                                 \
+        "Processor time per frame set, median of the last full second")     \
+  FIELD(double, cpu_p99_ms, kProcessorTime, "Processor time per frame set, 99 of 100 took less")
 
 /// One stage.
 struct StageStatus {
   ORBWATCH_STAGE_FIGURES(ORBWATCH_FIELD_MEMBER)
 };
 
-#define ORBWATCH_ALARM_FIGURES(FIELD, AGE)                                           \
-  FIELD(std::uint16_t, region, kCode, "Index of the region that it watches, from 0") \
-  FIELD(SignalNumber, signal, kCode, "Signal that it watches")                       \
-  FIELD(double, value, kSignalValue, "Value of that signal, in its unit")            \
-  AGE(since, "Since its state changed; not valid while it has never had another")
+#define ORBWATCH_ALARM_FIGURES(FIELD, AGE)                                      \
+  FIELD(std::uint16_t, region, kCode, "Index of the supervised region, from 0") \
+  FIELD(SignalNumber, signal, kCode, "Supervised signal")                       \
+  FIELD(double, value, kSignalValue, "Value of that signal, in its unit")       \
+  AGE(since, "Time since the alarm's state changed; not valid before the first change")
 
 inline constexpr Quantity kSignalValue{"", 1, -2147483647, 2147483647};
 
@@ -422,7 +428,7 @@ struct SignalOf {
 
 template <class Visit>
 constexpr void for_each_field(std::type_identity<RegionStatus>, Visit&& visit) {
-  visit(make_field("quality", kCode, "How far the signals can be trusted", &RegionStatus::quality));
+  visit(make_field("quality", kCode, "Reliability of the signals", &RegionStatus::quality));
   for (const signals::SignalInfo& info : signals::kSignals) {
     visit(make_field(info.name, {info.unit, info.scale, info.minimum, info.maximum},
                      info.description, SignalOf{info.member}));
@@ -432,13 +438,13 @@ constexpr void for_each_field(std::type_identity<RegionStatus>, Visit&& visit) {
 /// The unit and resolution of its value are those of the signal: see quantity_of(AlarmStatus).
 template <class Visit>
 constexpr void for_each_field(std::type_identity<AlarmStatus>, Visit&& visit) {
-  visit(make_field("state", kCode, "By ISA-18.2",
+  visit(make_field("state", kCode, "Alarm state by ISA-18.2",
                    [](const AlarmStatus& a) { return a.alarm.state; }));
-  visit(make_field("level", kCode, "Of its signal now",
+  visit(make_field("level", kCode, "Present level of the signal",
                    [](const AlarmStatus& a) { return a.alarm.level; }));
-  visit(make_field("announced", kCode, "Worst level that is not acknowledged yet, or is latched",
+  visit(make_field("announced", kCode, "Worst level that is not acknowledged, or is latched",
                    [](const AlarmStatus& a) { return a.alarm.announced; }));
-  visit(make_field("measurement_lost", kFlag, "Its signal is not measured",
+  visit(make_field("measurement_lost", kFlag, "The signal is not measured",
                    [](const AlarmStatus& a) { return a.alarm.measurement_lost; }));
   using Part = AlarmStatus;
   ORBWATCH_ALARM_FIGURES(ORBWATCH_VISIT_FIELD, ORBWATCH_VISIT_AGE)

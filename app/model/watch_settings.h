@@ -23,23 +23,24 @@ struct WatchSettings {
 template <class Visitor>
 void visit(Visitor& v, WatchSettings& watch) {
   v.optional("enabled", watch.enabled,
-             "Compare the camera's pictures with those of its alignment, beside the frame path");
+             "Compare the camera's pictures with those of its alignment, outside the frame path");
   v.optional(
       "drift_warning", watch.drift.warning, Range::above(0, 90),
-      "Error of the directions that views show, rms, deg: from there on the figure alignment "
-      "warns");
-  v.optional("drift_alarm", watch.drift.alarm, Range::above(0, 90), "The same for its alarm, deg");
+      "Warning limit of the figure alignment: rms error of the directions that views show, deg");
+  v.optional("drift_alarm", watch.drift.alarm, Range::above(0, 90),
+             "Alarm limit of the figure alignment, deg");
   v.optional("correct", watch.correct,
-             "Put the alignment in force that a lasting drift asks for, with a restart; else the "
-             "command correct_alignment proposes it");
+             "Apply the correction of a lasting drift automatically, with a restart; false: only "
+             "the command correct_alignment proposes it");
+  v.optional("blur_warning", watch.blur.warning, Range::between(0, 100),
+             "Warning limit of the figure focus: sigma of the reflection's blur, px; 0: none");
+  v.optional("blur_alarm", watch.blur.alarm, Range::between(0, 100),
+             "Alarm limit of the figure focus, px; 0: none");
   v.optional(
-      "blur_warning", watch.blur.warning, Range::between(0, 100),
-      "Blur of what the ball reflects, sigma, px, from which the figure focus warns; 0: none");
-  v.optional("blur_alarm", watch.blur.alarm, Range::between(0, 100), "The same for its alarm, px");
-  v.optional("contamination_warning", watch.contamination.warning, Range::between(0, 100),
-             "Share of the ball under dirt from which the figure cleanliness warns, %; 0: none");
+      "contamination_warning", watch.contamination.warning, Range::between(0, 100),
+      "Warning limit of the figure cleanliness: share of the ball covered by dirt, %; 0: none");
   v.optional("contamination_alarm", watch.contamination.alarm, Range::between(0, 100),
-             "The same for its alarm, %");
+             "Alarm limit of the figure cleanliness, %; 0: none");
   v.require(watch.drift.alarm >= watch.drift.warning, "drift_alarm",
             "must not be below drift_warning");
 }

@@ -17,11 +17,13 @@ struct JpegSettings {
 
 template <class Visitor>
 void visit(Visitor& v, JpegSettings& jpeg) {
-  v.optional("quality", jpeg.quality, Range::between(1, 100), "The best that is used");
+  v.optional("quality", jpeg.quality, Range::between(1, 100),
+             "JPEG quality, the upper limit with target_bytes");
   v.optional("target_bytes", jpeg.target_bytes, Range::between(0, 1e8),
-             "Of a picture; the quality falls, down to 10, to stay below; 0: no limit");
+             "Size limit of one picture, bytes: the quality is lowered, down to 10, to meet it; 0: "
+             "no limit");
   v.optional("rate", jpeg.rate, Range::between(0, 1000),
-             "Pictures per second and topic at most; 0: all");
+             "Limit of pictures per second and topic; 0: all");
 }
 
 /// Adapts the quality so that pictures stay below a size: down at once, in proportion to the

@@ -55,7 +55,7 @@ Result<> check_picture_name(const std::filesystem::path& path, PixelFormat forma
   }
   if (transparency) return fail(path.string() + ": JPEG has no transparency; write a .png");
   if (info(format).bytes_per_sample() == 2) {
-    return fail(path.string() + ": JPEG holds 8 bit, the picture has 16; write a .png");
+    return fail(path.string() + ": JPEG has 8 bits, the picture has 16; write a .png");
   }
   return {};
 }

@@ -54,7 +54,7 @@ std::string ready_message(std::string_view status) {
 
 void notify_restart() {
   std::string message = "RELOADING=1\nMONOTONIC_USEC=" + monotonic_now() +
-                        "\nSTATUS=starts again with its files read anew";
+                        "\nSTATUS=restarting with its files read again";
   if (watchdog_period().count() > 0) {
     message += "\nWATCHDOG_USEC=" + microseconds(kLongestStart) + "\nWATCHDOG=1";
   }

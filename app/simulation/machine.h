@@ -77,16 +77,17 @@ bool is_connected(const MachineSettings& machine, const std::string& device);
 /// Visits the keys in a site's file.
 template <class Visitor>
 void visit(Visitor& v, MachineSettings& machine) {
-  v.optional("seed", machine.seed, Range::between(0, 2147483647), "Of sparks and noise");
-  v.optional("spark_rate", machine.sparks.rate, Range::between(0, 150), "Per second, mean");
+  v.optional("seed", machine.seed, Range::between(0, 2147483647),
+             "Random seed for sparks and noise");
+  v.optional("spark_rate", machine.sparks.rate, Range::between(0, 150),
+             "Mean number of sparks per second");
   v.optional("pool_radius", machine.pool.radius, Range::between(1, 20),
-             "Of the molten pool, mm, mean");
+             "Mean radius of the molten pool, mm");
   v.optional("pool_temperature", machine.pool.peak, Range::between(1500, 2300),
-             "In the pool's centre, degC, mean");
-  v.optional(
-      "connected", machine.connected,
-      "Folder with a file for each simulated camera (its name) and line (its line_name) that "
-      "is connected: to try what happens without them; else all are");
+             "Mean temperature in the pool's centre, degC");
+  v.optional("connected", machine.connected,
+             "Folder with one file for each connected simulated camera (its name) and line (its "
+             "line_name); removing a file simulates unplugging. Without the key all are connected");
 }
 
 /// One machine and its clock, shared by all cameras that look into it. Immutable, reentrant.

@@ -54,12 +54,13 @@ inline constexpr std::array kCameraKinds{Word{"colour", CameraKind::Colour},
 /// Visits all settings except those from the camera's context.
 template <class Visitor>
 void visit(Visitor& v, SimulatedCameraSettings& settings) {
-  v.required("kind", settings.kind, kCameraKinds, "8-bit RGB, or 16-bit radiometric");
+  v.required("kind", settings.kind, kCameraKinds, "colour: 8-bit RGB; thermal: 16-bit radiometric");
   v.required("position", settings.position, kAnyNumber,
-             "In the machine frame, mm; it looks at the ball");
+             "Camera position, machine frame, mm; the camera looks at the ball");
   v.required("h_fov", settings.horizontal_fov, Range::inside(0, 180),
              "Horizontal field of view, deg");
-  v.optional("noise", settings.noise_sigma, Range::between(0, 1000), "Standard deviation, counts");
+  v.optional("noise", settings.noise_sigma, Range::between(0, 1000),
+             "Standard deviation of the sensor noise, counts");
 }
 
 /// Context for making a simulated camera, with the machine that all of them share.

@@ -52,7 +52,8 @@ Result<std::optional<std::string>> read_private(const fs::path& file) {
   struct stat about {};
   if (::fstat(opened.get(), &about) != 0) return cannot(file, "read");
   if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    return fail(file.string() + ": others than its owner may use it; mend it by chmod 600");
+    return fail(file.string() +
+                ": must be accessible to its owner only; set its mode to 600 by chmod");
   }
   return std::move(*text);
 }

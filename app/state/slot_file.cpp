@@ -73,12 +73,12 @@ Result<> SlotFile::lock() {
   folder_ = hal::FileDescriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder_.is_open()) {
     return fail(folder.string() + ": cannot be opened: " + std::system_category().message(errno) +
-                "; state_folder of the site file must be a folder that orbwatchd may write to");
+                "; state_folder of the site file must be writable for orbwatchd");
   }
   if (::flock(folder_.get(), LOCK_EX | LOCK_NB) == 0) return {};
   if (errno != EWOULDBLOCK) return tl::unexpected(error("be locked"));
   return fail(folder.string() +
-              ": is used by another orbwatchd; give each a state_folder of its own");
+              ": is used by another orbwatchd; set a different state_folder for each");
 }
 
 /// A file that exists is whole, or was damaged later.
@@ -109,7 +109,7 @@ Result<> SlotFile::load() {
     next_ = 1 - i;
   }
   if (newest == nullptr) {
-    content_ = fail(path_.string() + ": is damaged, both of its slots");
+    content_ = fail(path_.string() + ": is damaged in both slots");
   } else if (newest->header.version != kVersion) {
     content_ = fail(path_.string() + ": is of version " + std::to_string(newest->header.version) +
                     "; this orbwatchd reads version " + std::to_string(kVersion));
@@ -135,7 +135,7 @@ Result<> SlotFile::write(const Content& content) {
 
 Error SlotFile::error(const std::string& what) const {
   return {path_.string() + ": cannot " + what + ": " + std::system_category().message(errno) +
-          kNeed};
+          "; orbwatchd needs a writable state_folder with 16 KiB free"};
 }
 
 }  // namespace orbwatch::app

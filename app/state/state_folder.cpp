@@ -84,7 +84,7 @@ Result<fs::path> check_owner(const fs::path& folder, const fs::path& configurati
   if (!owner || is_same(*owner, configuration)) return folder;
   const std::string own = owned.empty() ? "FOLDER" : owned.front().string();
   return fail(folder.string() + ": is the state folder of " + owner->string() + ", not of " +
-              configuration.string() + "; say --config " + owner->string() +
+              configuration.string() + "; pass --config " + owner->string() +
               ", or before the command STATE_DIRECTORY=" + own +
               (owned.empty() ? ", the folder of the other one" : ""));
 }
@@ -104,8 +104,7 @@ Result<fs::path> state_folder(const fs::path& configured, const fs::path& config
   const fs::path usual = lib / name_for(own);
   if (owned.empty() || std::ranges::count(owned, usual) > 0) return check_owner(usual, own, owned);
   if (owned.size() == 1) return owned.front();
-  std::string text =
-      own.string() + ": several folders are its state folder; say before the command";
+  std::string text = own.string() + ": several state folders exist; set before the command";
   for (const fs::path& folder : owned) {
     text +=
         (folder == owned.front() ? " STATE_DIRECTORY=" : " or STATE_DIRECTORY=") + folder.string();
@@ -123,7 +122,7 @@ Result<hal::FileDescriptor> reserve(const fs::path& folder) {
       file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (!is_taken) return file;
   return fail(folder.string() +
-              ": another orbwatchd runs with this STATE_DIRECTORY; give each one of its own");
+              ": another orbwatchd runs with this STATE_DIRECTORY; set a different one for each");
 }
 
 std::optional<fs::path> owner_of(const fs::path& folder) {

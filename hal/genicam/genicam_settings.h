@@ -56,27 +56,26 @@ inline constexpr std::array kStampMarks{Word{"exposure_start", StampSource::Expo
 template <class Visitor>
 void visit(Visitor& v, GenicamSettings& settings) {
   v.required("camera", settings.camera,
-             "Its serial number, the name that was given to it, its IP address, or the id that "
-             "`orbwatch list` shows");
+             "Serial number, user-defined name, IP address, or the id that `orbwatch list` shows");
   v.optional("pixel_format", settings.pixel_format,
-             "auto, or GenICam's name: Mono16, BayerRG8, ...; of Mono14 the counts are kept");
-  v.optional("colour", settings.colour,
-             "Make colour of a sensor's mosaic; else the mosaic stays as it is");
+             "auto, or a GenICam name: Mono16, BayerRG8, ...; Mono14 counts are not rescaled");
+  v.optional("colour", settings.colour, "Demosaic to colour; false: the mosaic stays as it is");
   v.optional("binning", settings.binning, Range::between(1, 16),
-             "Pixels of the sensor that become one, in both directions; width and height count "
-             "what becomes of them");
+             "Sensor pixels that are combined into one, in both directions; width and height count "
+             "binned pixels");
   v.optional("offset_x", settings.offset_x, Range::between(0, kMaxSide),
-             "Of the picture on the sensor, px: only the ball needs to be sent");
-  v.optional("offset_y", settings.offset_y, Range::between(0, kMaxSide), "The same, downwards");
+             "Left edge of the region read from the sensor, px; only the ball needs to be sent");
+  v.optional("offset_y", settings.offset_y, Range::between(0, kMaxSide),
+             "Top edge of the region read from the sensor, px");
   v.optional("trigger_source", settings.trigger_source,
-             "What the camera waits for when its control TriggerMode is 1: its own word, as "
-             "Software or Line1");
+             "Trigger source of the camera while its control TriggerMode is 1, by the camera's own "
+             "name, such as Software or Line1");
   v.optional(
       "stamps_mark", settings.stamps_mark, kStampMarks,
-      "What the camera's time stamps mark, of its data sheet; for cameras whose clock can be "
-      "read (TimestampLatch), others are taken for stamped when the readout starts");
+      "Event that the camera's time stamps mark, from its data sheet; for cameras whose clock can "
+      "be read (TimestampLatch). Other cameras are assumed to stamp the start of the readout");
   v.optional("packet_size", settings.packet_size, Range::between(0, 16384),
-             "Of GigE Vision, bytes; 0: the largest that the network carries");
+             "GigE Vision packet size, bytes; 0: the largest that the network carries");
 }
 
 std::unique_ptr<Camera> make_camera(const GenicamSettings& settings, const CameraContext& context);

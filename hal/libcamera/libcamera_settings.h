@@ -50,14 +50,14 @@ void visit(Visitor& v, LibcameraSettings& settings) {
   SensorMode& mode = settings.sensor_mode;
   const Range side = Range::between(1, kMaxSide);
   v.required("camera", settings.camera,
-             "Its id in libcamera, or a part of id or sensor model that only one camera has");
+             "libcamera id, or a part of an id or sensor model that matches only one camera");
   v.optional("pixel_format", settings.pixel_format,
-             "auto, or libcamera's name: NV12, YUV420, R10, ...");
+             "auto, or a libcamera name: NV12, YUV420, R10, ...");
   v.optional("sensor_width", mode.width, side,
-             "Of the sensor mode that is required, px; else libcamera chooses the mode");
-  v.optional("sensor_height", mode.height, side, "Of the sensor mode, px");
+             "Width of the required sensor mode, px; default: libcamera chooses the mode");
+  v.optional("sensor_height", mode.height, side, "Height of the required sensor mode, px");
   v.optional("sensor_bit_depth", mode.bit_depth, Range::between(1, 32),
-             "Of the sensor mode, bits per sample");
+             "Bit depth of the required sensor mode, bits per sample");
   v.require((mode.width == 0) == (mode.height == 0) && (mode.width == 0) == (mode.bit_depth == 0),
             "sensor_width", "a sensor mode needs sensor_width, sensor_height and sensor_bit_depth");
 }

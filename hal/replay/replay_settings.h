@@ -41,7 +41,7 @@ template <class Visitor>
 void visit(Visitor& v, ReplaySettings& settings) {
   v.required("source", settings.source,
              "Folder of numbered JPEG or PNG pictures, one picture, or a video");
-  v.optional("loop", settings.loop, "Begin again at the end");
+  v.optional("loop", settings.loop, "Restart from the first picture after the last one");
 }
 
 std::unique_ptr<Camera> make_camera(ReplaySettings settings, const CameraContext& context);

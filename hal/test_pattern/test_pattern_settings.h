@@ -46,9 +46,10 @@ inline constexpr auto kPixelFormatWords = [] {
 /// Visits all settings except those from the camera's context.
 template <class Visitor>
 void visit(Visitor& v, TestPatternSettings& settings) {
-  v.required("pixel_format", settings.pixel_format, kPixelFormatWords, "Of its frames");
+  v.required("pixel_format", settings.pixel_format, kPixelFormatWords,
+             "Pixel format of the frames");
   v.optional("numbered", settings.numbered,
-             "Paint each frame's number into it, to tell which of them is seen");
+             "Paint the frame number into each frame, to identify it");
 }
 
 std::unique_ptr<Camera> make_camera(TestPatternSettings settings, const CameraContext& context);

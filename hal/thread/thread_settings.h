@@ -17,17 +17,16 @@ struct ThreadSettings {
 template <class Visitor>
 void visit(Visitor& v, ThreadSettings& threads) {
   v.optional("realtime", threads.realtime,
-             "Lines, capture, pipeline and workers run before all other programs (SCHED_FIFO 48, "
-             "44, 40, 40), where the kernel allows it: LimitRTPRIO=48 of the unit");
-  v.optional("lock_memory", threads.lock_memory,
-             "No page that was used is swapped out, where the kernel allows it: "
-             "LimitMEMLOCK=infinity of the unit");
+             "Real-time scheduling (SCHED_FIFO) of lines, capture, pipeline and workers with "
+             "priorities 48, 44, 40, 40; needs LimitRTPRIO=48 in the unit");
+  v.optional(
+      "lock_memory", threads.lock_memory,
+      "Lock memory, so that no used page is swapped out; needs LimitMEMLOCK=infinity in the unit");
   v.optional("cores", threads.cores, Range::between(0, 1023),
-             "Numbers of the cores that capture, pipeline and workers keep to, as isolcpus= "
-             "counts them; none: all");
+             "Cores for capture, pipeline and workers, numbered as in isolcpus=; []: all");
   v.optional("background", threads.background, Range::between(1, 8),
-             "Threads that encode and write pictures and compile views that are pointed: more, if "
-             "one does not keep up and there are cores to spare");
+             "Threads that encode and write pictures and compile pointed views; set more if one "
+             "does not keep up and cores are idle");
 }
 
 }  // namespace orbwatch::hal

@@ -44,22 +44,23 @@ struct V4l2Settings {
 template <class Visitor>
 void visit(Visitor& v, V4l2Settings& settings) {
   v.required("device", settings.device,
-             "Device node, or what survives replugging: a link in /dev/v4l/by-id or by-path, or "
-             "the place on a bus (usb-0000:00:14.0-1)");
-  v.optional(
-      "pixel_format", settings.pixel_format, kPixelCodingNames,
-      "What the camera sends; auto: the first that it has in the size and at the rate; y16 with "
-      "kelvin_per_count: also the 16 bit words of a thermal camera that calls them YUYV");
+             "Device node, or a name that survives replugging: a link in /dev/v4l/by-id or "
+             "by-path, or the bus position (usb-0000:00:14.0-1)");
+  v.optional("pixel_format", settings.pixel_format, kPixelCodingNames,
+             "Pixel format that the camera sends; auto: the first one that it offers at this size "
+             "and rate; y16 with kelvin_per_count: also the 16-bit words of a thermal camera that "
+             "declares them as YUYV");
   v.optional("colour", settings.colour,
-             "Make colour of a sensor's mosaic and of MJPEG; else the mosaic stays as it is, and "
-             "of MJPEG the luminance");
-  v.optional("frame_height", settings.frame_height, Range::between(1, kMaxSide),
-             "Height of the frames that the camera sends, px, where the picture is a part of them: "
-             "below another picture, or beside lines of telemetry; else the picture's");
+             "Demosaic and decode to colour; false: the mosaic stays as it is, and MJPEG is "
+             "decoded to luminance");
+  v.optional(
+      "frame_height", settings.frame_height, Range::between(1, kMaxSide),
+      "Height of the frames that the camera sends, px, if the picture is only a part of them: "
+      "below another picture, or beside telemetry lines; default: the picture's height");
   v.optional("first_row", settings.first_row, Range::between(0, kMaxSide - 1),
-             "First row of the picture in these frames");
+             "First row of the picture in the camera's frames");
   v.require(settings.first_row == 0 || settings.first_row < settings.frame_height, "first_row",
-            "needs a frame_height above it");
+            "needs a frame_height that is larger than first_row");
 }
 
 /// Nullopt: the format is chosen when the camera is opened.

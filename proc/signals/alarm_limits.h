@@ -62,22 +62,23 @@ inline constexpr auto kSignalWords = [] {
 template <class Visitor>
 void visit(Visitor& v, AlarmLimits& limits) {
   const Seconds delay{Range::between(0, std::chrono::duration<double>(kLongestDelay).count())};
-  v.required("signal", limits.signal, kSignalWords, "What is watched");
+  v.required("signal", limits.signal, kSignalWords, "Signal that is supervised");
   for (const LimitInfo& limit : kLimits) {
-    v.optional(limit.name, limits.*limit.value, kAnyNumber, "In the signal's unit");
+    v.optional(limit.name, limits.*limit.value, kAnyNumber, "Limit in the signal's unit");
   }
   v.optional(kHysteresis, limits.hysteresis, Range::between(0, 1e9),
-             "How far the signal must come back from a limit to end its alarm");
+             "Distance from the limit at which the alarm ends, in the signal's unit");
   v.optional("on_delay", limits.on_delay, delay,
-             "A limit counts once it was reached for so long, s");
-  v.optional("off_delay", limits.off_delay, delay, "And until the signal was back for so long, s");
+             "Time for which a limit must be exceeded to raise the alarm, s");
+  v.optional("off_delay", limits.off_delay, delay,
+             "Time for which the signal must be back to end the alarm, s");
   v.optional("loss_delay", limits.loss_delay, delay,
-             "Not measured for so long is an alarm of its own, s; 0: never");
+             "Time without a measurement after which an alarm is raised, s; 0: never");
   if (limits.loss_delay == std::chrono::nanoseconds::zero()) limits.loss_delay.reset();
   v.optional("latching", limits.latching,
-             "Stands until it is acknowledged, even after its cause has gone");
+             "The alarm stays active until it is acknowledged, even after its cause has gone");
   v.optional("only_while_active", limits.only_while_active,
-             "Suppressed while the process is not active");
+             "The alarm is suppressed while the process is not active");
 }
 
 /// Errors: no limit at all; limits that are not finite, outside the signal's range or not in the

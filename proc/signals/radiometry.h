@@ -32,10 +32,10 @@ void visit(Visitor& v, RadiometrySettings& radiometry) {
   v.optional("wavelength", radiometry.wavelength, Range::between(0.5, 20),
              "Effective wavelength of the camera's band, um");
   v.optional("ball_reflectivity", radiometry.reflectivity, Range::between(0.05, 1),
-             "Of the mirror ball at that wavelength; temperatures are apparent unless it and the "
-             "region's emissivity are given");
+             "Reflectivity of the mirror ball at that wavelength; temperatures are apparent unless "
+             "this key and the region's emissivity are set");
   v.optional("ball_temperature", radiometry.ball_temperature, Range::between(-273, 1000),
-             "Of the mirror ball, degC, for what it emits itself");
+             "Temperature of the mirror ball, degC, to subtract its own emission");
 }
 
 /// Converts counts to the target's temperature and back, by

@@ -50,7 +50,8 @@
   X(hot_spot_peak_temperature, "degC", 0.1, -273.15, 5000, RadiometricCamera,                     \
     "Hottest pixel; apparent unless calibrated")                                                  \
   X(hot_spot_cooling_rate, "K/s", 1, -1000000, 1000000, RadiometricCamera,                        \
-    "Mean fall of temperature, since the frame set before, of what has left the hot spot since")  \
+    "Mean fall of temperature, since the previous frame set, of the surface that left the hot "   \
+    "spot since then")                                                                            \
   X(plume_area, "msr", 0.001, 0, 12567, PlumeThreshold,                                           \
     "Solid angle above the plume threshold around the hot spot, without the hot spot")            \
   X(spatter_count, "", 1, 0, 10000, SpatterThreshold, "Sparks in this frame set")                 \
@@ -95,10 +96,10 @@
 /* Appended since numbers of signals are fixed: PLCs and controllers know them. */
 #define ORBWATCH_LATER_SIGNALS(X)                                                                  \
   X(hot_spot_confidence, "%", 0.1, 0, 100, Nothing,                                                \
-    "How sure the hot spot is the one before: seen in the last frame sets, of its usual size, no " \
-    "other like it")                                                                               \
+    "Confidence that the hot spot is the previous one: seen in the last frame sets, of its usual " \
+    "size, no similar one")                                                                        \
   X(spatter_untracked, "", 1, 0, 10000, SpatterThreshold,                                          \
-    "Sparks of the last second that were too many to be followed, and miss in spatter_rate")
+    "Sparks of the last second beyond the tracking limit, which spatter_rate does not count")
 
 #define ORBWATCH_SIGNALS(X) \
   ORBWATCH_FRAME_SIGNALS(X) ORBWATCH_MAIN_SIGNALS(ORBWATCH_STATISTICS, X) ORBWATCH_LATER_SIGNALS(X)

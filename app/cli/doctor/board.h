@@ -68,7 +68,7 @@ void visit(Visitor& v, BoardCamera& camera) {
 
 template <class Visitor>
 void visit(Visitor& v, Board& board) {
-  v.required("name", board.name, "For people");
+  v.required("name", board.name, "Board name, for display");
   v.optional("models", board.models, "Beginnings of what the board calls itself");
   v.optional("architecture", board.architecture, "Of a file for all other boards, as uname -m");
   v.required("tried", board.tried, "What was run on it, and where the facts are from");

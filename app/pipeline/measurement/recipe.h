@@ -50,34 +50,38 @@ inline constexpr std::array kActiveSources{
 template <class Visitor>
 void visit(Visitor& v, RegionOfInterest& region) {
   const Range threshold = Range::between(-273, 10000);
-  v.required("name", region.name, "Its name in process state and messages");
-  v.required("view", region.view, "Name of the recipe's view in which it is measured");
+  v.required("name", region.name, "Region name, used by process state and messages");
+  v.required("view", region.view, "Name of the recipe's view in which the region is measured");
   v.optional("directions", region.directions, kAnyNumber,
-             "Corners [yaw, pitch] of a polygon, deg, seen from the ball; else the whole view");
+             "Corners [yaw, pitch] of a polygon, deg, seen from the ball; default: the whole view");
   v.optional("points", region.points, kAnyNumber,
-             "Instead of directions: corners [x, y, z] in the machine frame, mm");
-  v.required("hot_spot_threshold", region.hot_spot_threshold, threshold,
-             "Where the hot spot begins: degC for a radiometric camera, else percent of full "
-             "scale");
+             "Corners [x, y, z] of the polygon in the machine frame, mm; instead of directions");
+  v.required(
+      "hot_spot_threshold", region.hot_spot_threshold, threshold,
+      "Threshold of the hot spot: degC for a radiometric camera, else percent of full scale");
   v.optional("hot_spot_min_area", region.hot_spot_min_area, Range::above(0, 1e6),
-             "What is smaller is a spark, or a hot spot of which too much is hidden, mm2 on the "
-             "machine's surface; needs the rig's scene, with which a pixel of the view is "
-             "assumed");
-  v.optional("hot_spot_max_speed", region.hot_spot_max_speed, Range::above(0, 1e5),
-             "The hot spot's centre moves no faster, mm/s on the machine's surface: while it is "
-             "hidden, nothing farther away is taken for it for half a second; needs the rig's "
-             "scene, with which 200 is assumed, or a pixel of the view per frame if that is more");
+             "Smallest area of a hot spot on the machine's surface, mm2; smaller ones are sparks, "
+             "or hot spots that are mostly hidden. Needs the rig's scene; default: the area of one "
+             "pixel of the view");
+  v.optional(
+      "hot_spot_max_speed", region.hot_spot_max_speed, Range::above(0, 1e5),
+      "Highest speed of the hot spot's centre on the machine's surface, mm/s: for half a second "
+      "after the hot spot is hidden, nothing farther away is accepted as the same hot spot. Needs "
+      "the rig's scene; default: 200, or one pixel of the view per frame if that is more");
   v.optional("plume_threshold", region.plume_threshold, threshold,
-             "Where the plume around it begins, in the same unit; else it is not measured");
+             "Threshold of the plume around the hot spot, in the same unit; without it the plume "
+             "is not measured");
   v.optional("spatter_threshold", region.spatter_threshold, threshold,
-             "Where a spark begins, in the same unit; else they are not counted");
+             "Threshold of a spark, in the same unit; without it sparks are not counted");
   v.optional("width", region.width, Range::above(0, 10000),
-             "Set-point of the hot spot's width, mm; else there is no width error");
-  v.optional("emissivity", region.emissivity, Range::between(0.01, 1),
-             "Of the target, at the camera's wavelength; else temperatures are apparent");
+             "Set-point of the hot spot's width, mm; without it there is no width error");
+  v.optional(
+      "emissivity", region.emissivity, Range::between(0.01, 1),
+      "Emissivity of the target at the camera's wavelength; without it temperatures are apparent");
   v.optional("surroundings_temperature", region.surroundings_temperature,
-             Range::between(-273, 5000), "Of what the target reflects, degC; else 20");
-  v.tables("alarm", region.alarms, 0, signals::kMaxAlarms, "Limits of its signals");
+             Range::between(-273, 5000),
+             "Temperature of the surroundings that the target reflects, degC; default: 20");
+  v.tables("alarm", region.alarms, 0, signals::kMaxAlarms, "Limits of the region's signals");
   v.require(region.directions.empty() || region.points.empty(), "points",
             "a region has either directions or points");
   v.require(region.directions.empty() || region.directions.size() >= 3, "directions",
@@ -89,30 +93,31 @@ void visit(Visitor& v, RegionOfInterest& region) {
 template <class Visitor>
 void visit(Visitor& v, CameraControl& control) {
   v.required("camera", control.camera, "Name of the camera");
-  v.required("name", control.name, "As in the configuration's [[camera.control]]");
+  v.required("name", control.name, "Control name, as in [[camera.control]] of the configuration");
   v.required("value", control.value, kAnyNumber,
-             "In the camera's units; for a menu, the entry's number");
+             "Value in the camera's units; for a menu, the number of the entry");
 }
 
 template <class Visitor>
 void visit(Visitor& v, Recipe& recipe) {
-  v.required("name", recipe.name, "For people");
+  v.required("name", recipe.name, "Recipe name, for display");
   v.optional("process_active", recipe.process_active, kActiveSources,
-             "When the process is active; outside it no process alarm is raised. input: by a "
-             "line; command: by the PLC or the controller; detected: while there is a hot spot, "
-             "and alarms act also while that is not measured");
+             "Source of the state process active; process alarms are raised only while it holds. "
+             "input: a line; command: the PLC or the controller; detected: the presence of a hot "
+             "spot, and alarms stay enabled while the hot spot is not measured");
   v.optional_if(recipe.process_active == ActiveSource::Input, "process_active = \"input\"",
-                "process_input", recipe.process_input, "Name of the line, for input");
+                "process_input", recipe.process_input,
+                "Name of the line, for process_active = \"input\"");
   v.require((recipe.process_active == ActiveSource::Input) != recipe.process_input.name.empty(),
             "process_active", "\"input\" needs process_input");
   v.optional("settle_frames", recipe.settle_frames, Range::between(0, 1000),
-             "Frame sets that are not measured once the cameras have taken on a recipe's settings, "
-             "which is waited for anyway: for a light or a lens that needs longer");
+             "Further frame sets that are not measured after the cameras have applied a recipe's "
+             "settings, for a light or a lens that settles more slowly");
   v.tables("view", recipe.views, 1, kMaxViews,
-           "Views that are measured; they cannot be pointed, and are never slowed down");
-  v.tables("region", recipe.regions, 1, signals::kMaxRegions, "What is measured");
+           "Measured views; commands cannot point them, and they are never slowed down");
+  v.tables("region", recipe.regions, 1, signals::kMaxRegions, "Measured regions");
   v.tables("control", recipe.controls, 0, 64,
-           "Settings of cameras, applied in this order when the recipe is selected");
+           "Camera controls, applied in this order when the recipe is selected");
 }
 
 }  // namespace orbwatch::app

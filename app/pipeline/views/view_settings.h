@@ -78,15 +78,17 @@ inline constexpr Range kSide = Range::between(1, kMaxSide);
 template <class Visitor>
 void visit(Visitor& v, SourceSettings& source) {
   v.required("camera", source.camera, "Name of the camera");
-  v.optional("weight", source.weight, Range::above(0, 1000),
-             "Its share where other cameras see too; sharpest multiplies it by (pixels per "
-             "degree)^4");
-  v.optional("colour_map", source.colour_map, kColourMapNames, "Colours of a one-channel camera");
+  v.optional(
+      "weight", source.weight, Range::above(0, 1000),
+      "Weight where several cameras overlap; sharpest multiplies it by (pixels per degree)^4");
+  v.optional("colour_map", source.colour_map, kColourMapNames,
+             "Colour map of a one-channel camera");
   v.optional("range", source.range, kAnyNumber,
-             "First and last colour: degC for a radiometric camera, else percent of full scale");
+             "Values of the first and the last colour: degC for a radiometric camera, else percent "
+             "of full scale");
   v.optional("sharpness", source.sharpness, kSharpnesses,
-             "How much an 8 bit colour camera's picture is sharpened to be shown, never what is "
-             "measured; 0: not at all. At most 4 different values of one camera");
+             "Sharpening of an 8-bit colour camera's picture for display, never for measurement; "
+             "0: none. At most 4 different values per camera");
   static_assert(kMaxSharpnesses == 4);
   v.require(!source.range || (*source.range)[0] < (*source.range)[1], "range",
             "the first number must be below the second");
@@ -94,37 +96,38 @@ void visit(Visitor& v, SourceSettings& source) {
 
 template <class Visitor>
 void visit(Visitor& v, ViewSettings& view) {
-  v.required("name", view.name, "Part of its DDS topic: letters, digits and _");
+  v.required("name", view.name, "View name, part of its DDS topic: letters, digits and _");
   v.optional("kind", view.kind, kViewKinds,
-             "Projection; ball is the first camera's own picture of it, which takes no angle");
-  v.optional("yaw", view.yaw, kAnyNumber, "deg, from +Y towards +X");
-  v.optional("pitch", view.pitch, kAnyNumber, "deg, up positive");
-  v.optional("roll", view.roll, kAnyNumber, "deg, the right side dips");
+             "Projection; ball is the first camera's own picture of the ball, which has no angles");
+  v.optional("yaw", view.yaw, kAnyNumber, "Yaw, deg, from +Y towards +X");
+  v.optional("pitch", view.pitch, kAnyNumber, "Pitch, deg, up positive");
+  v.optional("roll", view.roll, kAnyNumber, "Roll, deg, positive lowers the right side");
   v.optional("h_fov", view.h_fov, Range::above(0, 360),
-             "deg, edge to edge; else 90 perspective (below 180), 180 stereographic and fisheye, "
-             "360 the others");
-  v.optional("v_fov", view.v_fov, Range::above(0, 360),
-             "deg; else 180 equirectangular, from square pixels the others");
-  v.required("width", view.width, kSide, "px");
-  v.required("height", view.height, kSide, "px");
-  v.optional("combine", view.combine, kCombines,
-             "mix: cameras by weight; sharpest: by resolution; switch: the first listed that sees "
-             "and delivers. A camera fills what others do not see, and fades out where it sees "
-             "badly unless it is switched");
-  v.optional("interpolation", view.interpolation, remap::kInterpolations,
-             "Between source pixels; area averages where the view is smaller than the picture");
-  v.optional("encoding", view.encoding, kEncodings, "Of its raw pictures over DDS");
+             "Horizontal field of view, deg, edge to edge; default: 90 perspective (must be below "
+             "180), 180 stereographic and fisheye, 360 the others");
   v.optional(
-      "match", view.match,
-      "Brings colour cameras that are exposed apart together where they see the same; what is "
-      "measured stays as it is");
+      "v_fov", view.v_fov, Range::above(0, 360),
+      "Vertical field of view, deg; default: 180 equirectangular, the others from square pixels");
+  v.required("width", view.width, kSide, "Picture width, px");
+  v.required("height", view.height, kSide, "Picture height, px");
+  v.optional("combine", view.combine, kCombines,
+             "mix: cameras blended by weight; sharpest: by resolution; switch: the first listed "
+             "camera that sees the direction and delivers. A camera fills directions that others "
+             "do not see, and fades out where its resolution is poor, except with switch");
+  v.optional("interpolation", view.interpolation, remap::kInterpolations,
+             "Interpolation between source pixels; area averages where the view has a lower "
+             "resolution than the picture");
+  v.optional("encoding", view.encoding, kEncodings, "Encoding of the view's raw pictures over DDS");
+  v.optional("match", view.match,
+             "Match the exposure of colour cameras where their pictures overlap; measurements are "
+             "unaffected");
   v.tables("source", view.sources, 1, remap::kMaxSources, "Cameras that the view shows");
 }
 
 template <class Visitor>
 void visit(Visitor& v, MeasuredViewSettings& view) {
   visit(v, static_cast<ViewSettings&>(view));
-  v.required("measured", view.measured, "Which of its cameras is measured");
+  v.required("measured", view.measured, "Name of the view's camera that is measured");
 }
 
 }  // namespace orbwatch::app

@@ -19,7 +19,7 @@
 namespace orbwatch::app {
 
 struct ConsoleSettings {
-  static constexpr std::string_view kName = "console", kText = "Figures on standard output";
+  static constexpr std::string_view kName = "console", kText = "Status figures on standard output";
 
   bool enabled = false;
   double period = 1;  ///< s
@@ -28,7 +28,7 @@ struct ConsoleSettings {
 template <class Visitor>
 void visit(Visitor& v, ConsoleSettings& console) {
   v.optional("enabled", console.enabled, "Print the status to standard output");
-  v.optional("period", console.period, Range::between(0.1, 3600), "Seconds between two prints");
+  v.optional("period", console.period, Range::between(0.1, 3600), "Interval between two prints, s");
 }
 
 #define ORBWATCH_CONSOLE_FIGURES(FIELD) \

@@ -25,7 +25,8 @@ class Fleet;
 
 /// Where and how to publish.
 struct DdsSettings {
-  static constexpr std::string_view kName = "dds", kText = "Towards the machine controller";
+  static constexpr std::string_view kName = "dds",
+                                    kText = "DDS participant for the machine controller";
 
   bool enabled = true;
   int domain = 0;                   ///< DDS domain, ROS_DOMAIN_ID of ROS 2; 0 to 230
@@ -51,29 +52,29 @@ inline constexpr std::array kRosGenerations{Word{"humble", RosGeneration::Humble
 template <class Visitor>
 void visit(Visitor& v, SecuritySettings& security) {
   v.required("folder", security.folder,
-             "Certificate, key and permissions, as made by `orbwatch dds-keys`");
+             "Folder with certificate, key and permissions, made by `orbwatch dds-keys`");
 }
 
 template <class Visitor>
 void visit(Visitor& v, DdsSettings& dds) {
   v.optional("enabled", dds.enabled, "Publish views and process state over DDS");
-  v.optional("domain", dds.domain, Range::between(0, 230), "ROS_DOMAIN_ID of ROS 2");
-  v.optional("prefix", dds.prefix, "Topics are rt/<prefix>/...");
-  v.optional("name", dds.name,
-             "Of this appliance in the list of all that are in the domain; without the key the "
-             "host's");
+  v.optional("domain", dds.domain, Range::between(0, 230), "DDS domain; ROS_DOMAIN_ID in ROS 2");
+  v.optional("prefix", dds.prefix, "Prefix of the topics: rt/<prefix>/...");
+  v.optional("name", dds.name, "This appliance's name in the fleet list; default: the host name");
   v.require(dds.name.size() <= ApplianceIdentity::kLongestName, "name",
-            "has more than 64 bytes; say a shorter one");
+            "has more than 64 bytes; set a shorter name");
   v.optional("profile", dds.profile,
-             "Settings of the network for Cyclone DDS, as in platform/dds; else those that "
+             "Cyclone DDS network profile, as in platform/dds; default: the one that "
              "CYCLONEDDS_URI names");
   v.optional("ros", dds.ros, kRosGenerations,
-             "How the node orbwatch is announced in ROS 2's graph: iron for Iron and later");
+             "Generation of the ROS 2 graph in which the node orbwatch is announced: iron for Iron "
+             "and later");
   v.optional("commands", dds.commands,
-             "Accept commands over DDS, too; without the key only with [dds.security]");
+             "Accept commands over DDS; default: only with [dds.security]");
   v.table("security", dds.security,
-          "Authentication, access control and encryption: only holders of keys read and command");
-  v.table("jpeg", dds.jpeg, "Of the compressed topics");
+          "Authentication, access control and encryption: only participants with keys may read and "
+          "command");
+  v.table("jpeg", dds.jpeg, "JPEG encoding of the compressed topics");
 }
 
 /// Who may command over DDS, in words; empty: nobody. Reentrant.

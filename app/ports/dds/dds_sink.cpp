@@ -88,7 +88,8 @@ Result<> DdsSink::check() const {
   for (auto name = names_.views.begin(); name != names_.views.end(); ++name) {
     if (const auto checked = check_topic_part(*name, "view name"); !checked) return checked;
     if (*name == kSelectedView || std::find(names_.views.begin(), name, *name) != name) {
-      return fail("DDS: view name \"" + *name + "\" is taken, each needs one of its own");
+      return fail("DDS: view name \"" + *name +
+                  "\" is already used; set a different name for each view");
     }
   }
   for (const auto& name : names_.cameras) {
@@ -330,9 +331,9 @@ std::vector<InterfaceMetric> DdsSink::metrics() const {
 
 std::string commanders(const DdsSettings& settings) {
   if (!takes_commands(settings)) return {};
-  return "over DDS from " + (settings.security
-                                 ? std::string("holders of keys")
-                                 : "everybody in domain " + std::to_string(settings.domain));
+  return "over DDS from " +
+         (settings.security ? std::string("holders of keys")
+                            : "every participant of domain " + std::to_string(settings.domain));
 }
 
 std::unique_ptr<Sink> make_sink(const DdsSettings& settings, const StatusNames& names,

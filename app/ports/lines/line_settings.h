@@ -55,17 +55,18 @@ template <class Visitor>
 void visit_pulses(Visitor& v, LineSettings& line) {
   const bool pulsed = is_pulsed(line.use);
   const char* const pulses = "trigger_out and strobe";
-  v.optional_if(pulsed, pulses, "source", line.source,
-                "A trigger_in line whose active edges fire the pulse, for trigger_out and strobe");
-  v.optional_if(line.use == LineUse::TriggerOut, "trigger_out", "rate", line.rate,
-                Range::between(0, 1000),
-                "Pulses per second, for trigger_out; 0: by source or the command pulse");
+  v.optional_if(
+      pulsed, pulses, "source", line.source,
+      "Name of a trigger_in line whose active edges start the pulse, for trigger_out and strobe");
+  v.optional_if(
+      line.use == LineUse::TriggerOut, "trigger_out", "rate", line.rate, Range::between(0, 1000),
+      "Pulses per second, for trigger_out; 0: only source or the command pulse start one");
   v.optional_if(pulsed, pulses, "width_us", line.pulse.width, Microseconds{Range::between(10, 1e7)},
                 "Length of the pulse, us, for trigger_out and strobe");
   v.optional_if(pulsed, pulses, "delay_us", line.pulse.delay, Microseconds{Range::between(0, 1e7)},
-                "From the edge to the pulse, us, for trigger_out and strobe");
-  v.require(line.use != LineUse::Strobe || !line.source.empty(), "source", "a strobe needs it");
-  v.require(line.source.empty() || line.rate <= 0, "rate", "goes without source only");
+                "Delay from the edge to the pulse, us, for trigger_out and strobe");
+  v.require(line.use != LineUse::Strobe || !line.source.empty(), "source", "a strobe needs source");
+  v.require(line.source.empty() || line.rate <= 0, "rate", "must be 0 when source is set");
   v.require(line.rate * std::chrono::duration<double>(line.pulse.width).count() < 1, "width_us",
             "a pulse must be shorter than the period of the rate");
 }
@@ -73,33 +74,36 @@ void visit_pulses(Visitor& v, LineSettings& line) {
 template <class Visitor>
 void visit(Visitor& v, LineSettings& line) {
   hal::LineAddress& address = line.wire.address;
-  v.required("name", line.name, "For cameras and other lines");
+  v.required("name", line.name, "Name by which cameras and other lines refer to it");
   v.required("use", line.use, kLineUses,
              "trigger_in: its edges trigger cameras and pulses; process_input: a state of the "
              "machine; trigger_out, strobe: pulses; process_ok: active while the pipeline works; "
-             "alarm: active while there is none. The last two fall when the pipeline stops");
+             "alarm: active while there is no alarm and the appliance is neither degraded nor in "
+             "fault. The last two become inactive when the pipeline stops");
   v.optional("back_end", line.back_end, kLineKinds,
-             "The kernel's lines; or simulated, where an input and an output of one line_name are "
-             "a wire");
-  v.optional("line_name", address.name, "The board's name of the line: see gpioinfo");
-  v.optional("chip", address.chip, "Instead of line_name: the label of its chip, see gpiodetect");
-  v.optional("offset", address.offset, Range::between(0, 65535), "Its number on that chip");
-  v.optional("active_low", line.wire.active_low, "Active when the wire is low");
+             "gpio: a line of the kernel; simulated: an input and an output with the same "
+             "line_name are connected");
+  v.optional("line_name", address.name, "Line name of the board, as gpioinfo shows it");
+  v.optional("chip", address.chip,
+             "Label of the line's chip, as gpiodetect shows it; instead of line_name");
+  v.optional("offset", address.offset, Range::between(0, 65535), "Number of the line on that chip");
+  v.optional("active_low", line.wire.active_low, "The line is active when the wire is low");
   v.optional("bias", line.wire.bias, kLineBiases,
-             "The chip's resistor: what holds the wire when nobody drives it");
+             "Pull resistor of the chip, which holds the wire while nothing drives it");
   v.optional_if(is_input(line.use), "inputs", "debounce_us", line.wire.debounce,
                 Microseconds{Range::between(0, 1e7)},
-                "Shorter changes do not count, us; for inputs");
+                "Shortest change that is detected, us; for inputs");
   visit_pulses(v, line);
   const char* const watchdogs = "process_ok and alarm";
   v.optional_if(is_watchdog(line.use), watchdogs, "timeout_ms", line.watchdog.timeout,
                 Milliseconds{Range::between(200, 60000)},
-                "Falls after so long without a status of the pipeline, for process_ok and alarm");
+                "Time without a pipeline status after which the line becomes inactive, for "
+                "process_ok and alarm");
   v.optional_if(is_watchdog(line.use), watchdogs, "toggle_rate", line.toggle_rate,
                 Range::between(0, 1000),
-                "Toggles so often per second instead of being held, for process_ok and alarm");
+                "Toggle frequency in 1/s while active, for process_ok and alarm; 0: held");
   v.require(address.name.empty() != address.chip.empty(), "line_name",
-            "a line has either line_name, or chip and offset");
+            "set either line_name, or chip and offset");
 }
 
 }  // namespace orbwatch::app

@@ -38,7 +38,7 @@ struct ModbusSerialSettings {
 
 /// The [modbus] part of the site file.
 struct ModbusSettings {
-  static constexpr std::string_view kName = "modbus", kText = "Towards the PLC";
+  static constexpr std::string_view kName = "modbus", kText = "Modbus server for the PLC";
 
   bool enabled = true;
   /// The numeric IPv4 or IPv6 address to listen on. All interfaces by default: the PLC is always
@@ -80,14 +80,15 @@ inline constexpr std::array kParities{Word{"none", Parity::None}, Word{"even", P
 
 template <class Visitor>
 void visit(Visitor& v, ModbusSerialSettings& serial) {
-  v.required("device", serial.device, "The line, best as in /dev/serial/by-id");
+  v.required("device", serial.device,
+             "Device of the serial line, preferably a link in /dev/serial/by-id");
   v.optional("baud_rate", serial.baud_rate, Range::between(1200, 921600), "Bits per second");
   v.require(std::ranges::count(kBaudRates, serial.baud_rate) == 1, "baud_rate",
-            "is not a rate of serial lines, as 9600, 19200, 38400, 57600 or 115200");
-  v.optional("parity", serial.parity, kParities, "none usually goes with 2 stop bits");
-  v.optional("stop_bits", serial.stop_bits, Range::between(1, 2), "At the end of a character");
+            "is not a standard baud rate such as 9600, 19200, 38400, 57600 or 115200");
+  v.optional("parity", serial.parity, kParities, "Parity; none usually requires 2 stop bits");
+  v.optional("stop_bits", serial.stop_bits, Range::between(1, 2), "Stop bits per character");
   v.optional("unit_id", serial.unit_id, Range::between(1, 247),
-             "The unit that is served, besides broadcasts to unit 0");
+             "Unit identifier that is served, besides broadcasts to unit 0");
   v.optional("may_write", serial.may_write, "Masters on this line may write");
 }
 
@@ -95,24 +96,27 @@ template <class Visitor>
 void visit(Visitor& v, ModbusSettings& modbus) {
   v.optional("enabled", modbus.enabled, "Serve Modbus");
   v.optional("address", modbus.address, "Numeric address to listen on");
-  v.optional("port", modbus.port, Range::between(0, 65535), "0: any free port");
-  v.optional(
-      "max_connections", modbus.max_connections, Range::between(1, 1000),
-      "Idle connections stay open; one more client closes the one that was idle for longest");
+  v.optional("port", modbus.port, Range::between(0, 65535), "TCP port; 0: any free port");
+  v.optional("max_connections", modbus.max_connections, Range::between(1, 1000),
+             "Limit of open connections; a further client closes the connection that has been idle "
+             "longest");
   v.optional("keep_alive_s", modbus.keep_alive_s, Range::between(1, 7200),
-             "Silence after which TCP keep-alive probes whether a client is still there; without "
-             "an answer its connection is closed 30 s later");
+             "Idle time after which TCP keep-alive probes a client; without an answer its "
+             "connection is closed 30 s later");
   v.optional("readers", modbus.readers,
              "Numeric addresses or prefixes (10.0.0.0/24) of clients that may read; []: all");
   hal::require_networks(v, "readers", modbus.readers);
-  v.optional("writers", modbus.writers, "Of clients that may write, and read; []: this host only");
+  v.optional(
+      "writers", modbus.writers,
+      "Numeric addresses or prefixes of clients that may read and write; []: this host only");
   hal::require_networks(v, "writers", modbus.writers);
   v.optional("unit_ids", modbus.unit_ids, Range::between(0, 255),
-             "Units that are answered; requests for others get exception 11");
-  v.require(!modbus.unit_ids.empty(), "unit_ids", "names no unit, so no request would be answered");
+             "Unit identifiers that are answered; requests for others get exception 11");
+  v.require(!modbus.unit_ids.empty(), "unit_ids",
+            "is empty, so no request would be answered; set at least one unit, as [1]");
   v.table("serial", modbus.serial, "Modbus RTU on a serial line, beside TCP");
   v.optional("plc_timeout_ms", modbus.plc_timeout_ms, Range::between(0, 60000),
-             "Longest time without a change of the PLC's heartbeat; 0: it is not supervised");
+             "Longest time without a change of the PLC's heartbeat; 0: not supervised");
 }
 
 /// Who may command over Modbus, in words; empty: nobody. Reentrant.

@@ -98,10 +98,9 @@ void ModbusSink::report_forbidden(int socket) {
   std::vector<std::string> writers = settings_.writers;
   writers.push_back(modbus::text_of(host));
   // Other clients wait for this thread. A list too long for the log is cut at its end.
-  log_soon(LogLevel::Warning, {"modbus: refuses to let ", writers.back(),
-                               " write; if it may, the line for [modbus] of the site file is "
-                               "writers = ",
-                               quoted(writers)});
+  log_soon(LogLevel::Warning,
+           {"modbus: write refused to ", writers.back(),
+            "; to permit it, set in [modbus] of the site file: writers = ", quoted(writers)});
 }
 
 Result<> ModbusSink::open_serial_line() {
@@ -121,8 +120,8 @@ Result<> ModbusSink::open_serial_line() {
       [this] {
         log_line(LogLevel::Warning,
                  "modbus: the serial line " + settings_.serial->device +
-                     " returns the answers sent on it, because its adapter receives while it "
-                     "sends; they are dropped. Switch the echo off if the adapter has a switch");
+                     " echoes sent answers, because its adapter receives while it sends; the "
+                     "echoes are dropped. Disable the echo if the adapter has a switch");
       });
   if (!server) return tl::unexpected(server.error());
   serial_line_ = std::move(*server);

@@ -125,7 +125,7 @@ Result<> SnapshotSink::start() {
     error.assign(errno, std::generic_category());
   if (error) {
     return fail("snapshot.folder: " + settings_.folder.string() + ": " + error.message() +
-                "; it must be a folder that can be written to");
+                "; it must be a writable folder");
   }
   if (auto removed = hal::remove_unfinished(settings_.folder); !removed) {
     return fail("snapshot.folder: " + removed.error().message);
@@ -175,7 +175,7 @@ void SnapshotSink::log_dropped() {
   for (std::size_t i = 0; i < kMaxViews; ++i) {
     if (!dropped[i]) continue;
     log_line(LogLevel::Warning, "snapshot: request dropped: view " + std::to_string(i) +
-                                    " has no recipe or no camera any more");
+                                    " no longer has a recipe or a camera");
   }
 }
 

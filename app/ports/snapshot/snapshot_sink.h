@@ -28,9 +28,9 @@ struct SnapshotSettings {
 
 template <class Visitor>
 void visit(Visitor& v, SnapshotSettings& snapshot) {
-  v.required("folder", snapshot.folder, "Where the command snapshot writes PNG pictures");
+  v.required("folder", snapshot.folder, "Folder for the PNG pictures of the command snapshot");
   v.optional("keep", snapshot.keep, Range::between(1, 100000),
-             "Snapshots that are kept; one more removes the oldest");
+             "Number of snapshots kept; a further one deletes the oldest");
 }
 
 /// Writes a view's next picture as PNG on request, on a thread of its own:

@@ -25,7 +25,7 @@ Result<double> number_of(const Request& request, std::string_view name, double o
 Result<double> number_of(const Request& request, std::string_view name, double lowest,
                          double highest) {
   if (request.argument(name)) return number_of(request, name, NAN, lowest, highest);
-  return fail("say " + std::string(name) + ", " +
+  return fail(std::string(name) + " is missing; it must be " +
               range_text({name, "", 0.001, lowest, highest, ""}));
 }
 

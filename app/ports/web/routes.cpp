@@ -67,10 +67,10 @@ std::optional<Response> refusal_of_post(const Request& request) {
   // No page of another host can make a browser send this header.
   if (request.cookie(session_cookie(request)) && !request.header(kOwnPageHeader)) {
     return error_response(403, "with a session's cookie the header " + std::string(kOwnPageHeader) +
-                                   " must be there, with any value");
+                                   " is required, with any value");
   }
   if (!is_json(request.header("Content-Type"))) {
-    return error_response(415, "the header must say Content-Type: application/json");
+    return error_response(415, "the request must have the header Content-Type: application/json");
   }
   return std::nullopt;
 }
@@ -106,7 +106,7 @@ void serve(const std::vector<Route>& routes, const CallerOf& caller_of,
     allowed += (allowed.empty() ? "" : ", ") + route.method;
   }
   if (allowed.empty()) {
-    exchange->answer(error_response(404, "there is nothing under this path"));
+    exchange->answer(error_response(404, "unknown path"));
     return;
   }
   Response response = error_response(405, "this path allows " + allowed);

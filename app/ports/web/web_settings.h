@@ -29,7 +29,7 @@ struct PageContext;
 
 /// The [web] part of the site file.
 struct WebSettings {
-  static constexpr std::string_view kName = "web", kText = "The page and its HTTP interface";
+  static constexpr std::string_view kName = "web", kText = "Web page and HTTP interface";
 
   bool enabled = false;
   /// The numeric IPv4 or IPv6 address to listen on; only this computer by default.
@@ -93,48 +93,51 @@ void require_proxies(Visitor& v, const std::vector<std::string>& texts) {
 template <class Visitor>
 void visit(Visitor& v, WebSettings& web) {
   using Minutes = DurationRange<std::ratio<60>>;
-  v.optional("enabled", web.enabled, "Serve the page and its interface");
+  v.optional("enabled", web.enabled, "Serve the page and the HTTP interface");
   v.optional("address", web.address,
-             "Numeric address to listen on; 0.0.0.0 or :: for every network, over HTTPS only");
+             "Numeric address to listen on; 0.0.0.0 or :: for every network, then over HTTPS only");
   v.require(web::parse_address(web.address, 0).has_value(), "address",
-            "is no numeric address, as 192.168.1.20, 0.0.0.0 or ::1");
+            "is not a numeric address such as 192.168.1.20, 0.0.0.0 or ::1");
   v.optional("port", web.port, Range::between(0, 65535),
-             "Of HTTP for this computer; others are redirected to HTTPS. 0: any free port");
+             "HTTP port, served to this computer only; other clients are redirected to HTTPS. 0: "
+             "any free port");
   v.optional("https_port", web.https_port, Range::between(0, 65535),
-             "Of HTTPS; without the key 8443 if `address` is not one of loopback or there is a "
-             "certificate, else none");
+             "HTTPS port; default: 8443 if `address` is not a loopback address or `certificate` is "
+             "set, else no HTTPS");
   v.require(web.port == 0 || https_port_of(web) != web.port, "https_port",
-            "is the port of HTTP; say another, as https_port = 8443");
+            "is also the HTTP port; set another, as https_port = 8443");
+  v.optional("certificate", web.certificate,
+             "HTTPS certificate in PEM, followed by those of its issuers; default: the appliance "
+             "makes its own, whose fingerprint `orbwatch password --show` prints");
   v.optional(
-      "certificate", web.certificate,
-      "Of HTTPS, in PEM, those of its issuers behind it; else the appliance makes one, whose "
-      "fingerprint `orbwatch password --show` prints");
-  v.optional("key", web.key, "Of the certificate, in PEM without a password; not for everybody");
+      "key", web.key,
+      "The certificate's private key, in PEM without a password; must not be world-readable");
   v.require(web.certificate.empty() == web.key.empty(), "certificate",
-            "stands alone; say both `certificate` and `key`, or none");
+            "set both `certificate` and `key`, or neither");
   v.optional("names", web.names,
-             "Host names under which browsers reach it, besides addresses and localhost; the "
-             "appliance's own certificate has them, and addresses that are here");
+             "Host names under which browsers reach the appliance, besides numeric addresses and "
+             "localhost; its own certificate contains them. Numeric addresses listed here are "
+             "added to that certificate");
   v.optional("trusted_proxies", web.trusted_proxies,
-             "Numeric addresses or prefixes (10.0.0.0/24) of reverse proxies that are believed who "
-             "their client is; see [reverse proxies](../ports/web/PROXIES.md)");
+             "Numeric addresses or prefixes (10.0.0.0/24) of reverse proxies whose statement of "
+             "the client's address is trusted; see [reverse proxies](../ports/web/PROXIES.md)");
   require_proxies(v, web.trusted_proxies);
   v.optional("max_connections", web.max_connections, Range::between(4, 1000),
-             "Of HTTP, and as many of HTTPS; one more waits until another ends");
+             "Limit for HTTP and, separately, for HTTPS; further connections wait");
   v.optional("max_connections_per_address", web.max_connections_per_address,
              Range::between(1, 1000),
-             "One more from the same host, or the same IPv6 network of 64 bits, is closed at once");
+             "Limit per host, or per IPv6 /64 network; further connections are closed at once");
   v.optional("max_streams", web.max_streams, Range::between(1, 1000),
-             "Streams of pictures; one more is refused");
+             "Limit of picture streams; further ones are refused");
   v.optional("max_body_bytes", web.max_body_bytes, Range::between(1024, 1e7),
-             "Of a request; a larger one is refused");
+             "Largest body of a request, bytes; larger ones are refused");
   v.optional("request_timeout_ms", web.request_timeout, Milliseconds{Range::between(100, 60000)},
-             "For a request to arrive as a whole, and for its answer to be read");
+             "Time limit for a request to arrive completely, and for its answer to be read");
   v.optional("session_idle_min", web.session_idle, Minutes{Range::between(1, 1e5)},
-             "Logs out who does nothing and has no stream open for so long");
+             "Idle time after which a user without an open stream is logged out");
   v.optional("session_longest_min", web.session_longest, Minutes{Range::between(1, 1e5)},
-             "Logs out after so long in any case");
-  v.table("jpeg", web.jpeg, "Of snapshots and streams");
+             "Time after which a user is logged out in any case");
+  v.table("jpeg", web.jpeg, "JPEG encoding of snapshots and streams");
 }
 
 /// Who may command over HTTP, in words; empty: nobody. Reentrant.

@@ -221,23 +221,23 @@ std::vector<web::Route> WebSink::make_routes() {
   };
   std::vector<web::Route> routes{
       {"GET", "/healthz", Role::Nobody,
-       "200 while the pipeline reports, else 503; in words its state", text,
+       "Returns 200 while the pipeline reports, else 503; the text is its state", text,
        by(&WebSink::serve_health)},
-      {"GET", "/api/v1/status", Role::Viewer, "Everything that is known at present", json,
+      {"GET", "/api/v1/status", Role::Viewer, "Returns the complete status", json,
        by(&WebSink::serve_status)},
-      {"GET", "/api/v1/openapi.json", Role::Viewer, "This description", json,
+      {"GET", "/api/v1/openapi.json", Role::Viewer, "Returns this description", json,
        by(&WebSink::serve_description)},
-      for_players({"GET", "/metrics", Role::Viewer, "The status for Prometheus",
+      for_players({"GET", "/metrics", Role::Viewer, "Returns the status for Prometheus",
                    std::string(kMetrics), by(&WebSink::serve_metrics)}),
-      for_players({"GET", "/snapshot.jpg", Role::Viewer, "The view's next picture",
+      for_players({"GET", "/snapshot.jpg", Role::Viewer, "Returns the view's next picture",
                    std::string(web::kJpeg), by(&WebSink::serve_snapshot), web::ViewArgument::One}),
       for_players({"GET", "/stream.mjpg", Role::Viewer,
-                   "The view's pictures as MJPEG, for players and recorders",
+                   "Streams the view's pictures as MJPEG, for players and recorders",
                    std::string(web::MjpegStream::kType), by(&WebSink::serve_stream),
                    web::ViewArgument::One}),
       {"GET", "/api/v1/live", Role::Viewer,
-       "Status and views over one connection. Of each message first a line of JSON that says what "
-       "and how many bytes follow",
+       "Streams status and views over one connection. Each message begins with a line of JSON that "
+       "states its kind and the number of bytes that follow",
        std::string(web::LiveStream::kType), by(&WebSink::serve_live), web::ViewArgument::Any},
   };
   routes.push_back(list_.route());
@@ -337,7 +337,7 @@ void WebSink::serve_metrics(const ExchangePtr& exchange) const {
 /// was given.
 const web::ViewEncoder* WebSink::find_view(const std::string* name,
                                            const ExchangePtr& exchange) const {
-  std::string refusal = name ? "there is no such view" : "say which view, as ?view=NAME";
+  std::string refusal = name ? "unknown view" : "no view; pass ?view=NAME";
   refusal += "; there are:";
   for (std::size_t i = 0; i < views_.size(); ++i) {
     if (name && *name == names_.views[i]) return views_[i].get();
@@ -378,7 +378,8 @@ void WebSink::start_stream(const ExchangePtr& exchange, web::Credentials credent
                            std::string_view type, std::shared_ptr<web::Stream> stream) {
   if (server_counts_.streams >= static_cast<std::uint64_t>(settings_.max_streams)) {
     ++server_counts_.full;
-    exchange->answer(web::error_response(503, "all streams are taken: max_streams of [web]"));
+    exchange->answer(
+        web::error_response(503, "all streams are in use; raise max_streams of [web]"));
     return;
   }
   web::Response response;

@@ -67,7 +67,7 @@ TEST_F(Password, WhatIsWrongChangesNothingAndIsNotRepeated) {
   EXPECT_NE(set("a second long one", {"kim", "--role", "king"}), 0);
   EXPECT_THAT(said, HasSubstr("viewer, operator, integrator, administrator"));
   EXPECT_NE(set("a second long one", {"admin", "--role", "viewer"}), 0);
-  EXPECT_THAT(said, HasSubstr("somebody must be administrator"));
+  EXPECT_THAT(said, HasSubstr("at least one user must be administrator"));
   EXPECT_NE(set("a second long one", {"Kim Lee", "--role", "viewer"}), 0);
   EXPECT_EQ(app::web::users_text(users()), before);
 }

@@ -35,7 +35,7 @@ TEST(ApplianceNotice, SaysWhoItIsAndHowTheSystemIs) {
   EXPECT_EQ(told.page.address, "10.0.0.7");
   EXPECT_EQ(told.state, SystemState::Degraded);
   EXPECT_EQ(told.condition.severity, Severity::Warning);
-  EXPECT_THAT(told.condition.text, testing::HasSubstr("some camera has a fault"));
+  EXPECT_THAT(told.condition.text, testing::HasSubstr("a camera has a fault"));
 }
 
 TEST(ApplianceNotice, NamesTheFirstOfTheWorstAlarmsThatStand) {

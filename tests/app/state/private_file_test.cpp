@@ -60,7 +60,7 @@ TEST(PrivateFile, WhatOthersMayUseIsRefused) {
     ::chmod(file.c_str(), mode);
     const auto text = read_private(file);
     ASSERT_FALSE(text) << mode;
-    EXPECT_THAT(text.error().message, HasSubstr("chmod 600"));
+    EXPECT_THAT(text.error().message, HasSubstr("600 by chmod"));
   }
 }
 

@@ -85,7 +85,7 @@ TEST_F(SlotFileTest, OfTwoDamagedSlotsNothingIsLeft) {
   {
     const auto damaged = open();
     ASSERT_FALSE(damaged->content());
-    EXPECT_THAT(damaged->content().error().message, HasSubstr("is damaged, both"));
+    EXPECT_THAT(damaged->content().error().message, HasSubstr("is damaged in both"));
     ASSERT_TRUE(damaged->write(content(2)));
   }
   EXPECT_EQ(open()->content(), content(2));
@@ -127,7 +127,7 @@ TEST_F(SlotFileTest, AnOlderSlotOfThisVersionDoesNotStandInForANewerOneOfAnother
 TEST_F(SlotFileTest, BelongsToOneProcess) {
   {
     const auto file = open();
-    EXPECT_THAT(refusal(), HasSubstr("is used by another orbwatchd; give each a state_folder"));
+    EXPECT_THAT(refusal(), HasSubstr("is used by another orbwatchd; set a different state_folder"));
   }
   EXPECT_EQ(refusal(), "opened");
 }

@@ -41,7 +41,7 @@ void FleetMember::open(const Entity& participant, const std::string& address) {
   close();
   log_line(LogLevel::Warning,
            opened.error().message +
-               "; neither lists nor is listed among the domain's appliances. Keys of an earlier "
+               "; this appliance neither shows nor appears in the fleet list. Keys of an earlier "
                "version do not permit it: `orbwatch dds-keys` makes new ones");
 }
 

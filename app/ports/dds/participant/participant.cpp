@@ -89,8 +89,9 @@ Result<> check_domain(int domain) {
 
 Result<> check_profile(const std::filesystem::path& profile) {
   if (profile.string().find(',') != std::string::npos) {
-    return fail("DDS profile " + profile.string() +
-                ": has a comma in its path, which Cyclone DDS takes for the end; rename it");
+    return fail(
+        "DDS profile " + profile.string() +
+        ": must not have a comma in its path, which Cyclone DDS reads as the end; rename it");
   }
   std::error_code ignored;  // an inaccessible file is none
   if (profile.empty() || std::filesystem::is_regular_file(profile, ignored)) return {};

@@ -60,9 +60,10 @@ Result<std::vector<XmlElement>> read_xml(const std::string& document) {
   const std::unique_ptr<ddsrt_xmlp_state, void (*)(ddsrt_xmlp_state*)> parser(
       ddsrt_xmlp_new_string(document.c_str(), &reading, &kCallbacks), ddsrt_xmlp_free);
   if (ddsrt_xmlp_parse(parser.get()) < 0 || !reading.error.empty()) {
-    return fail("is no XML: " + (reading.error.empty() ? "it ends too early" : reading.error));
+    return fail("is not XML: " +
+                (reading.error.empty() ? "the document is cut off" : reading.error));
   }
-  if (reading.elements.empty()) return fail("is no XML: it has no element");
+  if (reading.elements.empty()) return fail("is not XML: it has no element");
   return std::move(reading.elements);
 }
 
@@ -261,7 +262,7 @@ Result<std::vector<Grant>> read_permissions(const std::string& document) {
     if (path.starts_with(kValidity)) {
       const auto date = read_date(text);
       if (!date) {
-        return fail("says \"" + text + "\" where a date must stand, like 2026-01-31T00:00:00");
+        return fail("has \"" + text + "\" instead of a date such as 2026-01-31T00:00:00");
       }
       (path == kValidity + "not_before" ? grant.validity.from : grant.validity.until) = *date;
     }

@@ -36,7 +36,8 @@ Result<std::string> verified_document(std::string_view document, const Certifica
   BIO* found = nullptr;
   const Pkcs7 signature(in ? SMIME_read_PKCS7(in.get(), &found) : nullptr);
   const Bio content(found);
-  if (!signature || !content) return tl::unexpected(openssl_error("is no signed S/MIME document"));
+  if (!signature || !content)
+    return tl::unexpected(openssl_error("is not a signed S/MIME document"));
   const Certificates signers(sk_X509_new_null());
   const Bio out = write_bio();
   if (!out || !signers || sk_X509_push(signers.get(), signer.get()) < 1) {

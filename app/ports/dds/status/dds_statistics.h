@@ -28,13 +28,14 @@ constexpr void for_each_field(std::type_identity<CommandCounts>, Visit&& visit) 
   ORBWATCH_COMMAND_COUNTS(ORBWATCH_VISIT_FIELD)
 }
 
-#define ORBWATCH_DDS_COUNTS(FIELD)                                                              \
-  FIELD(std::uint64_t, joins, kCount, "Of the domain: 1, and one for each change of addresses") \
-  FIELD(std::uint64_t, dropped_states, kCount, "States replaced by a newer one")                \
-  FIELD(std::uint64_t, dropped_events, kCount, "Events lost because the queue was full")        \
-  FIELD(std::uint64_t, unknown_views, kCount, "Pictures of views beyond the list of names")     \
-  FIELD(std::uint64_t, mistyped, kCount,                                                        \
-        "Foreign writers and readers of our topics, of other types")                            \
+#define ORBWATCH_DDS_COUNTS(FIELD)                                                          \
+  FIELD(std::uint64_t, joins, kCount,                                                       \
+        "Joins of the domain: 1, and one more for each change of addresses")                \
+  FIELD(std::uint64_t, dropped_states, kCount, "States replaced by a newer one")            \
+  FIELD(std::uint64_t, dropped_events, kCount, "Events lost because the queue was full")    \
+  FIELD(std::uint64_t, unknown_views, kCount, "Pictures of views beyond the list of names") \
+  FIELD(std::uint64_t, mistyped, kCount,                                                    \
+        "Foreign writers and readers of our topics with other types")                       \
   FIELD(std::uint64_t, malformed, kCount, "Received samples that are not valid CDR of their type")
 
 /// Of all topics together, since construction.

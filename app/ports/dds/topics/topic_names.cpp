@@ -16,7 +16,7 @@ Result<> check_topic_part(std::string_view part, std::string_view what) {
                      std::ranges::all_of(part, [](char c) { return is_letter(c) || is_digit(c); });
   if (valid) return {};
   return fail("DDS: " + std::string(what) + " \"" + std::string(part) +
-              "\" is no ROS 2 name: letters, digits and '_', no digit first");
+              "\" is not a ROS 2 name; it must be letters, digits and '_', without a digit first");
 }
 
 Result<> check_topic_path(std::string_view path, std::string_view what) {

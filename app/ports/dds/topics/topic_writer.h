@@ -18,7 +18,7 @@ namespace orbwatch::app {
   FIELD(std::uint64_t, replaced, kCount,                                                       \
         "Samples replaced by a newer one before the write; of a camera's own pictures, those " \
         "during a write")                                                                      \
-  FIELD(std::uint64_t, limited, kCount, "Samples more than the topic's rate")                  \
+  FIELD(std::uint64_t, limited, kCount, "Samples above the topic's rate")                      \
   FIELD(std::uint64_t, blocked, kCount, "Samples abandoned because a reader did not keep up")  \
   FIELD(std::uint64_t, failed, kCount, "Samples refused by DDS, or whose writer could not be made")
 

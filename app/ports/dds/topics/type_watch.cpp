@@ -38,9 +38,9 @@ void TypeWatch::update(const Entity& reader, const char* kind) {
     ++count_;
     if (found_[ours->first]++ > 0) return;
     // Does not quote the foreign type name, which may hold control characters.
-    log_line(LogLevel::Warning, "DDS: there is a foreign " + std::string(kind) + " of " +
+    log_line(LogLevel::Warning, "DDS: discovered a foreign " + std::string(kind) + " of " +
                                     ours->first + " with another type than " + ours->second +
-                                    "; it is never matched");
+                                    "; it will not be matched");
   };
   // Fails only when the participant is gone.
   for (auto taken = take_samples(reader.get(), judge); taken && *taken > 0;) {

@@ -75,7 +75,7 @@ std::vector<Bit> alarm_bits(std::string_view name, std::string_view description,
 std::vector<Bit> status_bits() {
   return {
       in_state("running", "Every camera delivers", SystemState::Running),
-      in_state("degraded", "Some camera has a fault or is late; what the others see is measured",
+      in_state("degraded", "A camera has a fault or is late; the others are measured",
                SystemState::Degraded),
       in_state("fault", "No camera delivers, or the pipeline is silent", SystemState::Fault),
       in_state("stopped", "Measuring is switched off", SystemState::Stopped),
@@ -89,15 +89,16 @@ std::vector<Bit> status_bits() {
       {"result_available", "A result waits in the result window",
        [](I image) { return image.results.count > 0; }},
       {"result_overrun",
-       "A result was refused because the queue was full; until all that wait are acknowledged",
+       "A result was refused because the queue was full; set until all waiting results are "
+       "acknowledged",
        [](I image) { return image.results.overrun; }},
-      {"alarm", "An alarm stands at an alarm level",
+      {"alarm", "An alarm is active at an alarm level",
        [](I image) { return any_stands(image.live.status, Severity::Alarm); }},
-      {"warning", "An alarm stands at a warning level, or because its signal is not measured",
+      {"warning", "An alarm is active at a warning level, or because its signal is not measured",
        [](I image) { return any_stands(image.live.status, Severity::Warning); }},
       {"unacknowledged", "An alarm awaits its acknowledgement",
        [](I image) { return any_awaits_acknowledgement(image.live.status); }},
-      {"clock_synchronised", "UTC stamps are right: the clock follows a time server",
+      {"clock_synchronised", "UTC stamps are valid: the clock follows a time server",
        [](I image) { return image.live.status.health.clock_synchronised == 1; }},
       {"recipe_refused",
        "A camera refused the settings of the recipe selected last; the one before is measured",
@@ -135,7 +136,7 @@ std::vector<Bit> process_input_bits() {
 }
 
 std::vector<Bit> active_bits() {
-  return alarm_bits("alarm_#_active", "Alarm # stands: its condition holds, or it is latched",
+  return alarm_bits("alarm_#_active", "Alarm # is active: its condition holds, or it is latched",
                     signals::is_active);
 }
 
@@ -146,21 +147,21 @@ std::vector<Bit> unacknowledged_bits() {
 
 std::vector<Bit> fault_bits() {
   std::vector<Bit> bits{
-      {"pipeline_silent", "As the discrete input stale", [](I image) { return image.stale; }},
+      {"pipeline_silent", "Same as the discrete input stale", [](I image) { return image.stale; }},
       {"no_camera", "No camera delivers",
        [](I image) { return image.live.status.state == SystemState::Fault && !image.stale; }},
       {"plc_silent", "plc_heartbeat is supervised and did not change in time",
        [](I image) { return image.plc.silent; }},
-      {"result_overrun", "As the discrete input of that name",
+      {"result_overrun", "Same as the discrete input result_overrun",
        [](I image) { return image.results.overrun; }},
       {"late", "A frame set of the last second took longer than its deadline",
        [](I image) { return image.live.status.load > 1; }},
-      {"throttled", "The board has under-voltage, or is too hot: it does not work at full speed",
+      {"throttled", "The board has under-voltage or is too hot, and runs below full speed",
        [](I image) { return is_throttled(image.live.status.health); }},
       {"clock_not_synchronised", "The clock follows no time server: UTC stamps may be wrong",
        [](I image) { return image.live.status.health.clock_synchronised == 0; }},
       {"commands_not_recorded",
-       "The state folder cannot be used: after a restart the first command is not carried out",
+       "The state folder is not usable: after a restart the first command is not executed",
        [](I image) { return image.live.status.health.commands_recorded == 0; }},
   };
   bits.resize(kFirstCameraFaultBit);
@@ -170,8 +171,7 @@ std::vector<Bit> fault_bits() {
            return i < status.camera_count && status.cameras[i].fault != hal::Fault::None;
          });
   append(bits, kMaxCameras, "camera_#_moved",
-         "Camera # does not see the ball where it was aligned, or is not registered: see its "
-         "alignment register",
+         "Camera # is misaligned or not registered: see its alignment register",
          [](I image, std::size_t i) {
            return image.live.status.cameras[i].alignment >= AlignmentLevel::Warning;
          });

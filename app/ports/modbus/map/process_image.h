@@ -19,10 +19,11 @@ inline constexpr std::size_t kResultQueueDepth = 8;
 inline constexpr Quantity kWaitingResults{"", 1, 0, kResultQueueDepth};
 inline constexpr Quantity kUptime{"s", 1, 0, 4294967295};
 
-#define ORBWATCH_MODBUS_RESULT_FIGURES(FIELD)                                                    \
-  FIELD(std::uint16_t, count, kWaitingResults, "Results that wait for their acknowledgement")    \
-  FIELD(bool, overrun, kFlag,                                                                    \
-        "A result was refused because the queue was full; until all that wait are acknowledged") \
+#define ORBWATCH_MODBUS_RESULT_FIGURES(FIELD)                                                 \
+  FIELD(std::uint16_t, count, kWaitingResults, "Results that wait for their acknowledgement") \
+  FIELD(bool, overrun, kFlag,                                                                 \
+        "A result was refused because the queue was full; set until all waiting results are " \
+        "acknowledged")                                                                       \
   FIELD(std::uint64_t, overruns, kCount, "Results refused because the queue was full")
 
 /// The queue of results.
@@ -40,21 +41,21 @@ struct PlcStatus {
   ORBWATCH_MODBUS_PLC_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
 };
 
-#define ORBWATCH_MODBUS_COUNTERS(FIELD)                                                         \
-  FIELD(std::uint64_t, answered, kCount, "Requests answered, with or without an exception")     \
-  FIELD(std::uint64_t, refused, kCount,                                                         \
-        "Requests answered with an exception, or not at all because they were not Modbus")      \
-  FIELD(std::uint64_t, dropped, kCount,                                                         \
-        "Connections closed by the server: too many, too slow, or not Modbus")                  \
-  FIELD(std::uint64_t, connections, kCount, "Open connections")                                 \
-  FIELD(std::uint64_t, serial_errors, kCount,                                                   \
-        "On the serial line: frames with a wrong checksum or cut off, and noise")               \
-  FIELD(std::uint64_t, serial_other_units, kCount, "On the serial line: frames of other units") \
-  FIELD(std::uint64_t, serial_echoes, kCount,                                                   \
-        "On the serial line: own answers that the adapter echoed; they are dropped")
+#define ORBWATCH_MODBUS_COUNTERS(FIELD)                                                        \
+  FIELD(std::uint64_t, answered, kCount, "Requests answered, with or without an exception")    \
+  FIELD(std::uint64_t, refused, kCount,                                                        \
+        "Requests answered with an exception, or dropped because they were not Modbus")        \
+  FIELD(std::uint64_t, dropped, kCount,                                                        \
+        "Connections closed by the server: too many, too slow, or not Modbus")                 \
+  FIELD(std::uint64_t, connections, kCount, "Open connections")                                \
+  FIELD(std::uint64_t, serial_errors, kCount,                                                  \
+        "Invalid frames on the serial line: wrong checksum, truncated, or noise")              \
+  FIELD(std::uint64_t, serial_other_units, kCount, "Frames of other units on the serial line") \
+  FIELD(std::uint64_t, serial_echoes, kCount,                                                  \
+        "Own answers on the serial line that the adapter echoed; they are dropped")
 
-#define ORBWATCH_MODBUS_SERVER_FIGURES(FIELD)                                                \
-  FIELD(std::uint64_t, uptime, kUptime, "Since the server started: smaller after a restart") \
+#define ORBWATCH_MODBUS_SERVER_FIGURES(FIELD)                                                     \
+  FIELD(std::uint64_t, uptime, kUptime, "Time since the server started; smaller after a restart") \
   ORBWATCH_MODBUS_COUNTERS(FIELD)
 
 /// What the server did since its start.

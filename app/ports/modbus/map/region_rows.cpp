@@ -86,14 +86,14 @@ class RegionBlock {
              [](S s, I) { return s.utc.count() / 1000000; })
         .row(Type::Udint, "utc_microseconds", {"us", 1, 0, 999999}, "Microseconds in that second",
              [](S s, I) { return s.utc.count() % 1000000; });
-    system(&Status::trigger, "Number of the trigger that began it; 0: none did");
-    system(&Status::configuration_checksum, "CRC-32 of all files of the configuration then");
+    system(&Status::trigger, "Number of the trigger that began it; 0: not triggered");
+    system(&Status::configuration_checksum, "CRC-32 of all configuration files at that time");
     system(&Status::recipe, "Number of the recipe that measured it");
     stamped_.row(Type::Uint, "quality", code_range<Quality>(), listed_codes<Quality>(),
                  [r = region_](S s, I) { return static_cast<int>(s.status.regions[r].quality); });
-    system(&Status::process_active, "The process ran");
+    system(&Status::process_active, "The process was active");
     stamped_.row(Type::Uint, "alarm_severity", code_range<Severity>(),
-                 "Of the worst alarm of this region that stood: " + listed_codes<Severity>(),
+                 "Severity of the worst active alarm of this region: " + listed_codes<Severity>(),
                  [r = region_](S s, I) { return static_cast<int>(worst_severity(s.status, r)); });
     return *this;
   }

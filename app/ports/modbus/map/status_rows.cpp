@@ -18,7 +18,8 @@ static_assert(registers_of<AlarmStatus>() <= kAlarms.stride);
 static_assert(registers_of<StageStatus>() <= kStageParts.stride);
 static_assert(kCameras.has_room_for(kMaxCameras) && kViews.has_room_for(kMaxViews) &&
               kStageParts.has_room_for(kStages) && kAlarms.has_room_for(signals::kMaxAlarms));
-static_assert(signals::kMaxAlarms <= 32, "bits of a UDINT; the next 32 get one each beside them");
+static_assert(signals::kMaxAlarms <= 32,
+              "bits of a UDINT; the next 32 alarms get another UDINT beside each of these");
 
 /// Places between the words of alarms 1 to 32: those of 33 to 64 fit in.
 constexpr int kWordStride = 4;
@@ -42,11 +43,11 @@ void add_summary(std::vector<Row>& rows) {
            "Version of this map; grows with every change that an existing PLC program could notice",
            [](I, I) { return kMapVersion; })
       .row(Type::Uint, "alarm_severity", code_range<Severity>(),
-           "Of the worst alarm that stands: " + listed_codes<Severity>(),
+           "Severity of the worst active alarm: " + listed_codes<Severity>(),
            [](I, I image) { return static_cast<int>(worst_severity(image.live.status)); });
   word("status_bits", "Bit n is discrete input n, bit 0 the lowest", status_bits());
   word("measurement_bits", "Bit n is discrete input 32 + n", measurement_bits());
-  word("fault_bits", "What is wrong now: see the fault bits; 0: nothing", fault_bits());
+  word("fault_bits", "Present faults, see the fault bits; 0: none", fault_bits());
   block
       .row(Type::Udint, "utc_seconds", {"s", 1, 0, 4294967295},
            "UTC of the newest frame set's exposure start, seconds since 1970; 0: none yet",
@@ -73,14 +74,14 @@ void add_alarm_summary(std::vector<Row>& rows) {
   using I = const ProcessImage&;
   Block<ProcessImage> block(rows, Table::Input, kAlarmSummary, "alarms_", whole_image);
   block.row(Type::Udint, "active", kDoubleWord,
-            "Bit n is discrete input 128 + n: alarm n + 1 stands",
+            "Bit n is discrete input 128 + n: alarm n + 1 is active",
             [bits = active_bits()](I, I image) { return word_of(bits, image); });
   block.at(kAlarmSummary.begin + kWordStride)
       .row(Type::Udint, "unacknowledged", kDoubleWord,
            "Bit n is discrete input 192 + n: alarm n + 1 awaits its acknowledgement",
            [bits = unacknowledged_bits()](I, I image) { return word_of(bits, image); });
   block.at(kAlarmSummary.begin + 2 * kWordStride)
-      .row(Type::Udint, "severe", kDoubleWord, "Bit n: alarm n + 1 stands at an alarm level",
+      .row(Type::Udint, "severe", kDoubleWord, "Bit n: alarm n + 1 is active at an alarm level",
            [](I, I image) {
              return alarm_word(image.live.status, [](const AlarmStatus& alarm) {
                return standing_severity(alarm) == Severity::Alarm;

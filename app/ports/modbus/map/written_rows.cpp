@@ -43,11 +43,12 @@ void add_written_rows(std::vector<Row>& rows) {
   }
   block
       .row(Type::Udint, "result_acknowledged", kDoubleWord,
-           "Written with the number of the result in the window: removes it, and the next one "
-           "appears; another number does nothing. Reads the number acknowledged last; 0: none yet",
+           "Number of a result to acknowledge: if it equals that of the result in the window, the "
+           "result is removed and the next one appears; another number has no effect. Reads the "
+           "number acknowledged last; 0: none yet",
            [](P, I image) { return image.last_acknowledged; })
       .written([](PlcRegisters& plc, std::uint32_t value) { plc.result_acknowledged = value; })
-      .row(Type::Uint, "plc_heartbeat", kWord, "To be changed periodically: the PLC is alive",
+      .row(Type::Uint, "plc_heartbeat", kWord, "Heartbeat of the PLC, to be changed periodically",
            [](P plc, I) { return plc.heartbeat; })
       .written([](PlcRegisters& plc, std::uint32_t value) {
         plc.heartbeat = static_cast<std::uint16_t>(value);
@@ -56,12 +57,12 @@ void add_written_rows(std::vector<Row>& rows) {
            [](P plc, I) { return plc.command.command; })
       .written(write_command<&CommandRegisters::command>)
       .row(Type::Uint, "command_sequence", kWord,
-           "Another value than acknowledged_sequence carries the command out, once, also over "
-           "restarts",
+           "A value other than acknowledged_sequence executes the command, at most once, also "
+           "across restarts",
            [](P plc, I) { return plc.command.sequence; })
       .written(write_command<&CommandRegisters::sequence>)
       .row(Type::Uint, "acknowledged_sequence", kWord,
-           "command_sequence of the last command that was answered",
+           "command_sequence of the last answered command",
            [](P plc, I) { return plc.command.acknowledged; })
       .row(Type::Uint, "command_result", code_range<CommandResult>(),
            "Result of that command: " + listed_codes<CommandResult>(),

@@ -89,7 +89,7 @@ Result<> RtuServer::serve_line() {
     if (count <= 0) {
       return fail("modbus: the serial line " + settings_.device +
                   " is lost: " + (count == 0 ? "hung up" : std::system_category().message(errno)) +
-                  "; it is opened again");
+                  "; reopening it");
     }
     receive(line, std::span(bytes).first(static_cast<std::size_t>(count)));
   }

@@ -48,11 +48,11 @@ std::string advice(int error) {
 
 Result<> check(const ModbusSettings& settings) {
   if (settings.port < 0 || settings.port > 65535) {
-    return fail("modbus: port " + std::to_string(settings.port) + " is not in 0 to 65535");
+    return fail("modbus: port " + std::to_string(settings.port) + " must be 0 to 65535");
   }
   if (settings.max_connections < 1) {
     return fail("modbus: max_connections " + std::to_string(settings.max_connections) +
-                " leaves no client; set 1 or more");
+                " admits no client; set 1 or more");
   }
   return {};
 }

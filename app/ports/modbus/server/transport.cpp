@@ -28,13 +28,13 @@ char letter_of(Parity parity) {
 
 Result<> check(const ModbusSerialSettings& settings) {
   const auto refused = [](const std::string& what) { return fail("modbus.serial: " + what); };
-  if (settings.device.empty()) return refused("device is missing, as /dev/ttyUSB0");
+  if (settings.device.empty()) return refused("device is not set; set one such as /dev/ttyUSB0");
   if (std::ranges::find(kBaudRates, settings.baud_rate) == kBaudRates.end()) {
     return refused("baud_rate " + std::to_string(settings.baud_rate) +
-                   " is not one of 1200, 2400, ... 921600");
+                   " must be one of 1200, 2400, ... 921600");
   }
-  if (settings.stop_bits < 1 || settings.stop_bits > 2) return refused("stop_bits is not 1 or 2");
-  if (settings.unit_id < 1 || settings.unit_id > 247) return refused("unit_id is not 1 to 247");
+  if (settings.stop_bits < 1 || settings.stop_bits > 2) return refused("stop_bits must be 1 or 2");
+  if (settings.unit_id < 1 || settings.unit_id > 247) return refused("unit_id must be 1 to 247");
   return {};
 }
 
@@ -49,7 +49,8 @@ Result<Transport::Context> Transport::prepared(_modbus* context) {
   Context owned(context, modbus_free);
   // libmodbus sleeps for its response timeout before some exceptions.
   if (!owned || modbus_set_response_timeout(owned.get(), 0, 1) != 0) {
-    return fail("modbus: libmodbus gives no context: " + std::string(modbus_strerror(errno)));
+    return fail("modbus: libmodbus cannot create a context: " +
+                std::string(modbus_strerror(errno)));
   }
   return owned;
 }
@@ -98,7 +99,8 @@ Result<std::unique_ptr<RtuTransport>> RtuTransport::create(const ModbusSerialSet
   std::unique_ptr<RtuTransport> made(new RtuTransport(std::move(*context), settings.device));
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_NONBLOCK | O_CLOEXEC) != 0) {
-    return fail("modbus: no pipe for answers: " + std::system_category().message(errno));
+    return fail("modbus: cannot create a pipe for answers: " +
+                std::system_category().message(errno));
   }
   made->encoded_ = hal::FileDescriptor(ends[0]);
   made->encoder_ = hal::FileDescriptor(ends[1]);

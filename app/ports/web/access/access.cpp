@@ -96,7 +96,7 @@ Result<std::optional<Users>> Access::load_checked() {
   if (!loaded) return loaded;
   if (!*loaded) {
     if (!had_users_) return loaded;
-    return fail(file.string() + ": is gone, although passwords were set");
+    return fail(file.string() + ": is missing, although passwords were set");
   }
   had_users_ = true;
   if (const auto kept = keep_that_users_exist(file); !kept) {
@@ -109,7 +109,7 @@ void Access::load(Cause cause) {
   const FileMark present = mark();
   auto loaded = load_checked();
   const std::string fault = loaded ? "" : loaded.error().message;
-  if (!fault.empty()) log_line(LogLevel::Error, "web: nobody can log in: " + fault);
+  if (!fault.empty()) log_line(LogLevel::Error, "web: login is not possible: " + fault);
   const std::string code = code_for(loaded);
   const std::lock_guard lock(mutex_);
   mark_ = present;
@@ -145,7 +145,8 @@ std::string Access::code_for(const Result<std::optional<Users>>& loaded) const {
   if (!gives_code_) return "";
   const auto code = keep_code(folder_);
   if (!code) {
-    log_line(LogLevel::Error, "web: no code for the first password: " + code.error().message);
+    log_line(LogLevel::Error,
+             "web: cannot create a code for the first password: " + code.error().message);
     return "";
   }
   log_line(LogLevel::Warning,
@@ -205,7 +206,7 @@ Caller Access::caller(const Credentials& credentials) {
 /// Under mutex_.
 std::optional<Access::Refusal> Access::judge_login(const std::string& name,
                                                    const std::string& peer) const {
-  if (state_ == State::Unusable) return Refusal{503, "nobody can log in: " + fault_};
+  if (state_ == State::Unusable) return Refusal{503, "login is not possible: " + fault_};
   if (state_ == State::Nobody) {
     return Refusal{409,
                    "there are no users yet: POST /api/v1/set_user, or orbwatch password, makes the "
@@ -328,7 +329,7 @@ Access::Token Access::change_password(const std::string& name, const std::string
   const auto changed = change([&](Users& all) -> Result<> {
     const User* present = all.find(name);
     if (!present || present->password != user->password) {
-      return fail("somebody else has changed user " + name + " meanwhile");
+      return fail("another administrator has changed user " + name + " meanwhile");
     }
     return set_user(all, name, std::nullopt, *hash);
   });
@@ -360,7 +361,7 @@ Access::Token Access::set_first_password(const std::string& code, const std::str
   if (!hash) return tl::unexpected(Refusal{503, hash.error().message});
   const User first{std::string(kFirstUser), Role::Administrator, *hash};
   const auto changed = change([&first](Users& all) -> Result<> {
-    if (!all.users.empty()) return fail("somebody else has set the first password meanwhile");
+    if (!all.users.empty()) return fail("another user has set the first password meanwhile");
     all.users.push_back(first);
     return {};
   });
@@ -373,7 +374,7 @@ Access::Token Access::set_first_password(const std::string& code, const std::str
 }
 
 Result<> Access::change(const std::function<Result<>(Users&)>& change) {
-  if (folder_.empty()) return fail("there is no state folder to keep users in");
+  if (folder_.empty()) return fail("there is no state folder for users");
   auto changed = change_users(users_file(folder_), change);
   const std::lock_guard files(files_mutex_);
   load(Cause::OwnChange);

@@ -123,7 +123,7 @@ Response AccessDesk::answer_and_note(const ExchangePtr& exchange, const Members&
   access_.refresh();
   const Caller caller = access_.caller(credentials_of(sent));
   if (caller.role < task.role) {
-    return error_response(401, "the role that this needs has ended meanwhile; log in");
+    return error_response(401, "the required role has expired; log in again");
   }
   Request request{sent, members, caller.name};
   Response response = (this->*task.handler)(request);
@@ -151,7 +151,7 @@ Route AccessDesk::shown(const char* path, Role role, const char* description,
 }
 
 std::vector<Route> AccessDesk::routes() {
-  const BodyMember user{"user", "Name of a person"}, name{"name", "Name of a program"};
+  const BodyMember user{"user", "Name of a user"}, name{"name", "Name of a program"};
   const BodyMember password{"password", "At least 12 characters"};
   const BodyMember role{"role", "viewer, operator, integrator or administrator"};
   const auto optional = [](BodyMember member) {
@@ -159,38 +159,39 @@ std::vector<Route> AccessDesk::routes() {
     return member;
   };
   std::vector<Route> routes;
-  routes.push_back(shown("/api/v1/session", Role::Nobody, "Who asks, and whether there are users",
+  routes.push_back(shown("/api/v1/session", Role::Nobody,
+                         "Returns the caller's identity and whether there are users",
                          &AccessDesk::session));
-  routes.push_back(changing("/api/v1/login", Role::Nobody, "Begins a session, kept in a cookie",
+  routes.push_back(changing("/api/v1/login", Role::Nobody, "Starts a session, kept in a cookie",
                             {user, password}, &AccessDesk::login, &AccessDesk::refuse_login));
-  routes.push_back(
-      changing("/api/v1/set_first_password", Role::Nobody,
-               "Makes the first administrator, admin, while there are no users, and "
-               "begins a session",
-               {{"code", "As the log and `orbwatch password --show` have it"}, password},
-               &AccessDesk::set_first_password, &AccessDesk::refuse_first_password));
+  routes.push_back(changing(
+      "/api/v1/set_first_password", Role::Nobody,
+      "Creates the first administrator, admin, while there are no users, and starts a session",
+      {{"code", "Code that the log and `orbwatch password --show` print"}, password},
+      &AccessDesk::set_first_password, &AccessDesk::refuse_first_password));
   routes.push_back(
       changing("/api/v1/logout", Role::Viewer, "Ends the session", {}, &AccessDesk::logout));
-  routes.push_back(changing("/api/v1/set_password", Role::Viewer,
-                            "Changes the password of whoever is logged in; other sessions end",
-                            {{"old", "The present one"}, {"new", "At least 12 characters"}},
-                            &AccessDesk::set_password));
+  routes.push_back(
+      changing("/api/v1/set_password", Role::Viewer,
+               "Changes the password of the logged-in user; the user's other sessions end",
+               {{"old", "The present password"}, {"new", "At least 12 characters"}},
+               &AccessDesk::set_password));
   routes.push_back({"GET", "/api/v1/audit", Role::Administrator,
-                    "Who did what: the newest entries, newest last", std::string(kJson),
+                    "Returns the newest entries of the audit, newest last", std::string(kJson),
                     [this](const ExchangePtr& exchange) { show_audit(exchange); }});
-  routes.push_back(shown("/api/v1/users", Role::Administrator, "People and programs, with roles",
-                         &AccessDesk::users));
-  routes.push_back(changing("/api/v1/set_user", Role::Administrator,
-                            "Adds a person or changes role or password; the first one must be "
-                            "administrator",
-                            {user, optional(role), optional(password)}, &AccessDesk::set_user));
-  routes.push_back(changing("/api/v1/remove_user", Role::Administrator, "Removes a person", {user},
+  routes.push_back(shown("/api/v1/users", Role::Administrator,
+                         "Returns users and programs, with roles", &AccessDesk::users));
+  routes.push_back(
+      changing("/api/v1/set_user", Role::Administrator,
+               "Adds a user or changes role or password; the first user must be administrator",
+               {user, optional(role), optional(password)}, &AccessDesk::set_user));
+  routes.push_back(changing("/api/v1/remove_user", Role::Administrator, "Removes a user", {user},
                             &AccessDesk::remove_user));
   routes.push_back(changing("/api/v1/create_token", Role::Administrator,
-                            "Lets a program in. The token is told this once", {name, role},
-                            &AccessDesk::create_token));
+                            "Creates a token for a program; the token is returned only once",
+                            {name, role}, &AccessDesk::create_token));
   routes.push_back(changing("/api/v1/revoke_token", Role::Administrator,
-                            "Keeps a program out again", {name}, &AccessDesk::revoke_token));
+                            "Revokes the token of a program", {name}, &AccessDesk::revoke_token));
   return routes;
 }
 

@@ -83,7 +83,7 @@ class AccessDesk {
   Access& access_;
   Audit& audit_;
   const std::chrono::seconds longest_;
-  SlowWork work_{"web access", "others log in or change users at present; try again"};
+  SlowWork work_{"web access", "too many logins or changes of users at present; try again"};
 };
 
 }  // namespace orbwatch::app::web

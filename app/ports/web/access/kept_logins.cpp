@@ -68,7 +68,7 @@ Result<> load_logins(const std::filesystem::path& file, Sessions& sessions, Logi
     limits.restore(to_entries(all.at("names")), to_entries(all.at("addresses")), to_familiar(all));
     sessions.restore(std::move(kept));
   } catch (const Json::exception&) {
-    return fail(file.string() + ": is damaged; everybody has to log in anew");
+    return fail(file.string() + ": is damaged; all users must log in again");
   }
   return {};
 }

@@ -55,7 +55,7 @@ Result<std::string> hash_password(std::string_view password) {
   if (::crypto_pwhash_str(hash.data(), password.data(), password.size(),
                           crypto_pwhash_OPSLIMIT_INTERACTIVE,
                           crypto_pwhash_MEMLIMIT_INTERACTIVE) != 0) {
-    return fail("the password cannot be hashed: 64 MiB of memory are not free");
+    return fail("the password cannot be hashed: less than 64 MiB of memory is free");
   }
   return std::string(hash.data());
 }

@@ -91,7 +91,7 @@ std::filesystem::path users_file(const std::filesystem::path& state_folder) {
 
 Result<Role> parse_role(std::string_view name) {
   if (const Role* role = find_word(kRoles, name)) return *role;
-  return fail("there is no such role; there are: " + joined(kRoles));
+  return fail("unknown role; it must be one of: " + joined(kRoles));
 }
 
 Result<> check_name(std::string_view name) {
@@ -102,7 +102,7 @@ Result<> check_name(std::string_view name) {
     return {};
   }
   return fail("a name must be 1 to " + std::to_string(kMostNameBytes) +
-              " small letters, digits, '.', '-' and '_'");
+              " lower-case letters, digits, '.', '-' and '_'");
 }
 
 std::string users_text(const Users& users) {
@@ -123,7 +123,7 @@ Result<Users> parse_users(std::string_view text) {
   auto tokens = parse_all(all, "tokens", "hash", &ApiToken::hash);
   if (!tokens) return tl::unexpected(tokens.error());
   if (std::ranges::find(*users, Role::Administrator, &User::role) == users->end()) {
-    return fail("somebody must be administrator");
+    return fail("at least one user must be administrator");
   }
   return Users{std::move(*users), std::move(*tokens)};
 }
@@ -134,16 +134,16 @@ Result<std::optional<Users>> load_users(const std::filesystem::path& file) {
   const auto marker = read_private(marker_of(file));
   if (!marker) return tl::unexpected(marker.error());
   if (!*marker) return std::nullopt;
-  return fail(file.string() +
-              ": is gone, although a password was set; set one by `sudo orbwatch password`, or "
-              "remove " +
-              marker_of(file).string() + " as well to begin without users");
+  return fail(
+      file.string() +
+      ": is missing, although a password was set; set one by `sudo orbwatch password`, or remove " +
+      marker_of(file).string() + " as well to start without users");
 }
 
 Result<> keep_that_users_exist(const std::filesystem::path& file) {
   const auto marker = read_private(marker_of(file));
   if (marker && *marker) return {};
-  return write_private(marker_of(file), "users.json exists; without it nobody is let in\n");
+  return write_private(marker_of(file), "users.json exists; without it no user is admitted\n");
 }
 
 Result<> change_users(const std::filesystem::path& file,

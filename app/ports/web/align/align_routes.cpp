@@ -15,7 +15,7 @@ constexpr int kDefaultSide = 480;
 constexpr int kLargestSide = 1920;
 
 const QueryArgument kCamera{"camera", "Name of the camera", true, false};
-const QueryArgument kWhich{"which", "proposed or, by default, in_force", false, false};
+const QueryArgument kWhich{"which", "proposed or in_force; default: in_force", false, false};
 
 Result<optics::ViewSpec> view_of(const Request& request) {
   optics::ViewSpec view;
@@ -42,35 +42,34 @@ std::vector<Route> AlignRoutes::routes() {
   state.path = "/api/v1/alignment";
   state.role = Role::Viewer;
   state.description =
-      "Of each camera where it has the ball, how it stands, what is proposed, its points with "
-      "their residuals, and the scene's edges from the ball's centre and in its picture; px, deg, "
-      "mm";
+      "Returns per camera the ball's outline, the pose, the proposal, the points with residuals, "
+      "and the scene's edges as seen from the ball's centre and in the picture; px, deg, mm";
   state.type = kJson;
   state.serve = [this](const ExchangePtr& exchange) { serve_alignment(exchange); };
   Route ball = state;
   ball.path = "/api/v1/alignment/ball.jpg";
-  ball.description = "What a camera sees next, pixel by pixel";
+  ball.description = "Returns a camera's next picture in full resolution";
   ball.type = kJpeg;
   ball.query = {kCamera};
   ball.serve = [this](const ExchangePtr& exchange) { serve_picture(exchange, false); };
   Route view = ball;
   view.path = "/api/v1/alignment/view.jpg";
-  view.description = "The next perspective view by one camera alone, to judge its alignment by";
+  view.description =
+      "Returns the next perspective view from one camera alone, to judge its alignment";
   view.query = {kCamera,
                 kWhich,
-                {"yaw", "deg, from +Y towards +X; 0"},
-                {"pitch", "deg, up positive; 0"},
-                {"h_fov", "deg, horizontal field of view; 90"},
-                {"width", "px; 480"},
-                {"height", "px; 480"},
-                {"model", "exact, paper or classical instead of the rig's", false, false}};
+                {"yaw", "yaw, deg, from +Y towards +X; default: 0"},
+                {"pitch", "pitch, deg, up positive; default: 0"},
+                {"h_fov", "horizontal field of view, deg; default: 90"},
+                {"width", "px; default: 480"},
+                {"height", "px; default: 480"},
+                {"model", "exact, paper or classical; default: the rig's model", false, false}};
   view.serve = [this](const ExchangePtr& exchange) { serve_picture(exchange, true); };
   Route direction = state;
   direction.path = "/api/v1/alignment/direction";
   direction.description =
-      "Where that lies which a camera's picture shows at a pixel, seen from the ball's centre, by "
-      "the "
-      "proposed alignment if there is one; deg";
+      "Returns the direction, seen from the ball's centre, of a pixel in a camera's picture, by "
+      "the proposed alignment if there is one; deg";
   direction.query = {
       kCamera, {"u", "px, to the right, pixel centres at integers", true}, {"v", "px, down", true}};
   direction.serve = [this](const ExchangePtr& exchange) { serve_direction(exchange); };
@@ -87,7 +86,7 @@ Result<std::size_t> AlignRoutes::camera_of(const Request& request) const {
   const std::string* name = request.argument(kCamera.name);
   const auto camera = name ? std::ranges::find(cameras_, *name) : cameras_.end();
   if (camera != cameras_.end()) return static_cast<std::size_t>(camera - cameras_.begin());
-  return fail("say as ?camera=NAME which of the cameras that /api/v1/alignment lists");
+  return fail("unknown camera; pass ?camera=NAME with a name from /api/v1/alignment");
 }
 
 void AlignRoutes::serve_direction(const ExchangePtr& exchange) const {
@@ -149,7 +148,7 @@ void AlignRoutes::serve_picture(const ExchangePtr& exchange, bool is_view) const
   };
   const auto is_wanted = [exchange] { return !exchange->is_answered(); };
   const auto requested = source_ ? source_->request(*picture, on_picture, is_wanted)
-                                 : Result<>(fail("there is nothing to be aligned"));
+                                 : Result<>(fail("there is no camera to align"));
   if (!requested) exchange->answer(error_response(409, requested.error().message));
 }
 

@@ -23,7 +23,7 @@ std::string form(const CommandInfo& info) {
 Result<Command> parse_command(const CommandInfo& info, std::string_view body) {
   const auto sent = nlohmann::json::parse(body.empty() ? "{}" : body, nullptr, false);
   const std::size_t count = info.argument_count();
-  if (!sent.is_object()) return fail("the body is no JSON object; it must be " + form(info));
+  if (!sent.is_object()) return fail("the body is not a JSON object; it must be " + form(info));
   if (sent.size() != count) {
     return fail("the body has " + std::to_string(sent.size()) + " members; it must be " +
                 form(info));
@@ -33,7 +33,7 @@ Result<Command> parse_command(const CommandInfo& info, std::string_view body) {
     const std::string name(info.arguments[i].name);
     const auto value = sent.find(name);
     if (value == sent.end() || !value->is_number()) {
-      return fail(name + " is no number; the body must be " + form(info));
+      return fail(name + " must be a number; the body must be " + form(info));
     }
     command.arguments[i] = value->get<double>();
   }

@@ -48,11 +48,11 @@ Result<ConfigurationBody> parse_configuration(std::string_view body) {
   const auto sent = nlohmann::json::parse(body, nullptr, false);
   const std::string files_name(kFilesMember.name);
   if (!sent.is_object() || !sent.contains(files_name) || !sent[files_name].is_object()) {
-    return fail(std::string("there are no files: ") + kConfigurationForm);
+    return fail(std::string("files must be an object: ") + kConfigurationForm);
   }
   ConfigurationBody parsed;
   for (const auto& [name, text] : sent[files_name].items()) {
-    if (!text.is_string()) return fail(name + " is no text: " + kConfigurationForm);
+    if (!text.is_string()) return fail(name + " must be a string: " + kConfigurationForm);
     parsed.edit.texts[name] = text.get<std::string>();
   }
   auto basis = basis_of(sent);
@@ -62,7 +62,7 @@ Result<ConfigurationBody> parse_configuration(std::string_view body) {
   if (!seconds) return tl::unexpected(seconds.error());
   parsed.seconds = *seconds;
   for (const auto& [member, value] : sent.items()) {
-    if (!is_known(member)) return fail("there is no " + member + ": " + kConfigurationForm);
+    if (!is_known(member)) return fail("unknown member " + member + ": " + kConfigurationForm);
   }
   return parsed;
 }

@@ -15,16 +15,16 @@ struct ConfigurationBody {
   int seconds = kUsualTrial;
 };
 
-inline constexpr BodyMember kFilesMember{
-    "files", "Texts by name of their file, of those that are to change", true, BodyType::Texts};
+inline constexpr BodyMember kFilesMember{"files", "New texts by file name, for the files to change",
+                                         true, BodyType::Texts};
 inline constexpr BodyMember kBasedOnMember{
     "based_on",
-    "Checksums of files as GET /api/v1/configuration gave them: 409 if one was changed since then, "
-    "with who and when",
+    "Checksums of files as GET /api/v1/configuration returned them: 409 if one was changed since "
+    "then, with user and time",
     false, BodyType::Texts};
 inline constexpr BodyMember kSecondsMember{
-    "seconds", "Until it goes back unless it is confirmed, 10 to 3600; 60 if it is left out", false,
-    BodyType::Whole};
+    "seconds", "Time until the trial is reverted unless it is confirmed, 10 to 3600; default: 60",
+    false, BodyType::Whole};
 
 /// {"files": {"rig.toml": "..."}, "based_on": {"rig.toml": "0a1b2c3d"}, "seconds": 60}. Errors: it
 /// is none; a member is missing, too many or of another kind; the seconds are out of range.

@@ -93,36 +93,36 @@ ConfigurationDesk::ConfigurationDesk(std::shared_ptr<ConfigurationFiles> files, 
 std::vector<Route> ConfigurationDesk::routes() {
   if (!files_) return {};
   std::vector<Route> routes;
-  routes.push_back({"GET", "/api/v1/configuration", Role::Integrator,
-                    "The files of the configuration as they are on the disk, and what runs instead",
-                    std::string(kJson), [this](const ExchangePtr& exchange) {
-                      work_.run(exchange, asker(exchange), [this] { return show(); });
-                    }});
-  routes.push_back(changing("/api/v1/check_configuration",
-                            "Checks the configuration with these texts in place of some files, and "
-                            "says what they change",
-                            {kFilesMember, kBasedOnMember}, &Sent::read_files,
-                            &ConfigurationDesk::check));
+  routes.push_back(
+      {"GET", "/api/v1/configuration", Role::Integrator,
+       "Returns the configuration files on the disk, and the running configuration if it differs",
+       std::string(kJson), [this](const ExchangePtr& exchange) {
+         work_.run(exchange, asker(exchange), [this] { return show(); });
+       }});
+  routes.push_back(changing(
+      "/api/v1/check_configuration",
+      "Checks the configuration with these texts in place of some files, and returns their changes",
+      {kFilesMember, kBasedOnMember}, &Sent::read_files, &ConfigurationDesk::check));
   routes.push_back(changing("/api/v1/try_configuration",
-                            "The same, and has it run until it is confirmed or goes back",
+                            "Checks the configuration like check_configuration, and runs it on "
+                            "trial until it is confirmed or reverted",
                             {kFilesMember, kBasedOnMember, kSecondsMember}, &Sent::read_files,
                             &ConfigurationDesk::try_out));
   routes.push_back(changing("/api/v1/check_recipe",
-                            "Checks the configuration with these limits and regions in the file of "
-                            "a recipe, which keeps all else, and says what they change",
+                            "Checks the configuration with these limits and regions in a recipe's "
+                            "file, which is otherwise unchanged, and returns the changes",
                             {kRecipeMember, kLimitsMember, kRegionsMember}, &Sent::read_recipe,
                             &ConfigurationDesk::check_recipe));
   routes.push_back(changing("/api/v1/try_recipe",
-                            "The same, and has it run until it is confirmed or goes back, as "
-                            "try_configuration",
+                            "Checks the recipe like check_recipe, and runs it on trial until it is "
+                            "confirmed or reverted, like try_configuration",
                             {kRecipeMember, kLimitsMember, kRegionsMember, kSecondsMember},
                             &Sent::read_recipe, &ConfigurationDesk::try_recipe));
   routes.push_back(changing("/api/v1/confirm_configuration",
-                            "Keeps the configuration that is tried out: writes its files", {},
+                            "Confirms the configuration on trial: writes its files", {},
                             &Sent::read_nothing, &ConfigurationDesk::confirm));
-  routes.push_back(changing("/api/v1/revert_configuration",
-                            "Goes back from the configuration that is tried out", {},
-                            &Sent::read_nothing, &ConfigurationDesk::revert));
+  routes.push_back(changing("/api/v1/revert_configuration", "Reverts the configuration on trial",
+                            {}, &Sent::read_nothing, &ConfigurationDesk::revert));
   return routes;
 }
 
@@ -147,7 +147,7 @@ Response ConfigurationDesk::answer_and_note(const ExchangePtr& exchange, Read re
   const web::Request& request = exchange->request();
   Sent sent{access_.caller(credentials_of(request))};
   if (sent.caller.role < Role::Integrator) {
-    return error_response(401, "the role that this needs has ended meanwhile; log in");
+    return error_response(401, "the required role has expired; log in again");
   }
   const std::string name = request.path.substr(request.path.rfind('/') + 1);
   if (const auto right = read(request.body, sent); !right) {
@@ -190,7 +190,7 @@ Result<> ConfigurationDesk::permit(const Sent& sent) const {
                         (present == state->files.end() || present->second != changed->second);
   if (!is_other) return {};
   return fail("another " + state->site +
-              " needs the role administrator: it says where users are kept and which camera "
+              " needs the role administrator: it determines where users are kept and which camera "
               "modules run");
 }
 
@@ -223,8 +223,9 @@ Result<> ConfigurationDesk::check_basis(const Sent& sent) const {
     if (version == state->versions.end()) return fail(name + " was removed since it was read");
     const ConfigurationFiles::Version& now = version->second;
     if (now.checksum == checksum) continue;
-    return fail(name + " was changed by " + changer_of(name, now) + " at " + now.time +
-                ", after it was read for this change, which would remove that one; read it again");
+    return fail(
+        name + " was changed by " + changer_of(name, now) + " at " + now.time +
+        ", after it was read for this change, which would overwrite that one; read it again");
   }
   return {};
 }

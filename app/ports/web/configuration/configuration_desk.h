@@ -55,7 +55,7 @@ class ConfigurationDesk {
   const std::shared_ptr<ConfigurationFiles> files_;
   Access& access_;
   Audit& audit_;
-  SlowWork work_{"web files", "others change the configuration at present; try again"};
+  SlowWork work_{"web files", "other users are changing the configuration at present; try again"};
 };
 
 }  // namespace orbwatch::app::web

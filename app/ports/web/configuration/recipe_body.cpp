@@ -46,7 +46,7 @@ Result<LimitChange> limit_of(const json& sent) {
       is_of(sent, {"alarm", "region", "signal", "limit", "value"}) && has_count(sent, "alarm") &&
       has_text(sent, "region") && has_text(sent, "signal") && has_text(sent, "limit") &&
       (has_number(sent, "value") || (sent.contains("value") && sent["value"].is_null()));
-  if (!is_right) return wrong("a limit is of another form");
+  if (!is_right) return wrong("a limit is malformed");
   LimitChange change{sent["alarm"].get<std::size_t>(), sent["region"].get<std::string>(),
                      sent["signal"].get<std::string>(), sent["limit"].get<std::string>()};
   if (sent["value"].is_number()) change.value = sent["value"].get<double>();
@@ -58,12 +58,12 @@ Result<> read_corners(const json& region, const char* name,
                       std::vector<std::array<double, N>>& corners) {
   const auto sent = region.find(name);
   if (sent == region.end()) return {};
-  if (!sent->is_array()) return wrong(std::string(name) + " is no list");
+  if (!sent->is_array()) return wrong(std::string(name) + " is not a list");
   for (const json& corner : *sent) {
     const bool is_right = corner.is_array() && corner.size() == N &&
                           std::ranges::all_of(corner, [](const json& n) { return n.is_number(); });
     if (!is_right) {
-      return wrong("a corner of " + std::string(name) + " is no list of " + std::to_string(N) +
+      return wrong("a corner of " + std::string(name) + " is not a list of " + std::to_string(N) +
                    " numbers");
     }
     for (std::size_t i = 0; i < N; ++i) {
@@ -76,7 +76,7 @@ Result<> read_corners(const json& region, const char* name,
 Result<RegionChange> region_of(const json& sent) {
   if (is_of(sent, {"name", "removed"}) && sent.contains("removed")) {
     if (!has_text(sent, "name") || sent["removed"] != true) {
-      return wrong("a region is of another form");
+      return wrong("a region is malformed");
     }
     RegionChange change{sent["name"].get<std::string>()};
     change.is_removed = true;
@@ -85,11 +85,11 @@ Result<RegionChange> region_of(const json& sent) {
   const bool is_right =
       is_of(sent, {"name", "directions", "points", "view", "hot_spot_threshold"}) &&
       has_text(sent, "name") && sent.contains("view") == sent.contains("hot_spot_threshold");
-  if (!is_right) return wrong("a region is of another form");
+  if (!is_right) return wrong("a region is malformed");
   RegionChange change{sent["name"].get<std::string>()};
   if (sent.contains("view")) {
     if (!has_text(sent, "view") || !has_number(sent, "hot_spot_threshold")) {
-      return wrong("a region is of another form");
+      return wrong("a region is malformed");
     }
     change.added = {sent["view"].get<std::string>(), sent["hot_spot_threshold"].get<double>()};
   }
@@ -103,7 +103,7 @@ Result<> read_list(const json& sent, std::string_view name,
                    Result<Change> (*change_of)(const json&), std::vector<Change>& changes) {
   const auto list = sent.find(name);
   if (list == sent.end()) return {};
-  if (!list->is_array()) return wrong(std::string(name) + " is no list");
+  if (!list->is_array()) return wrong(std::string(name) + " is not a list");
   for (const json& one : *list) {
     auto change = change_of(one);
     if (!change) return tl::unexpected(change.error());
@@ -120,7 +120,7 @@ Result<RecipeBody> parse_recipe_change(std::string_view body) {
       is_of(sent,
             {kRecipeMember.name, kLimitsMember.name, kRegionsMember.name, kSecondsMember.name}) &&
       has_count(sent, "recipe") && sent["recipe"] <= std::numeric_limits<std::uint16_t>::max();
-  if (!is_right) return wrong("these are no changes of a recipe");
+  if (!is_right) return wrong("the body has no changes of a recipe");
   RecipeBody parsed;
   parsed.recipe = sent["recipe"].get<int>();
   const auto seconds = seconds_of(sent);

@@ -19,16 +19,16 @@ struct RecipeBody {
 inline constexpr BodyMember kRecipeMember{"recipe", "Number of the recipe", true, BodyType::Whole};
 inline constexpr BodyMember kLimitsMember{
     "limits",
-    "Of alarms, each {\"alarm\": its number, \"region\", \"signal\", \"limit\": low_alarm, "
+    "Limits of alarms, each {\"alarm\": its number, \"region\", \"signal\", \"limit\": low_alarm, "
     "low_warning, high_warning, high_alarm or hysteresis, \"value\": in the signal's unit, null "
-    "for "
-    "none}",
+    "for none}",
     false, BodyType::List};
 inline constexpr BodyMember kRegionsMember{
     "regions",
-    "Each {\"name\", and \"directions\": corners [yaw, pitch] in deg or \"points\": corners [x, y, "
-    "z] in the machine frame in mm}; a new one also has \"view\" and \"hot_spot_threshold\"; "
-    "{\"name\", \"removed\": true} takes one out of the recipe, with its alarms",
+    "Regions, each {\"name\", and \"directions\": corners [yaw, pitch] in deg or \"points\": "
+    "corners [x, y, z] in the machine frame in mm}; a new one also has \"view\" and "
+    "\"hot_spot_threshold\"; {\"name\", \"removed\": true} removes one from the recipe, with its "
+    "alarms",
     false, BodyType::List};
 
 /// {"recipe": 1, "limits": [...], "regions": [...], "seconds": 60}, of which one list may be

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kMissing = "say enabled = true in [dds]";
+constexpr std::string_view kMissing = "set enabled = true in [dds]";
 
 void show(Fleet* fleet, const ExchangePtr& exchange) {
   const auto now = hal::Clock::now();
@@ -23,8 +23,9 @@ void show_picture(const Fleet* fleet, const ExchangePtr& exchange) {
   const std::string* id = exchange->request().argument("appliance");
   auto picture = fleet && id ? fleet->picture(*id) : nullptr;
   if (!picture) {
-    exchange->answer(error_response(
-        404, "say as ?appliance=ID one that /api/v1/appliances lists with pictures"));
+    exchange->answer(error_response(404,
+                                    "unknown appliance; pass ?appliance=ID with an id that "
+                                    "/api/v1/appliances lists with pictures"));
     return;
   }
   Response response;
@@ -55,16 +56,16 @@ std::vector<Route> fleet_routes(const std::shared_ptr<Fleet>& fleet) {
   };
   std::vector<Route> routes;
   routes.push_back({"GET", "/api/v1/appliances", Role::Viewer,
-                    "All appliances of the DDS domain, also those that are gone: how they are, and "
-                    "their pages; the age since they were heard in seconds",
+                    "Returns all appliances of the DDS domain, including those that left: state, "
+                    "page, and the time since their last message in seconds",
                     std::string(kJson), by(show)});
   routes.push_back({"GET", "/api/v1/appliances/picture.jpg", Role::Viewer,
-                    "What an appliance of the domain sees, small; there are newer ones every few "
-                    "seconds while the list is asked for",
+                    "Returns a thumbnail of an appliance of the domain, updated every few seconds "
+                    "while the list is requested",
                     std::string(kJpeg), by(show_picture)});
-  routes.back().query = {{"appliance", "Its id in the list", true, false}};
+  routes.back().query = {{"appliance", "Id of the appliance in the list", true, false}};
   routes.push_back({"POST", "/api/v1/forget_appliances", Role::Operator,
-                    "Takes those that are gone off the list", std::string(kJson), by(forget)});
+                    "Removes appliances that left from the list", std::string(kJson), by(forget)});
   return routes;
 }
 

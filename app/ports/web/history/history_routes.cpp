@@ -10,7 +10,7 @@ namespace orbwatch::app::web {
 namespace {
 
 constexpr std::size_t kUsualEvents = 100;
-constexpr QueryArgument kEvents{"events", "At most so many, up to 500; 100 if it is left out"};
+constexpr QueryArgument kEvents{"events", "Limit of entries, up to 500; default: 100"};
 
 /// Nullopt: neither or both are named.
 std::optional<Component> component_of(const Request& request) {
@@ -36,19 +36,19 @@ std::vector<Route> HistoryRoutes::routes() {
   figure.path = "/api/v1/history";
   figure.role = Role::Viewer;
   figure.description =
-      "The last ten minutes of one figure of a region or of what is watched of a camera: its "
-      "lowest and its highest value in each step, oldest first, null where it was not measured; "
-      "times in s";
+      "Returns the last ten minutes of one figure of a region or of a camera's supervision: lowest "
+      "and highest value of each step, oldest first, null where it was not measured; times in s";
   figure.type = kJson;
-  figure.query = {{"figure", "Name of the figure", true, false},
-                  {"region", "Name of the region; it or a camera is needed", false, false},
-                  {"camera", "Name of the camera", false, false}};
+  figure.query = {
+      {"figure", "Name of the figure", true, false},
+      {"region", "Name of the region; either region or camera is required", false, false},
+      {"camera", "Name of the camera", false, false}};
   figure.serve = [this](const ExchangePtr& exchange) { serve_figure(exchange); };
   Route alarms = figure;
   alarms.path = "/api/v1/history/alarms";
   alarms.description =
-      "What happened to alarms since the start, oldest first: when, to which value by which limit, "
-      "and who acknowledged";
+      "Returns the events of alarms since the start, oldest first: time, value, limit, and who "
+      "acknowledged";
   alarms.query = {kEvents};
   alarms.serve = [this](const ExchangePtr& exchange) { serve_alarms(exchange); };
   return {std::move(figure), std::move(alarms)};
@@ -60,16 +60,16 @@ void HistoryRoutes::serve_figure(const ExchangePtr& exchange) const {
   const std::string* figure = request.argument("figure");
   if (!component || !figure) {
     exchange->answer(error_response(
-        400, "say which figure, as ?region=NAME&figure=NAME or ?camera=NAME&figure=NAME"));
+        400, "no figure; pass ?region=NAME&figure=NAME or ?camera=NAME&figure=NAME"));
     return;
   }
   const auto series = figures_.series(*component, *figure);
-  exchange->answer(series
-                       ? json_response(series_json(*series, hal::Clock::now()))
-                       : error_response(404,
-                                        "there is no such figure; those of /api/v1/status have a "
-                                        "history that belong to: " +
-                                            names_of(figures_.components())));
+  exchange->answer(
+      series
+          ? json_response(series_json(*series, hal::Clock::now()))
+          : error_response(
+                404, "unknown figure; figures of /api/v1/status that have a history belong to: " +
+                         names_of(figures_.components())));
 }
 
 void HistoryRoutes::serve_alarms(const ExchangePtr& exchange) const {

@@ -32,7 +32,7 @@ struct Ends {
     for (const auto& exchange : exchanges) exchange->give_up(no_answer());
     for (const auto& stream : streams) stream->end();
   }
-  static Response no_answer() { return error_response(503, "there was no answer in time"); }
+  static Response no_answer() { return error_response(503, "the answer timed out"); }
 };
 
 }  // namespace

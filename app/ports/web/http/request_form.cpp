@@ -68,7 +68,7 @@ std::optional<Response> settle_form(Request& request, std::string_view version,
                                     const ServerNames& own) {
   if (request.target.find("%00") != std::string::npos) {
     // The library's C strings were cut there.
-    return error_response(kBadRequest, "a zero byte has no place in a path or a query");
+    return error_response(kBadRequest, "a path or a query must not contain a zero byte");
   }
   const auto& headers = request.headers;
   if (!std::ranges::all_of(headers, [](const auto& sent) { return is_token(sent.first); })) {
@@ -92,7 +92,7 @@ std::optional<Response> settle_form(Request& request, std::string_view version,
   if (is_own_host(request.host, own.names)) return std::nullopt;
   return error_response(
       kMisdirected,
-      "the Host header names another host; names of this one belong into names of [web]");
+      "the Host header names another host; add this appliance's names to names of [web]");
 }
 
 }  // namespace orbwatch::app::web

@@ -264,7 +264,7 @@ Result<> Server::listen() {
   own_ = {settings_.names, std::move(*trusted)};
   auto address = parse_address(endpoint_.address, endpoint_.port);
   const std::string where = endpoint_.address + " port " + std::to_string(endpoint_.port);
-  if (!address) return fail("web: " + where + ": is no numeric address");
+  if (!address) return fail("web: " + where + ": is not a numeric address");
   const bool is_v6 = address->get()->sa_family == AF_INET6, is_secure = endpoint_.pem.has_value();
   const unsigned flags =
       static_cast<unsigned>(MHD_USE_EPOLL_INTERNAL_THREAD) | static_cast<unsigned>(MHD_USE_ITC) |

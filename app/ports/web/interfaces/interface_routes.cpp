@@ -50,14 +50,14 @@ std::vector<Route> interface_routes(std::function<std::vector<InterfaceTable>()>
                                     const Program& program) {
   std::vector<Route> routes;
   routes.push_back({"GET", "/api/v1/about", Role::Viewer,
-                    "Versions of the programs, and who may command", std::string(kJson),
-                    [about = about_json(program)](const ExchangePtr& exchange) {
+                    "Returns the versions of the programs, and the interfaces that accept commands",
+                    std::string(kJson), [about = about_json(program)](const ExchangePtr& exchange) {
                       exchange->answer(json_response(about));
                     }});
   if (!tables) return routes;
   routes.push_back({"GET", "/api/v1/interfaces", Role::Integrator,
-                    "Registers of Modbus with their values, who is connected, topics of DDS with "
-                    "their readers",
+                    "Returns Modbus registers with their values, connected clients, and DDS topics "
+                    "with their readers",
                     std::string(kJson), [tables = std::move(tables)](const ExchangePtr& exchange) {
                       exchange->answer(json_response(tables_json(tables())));
                     }});

@@ -90,12 +90,12 @@ std::vector<Route> log_routes(std::shared_ptr<const RecentLog> log) {
   Route route{"GET",
               "/api/v1/log",
               Role::Operator,
-              "The newest lines of the log since the start, oldest first",
+              "Returns the newest lines of the log since the start, oldest first",
               std::string(kJson),
               [log = std::move(log)](const ExchangePtr& exchange) { show(*log, exchange); }};
-  route.query = {{"lines", "At most so many, up to 1000; 200 if it is left out"},
-                 {"level", "error, warning or info: these and what is more severe", false, false},
-                 {"after", "Only lines with a greater number"}};
+  route.query = {{"lines", "Limit of lines, up to 1000; default: 200"},
+                 {"level", "Least severity: error, warning or info", false, false},
+                 {"after", "Number of the last line already read; only later lines are returned"}};
   return {route};
 }
 

@@ -46,15 +46,16 @@ std::vector<Route> LookAround::routes() {
   list.path = "/api/v1/look-around";
   list.role = Role::Viewer;
   list.description =
-      "Names of the views that show a ball as its camera does, from which a browser draws views of "
-      "the room, and of the views that the command point_view points";
+      "Returns the names of views of kind ball, from which a browser draws views of the room, and "
+      "of the views that the command point_view points";
   list.type = kJson;
   list.serve = [this](const ExchangePtr& exchange) { serve_list(exchange); };
   Route mesh = list;
   mesh.path = "/api/v1/sphere";
   mesh.description =
-      "The room as such a view shows it, as triangles with the pixels of their corners: a line of "
-      "JSON that says how many bytes follow. The ETag changes with the calibration";
+      "Returns the room as a view of kind ball shows it, as triangles with the pixels of their "
+      "corners: a line of JSON with the number of bytes that follow. The ETag changes with the "
+      "calibration";
   mesh.type = kBinary;
   mesh.serve = [this](const ExchangePtr& exchange) { serve_mesh(exchange); };
   mesh.view = ViewArgument::One;
@@ -69,8 +70,8 @@ void LookAround::serve_mesh(const ExchangePtr& exchange) {
   const std::string* name = exchange->request().argument("view");
   const auto sphere = name ? std::ranges::find(spheres_, *name, &Sphere::name) : spheres_.end();
   if (sphere == spheres_.end()) {
-    exchange->answer(error_response(
-        404, "say as ?view=NAME which of the spheres that /api/v1/look-around lists"));
+    exchange->answer(
+        error_response(404, "unknown view; pass ?view=NAME with a name from /api/v1/look-around"));
     return;
   }
   {

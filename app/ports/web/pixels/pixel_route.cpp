@@ -16,8 +16,8 @@ constexpr double kMostNumber = 1LL << std::numeric_limits<double>::digits;
 
 std::string gone(std::uint64_t number, const std::string& view) {
   return "picture " + std::to_string(number) + " of view " + view +
-         " is not kept: the newest few are, from the first question on; ask for one that came "
-         "after it, or without a number for the next one";
+         " is not kept: only the newest few since the first request are; request a later picture, "
+         "or the next one without a number";
 }
 
 /// A ball's picture is not pointed; that of other kinds is made as the view was.
@@ -40,12 +40,12 @@ Route PixelRoute::route() {
   route.path = "/api/v1/live/pixel";
   route.role = Role::Viewer;
   route.description =
-      "What a pixel of a picture of the live stream shows: direction, intensity, temperature where "
-      "a radiometric camera sees it, and the place on the scene; deg, %, degC, mm. 410: that "
-      "picture is not kept, ask for a newer one";
+      "Returns the values at a pixel of a picture of the live stream: direction, intensity, "
+      "temperature where a radiometric camera sees it, and the place on the scene; deg, %, degC, "
+      "mm. 410: the picture is not kept, request a newer one";
   route.type = kJson;
   route.view = ViewArgument::One;
-  route.query = {{"number", "of the picture, as the stream says; without: the next one"},
+  route.query = {{"number", "Number of the picture in the stream; default: the next one"},
                  {"u", "px, to the right, pixel centres at integers", true},
                  {"v", "px, down", true}};
   route.serve = [this](const ExchangePtr& exchange) { serve(exchange); };
@@ -56,7 +56,8 @@ void PixelRoute::serve(const ExchangePtr& exchange) {
   const std::string* name = exchange->request().argument("view");
   const auto named = name ? std::ranges::find(names_, *name) : names_.end();
   if (named == names_.end()) {
-    exchange->answer(error_response(404, "say as ?view=NAME which of the views of /api/v1/status"));
+    exchange->answer(
+        error_response(404, "unknown view; pass ?view=NAME with a name from /api/v1/status"));
     return;
   }
   const auto question = question_of(exchange, static_cast<std::size_t>(named - names_.begin()));

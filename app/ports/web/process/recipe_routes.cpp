@@ -9,7 +9,7 @@
 namespace orbwatch::app::web {
 namespace {
 
-const QueryArgument kNumber{"number", "Of the recipe; the one in force", false};
+const QueryArgument kNumber{"number", "Number of the recipe; default: the selected one", false};
 const QueryArgument kPixels{
     "pixels", "u,v,u,v,...: px to the right and down, pixel centres at integers", true, false};
 
@@ -54,17 +54,16 @@ std::vector<Route> RecipeRoutes::routes() {
   recipe.path = "/api/v1/recipe";
   recipe.role = Role::Viewer;
   recipe.description =
-      "What a recipe measures: regions with their corners and outlines in their views, and limits "
-      "of alarms; px, deg, mm. Its number is 0 if there is none";
+      "Returns the regions of a recipe with corners and outlines in their views, and limits of "
+      "alarms; px, deg, mm. The number is 0 if there is no recipe";
   recipe.type = kJson;
   recipe.query = {kNumber};
   recipe.serve = [this](const ExchangePtr& exchange) { serve_recipe(exchange); };
   Route polygon = recipe;
   polygon.path = "/api/v1/recipe/polygon";
   polygon.description =
-      "The polygon whose corners one of the recipe's views shows at these pixels: as directions, "
-      "as "
-      "points on the scene's surface, and its outline in the view; px, deg, mm";
+      "Returns the polygon whose corners are these pixels of a view of the recipe: as directions, "
+      "as points on the scene's surface, and its outline in the view; px, deg, mm";
   polygon.view = ViewArgument::One;
   polygon.query = {kPixels, kNumber};
   polygon.serve = [this](const ExchangePtr& exchange) { serve_polygon(exchange); };
@@ -103,9 +102,9 @@ void RecipeRoutes::serve_polygon(const ExchangePtr& exchange) const {
     const auto view = name ? std::ranges::find(recipe->views, *name, &MeasuredRecipe::View::name)
                            : recipe->views.end();
     if (view == recipe->views.end()) {
-      return fail("say as ?view=NAME which of the views that /api/v1/recipe lists");
+      return fail("unknown view; pass ?view=NAME with a name from /api/v1/recipe");
     }
-    if (!text) return fail("say the corners, as &pixels=u,v,u,v,...");
+    if (!text) return fail("no corners; pass &pixels=u,v,u,v,...");
     return pixels_of(*text).and_then([&](const std::vector<optics::Vec2>& pixels) {
       return polygon_json(*view->projection, scene_, pixels);
     });

@@ -29,7 +29,7 @@ void add_figure(Json& properties, const FieldInfo& field) {
     figure["nullable"] = true;
   }
   if constexpr (std::is_enum_v<Value>) {
-    properties[name + "_text"] = {{"type", "string"}, {"description", "The same in words"}};
+    properties[name + "_text"] = {{"type", "string"}, {"description", "The code as text"}};
   }
 }
 
@@ -53,7 +53,7 @@ Json status_schema() {
                   {"age",
                    {{"type", "number"},
                     {"nullable", true},
-                    {"description", "Since the pipeline's report, s"}}}};
+                    {"description", "Time since the pipeline's report, s"}}}};
   for_each_component(StatusReport{one_of_each, no_names, hal::TimePoint{}, {}},
                      [&](const Component& component, const auto& part) {
                        const std::string kind(component.kind);
@@ -127,7 +127,7 @@ Json operation_of(const Route& route) {
   Json operation{
       {"summary", route.description},
       {"responses",
-       {{"200", {{"description", "As asked"}, {"content", {{route.type, {{"schema", schema}}}}}}},
+       {{"200", {{"description", "Success"}, {"content", {{route.type, {{"schema", schema}}}}}}},
         {"default", error}}}};
   if (route.role != Role::Nobody) {
     operation["x-role"] = std::string(word_for(kRoles, route.role));

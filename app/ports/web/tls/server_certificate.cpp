@@ -33,7 +33,7 @@ Result<ServerCertificate> parse(const std::string& pem) {
   if (!certificate) return tl::unexpected(certificate.error());
   const auto key = key_from_pem(pem);
   if (!key) return tl::unexpected(key.error());
-  if (!is_key_of(*key, *certificate)) return fail("key and certificate do not belong together");
+  if (!is_key_of(*key, *certificate)) return fail("the key does not match the certificate");
   return server_certificate({pem, pem}, *certificate).map([](ServerCertificate made) {
     made.is_self_made = true;
     return made;
@@ -101,9 +101,9 @@ Result<std::optional<ServerCertificate>> kept_certificate(const fs::path& folder
 Result<ServerCertificate> self_made_certificate(const fs::path& folder,
                                                 const std::vector<std::string>& hosts,
                                                 sys_seconds now, ClockState clock) {
-  if (folder.empty()) return fail("web: there is no state folder to keep a certificate in");
+  if (folder.empty()) return fail("web: there is no state folder for a certificate");
   auto kept = kept_certificate(folder);
-  if (!kept) log_line(LogLevel::Warning, "web: makes another certificate: " + kept.error().message);
+  if (!kept) log_line(LogLevel::Warning, "web: creates a new certificate: " + kept.error().message);
   if (kept && *kept && !is_due(**kept, now, clock) && is_for_all(**kept, hosts)) {
     return std::move(**kept);
   }

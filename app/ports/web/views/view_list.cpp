@@ -69,10 +69,9 @@ Route ViewList::route() {
   route.path = "/api/v1/views";
   route.role = Role::Viewer;
   route.description =
-      "Of each view where it looks, with which weights its cameras are mixed and in which colours "
-      "one-channel ones are shown, at present and as configured; whether the commands point_view "
-      "and mix_sources change that; and of each colour map colours evenly from the first value to "
-      "the last. deg";
+      "Returns per view its direction, the weights of its cameras and the colours of one-channel "
+      "ones, at present and as configured, and whether the commands point_view and mix_sources "
+      "apply; and per colour map its colours, evenly spaced from the first value to the last. deg";
   route.type = kJson;
   route.serve = [this](const ExchangePtr& exchange) { serve(exchange); };
   return route;

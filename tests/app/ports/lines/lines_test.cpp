@@ -64,7 +64,7 @@ class StatusLines : public testing::Test {
 TEST_F(StatusLines, FollowTheState) {
   EXPECT_TRUE(becomes(status(SystemState::Starting), false, false));
   EXPECT_TRUE(becomes(status(SystemState::Running), true, true));
-  EXPECT_TRUE(becomes(status(SystemState::Degraded), true, false)) << "some camera has a fault";
+  EXPECT_TRUE(becomes(status(SystemState::Degraded), true, false)) << "a camera has a fault";
   EXPECT_TRUE(becomes(status(SystemState::Stopped), true, true)) << "was told to, and works";
   EXPECT_TRUE(becomes(status(SystemState::Fault), false, false));
   EXPECT_TRUE(becomes(status(SystemState::Running), true, true));

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 ApplianceNotice full_notice() {
   ApplianceNotice notice{{"Zelle für Größe", "1.2.3", "site/cell3", {"10.0.0.7", 8443}}};
   notice.state = SystemState::Degraded;
-  notice.condition = {Severity::Warning, "degraded: some camera"};
+  notice.condition = {Severity::Warning, "degraded: a camera"};
   notice.alarms = 3;
   notice.alarm = {Severity::Alarm, "2, weld: hot_spot_width: high alarm"};
   return notice;

@@ -89,7 +89,7 @@ TEST(PermissionsTest, RefusesWhatIsNone) {
     const auto read = read_permissions(dates("2020-01-01T00:00:00", wrong));
     // An element without text has none.
     ASSERT_FALSE(read) << wrong;
-    EXPECT_THAT(read.error().message, HasSubstr("where a date must stand"));
+    EXPECT_THAT(read.error().message, HasSubstr("instead of a date"));
   }
   const auto lacking = read_permissions(
       document("<allow_rule><domains><id>one</id><id>-3</id><id>99999999999</id></domains>"

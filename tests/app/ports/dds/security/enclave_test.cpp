@@ -173,7 +173,7 @@ TEST_F(EnclaveTest, PermissionsEndByThemselves) {
   sign(files_.permissions, permissions_document(grant));
   expect_refused(files_.permissions, "is not for domain 4");
   sign(files_.permissions, "<dds><permissions>");
-  expect_refused(files_.permissions, "is no XML");
+  expect_refused(files_.permissions, "is not XML");
 }
 
 TEST_F(EnclaveTest, OtherDomainsAreNamed) {
@@ -182,7 +182,7 @@ TEST_F(EnclaveTest, OtherDomainsAreNamed) {
 
 TEST_F(EnclaveTest, AKeyThatEverybodyReadsIsNone) {
   fs::permissions(files_.key, fs::perms::others_read, fs::perm_options::add);
-  expect_refused(files_.key, "may be read by everybody");
+  expect_refused(files_.key, "is world-readable");
 }
 
 TEST(SignedDocumentTest, OnlyTheSignerItselfCounts) {

@@ -291,9 +291,9 @@ TEST_F(ModbusRtu, ItsOwnAnswersThatComeBackAreNotAnswered) {
   EXPECT_EQ(statistics().serial_errors, 0U);
   sink_->stop();
   const std::string log = testing::internal::GetCapturedStderr();
-  const std::size_t said = log.find("returns the answers sent on it");
+  const std::size_t said = log.find("echoes sent answers");
   ASSERT_NE(said, log.npos) << log;
-  EXPECT_EQ(log.find("returns the answers sent on it", said + 1), log.npos) << log;
+  EXPECT_EQ(log.find("echoes sent answers", said + 1), log.npos) << log;
 }
 
 TEST_F(ModbusRtu, AMasterThatRepeatsItsWriteIsAnswered) {
@@ -432,7 +432,7 @@ TEST(RtuServer, SaysWhichSettingIsWrong) {
     const auto server = modbus::RtuServer::open(settings, {}, {}, counters);
     return server ? "" : server.error().message;
   };
-  EXPECT_THAT(error({}), HasSubstr("device is missing"));
+  EXPECT_THAT(error({}), HasSubstr("device is not set"));
   EXPECT_THAT(error({.device = "/dev/ttyS0", .baud_rate = 19201}), HasSubstr("baud_rate 19201"));
   EXPECT_THAT(error({.device = "/dev/ttyS0", .stop_bits = 3}), HasSubstr("stop_bits"));
   EXPECT_THAT(error({.device = "/dev/ttyS0", .unit_id = 0}), HasSubstr("unit_id"));

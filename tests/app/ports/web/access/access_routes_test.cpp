@@ -35,7 +35,7 @@ TEST_F(AccessRoutes, TheFirstPasswordIsSetFromThisComputerAndCountsFromThenOn) {
       post("/api/v1/set_user",
            json{{"user", "kim"}, {"role", "viewer"}, {"password", kPassword}}.dump(), kPageHeaders);
   EXPECT_EQ(viewer.status, 409);
-  EXPECT_THAT(viewer.body, HasSubstr("somebody must be administrator"));
+  EXPECT_THAT(viewer.body, HasSubstr("at least one user must be administrator"));
   const Answer weak =
       post("/api/v1/set_user",
            json{{"user", "kim"}, {"role", "administrator"}, {"password", "elevenchars"}}.dump(),
@@ -120,7 +120,7 @@ TEST_F(AccessRoutes, TheLastAdministratorStays) {
   const std::string admin = session_of("administrator") + kPageHeaders;
   const Answer removed = post("/api/v1/remove_user", R"({"user":"administrator"})", admin);
   EXPECT_EQ(removed.status, 409);
-  EXPECT_THAT(removed.body, HasSubstr("somebody must be administrator"));
+  EXPECT_THAT(removed.body, HasSubstr("at least one user must be administrator"));
   EXPECT_EQ(post("/api/v1/set_user", R"({"user":"administrator","role":"viewer"})", admin).status,
             409);
   EXPECT_EQ(session(admin)["role"], "administrator");

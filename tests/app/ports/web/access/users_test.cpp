@@ -69,7 +69,7 @@ TEST(Users, WhatIsWrongIsRefused) {
   EXPECT_FALSE(parse_users(right.substr(0, right.size() / 2)));
   EXPECT_FALSE(with("\"version\": 1", "\"version\": 2"));
   EXPECT_THAT(with("\"administrator\"", "\"viewer\"").error().message,
-              HasSubstr("somebody must be administrator"));
+              HasSubstr("at least one user must be administrator"));
   EXPECT_THAT(with("\"viewer\"", "\"king\"").error().message,
               HasSubstr("viewer, operator, integrator, administrator"));
   EXPECT_FALSE(with("\"kim\"", "\"admin\"")) << "twice";

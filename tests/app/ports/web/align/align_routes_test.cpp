@@ -147,7 +147,7 @@ TEST_F(ServedAlignment, WhatIsWrongIsNamed) {
   }
   const Answer none = get(port(), "/api/v1/alignment/ball.jpg?camera=none");
   EXPECT_EQ(none.status, 400);
-  EXPECT_THAT(none.body, HasSubstr("/api/v1/alignment lists"));
+  EXPECT_THAT(none.body, HasSubstr("name from /api/v1/alignment"));
   const Answer blind = get(port(), "/api/v1/alignment/ball.jpg?camera=" + names[1]);
   EXPECT_EQ(blind.status, 409);
   EXPECT_THAT(blind.body, HasSubstr("not watched"));

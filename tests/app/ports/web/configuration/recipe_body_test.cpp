@@ -52,21 +52,20 @@ TEST(RecipeBody, RefusesWhatIsNone) {
     return refusal(R"({"recipe": 1, ")" + list + R"(": )" + what + "}");
   };
   EXPECT_THAT(of("seconds", "9"), HasSubstr("from 10 to 3600"));
-  EXPECT_THAT(of("limits", "{}"), HasSubstr("limits is no list"));
+  EXPECT_THAT(of("limits", "{}"), HasSubstr("limits is not a list"));
   const std::string limit = R"("region": "", "signal": "", "limit": "a")";
   for (const std::string text : {"1", "{}", R"({"alarm": 1, "value": "1", )",
                                  R"({"alarm": -1, "value": 1, )", R"({"alarm": true, "value": 1, )",
                                  R"({"alarm": 1, )", R"({"x": 1, "alarm": 1, "value": 1, )"}) {
     const std::string whole = text.ends_with(", ") ? text + limit + "}" : text;
-    EXPECT_THAT(of("limits", "[" + whole + "]"), HasSubstr("a limit is of another form")) << whole;
+    EXPECT_THAT(of("limits", "[" + whole + "]"), HasSubstr("a limit is malformed")) << whole;
   }
   for (const char* text :
        {"1", "{}", R"({"name": 1})", R"({"name": "a", "view": "b"})",
         R"({"name": "a", "view": 1, "hot_spot_threshold": 1})", R"({"name": "a", "more": 1})",
         R"({"name": "a", "removed": false})", R"({"removed": true})",
         R"({"name": "a", "removed": true, "points": []})"}) {
-    EXPECT_THAT(of("regions", "[" + std::string(text) + "]"),
-                HasSubstr("a region is of another form"))
+    EXPECT_THAT(of("regions", "[" + std::string(text) + "]"), HasSubstr("a region is malformed"))
         << text;
   }
   for (const char* corners : {"1", "[1]", "[[1]]", "[[1, 2, 3]]", R"([["1", 2]])", "[[1, null]]"}) {

@@ -168,7 +168,7 @@ TEST_F(ServedPixels, AreGoneWithTheirPicture) {
   const Answer answer = pixel(number, "&u=0&v=0");
   EXPECT_EQ(answer.status, 410);
   EXPECT_THAT(answer.body, HasSubstr("picture " + std::to_string(number) + " of view front"));
-  EXPECT_THAT(answer.body, HasSubstr("ask for one that came after it"));
+  EXPECT_THAT(answer.body, HasSubstr("request a later picture"));
 }
 
 TEST_F(ServedPixels, WhatIsWrongIsNamed) {
@@ -179,7 +179,7 @@ TEST_F(ServedPixels, WhatIsWrongIsNamed) {
            {"&u=0&v=48", "the picture has 64x48 pixels"},
            {"&u=-1&v=0", "u is -1; it must be 0 to"},
            {"&u=nan&v=0", "u is nan; it must be"},
-           {"&u=0", "say v, 0 to"}}) {
+           {"&u=0", "v is missing; it must be 0 to"}}) {
     const Answer answer = pixel(number, query);
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_THAT(answer.body, HasSubstr(named));

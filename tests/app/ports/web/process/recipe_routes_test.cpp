@@ -129,9 +129,9 @@ TEST_F(ServedRecipe, RefusesWhatIsNoPolygon) {
     EXPECT_EQ(answer.status, 400) << query;
     return answer.body;
   };
-  EXPECT_THAT(refusal(""), HasSubstr("say as ?view=NAME"));
-  EXPECT_THAT(refusal("?view=door&pixels=1,2"), HasSubstr("say as ?view=NAME"));
-  EXPECT_THAT(refusal("?view=process"), HasSubstr("say the corners"));
+  EXPECT_THAT(refusal(""), HasSubstr("pass ?view=NAME"));
+  EXPECT_THAT(refusal("?view=door&pixels=1,2"), HasSubstr("pass ?view=NAME"));
+  EXPECT_THAT(refusal("?view=process"), HasSubstr("no corners"));
   for (const char* pixels : {"", "1", "1,2,3", "1,2,", ",1,2", "1,,2", "a,b", "1,2;3,4", "nan,1",
                              "inf,1", "1e9,1", "1e999,1", "0x1,2", " 1,2"}) {
     std::string query = pixels;

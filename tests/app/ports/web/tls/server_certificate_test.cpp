@@ -141,16 +141,16 @@ TEST_F(ServerCertificateTest, AnErrorNamesTheFileAndWhatIsWrong) {
   EXPECT_THAT(refusal(settings),
               AllOf(HasSubstr(key), HasSubstr("is not the key of " + certificate)));
   write_pem(files.key, to_pem(files.own.key).value(), 0644);
-  EXPECT_THAT(refusal(settings), AllOf(HasSubstr(key), HasSubstr("may be read by everybody")));
+  EXPECT_THAT(refusal(settings), AllOf(HasSubstr(key), HasSubstr("is world-readable")));
   write_pem(files.key, to_pem(files.own.certificate).value());
-  EXPECT_THAT(refusal(settings), AllOf(HasSubstr(key), HasSubstr("is no private key")));
+  EXPECT_THAT(refusal(settings), AllOf(HasSubstr(key), HasSubstr("is not a private key")));
   fs::remove(files.key);
   EXPECT_THAT(refusal(settings), AllOf(HasSubstr(key), HasSubstr("cannot be read")));
   write_pem(files.key, to_pem(files.own.key).value());
   EXPECT_EQ(refusal(settings), "");
 
   write_pem(files.certificate, "no PEM\n");
-  EXPECT_THAT(refusal(settings), AllOf(HasSubstr(certificate), HasSubstr("is no certificate")));
+  EXPECT_THAT(refusal(settings), AllOf(HasSubstr(certificate), HasSubstr("is not a certificate")));
   fs::remove(files.certificate);
   fs::create_directory(files.certificate);
   EXPECT_THAT(refusal(settings), AllOf(HasSubstr(certificate), HasSubstr("directory")));
@@ -161,10 +161,10 @@ TEST_F(ServerCertificateTest, AnErrorNamesTheFileAndWhatIsWrong) {
 
 TEST_F(ServerCertificateTest, AnOwnOneThatIsNotValidNowIsRefusedUnlessTheClockIsNotTrusted) {
   const PemFiles files(folder.path(), {now - days(30), now - seconds(1)});
-  EXPECT_THAT(refusal(files.settings()), AllOf(HasSubstr("expired on"), HasSubstr("made anew")));
+  EXPECT_THAT(refusal(files.settings()), AllOf(HasSubstr("expired on"), HasSubstr("be renewed")));
   EXPECT_TRUE(named_certificate(files.settings(), now_for(Dates::Ignored)));
   const PemFiles future(folder.path(), {now + days(1), now + days(30)});
-  EXPECT_THAT(refusal(future.settings()), HasSubstr("clock right?"));
+  EXPECT_THAT(refusal(future.settings()), HasSubstr("check this computer's clock"));
 }
 
 TEST(OwnHosts, AreTheNamesAndWhatBrowsersCallIt) {
