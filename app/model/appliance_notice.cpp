@@ -22,7 +22,7 @@ signals::AlarmLevel worst_level(const signals::Alarm& alarm) {
                   [](auto a, auto b) { return signals::severity(a) < signals::severity(b); });
 }
 
-/// As its host part; nullopt: no address, or one of no computer.
+/// Host part of a URL; nullopt: not a numeric address, or not the address of one host.
 std::optional<std::string> host_of(const std::string& address) {
   in_addr v4{};
   if (inet_pton(AF_INET, address.c_str(), &v4) == 1) {

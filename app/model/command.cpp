@@ -8,16 +8,16 @@ namespace orbwatch::app {
 namespace {
 
 bool is_allowed(double value, const ArgumentInfo& argument) {
-  if (!(value >= argument.minimum && value <= argument.maximum)) return false;  // nor nan
+  if (!(value >= argument.minimum && value <= argument.maximum)) return false;  // rejects NaN, too
   return argument.scale != 1 || value == std::floor(value);
 }
 
-/// Whether it is below the argument after it, where it must be.
+/// Returns false if the argument must be below the next one and is not.
 bool is_in_order(const Command& command, const CommandInfo& info, std::size_t i) {
   return !info.arguments[i].is_below_next || command.arguments[i] < command.arguments[i + 1];
 }
 
-/// As short as it can be read back.
+/// Shortest text that parses to the same value.
 std::string number_text(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};

@@ -30,7 +30,7 @@ inline constexpr double kAnyIndex = std::numeric_limits<std::uint16_t>::max();
 inline constexpr ArgumentInfo kNoArgument{};
 inline constexpr ArgumentInfo kCameraArgument{"camera", "",        1,
                                               0,        kAnyIndex, "index of the camera, from 0"};
-/// Machine frame. 100 m are more than any machine has.
+/// Bound of machine coordinates, mm; 100 m exceed any machine.
 inline constexpr double kMaxCoordinate = 100000;
 inline constexpr ArgumentInfo pixel_argument(std::string_view name, std::string_view description) {
   return {name, "px", 0.01, -kMaxSide, kMaxSide, description};
@@ -42,14 +42,14 @@ inline constexpr ArgumentInfo kViewArgument{"view", "",        1,
                                             0,      kAnyIndex, "index of the view, from 0"};
 inline constexpr ArgumentInfo kSourceArgument{
     "source", "", 1, 0, kAnyIndex, "index among the view's sources, from 0"};
-/// Of a camera's values, degC or percent: more than a recipe's colours can mean.
+/// Bounds of a camera value (degC or percent); wider than any colour range.
 inline constexpr double kLeastValue = -1000, kMostValue = 10000;
 
 /// The list of commands: one line here, and one handler in app/daemon/dispatch.cpp, which does not
-/// compile without it. Every interface offers the commands from this list.
-/// X(code, number, name, role, description, arguments...): the numbers go to PLC and controller, so
-/// append and never renumber. The role is the least that may give it where people log in. Limits of
-/// an argument that depend on the configuration are the handler's.
+/// compile without it. Every interface offers the commands from this list. X(code, number, name,
+/// role, description, arguments...): the numbers go to PLC and controller, so append and never
+/// renumber. The role is the least one permitted to give the command once there are users. Limits
+/// of an argument that depend on the configuration are checked by the handler.
 #define ORBWATCH_COMMANDS(X)                                                                       \
   X(SelectView, 1, "select_view", Operator,                                                        \
     "Publishes this view on the topic of the selected view", kViewArgument)                        \
@@ -186,13 +186,14 @@ enum class CommandResult : std::uint16_t {
   Done = 0,
   UnknownCommand = 1,
   ArgumentOutOfRange = 2,
-  Busy = 3,           ///< not now; may be sent again
-  NotPossible = 4,    ///< never with this configuration
-  Interrupted = 5,    ///< the process ended meanwhile: it may be carried out, or in part, or not
-  NotCarriedOut = 6,  ///< it may have been carried out before, or could not be recorded
+  Busy = 3,         ///< not possible at present; may be repeated
+  NotPossible = 4,  ///< not possible with this configuration
+  Interrupted = 5,  ///< the process ended before the answer: the command may be executed, in part,
+                    ///< or not at all
+  NotCarriedOut = 6,  ///< it may have been executed before, or could not be recorded
 };
 
-/// The operator's text; empty for a number that is no result.
+/// The operator's text; empty for a number that is not a result.
 constexpr std::string_view operator_text(CommandResult result) {
   switch (result) {
     case CommandResult::Done:
@@ -213,7 +214,7 @@ constexpr std::string_view operator_text(CommandResult result) {
   return {};
 }
 
-/// The facts about a code or a name, or nullptr when there is no such command. Reentrant.
+/// The facts about a code or a name; nullptr: unknown command. Reentrant.
 const CommandInfo* find_command(CommandCode code);
 const CommandInfo* find_command(std::string_view name);
 
@@ -224,8 +225,8 @@ CommandResult check(const Command& command);
 /// The allowed values: "-180 to 180 deg", "a whole number, 0 to 1". Reentrant.
 std::string range_text(const ArgumentInfo& argument);
 
-/// Why check() refuses a command, in one line: "yaw is 200; it must be -180 to 180 deg". Empty if
-/// it does not. Reentrant.
+/// Reason of a refusal by check(), in one line: "yaw is 200; it must be -180 to 180 deg". Empty:
+/// not refused. Reentrant.
 std::string refusal_text(const Command& command);
 
 /// Executes a command after check(); called by sinks on their own threads. Thread-safe, does not

@@ -9,7 +9,7 @@ Severity severity_of(signals::AlarmLevel level) {
   return static_cast<Severity>(signals::severity(level));
 }
 
-/// What is not watched is no complaint.
+/// An unwatched figure is not a fault.
 Severity severity_of(WatchLevel level) {
   if (level == WatchLevel::Alarm) return Severity::Alarm;
   return level == WatchLevel::Warning ? Severity::Warning : Severity::None;
@@ -111,7 +111,7 @@ Condition condition_of(const Health& health) {
   return {Severity::Warning, text};
 }
 
-/// It has figures only; what they add up to is the system's load.
+/// A stage has figures only; their sum is judged as the system's load.
 Condition condition_of(const StageStatus& /*stage*/) { return {Severity::None, "measured"}; }
 
 Severity standing_severity(const AlarmStatus& alarm) {

@@ -7,16 +7,16 @@
 
 namespace orbwatch::app {
 
-/// How bad it is. The numbers go to PLC and controller, as ROS' diagnostic levels too: append,
-/// never renumber.
+/// Severity of a condition. The numbers go to PLC and controller, as ROS' diagnostic levels too:
+/// append, never renumber.
 enum class Severity : std::uint8_t {
   None = 0,
   Warning = 1,
   Alarm = 2,
-  Unknown = 3,  ///< nothing is known yet, or no more
+  Unknown = 3,  ///< not known yet, or no longer known
 };
 
-/// The one place of the operator's text for each severity. Empty for a number that is none.
+/// The one place of the operator's text for each severity. Empty for an unknown number.
 constexpr std::string_view operator_text(Severity severity) {
   switch (severity) {
     case Severity::None:
@@ -31,7 +31,7 @@ constexpr std::string_view operator_text(Severity severity) {
   return {};
 }
 
-/// How bad a part of the appliance stands, and why, in one line for operators.
+/// Severity of a part's condition, with the reason in one line for operators.
 struct Condition {
   Severity severity = Severity::None;
   std::string text;
@@ -46,11 +46,11 @@ Condition condition_of(const AlarmStatus& alarm);
 Condition condition_of(const Health& health);
 Condition condition_of(const StageStatus& stage);
 
-/// How bad an alarm stands: by the level that was announced or the present one, whichever is worse;
-/// a latched alarm counts although its signal is within limits again. None unless it stands.
+/// Severity of an active alarm: that of the announced or the present level, whichever is worse; a
+/// latched alarm counts although its signal is within limits again. None: the alarm is not active.
 Severity standing_severity(const AlarmStatus& alarm);
 
-/// The worst alarm that stands, in one region or in all.
+/// Severity of the worst active alarm, in one region or in all.
 Severity worst_severity(const Status& status, std::optional<std::size_t> region = std::nullopt);
 
 /// The board is throttled now: it has under-voltage or is too hot.

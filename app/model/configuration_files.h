@@ -10,47 +10,48 @@
 
 namespace orbwatch::app {
 
-/// Limits of how long a new configuration runs until it is confirmed, s.
+/// Limits of the time for which a configuration runs on trial, s.
 inline constexpr int kShortestTrial = 10, kLongestTrial = 3600, kUsualTrial = 60;
 
-/// The files of the configuration, for interfaces by which people change them. A text that is sent
-/// becomes the file byte for byte, with its comments and its order. Thread-safe; waits for the disk
-/// and for the checks of a whole configuration.
+/// The files of the configuration, for interfaces by which users change them. A sent text becomes
+/// the file byte for byte, with its comments and its order. Thread-safe; waits for the disk and for
+/// the checks of a whole configuration.
 class ConfigurationFiles {
  public:
-  /// By the name of their file: its path from the folder of the configuration file.
+  /// Texts by file name: the path relative to the folder of the configuration file.
   using Texts = std::map<std::string, std::string>;
 
-  /// A file as it was read, and who changed it last.
+  /// Version of a file as it was read, with its last change.
   struct Version {
     std::string checksum;  ///< eight hexadecimal digits
-    std::string time;      ///< of that change, UTC as ISO 8601
-    std::string account;   ///< of the operating system
+    std::string time;      ///< time of the last change, UTC as ISO 8601
+    std::string account;   ///< account of the operating system that made it
   };
-  /// Checksums of the files that new texts were made of, by the name of the file.
+  /// Checksums of the files from which new texts were made, by file name.
   using Basis = std::map<std::string, std::string>;
 
-  /// New texts, and what they were made of.
+  /// New texts, and the versions on which they are based.
   struct Edit {
     Texts texts;
-    Basis based_on;  ///< files that it does not name are taken as they are at the trial
+    Basis based_on;  ///< files not named here are taken as they are at the trial
   };
 
-  /// The files, besides what runs in place of them for a time.
+  /// The files, and the trial that runs instead of them.
   struct State {
-    std::string site;              ///< name of the configuration file
-    Texts files;                   ///< as they are on the disk
-    Texts outside;                 ///< others, a word in place of private ones; not to be changed
-    std::string refusal;           ///< why they do not run, but the last good ones; empty: they do
-    std::optional<Texts> trial{};  ///< runs in place of them, or is about to; nullopt: none
-    std::optional<double> seconds_left{};  ///< until it goes back; nullopt: it does not run yet
-    std::map<std::string, Version> versions{};  ///< of `files`
+    std::string site;  ///< name of the configuration file
+    Texts files;       ///< contents on the disk
+    Texts outside;     ///< files outside the folder, read-only; private ones are replaced by a word
+    std::string refusal;  ///< reason why the last good files run instead; empty: these files run
+    std::optional<Texts> trial{};  ///< texts that run instead, or are about to; nullopt: no trial
+    /// Until the trial is reverted; nullopt: it does not run yet.
+    std::optional<double> seconds_left{};
+    std::map<std::string, Version> versions{};  ///< versions of `files`
   };
 
-  /// What a change consists of.
+  /// Result of a comparison of new texts with the files.
   struct Change {
-    std::vector<std::string> files;  ///< that differ
-    std::string difference;          ///< their lines, as text_difference() has them
+    std::vector<std::string> files;  ///< names of files that differ
+    std::string difference;          ///< differing lines, in the format of text_difference()
   };
 
   virtual ~ConfigurationFiles() = default;
@@ -58,25 +59,26 @@ class ConfigurationFiles {
   /// Error: a file cannot be read.
   virtual Result<State> read() const = 0;
 
-  /// The text of the file of the recipe of that number with changes; nothing else is done. Errors:
-  /// there is no such recipe, its file is not to be changed here, cannot be read or has no place
-  /// for a change.
+  /// Returns the text of the recipe's file with the changes applied, and writes nothing. Errors:
+  /// unknown recipe number; its file is read-only here, cannot be read, or cannot hold a change.
   virtual Result<Edit> with_changed_recipe(int number, const RecipeChange& change) const = 0;
 
-  /// Checks the files with these texts in place of some of them. Errors: with file, line, key, what
-  /// is wrong and what is allowed; a name is not inside the folder; no file names it.
+  /// Checks the files with these texts in place of some of them. Errors: an invalid text, with
+  /// file, line, key, fault and allowed values; a name outside the folder; a file that no other
+  /// file refers to.
   virtual Result<Change> check(const Texts& texts) const = 0;
 
-  /// As check(), and has them run for so many seconds. confirm() refuses when a file is not what
-  /// they are based on. Errors: also nothing differs, a trial waits or runs, the files cannot be
-  /// written, and what has no service manager's folder cannot go back.
+  /// Checks the texts like check(), and runs them on trial for `seconds`. confirm() refuses if a
+  /// file differs from the version on which they are based. Errors: those of check(); nothing
+  /// differs; a trial waits or runs; the files cannot be written; there is no folder of a service
+  /// manager, so that the trial could not be reverted.
   virtual Result<Change> try_out(const Edit& edit, int seconds) = 0;
 
-  /// Writes the files of the trial that runs. Returns their names. Error: none runs; somebody else
-  /// changed one of them meanwhile; the disk.
+  /// Writes the files of the trial that runs. Returns their names. Error: no trial runs; another
+  /// user changed one of the files meanwhile; a file cannot be written.
   virtual Result<std::vector<std::string>> confirm() = 0;
 
-  /// Goes back to the files. Error: no trial waits or runs.
+  /// Reverts to the files. Error: no trial waits or runs.
   virtual Result<> revert() = 0;
 };
 

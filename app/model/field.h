@@ -8,13 +8,12 @@
 #include "hal/clock.h"
 #include "proc/signals/signals.h"
 
-/// How the parts of a status are described. A part is a struct whose members stand in one list of
-/// lines like these, from which both the members and their descriptions are made:
-///   FIELD(type, name, quantity, description): a count (std::uint64_t), a measured number (double),
-///   a flag
-///     (bool), or a code: an enumeration with an operator_text() for each of its numbers;
-///   AGE(name, description): a moment of this process' clock, reported as "<name>_age" in seconds.
-/// A line may be appended, never moved or removed: interfaces number them by their place.
+/// Description of the parts of a status. A part is a struct whose members are declared in one list
+/// of lines like these, from which both the members and their descriptions are made: FIELD(type,
+/// name, quantity, description): a count (std::uint64_t), a measured number (double), a flag
+/// (bool), or a code: an enumeration with an operator_text() for each of its numbers; AGE(name,
+/// description): a moment of this process' clock, reported as "<name>_age" in seconds. A line may
+/// be appended, never moved or removed: interfaces number them by their place.
 namespace orbwatch::app {
 
 /// Unit, resolution and range of a number. Interfaces of integers send value / scale; minimum and
@@ -54,7 +53,7 @@ constexpr Field<Get> make_field(std::string_view name, const Quantity& quantity,
 template <class Value>
 concept Enumeration = std::is_enum_v<Value>;
 
-/// How long ago `moment` was, s; NaN for the epoch, which stands for "never".
+/// Age of `moment`, s; NaN for the epoch, which stands for "never".
 inline double age_s(hal::TimePoint moment, hal::TimePoint now) {
   if (moment == hal::TimePoint{}) return signals::kNotValid;
   return std::chrono::duration<double>(now - moment).count();
@@ -79,7 +78,7 @@ std::vector<CodeText> code_texts() {
 
 }  // namespace orbwatch::app
 
-// What a list of lines becomes: the members of the part, or a call of visit() for each field.
+// Expansions of a list of lines: the members of the part, or a call of visit() for each field.
 #define ORBWATCH_FIELD_MEMBER(type, name, quantity, description) type name{};
 #define ORBWATCH_AGE_MEMBER(name, description) ::orbwatch::hal::TimePoint name{};
 #define ORBWATCH_VISIT_FIELD(type, name, quantity, description) \

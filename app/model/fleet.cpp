@@ -8,7 +8,7 @@
 namespace orbwatch::app {
 namespace {
 
-/// Longer than a page takes from one request to the next.
+/// Longer than the interval between two requests of a page.
 constexpr std::chrono::seconds kLook{20};
 
 }  // namespace
@@ -40,7 +40,7 @@ void Fleet::hear(const std::string& id, const ApplianceNotice& notice, hal::Time
   place->entry.newest = now;
 }
 
-/// Whoever has been gone for longest makes room.
+/// Removes the entry that has been gone longest if the list is full.
 bool Fleet::has_room(hal::TimePoint now) {
   if (places_.size() < kMost) return true;
   sweep(now);
@@ -52,7 +52,7 @@ bool Fleet::has_room(hal::TimePoint now) {
   return true;
 }
 
-/// Marks who is gone, and removes those that are back under another id.
+/// Marks silent entries as gone, and removes those that returned under another id.
 void Fleet::sweep(hal::TimePoint now) {
   for (Place& place : places_) {
     place.entry.is_gone = now - place.entry.newest > kSilence;
@@ -61,7 +61,7 @@ void Fleet::sweep(hal::TimePoint now) {
   std::erase_if(places_, [](const Place& place) { return place.is_over; });
 }
 
-/// Two that were heard at the same time are two appliances, even if they have one name.
+/// Entries that were active at the same time are different appliances, even under one name.
 bool Fleet::is_succeeded(const Entry& gone) {
   const auto next = std::ranges::find_if(places_, [&](const Place& place) {
     return place.entry.notice.name == gone.notice.name && !place.has_predecessor &&

@@ -13,57 +13,58 @@
 
 namespace orbwatch::app {
 
-/// The appliances of a site, as they are heard of: bounded, whatever is heard. Those that fall
-/// silent stay as gone, until they are back or forgotten. One that is started again has another id:
-/// it takes the place of one with its name that was silent before. Thread-safe.
+/// List of the site's appliances that announce themselves, of bounded size. Appliances that fall
+/// silent stay in the list as gone, until they return or are removed. A restarted appliance has
+/// another id: it replaces an entry of its name that was silent before. Thread-safe.
 class Fleet {
  public:
   static constexpr std::size_t kMost = 256;
-  /// Without word for longer it is gone.
+  /// Silence after which an appliance counts as gone.
   static constexpr std::chrono::seconds kSilence{5};
   static constexpr std::size_t kMostPictureBytes = 16384;
 
   struct Entry {
-    std::string id;  ///< one run of one appliance
+    std::string id;  ///< unique for one run of one appliance
     ApplianceNotice notice;
-    hal::TimePoint first, newest;  ///< when it was heard
+    hal::TimePoint first, newest;  ///< times of its first and newest notice
     bool is_gone = false;
     bool is_self = false;
-    std::uint64_t pictures = 0;  ///< received; 0: there is none to show
+    std::uint64_t pictures = 0;  ///< pictures received; 0: there is none
   };
 
-  /// What is not in the list, since the start.
+  /// Counts of rejected messages since the start.
   struct Counts {
-    std::uint64_t turned_away = 0;  ///< notices of those for which there was no place
-    std::uint64_t refused = 0;      ///< notices and pictures that were wrong
+    std::uint64_t turned_away = 0;  ///< notices of appliances beyond kMost
+    std::uint64_t refused = 0;      ///< invalid notices and pictures
   };
 
-  /// Which id is the own one.
+  /// Sets the id of this appliance.
   void call_self(const std::string& id);
 
   void hear(const std::string& id, const ApplianceNotice& notice, hal::TimePoint now);
-  /// Keeps the newest picture of one that was heard; others and what is too large are refused.
+  /// Keeps the newest picture of a listed appliance. Refused: pictures of unknown appliances, and
+  /// those above kMostPictureBytes.
   void show(const std::string& id, std::string jpeg);
   void refuse();
 
-  /// By name, those of the same name in the order in which they came.
+  /// Entries by name; those of the same name in order of arrival.
   std::vector<Entry> list(hal::TimePoint now);
-  /// Null: there is none.
+  /// The newest picture of an appliance; null: none.
   std::shared_ptr<const std::string> picture(const std::string& id) const;
   Counts counts() const;
 
-  /// Those that are gone. Returns how many.
+  /// Removes the entries that are gone. Returns their number.
   std::size_t forget_gone(hal::TimePoint now);
 
-  /// Somebody looks at the pictures: they are fetched for a while.
+  /// Reports a viewer of the pictures: they are received for a while.
   void look(hal::TimePoint now);
   bool is_looked_at(hal::TimePoint now) const;
 
  private:
   struct Place {
     Entry entry;
-    bool has_predecessor = false;  ///< it took the place of another
-    bool is_over = false;          ///< another took its place
+    bool has_predecessor = false;  ///< it replaced another entry
+    bool is_over = false;          ///< another entry replaced it
     std::shared_ptr<const std::string> picture;
   };
 

@@ -7,7 +7,8 @@
 
 namespace orbwatch::app {
 
-/// A list of objects, one for each appliance; `age` in seconds since it was heard. Reentrant.
+/// A list of objects, one for each appliance; `age` is the time since its newest notice in seconds.
+/// Reentrant.
 nlohmann::ordered_json to_json(const std::vector<Fleet::Entry>& appliances, hal::TimePoint now);
 
 }  // namespace orbwatch::app

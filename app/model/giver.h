@@ -7,9 +7,8 @@
 
 namespace orbwatch::app {
 
-/// Who gave a command: a person or a program that has logged in, else the interface that it came
-/// over. Of fixed size, so that the frame path copies it without allocating; what is too long is
-/// cut.
+/// Origin of a command: a user or a program that has logged in, else the interface. The size is
+/// fixed, so that the frame path copies it without allocating; longer names are cut.
 class Giver {
  public:
   static constexpr std::size_t kMostBytes = 32;

@@ -6,7 +6,7 @@
 
 namespace orbwatch::app {
 
-/// A figure that an interface has of itself, for metrics.
+/// A figure of an interface itself, for metrics.
 struct InterfaceMetric {
   Component component;  ///< its kind begins with the interface's table in the site file: "modbus"
   FieldInfo field;

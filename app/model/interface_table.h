@@ -6,14 +6,14 @@
 
 namespace orbwatch::app {
 
-/// What an interface shows of itself to those who look after the appliance: its registers or topics
-/// with their values, or who is connected.
+/// Table of an interface's own state, for maintenance: its registers or topics with their values,
+/// or its clients.
 struct InterfaceTable {
   /// A number that is not valid is NaN.
   using Cell = std::variant<std::string, double, bool>;
 
   std::string interface;  ///< its table in the site file: "modbus"
-  std::string name;       ///< of what the rows are: "registers"
+  std::string name;       ///< kind of the rows: "registers"
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;  ///< as many cells as columns
 };

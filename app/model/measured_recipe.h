@@ -12,7 +12,7 @@
 
 namespace orbwatch::app {
 
-/// What a recipe measures, for interfaces that show and change it.
+/// Regions and limits of a recipe, for interfaces that show and change them.
 struct MeasuredRecipe {
   struct View {
     std::string name;
@@ -21,10 +21,10 @@ struct MeasuredRecipe {
   struct Region {
     std::string name;
     std::size_t view = 0;  ///< index in `views`
-    // Its corners as the file has them: either of these, or none for the whole view.
+    // Corners as in the file: one of these, or neither for the whole view.
     std::vector<std::array<double, 2>> directions{};  ///< yaw, pitch, deg
     std::vector<std::array<double, 3>> points{};      ///< machine frame, mm
-    std::vector<optics::Vec3> outline{};  ///< as it is measured: see signals::RegionSettings
+    std::vector<optics::Vec3> outline{};  ///< measured outline: see signals::RegionSettings
   };
 
   std::uint16_t number = 0;

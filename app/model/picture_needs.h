@@ -12,7 +12,7 @@ struct PictureNeeds {
   bool bgr = false;
   bool grey = false;
   bool jpeg = false;
-  bool counts = false;  ///< of temperature, beside the picture: see View::counts
+  bool counts = false;  ///< temperature counts beside the picture: see View::counts
 
   constexpr PictureNeeds& operator|=(const PictureNeeds& other) {
     rgb = rgb || other.rgb;
@@ -30,8 +30,8 @@ constexpr PictureNeeds need_of(PixelFormat encoding) {
           false, false};
 }
 
-/// The format in which a picture of that size serves them all with the least work: JPEG compresses
-/// I420, whose first plane is the grey picture. Nullopt: nobody needs it.
+/// The cheapest format that serves all needs for a picture of this size: JPEG compresses I420,
+/// whose first plane is the grey picture. Nullopt: no reader needs it.
 constexpr std::optional<PixelFormat> format_for(const PictureNeeds& needs, int width, int height) {
   const bool is_even = width % 2 == 0 && height % 2 == 0;
   if (needs.rgb || (needs.jpeg && !needs.bgr && !is_even)) return PixelFormat::Rgb;

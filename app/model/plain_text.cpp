@@ -6,7 +6,7 @@ namespace orbwatch::app {
 namespace {
 
 struct Character {
-  std::size_t bytes = 0;  ///< 0: `text` does not begin with one
+  std::size_t bytes = 0;  ///< 0: `text` does not begin with a valid character
   char32_t code = 0;
 };
 
@@ -14,7 +14,7 @@ unsigned byte_at(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);
 }
 
-/// How many bytes a character has that begins with `first`.
+/// Length in bytes of a character that begins with `first`.
 std::size_t length_of(unsigned first) {
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first <= 0xdf) return 2;

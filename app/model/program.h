@@ -11,15 +11,16 @@ namespace orbwatch::app {
 
 class RecentLog;
 
-/// What the program around an appliance has, for interfaces that show it; null: it has none.
+/// Parts of the program around an appliance, for interfaces that show them; null: not present.
 struct Program {
   std::shared_ptr<ConfigurationFiles> files = nullptr;
   std::shared_ptr<const RecentLog> log = nullptr;
-  std::vector<std::pair<std::string, std::string>> versions{};  ///< by name: its own, libraries'
-  std::string commanders{};                                     ///< who may command, in words
+  /// By name: the program's own first, then those of libraries.
+  std::vector<std::pair<std::string, std::string>> versions{};
+  std::string commanders{};  ///< interfaces that accept commands, in words
 };
 
-/// That of the program itself; empty where there is none.
+/// Version of the program itself; empty: unknown.
 inline std::string version_of(const Program& program) {
   return program.versions.empty() ? "" : program.versions.front().second;
 }

@@ -21,7 +21,7 @@ struct Reading {
   std::string_view name;
   double value = signals::kNotValid;  ///< NaN: not valid
   std::string_view unit{};            ///< empty: a count, a code or a ratio
-  std::string_view text{};            ///< of a code its meaning, of a flag "true" or "false"
+  std::string_view text{};            ///< meaning of a code; "true" or "false" for a flag
 
   bool operator==(const Reading&) const = default;
 };
@@ -57,10 +57,10 @@ void for_each_reading(const Part& part, hal::TimePoint now, Visit&& visit) {
   });
 }
 
-/// Which part of the appliance a list of readings is about.
+/// Part of the appliance to which a list of readings belongs.
 struct Component {
   std::string_view kind;  ///< "system", "region", "alarm", "camera", "view", "health", "stage"
-  std::string name{};     ///< its number from 1 where it has none; empty where it is the only one
+  std::string name{};     ///< its number from 1 if it has no name; empty if it is the only one
 
   bool operator==(const Component&) const = default;
 };
@@ -68,8 +68,9 @@ struct Component {
 /// The name of part `index` of a list: its own one, or its number from 1.
 std::string name_or_number(std::string_view name, std::size_t index);
 
-/// Number as of acknowledge_alarm, region and signal: "2, weld: hot_spot_width". `region` is the
-/// name or number of its region, `index` its place in the recipe's list of alarms.
+/// Name of an alarm from its number (that of acknowledge_alarm), region and signal: "2, weld:
+/// hot_spot_width". `region` is the name or number of its region, `index` its place in the recipe's
+/// list of alarms.
 std::string alarm_name(std::size_t index, std::string_view region, SignalNumber signal);
 
 /// Calls `visit(Component, part)` for every part of a status, in this order. Counts beyond the
@@ -99,8 +100,8 @@ void for_each_component(const StatusReport& report, Visit&& visit) {
   }
 }
 
-/// A component with its readings. Their texts are views: of static lists, or of what the maker
-/// says.
+/// A component with its readings. Their texts are views, of static lists unless the producer states
+/// another owner.
 struct ComponentReadings {
   Component component;
   std::vector<Reading> readings;
@@ -115,7 +116,7 @@ ComponentReadings component_readings(Component component, const Part& part, hal:
   return all;
 }
 
-/// All of a status, as for_each_component() orders it.
+/// All readings of a status, in the order of for_each_component().
 std::vector<ComponentReadings> status_readings(const StatusReport& report);
 
 }  // namespace orbwatch::app

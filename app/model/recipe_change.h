@@ -11,29 +11,29 @@ namespace orbwatch::app {
 /// One limit of an alarm.
 struct LimitChange {
   std::size_t alarm = 0;          ///< from 1, in the order of the recipe's file
-  std::string region;             ///< in which it is known to be
-  std::string signal;             ///< that it is known to watch
+  std::string region;             ///< the alarm's region, to detect a stale request
+  std::string signal;             ///< the alarm's signal, to detect a stale request
   std::string limit;              ///< a name of signals::kLimits, or signals::kHysteresis
-  std::optional<double> value{};  ///< in the signal's unit; nullopt: it has none any more
+  std::optional<double> value{};  ///< in the signal's unit; nullopt: removes the limit
 };
 
-/// What a new region needs besides its corners.
+/// Settings of a new region besides its corners.
 struct NewRegion {
-  std::string view;               ///< in which it is measured
+  std::string view;               ///< name of the view in which it is measured
   double hot_spot_threshold = 0;  ///< degC for a radiometric camera, else percent of full scale
 };
 
-/// The corners of a region, directions or points, as its recipe has them; or that it goes, with its
-/// alarms.
+/// Change of a region: new corners as directions or points, whichever the recipe uses, or its
+/// removal together with its alarms.
 struct RegionChange {
   std::string name;
   std::vector<std::array<double, 2>> directions{};  ///< yaw, pitch, deg
   std::vector<std::array<double, 3>> points{};      ///< machine frame, mm
-  std::optional<NewRegion> added{};                 ///< nullopt: there is such a region
-  bool is_removed = false;                          ///< then there is nothing but its name
+  std::optional<NewRegion> added{};                 ///< nullopt: the region exists
+  bool is_removed = false;                          ///< then only the name is set
 };
 
-/// A recipe's changes by hand, one for each limit and region.
+/// Manual changes of a recipe, one for each limit and region.
 struct RecipeChange {
   std::vector<LimitChange> limits{};
   std::vector<RegionChange> regions{};

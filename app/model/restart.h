@@ -6,10 +6,10 @@
 
 namespace orbwatch::app {
 
-/// A new start of the program with its files read again. Both on any thread.
+/// Restart of the program with its files read again. Both members may be called on any thread.
 struct Restart {
-  /// Checks that the files say what can run; waits for the disk and for the checks of a whole
-  /// configuration. Error: why not, which was logged.
+  /// Checks that the files can run; waits for the disk and for the checks of a whole configuration.
+  /// Error: the reason, already logged.
   std::function<Result<>()> check;
   /// Requests it and returns. For files that passed check().
   std::function<void()> request;

@@ -7,14 +7,13 @@
 
 namespace orbwatch::app {
 
-/// Who somebody is on the network; each may do what those before may. The names are in the users
-/// file and on the page.
+/// Roles in ascending order of rights. The names are in the users file and on the page.
 enum class Role : std::uint8_t {
-  Nobody,         ///< not known by name
-  Viewer,         ///< sees pictures, figures and the description
+  Nobody,         ///< not logged in
+  Viewer,         ///< reads pictures, figures and the description
   Operator,       ///< runs the process: starts and stops, recipes, alarms, views
   Integrator,     ///< sets the appliance up: alignment, outputs, restart
-  Administrator,  ///< says who is what
+  Administrator,  ///< manages users
 };
 
 inline constexpr std::array kRoles{

@@ -15,10 +15,10 @@
 
 namespace orbwatch::app {
 
-/// A translator to the outside. The pipeline hands over views and status; a sink that is slow loses
-/// them, counted, and never delays the pipeline.
-/// Thread rule: start and stop on the main thread; accept on the pipeline's thread, where it must
-/// return at once (no lock held across work, no system call that may wait).
+/// An output interface. The pipeline passes views and status to it; a slow sink loses some of them,
+/// counted, and never delays the pipeline. Thread rule: start and stop on the main thread; accept
+/// on the pipeline's thread, where it must return at once (no lock held across work, no system call
+/// that may wait).
 class Sink {
  public:
   virtual ~Sink() = default;
@@ -26,27 +26,27 @@ class Sink {
   /// Opens what is needed (sockets, participants) and starts the sink's own thread. After an error
   /// it is called again; views and status may come before.
   virtual Result<> start() = 0;
-  /// False: what it serves is missing although it started, the network for example. On any thread.
+  /// Returns false if the sink has started but cannot serve, for example without a network. On any
+  /// thread.
   virtual bool works() const { return true; }
   /// Processor time of its threads since the start. On any thread.
   virtual std::chrono::nanoseconds cpu_time() const { return {}; }
-  /// What it shows of itself at this moment. On any thread.
+  /// Tables of the sink's present state. On any thread.
   virtual std::vector<InterfaceTable> tables() const { return {}; }
   /// Its counters at this moment, for metrics. On any thread.
   virtual std::vector<InterfaceMetric> metrics() const { return {}; }
   /// Ends the thread and closes everything; repeating it does nothing.
   virtual void stop() = 0;
 
-  /// The cameras' own pictures, before the views made of them. Their buffers are the cameras': all
-  /// sinks together keep hal::kFrameReaders of a camera, each for one conversion and the wait for
-  /// it.
+  /// The cameras' own pictures, before the views made of them. The cameras own their buffers: all
+  /// sinks together keep hal::kFrameReaders buffers of a camera, each until one conversion is done.
   virtual void accept_frames(const hal::FrameSet& /*set*/) {}
-  /// The forms in which the sink needs the next picture of a view, asked before it is made. The
-  /// picture that it accepts then serves these, and what other sinks need; if nobody needs one, the
-  /// view comes without. On the pipeline's thread, as accept.
+  /// Returns the forms in which the sink needs the next picture of a view; called before the
+  /// picture is rendered. The accepted picture then serves these needs and those of other sinks; if
+  /// no sink needs one, the view has no picture. On the pipeline's thread, like accept().
   virtual PictureNeeds needs(std::size_t /*view*/, hal::TimePoint /*stamp*/) { return {}; }
-  /// How many views it can hold besides the one that it is being given: there are buffers for
-  /// that many. A sink that holds more loses views, counted as skipped. On the main thread, before
+  /// Number of views that the sink may hold besides the one being passed: as many buffers are
+  /// allocated. A sink that holds more loses views, counted as skipped. On the main thread, before
   /// the run.
   virtual KeptViews keeps() const { return {}; }
   virtual void accept(const ViewPtr& view) = 0;

@@ -36,7 +36,7 @@ struct StatusNames {
 struct StatusReport {
   const Status& status;
   const StatusNames& names;
-  hal::TimePoint now;                           ///< ages count up to it
+  hal::TimePoint now;                           ///< reference time of ages
   std::chrono::system_clock::time_point stamp;  ///< UTC of Status::stamp; the epoch: none yet
 };
 

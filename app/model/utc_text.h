@@ -6,8 +6,8 @@
 
 namespace orbwatch::app {
 
-/// A moment as ISO 8601 has it, to the nanosecond: "2026-11-21T20:57:46.000000000Z"; nothing for
-/// the epoch, which stands for "never". Reentrant.
+/// A moment in ISO 8601 with nanoseconds: "2026-11-21T20:57:46.000000000Z"; nullopt for the epoch,
+/// which stands for "never". Reentrant.
 std::optional<std::string> utc_text(std::chrono::system_clock::time_point moment);
 
 }  // namespace orbwatch::app

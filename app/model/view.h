@@ -16,13 +16,13 @@
 
 namespace orbwatch::app {
 
-/// How a view shows a one-channel camera.
+/// Colours of a one-channel camera in a view.
 struct SourceColours {
   std::size_t map = 0;                  ///< place in kColourMapNames
   std::array<double, 2> range{0, 100};  ///< first and last colour: degC, or percent of full scale
 };
 
-/// What a virtual camera in the ball's centre sees at one moment. Read-only once published; the
+/// Picture of a virtual camera in the ball's centre at one moment. Read-only once published; the
 /// memory comes from the pipeline's ViewBuffers and returns to them with the last ViewPtr.
 struct View {
   View() = default;
@@ -35,37 +35,39 @@ struct View {
   std::string_view name;  ///< lives as long as the pipeline
   std::uint64_t frame_set = 0;
   hal::TimePoint stamp;        ///< exposure start of the frame set
-  std::uint64_t pointing = 0;  ///< number of the request that it shows; 0: as configured
-  optics::ViewSpec spec;       ///< where it looks
-  /// Of its sources, in their order; 0 beyond the last one.
+  std::uint64_t pointing = 0;  ///< number of the pointing request in effect; 0: as configured
+  optics::ViewSpec spec;       ///< projection and direction
+  /// Weights of the sources, in their order; 0 beyond the last one.
   std::array<double, remap::kMaxSources> weights{};
-  /// Of its sources, in their order; nullopt: the camera's own colours, or beyond the last one.
+  /// Colours of the sources, in their order; nullopt: the camera's own colours, or beyond the last
+  /// one.
   std::array<std::optional<SourceColours>, remap::kMaxSources> colours{};
 
-  /// What people look at, blended and colour-mapped, in a format that serves those who read it (see
-  /// PictureNeeds): Rgb, Bgr, I420 as JPEG has it, or Grey. No data: nobody does.
+  /// Display picture, blended and colour-mapped, in a format that serves its readers (see
+  /// PictureNeeds): Rgb, Bgr, I420 with JPEG's colour range, or Grey. No data: it has no readers.
   MutablePicture picture;
   /// One Validity per pixel; not defined without a picture, unless the view measures.
   ImageView<std::uint8_t> validity;
-  /// What is measured, one of the two, raw and never colour-mapped; empty unless the view measures.
+  /// Measured plane, one of the two, raw and never colour-mapped; empty unless the view measures.
   ImageView<std::uint8_t> luminance;     ///< 8 bit
-  ImageView<std::uint16_t> radiometric;  ///< 16 bit counts as the camera gave them
-  /// Counts of temperature beside the picture, also where another camera is shown; 0 where the
-  /// radiometric one does not see. Empty unless measured, or somebody needs them.
+  ImageView<std::uint16_t> radiometric;  ///< 16-bit counts as the camera delivered them
+  /// Temperature counts beside the picture, also where another camera is shown; 0 where the
+  /// radiometric camera does not see. Empty unless the view measures or a reader needs them.
   ImageView<std::uint16_t> counts;
-  double kelvin_per_count = 0;  ///< of `counts`, also while nobody needs them; 0: it has none
-  double kelvin_offset = 0;     ///< K, of a count of 0
+  /// Scale of `counts`, set even while `counts` is empty; 0: no radiometric camera.
+  double kelvin_per_count = 0;
+  double kelvin_offset = 0;  ///< temperature at count 0, K
 
-  UntouchedVector<std::uint8_t> bytes;   ///< behind picture and validity
-  UntouchedVector<std::uint16_t> words;  ///< behind luminance, or radiometric and counts
+  UntouchedVector<std::uint8_t> bytes;   ///< memory of picture and validity
+  UntouchedVector<std::uint16_t> words;  ///< memory of luminance, or of radiometric and counts
 };
 
 using ViewPtr = std::shared_ptr<const View>;
 
-/// How many views readers can hold at once.
+/// Limits of the views that readers hold at once.
 struct KeptViews {
-  std::size_t of_each = 0;  ///< of every view
-  std::size_t besides = 0;  ///< of all views together, whichever they are
+  std::size_t of_each = 0;  ///< per view
+  std::size_t besides = 0;  ///< in addition, over all views together
 
   KeptViews& operator+=(const KeptViews& other) {
     of_each += other.of_each;
