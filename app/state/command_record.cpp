@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFile = "commands";
 
-/// What a slot holds. Its layout belongs to SlotFile::kVersion.
+/// Content of a slot. Its layout belongs to SlotFile::kVersion.
 struct StoredEntry {
   std::uint64_t client = 0;
   std::uint64_t number = 0;
@@ -23,7 +23,7 @@ struct StoredEntry {
   std::uint32_t reserved = 0;
 };
 struct StoredSelection {
-  std::uint64_t start = 0;  ///< of the process that it is kept for
+  std::uint64_t start = 0;  ///< start of the process for which it is kept
   std::uint32_t process = 0;
   std::uint16_t recipe = 0;
   std::uint16_t stopped = 0;
@@ -33,11 +33,11 @@ struct StoredRecord {
   std::uint32_t count = 0;
   std::uint32_t plc_is_unknown = 0;
   std::array<StoredEntry, CommandRecord::kMaxClients> entries{};
-  StoredSelection selection{};  ///< zero in files of releases before it
+  StoredSelection selection{};  ///< zero in files of earlier releases
 };
 static_assert(sizeof(StoredRecord) <= sizeof(SlotFile::Content));
 
-/// A command that was carried out.
+/// Applies an executed command to the selection.
 void note(const Command& command, Selection& selection) {
   if (command.code == CommandCode::SelectRecipe) {
     selection.recipe = static_cast<std::uint16_t>(command.integer(0));
@@ -56,7 +56,7 @@ StoredSelection to_store(const Selection& selection) {
   return stored;
 }
 
-/// Nothing of another process's.
+/// Returns the selection if this process stored it, else an empty one.
 Selection kept(const StoredSelection& selection) {
   const StoredSelection own = to_store({});
   const bool is_own = own.start != 0 && selection.start == own.start &&
@@ -101,7 +101,7 @@ CommandResult CommandRecord::carry_out(const CommandId& id, const Command& comma
   return result;
 }
 
-/// False: it must not be carried out.
+/// Records the command as begun. False: it must not be executed.
 bool CommandRecord::begin(const CommandId& id, CommandCode code) {
   const std::lock_guard lock(mutex_);
   const bool may_be_known = is_first_of_unknown(id.client);
@@ -117,7 +117,7 @@ void CommandRecord::finish(const CommandId& id, const Command& command, CommandR
   const std::lock_guard lock(mutex_);
   if (result == CommandResult::Done) note(command, selection_);
   const auto entry = std::ranges::find(entries_, id, &Entry::id);
-  if (entry == entries_.end()) return;  // removed meanwhile: 256 others came
+  if (entry == entries_.end()) return;  // replaced by 256 other clients meanwhile
   entry->result = result;
   save();
 }
@@ -127,7 +127,7 @@ bool CommandRecord::is_first_of_unknown(std::uint64_t client) const {
   return std::ranges::none_of(entries_, [&](const Entry& e) { return e.id.client == client; });
 }
 
-/// The place for the newest command of the client.
+/// Replaces the client's entry by an empty one at the end, and returns that.
 CommandRecord::Entry& CommandRecord::renew(std::uint64_t client) {
   const auto is_of = [client](const Entry& e) { return e.id.client == client; };
   auto place = std::ranges::find_if(entries_, is_of);
@@ -151,7 +151,7 @@ void CommandRecord::load(const SlotFile::Content& content) {
   }
 }
 
-/// False: there is a file, but it could not be written.
+/// Returns false if there is a file and it cannot be written.
 bool CommandRecord::save() {
   if (!file_) return true;
   StoredRecord stored{.count = static_cast<std::uint32_t>(entries_.size()),

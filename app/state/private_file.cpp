@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kMode = S_IRUSR | S_IWUSR;
 
-/// With errno.
+/// Error with the text of errno.
 tl::unexpected<Error> cannot(const fs::path& file, const std::string& what) {
   return fail(file.string() + ": cannot be " + what + ": " + std::system_category().message(errno));
 }
 
-/// The daemon has no right to read what root owns.
+/// Changes the owner, because the daemon may not read files of root.
 bool give_to_owner_of(int folder, int file) {
   struct stat owner {};
   if (::geteuid() != 0) return true;

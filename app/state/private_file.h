@@ -8,15 +8,15 @@
 
 #include "proc/image/result.h"
 
-/// Small files with secrets: mode 0600, replaced whole, the same for orbwatchd and for root who
-/// runs `orbwatch`. All reentrant; they wait for the disk.
+/// Small files with secrets: mode 0600, replaced atomically, the same for orbwatchd and for
+/// `orbwatch` run by root. All reentrant; they wait for the disk.
 namespace orbwatch::app {
 
-/// The text, nullopt when there is no such file. Errors: it is no regular file, others may read or
-/// write it, it is larger than 1 MiB, it cannot be read.
+/// Returns the text; nullopt: there is no such file. Errors: not a regular file, accessible to
+/// others, larger than 1 MiB, not readable.
 Result<std::optional<std::string>> read_private(const std::filesystem::path& file);
 
-/// Replaces the file: after a power cut it is the one before or the new one. Written by root it
+/// Replaces the file: after a power cut it has the previous or the new text. A file written by root
 /// belongs to the owner of its folder, which is created. Error: it cannot be written.
 Result<> write_private(const std::filesystem::path& file, std::string_view text);
 

@@ -10,8 +10,8 @@
 namespace orbwatch::app {
 namespace {
 
-/// Field of proc_pid_stat(5): the name in brackets may hold anything, so fields count from behind
-/// it.
+/// Field of proc_pid_stat(5): the name in brackets may contain any character, so fields are counted
+/// after it.
 std::uint64_t start_time() {
   constexpr int kStart = 22, kFirstBehindName = 3;
   std::ifstream file("/proc/self/stat");

@@ -30,7 +30,7 @@ std::uint32_t checksum_of(std::uint64_t number, const SlotFile::Content& content
       crc32_z(crc, reinterpret_cast<const Bytef*>(content.data()), content.size()));
 }
 
-/// All of it, from `offset` on; false with errno set.
+/// Writes all bytes from `offset` on; false: failed, errno is set.
 bool write_all(int file, std::span<const std::byte> bytes, off_t offset) {
   while (!bytes.empty()) {
     const ssize_t count = ::pwrite(file, bytes.data(), bytes.size(), offset);
@@ -42,7 +42,7 @@ bool write_all(int file, std::span<const std::byte> bytes, off_t offset) {
   return true;
 }
 
-/// As much as there is; false with errno set.
+/// Reads up to the end of the file; false: failed, errno is set.
 bool read_all(int file, std::span<std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::read(file, bytes.data(), bytes.size());
@@ -94,7 +94,7 @@ Result<> SlotFile::create() const {
 Result<> SlotFile::load() {
   file_ = hal::FileDescriptor(::open(path_.c_str(), O_RDWR | O_CLOEXEC));
   if (!file_.is_open()) return tl::unexpected(error("be opened for writing"));
-  std::array<Slot, 2> slots{};  // what a short file lacks stays zero, which is not valid
+  std::array<Slot, 2> slots{};  // the missing part of a short file stays zero, which is not valid
   if (!read_all(file_.get(), std::as_writable_bytes(std::span(slots)))) {
     return tl::unexpected(error("be read"));
   }

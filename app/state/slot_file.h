@@ -15,14 +15,13 @@ namespace orbwatch::app {
 
 /// One value of fixed size in a file that is locked while it is open. The file has two slots, each
 /// with a number and a checksum; the valid one with the higher number counts. A write goes to the
-/// other one, so that a power cut at any moment leaves the value before or the new one. The file is
-/// allocated when it is created: no write needs more of the disk.
-/// Thread-bound.
+/// other one, so that a power cut at any moment leaves the previous or the new value. The file is
+/// allocated when it is created: no write needs further disk space. Thread-bound.
 class SlotFile {
  public:
   static constexpr std::size_t kSlotSize = 8192;
   static constexpr std::size_t kFileSize = 2 * kSlotSize;
-  /// Of the form of the slots and of what they hold.
+  /// Version of the slots' format and content.
   static constexpr std::uint32_t kVersion = 1;
 
   struct Header {
@@ -37,10 +36,11 @@ class SlotFile {
   /// file cannot be created, read or written, or another process has the folder open.
   static Result<std::unique_ptr<SlotFile>> open(const std::filesystem::path& file);
 
-  /// The newest valid value, or why there is none: both slots are damaged, or of another version.
+  /// The newest valid value. Error: both slots are damaged, or of another version.
   const Result<Content>& content() const { return content_; }
 
-  /// The value is on the disk on return. Error: it may be or not; the value before is not lost.
+  /// Writes the value; it is on the disk on return. Error: it may be written or not; the previous
+  /// value is kept.
   Result<> write(const Content& content);
 
  private:
@@ -58,11 +58,11 @@ class SlotFile {
   Error error(const std::string& what) const;
 
   std::filesystem::path path_;
-  hal::FileDescriptor folder_;  ///< locked: two daemons would each record half
+  hal::FileDescriptor folder_;  ///< locked against a second daemon
   hal::FileDescriptor file_;
   Result<Content> content_;
-  std::uint64_t number_ = 0;  ///< of the newest valid slot
-  std::size_t next_ = 0;      ///< the slot that the next write goes to
+  std::uint64_t number_ = 0;  ///< number of the newest valid slot
+  std::size_t next_ = 0;      ///< index of the slot for the next write
 };
 
 }  // namespace orbwatch::app

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kService = "orbwatch";
 
-/// First one of a list of folders in the environment.
+/// First folder of a list in the environment.
 std::optional<fs::path> first_folder(const char* variable) {
   const char* const folders = std::getenv(variable);
   const std::string_view all = folders != nullptr ? folders : "";
@@ -38,7 +38,7 @@ fs::path in_full(const fs::path& file) {
   return (none ? file : absolute).lexically_normal();
 }
 
-/// A symbolic link names the same file.
+/// Compares by file, so that a symbolic link matches.
 bool is_same(const fs::path& a, const fs::path& b) {
   std::error_code none;
   return a == b || fs::equivalent(a, b, none);
@@ -49,7 +49,7 @@ bool is_owned_by(const fs::path& folder, const fs::path& configuration) {
   return owner && is_same(*owner, configuration);
 }
 
-/// The state folder of the unit that runs this configuration file.
+/// Name of the state folder of the unit that runs this configuration file.
 std::string name_for(const fs::path& configuration) {
   const fs::path folder = configuration.parent_path();
   const bool is_instance =
@@ -57,7 +57,7 @@ std::string name_for(const fs::path& configuration) {
   return std::string(kService) + (is_instance ? "-" + folder.filename().string() : "");
 }
 
-/// Those of all machines on this board, sorted.
+/// State folders of all machines on this board, sorted.
 std::vector<fs::path> service_folders(const fs::path& lib) {
   std::vector<fs::path> folders;
   std::error_code error;
@@ -77,7 +77,7 @@ std::vector<fs::path> folders_of(const fs::path& configuration, const fs::path& 
   return folders;
 }
 
-/// Error: the folder records another configuration file. `owned`: those that record this one.
+/// Error: the folder records another configuration file. `owned`: folders that record this one.
 Result<fs::path> check_owner(const fs::path& folder, const fs::path& configuration,
                              const std::vector<fs::path>& owned) {
   const auto owner = owner_of(folder);
@@ -113,9 +113,9 @@ Result<fs::path> state_folder(const fs::path& configured, const fs::path& config
 }
 
 Result<hal::FileDescriptor> reserve(const fs::path& folder) {
-  std::error_code none;  // a folder that is missing cannot be opened
+  std::error_code none;  // a missing folder fails in open()
   fs::create_directories(folder, none);
-  constexpr mode_t kMode = 0644;  // a lock needs no more, and root may have been the first
+  constexpr mode_t kMode = 0644;  // sufficient for a lock, and root may have created it
   hal::FileDescriptor file(
       ::open((folder / "reserved").c_str(), O_RDONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kMode));
   const bool is_taken =
@@ -138,7 +138,7 @@ Result<std::optional<fs::path>> record_owner(const fs::path& folder,
   const fs::path own = in_full(configuration);
   const auto before = owner_of(folder);
   if (before == own) return std::nullopt;
-  std::error_code none;  // write_file() says what is wrong with the folder
+  std::error_code none;  // write_file() reports a fault of the folder
   fs::create_directories(folder, none);
   return hal::write_file(owner_record(folder), own.string() + "\n").map([&] {
     return before && !is_same(*before, own) ? before : std::nullopt;

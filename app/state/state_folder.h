@@ -6,8 +6,8 @@
 #include "hal/thread/file_descriptor.h"
 #include "proc/image/result.h"
 
-/// Folder of what must outlast a restart of the orbwatchd of a configuration file. Several machines
-/// on one board have a folder each, which records its configuration file.
+/// Folder for state that survives restarts of the orbwatchd of a configuration file. Several
+/// machines on one board have a folder each, which records its configuration file.
 namespace orbwatch::app {
 
 /// First folder of systemd's STATE_DIRECTORY (systemd.exec(5)); nullopt: not set or empty. Not
@@ -30,7 +30,7 @@ Result<std::filesystem::path> state_folder(const std::filesystem::path& configur
                                            const std::filesystem::path& lib = "/var/lib");
 
 /// Reserves `folder`, which is created, for this process until the descriptor is closed: two
-/// orbwatchd would take each other's trials and records. Not open: the folder cannot be written.
+/// orbwatchd would use each other's trials and records. Not open: the folder cannot be written.
 /// Error: another process has reserved it. Reentrant.
 Result<hal::FileDescriptor> reserve(const std::filesystem::path& folder);
 
