@@ -22,7 +22,7 @@ using BigNumber = std::unique_ptr<BIGNUM, OpensslDeleter<BN_free>>;
 using Store = std::unique_ptr<X509_STORE, OpensslDeleter<X509_STORE_free>>;
 using StoreContext = std::unique_ptr<X509_STORE_CTX, OpensslDeleter<X509_STORE_CTX_free>>;
 
-/// RFC 5280 allows 20 octets and wants a positive number.
+/// RFC 5280 allows 20 octets and requires a positive number.
 constexpr int kSerialBits = 159;
 constexpr long kVersion3 = 2;
 
@@ -31,8 +31,8 @@ struct ExtensionText {
   const char* value;  ///< in OpenSSL's configuration language, x509v3_config(5)
 };
 
-/// RFC 5280, 4.2.1. A signer of documents would not need to issue certificates, but verifiers look
-/// up its own certificate as if it had.
+/// Extensions by RFC 5280, 4.2.1. A signer of documents need not issue certificates, but verifiers
+/// look up its own certificate as an issuer's.
 std::vector<ExtensionText> extensions_for(CertificateUse use) {
   switch (use) {
     case CertificateUse::IssueIdentities:
@@ -80,7 +80,7 @@ bool add_host(GENERAL_NAMES* names, const std::string& host) {
   return true;
 }
 
-/// RFC 5280, 4.2.1.6.
+/// Adds subject alternative names (RFC 5280, 4.2.1.6).
 bool add_hosts(X509* certificate, const std::vector<std::string>& hosts) {
   if (hosts.empty()) return true;
   const GeneralNames names(sk_GENERAL_NAME_new_null());
@@ -103,7 +103,7 @@ bool set_subject(X509* certificate, const std::string& name) {
 }
 
 bool set_validity(X509* certificate, const ValidityPeriod& validity) {
-  // Days from 1970 on, because time_t may have 32 bit.
+  // Days since 1970, because time_t may have 32 bits.
   const auto set = [](ASN1_TIME* field, std::chrono::sys_seconds time) {
     const auto day = std::chrono::floor<std::chrono::days>(time);
     return ASN1_TIME_adj(field, 0, static_cast<int>(day.time_since_epoch().count()),
@@ -119,7 +119,7 @@ std::optional<std::chrono::sys_seconds> time_of(const ASN1_TIME* time) {
   return hal::moment_of(calendar);
 }
 
-/// Instead of a prompt on the terminal.
+/// Replaces OpenSSL's prompt on the terminal.
 int no_password(char*, int, int, void*) { return 0; }
 
 }  // namespace

@@ -18,13 +18,13 @@ namespace orbwatch::app {
 using Key = std::unique_ptr<EVP_PKEY, OpensslDeleter<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, OpensslDeleter<X509_free>>;
 
-/// UTC.
+/// Period of validity, UTC.
 struct ValidityPeriod {
   std::chrono::sys_seconds from{};
   std::chrono::sys_seconds until{};
 };
 
-/// A moment by a format of strftime().
+/// Formats a moment by strftime().
 std::string date_text(std::chrono::sys_seconds time, const char* format);
 
 /// A key with its certificate.
@@ -41,32 +41,32 @@ enum class CertificateUse {
   Serve             ///< authenticates a server
 };
 
-/// A new P-256 key with a certificate of subject CN=`name`, signed by `issuer`, or by itself when
-/// there is none. `hosts`: names and numeric addresses of a server. Error: OpenSSL refuses, out of
-/// entropy for example.
+/// A new P-256 key with a certificate of subject CN=`name`, signed by `issuer`, or self-signed if
+/// that is null. `hosts`: names and numeric addresses of a server. Error: a failure of OpenSSL, for
+/// example for lack of entropy.
 Result<Credential> make_credential(const std::string& name, CertificateUse use,
                                    const ValidityPeriod& validity,
                                    const Credential* issuer = nullptr,
                                    const std::vector<std::string>& hosts = {});
 
-/// PEM, the key as PKCS #8 without a password.
+/// Text in PEM, the key as PKCS #8 without a password.
 Result<std::string> to_pem(const Certificate& certificate);
 Result<std::string> to_pem(const Key& key);
-/// The first one of a PEM text. Error: there is none.
+/// The first certificate of a PEM text. Error: it has none.
 Result<Certificate> certificate_from_pem(std::string_view pem);
-/// Error: there is none, or it has a password.
+/// The first private key of a PEM text. Error: it has none, or the key has a password.
 Result<Key> key_from_pem(std::string_view pem);
 
-/// RFC 2253, "CN=subscriber", as in permissions.
+/// Subject in the form of RFC 2253, "CN=subscriber", as in permissions.
 std::string subject_of(const Certificate& certificate);
-/// Error: a date that no calendar has.
+/// Error: an invalid date.
 Result<ValidityPeriod> validity_of(const Certificate& certificate);
-/// Whether `certificate` was issued by `authority`; dates are not checked.
+/// Returns whether `authority` issued `certificate`; dates are not checked.
 bool is_issued_by(const Certificate& certificate, const Certificate& authority);
 bool is_key_of(const Key& key, const Certificate& certificate);
-/// Whether a server with this name or numeric address may show it (RFC 9110, 4.3.4).
+/// Returns whether a server with this name or numeric address may present it (RFC 9110, 4.3.4).
 bool is_for_host(const Certificate& certificate, const std::string& host);
-/// SHA-256 as browsers show it: "01:23:AB...".
+/// SHA-256 in the form that browsers show: "01:23:AB...".
 std::string fingerprint_of(const Certificate& certificate);
 
 }  // namespace orbwatch::app

@@ -6,11 +6,11 @@
 #include "app/certificates/dates.h"
 #include "proc/image/result.h"
 
-/// Keys and certificates in PEM files that people name; errors name file and reason. All reentrant;
+/// Keys and certificates in PEM files named by users; errors name file and reason. All reentrant;
 /// they wait for the disk.
 namespace orbwatch::app {
 
-/// The reason of `result` with its file before it.
+/// Prefixes an error of `result` with the file.
 template <class Value>
 Result<Value> of_file(const std::filesystem::path& file, Result<Value> result) {
   if (result) return result;
@@ -20,7 +20,7 @@ Result<Value> of_file(const std::filesystem::path& file, Result<Value> result) {
 /// Error: `now` lies outside.
 Result<> check_dates(const std::filesystem::path& file, const ValidityPeriod& validity,
                      const Now& now);
-/// The same of the certificate that is in `file`.
+/// Checks the dates of the certificate read from `file`.
 Result<> check_dates(const std::filesystem::path& file, const Certificate& certificate,
                      const Now& now);
 
@@ -28,7 +28,7 @@ Result<Certificate> read_certificate(const std::filesystem::path& file);
 /// Refuses a world-readable key.
 Result<Key> read_key(const std::filesystem::path& file);
 
-/// Error: each may be right, but not together.
+/// Error: the key is not that of the certificate.
 Result<> check_pair(const std::filesystem::path& key_file, const Key& key,
                     const std::filesystem::path& certificate_file, const Certificate& certificate);
 

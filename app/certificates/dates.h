@@ -5,8 +5,8 @@
 
 namespace orbwatch::app {
 
-/// Whether certificates and permissions must be valid now. A board without a battery has a wrong
-/// clock until a time server is reached.
+/// Handling of validity dates of certificates and permissions. A board without a battery has a
+/// wrong clock until a time server is reached.
 enum class Dates { Checked, Ignored };
 
 /// Nullopt: dates are not checked.

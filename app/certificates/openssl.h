@@ -22,7 +22,7 @@ struct OpensslDeleter {
 
 using Bio = std::unique_ptr<BIO, OpensslDeleter<BIO_free_all>>;
 
-/// Reads from `text`, which must live as long.
+/// Reads from `text`, which must outlive the result.
 Bio read_bio(std::string_view text);
 /// Writes to memory that grows.
 Bio write_bio();
