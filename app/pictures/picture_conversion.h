@@ -6,7 +6,7 @@
 
 namespace orbwatch::app {
 
-/// Bytes of a picture of one plane whose rows have no padding.
+/// Size in bytes of a single-plane picture whose rows have no padding.
 std::size_t packed_bytes(PixelFormat format, int width, int height);
 
 /// Writes `picture` as Rgb, Bgr, Grey or Y16, rows without padding, to `out`, which has

@@ -14,8 +14,8 @@ Result<> check_picture_name(const std::filesystem::path& path, PixelFormat forma
                             bool transparency);
 
 /// Writes a Grey, Y16, Rgb or Rgb16 picture as PNG or JPEG, by the extension. With `validity`, of
-/// the picture's size, pixels that are not Validity::Seen become transparent.
-/// Errors: as hal::write_file() and check_picture_name.
+/// the picture's size, pixels that are not Validity::Seen become transparent. Errors: those of
+/// hal::write_file() and check_picture_name().
 Result<> write_picture(const std::filesystem::path& path, const Picture& picture,
                        const ImageView<const std::uint8_t>& validity = {});
 
