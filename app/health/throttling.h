@@ -9,7 +9,7 @@
 namespace orbwatch::app {
 
 /// Reads every source of throttling: the Raspberry Pi's firmware and supply monitor, cooling
-/// devices that slow processors down (most arm boards), the counters of x86 processors.
+/// devices that throttle processors (most arm boards), the counters of x86 processors.
 /// Thread-bound.
 class ThrottlingMonitor {
  public:
