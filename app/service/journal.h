@@ -4,7 +4,8 @@
 
 namespace orbwatch::app {
 
-/// Fields of the journal beside those of systemd. Manuals name them: they never change.
+/// Fields of the journal beside those of systemd. They are documented in manuals and must not
+/// change.
 inline constexpr const char* kCameraField = "ORBWATCH_CAMERA";
 inline constexpr const char* kFaultField = "ORBWATCH_FAULT";
 inline constexpr const char* kTriggerField = "ORBWATCH_TRIGGER";
