@@ -21,13 +21,13 @@ namespace orbwatch::app {
 
 enum class Parity : std::uint8_t { None, Even, Odd };
 
-/// What the kernel has a speed for and libmodbus knows, in bits per second.
+/// Speeds that both the kernel and libmodbus support, bits per second.
 inline constexpr std::array kBaudRates{1200,  2400,   4800,   9600,   19200, 38400,
                                        57600, 115200, 230400, 460800, 921600};
 
-/// The [modbus.serial] part of the site file: Modbus RTU. The defaults are the standard's.
+/// The [modbus.serial] part of the site file: Modbus RTU. The defaults are those of the standard.
 struct ModbusSerialSettings {
-  /// The line's device; of an adapter on USB best the link in /dev/serial/by-id.
+  /// Device of the line; preferably the link in /dev/serial/by-id for an adapter on USB.
   std::string device;
   int baud_rate = 19200;  ///< one of kBaudRates
   Parity parity = Parity::Even;
@@ -41,37 +41,39 @@ struct ModbusSettings {
   static constexpr std::string_view kName = "modbus", kText = "Modbus server for the PLC";
 
   bool enabled = true;
-  /// The numeric IPv4 or IPv6 address to listen on. All interfaces by default: the PLC is always
-  /// another machine, so listening on loopback would serve nobody. Modbus knows no passwords: on a
-  /// device with more than one network name the machine network's address here.
+  /// Numeric IPv4 or IPv6 address to listen on. Default: all interfaces, because the PLC is always
+  /// another machine. Modbus has no passwords: on a device in more than one network set the address
+  /// in the machine network.
   std::string address = "0.0.0.0";
-  /// Not the registered port 502, which needs CAP_NET_BIND_SERVICE. 0: any free port.
+  /// TCP port; the default is not the registered port 502, which needs CAP_NET_BIND_SERVICE. 0: any
+  /// free port.
   int port = 1502;
-  /// Idle connections stay; one more client closes the one that was idle for longest.
+  /// Limit of connections; idle ones stay, and a further client closes the one that has been idle
+  /// longest.
   int max_connections = 16;
-  /// s without a packet after which TCP keep-alive probes whether the client is still there.
+  /// Time without a packet after which TCP keep-alive probes the client, s.
   int keep_alive_s = 60;
   /// Numeric addresses or prefixes (10.0.0.0/24, fd00::/8) of the clients that may read; empty: all
-  /// of them.
+  /// clients.
   std::vector<std::string> readers;
-  /// Of those that may write, and read; empty: this host alone.
+  /// Addresses or prefixes of clients that may read and write; empty: this host only.
   std::vector<std::string> writers;
   /// The units that are answered. Over TCP the unit only matters behind a gateway: 255 is
-  /// recommended, 0 accepted (Modbus Messaging on TCP/IP Implementation Guide), and 1 is what most
-  /// clients send unless told otherwise. Requests for others were meant for another device.
+  /// recommended, 0 accepted (Modbus Messaging on TCP/IP Implementation Guide), and 1 is the
+  /// default of most clients. Requests for other units are meant for another device.
   std::vector<int> unit_ids{0, 1, 255};
-  /// A serial line beside TCP.
+  /// Serial line besides TCP.
   std::optional<ModbusSerialSettings> serial;
 
-  /// Longest time without a change of the PLC's heartbeat; 0: it is not supervised.
+  /// Longest time without a change of the PLC's heartbeat; 0: not supervised.
   double plc_timeout_ms = 0;
 
-  /// From the first byte of a request to its last.
+  /// Limit from the first byte of a request to its last.
   std::chrono::milliseconds frame_timeout{1000};
-  /// A writer's connection without a request for so long makes room for a reader.
+  /// Idle time after which a reader may displace a writer's connection.
   std::chrono::milliseconds idle_time{60000};
-  /// Without word from the pipeline, which promises ten a second; then nothing it said is served
-  /// as valid any more.
+  /// Silence of the pipeline, which reports ten times a second, after which its values are no
+  /// longer served as valid.
   std::chrono::milliseconds status_timeout{2000};
 };
 
@@ -119,7 +121,7 @@ void visit(Visitor& v, ModbusSettings& modbus) {
              "Longest time without a change of the PLC's heartbeat; 0: not supervised");
 }
 
-/// Who may command over Modbus, in words; empty: nobody. Reentrant.
+/// Clients that may command over Modbus, in words; empty: none. Reentrant.
 std::string commanders(const ModbusSettings& settings);
 
 /// The ports of an enabled server.

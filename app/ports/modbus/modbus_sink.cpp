@@ -14,7 +14,7 @@ using std::chrono::microseconds;
 
 namespace {
 
-/// As TOML writes a list: ["10.0.0.7", "10.0.0.8"].
+/// List in TOML: ["10.0.0.7", "10.0.0.8"].
 std::string quoted(const std::vector<std::string>& texts) {
   std::string list;
   for (const std::string& text : texts) list += (list.empty() ? "\"" : ", \"") + text + "\"";
@@ -49,7 +49,7 @@ Result<> ModbusSink::make_responder() {
   if (!responder) return tl::unexpected(responder.error());
   responder_ = std::move(*responder);
   command_thread_.start("modbus commands", [this] {
-    // What was written before stop() is still carried out.
+    // A command written before stop() is still executed.
     for (bool last = false; !last;) {
       last = !command_thread_.wait();
       plc_->carry_out();
@@ -57,11 +57,12 @@ Result<> ModbusSink::make_responder() {
   });
   start_supervision();
   const std::lock_guard lock(mutex_);
-  received_at_ = hal::Clock::now();  // the status time-out starts here
+  received_at_ = hal::Clock::now();  // starts the status timeout
   return {};
 }
 
-/// A thread of its own: no closed line and no command that waits for the disk may delay it.
+/// Supervises on a separate thread, so that neither a closed line nor a command that waits for the
+/// disk delays it.
 void ModbusSink::start_supervision() {
   if (settings_.plc_timeout_ms == 0) return;
   supervision_thread_.start("modbus plc", [this] {
@@ -89,10 +90,10 @@ Result<> ModbusSink::open_tcp() {
   return {};
 }
 
-/// Once for each host, with the line that would let it write.
+/// Logs a refused write once per host, with the setting that would permit it.
 void ModbusSink::report_forbidden(int socket) {
   modbus::SocketAddress peer;
-  if (::getpeername(socket, peer.get(), &peer.length) != 0) return;  // it has gone
+  if (::getpeername(socket, peer.get(), &peer.length) != 0) return;  // the client has disconnected
   const modbus::HostAddress host = modbus::host_of(peer);
   if (!forbidden_.is_new(host)) return;
   std::vector<std::string> writers = settings_.writers;

@@ -23,11 +23,11 @@
 namespace orbwatch::app {
 
 /// The Modbus server for PLCs: serves the newest status by the register map, keeps results until
-/// they are acknowledged, and carries commands out. One thread for all clients on TCP, one for the
+/// they are acknowledged, and executes commands. One thread for all clients on TCP, one for the
 /// serial line if configured, one for commands, which wait for the disk, and one that supervises
-/// the PLC if its heartbeat has a timeout, whichever line it uses. The newest status wins; of
-/// results the first ResultQueue::kDepth wait. Thread rule: as Sink; statistics() is thread-safe,
-/// port() is for the thread of start().
+/// the PLC if its heartbeat has a timeout, whichever line it uses. The newest status wins; up to
+/// ResultQueue::kDepth results wait, the oldest ones. Thread rule: as Sink; statistics() is
+/// thread-safe, port() is for the thread of start().
 class ModbusSink final : public Sink {
  public:
   /// `handler` is called on the sink's threads.
@@ -35,22 +35,23 @@ class ModbusSink final : public Sink {
              std::shared_ptr<CommandRecord> record = std::make_shared<CommandRecord>());
   ~ModbusSink() override;
 
-  /// Error: address or port cannot be used; the serial line is served already then. One that is not
-  /// connected is waited for. Does nothing when disabled or already started.
+  /// Error: address or port cannot be used; the serial line is then served already. A serial line
+  /// that is not connected is not an error; opening it is retried. Does nothing when disabled or
+  /// already started.
   Result<> start() override;
   void stop() override;
   bool works() const override { return !serial_is_lost_; }
   std::chrono::nanoseconds cpu_time() const override;
 
-  /// Registers with their values, and the clients on TCP.
+  /// Tables of registers with their values, and of the clients on TCP.
   std::vector<InterfaceTable> tables() const override;
-  /// Of the server, the queue of results and the PLC; none while stopped.
+  /// Figures of the server, the queue of results and the PLC; none while stopped.
   std::vector<InterfaceMetric> metrics() const override;
 
-  void accept(const ViewPtr&) override {}  // registers show no pictures
+  void accept(const ViewPtr&) override {}  // Modbus serves no pictures
   void accept(const Status& status) override;
 
-  /// The listening port, also when any was asked for; 0 while stopped.
+  /// The actual listening port; 0 while stopped.
   int port() const;
 
   modbus::ServerStatus statistics() const { return counters_.read(); }
@@ -69,8 +70,8 @@ class ModbusSink final : public Sink {
   const std::shared_ptr<CommandRecord> record_;
   const modbus::RegisterMap map_;
   modbus::ServerCounters counters_;
-  mutable std::mutex served_;         ///< held while what serves is made, ended or shown
-  mutable hal::PriorityMutex mutex_;  ///< of these three, held only while they are copied
+  mutable std::mutex served_;         ///< held while servers are created, stopped or listed
+  mutable hal::PriorityMutex mutex_;  ///< guards the next three members, held only for copies
   modbus::StampedStatus newest_;
   hal::TimePoint received_at_;
   modbus::ResultQueue results_;
@@ -80,7 +81,7 @@ class ModbusSink final : public Sink {
   std::unique_ptr<modbus::Responder> responder_;
   std::unique_ptr<modbus::TcpTransport> tcp_transport_;
   std::unique_ptr<modbus::TcpServer> tcp_;
-  modbus::SeenHosts forbidden_;  ///< whose writes were refused; the TCP thread's
+  modbus::SeenHosts forbidden_;  ///< hosts whose writes were refused; used by the TCP thread only
   std::unique_ptr<modbus::RtuServer> serial_line_;
   hal::Thread tcp_thread_;
   hal::Thread serial_thread_;

@@ -71,7 +71,7 @@ hal::TimePoint PlcHandshake::supervise(hal::TimePoint now) {
   if (now - last_change_ <= timeout_) return last_change_ + timeout_ + hal::Clock::duration(1);
   if (!set_active_) return now + timeout_;
   const CommandResult result = handler_({CommandCode::SetProcessActive, {0}});
-  set_active_ = result == CommandResult::Busy;  // retried then
+  set_active_ = result == CommandResult::Busy;  // true: retried later
   return now + timeout_;
 }
 

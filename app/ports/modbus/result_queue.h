@@ -9,8 +9,8 @@
 namespace orbwatch::app::modbus {
 
 /// Results that wait for the PLC, oldest first: none is lost between two of its scans. A full queue
-/// refuses the newest and counts it, so that results the PLC is reading never change. Fixed memory;
-/// thread-bound.
+/// refuses the newest and counts it, so that results that the PLC is reading never change. Fixed
+/// memory; thread-bound.
 class ResultQueue {
  public:
   static constexpr std::size_t kDepth = kResultQueueDepth;
@@ -24,8 +24,8 @@ class ResultQueue {
     results_[(first_ + status_.count++) % kDepth] = result;
   }
 
-  /// Removes the oldest result if `number` is its own, cut to 32 bits; else does nothing. So a
-  /// repeated write, or a PLC that was away, removes no unread result.
+  /// Removes the oldest result if `number` equals the lower 32 bits of its number; otherwise does
+  /// nothing. So a repeated write, or a PLC that was disconnected, removes no unread result.
   void acknowledge(std::uint32_t number) {
     if (status_.count == 0) return;
     if (number != static_cast<std::uint32_t>(results_[first_].status.result)) return;
@@ -36,10 +36,10 @@ class ResultQueue {
 
   const ResultQueueStatus& status() const { return status_; }
 
-  /// The oldest result; without any its number is 0.
+  /// The oldest result; number 0: the queue is empty.
   StampedStatus oldest() const { return status_.count > 0 ? results_[first_] : StampedStatus{}; }
 
-  /// 0: none yet.
+  /// Number of the result acknowledged last; 0: none yet.
   std::uint32_t last_acknowledged() const { return last_acknowledged_; }
 
  private:

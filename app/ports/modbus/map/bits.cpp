@@ -11,7 +11,7 @@ namespace {
 
 using I = const ProcessImage&;
 
-// Of measurement_bits(), after the cameras, and of fault_bits().
+// First bits of measurement_bits() after the cameras, and of fault_bits().
 constexpr std::size_t kFirstMeasuredBit = 8;
 constexpr std::size_t kFirstHotSpotBit = 16;
 constexpr std::size_t kFirstCameraFaultBit = 16;
@@ -38,7 +38,7 @@ bool any_awaits_acknowledgement(const Status& status) {
   });
 }
 
-/// `number` in place of each '#'.
+/// Replaces each '#' by `number`.
 std::string numbered(std::string_view text, std::size_t number) {
   std::string result;
   for (const char c : text) result += c == '#' ? std::to_string(number) : std::string(1, c);
@@ -56,7 +56,7 @@ void append(std::vector<Bit>& bits, std::size_t count, std::string_view name,
   }
 }
 
-/// A bit per alarm. Alarms are numbered from 1, as acknowledge_alarm counts them.
+/// A bit per alarm. Alarms are numbered from 1, like the argument of acknowledge_alarm.
 std::vector<Bit> alarm_bits(std::string_view name, std::string_view description,
                             bool (*is_set)(signals::AlarmState)) {
   std::vector<Bit> bits;
@@ -123,7 +123,7 @@ std::vector<Bit> measurement_bits() {
   append(bits, signals::kMaxRegions, "region_#_hot_spot", "Region # has a hot spot",
          [](I image, std::size_t i) {
            const double present = image.live.status.regions[i].signals.hot_spot_present;
-           return present > 0;  // not for NaN
+           return present > 0;  // false for NaN
          });
   return bits;
 }

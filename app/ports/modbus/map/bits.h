@@ -9,7 +9,7 @@
 
 namespace orbwatch::app::modbus {
 
-/// One bit of a word, and a discrete input where the word consists of those.
+/// One bit of a word; also a discrete input if the word mirrors discrete inputs.
 struct Bit {
   std::string name;  ///< empty: reserved
   std::string description{};
@@ -22,10 +22,10 @@ std::vector<Bit> measurement_bits();
 std::vector<Bit> process_input_bits();
 std::vector<Bit> active_bits();
 std::vector<Bit> unacknowledged_bits();
-/// What is wrong; these are not discrete inputs.
+/// Present faults; these bits are not discrete inputs.
 std::vector<Bit> fault_bits();
 
-/// Bit n of the word is that of bits[n].
+/// Bit n of the word has the value of bits[n].
 std::uint32_t word_of(const std::vector<Bit>& bits, const ProcessImage& image);
 
 }  // namespace orbwatch::app::modbus

@@ -16,7 +16,7 @@ namespace orbwatch::app::modbus {
 inline constexpr Quantity kWord{"", 1, 0, 65535};
 inline constexpr Quantity kDoubleWord{"", 1, 0, 4294967295};
 
-/// Registers that all fields of a part occupy: 32-bit values stand at even places.
+/// Number of registers that all fields of a part occupy; 32-bit values are at even places.
 template <class Part>
 constexpr int registers_of() {
   int next = 0;
@@ -36,8 +36,8 @@ inline Quantity quantity_in(const AlarmStatus& alarm, const FieldInfo& field) {
   return field.name == "value" ? quantity_of(alarm) : Quantity(field);
 }
 
-/// Appends the rows of one part to `rows`, in the order of their addresses; `find` gives the part
-/// in a process image. 32-bit values stand at even addresses.
+/// Appends the rows of one part to `rows`, in the order of their addresses; `find` returns the part
+/// in a process image. 32-bit values are at even addresses.
 template <class Part>
 class Block {
  public:
@@ -52,7 +52,7 @@ class Block {
         prefix_(std::move(prefix)),
         find_(std::move(find)) {}
 
-  /// `read` gives the register's content: std::uint32_t(const Part&, const ProcessImage&).
+  /// `read` returns the register's content: std::uint32_t(const Part&, const ProcessImage&).
   template <class Read>
   Block& row(Type type, std::string_view name, const Quantity& quantity,
              std::string_view description, Read read) {
@@ -83,7 +83,7 @@ class Block {
     std::string description(field.description);
     if constexpr (Enumeration<Value>) {
       quantity = code_range<Value>();
-      // Long lists are tables of the handbook.
+      // Longer lists are tables of the handbook.
       if (quantity.maximum < 16) description += ": " + listed_codes<Value>();
     } else if constexpr (std::is_same_v<Value, hal::TimePoint>) {
       description += "; 2147483647: longer ago, or never";
@@ -94,7 +94,7 @@ class Block {
                });
   }
 
-  /// All fields of the part.
+  /// Appends all fields of the part.
   Block& fields() {
     for_each_field(std::type_identity<Part>{}, [this](const auto& one) { this->field(one); });
     return *this;
@@ -122,7 +122,7 @@ class Block {
     return *this;
   }
 
-  /// Lets the first row, a code, read kNone while the entry `is_absent`.
+  /// Makes the first row, a code, read kNone while `is_absent` holds for the entry.
   Block& absent(std::string_view thing, std::function<bool(const ProcessImage&)> is_absent) {
     Row& row = rows_[begin_];
     row.quantity.maximum = kNone;
@@ -136,7 +136,7 @@ class Block {
 
  private:
   std::vector<Row>& rows_;
-  const std::size_t begin_;  ///< of its own rows
+  const std::size_t begin_;  ///< place of its first own row
   Table table_;
   Section section_;
   int next_;
@@ -144,7 +144,7 @@ class Block {
   Find find_;
 };
 
-/// For rows that combine parts.
+/// Identity, for rows that combine parts.
 inline const ProcessImage& whole_image(const ProcessImage& image) { return image; }
 
 }  // namespace orbwatch::app::modbus

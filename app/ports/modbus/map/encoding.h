@@ -8,16 +8,17 @@
 #include "app/model/field.h"
 #include "app/ports/modbus/map/register_map.h"
 
-/// How values become the contents of registers, and what that says about their rows. All reentrant.
+/// Conversion of values to the contents of registers, and the resulting types and ranges of rows.
+/// All reentrant.
 namespace orbwatch::app::modbus {
 
-/// A measured number without a value.
+/// Content of a measured number without a value.
 inline constexpr std::uint32_t kNotValidCode = 0x80000000;
 
-/// An age beyond 2^31 - 1 ms, or of what never happened.
+/// Content of an age beyond 2^31 - 1 ms, or of an event that never happened.
 inline constexpr std::uint32_t kMaxAge = 0x7fffffff;
 
-/// The code of an entry that is not configured: not 0, which would mean that all is well.
+/// Code of an entry that is not configured; not 0, which would mean no fault.
 inline constexpr std::uint16_t kNone = 0xffff;
 
 template <class Value>
@@ -32,16 +33,16 @@ constexpr Type type_of() {
   }
 }
 
-/// round(value / scale) as a signed number, or kNotValidCode. Clamped to the range, which rounding
-/// noise of the computation must not leave.
+/// round(value / scale) as a signed number, or kNotValidCode. Clamped to the range, against
+/// rounding noise of the computation.
 std::uint32_t encoded(double value, const Quantity& quantity);
 
-/// The age of `moment` in ms, which stays at kMaxAge: a PLC that reads it as a DINT must never get
-/// a negative age.
+/// The age of `moment` in ms, at most kMaxAge: a PLC that reads it as a DINT must never get a
+/// negative age.
 std::uint32_t age_code(hal::TimePoint moment, hal::TimePoint now);
 
-/// The content of a row: measured numbers and ages as above, codes by their numbers, counts cut to
-/// 32 bits (they continue at 0).
+/// The content of a row: measured numbers and ages as above, codes as their numbers, counts modulo
+/// 2^32.
 template <class Value>
 std::uint32_t encoded(const Value& value, const Quantity& quantity, hal::TimePoint now) {
   if constexpr (std::floating_point<Value>) {
@@ -53,16 +54,16 @@ std::uint32_t encoded(const Value& value, const Quantity& quantity, hal::TimePoi
   }
 }
 
-/// "0 starting; 1 running".
+/// List for a description: "0 starting; 1 running".
 std::string listed(const std::vector<CodeText>& codes);
 
-/// All numbers of an enumeration, in its row's description.
+/// All numbers of an enumeration, for its row's description.
 template <Enumeration Enum>
 std::string listed_codes() {
   return listed(code_texts<Enum>());
 }
 
-/// From 0 to the last number of an enumeration.
+/// Range from 0 to the last number of an enumeration.
 template <Enumeration Enum>
 Quantity code_range() {
   return {"", 1, 0, static_cast<double>(code_texts<Enum>().back().number)};

@@ -22,7 +22,7 @@ namespace {
 using namespace modbus;
 using Texts = std::map<std::string, std::string, std::less<>>;
 
-/// The shortest decimal number that parses to the same, never with an exponent.
+/// The shortest decimal text that parses to the same number, never with an exponent.
 std::string decimal(double number) {
   std::array<char, 400> text;
   const auto end =
@@ -59,7 +59,7 @@ std::string range_text(double minimum, double maximum) {
   return decimal(minimum) + " to " + decimal(maximum);
 }
 
-/// The rows of a table in a section, and what is reserved there.
+/// The rows of a table in a section, including reserved ones.
 std::string row_table(const RegisterMap& map, Table table, Section section) {
   std::string text = table_head(
       {"address", "count", "type", "access", "name", "scale", "unit", "range", "description"});
@@ -149,7 +149,7 @@ Texts layout_numbers() {
   set("MIRROR", kMirrorOffset);
   set("SIGNALS", std::min(signals::kSignals.size(), kFirstSignals));
   set("DEPTH", kResultQueueDepth);
-  // A command is noted, then its result; an example of a busy PLC.
+  // Two writes per command, for the command and its result; the example is a busy PLC.
   constexpr long kWrites = 2, kSecondsEach = 2, kCommands = 24 * 60 * 60 / kSecondsEach;
   set("SLOT", SlotFile::kSlotSize);
   set("FILE", SlotFile::kFileSize);
@@ -166,7 +166,7 @@ Texts layout_numbers() {
   return texts;
 }
 
-/// Where each row stands, and its mirror.
+/// Address of each row and of its mirror.
 Texts addresses(const RegisterMap& map) {
   Texts texts;
   for (const Row& row : map.rows()) {
@@ -180,7 +180,7 @@ Texts tables(const RegisterMap& map) {
   const auto bits = [&map](int begin, int end) {
     return row_table(map, Table::Discrete, {begin, end});
   };
-  // Of bits that repeat, the first.
+  // The first one of repeated bits.
   const auto first = [&bits](Section section) { return bits(section.begin, section.begin + 1); };
   return {{"rows status bits", bits(kStatusBits.begin, kMeasurementBits.end)},
           {"rows process inputs", first(kProcessInputBits)},

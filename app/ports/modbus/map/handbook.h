@@ -10,13 +10,13 @@ namespace orbwatch::app {
 std::string registers_csv();
 
 /// The handbook for PLC programmers, in Markdown: handbook.md.in with the map's own addresses and
-/// tables. Throws std::out_of_range when the template names something unknown. Reentrant.
+/// tables. Throws std::out_of_range for an unknown name in the template. Reentrant.
 std::string registers_markdown();
 
 namespace modbus {
 
-/// handbook.md.in. @name@ is the address of the row with this name, @name+@ that of its mirror;
-/// capitals are numbers of the layout, the rest are tables.
+/// Text of handbook.md.in. @name@ is the address of the row with this name, @name+@ that of its
+/// mirror; capitals are numbers of the layout, the rest are tables.
 extern const std::string_view kHandbookTemplate;
 
 }  // namespace modbus

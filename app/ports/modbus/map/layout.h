@@ -2,19 +2,19 @@
 
 #include <cstddef>
 
-/// Where the blocks of the register map stand. Within a map version no block moves; each one has
-/// reserved places for fields that are appended to the model.
+/// Addresses of the blocks of the register map. Within a map version no block moves; each has
+/// reserved places for fields appended to the model.
 namespace orbwatch::app::modbus {
 
 /// Grows with every change that an existing PLC program could notice. Rows appended in reserved
-/// places are no such change.
+/// places do not count as a change.
 inline constexpr int kMapVersion = 3;
 
 /// Discrete input n is also coil n + 5000, and input register n holding register n + 5000: some
 /// PLCs read only coils and holding registers.
 inline constexpr int kMirrorOffset = 5000;
 
-/// The most that one request reads (V1.1b3, 6.3).
+/// Maximum of registers per read request (V1.1b3, 6.3).
 inline constexpr int kMaxReadRegisters = 125;
 
 /// A block of one part: addresses [begin, end).
@@ -54,12 +54,13 @@ inline constexpr Series kAlarms{1520, 16, 2600};
 inline constexpr Series kRegions{2600, 128, 3700};
 inline constexpr Series kResults{3700, 128, 5000};
 
-/// Signals in the first block of a region, behind its 16 registers of header and a bit for each.
+/// Signals in the first block of a region, after its 16 registers of header and one valid bit per
+/// signal.
 inline constexpr int kRegionHeader = 16;
 inline constexpr int kValidWords = 4;
 inline constexpr std::size_t kFirstSignals = (kMaxReadRegisters - kRegionHeader - kValidWords) / 2;
 
-// Signals without room in the first block of a region continue here.
+// Blocks for signals beyond the first block of a region.
 inline constexpr Series kMoreOfRegions{10000, 512, 15000};
 inline constexpr Series kMoreOfResults{15000, 512, 20000};
 

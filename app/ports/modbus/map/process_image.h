@@ -9,11 +9,11 @@
 #include "app/model/command.h"
 #include "app/model/status.h"
 
-/// What one request is answered from: the model's status, and the parts that this interface adds to
-/// it, described by lines of the same form (app/model/field.h).
+/// Data from which one request is answered: the model's status, and the parts that this interface
+/// adds to it, described by lines of the same form (app/model/field.h).
 namespace orbwatch::app::modbus {
 
-/// Results that wait for the PLC, at most.
+/// Limit of results that wait for the PLC.
 inline constexpr std::size_t kResultQueueDepth = 8;
 
 inline constexpr Quantity kWaitingResults{"", 1, 0, kResultQueueDepth};
@@ -36,7 +36,7 @@ struct ResultQueueStatus {
   FIELD(bool, silent, kFlag, "plc_heartbeat is supervised and did not change in time") \
   AGE(heartbeat, "Since plc_heartbeat changed")
 
-/// The PLC, as far as its heartbeat shows.
+/// State of the PLC, judged by its heartbeat.
 struct PlcStatus {
   ORBWATCH_MODBUS_PLC_FIGURES(ORBWATCH_FIELD_MEMBER, ORBWATCH_AGE_MEMBER)
 };
@@ -58,7 +58,7 @@ struct PlcStatus {
   FIELD(std::uint64_t, uptime, kUptime, "Time since the server started; smaller after a restart") \
   ORBWATCH_MODBUS_COUNTERS(FIELD)
 
-/// What the server did since its start.
+/// Counters of the server since its start.
 struct ServerStatus {
   ORBWATCH_MODBUS_SERVER_FIGURES(ORBWATCH_FIELD_MEMBER)
 };
@@ -79,18 +79,18 @@ struct ServerCounters {
 };
 
 /// The command handshake: the PLC writes arguments and command, then another sequence; the command
-/// is carried out at most once, and then its sequence returned as acknowledged. Counters, not
+/// is executed at most once, and then its sequence is returned as acknowledged. Counters, not
 /// toggle bits: two toggles between two reads cancel each other.
 struct CommandRegisters {
   std::array<std::int32_t, kMaxArguments> arguments{};  ///< value / the argument's scale
   std::uint16_t command = 0;
   std::uint16_t sequence = 0;
   std::uint16_t acknowledged = 0;
-  CommandResult result = CommandResult::Done;  ///< of the command acknowledged last
-  std::uint16_t last_command = 0;              ///< the command acknowledged last; 0: none yet
+  CommandResult result = CommandResult::Done;  ///< result of the command acknowledged last
+  std::uint16_t last_command = 0;  ///< code of the command acknowledged last; 0: none yet
 };
 
-/// The holding registers that PLCs write.
+/// Holding registers written by PLCs.
 struct PlcRegisters {
   CommandRegisters command;
   std::uint16_t heartbeat = 0;
@@ -104,17 +104,17 @@ struct StampedStatus {
   std::chrono::microseconds utc{0};  ///< exposure start of its frame set since 1970; 0: none yet
 };
 
-/// Made once per request, so that all values in one answer belong together.
+/// Snapshot made once per request, so that all values of one answer are consistent.
 struct ProcessImage {
   StampedStatus live;
-  StampedStatus result;                 ///< the oldest that waits; its number is 0 when none does
+  StampedStatus result;                 ///< the oldest waiting result; number 0: none waits
   std::uint32_t last_acknowledged = 0;  ///< number of a result; 0: none yet
   ResultQueueStatus results;
   PlcRegisters written;
   PlcStatus plc;
   ServerStatus server;
-  bool stale = false;    ///< the pipeline is silent for longer than the time-out
-  hal::TimePoint now{};  ///< of the request
+  bool stale = false;    ///< the pipeline has been silent longer than the timeout
+  hal::TimePoint now{};  ///< time of the request
 };
 
 template <class Visit>

@@ -4,9 +4,9 @@
 #include "app/ports/modbus/map/block.h"
 #include "app/ports/modbus/map/rows.h"
 
-/// A region begins with a block that one request reads: by what it was measured, a bit per signal
-/// that has a value, the signals. Signals without room continue in further blocks, which repeat the
-/// number of the measurement.
+/// A region begins with a block that one request reads: the conditions of the measurement, a valid
+/// bit per signal, the signals. Further signals continue in further blocks, which repeat the number
+/// of the measurement.
 namespace orbwatch::app::modbus {
 namespace {
 
@@ -24,7 +24,7 @@ static_assert(kRegions.has_room_for(signals::kMaxRegions) &&
 static_assert(kMoreOfRegions.has_room_for(signals::kMaxRegions) &&
               kMoreOfResults.has_room_for(signals::kMaxRegions));
 
-/// What is measured now, and the oldest result: the same structure at two places.
+/// The live measurement or the oldest result: the same structure at two places.
 struct Window {
   std::string_view prefix;
   Series first;
@@ -70,13 +70,13 @@ class RegionBlock {
                    return image.*source;
                  }) {}
 
-  /// What tells a PLC which measurement this is.
+  /// Adds the rows that identify the measurement.
   RegionBlock& number(const std::string& tag = {}) {
     system(&Status::result, "Number of the result; live, of the newest one; 0: none", tag);
     return system(&Status::frame_set, "Number of the measured frame set", tag);
   }
 
-  /// What it was measured by.
+  /// Adds the conditions of the measurement.
   RegionBlock& conditions() {
     using S = const StampedStatus&;
     using I = const ProcessImage&;
@@ -98,7 +98,7 @@ class RegionBlock {
     return *this;
   }
 
-  /// Signals [first, end), and a bit for each.
+  /// Adds signals [first, end), and a valid bit for each.
   RegionBlock& signal_rows(std::size_t first, std::size_t end) {
     using S = const StampedStatus&;
     for (std::size_t word = first; word < first + 16 * kValidWords; word += 16) {

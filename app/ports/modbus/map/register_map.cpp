@@ -34,7 +34,7 @@ void reserve_gaps(std::vector<Row>& rows, int end) {
   std::ranges::move(gaps, std::back_inserter(rows));
 }
 
-/// The same value for PLCs that read only coils and holding registers.
+/// Mirror of a row for PLCs that read only coils and holding registers.
 Row mirrored(Row row) {
   row.table = row.table == Table::Discrete ? Table::Coil : Table::Holding;
   row.address += kMirrorOffset;

@@ -15,17 +15,17 @@ namespace orbwatch::app::modbus {
 
 enum class Table : std::uint8_t { Coil, Discrete, Input, Holding };
 
-/// The types of IEC 61131-3.
+/// Data types of IEC 61131-3.
 enum class Type : std::uint8_t { Bool, Uint, Udint, Dint };
 
 enum class Access : std::uint8_t { Read, ReadWrite };
 
-/// Their words in the CSV.
+/// Names in the CSV.
 std::string_view name_of(Table table);
 std::string_view name_of(Type type);
 std::string_view name_of(Access access);
 
-/// One row of the map: a value, or places that are reserved for later and read 0.
+/// One row of the map: a value, or reserved places, which read 0.
 struct Row {
   Table table = Table::Input;
   int address = 0;  ///< zero-based, as in the request
@@ -33,7 +33,8 @@ struct Row {
   Type type = Type::Uint;
   Access access = Access::Read;
   std::string name{};
-  Quantity quantity{};  ///< value in the unit = register * scale; writes outside are refused
+  /// Value in the unit = register * scale; writes outside the range are refused.
+  Quantity quantity{};
   std::string description{};
 
   /// The register's content; 16-bit values in the low half. Empty: reserved.
@@ -42,22 +43,23 @@ struct Row {
   std::function<void(PlcRegisters& registers, std::uint32_t value)> write{};
 };
 
-/// Whether it repeats a row of another table, for PLCs that read only coils and holding registers.
+/// Returns whether the row repeats a row of another table, for PLCs that read only coils and
+/// holding registers.
 inline bool is_mirror(const Row& row) {
   return row.address >= kMirrorOffset && (row.table == Table::Coil || row.table == Table::Holding);
 }
 
-/// The one declaration of what PLCs read and write. Immutable; reentrant.
+/// The only declaration of the places that PLCs read and write. Immutable; reentrant.
 class RegisterMap {
  public:
   RegisterMap();
   RegisterMap(const RegisterMap&) = delete;
   RegisterMap& operator=(const RegisterMap&) = delete;
 
-  /// By table, then by address.
+  /// Rows by table, then by address.
   std::span<const Row> rows() const { return rows_; }
 
-  /// The row that holds this register or bit, or nullptr when nothing is mapped there.
+  /// The row that holds this register or bit, or nullptr if the place is not mapped.
   const Row* find(Table table, int address) const;
 
   /// One more than the highest mapped address of the table.

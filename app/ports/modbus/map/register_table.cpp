@@ -8,7 +8,7 @@
 namespace orbwatch::app::modbus {
 namespace {
 
-/// Of a register's content, in its unit.
+/// Value of a register's content, in its unit.
 double value_of(const Row& row, std::uint32_t content) {
   if (row.type != Type::Dint) return content * row.quantity.scale;
   if (content == kNotValidCode) return std::numeric_limits<double>::quiet_NaN();

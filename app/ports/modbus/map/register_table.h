@@ -6,8 +6,8 @@
 
 namespace orbwatch::app::modbus {
 
-/// All mapped places with what a PLC reads there at this moment, in their unit; without those that
-/// are reserved or repeat another. Reentrant.
+/// All mapped places with their present value, in their unit, without reserved rows and mirrors.
+/// Reentrant.
 InterfaceTable register_table(const RegisterMap& map, const ProcessImage& image);
 
 }  // namespace orbwatch::app::modbus

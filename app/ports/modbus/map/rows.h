@@ -6,9 +6,10 @@
 
 namespace orbwatch::app::modbus {
 
-/// Append the rows of each block, without mirrors and reserved places. All reentrant.
+/// Functions that append the rows of each block, without mirrors and reserved places. All
+/// reentrant.
 void add_discrete_rows(std::vector<Row>& rows);
-void add_status_rows(std::vector<Row>& rows);  ///< all input registers but regions
+void add_status_rows(std::vector<Row>& rows);  ///< all input registers except regions
 void add_region_rows(std::vector<Row>& rows);
 void add_written_rows(std::vector<Row>& rows);
 

@@ -21,10 +21,10 @@ static_assert(kCameras.has_room_for(kMaxCameras) && kViews.has_room_for(kMaxView
 static_assert(signals::kMaxAlarms <= 32,
               "bits of a UDINT; the next 32 alarms get another UDINT beside each of these");
 
-/// Places between the words of alarms 1 to 32: those of 33 to 64 fit in.
+/// Stride of the words of alarms 1 to 32, with room for those of alarms 33 to 64.
 constexpr int kWordStride = 4;
 
-/// What combines several parts, or belongs to this interface alone.
+/// Adds rows that combine several parts, or belong to this interface only.
 void add_summary(std::vector<Row>& rows) {
   using I = const ProcessImage&;
   Block<ProcessImage> block(rows, Table::Input, kSummary, "", whole_image);
@@ -96,14 +96,14 @@ void add_alarm_summary(std::vector<Row>& rows) {
            });
 }
 
-/// The rows of a part that there is once.
+/// Adds the rows of a single part.
 template <class Part>
 void add_part(std::vector<Row>& rows, Section section, const std::string& prefix,
               typename Block<Part>::Find find) {
   Block<Part>(rows, Table::Input, section, prefix, std::move(find)).fields();
 }
 
-/// The rows of each part of a list, numbered from `first`. Those beyond `count`, if there is one,
+/// Adds the rows of each part of a list, numbered from `first`. Parts beyond `count`, if it is set,
 /// are not configured.
 template <class Part, std::size_t size>
 void add_parts(std::vector<Row>& rows, const Series& series, const std::string& name,

@@ -21,7 +21,7 @@ void write_command(PlcRegisters& plc, std::uint32_t value) {
 
 }  // namespace
 
-/// Writable registers stand side by side, so that a PLC may write them in one cyclic request, the
+/// Writable registers are contiguous, so that a PLC may write them in one cyclic request, the
 /// sequence last: a PLC that writes register by register in ascending order starts the command with
 /// the last one.
 void add_written_rows(std::vector<Row>& rows) {

@@ -8,7 +8,8 @@
 namespace orbwatch::app::modbus {
 namespace {
 
-/// No packet from another host has such a client address.
+/// Returns whether the client is on the server's host: packets from other hosts have neither its
+/// address nor a loopback address as their source.
 bool is_same_host(const HostAddress& client, const HostAddress& server) {
   static const std::vector<Network> kLoopback{parse_network("127.0.0.0/8").value(),
                                               parse_network("::1").value()};
@@ -54,7 +55,7 @@ HostAddress host_of(const SocketAddress& address) {
 }
 
 int port_of(const SocketAddress& address) {
-  // sin_port and sin6_port stand in the same place.
+  // sin_port and sin6_port have the same offset.
   sockaddr_in v4{};
   std::memcpy(&v4, &address.storage, sizeof(v4));
   return ntohs(v4.sin_port);

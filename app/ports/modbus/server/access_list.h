@@ -11,7 +11,7 @@
 #include "hal/network.h"
 #include "proc/image/result.h"
 
-/// The addresses of clients, and what they may do.
+/// Addresses and permissions of clients.
 namespace orbwatch::app::modbus {
 
 using hal::HostAddress;
@@ -35,16 +35,16 @@ std::optional<SocketAddress> parse_address(const std::string& text, int port);
 HostAddress host_of(const SocketAddress& address);
 int port_of(const SocketAddress& address);
 
-/// None: the client may not even connect. Write includes reading.
+/// Permission of a client. None: connections are refused. Write includes reading.
 enum class Permission : std::uint8_t { None, Read, Write };
 
 /// The permissions of clients by their address: Modbus has no authentication. Immutable; reentrant.
 class AccessList {
  public:
-  /// Everybody may read, and the server's own host write.
+  /// Permits all clients to read, and the server's own host to write.
   AccessList() = default;
 
-  /// Networks as for hal::parse_network. No readers: everybody may read. Writers may read. No
+  /// Networks as for hal::parse_network. No readers: all clients may read. Writers may read. No
   /// writers: readers on the server's own host may write.
   static Result<AccessList> create(const std::vector<std::string>& readers,
                                    const std::vector<std::string>& writers);

@@ -10,7 +10,7 @@ constexpr std::uint8_t kReadDeviceIdentification = 14;
 constexpr std::uint8_t kIndividual = 4;
 constexpr std::uint8_t kBasicStreamAndIndividual = 0x81;  // conformity level
 
-/// By object id: VendorName, ProductCode, MajorMinorRevision.
+/// Objects by id: VendorName, ProductCode, MajorMinorRevision.
 constexpr std::array<std::string_view, 3> kObjects{"orbwatch", "orbwatch", ORBWATCH_VERSION};
 
 }  // namespace
@@ -29,7 +29,7 @@ tl::expected<std::vector<std::uint8_t>, Exception> identify(std::span<const std:
     if (first >= end) return tl::unexpected(Exception::IllegalDataAddress);
     end = first + 1;
   } else if (first >= end) {
-    first = 0;  // the standard restarts streams from an unknown object
+    first = 0;  // by the standard an unknown object restarts the stream
   }
   std::vector<std::uint8_t> answer{kEncapsulatedInterface,
                                    kReadDeviceIdentification,

@@ -8,13 +8,12 @@
 namespace orbwatch::app::modbus {
 namespace {
 
-/// The longest time between the end of an answer on the line and the arrival of its echo, with
-/// adapters on USB and a computer that is busy. A master that got no answer repeats its request
-/// later.
+/// The longest time between the end of an answer on the line and the arrival of its echo, with USB
+/// adapters and a busy computer. A master without an answer repeats its request later than that.
 constexpr std::chrono::milliseconds kLatency{150};
 
-/// Requests in a row that equal the answer on a line without an echo. More of them are a line whose
-/// echo began only now: without a limit it would be answered for ever.
+/// Limit of consecutive requests that equal the answer on a line without an echo. More of them mean
+/// that an echo has begun, which would otherwise be answered for ever.
 constexpr int kMostRepetitions = 3;
 
 constexpr std::chrono::microseconds transmission_time(std::size_t characters, int baud_rate) {
@@ -50,7 +49,7 @@ void EchoFilter::end_wait() {
   answers_.clear();
 }
 
-/// Passes what cannot begin the echo, stray bytes in front of it, too.
+/// Passes bytes that cannot begin the echo, including stray bytes in front of it.
 void EchoFilter::add(std::uint8_t byte) {
   held_.push_back(byte);
   const auto may_be_echo = [this] {
@@ -67,7 +66,7 @@ void EchoFilter::add(std::uint8_t byte) {
   decide(answer);
 }
 
-/// The bytes that are held equal `answer`.
+/// Decides about held bytes that equal `answer`.
 void EchoFilter::decide(const Answer& answer) {
   const auto bytes = std::exchange(held_, {});
   if (answer.is_request && line_ == Line::WithoutEcho && ++repetitions_ <= kMostRepetitions) {

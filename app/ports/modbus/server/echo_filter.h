@@ -10,36 +10,36 @@
 
 namespace orbwatch::app::modbus {
 
-/// Drops a serial line's own answers from what is read of it. Many RS-485 adapters leave the
-/// receiver on while they send. The answer to functions 5, 6 and 22 is the request once more, so
-/// its echo would be answered, that one's too, and so on.
+/// Removes echoes of own answers from the bytes read on a serial line. Many RS-485 adapters receive
+/// while they send. The answer to functions 5, 6 and 22 equals the request, so its echo would be
+/// answered, and the echo of that answer, too, endlessly.
 ///
-/// An echo is the answer, byte by byte, in pieces or glued to what follows, until a while after it
-/// was sent. An answer that is no request proves what kind of line it is. On a line without an
-/// echo a master's request that repeats the answer at once is a request; several of them in a row
-/// are an echo all the same.
-/// Knows no device. Thread-bound.
+/// An echo is the answer, byte by byte, in pieces or joined to the following bytes, within a
+/// limited time after it was sent. An answer that is not also a request shows whether the line
+/// echoes. On a line without an echo a master's request that repeats the answer at once is a
+/// request; several of them in a row are an echo nevertheless. Independent of devices.
+/// Thread-bound.
 class EchoFilter {
  public:
   explicit EchoFilter(int baud_rate) : baud_rate_(baud_rate) {}
 
-  /// `answer` was sent at `now`. `is_request`: its bytes are those of the request. One without
-  /// bytes is none.
+  /// Reports that `answer` was sent at `now`. `is_request`: its bytes equal those of the request.
+  /// An empty answer is ignored.
   void expect(std::span<const std::uint8_t> answer, bool is_request, hal::TimePoint now);
 
-  /// `bytes`, received at `now`, without echoes. Bytes that may begin one are held back until more
-  /// of them shows what they are. The result is valid until the next call.
+  /// Returns `bytes`, received at `now`, without echoes. Bytes that may begin an echo are held back
+  /// until further bytes decide. The result is valid until the next call.
   std::span<const std::uint8_t> strip(std::span<const std::uint8_t> bytes, hal::TimePoint now);
 
-  /// A request was received: the answers before it have no echo any more.
+  /// Reports a received request: echoes of earlier answers are no longer expected.
   void end_wait();
 
-  /// Bytes are held back, until deadline().
+  /// Returns whether bytes are held back, until deadline().
   bool is_holding() const { return !held_.empty() || !late_.empty(); }
-  /// An echo that is not whole by then is none: strip() of no bytes returns what is held.
+  /// Time at which an incomplete echo is given up: strip() of no bytes then returns the held bytes.
   hal::TimePoint deadline() const { return deadline_; }
 
-  /// Answers that were dropped.
+  /// Number of echoes removed.
   std::uint64_t echoes() const { return echoes_; }
 
  private:
@@ -53,13 +53,13 @@ class EchoFilter {
   void decide(const Answer& answer);
 
   const int baud_rate_;
-  std::deque<Answer> answers_;      ///< whose echoes are awaited, oldest first
-  hal::TimePoint deadline_{};       ///< of the newest of them
-  std::vector<std::uint8_t> held_;  ///< the beginning of the oldest one's echo, perhaps
-  std::vector<std::uint8_t> late_;  ///< held until a request was received in front of them
+  std::deque<Answer> answers_;      ///< answers whose echoes are expected, oldest first
+  hal::TimePoint deadline_{};       ///< deadline of the newest answer
+  std::vector<std::uint8_t> held_;  ///< possible beginning of the oldest answer's echo
+  std::vector<std::uint8_t> late_;  ///< held until a request in front of them is received
   std::vector<std::uint8_t> passed_;
   Line line_ = Line::Unknown;
-  int repetitions_ = 0;  ///< in a row, of requests that repeat the answer
+  int repetitions_ = 0;  ///< consecutive requests that repeat the answer
   std::uint64_t echoes_ = 0;
 };
 

@@ -6,7 +6,7 @@ namespace orbwatch::app::modbus {
 namespace {
 
 constexpr std::size_t kPrefix = 6;    // transaction, protocol and length
-constexpr std::size_t kShortest = 2;  // unit and function code: what the length counts
+constexpr std::size_t kShortest = 2;  // unit and function code, which the length includes
 constexpr std::size_t kLongest = MbapFramer::kLongestFrame - kPrefix;
 
 }  // namespace

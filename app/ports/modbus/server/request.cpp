@@ -9,7 +9,7 @@ namespace {
 using Pdu = std::span<const std::uint8_t>;
 using Parsed = tl::expected<Request, Exception>;
 
-// The largest quantities, so that request and answer fit into 253 bytes (V1.1b3, 6).
+// Largest quantities, so that request and answer fit into 253 bytes (V1.1b3, 6).
 constexpr int kMaxReadBits = 2000;
 constexpr int kMaxWriteBits = 1968;
 constexpr int kMaxWriteRegisters = 123;
@@ -76,12 +76,12 @@ Parsed read_write_registers(Pdu pdu) {
                  .write = Write{{Table::Holding, word(pdu, 5), writes}, words(pdu.subspan(10))}};
 }
 
-/// A function that is served.
+/// A supported function.
 struct Function {
   std::uint8_t code;
-  std::size_t fixed;         ///< bytes of the fixed fields
-  bool is_counted;           ///< the last of them is the number of bytes that follow
-  Parsed (*parse)(Pdu pdu);  ///< of a request of the right length
+  std::size_t fixed;         ///< length of the fixed fields, bytes
+  bool is_counted;           ///< the last of them is the number of following bytes
+  Parsed (*parse)(Pdu pdu);  ///< called for a request of the right length
 };
 
 constexpr std::array kFunctions{
@@ -98,13 +98,13 @@ constexpr std::array kFunctions{
     Function{0x2b, 4, false, nullptr},  // Read Device Identification, which identify() parses
 };
 
-/// The function of a protocol data unit, or nullptr when it is not served.
+/// The function of a protocol data unit; nullptr: not supported.
 const Function* function_of(Pdu pdu) {
   const auto* const found = std::ranges::find(kFunctions, pdu[0], &Function::code);
   return found == kFunctions.end() ? nullptr : found;
 }
 
-/// The value for the row whose first register is value `first` of the write.
+/// Value for the row whose first register is value `first` of the write.
 std::uint32_t written(const Write& write, std::size_t first, const Row& row) {
   if (row.count == 1) return write.values[first];
   return std::uint32_t{write.values[first]} << 16 | write.values[first + 1];

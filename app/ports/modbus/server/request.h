@@ -11,7 +11,7 @@
 
 namespace orbwatch::app::modbus {
 
-/// Why a request is refused, with the numbers of the Modbus Application Protocol (V1.1b3, 7).
+/// Exception codes of the Modbus Application Protocol (V1.1b3, 7).
 enum class Exception : std::uint8_t {
   IllegalFunction = 1,
   IllegalDataAddress = 2,
@@ -43,26 +43,26 @@ struct MaskWrite {
 struct Request {
   std::optional<Range> read{};
   std::optional<Write> write{};
-  std::optional<MaskWrite> mask{};  ///< becomes `write` once the register's content is known
+  std::optional<MaskWrite> mask{};  ///< converted to `write` with the register's content
 };
 
-/// Parses a protocol data unit (function code first, at least one byte). Errors: a function that is
-/// not served; a quantity out of range, or a length that contradicts it. Reentrant.
+/// Parses a protocol data unit (function code first, at least one byte). Errors: an unsupported
+/// function; a quantity out of range, or a length that contradicts it. Reentrant.
 tl::expected<Request, Exception> parse(std::span<const std::uint8_t> pdu);
 
 /// The length of the protocol data unit that begins with these bytes, function code first. Some
-/// functions state it in byte 6 or 10; before that byte the result is 6 or 10. nullopt: a function
-/// that is not served. Reentrant.
+/// functions state it in byte 6 or 10; before that byte the result is 6 or 10. nullopt: an
+/// unsupported function. Reentrant.
 std::optional<std::size_t> request_length(std::span<const std::uint8_t> pdu);
 
-/// The write that follows from a mask and the register's present content; unchecked. Reentrant.
+/// Computes the write from a mask and the register's present content; unchecked. Reentrant.
 Write resolved(const MaskWrite& mask, const RegisterMap& map, const ProcessImage& image);
 
-/// Every place must be mapped, or it is IllegalDataAddress. Reentrant.
+/// Checks a read; an unmapped place gives IllegalDataAddress. Reentrant.
 std::optional<Exception> check(const Range& read, const RegisterMap& map);
 
-/// Every place must be writable and both registers of a 32-bit value written, or it is
-/// IllegalDataAddress; values outside the row's range are IllegalDataValue. Reentrant.
+/// Checks a write; a read-only place or half of a 32-bit value gives IllegalDataAddress, a value
+/// outside the row's range IllegalDataValue. Reentrant.
 std::optional<Exception> check(const Write& write, const RegisterMap& map);
 
 /// Executes a checked write.

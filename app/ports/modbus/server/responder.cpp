@@ -47,7 +47,8 @@ Outcome Responder::answer(Transport& transport, std::span<const std::uint8_t> fr
   }
   const std::lock_guard lock(mutex_);
   if (const auto exception = execute(*request)) return refuse(*exception);
-  // libmodbus would first store what was written in its registers, then read there.
+  // Answered here, because libmodbus would store the written values in its registers and read from
+  // there.
   if (request->read && request->write) {
     return answered(transport.send(frame, read_write_answer(*request->read)));
   }

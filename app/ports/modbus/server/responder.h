@@ -15,18 +15,18 @@
 
 namespace orbwatch::app::modbus {
 
-/// What became of a request. The last two end a TCP connection.
+/// Outcome of a request. The last two end a TCP connection.
 enum class Outcome : std::uint8_t {
   Answered,
   Refused,    ///< with an exception
-  Forbidden,  ///< the same, because the client may not write
+  Forbidden,  ///< with an exception, because the client may not write
   NotModbus,  ///< no answer
   NotSent,    ///< the client does not receive, or disconnected
 };
 
-/// Answers requests of any transport. libmodbus encodes and sends; it only ever gets requests that
-/// were checked against the map. Of its own registers only those that the request reads are used,
-/// filled anew from a process image; what it writes to them is ignored. Thread-safe: several
+/// Answers requests of any transport. libmodbus encodes and sends, and gets only requests that were
+/// checked against the map. Of libmodbus' registers only those that the request reads are used,
+/// filled from a process image each time; its writes to them are ignored. Thread-safe: several
 /// transports share the registers, one request after the other.
 class Responder {
  public:
@@ -38,7 +38,8 @@ class Responder {
   static Result<std::unique_ptr<Responder>> create(const RegisterMap& map, WriteRegisters write,
                                                    MakeImage make_image);
 
-  /// Answers `frame`, one whole frame of `transport` with at least a function code. Does not wait.
+  /// Answers `frame`, one complete frame of `transport` with at least a function code. Does not
+  /// wait.
   Outcome answer(Transport& transport, std::span<const std::uint8_t> frame, bool may_write);
 
  private:
@@ -54,7 +55,7 @@ class Responder {
   const RegisterMap& map_;
   const WriteRegisters write_;
   const MakeImage make_image_;
-  std::mutex mutex_;  ///< of what follows, and held while a request is executed
+  std::mutex mutex_;  ///< guards the following members, and held while a request is executed
   Mapping mapping_;
 };
 

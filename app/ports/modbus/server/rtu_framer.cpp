@@ -21,8 +21,8 @@ std::uint16_t checked(std::uint16_t checksum, std::uint8_t byte) {
   return checksum;
 }
 
-/// The length of the shortest beginning that ends with its own checksum, over which the checksum is
-/// 0. 0: there is none.
+/// Length of the shortest prefix that ends with its own checksum and therefore has the checksum 0;
+/// returns 0 if there is none.
 std::size_t checked_length(std::span<const std::uint8_t> bytes) {
   std::uint16_t checksum = 0xffff;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -81,7 +81,7 @@ std::optional<std::span<const std::uint8_t>> RtuFramer::next() {
 
 void RtuFramer::end() {
   const auto request = last_request();
-  // Spoilt bytes are counted.
+  // Spoilt bytes are counted already.
   const bool is_whole = request && request->data() <= bytes().data();
   if (!bytes().empty() && !is_whole) ++errors_;
   size_ = request ? request->size() : 0;
@@ -90,8 +90,9 @@ void RtuFramer::end() {
   is_lost_ = false;
 }
 
-/// The request that ends the bytes, or comes before one stray byte. The longest frame decides: a
-/// shorter one at its end would be a part of it. So one for another unit is not answered either.
+/// The request at the end of the bytes, or before one stray byte. The longest frame wins, because a
+/// shorter one at its end would be a part of it. So a part of a request for another unit is not
+/// answered either.
 std::optional<std::span<const std::uint8_t>> RtuFramer::last_request() const {
   const auto all = std::span(buffer_).first(size_);
   for (std::size_t stray = 0; stray <= 1 && stray < all.size(); ++stray) {
@@ -107,7 +108,7 @@ std::optional<std::span<const std::uint8_t>> RtuFramer::last_request() const {
   return std::nullopt;
 }
 
-/// The length of the frame that begins these bytes; 0: incomplete. nullopt: there is none.
+/// Length of the frame at the beginning of these bytes; 0: incomplete; nullopt: not a frame.
 std::optional<std::size_t> RtuFramer::frame_length(std::span<const std::uint8_t> bytes) const {
   const bool has_function = bytes.size() > kUnit;
   if (const auto pdu = has_function && is_for_us(bytes[0]) ? request_length(bytes.subspan(kUnit))
@@ -121,15 +122,15 @@ std::optional<std::size_t> RtuFramer::frame_length(std::span<const std::uint8_t>
   return length == 0 && bytes.size() >= kLongestFrame ? std::nullopt : std::optional(length);
 }
 
-/// Continues after the last pause, or else after the next one.
+/// Continues after the last pause, or without one after the next pause.
 void RtuFramer::resynchronise() {
   ++errors_;
   is_lost_ = after_pause_ == 0;
   spoil(is_lost_ ? bytes().size() : after_pause_);
 }
 
-/// The next `count` bytes are no frame. Of those only the newest are kept, enough for a frame and
-/// a stray byte.
+/// Marks the next `count` bytes as not a frame. Only the newest of such bytes are kept, enough for
+/// a frame and a stray byte.
 void RtuFramer::spoil(std::size_t count) {
   spoilt_ += count;
   after_pause_ -= std::min(after_pause_, count);
@@ -141,7 +142,8 @@ void RtuFramer::spoil(std::size_t count) {
   spoilt_ = kKept;
 }
 
-/// The next `count` bytes are a frame, or there is a silence: nothing before them is of use.
+/// Drops the next `count` bytes, a complete frame or bytes before a silence, and everything before
+/// them.
 void RtuFramer::drop(std::size_t count) {
   const auto rest = bytes().subspan(count);
   std::ranges::copy(rest, buffer_.begin());

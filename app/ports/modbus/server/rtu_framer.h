@@ -13,17 +13,17 @@ namespace orbwatch::app::modbus {
 
 /// Splits the bytes of a serial line into the Modbus RTU frames for one unit (Modbus over Serial
 /// Line V1.02, 2.5.1). Frames of other units and frames with a wrong checksum are skipped, as the
-/// standard says.
+/// standard requires.
 ///
 /// By the standard a frame ends with a pause of 3.5 characters. USB adapters deliver one frame in
-/// pieces with longer pauses, or two frames in one piece. So a frame ends where its function code
-/// says, or else where its checksum matches; a pause only marks where the next frame may begin
-/// after an error. Bytes that are not a frame are kept until the line is silent: a master that
-/// waits for its answer has sent its request last, whatever was in front of it.
-/// Knows no device and no clock. Thread-bound.
+/// pieces with longer pauses, or two frames in one piece. So a frame ends at the length given by
+/// its function code, or else where its checksum matches; a pause only marks a possible start of
+/// the next frame after an error. Bytes that are not a frame are kept until the line is silent: a
+/// master that waits for its answer has sent its request last, whatever preceded it. Independent of
+/// devices and clocks. Thread-bound.
 class RtuFramer {
  public:
-  /// Unit, protocol data unit of 253 bytes at most, checksum.
+  /// Length of unit, protocol data unit (at most 253 bytes) and checksum.
   static constexpr std::size_t kLongestFrame = 256;
   static constexpr int kBroadcast = 0;
 
@@ -31,34 +31,34 @@ class RtuFramer {
   /// 100 ms or more.
   static constexpr std::chrono::milliseconds kMaxGap{50};
 
-  /// A silence of `pause` or longer is a pause.
+  /// `pause`: shortest silence that counts as a pause.
   RtuFramer(int unit_id, hal::Clock::duration pause) : unit_id_(unit_id), pause_(pause) {}
 
   /// Appends `bytes`, at most kLongestFrame, that arrived `silence` after those before. Only when
   /// next() returned nullopt.
   void push(std::span<const std::uint8_t> bytes, hal::Clock::duration silence);
 
-  /// The next whole frame for the unit or for all, with its right checksum; nullopt until one is
-  /// there. Invalidates the frame returned before.
+  /// The next complete frame for the unit or a broadcast, with a valid checksum; nullopt: none yet.
+  /// Invalidates the frame returned before.
   std::optional<std::span<const std::uint8_t>> next();
 
-  /// Bytes wait for the rest of their frame, or for a silence.
+  /// Returns whether bytes wait for the rest of their frame, or for a silence.
   bool is_waiting() const { return size_ > returned_; }
 
-  /// The line was silent for kMaxGap: what waits is not continued. next() returns the request at
-  /// its end, if there is one; the rest is dropped. One stray byte may follow the request. A frame
-  /// for this unit that lies inside the bytes of another one is not at their end, since that one's
-  /// checksum follows. Only when next() returned nullopt.
+  /// Reports that the line was silent for kMaxGap: waiting bytes will not be continued. next()
+  /// returns the request at their end, if there is one; the rest is dropped. One stray byte may
+  /// follow the request. A frame for this unit inside the bytes of another frame is not at the end,
+  /// because that frame's checksum follows. Only when next() returned nullopt.
   void end();
 
-  /// Bytes that were no frame were dropped so many times.
+  /// Number of times that bytes were dropped because they were not a frame.
   std::uint64_t errors() const { return errors_; }
 
-  /// Whole frames to and from other units.
+  /// Number of complete frames to and from other units.
   std::uint64_t other_units() const { return other_units_; }
 
  private:
-  /// The bytes behind those that are known to be no frame.
+  /// The bytes after those known not to be a frame.
   std::span<const std::uint8_t> bytes() const {
     return std::span(buffer_).first(size_).subspan(spoilt_);
   }
@@ -73,15 +73,15 @@ class RtuFramer {
   const hal::Clock::duration pause_;
   std::array<std::uint8_t, 3 * kLongestFrame> buffer_{};
   std::size_t size_ = 0;
-  std::size_t spoilt_ = 0;       ///< bytes at the front that are no frame, kept for end()
+  std::size_t spoilt_ = 0;       ///< bytes at the front that are not a frame, kept for end()
   std::size_t returned_ = 0;     ///< length of the frame at the front that next() returned
-  std::size_t after_pause_ = 0;  ///< place of the last pause in bytes(); 0: none
-  bool is_lost_ = false;         ///< bytes are no frame until the next pause
+  std::size_t after_pause_ = 0;  ///< index of the last pause in bytes(); 0: none
+  bool is_lost_ = false;         ///< bytes are not a frame until the next pause
   std::uint64_t errors_ = 0;
   std::uint64_t other_units_ = 0;
 };
 
-/// The pause that ends a frame: 3.5 characters of 11 bits, above 19200 bit/s 1.75 ms.
+/// Pause that ends a frame: 3.5 characters of 11 bits, 1.75 ms above 19200 bit/s.
 constexpr hal::Clock::duration rtu_pause(int baud_rate) {
   using std::chrono::microseconds;
   return baud_rate > 19200 ? microseconds(1750) : microseconds(38'500'000 / baud_rate);

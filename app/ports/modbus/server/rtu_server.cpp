@@ -52,16 +52,16 @@ bool RtuServer::is_stopped_within(hal::Clock::duration time) const {
   return ::poll(&stop, 1, static_cast<int>(wait.count())) > 0;
 }
 
-/// State of the bytes of an open line.
+/// State of reception on an open line.
 struct RtuServer::Reception {
   RtuFramer framer;
   EchoFilter echoes;
   hal::TimePoint last{};     ///< arrival of the newest bytes
-  std::uint64_t errors = 0;  ///< these are counted already
+  std::uint64_t errors = 0;  ///< errors counted so far
   std::uint64_t other_units = 0;
   std::uint64_t dropped_echoes = 0;
 
-  /// The line was silent long enough for what waits.
+  /// Time at which waiting bytes are given up.
   hal::TimePoint deadline() const {
     const auto end = last + RtuFramer::kMaxGap;
     if (framer.is_waiting()) return echoes.is_holding() ? std::min(end, echoes.deadline()) : end;
@@ -69,7 +69,7 @@ struct RtuServer::Reception {
   }
 };
 
-/// Until stop(). Errors: the line is lost.
+/// Serves the line until stop(). Errors: the line is lost.
 Result<> RtuServer::serve_line() {
   Reception line{.framer{settings_.unit_id, rtu_pause(settings_.baud_rate)},
                  .echoes{EchoFilter(settings_.baud_rate)}};
@@ -95,12 +95,12 @@ Result<> RtuServer::serve_line() {
   }
 }
 
-/// No bytes: the line is silent.
+/// Receives bytes; none: the line is silent.
 void RtuServer::receive(Reception& line, std::span<const std::uint8_t> bytes) {
   const auto now = hal::Clock::now();
   auto silence = now - line.last;
   if (!bytes.empty()) line.last = now;
-  bool is_newest = true;  // what was answered before has no echo once there is another request
+  bool is_newest = true;  // earlier answers have no echo after another request
   const auto is_answered = [&] {
     while (const auto frame = line.framer.next()) {
       if (std::exchange(is_newest, false)) line.echoes.end_wait();
@@ -122,9 +122,9 @@ void RtuServer::receive(Reception& line, std::span<const std::uint8_t> bytes) {
   count(line);
 }
 
-/// False: stopped.
+/// Answers a frame. False: stopped.
 bool RtuServer::answer_frame(EchoFilter& echoes, std::span<const std::uint8_t> frame) {
-  // Until then the master may still be switching its line from sending to receiving.
+  // Waits, because the master may still be switching from sending to receiving.
   if (is_stopped_within(rtu_pause(settings_.baud_rate))) return false;
   const Outcome outcome = answer_(*transport_, frame);
   const auto sent = transport_->take_sent();

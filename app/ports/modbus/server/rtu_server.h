@@ -16,20 +16,20 @@ namespace orbwatch::app::modbus {
 
 class EchoFilter;
 
-/// Modbus RTU: serves one unit on a serial line. A line that cannot be opened, or disconnects as
-/// adapters on USB may, is opened again after 1 s, then every 2 s. Drops its own answers where the
-/// adapter echoes them.
-/// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
+/// Modbus RTU: serves one unit on a serial line. Opening a line is retried after 1 s, then every 2
+/// s, when it fails or the line disconnects, as USB adapters may. Own answers echoed by the adapter
+/// are dropped. Thread rule: open, run and the destructor by one owner, in this order; stop is
+/// thread-safe.
 class RtuServer {
  public:
-  /// Answers one whole frame.
+  /// Answers one complete frame.
   using Answer = std::function<Outcome(Transport& transport, std::span<const std::uint8_t> frame)>;
 
-  /// Called once with the error when the line is lost, and once when it is back, on the serving
-  /// thread.
+  /// Called on the serving thread, once with the error when the line is lost, and once when it is
+  /// open again.
   using OnLine = std::function<void(const Result<>& line)>;
 
-  /// Called once, when the line returned an answer, on the serving thread.
+  /// Called once, at the first echo of an answer, on the serving thread.
   using OnEcho = std::function<void()>;
 
   /// Errors: the settings. `counters` outlives the server.
@@ -65,7 +65,7 @@ class RtuServer {
   const Answer answer_;
   const OnLine on_line_;
   ServerCounters& counters_;
-  OnEcho on_echo_;  ///< empty once it was called
+  OnEcho on_echo_;  ///< empty after its call
   hal::EventFd stop_;
 };
 

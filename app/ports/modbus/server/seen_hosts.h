@@ -8,13 +8,13 @@
 
 namespace orbwatch::app::modbus {
 
-/// Hosts that were seen, so that each is reported once. Of bounded size: beyond it none is new.
-/// Thread-bound.
+/// Hosts already seen, so that each is reported once. The size is bounded: beyond it no host counts
+/// as new. Thread-bound.
 class SeenHosts {
  public:
   static constexpr std::size_t kMost = 64;
 
-  /// True once for a host.
+  /// Returns true once for each host.
   bool is_new(const HostAddress& host) {
     if (hosts_.size() == kMost || std::ranges::count(hosts_, host) != 0) return false;
     hosts_.push_back(host);

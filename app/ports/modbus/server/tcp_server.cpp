@@ -15,8 +15,8 @@
 namespace orbwatch::app::modbus {
 namespace {
 
-// The user data of epoll events. Connections have identifiers of their own: the kernel reuses
-// socket numbers, and a later event of the same round may still belong to the closed one.
+// User data of epoll events. Connections have their own identifiers, because the kernel reuses
+// socket numbers and a later event of the same round may still belong to the closed socket.
 constexpr std::uint64_t kStop = 0;
 constexpr std::uint64_t kListener = 1;
 constexpr std::uint64_t kFirstConnection = 2;
@@ -24,11 +24,11 @@ constexpr std::uint64_t kFirstConnection = 2;
 /// Limits unread answers of one client; the kernel doubles it for its bookkeeping.
 constexpr int kSendBuffer = 16384;
 
-/// TCP keep-alive: s between two probes, and how many without an answer end a connection.
+/// TCP keep-alive: interval of probes, s, and number of unanswered probes that end a connection.
 constexpr int kProbePeriod = 10;
 constexpr int kProbes = 3;
 
-/// After the process ran out of file descriptors.
+/// Pause after the process ran out of file descriptors.
 constexpr std::chrono::seconds kAcceptPause{1};
 
 std::string text_of(int error) { return std::system_category().message(error); }
@@ -57,8 +57,8 @@ Result<> check(const ModbusSettings& settings) {
   return {};
 }
 
-/// The address by which the client of an accepted socket reached this host; nobody's when the
-/// client has gone.
+/// Address by which the client of an accepted socket reached this host; unspecified if the client
+/// has disconnected.
 HostAddress server_host(int socket) {
   SocketAddress address;
   return ::getsockname(socket, address.get(), &address.length) == 0 ? host_of(address)
@@ -100,7 +100,7 @@ Result<> TcpServer::listen() {
   listener_ = hal::FileDescriptor(
       ::socket(address->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener_.is_open()) return refused();
-  // A restart must not wait for the connections of the run before to time out.
+  // Needed so that a restart does not wait for connections of the previous run to time out.
   const int on = 1;
   if (::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) != 0 ||
       ::bind(listener_.get(), address->get(), address->length) != 0 ||
@@ -147,13 +147,13 @@ void TcpServer::run() {
   }
 }
 
-/// One client per round: a flood of connections does not delay those that are served.
+/// Accepts one client per round, so that a flood of connections does not delay served clients.
 void TcpServer::accept_client() {
   SocketAddress peer;
   hal::FileDescriptor socket(
       ::accept4(listener_.get(), peer.get(), &peer.length, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!socket.is_open()) {
-    // Other errors concern this client only, which disconnected.
+    // Other errors mean that this client has disconnected.
     if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
       pause_accepting();
     }
@@ -179,8 +179,8 @@ void TcpServer::accept_client() {
   counters_.connections = connections_.size();
 }
 
-/// A client whose computer was switched off, or whose cable was pulled, is known by its silence to
-/// the kernel's probes, or to an answer.
+/// Sets keep-alive and the timeout of answers, which detect a client whose computer was switched
+/// off or whose cable was pulled.
 bool TcpServer::set_up(int socket) const {
   const auto set = [socket](int level, int option, int value) {
     return ::setsockopt(socket, level, option, &value, sizeof(value)) == 0;
@@ -194,16 +194,17 @@ bool TcpServer::set_up(int socket) const {
              static_cast<int>(std::chrono::milliseconds(lost_after).count()));
 }
 
-/// The client in the backlog would wake epoll again and again until a descriptor is free.
+/// Stops listening for events, because the client in the backlog would wake epoll until a
+/// descriptor is free.
 void TcpServer::pause_accepting() {
   accepting_ = watch_file(epoll_.get(), EPOLL_CTL_MOD, listener_.get(), kListener, 0) != 0;
   accept_again_ = hal::Clock::now() + kAcceptPause;
 }
 
-/// A full server closes the oldest unused connection (Modbus Messaging on TCP/IP Implementation
-/// Guide): readers before writers, then connections without a request, then those of the host with
-/// most connections. So neither readers nor many connections can displace a PLC. A reader displaces
-/// no writer but an idle one.
+/// Makes room in a full server by closing the oldest unused connection (Modbus Messaging on TCP/IP
+/// Implementation Guide): readers before writers, then connections without a request, then those of
+/// the host with most connections. So neither readers nor many connections can displace a PLC. A
+/// reader displaces only an idle writer.
 bool TcpServer::has_room_for(Permission permission) {
   if (connections_.size() < static_cast<std::size_t>(settings_.max_connections)) return true;
   const auto idle_since = hal::Clock::now() - settings_.idle_time;
@@ -223,7 +224,7 @@ bool TcpServer::has_room_for(Permission permission) {
 
 void TcpServer::serve(std::uint64_t id) {
   const auto connection = std::ranges::find(connections_, id, &Connection::id);
-  if (connection == connections_.end()) return;  // dropped in this round
+  if (connection == connections_.end()) return;  // closed in this round
   const auto room = connection->framer.room();
   const ssize_t received = ::recv(connection->socket.get(), room.data(), room.size(), 0);
   if (received < 0 && (errno == EAGAIN || errno == EINTR)) return;
@@ -235,7 +236,7 @@ void TcpServer::serve(std::uint64_t id) {
   drop(connection);
 }
 
-/// Answers the received whole frames; false when the connection must be closed.
+/// Answers the complete frames received; false: the connection must be closed.
 bool TcpServer::answer_frames(Connection& connection) {
   const std::uint64_t before = connection.requests;
   while (const auto frame = connection.framer.next()) {
@@ -286,7 +287,7 @@ void TcpServer::drop_overdue() {
   counters_.connections = connections_.size();
 }
 
-/// The first deadline of a connection or of accepting.
+/// Earliest deadline of a connection or of accepting.
 hal::TimePoint TcpServer::next_deadline() const {
   auto next = accepting_ ? hal::TimePoint::max() : accept_again_;
   for (const Connection& connection : connections_) next = std::min(next, deadline(connection));

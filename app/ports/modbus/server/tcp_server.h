@@ -19,13 +19,13 @@
 namespace orbwatch::app::modbus {
 
 /// Modbus TCP: accepts permitted clients, forwards their requests frame by frame, and closes
-/// connections that are too slow, do not receive answers, or do not speak Modbus. An idle one stays
-/// while there is room; TCP keep-alive detects clients that have gone. Sockets are non-blocking: no
-/// client delays another.
-/// Thread rule: open, run and the destructor by one owner, in this order; stop is thread-safe.
+/// connections that are too slow, do not receive answers, or do not speak Modbus. Idle connections
+/// stay while there is room; TCP keep-alive detects dead clients. Sockets are non-blocking, so that
+/// no client delays another. Thread rule: open, run and the destructor by one owner, in this order;
+/// stop is thread-safe.
 class TcpServer {
  public:
-  /// Answers one whole frame on a non-blocking socket.
+  /// Answers one complete frame on a non-blocking socket.
   using Answer =
       std::function<Outcome(int socket, std::span<const std::uint8_t> frame, bool may_write)>;
 
@@ -42,14 +42,14 @@ class TcpServer {
 
   void stop() { stop_.signal(); }
 
-  /// A client that is connected.
+  /// A connected client.
   struct Client {
     HostAddress host{};
     bool may_write = false;
     std::uint64_t requests = 0;
-    hal::TimePoint last_request{};  ///< or when it connected
+    hal::TimePoint last_request{};  ///< or the time of connecting
   };
-  /// Those of the newest round. Thread-safe.
+  /// Clients as of the newest round. Thread-safe.
   std::vector<Client> clients() const;
 
  private:
@@ -58,8 +58,8 @@ class TcpServer {
     hal::FileDescriptor socket{};
     HostAddress host{};
     bool may_write = false;
-    std::uint64_t requests = 0;     ///< that were whole
-    hal::TimePoint last_request{};  ///< or when it was opened
+    std::uint64_t requests = 0;     ///< complete requests
+    hal::TimePoint last_request{};  ///< or the time of opening
     hal::TimePoint frame_begin{};   ///< arrival of the first byte of an incomplete frame
     MbapFramer framer{};
   };
@@ -91,11 +91,11 @@ class TcpServer {
   hal::EventFd stop_;
   int port_ = 0;
   bool accepting_ = true;
-  hal::TimePoint accept_again_;  ///< while accepting is paused
+  hal::TimePoint accept_again_;  ///< end of a pause of accepting
   std::uint64_t next_id_ = 0;
   Connections connections_;
   mutable std::mutex clients_mutex_;
-  std::vector<Client> clients_;  ///< under clients_mutex_
+  std::vector<Client> clients_;  ///< guarded by clients_mutex_
 };
 
 }  // namespace orbwatch::app::modbus

@@ -15,7 +15,7 @@
 namespace orbwatch::app::modbus {
 namespace {
 
-constexpr std::size_t kTcpUnit = 6;  // behind transaction, protocol and length
+constexpr std::size_t kTcpUnit = 6;  // after transaction, protocol and length
 
 bool is_broadcast(std::span<const std::uint8_t> request) {
   return request[0] == RtuFramer::kBroadcast;
@@ -119,7 +119,7 @@ Result<> RtuTransport::open() {
   return {};
 }
 
-/// libmodbus restores the line's settings.
+/// Closes the line; libmodbus restores its settings.
 void RtuTransport::close() {
   if (line_ < 0) return;
   modbus_set_socket(context_.get(), std::exchange(line_, -1));
@@ -143,7 +143,7 @@ bool RtuTransport::send(std::span<const std::uint8_t> request, std::span<const s
   if (is_broadcast(request)) return true;
   std::vector<std::uint8_t> answer{request[0]};
   answer.insert(answer.end(), pdu.begin(), pdu.end());
-  // "Raw request" means: libmodbus appends the checksum only. It suits answers as well.
+  // A "raw request" is sent with only the checksum appended, which also suits answers.
   const bool is_written =
       modbus_send_raw_request(context_.get(), answer.data(), static_cast<int>(answer.size())) >= 0;
   return deliver() && is_written;
